@@ -7,6 +7,7 @@ library_sources = \
 	lib/api/values.c \
 	lib/base/interrupt.c \
 	lib/base/memory.c \
+	lib/base/progress.c \
 	lib/base/scope.c \
 	lib/base/spelling.c \
 	lib/base/status.c \
@@ -60,11 +61,14 @@ library_sources = \
 	lib/lang/commands/export-scene.c \
 	lib/lang/commands/export.c \
 	lib/lang/commands/figure-file.c \
+	lib/lang/commands/figure-option.c \
 	lib/lang/commands/help.c \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/objects.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
+	lib/lang/commands/plot-over.c \
+	lib/lang/commands/plot-run.c \
 	lib/lang/commands/plot.c \
 	lib/lang/commands/race.c \
 	lib/lang/commands/redirect.c \
@@ -77,12 +81,14 @@ library_sources = \
 	lib/lang/commands/scene-file.c \
 	lib/lang/commands/script-file.c \
 	lib/lang/commands/script.c \
+	lib/lang/commands/search.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/settings.c \
 	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/table.c \
 	lib/lang/commands/undo.c \
+	lib/lang/commands/usage.c \
 	lib/lang/commands/value-check.c \
 	lib/lang/commands/warnings.c \
 	lib/lang/commands/workprecision.c \
@@ -320,7 +326,11 @@ library_sources = \
 	lib/show/export-matlab.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
-	lib/show/figure.c \
+	lib/show/figure-axis.c \
+	lib/show/figure-image.c \
+	lib/show/figure-label.c \
+	lib/show/figure-layout.c \
+	lib/show/figure-script.c \
 	lib/show/formula-page.c \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
@@ -328,7 +338,9 @@ library_sources = \
 	lib/show/page.c \
 	lib/show/pdf.c \
 	lib/show/sink.c \
+	lib/show/sketch.c \
 	lib/show/table.c \
+	lib/show/trace.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -439,6 +451,7 @@ library_headers = \
 	lib/base/clock.h \
 	lib/base/interrupt.h \
 	lib/base/memory.h \
+	lib/base/progress.h \
 	lib/base/scope.h \
 	lib/base/spelling.h \
 	lib/base/status.h \
@@ -472,18 +485,22 @@ library_headers = \
 	lib/lang/commands/digits-table.h \
 	lib/lang/commands/export-scene.h \
 	lib/lang/commands/figure-file.h \
+	lib/lang/commands/figure-option.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
+	lib/lang/commands/plot-parts.h \
 	lib/lang/commands/redirect.h \
 	lib/lang/commands/report-work.h \
 	lib/lang/commands/request.h \
 	lib/lang/commands/scene-file.h \
 	lib/lang/commands/script.h \
+	lib/lang/commands/search.h \
 	lib/lang/commands/set.h \
 	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
+	lib/lang/commands/usage.h \
 	lib/lang/commands/value-check.h \
 	lib/lang/commands/warnings.h \
 	lib/lang/functions/algebra.h \
@@ -697,6 +714,8 @@ library_headers = \
 	lib/show/export-language.h \
 	lib/show/export-parts.h \
 	lib/show/export.h \
+	lib/show/figure-parts.h \
+	lib/show/figure.h \
 	lib/show/formula-page.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
@@ -704,6 +723,7 @@ library_headers = \
 	lib/show/pdf.h \
 	lib/show/show.h \
 	lib/show/sink.h \
+	lib/show/trace.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
@@ -801,15 +821,26 @@ library_texts = \
 	lib/show/player.js
 
 program_sources = \
+	src/completion.c \
+	src/completion.h \
+	src/history.c \
+	src/history.h \
 	src/main.c \
+	src/pager.c \
+	src/pager.h \
+	src/progress-line.c \
+	src/progress-line.h \
 	src/prompt.c \
 	src/prompt.h \
 	src/signals.c \
-	src/signals.h
+	src/signals.h \
+	src/startup.c \
+	src/startup.h
 
 unit_tests = \
 	tests/api/test_api \
 	tests/base/test_memory \
+	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
 	tests/expr/test_abbreviate \
@@ -824,6 +855,7 @@ unit_tests = \
 	tests/expr/test_sum \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \
+	tests/lang/test_complete \
 	tests/lang/test_evaluate \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
@@ -896,6 +928,7 @@ unit_tests = \
 	tests/show/test_layout \
 	tests/show/test_page \
 	tests/show/test_table \
+	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
 	tests/sim/test_ensemble-constraints \
@@ -971,6 +1004,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/figures.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
@@ -984,6 +1018,7 @@ script_tests = \
 	tests/script/hamilton.lag \
 	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
+	tests/script/help-search.lag \
 	tests/script/help.lag \
 	tests/script/hidden-forces.lag \
 	tests/script/history.lag \
@@ -1127,6 +1162,7 @@ script_tests = \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/family-and-vector.lag \
+	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1139,6 +1175,7 @@ script_tests = \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
+	tests/bad/help-search.lag \
 	tests/bad/help-unknown.lag \
 	tests/bad/hints.sh \
 	tests/bad/history.lag \
@@ -1431,6 +1468,7 @@ test_files = \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/family-and-vector.out \
+	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -1443,6 +1481,7 @@ test_files = \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
+	tests/bad/help-search.out \
 	tests/bad/help-unknown.out \
 	tests/bad/hints.out \
 	tests/bad/history.out \
@@ -1758,6 +1797,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/figures.out \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
@@ -1771,6 +1811,7 @@ test_files = \
 	tests/script/hamilton.out \
 	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
+	tests/script/help-search.out \
 	tests/script/help.out \
 	tests/script/hidden-forces.out \
 	tests/script/history.out \
@@ -2019,8 +2060,8 @@ example_files = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/pumped-swing.svg \
-	examples/race-1.svg \
 	examples/race.lag \
+	examples/race.svg \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \

@@ -21,7 +21,7 @@ _qdot()
     esac
     case $word in
     -*)
-        mapfile -t COMPREPLY < <(compgen -W '-e --execute= -i --interactive --json -q --quiet
+        mapfile -t COMPREPLY < <(compgen -W '-e --execute= -i --interactive --json --no-init -q --quiet
             --processor= --help --version' -- "$word")
         [[ ${COMPREPLY[0]-} != *= ]] || compopt -o nospace
         ;;

@@ -12,8 +12,10 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/terminal.h"
 #include "lang/commands/script.h"
 #include "num/kinds.h"
+#include "progress-line.h"
 #include "prompt.h"
 #include "signals.h"
 
@@ -31,6 +33,8 @@ static const char usage[] =
     "  -e, --execute=STATEMENTS  carry out STATEMENTS\n"
     "  -i, --interactive         go on at the prompt afterwards\n"
     "      --json                print one JSON object a result, nothing else\n"
+    "      --no-init             do not read the prompt's startup file,\n"
+    "                            $XDG_CONFIG_HOME/qdot/init.lag\n"
     "  -q, --quiet               print no banner\n"
     "      --processor=KIND      compute as if the processor had no more than KIND:\n"
     "                            any, avx2, avx512\n"
@@ -59,7 +63,7 @@ typedef struct {
 
 typedef struct {
     qdot_vec(task) tasks;
-    bool interactive, json, quiet;
+    bool interactive, json, quiet, no_init;
     const char *print; /* --help, --version: what to print instead of anything else */
 } options;
 
@@ -68,6 +72,7 @@ static const struct option names[] = {
     {"interactive", no_argument, NULL, 'i'},
     {"json", no_argument, NULL, 'j'},
     {"quiet", no_argument, NULL, 'q'},
+    {"no-init", no_argument, NULL, 'n'},
     {"processor", required_argument, NULL, 'p'},
     {"help", no_argument, NULL, 'h'},
     {"version", no_argument, NULL, 'v'},
@@ -108,6 +113,7 @@ read_options(int argc, char **argv, options *o)
         case 'e': QDOT_TRY(qdot_vec_push(&o->tasks, ((task){optarg, true}))); break;
         case 'i': o->interactive = true; break;
         case 'j': o->json = true; break;
+        case 'n': o->no_init = true; break;
         case 'q': o->quiet = true; break;
         case 'h': o->print = o->print != NULL ? o->print : usage; break;
         case 'v': o->print = o->print != NULL ? o->print : version; break;
@@ -148,7 +154,7 @@ carry_out(qdot_session *session, const options *o)
     if ((o->tasks.n > 0 && !o->interactive) || session->quit)
         return status;
     if (isatty(STDIN_FILENO)) {
-        qdot_prompt_run(session, !o->quiet);
+        qdot_prompt_run(session, !o->quiet, !o->no_init);
     } else {
         int last;
 
@@ -218,7 +224,13 @@ main(int argc, char **argv)
         return FAILED;
     }
     session->json = o.json;
+    if (!o.json && qdot_terminal_has_colours(stdout))
+        session->colours |= QDOT_COLOURS_ANSWERS;
+    if (qdot_terminal_has_colours(stderr))
+        session->colours |= QDOT_COLOURS_ERRORS;
     session->style = o.json ? QDOT_PLAIN : style_here();
+    if (isatty(STDERR_FILENO) && !o.json)
+        qdot_progress_line_install();
     qdot_signals_install();
     status = carry_out(session, &o);
     qdot_session_free(session);

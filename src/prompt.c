@@ -6,144 +6,21 @@
  */
 #include "prompt.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <readline/history.h>
 #include <readline/readline.h>
 
-#include "base/memory.h"
-#include "lang/commands/complete.h"
+#include "base/terminal.h"
+#include "completion.h"
+#include "history.h"
+#include "pager.h"
 #include "signals.h"
-
-enum { HISTORY_LINES = 10000 };
-
-static const char first_prompt[] = "qdot> ", next_prompt[] = " ...> ";
-
-static qdot_session *completing; /* readline's callbacks have no argument of ours */
-
-/* --- history ------------------------------------------------------------------------ */
-
-/* Create the folders above `path` that are missing, as `mkdir -p` does. */
-static bool
-make_folders(char *path)
-{
-    for (char *slash = strchr(path + 1, '/'); slash != NULL;
-         slash = strchr(slash + 1, '/')) {
-        bool made;
-
-        *slash = '\0';
-        made = mkdir(path, 0700) == 0 || errno == EEXIST;
-        *slash = '/';
-        if (!made)
-            return false;
-    }
-    return true;
-}
-
-/* Where history is kept, "" if the environment names no place. */
-static void
-history_path(qdot_text *path)
-{
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-
-    if (state != NULL && state[0] == '/')
-        qdot_text_format(path, "%s/qdot/history", state);
-    else if (home != NULL && home[0] == '/')
-        qdot_text_format(path, "%s/.local/state/qdot/history", home);
-}
-
-/* Read what earlier sessions left; `path` is emptied where none can be kept. */
-static void
-history_begin(qdot_text *path)
-{
-    int fd;
-
-    using_history();
-    history_path(path);
-    if (path->n == 0)
-        return;
-    if (!make_folders(path->at) ||
-        (fd = open(path->at, O_WRONLY | O_CREAT | O_CLOEXEC, 0600)) < 0) {
-        fprintf(stderr, "qdot: history is not kept: %s: %s\n", path->at, strerror(errno));
-        qdot_text_truncate(path, 0);
-        return;
-    }
-    close(fd);
-    history_truncate_file(path->at, HISTORY_LINES);
-    read_history(path->at);
-    stifle_history(HISTORY_LINES);
-}
-
-/* Add a line at once, so that no crash loses it; blanks and repetitions are left out. */
-static void
-history_note(const char *line, const qdot_text *path)
-{
-    HIST_ENTRY *last =
-        history_length > 0 ? history_get(history_base + history_length - 1) : NULL;
-
-    if (line[strspn(line, " \t")] == '\0' ||
-        (last != NULL && strcmp(last->line, line) == 0))
-        return;
-    add_history(line);
-    if (path->n > 0)
-        append_history(1, path->at);
-}
-
-/* --- completion --------------------------------------------------------------------- */
-
-/* Readline takes and frees what is returned, so it comes from malloc. */
-static char *
-next_word(const char *prefix, int again)
-{
-    static char **words;
-    static size_t n, at;
-    char *word = NULL;
-
-    if (again == 0) {
-        words = NULL;
-        n = at = 0;
-        if (qdot_complete(completing, prefix, &words, &n) != QDOT_OK)
-            n = 0;
-    }
-    if (at < n) {
-        word = strdup(words[at]);
-        qdot_free(words[at++]);
-    }
-    if (word != NULL)
-        return word;
-    while (at < n)
-        qdot_free(words[at++]);
-    qdot_free(words);
-    words = NULL;
-    return NULL;
-}
-
-/* Within quotes a file name is completed, elsewhere a word of the language. */
-static char **
-complete(const char *prefix, int start, int end)
-{
-    bool quoted = false;
-
-    (void)end;
-    for (int i = 0; i < start; i++) {
-        if (!quoted && rl_line_buffer[i] == '#')
-            break;
-        quoted ^= rl_line_buffer[i] == '"';
-    }
-    rl_completion_append_character = quoted ? '"' : '\0';
-    if (quoted)
-        return NULL;
-    rl_attempted_completion_over = 1;
-    return rl_completion_matches(prefix, next_word);
-}
+#include "startup.h"
 
 /* --- a line ------------------------------------------------------------------------- */
 
@@ -214,69 +91,128 @@ read_line(const char *prompt, char **line)
 static void
 prepare(qdot_session *session)
 {
-    completing = session;
+    qdot_completion_install(session);
     rl_readline_name = "qdot";
     /* standard output may be a file, or hold only JSON */
     rl_outstream = session->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
-    rl_attempted_completion_function = complete;
-    rl_basic_word_break_characters = " \t\n\"'`@$><=;|&{}()[]+-*/^,:.!%~#";
-    rl_completer_quote_characters = "\"";
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
 }
 
+/* `qdot 3> `, where %3 is the next value; what continues a line stands below it. */
+static void
+write_prompt(const qdot_session *session, bool first, qdot_text *prompt)
+{
+    const bool colours = qdot_terminal_has_colours(rl_outstream);
+    qdot_text plain = {0};
+    int width;
+
+    qdot_text_truncate(prompt, 0);
+    qdot_text_format(&plain, "qdot %zu> ", session->history.n + 1);
+    width = (int)plain.n;
+    if (!first) {
+        qdot_text_truncate(&plain, 0);
+        qdot_text_format(&plain, "%*s", width, "...> ");
+    }
+    /* readline does not count what stands between \001 and \002 */
+    qdot_text_format(prompt, "%s%s%s", colours ? "\001" QDOT_BOLD QDOT_BLUE "\002" : "",
+                     qdot_text_str(&plain), colours ? "\001" QDOT_COLOUR_END "\002" : "");
+    qdot_text_clear(&plain);
+}
+
 /* Read a whole statement, with its continuation lines, into `text`. */
 static line_kind
-read_statement(qdot_text *text, const qdot_text *history)
+read_statement(const qdot_session *session, qdot_text *text)
 {
+    qdot_text prompt = {0};
+    line_kind kind = LINE;
+
     qdot_text_truncate(text, 0);
     do {
         char *line = NULL;
-        line_kind kind = read_line(text->n == 0 ? first_prompt : next_prompt, &line);
 
-        if (kind == ENDED &&
-            text->n > 0) /* Ctrl-D with a bracket open: let its error be told */
-            return LINE;
+        if (text->n > 0)
+            qdot_text_char(text, '\n');
+        qdot_completion_continue(qdot_text_str(text));
+        write_prompt(session, text->n == 0, &prompt);
+        kind = read_line(qdot_text_str(&prompt), &line);
         if (kind != LINE)
-            return kind;
-        history_note(line, history);
+            break;
         qdot_text_add(text, line);
-        qdot_text_char(text, '\n');
         free(line);
     } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
-    return LINE;
+    qdot_completion_continue("");
+    qdot_text_clear(&prompt);
+    if (text->n > 0 && text->at[text->n - 1] == '\n')
+        qdot_text_truncate(text, text->n - 1); /* no line came behind it */
+    /* also of a statement given up: it may be recalled and mended */
+    if (!text->failed && text->n > 0)
+        qdot_history_note(text->at);
+    /* Ctrl-D with a bracket open: let its error be told */
+    return kind == ENDED && text->n > 0 ? LINE : kind;
+}
+
+/* `?` is short for `help`: `?word` for `help word`, `??word` for `help search word`. */
+static void
+spell_out(qdot_text *text)
+{
+    const size_t blanks = strspn(qdot_text_str(text), " \t");
+    qdot_text whole = {0};
+
+    if (text->failed || text->n == blanks || text->at[blanks] != '?')
+        return;
+    qdot_text_add(&whole, text->at[blanks + 1] == '?' ? "help search " : "help ");
+    qdot_text_add(&whole, text->at + blanks + (text->at[blanks + 1] == '?' ? 2 : 1));
+    qdot_text_clear(text);
+    *text = whole;
+}
+
+static void
+carry_out(qdot_session *session, qdot_text *text)
+{
+    bool pages;
+
+    spell_out(text);
+    qdot_text_char(text, '\n');
+    pages = !text->failed && !qdot_script_takes_long(text->at, text->n) && qdot_pager_begin(session);
+    qdot_signals_computing();
+    if (text->failed)
+        fprintf(stderr, "qdot: out of memory\n");
+    else
+        (void)qdot_script_run_text(session, "prompt", text->at, text->n);
+    fflush(session->out);
+    fflush(session->err);
+    if (pages)
+        qdot_pager_end(session);
+    if (text->failed)
+        qdot_text_clear(text);
 }
 
 void
-qdot_prompt_run(qdot_session *session, bool banner)
+qdot_prompt_run(qdot_session *session, bool banner, bool startup)
 {
-    qdot_text text = {0}, history = {0};
+    qdot_text text = {0};
     line_kind kind = LINE;
 
     prepare(session);
-    history_begin(&history);
+    qdot_history_begin();
     if (banner)
         fprintf(rl_outstream, "qdot " PACKAGE_VERSION ". Write r(q), get the mechanics. "
                               "`help` helps, Ctrl-D leaves.\n");
     session->interactive = true;
+    qdot_signals_patient(true);
+    if (startup)
+        qdot_startup_read(session);
     while (kind != ENDED && !session->quit) {
-        kind = read_statement(&text, &history);
-        if (kind != LINE)
-            continue;
-        qdot_signals_computing();
-        if (text.failed)
-            fprintf(stderr, "qdot: out of memory\n");
-        else
-            (void)qdot_script_run_text(session, "prompt", text.at, text.n);
-        fflush(session->out);
-        fflush(session->err);
-        if (text.failed)
-            qdot_text_clear(&text);
+        kind = read_statement(session, &text);
+        if (kind == LINE)
+            carry_out(session, &text);
     }
     if (kind == ENDED)
         fputc('\n', rl_outstream);
     fflush(rl_outstream);
+    qdot_signals_patient(false);
     session->interactive = false;
     qdot_text_clear(&text);
-    qdot_text_clear(&history);
+    qdot_history_end();
 }

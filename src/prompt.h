@@ -4,9 +4,8 @@
 
 #include "lang/commands/script.h"
 
-/* Read lines with readline and carry them out until Ctrl-D or `quit`. An error leaves
- * the session as it was. History is kept in $XDG_STATE_HOME/qdot/history, or below
- * ~/.local/state. */
-void qdot_prompt_run(qdot_session *session, bool banner);
+/* Read statements with readline and carry them out until Ctrl-D or `quit`. An error leaves
+ * the session as it was. startup: after the startup file (startup.h). Ctrl-C never ends it. */
+void qdot_prompt_run(qdot_session *session, bool banner, bool startup);
 
 #endif

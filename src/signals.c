@@ -1,17 +1,25 @@
-/* signals.c -- Ctrl-C: stops a computation, clears a line, ends the program at the
- * second try. */
+/* signals.c -- Ctrl-C: stops a computation, clears a line, ends a script at the second
+ * try. */
 #include "signals.h"
 
 #include <signal.h>
 #include <stddef.h>
+#include <unistd.h>
 
 #include "base/interrupt.h"
 
-static volatile sig_atomic_t computing = 1;
+static volatile sig_atomic_t computing = 1, patient;
 
 static void
 on_interrupt(int signal_number)
 {
+    if (computing && qdot_interrupt_flag && patient) {
+        static const char text[] = "stopping as soon as it can (Ctrl-\\ ends qdot)\n";
+
+        if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
+            return; /* nobody reads it */
+        return;
+    }
     if (computing && qdot_interrupt_flag) {
         /* nobody listened to the first one */
         signal(signal_number, SIG_DFL);
@@ -36,6 +44,12 @@ qdot_signals_computing(void)
 {
     qdot_interrupt_clear();
     computing = 1;
+}
+
+void
+qdot_signals_patient(bool on)
+{
+    patient = on;
 }
 
 void

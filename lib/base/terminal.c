@@ -1,6 +1,8 @@
 /* terminal.c -- the size of a terminal, asked of the system. */
 #include "base/terminal.h"
 
+#include <stdlib.h>
+#include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -17,4 +19,14 @@ qdot_terminal_size(FILE *stream, size_t *columns, size_t *rows)
     *columns = size.ws_col > 0 ? size.ws_col : 80;
     *rows = size.ws_row > 0 ? size.ws_row : 24;
     return true;
+}
+
+bool
+qdot_terminal_has_colours(FILE *stream)
+{
+    const int file = fileno(stream);
+    const char *term = getenv("TERM"), *no = getenv("NO_COLOR");
+
+    return file >= 0 && isatty(file) && term != NULL && term[0] != '\0' &&
+           strcmp(term, "dumb") != 0 && (no == NULL || no[0] == '\0');
 }

@@ -9,4 +9,16 @@
  * elsewhere. */
 bool qdot_terminal_size(FILE *stream, size_t *columns, size_t *rows);
 
+/* Whether colours may be shown on the stream: it is a terminal, TERM is not `dumb`, and NO_COLOR is
+ * not set, or empty. */
+bool qdot_terminal_has_colours(FILE *stream);
+
+#define QDOT_RED "\033[31m"
+#define QDOT_GREEN "\033[32m"
+#define QDOT_YELLOW "\033[33m"
+#define QDOT_BLUE "\033[34m"
+#define QDOT_CYAN "\033[36m"
+#define QDOT_BOLD "\033[1m"
+#define QDOT_COLOUR_END "\033[0m"
+
 #endif

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 enum { least_order = 8, max_tries = 60 };
 
@@ -431,6 +432,7 @@ loop(state *s)
                              mpfr_get_d(s->t, RN), (unsigned long long)max_steps);
         QDOT_TRY(reserve(s->run, max_bytes));
         QDOT_TRY(advance(s));
+        qdot_progress_at(mpfr_get_d(s->t, RN));
         store(s->run, s->t, s->y);
         if (s->run->count % looks == 0)
             QDOT_TRY(foresee(s));

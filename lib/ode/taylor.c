@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "num/series.h"
 #include "ode/crawl.h"
 #include "ode/leading.h"
@@ -557,12 +558,12 @@ loop(run *r)
     status = begin(r, r->t, r->y);
     if (qdot_ode_may_be_undefined(status)) {
         r->undefined = *qdot_last_error();
-        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
-                         r->undefined.message);
+        return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, r->undefined.message);
     }
     QDOT_TRY(status);
     while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
         QDOT_TRY(advance(r));
+        qdot_progress_at(r->t);
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
     }
     return QDOT_OK;

@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "num/sum.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
@@ -297,6 +298,7 @@ loop(run *r)
     }
     while (r->t != r->t1) {
         QDOT_TRY(advance(r, &stop));
+        qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;
             return QDOT_OK;

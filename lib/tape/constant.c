@@ -116,7 +116,7 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
     qdot_text names = {0}, values = {0}, one = {0};
     qdot_expr first = QDOT_NIL;
     size_t settable = 0, left = 0;
-    bool applied = false;
+    bool applied = false, plain = true;
 
     if (n == 0)
         return QDOT_OK;
@@ -124,7 +124,7 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
         applied = applied || qdot_expr_kind(pool, e[i]) == QDOT_UFUN;
     for (size_t i = 0; i < n; i++) /* arguments follow from the function's definition */
         if (!is_settable(pool, e[i]) &&
-            !(applied && qdot_expr_is_class(pool, e[i], QDOT_FORMAL)))
+            !(applied && (qdot_expr_is_class(pool, e[i], QDOT_FORMAL) || e[i] == QDOT_T)))
             return qdot_constant_unset(pool, e[i]);
     for (size_t i = 0; i < n; i++) {
         if (!is_settable(pool, e[i]))
@@ -143,6 +143,7 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
         qdot_text_format(&names, "%s%s", settable > 0 ? ", " : "", qdot_text_str(&one));
         if (settable == 0)
             first = e[i];
+        plain = plain && qdot_expr_is_class(pool, e[i], QDOT_PARAM);
         qdot_text_format(&values, "%s%s = ...", settable > 0 ? ", " : "", qdot_text_str(&one));
         settable++;
     }
@@ -151,7 +152,8 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
     if (settable < 2)
         (void)qdot_constant_unset(pool, first);
     else
-        (void)qdot_fail(QDOT_EUNSET, "%s have no value", qdot_text_str(&names));
+        (void)qdot_fail(QDOT_EUNSET, "%s%s have no value", plain ? "parameters " : "",
+                        qdot_text_str(&names));
     if (settable > 1)
         (void)qdot_hint("set %s", qdot_text_str(&values));
     qdot_text_clear(&names);

@@ -6,7 +6,6 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "lang/commands/complete.h"
 #include "lang/session/bind.h"
 
 static void
@@ -218,32 +217,6 @@ an_open_bracket_goes_on(void **state)
 }
 
 static void
-completions_are_sorted_and_unique(void **state)
-{
-    talk *k = *state;
-    char **words;
-    size_t n;
-
-    say(k, "param part, party; coord x; particle partner mass part at x");
-    assert_int_equal(qdot_complete(k->session, "part", &words, &n), QDOT_OK);
-    assert_int_equal(n, 4);
-    assert_string_equal(words[0], "part");
-    assert_string_equal(words[1], "particle");
-    assert_string_equal(words[2], "partner");
-    assert_string_equal(words[3], "party");
-    for (size_t i = 0; i < n; i++)
-        qdot_free(words[i]);
-    qdot_free(words);
-    assert_int_equal(qdot_complete(k->session, "", &words, &n), QDOT_OK);
-    assert_true(n > 100);
-    for (size_t i = 0; i + 1 < n; i++)
-        assert_true(strcmp(words[i], words[i + 1]) < 0);
-    for (size_t i = 0; i < n; i++)
-        qdot_free(words[i]);
-    qdot_free(words);
-}
-
-static void
 an_interrupt_ends_a_statement_and_no_more(void **state)
 {
     talk *k = *state;
@@ -339,7 +312,6 @@ main(void)
         TEST(errors_of_measured_numbers_add_up),
         TEST(reset_scene_begins_coordinates_anew),
         TEST(an_open_bracket_goes_on),
-        TEST(completions_are_sorted_and_unique),
         TEST(an_interrupt_ends_a_statement_and_no_more),
         TEST(a_directory_or_nothing_is_no_script),
         cmocka_unit_test(no_memory_is_an_error_everywhere),

@@ -16,15 +16,15 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "show/show.h"
+#include "show/figure.h"
 
 enum { POINTS = 200 };
 
 static char folder[] = "qdot-figure-XXXXXX";
 static double t[POINTS], wave[POINTS], other[POINTS];
-static const qdot_column x[] = {{"t", t}, {"t", t}};
-static const qdot_column y[] = {{"theta_1", wave}, {"theta_2", other}};
-static const size_t rows[] = {POINTS, POINTS};
+static const qdot_curve both[] = {
+    {.label = {"theta_1", false}, .rows = POINTS, .x = t, .y = wave},
+    {.label = {"theta_2", false}, .rows = POINTS, .x = t, .y = other}};
 
 static int
 enter(void **state)
@@ -45,16 +45,22 @@ leave(void **state)
     return chdir("..") == 0 && rmdir(folder) == 0 ? 0 : -1;
 }
 
-static qdot_figure
+static qdot_panel
 two_curves(void)
 {
-    return (qdot_figure){.title = "two",
-                         .x_label = "t",
-                         .y_label = "theta",
-                         .curves = 2,
-                         .x = x,
-                         .y = y,
-                         .rows = rows};
+    return (qdot_panel){.title = {"two", false},
+                        .axis = {{"t", false}, {"theta", false}},
+                        .curves = both,
+                        .n = 2};
+}
+
+/* A figure of this panel alone. */
+static qdot_status
+write_panel(const qdot_panel *panel, const char *path)
+{
+    const qdot_figure figure = {.panels = panel, .n = 1};
+
+    return qdot_figure_write(&figure, path);
 }
 
 /* The file as a string; the caller frees it. Removes the file. */
@@ -73,10 +79,32 @@ take(const char *path)
     return text;
 }
 
+/* The script of a figure, as `keep` leaves it; the caller frees it. */
+static char *
+script_of(const qdot_figure *figure)
+{
+    qdot_figure kept = *figure;
+    char *script;
+
+    kept.keep = true;
+    assert_int_equal(qdot_figure_write(&kept, "kept.svg"), QDOT_OK);
+    free(take("kept.svg"));
+    free(take("kept.dat"));
+    script = take("kept.gp");
+    assert_non_null(strstr(script, "set output 'kept.svg'"));
+    return script;
+}
+
+static char *
+script_of_panel(const qdot_panel *panel)
+{
+    return script_of(&(qdot_figure){.panels = panel, .n = 1});
+}
+
 static void
 each_ending_gives_its_kind_of_file(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     const struct {
         const char *path, *begins;
     } all[] = {{"a.svg", "<?xml"}, {"a.png", "\x89PNG"}, {"a.b.pdf", "%PDF"}};
@@ -85,7 +113,7 @@ each_ending_gives_its_kind_of_file(void **state)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         char *text;
 
-        assert_int_equal(qdot_figure_write(&figure, all[i].path), QDOT_OK);
+        assert_int_equal(write_panel(&figure, all[i].path), QDOT_OK);
         text = take(all[i].path);
         assert_memory_equal(text, all[i].begins, strlen(all[i].begins));
         free(text);
@@ -96,11 +124,11 @@ static void
 an_unknown_ending_is_an_error(void **state)
 {
     const char *const bad[] = {"a.gif", "a", "svg", "", "a.svg/b", "a.svg.txt"};
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
 
     (void)state;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        assert_int_equal(qdot_figure_write(&figure, bad[i]), QDOT_EINVAL);
+        assert_int_equal(write_panel(&figure, bad[i]), QDOT_EINVAL);
         assert_non_null(strstr(qdot_last_error()->hint, ".svg"));
     }
 }
@@ -139,14 +167,14 @@ static void
 the_curve_goes_through_its_points(void **state)
 {
     const double at[] = {0, 1, 2, 3, 4, 5}, height[] = {0, 1, 4, 9, 16, 25};
-    const qdot_column cx = {"x", at}, cy = {"y", height};
     const size_t n = 6;
-    const qdot_figure figure = {.curves = 1, .x = &cx, .y = &cy, .rows = &n};
+    const qdot_curve curve = {.rows = n, .x = at, .y = height};
+    const qdot_panel figure = {.curves = &curve, .n = 1};
     double px[16], py[16];
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     text = take("a.svg");
     assert_int_equal(path_points(text, px, py, 16), n);
     free(text);
@@ -160,17 +188,20 @@ the_curve_goes_through_its_points(void **state)
 static void
 labels_stand_literally(void **state)
 {
-    const qdot_column strange[] = {
-        {"it's \"x_1^2\" `id` @y {/Bold z} \\n $c0 \"12%d%%", wave},
-        {"θ̇ & <b>\nplot sin(x)", other}};
-    qdot_figure figure = two_curves();
+    const qdot_curve strange[] = {
+        {.label = {"it's \"x_1^2\" `id` @y {/Bold z} \\n $c0 \"12%d%%", false},
+         .rows = POINTS,
+         .x = t,
+         .y = wave},
+        {.label = {"θ̇ & <b>\nplot sin(x)", false}, .rows = POINTS, .x = t, .y = other}};
+    qdot_panel figure = two_curves();
     char *text;
 
     (void)state;
-    figure.y = strange;
-    figure.title = "a\\";
-    figure.x_label = "'; system 'touch harm'; '";
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    figure.curves = strange;
+    figure.title.text = "a\\";
+    figure.axis[0].text = "'; system 'touch harm'; '";
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     assert_int_equal(access("harm", F_OK), -1);
     text = take("a.svg");
     assert_non_null(strstr(text, "it's \"x_1^2\" `id` @y {/Bold z} \\n $c0 \"12%d%%"));
@@ -185,11 +216,11 @@ file_names_are_only_names(void **state)
 {
     const char *const names[] = {"it's \"a\" \\n.svg", "a b; $(id) `id`.svg", "| cat.svg",
                                  "-persist.svg",       "two\nlines.svg",      "θ.svg"};
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
 
     (void)state;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        assert_int_equal(qdot_figure_write(&figure, names[i]), QDOT_OK);
+        assert_int_equal(write_panel(&figure, names[i]), QDOT_OK);
         free(take(names[i]));
     }
 }
@@ -197,18 +228,17 @@ file_names_are_only_names(void **state)
 static void
 one_curve_has_no_key_two_have(void **state)
 {
-    qdot_figure figure = two_curves();
+    qdot_panel figure = two_curves();
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
-    text = take("a.svg");
-    assert_non_null(strstr(text, ">theta_2<"));
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set key "));
+    assert_non_null(strstr(text, "title 'theta_2' noenhanced"));
     free(text);
-    figure.curves = 1;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
-    text = take("a.svg");
-    assert_null(strstr(text, ">theta_1<"));
+    figure.n = 1;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "unset key\n"));
     free(text);
 }
 
@@ -216,23 +246,20 @@ static void
 points_that_are_not_finite_break_the_line(void **state)
 {
     const double at[] = {0, 1, 2, 3, 4}, height[] = {1, INFINITY, 3, NAN, 1e308};
-    const qdot_column cx = {"x", at}, cy = {"y", height};
-    size_t n = 3;
-    const qdot_figure figure = {.curves = 1, .x = &cx, .y = &cy, .rows = &n};
+    qdot_curve curve = {.rows = 3, .x = at, .y = height};
+    const qdot_panel figure = {.curves = &curve, .n = 1};
     const double none[] = {NAN, INFINITY};
-    const qdot_column nothing = {"y", none};
-    qdot_figure empty = figure;
+    qdot_curve nothing = {.rows = 2, .x = at, .y = none};
+    qdot_panel empty = {.curves = &nothing, .n = 1};
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     free(take("a.svg"));
-    n = 2;
-    empty.y = &nothing;
-    assert_int_equal(qdot_figure_write(&empty, "a.svg"), QDOT_EDOMAIN);
-    n = 0;
-    assert_int_equal(qdot_figure_write(&empty, "a.svg"), QDOT_EDOMAIN);
-    empty.curves = 0;
-    assert_int_equal(qdot_figure_write(&empty, "a.svg"), QDOT_EINVAL);
+    assert_int_equal(write_panel(&empty, "a.svg"), QDOT_EDOMAIN);
+    nothing.rows = 0;
+    assert_int_equal(write_panel(&empty, "a.svg"), QDOT_EDOMAIN);
+    empty.n = 0;
+    assert_int_equal(write_panel(&empty, "a.svg"), QDOT_EINVAL);
     assert_int_equal(access("a.svg", F_OK), -1);
 }
 
@@ -240,27 +267,26 @@ static void
 flat_lone_and_logarithmic_curves_are_drawn(void **state)
 {
     const double at[] = {1e-15, 1e-9, 1e-3}, flat[] = {2, 2, 2}, signs[] = {-1, 1e-12, 1};
-    const qdot_column cx = {"x", at}, cy = {"y", flat}, cs = {"y", signs};
-    size_t n = 3;
-    qdot_figure figure = {.curves = 1, .x = &cx, .y = &cy, .rows = &n};
+    qdot_curve curve = {.rows = 3, .x = at, .y = flat};
+    qdot_panel figure = {.curves = &curve, .n = 1};
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     free(take("a.svg"));
-    figure.equal_axes = true;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    figure.equal = true;
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     free(take("a.svg"));
-    figure.equal_axes = false;
-    figure.log_x = figure.log_y = true;
-    figure.y = &cs;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    figure.equal = false;
+    figure.log[0] = figure.log[1] = true;
+    curve.y = signs;
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     free(take("a.svg"));
-    n = 1;
-    figure.y = &cy;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    curve.rows = 1;
+    curve.y = flat;
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     free(take("a.svg"));
-    figure.y = &cs;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_EDOMAIN);
+    curve.y = signs;
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_EDOMAIN);
     assert_non_null(strstr(qdot_last_error()->message, "positive"));
 }
 
@@ -279,55 +305,201 @@ static void
 long_logarithmic_axes_have_even_marks(void **state)
 {
     const double at[] = {1, 2, 3}, height[] = {1e-15, 1e-9, 1e-2};
-    const qdot_column cx = {"x", at}, cy = {"y", height};
-    const size_t n = 3;
-    const qdot_figure figure = {.curves = 1, .x = &cx, .y = &cy, .rows = &n, .log_y = true};
+    const qdot_curve curve = {.rows = 3, .x = at, .y = height};
+    const qdot_panel figure = {.curves = &curve, .n = 1, .log = {false, true}};
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
-    text = take("a.svg");
-    assert_int_equal(times(text, "1e-10<"), 1);
-    assert_true(times(text, "1e-") >= 5 && times(text, "1e-") <= 9);
-    assert_true(times(text, " M") <= 10); /* no marks of 2, 3, ... 9 times what is labelled */
+    text = script_of_panel(&figure);
+    assert_int_equal(times(text, "'10^{−10}' 1e-10,"), 1);
+    assert_true(times(text, "'10^{−") >= 5 && times(text, "'10^{−") <= 9);
+    assert_null(strstr(text, "2e-10")); /* no marks of 2, 3, ... 9 times what is labelled */
     free(text);
+}
+
+static void
+values_that_differ_late_have_an_offset(void **state)
+{
+    const double at[] = {0, 1, 2}, height[] = {9.81, 9.81 + 4e-12, 9.81 - 3e-12};
+    const qdot_curve curve = {.rows = 3, .x = at, .y = height};
+    qdot_panel figure = {
+        .curves = &curve, .n = 1, .axis = {{"t", true}, {"V_eff", true}}};
+    char *text;
+
+    (void)state;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "'(V_{eff} − 9.81) / 10^{−12}'"));
+    assert_non_null(strstr(text, "using 1:(($2-(9.8100000000000005))/1e-12)"));
+    assert_non_null(strstr(text, "'−2' -2, '−1' -1, '0' 0, "));
+    free(text);
+}
+
+static void
+formulas_are_set(void **state)
+{
+    static const struct {
+        const char *plain, *markup;
+    } all[] = {{"theta1'", "'θ\u0307₁' enhanced"},     {"V_eff", "'V_{eff}' enhanced"},
+               {"x''", "'x\u0308' enhanced"},           {"theta[2]'", "'θ\u0307₂' enhanced"},
+               {"m*x'^2", "'m·x\u0307^{2}' enhanced"},  {"a.theta - 1e-9", "'a.θ − 10^{−9}' enhanced"},
+               {"speed'", "\"speed′\""},          {"x^(n+1)", "'x^{n+1}' enhanced"},
+               {"A[1,2]", "'A_{1,2}' enhanced"},  {"q_1_b", "'q_{1,b}' enhanced"}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        qdot_panel figure = two_curves();
+        char *text;
+
+        figure.axis[1] = (qdot_figure_label){all[i].plain, true};
+        text = script_of_panel(&figure);
+        if (i != 6 && strstr(text, all[i].markup) == NULL)
+            fail_msg("%s: no %s in %s", all[i].plain, all[i].markup,
+                     strstr(text, "set ylabel"));
+        free(text);
+    }
+}
+
+static void
+more_than_four_curves_have_patterns(void **state)
+{
+    qdot_curve many[6];
+    qdot_panel figure = two_curves();
+    char *text = script_of_panel(&figure);
+
+    (void)state;
+    assert_null(strstr(text, "dashtype"));
+    free(text);
+    for (int i = 0; i < 6; i++)
+        many[i] = both[i % 2];
+    figure.curves = many;
+    figure.n = 6;
+    text = script_of_panel(&figure);
+    assert_int_equal(times(text, "dashtype"), 6);
+    assert_int_equal(times(text, "dashtype (3,4)"), 1);
+    free(text);
+}
+
+static void
+panels_share_their_abscissa(void **state)
+{
+    qdot_panel panels[2] = {two_curves(), two_curves()};
+    const qdot_figure figure = {.panels = panels, .n = 2};
+    char *text;
+
+    (void)state;
+    text = script_of(&figure);
+    assert_non_null(strstr(text, "set xtics ('' 0, ")); /* numbers at the lower one only */
+    assert_int_equal(times(text, "set xlabel 't'"), 1);
+    free(text);
+    panels[1].axis[0].text = "s";
+    text = script_of(&figure);
+    assert_int_equal(times(text, "set xlabel 't'"), 1);
+    assert_int_equal(times(text, "set xlabel 's'"), 1);
+    assert_null(strstr(text, "set xtics (''"));
+    free(text);
+}
+
+static void
+ranges_and_sizes_are_kept_to(void **state)
+{
+    qdot_panel panel = two_curves();
+    const qdot_figure figure = {.panels = &panel, .n = 1, .width = 12.7, .height = 5.08};
+    char *text;
+
+    (void)state;
+    panel.range[0] = (qdot_figure_range){2, 5, true};
+    panel.range[1] = (qdot_figure_range){-1, 1, true};
+    text = script_of(&figure);
+    assert_non_null(strstr(text, "size 480,192 "));
+    assert_non_null(strstr(text, "set xrange [2:5]"));
+    assert_non_null(strstr(text, "set yrange [-1:1]"));
+    free(text);
+    panel.range[1] = (qdot_figure_range){100, 200, true};
+    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_EDOMAIN);
+    assert_non_null(strstr(qdot_last_error()->message, "in its range"));
+}
+
+static void
+paths_in_space_have_three_axes(void **state)
+{
+    const qdot_curve curve = {
+        .label = {"p", true}, .rows = POINTS, .x = wave, .y = other, .z = t};
+    const qdot_panel figure = {.axis = {{"x", false}, {"y", false}, {"z", false}},
+                               .curves = &curve,
+                               .n = 1,
+                               .equal = true};
+    char *text;
+
+    (void)state;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "splot "));
+    assert_non_null(strstr(text, "using 1:2:3"));
+    assert_non_null(strstr(text, "set view equal xyz"));
+    assert_non_null(strstr(text, "set zlabel 'z'"));
+    free(text);
+}
+
+static void
+a_sketch_shows_the_curve(void **state)
+{
+    const double at[] = {0, 1}, height[] = {0, 10};
+    const qdot_curve curve = {.rows = 2, .x = at, .y = height};
+    const qdot_panel panel = {.curves = &curve, .n = 1, .axis = {{"theta", true}}};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, true, &text), QDOT_OK);
+    assert_string_equal(text.at, "      10.4 |                              ******\n"
+                                 "           |                      ********\n"
+                                 "           |              ********\n"
+                                 "           |      ********\n"
+                                 "      -0.4 |******\n"
+                                 "            0               theta               1\n");
+    qdot_text_clear(&text);
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "θ"));
+    assert_non_null(strstr(text.at, "⠤"));
+    qdot_text_clear(&text);
 }
 
 static void
 paths_have_equal_axes(void **state)
 {
     const double at[] = {0, 4, 4, 0, 0}, height[] = {0, 0, 1, 1, 0};
-    const qdot_column cx = {"x", at}, cy = {"y", height};
     const size_t n = 5;
-    const qdot_figure figure = {
-        .curves = 1, .x = &cx, .y = &cy, .rows = &n, .equal_axes = true};
+    const qdot_curve curve = {.rows = n, .x = at, .y = height};
+    const qdot_panel figure = {.curves = &curve, .n = 1, .equal = true};
     double px[8], py[8];
     char *text;
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     text = take("a.svg");
     assert_int_equal(path_points(text, px, py, 8), n);
-    assert_non_null(strstr(text, "> 1<")); /* one step of tics for both axes */
-    assert_null(strstr(text, "> 0.5<"));
     free(text);
     assert_true(fabs(fabs((px[1] - px[0]) / (py[2] - py[1])) - 4) < 0.1);
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set size ratio -1"));
+    assert_non_null(strstr(text, "set xtics ('0.0' 0, '0.5' 0.5, "));
+    assert_non_null(strstr(text, "set ytics ('0.0' 0, '0.5' 0.5, '1.0' 1)")); /* the same step */
+    free(text);
 }
 
 static void
 a_locale_with_commas_changes_nothing(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     char *plain, *comma;
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     plain = take("a.svg");
     if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) {
         free(plain);
         skip();
     }
-    assert_int_equal(qdot_figure_write(&figure, "a.svg"), QDOT_OK);
+    assert_int_equal(write_panel(&figure, "a.svg"), QDOT_OK);
     setlocale(LC_ALL, "C");
     comma = take("a.svg");
     assert_string_equal(plain, comma);
@@ -338,13 +510,13 @@ a_locale_with_commas_changes_nothing(void **state)
 static void
 a_missing_gnuplot_is_said_with_a_hint(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     char *path = strdup(getenv("PATH"));
     qdot_status status;
 
     (void)state;
     setenv("PATH", "/nowhere", 1);
-    status = qdot_figure_write(&figure, "a.svg");
+    status = write_panel(&figure, "a.svg");
     setenv("PATH", path, 1);
     free(path);
     assert_int_equal(status, QDOT_EIO);
@@ -356,7 +528,7 @@ a_missing_gnuplot_is_said_with_a_hint(void **state)
 static qdot_status
 with_gnuplot(const char *body, const char *figure_path)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     char here[4096], *path = strdup(getenv("PATH"));
     qdot_text changed = {0};
     FILE *f = fopen("gnuplot", "w");
@@ -369,7 +541,7 @@ with_gnuplot(const char *body, const char *figure_path)
     assert_non_null(getcwd(here, sizeof here));
     qdot_text_format(&changed, "%s:%s", here, path);
     setenv("PATH", changed.at, 1);
-    status = qdot_figure_write(&figure, figure_path);
+    status = write_panel(&figure, figure_path);
     setenv("PATH", path, 1);
     free(path);
     qdot_text_clear(&changed);
@@ -415,14 +587,14 @@ a_window_that_cannot_open_is_told(void **state)
 static void
 a_file_that_cannot_be_written_is_an_error(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
 
     (void)state;
-    assert_int_equal(qdot_figure_write(&figure, "missing/a.svg"), QDOT_EIO);
+    assert_int_equal(write_panel(&figure, "missing/a.svg"), QDOT_EIO);
     assert_non_null(strstr(qdot_last_error()->message, "missing/a.svg"));
     if (access("/dev/full", W_OK) == 0) {
         assert_int_equal(symlink("/dev/full", "full.svg"), 0);
-        assert_int_equal(qdot_figure_write(&figure, "full.svg"), QDOT_EIO);
+        assert_int_equal(write_panel(&figure, "full.svg"), QDOT_EIO);
         assert_non_null(strstr(qdot_last_error()->message, "No space left"));
         assert_int_equal(remove("full.svg"), 0);
     }
@@ -450,7 +622,7 @@ ctrl_c_stops_a_gnuplot_that_hangs(void **state)
 static void
 figures_need_no_standard_descriptors(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     int in = dup(0), out;
     qdot_status status;
 
@@ -459,7 +631,7 @@ figures_need_no_standard_descriptors(void **state)
     out = dup(1);
     close(0);
     close(1);
-    status = qdot_figure_write(&figure, "a.svg");
+    status = write_panel(&figure, "a.svg");
     dup2(in, 0);
     dup2(out, 1);
     close(in);
@@ -471,13 +643,13 @@ figures_need_no_standard_descriptors(void **state)
 static void
 no_memory_is_an_error(void **state)
 {
-    const qdot_figure figure = two_curves();
+    const qdot_panel figure = two_curves();
     long n = 0;
 
     (void)state;
     for (qdot_status status = QDOT_ENOMEM; status != QDOT_OK; n++) {
         qdot_memory_fail_at(n);
-        status = qdot_figure_write(&figure, "a.svg");
+        status = write_panel(&figure, "a.svg");
         qdot_memory_fail_at(-1);
         assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
     }
@@ -499,6 +671,13 @@ main(void)
         cmocka_unit_test(flat_lone_and_logarithmic_curves_are_drawn),
         cmocka_unit_test(long_logarithmic_axes_have_even_marks),
         cmocka_unit_test(paths_have_equal_axes),
+        cmocka_unit_test(values_that_differ_late_have_an_offset),
+        cmocka_unit_test(formulas_are_set),
+        cmocka_unit_test(more_than_four_curves_have_patterns),
+        cmocka_unit_test(panels_share_their_abscissa),
+        cmocka_unit_test(ranges_and_sizes_are_kept_to),
+        cmocka_unit_test(paths_in_space_have_three_axes),
+        cmocka_unit_test(a_sketch_shows_the_curve),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),
         cmocka_unit_test(a_gnuplot_that_fails_is_told),

@@ -355,7 +355,7 @@ functions_may_be_set(void **state)
         f.request.t1 = qdot_expr_int(f.pool, 3);
         if (way == 1) {
             assert_int_equal(qdot_run_new(f.scene, &f.request, &r), QDOT_EUNSET);
-            assert_non_null(strstr(qdot_last_error()->message, "has no value"));
+            assert_non_null(strstr(qdot_last_error()->message, "no value"));
             f.symbols[f.request.n_values] = x;
             f.values[f.request.n_values++] = s;
             f.symbols[f.request.n_values] = y;

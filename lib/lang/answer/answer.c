@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "base/terminal.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
@@ -17,12 +18,23 @@
 #include "show/layout.h"
 #include "show/sink.h"
 
+/* A code for a colour of answers, "" where none is shown. */
+static const char *
+paint(const qdot_session *session, const char *code)
+{
+    const bool shown = (session->colours & QDOT_COLOURS_ANSWERS) != 0 &&
+                       (session->console == NULL || session->out == session->console);
+
+    return shown ? code : "";
+}
+
 /* Write a finished text and let go of it. */
 static qdot_status
 put(FILE *file, qdot_text *text)
 {
     qdot_status status = qdot_text_status(text);
 
+    qdot_progress_clear();
     if (status == QDOT_OK && fwrite(qdot_text_str(text), 1, text->n, file) != text->n)
         status = qdot_fail(QDOT_EIO, "standard output cannot be written");
     if (status == QDOT_OK && fflush(file) != 0)
@@ -65,7 +77,8 @@ begin_sheet(qdot_session *session, qdot_text *line)
     sheet s = {.style = session->style};
 
     s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(session->out, &s.columns, &s.rows);
+                 qdot_terminal_size(session->out == session->pages ? session->screen : session->out,
+                                    &s.columns, &s.rows);
     if (s.laid_out)
         session->style = QDOT_MATHML;
     else
@@ -337,6 +350,9 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
 static const char *const verdicts[] = {
     [QDOT_PROVED] = "proved", [QDOT_REFUTED] = "refuted", [QDOT_UNDECIDED] = "undecided"};
 
+static const char *const verdict_colours[] = {
+    [QDOT_PROVED] = QDOT_GREEN, [QDOT_REFUTED] = QDOT_RED, [QDOT_UNDECIDED] = QDOT_YELLOW};
+
 static qdot_status
 check_text(qdot_session *session, const qdot_decision *decision)
 {
@@ -344,7 +360,8 @@ check_text(qdot_session *session, const qdot_decision *decision)
     qdot_text line = {0};
     qdot_status status = QDOT_OK;
 
-    qdot_text_add(&line, verdicts[decision->verdict]);
+    qdot_text_format(&line, "%s%s%s", paint(session, verdict_colours[decision->verdict]),
+                     verdicts[decision->verdict], paint(session, QDOT_COLOUR_END));
     if (decision->verdict == QDOT_REFUTED) {
         uint32_t n = decision->at == QDOT_NIL ? 0 : qdot_expr_count(pool, decision->at);
 
@@ -561,7 +578,8 @@ put_notice(qdot_session *session, const char *message)
         field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
-        qdot_text_format(&line, "notice: %s\n", message);
+        qdot_text_format(&line, "%snotice:%s %s\n", paint(session, QDOT_YELLOW),
+                         paint(session, QDOT_COLOUR_END), message);
     }
     return put(session->console != NULL ? session->console : session->out, &line);
 }
@@ -632,11 +650,16 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
     qdot_text text = {0};
 
     if (source != NULL) {
-        qdot_source_report(source, at, &error, &text);
+        qdot_source_report(source, at, &error, (session->colours & QDOT_COLOURS_ERRORS) != 0,
+                           &text);
     } else {
-        qdot_text_format(&text, "error: %s\n", error.message);
+        const bool colours = (session->colours & QDOT_COLOURS_ERRORS) != 0;
+
+        qdot_text_format(&text, "%serror:%s %s\n", colours ? QDOT_RED : "",
+                         colours ? QDOT_COLOUR_END : "", error.message);
         if (error.hint[0] != '\0')
-            qdot_text_format(&text, "hint: %s\n", error.hint);
+            qdot_text_format(&text, "%shint:%s %s\n", colours ? QDOT_CYAN : "",
+                             colours ? QDOT_COLOUR_END : "", error.hint);
     }
     fflush(session->out);
     if (put(session->err, &text) != QDOT_OK)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/number-text.h"
 
@@ -376,6 +377,7 @@ qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *
 
     if (status == QDOT_OK)
         status = qdot_text_status(&line);
+    qdot_progress_clear();
     if (status == QDOT_OK &&
         (fwrite(qdot_text_str(&line), 1, line.n, session->out) != line.n ||
          fflush(session->out) != 0))

@@ -1,12 +1,25 @@
-/* complete.h -- completions of a word, for the prompt. */
+/* complete.h -- completions at a place of a text, for the prompt.
+ *
+ * What may stand there and no more: within a statement by its usage (commands/usage.h), within
+ * `NAME[` by what its entries go by, elsewhere in brackets the words of an expression.
+ *
+ * Tests  tests/lang/test_complete.c
+ */
 #ifndef QDOT_LANG_COMPLETE_H
 #define QDOT_LANG_COMPLETE_H
 
 #include "lang/session/session.h"
 
-/* Completions of a word prefix: statement words, functions, values, declared names; sorted, unique.
+/* The words that may stand behind `before` [length], the text typed so far, and begin with
+ * `prefix`; sorted, unique. Of a family `theta[1]`, `theta[2]`, ... there is one, `theta[`.
  * *words [*n] and each owned by the caller (qdot_free). */
-QDOT_MUST_CHECK qdot_status qdot_complete(qdot_session *session, const char *prefix,
+QDOT_MUST_CHECK qdot_status qdot_complete(qdot_session *session, const char *before,
+                                          size_t length, const char *prefix,
                                           char ***words, size_t *n);
+
+/* The Greek letters whose spelled names begin with `prefix`, as `\theta`; if it is only one, the
+ * letter itself, or (letter false) `theta`. */
+QDOT_MUST_CHECK qdot_status qdot_complete_greek(const char *prefix, bool letter,
+                                                char ***words, size_t *n);
 
 #endif

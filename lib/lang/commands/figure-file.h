@@ -1,12 +1,13 @@
-/* figure-file.h -- writes a figure to its file or window. */
+/* figure-file.h -- where a figure goes: a file, a window, a sketch in the terminal. */
 #ifndef QDOT_LANG_FIGURE_FILE_H
 #define QDOT_LANG_FIGURE_FILE_H
 
 #include "lang/language/cursor.h"
-#include "show/show.h"
+#include "show/figure.h"
 
-/* A figure to a file; path NULL: into a window where there is one, else NAME-1.svg beside
- * the script. */
+/* A figure to the file `path`. path NULL: into a window where one opens; else to NAME-1.svg beside
+ * the script, or the first of NAME-2.svg ... that is not there yet, which a note tells where a
+ * window was to be expected; a terminal gets a sketch. Also with `keep` it is a file. */
 QDOT_MUST_CHECK qdot_status qdot_figure_file_show(qdot_session *session,
                                                   const qdot_figure *figure,
                                                   const char *path);

@@ -3,6 +3,7 @@
 
 #include "base/spelling.h"
 #include "lang/answer/answer.h"
+#include "lang/commands/search.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
@@ -62,8 +63,8 @@ overview(qdot_text *text)
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT))
             flow(text, qdot_builtin_at(i)->name, &column);
-    qdot_text_add(text, "\n\nhelp WORD says more of each; any statement may end in "
-                        "`for k = a..b`\n");
+    qdot_text_add(text, "\n\nhelp WORD says more of each, help search WORD finds it; any "
+                        "statement may end in `for k = a..b`\n");
 }
 
 static void
@@ -93,6 +94,9 @@ static const struct {
     {"or", "A or B", "at least one holds", "if(x > 0 or y > 0, 1, 0)"},
     {"not", "not A", "A does not hold; `check not A == B` expects a refutation",
      "check not sin(t) == t"},
+    {"search", "help search WORD ...",
+     "the words of the language whose name, summary or example holds all of these",
+     "help search energy"},
     {"%", "% | %3", "the last value; the third of the session", ""},
 };
 
@@ -164,6 +168,29 @@ look_up(qdot_text *text, const char *word)
     return text->n > 0;
 }
 
+/* `search WORD ...`, `search "TEXT"`: at the words. */
+static qdot_status
+find(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_text words = {0}, text = {0};
+    qdot_status status;
+
+    for (; c->at->kind == QDOT_TOKEN_NAME || c->at->kind == QDOT_TOKEN_STRING; c->at++)
+        qdot_text_format(&words, "%s%s", words.n > 0 ? " " : "", c->at->text);
+    status = c->at == start ? qdot_cursor_expected(c, "what to search for")
+                            : qdot_cursor_expect_end(c);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&words);
+    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
+        c->error_at = start->start;
+        (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
+        status = qdot_hint("`help` lists every word");
+    }
+    qdot_text_clear(&words);
+    return qdot_answer_written(c->session, "help", status, &text);
+}
+
 /* The statement, function or value whose word is nearest; NULL if none is near. */
 static const char *
 nearest_word(qdot_session *session, const char *word)
@@ -186,6 +213,10 @@ qdot_help(qdot_cursor *c)
     const char *word = "help", *near;
     qdot_text text = {0};
 
+    if (qdot_token_is_word(c->at, "search") && c->at[1].kind != QDOT_TOKEN_END) {
+        c->at++;
+        return find(c);
+    }
     if (c->at->kind == QDOT_TOKEN_NAME)
         word = c->at++->text;
     else if (c->at->kind == QDOT_TOKEN_STRING)

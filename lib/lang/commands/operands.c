@@ -34,9 +34,8 @@ resolve_members(qdot_operand *o, const char **run, qdot_expr *e)
     return QDOT_OK;
 }
 
-/* [RUN .] EXPR */
-static qdot_status
-read_operand(qdot_cursor *c, qdot_operand *o)
+qdot_status
+qdot_operand_read(qdot_cursor *c, qdot_operand *o)
 {
     const qdot_token *start = c->at;
     qdot_named_run *named = NULL;
@@ -68,7 +67,7 @@ qdot_operands_read(qdot_cursor *c, qdot_operands *list)
 {
     do {
         qdot_operand o = {0};
-        qdot_status status = read_operand(c, &o);
+        qdot_status status = qdot_operand_read(c, &o);
 
         if (status == QDOT_OK)
             status = qdot_vec_push(list, o);

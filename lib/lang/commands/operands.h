@@ -19,6 +19,8 @@ typedef qdot_vec(qdot_operand) qdot_operands;
 
 void qdot_operand_clear(qdot_operand *o);
 void qdot_operands_free(qdot_operands *list);
+/* [RUN .] EXPR; after an error the operand is still to be cleared. */
+QDOT_MUST_CHECK qdot_status qdot_operand_read(qdot_cursor *c, qdot_operand *o);
 /* `E1, a.E2, ...` */
 QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *list);
 /* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */

@@ -1,16 +1,21 @@
 /* race.c -- the statement `race`: a table, and a figure of error against time. */
 #include <math.h>
 
+#include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/commands/figure-file.h"
+#include "lang/commands/figure-option.h"
 #include "lang/commands/request.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "show/show.h"
+#include "show/figure.h"
 #include "sim/study/race.h"
+
+/* An error of 0 has no logarithm: it is drawn where rounding is. */
+static const double least_error = 1e-17;
 
 /* "1e-12", "-" where there is none */
 static void
@@ -32,6 +37,8 @@ print_lane(const qdot_race_lane *lane, qdot_text *out)
     for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
         const qdot_race_entry *e = &lane->entry[k];
 
+        if (e->method == NULL)
+            continue;
         qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
         print_bound(e->error, 9, out);
         print_bound(e->energy, 9, out);
@@ -76,6 +83,8 @@ answer_rows(qdot_session *session, const qdot_race *race)
             qdot_text cells = {0};
             qdot_status status;
 
+            if (e->method == NULL)
+                continue;
             qdot_text_json(&cells, race->lane[i].name);
             qdot_text_char(&cells, ',');
             qdot_text_json(&cells, e->method != NULL ? e->method : "");
@@ -90,23 +99,26 @@ answer_rows(qdot_session *session, const qdot_race *race)
     return QDOT_OK;
 }
 
-/* Error to the right, CPU time up, both in powers of ten. */
+/* CPU time to the right, error up, both in powers of ten. */
 static qdot_status
-draw(qdot_session *session, const qdot_race *race, const char *path)
+draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
+     const qdot_panel_choice *of_panel)
 {
     enum { N = QDOT_RACE_FORMULATIONS, K = QDOT_RACE_TOLERANCES };
     double x[N][K], y[N][K];
-    qdot_column columns_x[N], columns_y[N];
-    size_t rows[N], n = 0;
-    qdot_figure figure = {.title = "a race: work and precision",
-                          .x_label = "error at the end, relative to max(1, |value|)",
-                          .y_label = "CPU time in s",
-                          .x = columns_x,
-                          .y = columns_y,
-                          .rows = rows,
-                          .log_x = true,
-                          .log_y = true,
-                          .marks = true};
+    qdot_curve curves[N];
+    qdot_text note = {0};
+    qdot_panel panel = {.title = {"one scene in every formulation", false},
+                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .curves = curves,
+                        .log = {true, true},
+                        .marks = true};
+    const qdot_figure figure = {.panels = &panel,
+                                .n = 1,
+                                .width = choice->width,
+                                .height = choice->height,
+                                .keep = choice->keep};
+    qdot_status status;
 
     for (int i = 0; i < N; i++) {
         size_t points = 0;
@@ -116,23 +128,34 @@ draw(qdot_session *session, const qdot_race *race, const char *path)
 
             if (!isfinite(e->error) || !(e->cpu > 0))
                 continue;
-            x[n][points] = fmax(e->error, 1e-17); /* 0 has no logarithm */
-            y[n][points++] = e->cpu;
+            x[panel.n][points] = e->cpu;
+            y[panel.n][points++] = fmax(e->error, least_error);
         }
         if (points == 0)
             continue;
-        columns_x[n] = (qdot_column){figure.x_label, x[n]};
-        columns_y[n] = (qdot_column){race->lane[i].name, y[n]};
-        rows[n++] = points;
+        curves[panel.n] = (qdot_curve){.label = {race->lane[i].name, false},
+                                       .rows = points,
+                                       .x = x[panel.n],
+                                       .y = y[panel.n]};
+        panel.n++;
     }
-    figure.curves = n;
-    if (n == 0)
+    if (panel.n == 0)
         return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
-    return qdot_figure_file_show(session, &figure, path);
+    qdot_text_format(&note, "reference: as given, projected, tol %.0e, its own error ",
+                     race->reference_tol);
+    qdot_number_text_bound(&note, race->reference_error);
+    panel.note = qdot_text_str(&note);
+    qdot_figure_option_apply(of_panel, &panel);
+    status = qdot_text_status(&note);
+    if (status == QDOT_OK)
+        status = qdot_figure_file_show(session, &figure, choice->path);
+    qdot_text_clear(&note);
+    return status;
 }
 
 static qdot_status
-answer(qdot_session *session, const qdot_race *race, const char *path)
+answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
+       const qdot_panel_choice *panel)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -146,8 +169,9 @@ answer(qdot_session *session, const qdot_race *race, const char *path)
     if (status == QDOT_OK && session->json)
         status = answer_rows(session, race);
     qdot_text_clear(&text);
-    if (status == QDOT_OK)
-        status = draw(session, race, path);
+    /* who stopped it does not wait for a figure unless it was asked for */
+    if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
+        status = draw(session, race, figure, panel);
     return status;
 }
 
@@ -166,7 +190,7 @@ refuse_option(qdot_cursor *c)
                       options[i]);
             return qdot_hint("race T0..T1 [to \"FILE\"]");
         }
-    (void)qdot_cursor_expected(c, "`to` or the end of the statement");
+    (void)qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
     return qdot_hint("race T0..T1 [to \"FILE\"] compares formulations; `workprecision` "
                      "compares methods");
 }
@@ -177,16 +201,15 @@ qdot_race_statement(qdot_cursor *c)
     const qdot_token *start = c->at;
     qdot_request order = {0};
     qdot_expr from, to;
-    const char *path = NULL;
+    qdot_figure_choice figure = {0};
+    qdot_panel_choice panel = {0};
     qdot_race race;
     qdot_status status;
 
     QDOT_TRY(qdot_read_range(c, &from, &to));
-    while (!qdot_cursor_is_end(c)) {
-        if (!qdot_cursor_accept_word(c, "to"))
-            return refuse_option(c);
-        QDOT_TRY(qdot_figure_file_read(c, &path));
-    }
+    QDOT_TRY(qdot_figure_option_read(c, &figure, &panel));
+    if (!qdot_cursor_is_end(c))
+        return refuse_option(c);
     c->error_at = start->start;
     status = qdot_request_fill(c->session, &order);
     if (status == QDOT_OK) {
@@ -203,7 +226,11 @@ qdot_race_statement(qdot_cursor *c)
     if (status == QDOT_OK) {
         status = qdot_race_hold(c->session->scene, &order.request, &race);
         if (status == QDOT_OK) {
-            status = answer(c->session, &race, path);
+            if (race.interrupted)
+                qdot_interrupt_clear(); /* heard: the rows so far are told */
+            status = answer(c->session, &race, &figure, &panel);
+            if (status == QDOT_OK && race.interrupted)
+                status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
             qdot_race_clear(&race);
         }
     }

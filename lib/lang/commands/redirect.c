@@ -25,11 +25,10 @@ static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PL
                                                     {".html", PAGE, QDOT_MATHML},
                                                     {".json", JSON, QDOT_PLAIN}};
 
-/* Statements of other groups that answer; those not here read a `to` of their own, or
- * have nothing to say. */
-static bool
-answers(const qdot_statement *row)
+bool
+qdot_redirect_answers(const qdot_statement *row)
 {
+    /* of other groups; those not here read a `to` of their own, or have nothing to say */
     static const char *const words[] = {"run",  "plan", "events", "help",
                                         "show", "vars", "print"};
 
@@ -46,7 +45,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 {
     const qdot_token *end = first;
 
-    if (!answers(row))
+    if (!qdot_redirect_answers(row))
         return NULL;
     while (end->kind != QDOT_TOKEN_END)
         end++;

@@ -22,6 +22,10 @@ typedef struct {
     size_t length;
 } qdot_redirect;
 
+/* Whether `to FILE` is read here for this statement: it answers, and reads no `to` of its own; NULL:
+ * an expression. */
+bool qdot_redirect_answers(const qdot_statement *row);
+
 /* The `to` of the statement that begins at `first`, NULL if it has none; row NULL: an
  * expression. */
 const qdot_token *qdot_redirect_find(const qdot_statement *row, const qdot_token *first);

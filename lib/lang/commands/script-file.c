@@ -5,6 +5,8 @@
 
 #include "lang/answer/answer.h"
 #include "lang/commands/script.h"
+#include "lang/commands/statement.h"
+#include "lang/source/source.h"
 
 enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
 
@@ -89,8 +91,6 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     if (session->including.n >= INCLUDE_LIMIT)
         return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
                          INCLUDE_LIMIT);
-    if (session->including.n == 0)
-        session->figures = 0;
     own = qdot_strdup(path);
     if (own == NULL)
         return QDOT_ENOMEM;
@@ -119,6 +119,30 @@ qdot_script_run_file(qdot_session *session, const char *path)
     if (status != QDOT_OK && !opened)
         qdot_answer_error(session, NULL, 0);
     return exit_status(session, status);
+}
+
+bool
+qdot_script_takes_long(const char *text, size_t length)
+{
+    qdot_source *source = NULL;
+    bool found = false, start = true;
+    size_t at;
+
+    if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
+        qdot_source_free(source);
+        return false; /* an error is soon told */
+    }
+    for (size_t i = 0; i < source->tokens.n && !found; i++) {
+        const qdot_token *token = &source->tokens.at[i];
+        const qdot_statement *row =
+            start && token->kind == QDOT_TOKEN_NAME ? qdot_statement_find(token->text) : NULL;
+
+        found = row != NULL &&
+                (strcmp(row->group, "numbers") == 0 || strcmp(row->word, "include") == 0);
+        start = token->kind == QDOT_TOKEN_END || qdot_token_is(token, "{");
+    }
+    qdot_source_free(source);
+    return found;
 }
 
 bool

@@ -10,6 +10,7 @@
 #include <time.h>
 
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/loop.h"
 #include "lang/commands/redirect.h"
@@ -246,6 +247,7 @@ statement(engine *x, size_t i)
     (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
     if (status == QDOT_OK)
         status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
+    qdot_progress_clear();
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;

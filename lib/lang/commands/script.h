@@ -18,6 +18,10 @@ int qdot_script_run_file(qdot_session *session, const char *path);
 /* For the prompt: whether the text so far is incomplete (an open bracket, a trailing \). */
 bool qdot_script_is_incomplete(const char *text, size_t length);
 
+/* For the prompt: whether the text runs a scene or another script, whose answers a person wants to
+ * see as they come. */
+bool qdot_script_takes_long(const char *text, size_t length);
+
 /* The place of an error that an included file has already reported. */
 #define QDOT_SCRIPT_REPORTED SIZE_MAX
 

@@ -3,16 +3,23 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/commands/figure-file.h"
+#include "lang/commands/figure-option.h"
 #include "lang/commands/request.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "show/show.h"
+#include "show/figure.h"
 #include "sim/study/workprecision.h"
+
+typedef struct {
+    qdot_figure_choice figure;
+    qdot_panel_choice panel;
+} choices;
 
 /* The columns, in the order of every form. */
 enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
@@ -169,44 +176,59 @@ answer_table(qdot_session *session, const qdot_workprecision *w)
 /* --- a figure ------------------------------------------------------------------------ */
 
 /* One curve a method, over the rows that arrived. */
-static qdot_status
-figure(qdot_session *session, const qdot_workprecision *w, const char *path)
+static void
+fill_curves(const qdot_workprecision *w, double *values, qdot_curve *curves, size_t *n)
 {
-    qdot_column *columns = qdot_calloc(2 * w->n + 1, sizeof *columns);
-    double *values = qdot_calloc(2 * w->n + 1, sizeof *values);
-    size_t *rows = qdot_calloc(w->n + 1, sizeof *rows);
-    qdot_figure f = {.title = "work and precision",
-                     .x_label = "error at the end, relative to max(1, |value|)",
-                     .y_label = "CPU time in s",
-                     .x = columns,
-                     .y = columns ? columns + w->n : NULL,
-                     .rows = rows,
-                     .log_x = true,
-                     .log_y = true,
-                     .marks = true};
-    qdot_status status = columns && values && rows ? QDOT_OK : QDOT_ENOMEM;
     size_t at = 0;
 
-    for (size_t k = 0; k < w->n && status == QDOT_OK;) {
+    for (size_t k = 0; k < w->n;) {
         const char *method = w->rows[k].method;
-        size_t first = at;
+        const size_t first = at;
 
         for (; k < w->n && w->rows[k].method == method; k++)
             if (!isnan(w->rows[k].err)) { /* an error of 0 has a place too */
-                values[at] = fmax(w->rows[k].err, 0x1p-60);
-                values[w->n + at++] = w->rows[k].time_median;
+                values[at] = w->rows[k].time_median;
+                values[w->n + at++] = fmax(w->rows[k].err, 0x1p-60);
             }
-        if (at == first)
-            continue;
-        columns[f.curves] = (qdot_column){method, values + first};
-        columns[w->n + f.curves] = (qdot_column){method, values + w->n + first};
-        rows[f.curves++] = at - first;
+        if (at > first)
+            curves[(*n)++] = (qdot_curve){.label = {method, false},
+                                          .rows = at - first,
+                                          .x = values + first,
+                                          .y = values + w->n + first};
+    }
+}
+
+static qdot_status
+figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+{
+    qdot_curve *curves = qdot_calloc(w->n + 1, sizeof *curves);
+    double *values = qdot_calloc(2 * w->n + 1, sizeof *values);
+    qdot_text note = {0};
+    qdot_panel panel = {.title = {"work and precision", false},
+                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .curves = curves,
+                        .log = {true, true},
+                        .marks = true};
+    const qdot_figure f = {.panels = &panel,
+                           .n = 1,
+                           .width = chosen->figure.width,
+                           .height = chosen->figure.height,
+                           .keep = chosen->figure.keep};
+    qdot_status status = curves && values ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        fill_curves(w, values, curves, &panel.n);
+        qdot_text_add(&note, "medians of several runs; error of the reference ");
+        qdot_number_text_bound(&note, w->ref_err);
+        panel.note = qdot_text_str(&note);
+        qdot_figure_option_apply(&chosen->panel, &panel);
+        status = qdot_text_status(&note);
     }
     if (status == QDOT_OK)
-        status = qdot_figure_file_show(session, &f, path);
-    qdot_free(columns);
+        status = qdot_figure_file_show(session, &f, chosen->figure.path);
+    qdot_text_clear(&note);
+    qdot_free(curves);
     qdot_free(values);
-    qdot_free(rows);
     return status;
 }
 
@@ -230,21 +252,22 @@ any_done(const qdot_workprecision *w)
 }
 
 static qdot_status
-tell(qdot_session *session, const qdot_workprecision *w, const char *path)
+tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
 {
+    const char *path = chosen->figure.path;
     qdot_text text = {0};
     qdot_status status;
 
     for (size_t i = 0; i < w->n_unfit; i++)
         QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s",
                                     w->unfit[i].method, w->unfit[i].reason));
-    if (path == NULL) {
+    if (path == NULL || (!ends_in(path, ".csv") && !ends_in(path, ".txt"))) {
         QDOT_TRY(answer_table(session, w));
-        return any_done(w) ? figure(session, w, NULL)
+        if (w->interrupted && path == NULL)
+            return QDOT_OK; /* who stopped it does not wait for a figure */
+        return any_done(w) ? figure(session, w, chosen)
                            : qdot_fail(QDOT_EFAILED, "no method came to the end");
     }
-    if (!ends_in(path, ".csv") && !ends_in(path, ".txt"))
-        return figure(session, w, path);
     (ends_in(path, ".csv") ? csv : table)(w, &text);
     status = qdot_answer_in_file(session, path, &text);
     qdot_text_clear(&text);
@@ -252,27 +275,23 @@ tell(qdot_session *session, const qdot_workprecision *w, const char *path)
 }
 
 static qdot_status
-read_path(qdot_cursor *c, const char **path)
+read_options(qdot_cursor *c, choices *chosen)
 {
     static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
+    const qdot_token *start = c->at;
+    bool good = false;
 
-    while (!qdot_cursor_is_end(c)) {
-        const qdot_token *start = c->at;
-        bool good = false;
-
-        if (!qdot_cursor_accept_word(c, "to"))
-            return qdot_cursor_expected(c, "`to` and the name of a file");
-        QDOT_TRY(qdot_figure_file_read(c, path));
-        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-            good = good || ends_in(*path, known[i]);
-        if (!good) {
-            c->error_at = start->start;
-            (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
-                            *path);
-            return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
-        }
-    }
-    return QDOT_OK;
+    QDOT_TRY(qdot_figure_option_read(c, &chosen->figure, &chosen->panel));
+    if (!qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
+    for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
+        good = good || ends_in(chosen->figure.path, known[i]);
+    if (good || chosen->figure.path == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
+                    chosen->figure.path);
+    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
 }
 
 qdot_status
@@ -282,12 +301,12 @@ qdot_workprecision_statement(qdot_cursor *c)
     qdot_session *session = c->session;
     qdot_request order = {0};
     qdot_workprecision w = {0};
-    const char *path = NULL;
+    choices chosen = {0};
     qdot_expr from, to;
     qdot_status status;
 
     QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(read_path(c, &path));
+    QDOT_TRY(read_options(c, &chosen));
     c->error_at = start->start;
     status = qdot_request_fill(session, &order);
     if (status == QDOT_OK) {
@@ -299,8 +318,12 @@ qdot_workprecision_statement(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
+    if (w.interrupted)
+        qdot_interrupt_clear(); /* heard: the rows so far are told */
     if (status == QDOT_OK)
-        status = tell(session, &w, path);
+        status = tell(session, &w, &chosen);
+    if (status == QDOT_OK && w.interrupted)
+        status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
     return status;

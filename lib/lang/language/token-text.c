@@ -90,9 +90,10 @@ add_sign(const qdot_token *k, const qdot_token *to, qdot_text *out, size_t *used
     return true;
 }
 
-void
-qdot_token_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
-                qdot_text *out)
+/* indices: those of a loop are replaced by their values. */
+static void
+write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to,
+             bool indices, qdot_text *out)
 {
     int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
 
@@ -109,7 +110,7 @@ qdot_token_text(qdot_session *session, const qdot_token *from, const qdot_token 
             qdot_text_format(out, "\"%s\"", k->text);
         else if (add_sign(k, to, out, &used))
             k += used - 1;
-        else if (!add_index(session, k, out) && !add_small(session, k, out))
+        else if (!(indices && add_index(session, k, out)) && !add_small(session, k, out))
             qdot_text_add(out, k->text);
         if (qdot_token_is(k, "[") || qdot_token_is(k, "(")) {
             depth++;
@@ -124,4 +125,18 @@ qdot_token_text(qdot_session *session, const qdot_token *from, const qdot_token 
             (qdot_token_is(k, ";") && k + 1 < to))
             qdot_text_char(out, ' ');
     }
+}
+
+void
+qdot_token_text(qdot_session *session, const qdot_token *from, const qdot_token *to,
+                qdot_text *out)
+{
+    write_tokens(session, from, to, true, out);
+}
+
+void
+qdot_token_text_written(qdot_session *session, const qdot_token *from, const qdot_token *to,
+                        qdot_text *out)
+{
+    write_tokens(session, from, to, false, out);
 }

@@ -8,5 +8,8 @@
  * of a loop under way is replaced by its value. */
 void qdot_token_text(qdot_session *session, const qdot_token *from,
                      const qdot_token *to, qdot_text *out);
+/* The same, indices of loops by their names. */
+void qdot_token_text_written(qdot_session *session, const qdot_token *from,
+                             const qdot_token *to, qdot_text *out);
 
 #endif

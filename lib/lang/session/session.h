@@ -45,6 +45,9 @@ typedef struct {
     unsigned branches; /* open branches of ifs: subexpressions there need not be defined */
 } qdot_passed;
 
+/* What is written to a terminal that shows colours. */
+typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
+
 typedef struct qdot_session {
     qdot_pool *pool;
     qdot_scene *scene;
@@ -56,6 +59,8 @@ typedef struct qdot_session {
     bool json, timing, interactive;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;
+    FILE *pages, *screen; /* out is `pages` while answers for the terminal `screen` are collected */
+    unsigned colours;     /* qdot_colours */
     bool failed;                 /* the latest text or file stopped at an error */
     bool refuted;                /* a check was refuted: exit 1 at the end */
     size_t verdicts[3];          /* number of checks by qdot_verdict */
@@ -70,7 +75,6 @@ typedef struct qdot_session {
     qdot_vec(qdot_named_run) runs;
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */
-    size_t figures;        /* NAME-1.svg ... */
     bool quit;             /* after `quit` */
     bool declares;         /* the present statement declares part of a scene */
     const char *taken;     /* short name of a value that it read (lang/functions/short-names);

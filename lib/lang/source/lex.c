@@ -480,27 +480,38 @@ lex_token(lexer *x, qdot_text *buffer)
     return found ? QDOT_OK : qdot_refuse(x->source->text, x->i);
 }
 
+/* The length of the prompt that begins `text`: `qdot>`, `qdot 3>`, `...>`, `In [3]:`, `...:`;
+ * 0: none. */
+static size_t
+prompt_length(const char *text)
+{
+    static const char digits[] = "0123456789";
+    size_t n;
+
+    if (strncmp(text, "...>", 4) == 0 || strncmp(text, "...:", 4) == 0)
+        return 4;
+    if (strncmp(text, "qdot", 4) == 0) {
+        n = text[4] == ' ' ? 5 + strspn(text + 5, digits) : 4;
+        return text[n] == '>' && n != 5 ? n + 1 : 0;
+    }
+    if (strncmp(text, "In [", 4) != 0)
+        return 0;
+    n = 4 + strspn(text + 4, digits);
+    return n > 4 && strncmp(text + n, "]:", 2) == 0 ? n + 2 : 0;
+}
+
 /* Where a line begins: step over prompts that were pasted with it. */
 static void
 skip_prompts(lexer *x)
 {
     const char *text = x->source->text;
-    bool found = true;
 
-    while (found) {
-        size_t i = x->i + strspn(text + x->i, " \t"), n = 0;
+    for (;;) {
+        const size_t i = x->i + strspn(text + x->i, " \t"), n = prompt_length(text + i);
 
-        if (strncmp(text + i, "qdot>", 5) == 0) {
-            n = 5;
-        } else if (strncmp(text + i, "...>", 4) == 0 || strncmp(text + i, "...:", 4) == 0) {
-            n = 4;
-        } else if (strncmp(text + i, "In [", 4) == 0) {
-            n = 4 + strspn(text + i + 4, "0123456789");
-            n = n > 4 && strncmp(text + i + n, "]:", 2) == 0 ? n + 2 : 0;
-        }
-        found = n > 0 && (i + n >= x->source->length || strchr(" \t\r\n", text[i + n]) != NULL);
-        if (found)
-            x->i = i + n;
+        if (n == 0 || (i + n < x->source->length && strchr(" \t\r\n", text[i + n]) == NULL))
+            return;
+        x->i = i + n;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/terminal.h"
 #include "base/utf8.h"
 #include "lang/source/lex.h"
 
@@ -140,7 +141,7 @@ add_clean(qdot_text *out, const char *text, size_t from, size_t to)
 
 /* The line with its caret, cut on both sides to SHOWN columns. */
 static void
-add_line(const qdot_source *source, size_t at, qdot_text *out)
+add_line(const qdot_source *source, size_t at, bool colours, qdot_text *out)
 {
     size_t start = line_start(source, at), end = at, from = at, to = at;
     int columns = 0, before = 0;
@@ -163,12 +164,13 @@ add_line(const qdot_source *source, size_t at, qdot_text *out)
     qdot_text_add(out, from > start ? "  ..." : "  ");
     add_clean(out, source->text, from, to);
     qdot_text_add(out, to < end ? "...\n" : "\n");
-    qdot_text_format(out, "%*s^\n", before + (from > start ? 5 : 2), "");
+    qdot_text_format(out, "%*s%s^%s\n", before + (from > start ? 5 : 2), "",
+                     colours ? QDOT_RED : "", colours ? QDOT_COLOUR_END : "");
 }
 
 void
 qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error,
-                   qdot_text *out)
+                   bool colours, qdot_text *out)
 {
     uint32_t line, column;
 
@@ -176,12 +178,14 @@ qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error
         at = source->length;
     qdot_source_locate(source, at, &line, &column);
     qdot_text_add(out, source->name);
-    qdot_text_format(out, ":%u:%u: error: ", line, column);
+    qdot_text_format(out, ":%u:%u: %serror:%s ", line, column, colours ? QDOT_RED : "",
+                     colours ? QDOT_COLOUR_END : "");
     qdot_text_add(out, error->message);
     qdot_text_char(out, '\n');
-    add_line(source, at, out);
+    add_line(source, at, colours, out);
     if (error->hint[0] != '\0') {
-        qdot_text_add(out, "  hint: ");
+        qdot_text_format(out, "  %shint:%s ", colours ? QDOT_CYAN : "",
+                         colours ? QDOT_COLOUR_END : "");
         qdot_text_add(out, error->hint);
         qdot_text_char(out, '\n');
     }

@@ -24,8 +24,8 @@ void qdot_source_free(qdot_source *source);               /* one use less */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,
                         uint32_t *column);
 /* "file:line:column: error: message", the line, the caret, "hint: ...". A very long line is cut
- * round the caret. */
+ * round the caret. colours: with codes for a terminal. */
 void qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error,
-                        qdot_text *out);
+                        bool colours, qdot_text *out);
 
 #endif

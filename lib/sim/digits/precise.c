@@ -7,6 +7,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "sim/digits/precise-course.h"
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
@@ -259,6 +260,8 @@ carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
     QDOT_TRY(side_init(a, pair, digits, 0));
     QDOT_TRY(side_init(b, pair, digits + companion_digits, companion_orders));
     a->domains = domains;
+    qdot_progress_begin(mpfr_get_d(a->start.at[0], RN), mpfr_get_d(a->start.at[1], RN),
+                        "run in %.0f digits", digits);
     running = pthread_create(&thread, NULL, side_thread, b) == 0;
     side_run(a);
     if (running)

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "ode/companion.h"
 #include "tape/shake.h"
 
@@ -174,6 +175,7 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
     /* a start on a surface, moved to its other side, meets it once more: the second time
      * it stays on it */
     for (int tries = 0; tries < 2; tries++) {
+        qdot_progress_begin(t0, goal(run), "error of the run");
         status = qdot_course_run(c, qdot_companion_method(&system, method), &options, t0,
                                  goal(run), y);
         if (status == QDOT_EINTR || status == QDOT_ENOMEM)

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/progress.h"
 #include "ode/companion.h"
 #include "ode/leading.h"
 #include "sim/course/multipliers.h"
@@ -300,9 +301,11 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .t0_low = run->t0_low,
                                 .t1_low = run->t1_low,
                                 .leading = run->leading};
-    qdot_status status = qdot_course_run(&run->course, run->plan->method, &options,
-                                         run->t0, run->t1, run->start);
+    qdot_status status;
 
+    qdot_progress_begin(run->t0, run->t1, "run");
+    status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
+                             run->start);
     *interrupted = status == QDOT_EINTR;
     run->factored = 0; /* reading the run factors, too */
     for (size_t i = 0; i < run->course.binds.n; i++)

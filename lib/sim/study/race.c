@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "expr/calculus.h"
 #include "mech/study/minimal.h"
 #include "sim/course/run-state.h"
@@ -124,6 +125,7 @@ run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
         qdot_status status = qdot_interrupt_check();
 
         request.tol = ladder[k];
+        qdot_progress_within("%s, tol %.0e", lane->name, request.tol);
         if (status == QDOT_OK)
             status = one_run(r, scene, &request, state, &lane->entry[k]);
         if (is_its_own(status))
@@ -316,6 +318,9 @@ qdot_race_hold(qdot_scene *scene, const qdot_run_request *request, qdot_race *re
     status = r.end ? run_all(&r) : QDOT_ENOMEM;
     qdot_run_free(r.reference);
     qdot_free(r.end);
+    result->interrupted = status == QDOT_EINTR && result->lane[0].entry[0].method != NULL;
+    if (result->interrupted)
+        return QDOT_OK;
     if (status != QDOT_OK)
         qdot_race_clear(result);
     return status;

@@ -34,6 +34,7 @@ typedef struct {
     size_t coordinates, minimal; /* as given; in minimal coordinates, 0: there are none */
     double reference_tol, reference_error;
     char *notice; /* of the start; NULL */
+    bool interrupted; /* by Ctrl-C: the rows so far */
 } qdot_race;
 
 /* request: its tol, method and treatment are not used. Errors: as qdot_run_new; QDOT_EFAILED

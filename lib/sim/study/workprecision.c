@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "ode/integrate.h"
 #include "sim/course/bind.h"
 #include "sim/course/course.h"
@@ -406,6 +407,7 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
     qdot_ode_options options = {
         .tol = tol, .carry = w->low, .t1_low = w->t1_low};
 
+    qdot_progress_begin(w->t0, w->t1, "%s, tol %.0e", w->plan->method->name, tol);
     if (w->pieces)
         return go_in_pieces(w, tol, watched, result);
     memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
@@ -571,6 +573,9 @@ measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *
         if (status == QDOT_ENOTBUILT)
             status = push_unfit(out, method);
     }
+    out->interrupted = status == QDOT_EINTR && out->n > 0;
+    if (out->interrupted)
+        status = QDOT_OK;
     qdot_free(r.high);
     return status;
 }

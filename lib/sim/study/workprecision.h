@@ -54,6 +54,7 @@ typedef struct {
     size_t n_unfit, unfit_capacity;
     qdot_workprecision_unfit *unfit;
     double ref_err; /* error of the reference, as err */
+    bool interrupted; /* by Ctrl-C: the rows so far */
     bool constraints; /* the scene has constraints */
 } qdot_workprecision;
 

@@ -17,7 +17,7 @@ syntax keyword qdotTodo TODO FIXME contained
 " words
 syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
-syntax keyword qdotWord contained events force forces function gravity help include
+syntax keyword qdotWord contained events export force forces function gravity help include
 syntax keyword qdotWord contained lagrangian modes param particle plan plot potential
 syntax keyword qdotWord contained print quit race reactions redo remove report reset run
 syntax keyword qdotWord contained save scene set show spring start style table timing

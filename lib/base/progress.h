@@ -1,0 +1,63 @@
+/* progress.h -- how far long work is, for a person who waits.
+ *
+ * A program that wants to show it opens a progress in its thread. Work that goes on in this thread
+ * then tells where it is; threads of its own tell nothing. Integration loops call
+ * qdot_progress_at at each step: without a progress this costs one test, with one a count, and the
+ * clock is read some twenty times a second.
+ *
+ * Tests  tests/base/test_progress.c, tests/src/test_prompt.c
+ */
+#ifndef QDOT_BASE_PROGRESS_H
+#define QDOT_BASE_PROGRESS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct qdot_progress {
+    const char *what; /* "run", "dop853, tol 1e-09" */
+    double t0, t1, t; /* of it: from, to, reached */
+    double speed;     /* steps a second; 0: not known yet */
+    double left;      /* seconds; NaN: not known yet */
+    /* called after half a second and then some times a second; it may show a line */
+    void (*show)(const struct qdot_progress *progress);
+    /* called before anything else is written, if a line was shown */
+    void (*clear)(void);
+
+    /* its own */
+    char text[80], within[80];
+    uint64_t steps, pause,
+        until;                  /* steps since `what` began; between looks at the clock */
+    double begun, opened, last; /* seconds: of this work, of all, of the line shown */
+    bool shown;
+} qdot_progress;
+
+/* The progress of this thread; NULL: nobody waits. */
+extern _Thread_local qdot_progress *qdot_progress_open;
+
+/* Work on t0..t1 begins, called by that name (printf). */
+void qdot_progress_begin(double t0, double t1, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* What begins from now on, until the line is taken away, is part of this (printf), and is called
+ * so. */
+void qdot_progress_within(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* A look at the clock is due. */
+void qdot_progress_look(qdot_progress *progress);
+
+/* A step has reached t. */
+static inline void
+qdot_progress_at(double t)
+{
+    qdot_progress *progress = qdot_progress_open;
+
+    if (progress && ++progress->steps >= progress->until) {
+        progress->t = t;
+        qdot_progress_look(progress);
+    }
+}
+
+/* Take the line away, if there is one. What goes on is waited for anew. */
+void qdot_progress_clear(void);
+
+#endif

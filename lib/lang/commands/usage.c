@@ -1,0 +1,493 @@
+/* usage.c -- what may stand next in a statement, by the usage text of its row. */
+#include "lang/commands/usage.h"
+
+#include <ctype.h>
+
+/* --- the tokens of a usage text ------------------------------------------------------ */
+
+typedef enum { WORD, HOLE, SIGN, OPEN, CLOSE, BAR, TIGHT, MORE } piece_kind;
+
+typedef struct {
+    piece_kind kind;
+    char text[QDOT_USAGE_TEXT];
+} piece;
+
+enum { PIECES = 160, TO_END = -1 };
+
+typedef struct {
+    qdot_usage *u;
+    const char *word; /* the statement's */
+    piece piece[PIECES];
+    int n;
+    char before[QDOT_USAGE_TEXT]; /* the last word compiled */
+    unsigned options;
+    bool failed;
+} compiler;
+
+static void
+add_piece(compiler *c, piece_kind kind, const char *text, size_t length)
+{
+    if (c->n >= PIECES || length >= QDOT_USAGE_TEXT) {
+        c->failed = true;
+        return;
+    }
+    c->piece[c->n].kind = kind;
+    memcpy(c->piece[c->n].text, text, length);
+    c->piece[c->n++].text[length] = '\0';
+}
+
+/* The end of a hole: NAME, T0..T1, Q', F(ARGUMENTS). */
+static const char *
+end_of_hole(const char *at)
+{
+    while (isupper((unsigned char)*at) || isdigit((unsigned char)*at) || *at == '\'' ||
+           *at == '_')
+        at++;
+    if (strncmp(at, "..", 2) == 0 && isupper((unsigned char)at[2]))
+        return end_of_hole(at + 2);
+    if (*at == '(' && strchr(at, ')') != NULL)
+        return strchr(at, ')') + 1;
+    return at;
+}
+
+static const char *
+next_piece(compiler *c, const char *at, bool blank)
+{
+    const char *end = at + 1;
+
+    if (strncmp(at, "...", 3) == 0) {
+        add_piece(c, MORE, at, 3);
+        return at + 3;
+    }
+    if (islower((unsigned char)*at)) {
+        while (islower((unsigned char)*end) || *end == '_' ||
+               isdigit((unsigned char)*end))
+            end++;
+        add_piece(c, WORD, at, (size_t)(end - at));
+    } else if (isupper((unsigned char)*at)) {
+        end = end_of_hole(at);
+        add_piece(c, HOLE, at, (size_t)(end - at));
+    } else if (*at == '"' && strchr(end, '"') != NULL) {
+        end = strchr(end, '"') + 1;
+        add_piece(c, HOLE, at, (size_t)(end - at));
+    } else if (*at == '(' && strchr(end, ')') != NULL) {
+        end = strchr(end, ')') + 1;
+        add_piece(c, HOLE, "(...)", 5);
+    } else if (isdigit((unsigned char)*at)) {
+        add_piece(c, HOLE, at, 1);
+    } else if (*at == '[' || *at == ']') {
+        add_piece(c, *at == '[' ? OPEN : CLOSE, at, 1);
+    } else if (*at == '|') {
+        const bool sign = c->n > 0 && c->piece[c->n - 1].kind == OPEN;
+
+        add_piece(c, sign ? SIGN : blank ? BAR : TIGHT, at, 1);
+    } else {
+        end += at[0] == '=' && at[1] == '=';
+        add_piece(c, SIGN, at, (size_t)(end - at));
+    }
+    return end;
+}
+
+/* --- the automaton ------------------------------------------------------------------- */
+
+static int
+emit(compiler *c, int kind, const char *text)
+{
+    qdot_usage *u = c->u;
+    qdot_usage_node *node = &u->node[u->n < QDOT_USAGE_NODES ? u->n : 0];
+
+    if (u->n >= QDOT_USAGE_NODES) {
+        c->failed = true;
+        return 0;
+    }
+    *node = (qdot_usage_node){.next = u->n + 1, .other = -1};
+    node->kind = kind;
+    strcpy(node->text, text);
+    strcpy(node->before, c->before);
+    return u->n++;
+}
+
+static void compile(compiler *c, int from, int to);
+
+/* The piece behind the group that opens at i. */
+static int
+behind_group(const compiler *c, int i, int to)
+{
+    int depth = 0;
+
+    do {
+        depth += c->piece[i].kind == OPEN;
+        depth -= c->piece[i].kind == CLOSE;
+        i++;
+    } while (depth > 0 && i < to);
+    return i;
+}
+
+/* The first piece of that kind and text at depth 0 of [from, to); `to`: none. */
+static int
+find(const compiler *c, int from, int to, piece_kind kind, const char *text)
+{
+    while (from < to && (c->piece[from].kind != kind ||
+                         (text != NULL && strcmp(c->piece[from].text, text) != 0)))
+        from = c->piece[from].kind == OPEN ? behind_group(c, from, to) : from + 1;
+    return from < to ? from : to;
+}
+
+/* The jumps TO_END among the nodes [start, last] lead behind all that was compiled. */
+static void
+lead_to_end(compiler *c, int start, int last)
+{
+    for (int i = start; i <= last; i++)
+        if (c->u->node[i].next == TO_END)
+            c->u->node[i].next = c->u->n;
+}
+
+/* Alternatives: [from, to) cut at each separator. */
+static void
+compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separator)
+{
+    const int start = c->u->n;
+    int last = -1; /* jump to the end */
+
+    for (;;) {
+        const int end = find(c, from, to, kind, separator);
+        const int fork = end < to ? emit(c, QDOT_USAGE_FORK, "") : -1;
+
+        compile(c, from, end);
+        if (end >= to)
+            break;
+        last = emit(c, QDOT_USAGE_FORK, "");
+        c->u->node[last].next = TO_END;
+        c->u->node[fork].other = c->u->n;
+        from = end + 1;
+    }
+    lead_to_end(c, start, last);
+}
+
+/* A run of options [a] [b] [c], each at most once, in any order; returns what is behind it. */
+static int
+compile_options(compiler *c, int i, int to)
+{
+    const int start = c->u->n;
+    char before[QDOT_USAGE_TEXT];
+    int n = 0, k;
+
+    for (k = i; k < to && c->piece[k].kind == OPEN; k = behind_group(c, k, to), n++)
+        (void)emit(c, QDOT_USAGE_FORK, "");
+    (void)emit(c, QDOT_USAGE_FORK, ""); /* to the end */
+    strcpy(before, c->before);
+    for (int option = start; option < start + n; option++, i = k) {
+        k = behind_group(c, i, to);
+        c->u->node[option].next = c->u->n;
+        c->u->node[option].other = option + 1;
+        c->u->node[option].enters = (uint64_t)1 << (c->options++ & 63);
+        strcpy(c->before, before);
+        compile(c, i + 1, k - 1);
+        c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = start;
+    }
+    c->u->node[start + n].next = c->u->n;
+    strcpy(c->before, before);
+    c->failed = c->failed || c->options > 64;
+    return i;
+}
+
+/* The list X, Y, ... of the pieces [from, comma), which end before the last comma. */
+static void
+compile_list(compiler *c, int from, int comma)
+{
+    const int start = c->u->n;
+    const unsigned options = c->options;
+    int fork;
+
+    compile_cut(c, from, comma, SIGN, ",");
+    fork = emit(c, QDOT_USAGE_FORK, "");
+    (void)emit(c, QDOT_USAGE_SIGN, ",");
+    c->u->node[fork].next = fork + 1;
+    c->u->node[fork].other = fork + 3;
+    fork = emit(c, QDOT_USAGE_FORK, "");
+    c->u->node[fork].next = start;
+    for (unsigned k = options; k < c->options && k < 64; k++)
+        c->u->node[fork].forgets |= (uint64_t)1 << k;
+}
+
+/* Words or holes a|b|c at i; returns what is behind them. */
+static int
+compile_words(compiler *c, int i, int to)
+{
+    int end = i + 1;
+
+    while (end + 1 < to && c->piece[end].kind == TIGHT)
+        end += 2;
+    if (end > i + 1) {
+        compile_cut(c, i, end, TIGHT, NULL);
+    } else {
+        const bool word = c->piece[i].kind == WORD;
+
+        (void)emit(c, word ? QDOT_USAGE_WORD : QDOT_USAGE_HOLE, c->piece[i].text);
+        if (word)
+            strcpy(c->before, c->piece[i].text);
+    }
+    return end;
+}
+
+/* Where the list ends that begins at i: its last comma; i: there is none. */
+static int
+end_of_list(const compiler *c, int i, int to)
+{
+    const int more = find(c, i, to, MORE, NULL);
+
+    if (more >= to || more == i || strcmp(c->piece[more - 1].text, ",") != 0 ||
+        find(c, i, more, WORD, NULL) < more || find(c, i, more, SIGN, ":") < more)
+        return i;
+    return more - 1;
+}
+
+/* Pieces one after the other, without alternatives. */
+static void
+compile_sequence(compiler *c, int i, int to)
+{
+    while (i < to && !c->failed) {
+        const piece *p = &c->piece[i];
+        const int comma = p->kind == HOLE ? end_of_list(c, i, to) : i;
+        int fork;
+
+        if (comma > i) {
+            compile_list(c, i, comma);
+            i = comma + 2;
+        } else if (p->kind == WORD && i + 1 < to && c->piece[i + 1].kind == MORE &&
+                   strcmp(p->text, c->word) == 0) { /* the statement begins again */
+            (void)emit(c, QDOT_USAGE_WORD, p->text);
+            fork = emit(c, QDOT_USAGE_FORK, "");
+            c->u->node[fork].next = 1;
+            c->u->node[fork].forgets = UINT64_MAX;
+            i += 2;
+        } else if (p->kind == WORD ||
+                   (p->kind == HOLE && i + 1 < to && c->piece[i + 1].kind == TIGHT)) {
+            i = compile_words(c, i, to);
+        } else if (p->kind == OPEN) {
+            i = compile_options(c, i, to);
+        } else if (p->kind == SIGN) {
+            (void)emit(c, QDOT_USAGE_SIGN, p->text);
+            i++;
+        } else if (p->kind == MORE) { /* as much as one likes */
+            fork = emit(c, QDOT_USAGE_FORK, "");
+            (void)emit(c, QDOT_USAGE_HOLE, p->text);
+            c->u->node[emit(c, QDOT_USAGE_FORK, "")].next = fork;
+            c->u->node[fork].other = c->u->n;
+            i++;
+        } else if (p->kind == HOLE) {
+            (void)emit(c, QDOT_USAGE_HOLE, p->text);
+            i++;
+            if (i + 1 < to && strcmp(c->piece[i].text, "==") == 0)
+                i += 2;
+        } else {
+            c->failed = true;
+        }
+    }
+}
+
+/* Alternatives from the last word before the first bar on. */
+static void
+compile_tail(compiler *c, int from, int to)
+{
+    const int bar = find(c, from, to, BAR, NULL);
+    int last = from;
+
+    for (int i = find(c, from, bar, WORD, NULL); i < bar;
+         i = find(c, i + 1, bar, WORD, NULL))
+        last = i;
+    if (bar == to) {
+        compile_sequence(c, from, to);
+    } else if (last > from) {
+        compile_sequence(c, from, last);
+        compile_cut(c, last, to, BAR, NULL);
+    } else {
+        compile_cut(c, from, to, BAR, NULL);
+    }
+}
+
+/* Alternatives that begin with the statement's word, then the others. */
+static void
+compile(compiler *c, int from, int to)
+{
+    const int start = c->u->n;
+    int last = -1;
+
+    for (;;) {
+        int end = find(c, from, to, BAR, NULL), fork;
+
+        while (end < to && strcmp(c->piece[end + 1].text, c->word) != 0)
+            end = find(c, end + 1, to, BAR, NULL);
+        if (end >= to)
+            break;
+        fork = emit(c, QDOT_USAGE_FORK, "");
+        compile_tail(c, from, end);
+        last = emit(c, QDOT_USAGE_FORK, "");
+        c->u->node[last].next = TO_END;
+        c->u->node[fork].other = c->u->n;
+        from = end + 1;
+    }
+    compile_tail(c, from, to);
+    lead_to_end(c, start, last);
+}
+
+static void
+cut_into_pieces(compiler *c, const char *text)
+{
+    c->n = 0;
+    for (const char *at = text + strspn(text, " "); *at != '\0' && !c->failed;) {
+        at = next_piece(c, at, at > text && at[-1] == ' ');
+        at += strspn(at, " ");
+    }
+}
+
+/* --- going on by tokens -------------------------------------------------------------- */
+
+static void
+add_state(qdot_usage *u, int node, bool inside, uint64_t taken)
+{
+    const qdot_usage_node *at = &u->node[node];
+
+    for (int i = 0; i < u->states; i++)
+        if (u->state[i].node == node && u->state[i].inside == inside &&
+            u->state[i].taken == taken)
+            return;
+    if (u->states >= QDOT_USAGE_STATES)
+        return; /* offers less */
+    u->state[u->states++] = (qdot_usage_state){node, inside, taken};
+    if (inside) {
+        if (u->operand)
+            add_state(u, at->next, false, taken);
+    } else if (at->kind == QDOT_USAGE_FORK) {
+        taken &= ~at->forgets;
+        if ((taken & at->enters) == 0)
+            add_state(u, at->next, false, taken | at->enters);
+        if (at->other >= 0)
+            add_state(u, at->other, false, taken);
+    }
+}
+
+bool
+qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers)
+{
+    compiler c = {.u = u, .word = word};
+
+    u->n = u->states = 0;
+    u->operand = false;
+    cut_into_pieces(&c, usage);
+    if (!c.failed)
+        compile(&c, 0, c.n);
+    cut_into_pieces(&c, answers ? "[to \"FILE\"] [for NAME = A..B, NAME = A..B, ...]"
+                                : "[for NAME = A..B, NAME = A..B, ...]");
+    if (!c.failed)
+        compile(&c, 0, c.n);
+    (void)emit(&c, QDOT_USAGE_END, "");
+    if (c.failed)
+        return false;
+    add_state(u, 0, false, 0);
+    return true;
+}
+
+static bool
+is_connective(const qdot_token *token)
+{
+    return qdot_token_is_word(token, "and") || qdot_token_is_word(token, "or") ||
+           qdot_token_is_word(token, "not");
+}
+
+/* Whether a token that goes on with an operand, or follows an operator, belongs to the hole. */
+static bool
+continues(const qdot_usage *u, const qdot_usage_node *hole, const qdot_token *token)
+{
+    if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, ",") ||
+        qdot_token_is(token, ":") || qdot_token_is(token, "|"))
+        return false;
+    if (qdot_token_is(token, "=") && u->node[hole->next].kind == QDOT_USAGE_SIGN)
+        return false; /* NAME = VALUE */
+    if (!u->operand || is_connective(token))
+        return true;
+    if (token->kind == QDOT_TOKEN_OPERATOR && strchr("([", token->text[0]) != NULL)
+        return token->glued;
+    return token->kind == QDOT_TOKEN_OPERATOR ||
+           (token->kind == QDOT_TOKEN_NUMBER && token->glued &&
+            qdot_token_is(token - 1, "%"));
+}
+
+static bool
+begins(const qdot_token *token)
+{
+    return token->kind != QDOT_TOKEN_END && !qdot_token_is(token, ",") &&
+           !qdot_token_is(token, ":") && !qdot_token_is(token, "=");
+}
+
+/* Whether an operand ends with the token, or with the bracket that it opens. */
+static bool
+ends_operand(const qdot_token *token)
+{
+    if (token->kind != QDOT_TOKEN_OPERATOR)
+        return token->kind != QDOT_TOKEN_END && !is_connective(token);
+    return strchr("([{)]}'%", token->text[0]) != NULL;
+}
+
+/* Whether the state is before a word or sign that the token is. */
+static bool
+is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *token)
+{
+    const qdot_usage_node *at = &u->node[state->node];
+    const bool same = (at->kind == QDOT_USAGE_WORD && token->kind == QDOT_TOKEN_NAME) ||
+                      (at->kind == QDOT_USAGE_SIGN && token->kind == QDOT_TOKEN_OPERATOR);
+
+    return same && !state->inside && strcmp(at->text, token->text) == 0;
+}
+
+static void
+take(qdot_usage *u, const qdot_token *token)
+{
+    qdot_usage_state old[QDOT_USAGE_STATES];
+    const int n = u->states;
+    const bool operand = u->operand, after = ends_operand(token);
+    bool word = false; /* a word of the usage is that, and begins no operand */
+
+    memcpy(old, u->state, sizeof *old * (size_t)n);
+    u->states = 0;
+    for (int i = 0; i < n; i++)
+        word = word || (u->node[old[i].node].kind == QDOT_USAGE_WORD &&
+                        is_next(u, &old[i], token));
+    for (int i = 0; i < n; i++) {
+        const qdot_usage_node *at = &u->node[old[i].node];
+
+        u->operand = operand;
+        if (at->kind == QDOT_USAGE_HOLE &&
+            (old[i].inside ? continues(u, at, token) : begins(token) && !word)) {
+            u->operand = after;
+            add_state(u, old[i].node, true, old[i].taken);
+        } else if (is_next(u, &old[i], token)) {
+            u->operand = after;
+            add_state(u, at->next, false, old[i].taken);
+        }
+    }
+    u->operand = after;
+}
+
+void
+qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to)
+{
+    while (from < to) {
+        int depth = 0;
+
+        take(u, from);
+        do {
+            depth += qdot_token_bracket(from);
+            from++;
+        } while (depth > 0 && from < to);
+    }
+}
+
+bool
+qdot_usage_is_whole(const qdot_usage *u)
+{
+    for (int i = 0; i < u->states; i++)
+        if (u->node[u->state[i].node].kind == QDOT_USAGE_END)
+            return true;
+    return false;
+}

@@ -1,0 +1,71 @@
+/* usage.h -- what may stand next in a statement, by the usage text of its row.
+ *
+ * The usage texts that `help` prints are a grammar:
+ *
+ *     word          a word of the language               tol, method
+ *     HOLE          what a person writes                 EXPR, T0..T1, "FILE", F(ARGUMENTS)
+ *     [ ... ]       may be left out; several, one directly after the other, come in any order
+ *     a|b|c         one of these words or holes
+ *     A ... | B     alternatives, within [ ] or of the whole. An alternative that does not begin
+ *                   with the statement's word replaces the usage from the last word before the
+ *                   first bar: `force F on PARTICLE | at POINT`
+ *     X, Y, ...     a list, of X and Y in any order
+ *     [| run ...]   the sign, behind which the statement begins again
+ *     , : = < > ==  themselves; around `==` the two sides are read as one expression
+ *
+ * Every statement may go on with `for NAME = A..B`, and one that answers with `to "FILE"`.
+ *
+ * The text is compiled to a small automaton, as a regular expression would be. A hole takes
+ * tokens as the language does: a name, number or string directly after a complete operand does
+ * not belong to it.
+ *
+ * Tests  tests/lang/test_complete.c: every row compiles, and its example follows its usage.
+ */
+#ifndef QDOT_LANG_USAGE_H
+#define QDOT_LANG_USAGE_H
+
+#include "lang/source/token.h"
+
+enum { QDOT_USAGE_NODES = 160, QDOT_USAGE_TEXT = 24, QDOT_USAGE_STATES = 96 };
+
+/* A node; `before` is the last word of the usage before it. */
+typedef struct {
+    enum {
+        QDOT_USAGE_WORD,
+        QDOT_USAGE_SIGN,
+        QDOT_USAGE_HOLE,
+        QDOT_USAGE_FORK,
+        QDOT_USAGE_END
+    } kind;
+    char text[QDOT_USAGE_TEXT], before[QDOT_USAGE_TEXT];
+    int next, other;  /* nodes; other < 0 but for a FORK: none */
+    uint64_t enters;  /* FORK: the option that `next` begins; it may be taken once */
+    uint64_t forgets; /* FORK: the options of an item of a list, which begins anew */
+} qdot_usage_node;
+
+/* A place in the automaton: before the node, or (inside) in the hole that it is. */
+typedef struct {
+    int node;
+    bool inside;
+    uint64_t taken; /* options */
+} qdot_usage_state;
+
+typedef struct {
+    qdot_usage_node node[QDOT_USAGE_NODES];
+    int n;
+    qdot_usage_state state[QDOT_USAGE_STATES]; /* what the tokens so far allow */
+    int states;
+    bool operand; /* the last token ends an operand */
+} qdot_usage;
+
+/* Compile; `word` is the statement's, "" where the usage has none. answers: `to "FILE"` may follow.
+ * false: too large, or no usage text; nothing may be asked then. */
+bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool answers);
+
+/* Go on by the tokens [from, to) of the statement, the first its word. Those within brackets that are closed go with the opening one. */
+void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);
+
+/* Whether what was read is a whole statement. */
+bool qdot_usage_is_whole(const qdot_usage *u);
+
+#endif

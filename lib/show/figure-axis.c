@@ -1,0 +1,313 @@
+/* figure-axis.c -- axes of a figure: their tics, offset, power of ten.
+ *
+ * Tics are listed one by one, so that they are the same whatever gnuplot's version, and differ
+ * from each other however near the values are.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "show/figure-parts.h"
+
+enum { EXACT = 17, TIC = 12, MOST_TICS = 40 };
+
+/* 1, 2 or 5 times a power of ten, so that `span` takes about `steps` of them; 0: there is none. */
+static double
+nice_step(double span, double steps)
+{
+    const double ten = pow(10, floor(log10(span / steps))), times = span / steps / ten;
+
+    return !isfinite(ten) || ten == 0 ? 0
+           : times < 1.5              ? ten
+           : times < 3.5              ? 2 * ten
+           : times < 7.5              ? 5 * ten
+                                      : 10 * ten;
+}
+
+/* printf, with a point whatever the locale. */
+static void
+print_number(char *out, size_t size, const char *format, int digits, double value)
+{
+    snprintf(out, size, format, digits, value);
+    for (; *out != '\0'; out++)
+        if (*out == ',')
+            *out = '.';
+}
+
+/* A minus sign as it is printed in front of a positive number. */
+static void
+add_signed(qdot_text *out, const char *number)
+{
+    if (number[0] == '-')
+        qdot_text_add(out, "−");
+    qdot_text_add(out, number + (number[0] == '-'));
+}
+
+/* --- offset and power ----------------------------------------------------------------- */
+
+/* The middle, rounded to the power of ten above the span: of few digits and near. */
+static void
+choose_offset(qdot_figure_axis *a)
+{
+    const double span = a->most - a->least, middle = a->least + span / 2;
+    const double digits = floor(log10(fabs(middle))) - ceil(log10(span));
+    char number[32], *exponent;
+    int power;
+
+    snprintf(number, sizeof number, "%.*e", (int)fmin(fmax(digits, 0), 16), middle);
+    a->offset = strtod(number, NULL); /* in the same locale */
+    print_number(number, sizeof number, "%.*e", (int)fmin(fmax(digits, 0), 16), middle);
+    exponent = strchr(number, 'e');
+    power = atoi(exponent + 1);
+    if (power >= -5 && power < 16) {
+        print_number(number, sizeof number, "%.*f", (int)fmin(fmax(digits - power, 0), 20),
+                     a->offset);
+        exponent = NULL;
+    } else {
+        *exponent = '\0';
+    }
+    if (strchr(number, '.') != NULL) { /* without zeros at the end */
+        size_t n = strlen(number);
+
+        while (number[n - 1] == '0')
+            n--;
+        number[n - (number[n - 1] == '.')] = '\0';
+    }
+    snprintf(a->offset_text, sizeof a->offset_text, "%s", number + (number[0] == '-'));
+    if (exponent != NULL)
+        snprintf(a->offset_text + strlen(a->offset_text),
+                 sizeof a->offset_text - strlen(a->offset_text), "·10^{%s%d}",
+                 power < 0 ? "−" : "", abs(power));
+}
+
+int
+qdot_figure_power(double least, double most)
+{
+    const double largest = fmax(fabs(least), fabs(most));
+
+    return largest >= 2e-3 && largest < 1e5
+               ? 0
+               : (int)fmin(fmax(floor(log10(largest)), -300), 300);
+}
+
+qdot_figure_axis
+qdot_figure_axis_of(double least, double most, bool log, double steps, const int *power)
+{
+    qdot_figure_axis a = {.least = least, .most = most, .log = log};
+    double largest = fmax(fabs(least), fabs(most));
+
+    if (log || !isfinite(most - least) || !(most > least))
+        return a;
+    if (nice_step(most - least, steps) < 2e-5 * largest && (least > 0) == (most > 0)) {
+        choose_offset(&a);
+        a.least -= a.offset;
+        a.most -= a.offset;
+    }
+    a.power = power != NULL ? *power : qdot_figure_power(a.least, a.most);
+    a.least /= pow(10, a.power);
+    a.most /= pow(10, a.power);
+    a.step = nice_step(a.most - a.least, steps);
+    return a;
+}
+
+/* --- tics ----------------------------------------------------------------------------- */
+
+static void
+add_linear_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+{
+    const int decimals = (int)fmax(0, -floor(log10(a->step) + 1e-9));
+    const double first = ceil(a->least / a->step - 1e-9);
+    const double last = floor(a->most / a->step + 1e-9);
+
+    for (double k = first; k <= last && k < first + MOST_TICS; k++) {
+        char number[64];
+        qdot_text label = {0};
+
+        print_number(number, sizeof number, "%.*f", decimals, k == 0 ? 0 : k * a->step);
+        add_signed(&label, number);
+        qdot_text_add(script, k > first ? ", " : "");
+        qdot_figure_add_quoted(script, bare ? "" : qdot_text_str(&label));
+        qdot_text_char(script, ' ');
+        qdot_text_double(script, k == 0 ? 0 : k * a->step, TIC);
+        if (strlen(number) > *width)
+            *width = strlen(number);
+        script->failed = script->failed || label.failed;
+        qdot_text_clear(&label);
+    }
+}
+
+/* plain: 0.1, 1, 20; else 10^k, times 2 or 5. */
+static void
+add_power_of_ten(qdot_text *script, int times, int power, bool plain, size_t *width)
+{
+    qdot_text label = {0};
+
+    if (plain && power >= 0) {
+        qdot_text_double(&label, times * pow(10, power), 4);
+    } else if (plain) {
+        qdot_text_double(&label, times / pow(10, -power), 4);
+    } else {
+        if (times > 1 || power == 0)
+            qdot_text_format(&label, power != 0 ? "%d·" : "%d", times);
+        if (power != 0)
+            qdot_text_format(&label, "10^{%s%d}", power < 0 ? "−" : "", abs(power));
+    }
+    if (label.n > *width + (plain ? 0 : 5))
+        *width = label.n - (plain ? 0 : 5);
+    qdot_figure_add_quoted(script, qdot_text_str(&label));
+    script->failed = script->failed || label.failed;
+    qdot_text_clear(&label);
+}
+
+/* Whether times * 10^k has a number on an axis of so many powers of ten: at most nine powers; on
+ * a short axis 2 and 5 times them too, on a very short one all. */
+static bool
+is_large(int times, int k, double decades)
+{
+    const int stride = (int)ceil(decades / 8);
+
+    if (times == 1)
+        return k % stride == 0;
+    return decades < 0.6 || (decades < 1.5 && (times == 2 || times == 5));
+}
+
+static void
+add_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+{
+    const double low = log10(a->least), high = log10(a->most), decades = high - low;
+    const bool plain = low > -2.01 && high < 3.99;
+    bool some = false;
+
+    for (int k = (int)floor(low); k <= (int)ceil(high); k++)
+        for (int times = 1; times < (decades > 8 ? 2 : 10); times++) {
+            const double at = times * pow(10, k);
+            const bool large = is_large(times, k, decades);
+
+            if (at < a->least * (1 - 1e-12) || at > a->most * (1 + 1e-12))
+                continue;
+            qdot_text_add(script, some ? ", " : "");
+            some = true;
+            if (large && !bare)
+                add_power_of_ten(script, times, k, plain, width);
+            else
+                qdot_text_add(script, "''");
+            qdot_text_char(script, ' ');
+            qdot_text_double(script, at, TIC);
+            qdot_text_add(script, large ? "" : " 1");
+        }
+}
+
+/* An axis of less than a factor of two is marked like a linear one. */
+static void
+add_short_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
+{
+    const double step = nice_step(a->most - a->least, 5);
+    bool some = false;
+
+    for (double k = ceil(a->least / step); k <= floor(a->most / step) && step > 0; k++) {
+        qdot_text label = {0};
+
+        qdot_text_double(&label, k * step, 4);
+        qdot_text_add(script, some ? ", " : "");
+        qdot_figure_add_quoted(script, bare ? "" : qdot_text_str(&label));
+        qdot_text_char(script, ' ');
+        qdot_text_double(script, k * step, TIC);
+        some = true;
+        if (label.n > *width)
+            *width = label.n;
+        script->failed = script->failed || label.failed;
+        qdot_text_clear(&label);
+    }
+}
+
+void
+qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *a, bool bare,
+                     size_t *width)
+{
+    if (!a->log && a->step == 0) { /* beyond what doubles can divide */
+        qdot_text_format(script, "set %crange [*:*]\nset %ctics autofreq\n", name, name);
+        return;
+    }
+    qdot_text_format(script, a->log ? "set logscale %c\n" : "unset logscale %c\n", name);
+    qdot_text_format(script, "set %crange [", name);
+    qdot_text_double(script, a->least, EXACT);
+    qdot_text_char(script, ':');
+    qdot_text_double(script, a->most, EXACT);
+    qdot_text_format(script, "]\nset %ctics (", name);
+    if (!a->log)
+        add_linear_tics(script, a, bare, width);
+    else if (a->most < 2 * a->least)
+        add_short_log_tics(script, a, bare, width);
+    else
+        add_log_tics(script, a, bare, width);
+    qdot_text_add(script, ")\n");
+}
+
+/* --- the label of an axis ------------------------------------------------------------- */
+
+static bool
+is_compound(const char *text)
+{
+    return strpbrk(text, " ,+-*/") != NULL;
+}
+
+void
+qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *a,
+                           const qdot_figure_label *label)
+{
+    const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
+    qdot_figure_label own = *label;
+    qdot_text markup = {0};
+    char letter[2] = {name, '\0'};
+
+    if (name == 'y')
+        qdot_text_add(script, "unset label 1\n");
+    if (!moved && !scaled) {
+        qdot_text_format(script, "set %clabel ", name);
+        qdot_figure_add_label(script, label);
+        qdot_text_add(script, name == 'x' ? " offset 0,0.5\n" : "\n");
+        return;
+    }
+    if (own.text == NULL || own.text[0] == '\0')
+        own = (qdot_figure_label){letter, false};
+    qdot_text_add(&markup, moved && scaled ? "(" : "");
+    qdot_text_add(&markup, is_compound(own.text) ? "(" : "");
+    qdot_figure_add_markup(&markup, &own);
+    qdot_text_add(&markup, is_compound(own.text) ? ")" : "");
+    if (moved)
+        qdot_text_format(&markup, a->offset > 0 ? " − %s" : " + %s", a->offset_text);
+    qdot_text_add(&markup, moved && scaled ? ")" : "");
+    if (scaled)
+        qdot_text_format(&markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
+    if (name == 'y' && moved) /* long: above the axis */
+        qdot_text_add(script, "unset ylabel\nset label 1 ");
+    else
+        qdot_text_format(script, "set %clabel ", name);
+    qdot_figure_add_quoted(script, qdot_text_str(&markup));
+    qdot_text_add(script, name == 'x'  ? " enhanced offset 0,0.5\n"
+                          : name == 'y' && moved
+                              ? " at graph 0, graph 1 offset -4,0.9 left enhanced\n"
+                          : " enhanced\n");
+    script->failed = script->failed || markup.failed;
+    qdot_text_clear(&markup);
+}
+
+void
+qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *a)
+{
+    if (a->offset == 0 && a->power == 0) {
+        qdot_text_format(script, "%d", column);
+        return;
+    }
+    qdot_text_format(script, "(($%d", column);
+    if (a->offset != 0) {
+        qdot_text_add(script, "-(");
+        qdot_text_double(script, a->offset, EXACT);
+        qdot_text_char(script, ')');
+    }
+    qdot_text_char(script, ')');
+    if (a->power != 0)
+        qdot_text_format(script, "/1e%d", a->power);
+    qdot_text_char(script, ')');
+}

@@ -1,0 +1,157 @@
+/* figure-image.c -- kinds of images; a figure drawn into its file, or a window. */
+#include "show/figure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "show/figure-parts.h"
+#include "show/gnuplot.h"
+#include "show/sink.h"
+
+/* --- kinds of image ----------------------------------------------------------------- */
+
+/* A terminal is chosen at gnuplot's side, because which ones it has differs. */
+static const qdot_figure_kind kinds[] = {
+    {".svg", 96 / 2.54, 1.2, 96. / 72, 1.6,
+     "set terminal svg enhanced background '#ffffff'", ""},
+    {".png", 200 / 2.54, 2.6, 200. / 96, 1.4,
+     "png = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0 ? 'pngcairo' : 'png'\n"
+     "set terminal @png enhanced",
+     ""},
+    {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm"},
+};
+
+static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {\n"
+                                      "set terminal qt enhanced\n"
+                                      "} else {\n"
+                                      "if (strstrt(GPVAL_TERMINALS, 'wxt') > 0) {\n"
+                                      "set terminal wxt enhanced\n"
+                                      "} else {\n"
+                                      "if (strstrt(GPVAL_TERMINALS, 'x11') > 0) {\n"
+                                      "set terminal x11 enhanced\n"
+                                      "} else {\n"
+                                      "exit error 'this gnuplot cannot open a window'\n"
+                                      "}\n"
+                                      "}\n"
+                                      "}\n";
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static const qdot_figure_kind *
+kind_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot;
+
+    dot = strrchr(slash != NULL ? slash : path, '.');
+    for (int i = 0; dot != NULL && i < KINDS; i++)
+        if (strcmp(dot, kinds[i].ending) == 0)
+            return &kinds[i];
+    return NULL;
+}
+
+static void
+add_terminal(const qdot_figure_drawing *d)
+{
+    qdot_text *s = d->script;
+
+    if (d->kind == NULL) {
+        qdot_text_add(s, window_terminal);
+        return;
+    }
+    qdot_text_add(s, d->kind->before);
+    qdot_text_add(s, " size ");
+    qdot_text_double(s, d->kind->dots > 1 ? round(d->width * d->kind->dots) : d->width, 6);
+    qdot_text_add(s, d->kind->behind);
+    qdot_text_char(s, ',');
+    qdot_text_double(s, d->kind->dots > 1 ? round(d->height * d->kind->dots) : d->height, 6);
+    qdot_text_format(s, "%s font 'sans%s,", d->kind->behind,
+                     strcmp(d->kind->ending, ".svg") == 0 ? "-serif" : "");
+    qdot_text_double(s, d->points * d->kind->point, 4);
+    qdot_text_add(s, "' linewidth ");
+    qdot_text_double(s, d->kind->line, 4);
+    qdot_text_char(s, '\n');
+}
+
+/* --- the figure --------------------------------------------------------------------- */
+
+/* path with another ending */
+static void
+add_sibling(qdot_text *out, const char *path, const char *ending)
+{
+    qdot_text_add_n(out, path, (size_t)(strrchr(path, '.') - path));
+    qdot_text_add(out, ending);
+}
+
+static const char *
+base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash != NULL ? slash + 1 : path;
+}
+
+/* NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws it. */
+static qdot_status
+leave_script(const qdot_figure_drawing *like, const char *path)
+{
+    qdot_text script = {0}, data = {0}, script_path = {0}, data_path = {0};
+    qdot_figure_drawing d = *like;
+    qdot_status status;
+
+    add_sibling(&script_path, path, ".gp");
+    add_sibling(&data_path, path, ".dat");
+    status = qdot_text_status(&data_path);
+    if (status == QDOT_OK)
+        status = qdot_figure_add_data(d.figure, &data);
+    if (status == QDOT_OK) {
+        d.script = &script;
+        d.data = base_of(data_path.at);
+        add_terminal(&d);
+        qdot_text_add(&script, "set output ");
+        qdot_figure_add_quoted(&script, base_of(path));
+        qdot_text_char(&script, '\n');
+        status = qdot_figure_add_script(&d);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&script_path);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(data_path.at, data.at, data.n);
+    if (status == QDOT_OK)
+        status = qdot_sink_write(script_path.at, script.at, script.n);
+    qdot_text_clear(&script);
+    qdot_text_clear(&data);
+    qdot_text_clear(&script_path);
+    qdot_text_clear(&data_path);
+    return status;
+}
+
+qdot_status
+qdot_figure_write(const qdot_figure *figure, const char *path)
+{
+    qdot_text script = {0}, image = {0};
+    qdot_figure_drawing d = {.figure = figure, .script = &script};
+    qdot_status status;
+
+    for (size_t i = 0; i < figure->n; i++)
+        if (figure->panels[i].n == 0)
+            return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
+    if (path != NULL) {
+        d.kind = kind_of(path);
+        if (d.kind == NULL) {
+            qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
+            return qdot_hint("end its name in .svg, .png or .pdf");
+        }
+    }
+    QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));
+    add_terminal(&d);
+    status = qdot_figure_add_script(&d);
+    if (status == QDOT_OK)
+        status = qdot_gnuplot_run(&script, path != NULL ? &image : NULL);
+    if (status == QDOT_OK && path != NULL)
+        status = qdot_sink_write(path, image.at, image.n);
+    if (status == QDOT_OK && path != NULL && figure->keep)
+        status = leave_script(&d, path);
+    qdot_text_clear(&script);
+    qdot_text_clear(&image);
+    return status;
+}

@@ -1,0 +1,250 @@
+/* figure-layout.c -- what the axes of a figure show, and how large everything is. */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "show/figure-parts.h"
+
+/* cm; the usual figure is 14 cm wide, legible in a column of 8.6 cm */
+static const double usual_width = 14, usual_height = 8.75, panel_height = 5.2,
+                    left_room = 1.8, right_room = 0.5, high_room = 0.9, low_room = 1.3;
+
+enum { BLOCK = 4096 };
+
+/* --- what can be shown ---------------------------------------------------------------- */
+
+bool
+qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k)
+{
+    double x = curve->x[k], y = curve->y[k];
+
+    return isfinite(x) && isfinite(y) && (!panel->log[0] || x > 0) &&
+           (!panel->log[1] || y > 0) && (curve->z == NULL || isfinite(curve->z[k]));
+}
+
+bool
+qdot_figure_is_space(const qdot_panel *panel)
+{
+    return panel->n > 0 && panel->curves[0].z != NULL;
+}
+
+typedef struct {
+    double least[3], most[3];
+    size_t points;
+    bool course; /* x runs one way along every curve */
+} extent;
+
+static void
+widen(extent *e, int axis, double value)
+{
+    e->least[axis] = e->points == 0 ? value : fmin(e->least[axis], value);
+    e->most[axis] = e->points == 0 ? value : fmax(e->most[axis], value);
+}
+
+static bool
+is_inside(const qdot_figure_range *range, double value)
+{
+    return !range->set || (value >= range->least && value <= range->most);
+}
+
+/* Points beyond the range of one axis say nothing of the other. */
+static qdot_status
+measure(const qdot_panel *panel, extent *e)
+{
+    *e = (extent){.course = true};
+    for (size_t i = 0; i < panel->n; i++) {
+        const qdot_curve *c = &panel->curves[i];
+        bool up = true, down = true;
+
+        for (size_t k = 0; k < c->rows; k++) {
+            if (k % BLOCK == BLOCK - 1)
+                QDOT_TRY(qdot_interrupt_check());
+            up = up && (k == 0 || !(c->x[k] < c->x[k - 1]));
+            down = down && (k == 0 || !(c->x[k] > c->x[k - 1]));
+            if (!qdot_figure_shows(panel, c, k) || !is_inside(&panel->range[0], c->x[k]) ||
+                !is_inside(&panel->range[1], c->y[k]))
+                continue;
+            widen(e, 0, c->x[k]);
+            widen(e, 1, c->y[k]);
+            if (c->z != NULL)
+                widen(e, 2, c->z[k]);
+            e->points++;
+        }
+        e->course = e->course && (up || down);
+    }
+    if (e->points == 0)
+        return qdot_fail(QDOT_EDOMAIN, "no point of the plot is finite%s%s",
+                         panel->log[0] || panel->log[1] ? " and positive" : "",
+                         panel->range[0].set || panel->range[1].set ? " and in its range"
+                                                                    : "");
+    return QDOT_OK;
+}
+
+/* Some space around what is shown. */
+static void
+pad(double *least, double *most, bool log, double part)
+{
+    if (log) {
+        double factor = *most > *least ? pow(*most / *least, part) : 2;
+
+        *least /= factor;
+        *most *= factor;
+    } else if (*most > *least) {
+        double more = part * (*most - *least);
+
+        if (isfinite(more)) {
+            *least -= more;
+            *most += more;
+        }
+    } else {
+        double more = fmax(0.1 * fabs(*least), *least == 0 ? 1 : 0);
+
+        *least -= more;
+        *most += more;
+    }
+}
+
+/* Paths have one scale: an axis along which nothing moves is as wide as a tenth of the others. */
+static void
+even_out(qdot_figure_view *view, const bool *fixed, int axes)
+{
+    double span = 0;
+
+    for (int i = 0; i < axes; i++)
+        span = fmax(span, view->most[i] - view->least[i]);
+    for (int i = 0; i < axes; i++)
+        if (!fixed[i] && view->most[i] - view->least[i] < span / 10) {
+            double middle = view->least[i] + (view->most[i] - view->least[i]) / 2;
+
+            view->least[i] = middle - span / 20;
+            view->most[i] = middle + span / 20;
+        }
+}
+
+/* --- panels that share ---------------------------------------------------------------- */
+
+static bool
+same_text(const char *a, const char *b)
+{
+    return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
+}
+
+static bool
+same_range(const qdot_figure_range *a, const qdot_figure_range *b)
+{
+    return a->set == b->set && (!a->set || (a->least == b->least && a->most == b->most));
+}
+
+bool
+qdot_figure_is_shared(const qdot_figure *figure, size_t i)
+{
+    const qdot_panel *p = &figure->panels[i], *q = p + 1;
+
+    return i + 1 < figure->n && !p->equal && !q->equal && !qdot_figure_is_space(p) &&
+           !qdot_figure_is_space(q) && p->log[0] == q->log[0] &&
+           same_text(p->axis[0].text, q->axis[0].text) &&
+           same_range(&p->range[0], &q->range[0]);
+}
+
+/* The extent of panel i, its abscissa that of all panels that share it. */
+static qdot_status
+measure_shared(const qdot_figure *figure, size_t i, extent *e)
+{
+    size_t first = i, last = i;
+
+    QDOT_TRY(measure(&figure->panels[i], e));
+    while (first > 0 && qdot_figure_is_shared(figure, first - 1))
+        first--;
+    while (qdot_figure_is_shared(figure, last))
+        last++;
+    for (size_t k = first; k <= last; k++) {
+        extent other;
+
+        if (k == i)
+            continue;
+        QDOT_TRY(measure(&figure->panels[k], &other));
+        e->least[0] = fmin(e->least[0], other.least[0]);
+        e->most[0] = fmax(e->most[0], other.most[0]);
+        e->course = e->course && other.course;
+    }
+    return QDOT_OK;
+}
+
+/* --- sizes ---------------------------------------------------------------------------- */
+
+static qdot_status
+view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
+{
+    const qdot_panel *panel = &figure->panels[i];
+    const int axes = qdot_figure_is_space(panel) ? 3 : 2;
+    bool fixed[3] = {panel->range[0].set, panel->range[1].set, false};
+    extent e;
+
+    *view = (qdot_figure_view){.log = {panel->log[0], panel->log[1], false}};
+    QDOT_TRY(measure_shared(figure, i, &e));
+    for (int k = 0; k < axes; k++) {
+        view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
+        view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
+        if (!fixed[k] && (k > 0 || !e.course || panel->marks || !(e.most[0] > e.least[0])))
+            pad(&view->least[k], &view->most[k], view->log[k], 0.04);
+    }
+    if (panel->equal)
+        even_out(view, fixed, axes);
+    return QDOT_OK;
+}
+
+/* How high a figure of one path is: as its shape asks for. */
+static double
+height_of_path(const qdot_figure_view *view, double width)
+{
+    double x = view->most[0] - view->least[0], y = view->most[1] - view->least[1];
+    double height = (width - left_room - right_room) * y / x + high_room + low_room;
+
+    return isfinite(height) ? fmin(fmax(height, 0.4 * width), width) : width;
+}
+
+qdot_status
+qdot_figure_size(const qdot_figure *figure, double *width, double *height, double *points)
+{
+    const qdot_panel *first = &figure->panels[0];
+
+    *width = figure->width > 0 ? figure->width : usual_width;
+    *points = fmin(fmax(0.8 * *width, 8), 14);
+    if (figure->height > 0) {
+        *height = figure->height;
+        return QDOT_OK;
+    }
+    *height = *width * usual_height / usual_width;
+    if (figure->n > 1) {
+        *height = *width * ((double)figure->n * panel_height + low_room) / usual_width;
+    } else if (qdot_figure_is_space(first)) {
+        *height = 0.85 * *width;
+    } else if (first->equal) {
+        qdot_figure_view view;
+
+        QDOT_TRY(view_without_length(figure, 0, &view));
+        *height = height_of_path(&view, *width);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_figure_get_view(const qdot_figure *figure, size_t i, qdot_figure_view *view)
+{
+    const qdot_panel *panel = &figure->panels[i];
+    double width, height, points, scale = INFINITY;
+
+    QDOT_TRY(view_without_length(figure, i, view));
+    QDOT_TRY(qdot_figure_size(figure, &width, &height, &points));
+    view->length[0] = fmax(width - left_room - right_room, width / 2);
+    view->length[1] = fmax(height / (double)figure->n - high_room - low_room,
+                           height / (double)figure->n / 2);
+    view->length[2] = 0;
+    if (!panel->equal)
+        return QDOT_OK;
+    for (int k = 0; k < 2; k++)
+        scale = fmin(scale, view->length[k] / (view->most[k] - view->least[k]));
+    for (int k = 0; k < 3; k++)
+        view->length[k] = scale * (view->most[k] - view->least[k]);
+    return QDOT_OK;
+}

@@ -1,0 +1,83 @@
+/* figure-parts.h -- the parts of a figure's script. Internal to show/. */
+#ifndef QDOT_SHOW_FIGURE_PARTS_H
+#define QDOT_SHOW_FIGURE_PARTS_H
+
+#include "show/figure.h"
+
+/* An axis as it is drawn: gnuplot gets (value - offset) / 10^power, from least to most. */
+typedef struct {
+    double least, most, step; /* as gnuplot gets them; step 0: gnuplot chooses range and tics */
+    double offset;
+    char offset_text[64]; /* in gnuplot's markup; "": there is none */
+    int power;
+    bool log;
+} qdot_figure_axis;
+
+/* --- labels ------------------------------------------------------------------------- */
+
+/* Text between quotes of gnuplot, literal whatever it holds. */
+void qdot_figure_add_quoted(qdot_text *script, const char *text);
+/* A label with its quotes and `enhanced` or `noenhanced` behind. */
+void qdot_figure_add_label(qdot_text *script, const qdot_figure_label *label);
+/* The same in gnuplot's markup, without quotes. */
+void qdot_figure_add_markup(qdot_text *out, const qdot_figure_label *label);
+/* A formula in plain style as Unicode, for a sketch; with `markup` in gnuplot's markup. */
+void qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup);
+/* Columns that it takes, about. */
+size_t qdot_figure_label_width(const qdot_figure_label *label);
+
+/* --- axes --------------------------------------------------------------------------- */
+
+/* The power of ten that the numbers of an axis are divided by; 0 where they are short anyway. */
+int qdot_figure_power(double least, double most);
+/* The axis that shows least..most with about `steps` tics. power NULL: its own. */
+qdot_figure_axis qdot_figure_axis_of(double least, double most, bool log, double steps,
+                                     const int *power);
+/* `set xrange`, `set xtics`; bare: tics without numbers. *width: characters of the widest. */
+void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
+                          bool bare, size_t *width);
+/* `set xlabel`: the label, with offset and power of ten if there are any: (E - 9.81) / 10^-12. */
+void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
+                                const qdot_figure_label *label);
+/* What `using` has to say of a column. */
+void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
+
+/* --- sizes -------------------------------------------------------------------------- */
+
+/* Whether a point can be shown on these axes. */
+bool qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t k);
+/* Whether the panel is one of paths in space. */
+bool qdot_figure_is_space(const qdot_panel *panel);
+/* Whether panel i has the abscissa of panel i + 1. */
+bool qdot_figure_is_shared(const qdot_figure *figure, size_t i);
+/* The size of the whole figure in cm, and its letters in points. */
+QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
+                                             double *height, double *points);
+
+/* --- the script --------------------------------------------------------------------- */
+
+/* A kind of image. */
+typedef struct {
+    const char *ending;
+    double dots;  /* of its unit in a cm */
+    double line;  /* width of a line, in its units */
+    double point; /* its unit of letters in a point */
+    double lead;  /* height of a line of text in that of its letters */
+    const char *before, *behind; /* the terminal; behind a length */
+} qdot_figure_kind;
+
+/* What a figure is drawn with. */
+typedef struct {
+    const qdot_figure *figure;
+    double width, height, points; /* cm, cm, points */
+    const qdot_figure_kind *kind; /* NULL: a window */
+    const char *data;             /* name of the file of data; NULL: within the script */
+    qdot_text *script;
+} qdot_figure_drawing;
+
+/* What stands behind the terminal. Errors: QDOT_EDOMAIN, QDOT_EINTR, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_figure_add_script(const qdot_figure_drawing *d);
+/* All curves as gnuplot's indices: two blank lines between them, their names as comments. */
+QDOT_MUST_CHECK qdot_status qdot_figure_add_data(const qdot_figure *figure, qdot_text *out);
+
+#endif

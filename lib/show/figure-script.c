@@ -1,0 +1,403 @@
+/* figure-script.c -- a figure as a gnuplot script: its data, panels, axes, keys, curves. */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "show/figure-parts.h"
+
+enum { EXACT = 17, BLOCK = 4096 };
+
+static const char look[] = "set encoding utf8\n"
+                           "set datafile missing 'NaN'\n"
+                           "set border 3 linecolor '#404040'\n"
+                           "set tics nomirror out textcolor '#202020'\n"
+                           "set tics scale 0.6\n"
+                           "set xtics offset 0,0.3\n"
+                           "set grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n"
+                           "set samples 2\n";
+
+/* Okabe and Ito's palette, told apart by eyes that do not see all colours, its yellow darkened;
+ * then four more. */
+static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                      "#56b4e9", "#e69f00", "#000000", "#8a6d00",
+                                      "#7f7f7f", "#332288", "#882255", "#6b8e23"};
+
+/* Where there are more than four curves each has a pattern, too. */
+static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
+static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2};
+
+enum {
+    COLOURS = sizeof colours / sizeof *colours,
+    DASHES = sizeof dashes / sizeof *dashes,
+    MARKS = sizeof marks / sizeof *marks,
+    FEW = 4
+};
+
+/* --- the data ----------------------------------------------------------------------- */
+
+/* The points of a curve, one a line; a blank line where it is interrupted. */
+static qdot_status
+add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
+{
+    bool open = false;
+
+    for (size_t k = 0; k < curve->rows; k++) {
+        if (k % BLOCK == BLOCK - 1)
+            QDOT_TRY(qdot_interrupt_check());
+        if (!qdot_figure_shows(panel, curve, k)) {
+            qdot_text_add(out, open ? "\n" : "");
+            open = false;
+            continue;
+        }
+        qdot_text_double(out, curve->x[k], EXACT);
+        qdot_text_char(out, ' ');
+        qdot_text_double(out, curve->y[k], EXACT);
+        if (curve->z != NULL) {
+            qdot_text_char(out, ' ');
+            qdot_text_double(out, curve->z[k], EXACT);
+        }
+        qdot_text_char(out, '\n');
+        open = true;
+    }
+    return qdot_text_status(out);
+}
+
+/* All curves as data blocks $p<panel>c<curve>. */
+static qdot_status
+add_blocks(const qdot_figure_drawing *d)
+{
+    for (size_t i = 0; i < d->figure->n; i++)
+        for (size_t k = 0; k < d->figure->panels[i].n; k++) {
+            qdot_text_format(d->script, "$p%zuc%zu << END\n", i, k);
+            QDOT_TRY(add_points(d->script, &d->figure->panels[i],
+                                &d->figure->panels[i].curves[k]));
+            qdot_text_add(d->script, "END\n");
+        }
+    return QDOT_OK;
+}
+
+/* All curves as gnuplot's indices: two blank lines between them, their names as comments. */
+qdot_status
+qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
+{
+    for (size_t i = 0; i < figure->n; i++)
+        for (size_t k = 0; k < figure->panels[i].n; k++) {
+            const qdot_curve *c = &figure->panels[i].curves[k];
+            const char *label = c->label.text != NULL ? c->label.text : "";
+
+            qdot_text_add(out, i + k > 0 ? "\n\n# " : "# ");
+            for (; *label != '\0'; label++)
+                qdot_text_char(out, (unsigned char)*label < 0x20 ? ' ' : *label);
+            qdot_text_char(out, '\n');
+            QDOT_TRY(add_points(out, &figure->panels[i], c));
+        }
+    return qdot_text_status(out);
+}
+
+/* --- one panel ---------------------------------------------------------------------- */
+
+/* The axes of a panel. Those with one scale have one power of ten and one step. */
+static qdot_status
+choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
+{
+    static const double apart[] = {1.9, 1.2, 1.2};
+    const qdot_panel *panel = &d->figure->panels[i];
+    const bool space = qdot_figure_is_space(panel);
+    qdot_figure_view v;
+    double of_path; /* between the tics of a path, whose shorter axis has some too */
+    int power = 0;
+
+    QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
+    of_path = fmin(fmax(fmin(v.length[0], v.length[1]) / 2.4, 1.5), space ? 2.5 : 2.0);
+    for (int k = 0; k < 3; k++) {
+        int own = qdot_figure_power(v.least[k], v.most[k]);
+
+        if (v.most[k] > v.least[k] && (k == 0 || power == 0 || own > power))
+            power = own;
+    }
+    for (int k = 0; k < 3; k++) {
+        double steps = panel->equal ? v.length[k] / of_path
+                                    : fmin(fmax(v.length[k] / apart[k], 2), 12);
+
+        axes[k] = qdot_figure_axis_of(v.least[k], v.most[k], v.log[k], steps,
+                                      panel->equal ? &power : NULL);
+    }
+    return QDOT_OK;
+}
+
+/* Letters that an entry of the key takes. */
+static size_t
+key_width(const qdot_panel *panel)
+{
+    size_t most = 0;
+
+    for (size_t i = 0; i < panel->n; i++) {
+        const size_t width = qdot_figure_label_width(&panel->curves[i].label);
+
+        most = width > most ? width : most;
+    }
+    return most + 7;
+}
+
+/* Rows of a key above the axes; 0: there is none. */
+static size_t
+key_rows(const qdot_figure_drawing *d, const qdot_panel *panel)
+{
+    const double letter = 0.5 * d->points / 28.35;
+    const double columns = floor((d->width - 2.5) / letter / (double)key_width(panel));
+
+    return panel->n < 2 ? 0 : (size_t)ceil((double)panel->n / fmax(columns, 1));
+}
+
+/* A long key of short entries stands beside the axes of a figure of one panel. */
+static bool
+has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
+{
+    return d->figure->n == 1 && key_rows(d, panel) > 2 &&
+           0.5 * d->points / 28.35 * (double)key_width(panel) < 0.3 * d->width;
+}
+
+/* high: of the axes in cm, where they were placed */
+static void
+add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
+{
+    const size_t rows = key_rows(d, panel);
+
+    if (rows == 0)
+        qdot_text_add(d->script, "unset key\n");
+    else if (has_key_beside(d, panel))
+        qdot_text_add(d->script, "set key outside right top vertical Left reverse samplen "
+                                 "2.5\n");
+    else {
+        qdot_text_add(d->script, "set key at graph 1, graph ");
+        qdot_text_double(d->script, 1 + 0.15 / fmax(high, 0.1), 6);
+        qdot_text_format(d->script,
+                         " right bottom vertical maxrows %zu Left reverse samplen 2.5\n",
+                         rows);
+    }
+}
+
+/* Above the key. */
+static void
+add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
+{
+    qdot_text *s = d->script;
+    qdot_text both = {0};
+    qdot_figure_label note = {panel->note, false};
+
+    if (panel->note == NULL && (panel->title.text == NULL || panel->title.text[0] == '\0')) {
+        qdot_text_add(s, "unset title\n");
+        return;
+    }
+    qdot_text_add(s, "set title ");
+    if (panel->note == NULL) {
+        qdot_figure_add_label(s, &panel->title);
+    } else {
+        qdot_figure_add_markup(&both, &panel->title);
+        qdot_figure_add_quoted(s, qdot_text_str(&both));
+        qdot_text_add(s, ".\"\\n{/*0.8 \".");
+        qdot_text_truncate(&both, 0);
+        qdot_figure_add_markup(&both, &note);
+        qdot_figure_add_quoted(s, qdot_text_str(&both));
+        qdot_text_add(s, ".\"}\" enhanced");
+    }
+    if (!has_key_beside(d, panel) && !qdot_figure_is_space(panel))
+        qdot_text_format(s, " offset 0,%.1f", 1.1 * (double)key_rows(d, panel));
+    qdot_text_char(s, '\n');
+    s->failed = s->failed || both.failed;
+    qdot_text_clear(&both);
+}
+
+static void
+add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    const bool shared = qdot_figure_is_shared(d->figure, i);
+    const int n = qdot_figure_is_space(panel) ? 3 : 2;
+    size_t width = 0;
+
+    for (int k = 0; k < n; k++) {
+        const char name = "xyz"[k];
+        const bool plain = !axes[k].log && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
+
+        qdot_figure_add_axis(d->script, name, &axes[k], k == 0 && shared, &width);
+        if (d->kind == NULL && plain && !(k == 0 && shared)) /* one can zoom a window */
+            qdot_text_format(d->script, "set %ctics autofreq\n", name);
+        qdot_figure_add_axis_label(d->script, name, &axes[k],
+                                   k == 0 && shared ? &(qdot_figure_label){0}
+                                                    : &panel->axis[k]);
+    }
+    if (n == 3) {
+        qdot_text_add(d->script, "set view 62,32,1.2\nset view equal xyz\nset border 31\n"
+                                 "set xyplane at ");
+        qdot_text_double(d->script, axes[2].least, EXACT);
+        qdot_text_char(d->script, '\n');
+    }
+}
+
+/* The data of a curve and their columns; floor: of a path in space its shadow on the floor. */
+static void
+add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_axis *axes, bool floor)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    size_t index = k;
+
+    for (size_t j = 0; j < i; j++)
+        index += d->figure->panels[j].n;
+    if (d->data != NULL) {
+        qdot_figure_add_quoted(d->script, d->data);
+        qdot_text_format(d->script, " index %zu", index);
+    } else {
+        qdot_text_format(d->script, "$p%zuc%zu", i, k);
+    }
+    qdot_text_add(d->script, " using ");
+    qdot_figure_add_column(d->script, 1, &axes[0]);
+    qdot_text_char(d->script, ':');
+    qdot_figure_add_column(d->script, 2, &axes[1]);
+    if (!qdot_figure_is_space(panel))
+        return;
+    qdot_text_char(d->script, ':');
+    if (!floor) {
+        qdot_figure_add_column(d->script, 3, &axes[2]);
+        return;
+    }
+    qdot_text_char(d->script, '(');
+    qdot_text_double(d->script, axes[2].least, EXACT);
+    qdot_text_char(d->script, ')');
+}
+
+static void
+add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    const bool space = qdot_figure_is_space(panel);
+
+    qdot_text_add(d->script, space ? "splot " : "plot ");
+    for (size_t k = 0; space && k < panel->n; k++) {
+        add_source(d, i, k, axes, true);
+        qdot_text_add(d->script,
+                      " with lines linewidth 1 linecolor rgb '#d0d0d0' notitle, ");
+    }
+    for (size_t k = 0; k < panel->n; k++) {
+        const bool point = panel->curves[k].rows == 1;
+
+        qdot_text_add(d->script, k == 0 ? "" : ", ");
+        add_source(d, i, k, axes, false);
+        if (point || panel->marks)
+            qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8",
+                             point ? "" : "lines", marks[k % MARKS]);
+        else
+            qdot_text_add(d->script, " with lines");
+        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
+        if (panel->n > FEW && !point)
+            qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);
+        qdot_text_add(d->script, " title ");
+        qdot_figure_add_label(d->script, &panel->curves[k].label);
+    }
+    qdot_text_char(d->script, '\n');
+}
+
+/* --- several panels ------------------------------------------------------------------- */
+
+static void
+add_at(qdot_text *s, const char *what, double at)
+{
+    qdot_text_format(s, "set %smargin at screen ", what);
+    qdot_text_double(s, at, 6);
+    qdot_text_char(s, '\n');
+}
+
+/* Rooms above and below the axes of panel i, in cm. */
+static void
+rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    const double line = (d->kind != NULL ? d->kind->lead : 1.4) * d->points / 28.35;
+    const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
+
+    *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) + (double)key_rows(d, panel));
+    if (key_rows(d, panel) == 0 && panel->axis[1].text != NULL) /* a label that is moved, 10^3 */
+        *above += line * 0.8;
+    *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
+}
+
+/* Letters left of the axes: numbers, tics, a label; the same for all panels. */
+static qdot_status
+letters_left(const qdot_figure_drawing *d, double *letters)
+{
+    *letters = 0;
+    for (size_t i = 0; i < d->figure->n; i++) {
+        qdot_figure_axis axes[3];
+        qdot_text unused = {0};
+        size_t width = 0;
+
+        QDOT_TRY(choose_axes(d, i, axes));
+        qdot_figure_add_axis(&unused, 'y', &axes[1], false, &width);
+        qdot_text_clear(&unused);
+        *letters = fmax(*letters, 3.2 + 0.62 * (double)width);
+    }
+    return QDOT_OK;
+}
+
+/* The axes of all panels are equally high, and begin and end at the same places. */
+static qdot_status
+place(const qdot_figure_drawing *d, size_t i, double *high)
+{
+    const qdot_figure *f = d->figure;
+    double free = d->height, top = d->height, above, below, left;
+    const double letter = d->points / 28.35;
+
+    for (size_t k = 0; k < f->n; k++) {
+        rooms(d, k, &above, &below);
+        free -= above + below;
+    }
+    *high = free = fmax(free / (double)f->n, 0.1);
+    for (size_t k = 0; k <= i; k++) {
+        rooms(d, k, &above, &below);
+        top -= above + (k > 0 ? free : 0);
+        if (k < i)
+            top -= below;
+    }
+    if (qdot_figure_is_space(&f->panels[i])) {
+        qdot_text_add(d->script, "unset lmargin\nunset rmargin\n");
+    } else {
+        QDOT_TRY(letters_left(d, &left));
+        add_at(d->script, "l", fmin(left * letter / d->width, 0.4));
+        add_at(d->script, "r", 1 - letter / d->width);
+    }
+    add_at(d->script, "t", top / d->height);
+    add_at(d->script, "b", (top - free) / d->height);
+    return QDOT_OK;
+}
+
+static qdot_status
+add_panel(const qdot_figure_drawing *d, size_t i)
+{
+    const qdot_panel *panel = &d->figure->panels[i];
+    qdot_figure_axis axes[3];
+    double high = d->height;
+
+    QDOT_TRY(choose_axes(d, i, axes));
+    if (d->figure->n > 1 || (!qdot_figure_is_space(panel) && !has_key_beside(d, panel)))
+        QDOT_TRY(place(d, i, &high));
+    add_title(d, panel);
+    add_axes(d, i, axes);
+    add_key(d, panel, high);
+    if (!qdot_figure_is_space(panel))
+        qdot_text_format(d->script, "set size %s\n", panel->equal ? "ratio -1" : "noratio");
+    add_curves(d, i, axes);
+    return qdot_text_status(d->script);
+}
+
+qdot_status
+qdot_figure_add_script(const qdot_figure_drawing *d)
+{
+    qdot_text_add(d->script, look);
+    if (d->data == NULL)
+        QDOT_TRY(add_blocks(d));
+    qdot_text_add(d->script, d->figure->n > 1 ? "set multiplot\n" : "");
+    for (size_t i = 0; i < d->figure->n; i++)
+        QDOT_TRY(add_panel(d, i));
+    qdot_text_add(d->script, d->figure->n > 1 ? "unset multiplot\n" : "");
+    return qdot_text_status(d->script);
+}

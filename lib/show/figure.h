@@ -1,0 +1,79 @@
+/* figure.h -- curves as a figure: panels one below the other, drawn by gnuplot or as a sketch of
+ * characters.
+ *
+ * Knows numbers and labels, not scenes. Labels and file names reach gnuplot quoted; numbers are
+ * written in the C locale. Sizes are those of the printed figure: letters of 8 to 14 points, so
+ * that a figure is legible in a column of a journal and on a wall.
+ *
+ * Tests  tests/show/test_figure.c, tests/script/figures.sh
+ */
+#ifndef QDOT_SHOW_FIGURE_H
+#define QDOT_SHOW_FIGURE_H
+
+#include <stddef.h>
+
+#include "base/text.h"
+
+/* A text as it stands, or a formula in plain style, which is set with Greek letters, dots,
+ * subscripts and powers: theta1' as θ̇₁, V_eff as V with its subscript. text NULL: none. */
+typedef struct {
+    const char *text; /* UTF-8, borrowed */
+    bool formula;
+} qdot_figure_label;
+
+typedef struct {
+    qdot_figure_label label;  /* in the key; one curve has no key */
+    size_t rows;
+    const double *x, *y, *z;  /* [rows] borrowed; z NULL: in the plane */
+} qdot_curve;
+
+/* The part of an axis that is shown, least < most; set false: all that the data need. */
+typedef struct {
+    double least, most;
+    bool set;
+} qdot_figure_range;
+
+/* One pair of axes; in space three, if its first curve is. */
+typedef struct {
+    qdot_figure_label title, axis[3]; /* what is written along x, y, z */
+    const char *note;           /* under the title; NULL: none */
+    const qdot_curve *curves;
+    size_t n;
+    qdot_figure_range range[2]; /* of x and y */
+    bool log[2];                /* x and y by powers of ten */
+    bool equal;                 /* one scale for all axes: paths */
+    bool marks;                 /* a mark at every point, joined by lines */
+} qdot_panel;
+
+typedef struct {
+    const qdot_panel *panels; /* [n] from the top; panels with the same abscissa share it */
+    size_t n;
+    double width, height; /* cm; 0: the usual size */
+    bool keep; /* leave NAME.gp and NAME.dat beside the file: the script and the data */
+} qdot_figure;
+
+/* What the axes of a panel show before anything is drawn: of x, y, z the least and the greatest
+ * value, and the length in cm that lies between them. */
+typedef struct {
+    double least[3], most[3], length[3];
+    bool log[3];
+} qdot_figure_view;
+
+/* Type by ending: .svg .png .pdf. path NULL: a window of gnuplot that persists.
+ *
+ * Errors: QDOT_EINVAL for another ending, a figure without curves; QDOT_EDOMAIN if no point can be
+ * shown; QDOT_EIO where gnuplot is missing or fails, has no window, or a file cannot be written;
+ * QDOT_EINTR; QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_figure_write(const qdot_figure *figure, const char *path);
+
+/* The view of panel i, by its ranges and by what its curves hold. Errors: QDOT_EDOMAIN. */
+QDOT_MUST_CHECK qdot_status qdot_figure_get_view(const qdot_figure *figure, size_t i,
+                                                 qdot_figure_view *view);
+
+/* A panel in `columns` x `rows` characters: braille, or stars where `ascii`; with the ends of its
+ * axes. Errors: QDOT_EDOMAIN, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_figure_sketch(const qdot_figure *figure, size_t i,
+                                               size_t columns, size_t rows, bool ascii,
+                                               qdot_text *out);
+
+#endif

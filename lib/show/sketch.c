@@ -1,0 +1,151 @@
+/* sketch.c -- curves in characters: a braille one has 2 x 4 dots. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/utf8.h"
+#include "show/figure-parts.h"
+
+enum { ACROSS = 2, DOWN = 4 };
+
+typedef struct {
+    size_t columns, rows;
+    unsigned char *cells; /* the dots of braille, U+2800 + cell */
+} grid;
+
+/* Dot (x, y), y from above. */
+static void
+put(grid *g, double x, double y)
+{
+    static const unsigned char bits[DOWN][ACROSS] = {
+        {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
+    long i = lround(x), j = lround(y);
+
+    if (i >= 0 && j >= 0 && i < (long)(ACROSS * g->columns) && j < (long)(DOWN * g->rows))
+        g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |=
+            bits[j % DOWN][i % ACROSS];
+}
+
+/* A path in space is seen from in front, to the right and above. */
+static void
+place(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
+{
+    double part[3] = {0, 0, 0};
+    const double x[3] = {c->x[k], c->y[k], c->z != NULL ? c->z[k] : 0};
+
+    for (int i = 0; i < (c->z != NULL ? 3 : 2); i++)
+        part[i] = v->log[i] ? log(x[i] / v->least[i]) / log(v->most[i] / v->least[i])
+                            : (x[i] - v->least[i]) / (v->most[i] - v->least[i]);
+    if (c->z != NULL) {
+        const double across = (part[0] - part[1] + 1) / 2;
+
+        part[1] = (part[0] + part[1]) / 4 + part[2] / 2;
+        part[0] = across;
+    }
+    at[0] = part[0] * (double)(ACROSS * g->columns - 1);
+    at[1] = (1 - part[1]) * (double)(DOWN * g->rows - 1);
+}
+
+static void
+draw_line(grid *g, const double *a, const double *b)
+{
+    const double n = ceil(fmax(fabs(b[0] - a[0]), fabs(b[1] - a[1])));
+    const double most = (double)(ACROSS * g->columns + DOWN * g->rows);
+
+    for (double k = 0; k <= n && n < 8 * most; k++)
+        put(g, a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n);
+}
+
+static void
+draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qdot_curve *c)
+{
+    double last[2], here[2];
+    bool open = false;
+
+    for (size_t k = 0; k < c->rows; k++) {
+        if (!qdot_figure_shows(panel, c, k)) {
+            open = false;
+            continue;
+        }
+        place(v, c, k, g, here);
+        if (open)
+            draw_line(g, last, here);
+        put(g, here[0], here[1]);
+        memcpy(last, here, sizeof last);
+        open = true;
+    }
+}
+
+static void
+add_cell(qdot_text *out, unsigned char dots, bool ascii)
+{
+    if (ascii || dots == 0) {
+        qdot_text_char(out, dots != 0 ? '*' : ' ');
+        return;
+    }
+    qdot_text_char(out, '\xE2');
+    qdot_text_char(out, (char)(0xA0 + (dots >> 6)));
+    qdot_text_char(out, (char)(0x80 + (dots & 0x3F)));
+}
+
+/* The ends of the ordinate to the left, of the abscissa below, with what stands there. */
+static void
+write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
+           qdot_text *out)
+{
+    enum { MARGIN = 11 };
+    char left[32], right[32];
+    qdot_text label = {0};
+
+    for (size_t r = 0; r < g->rows; r++) {
+        size_t n = g->columns;
+
+        if (r == 0 || r + 1 == g->rows) {
+            snprintf(left, sizeof left, "%.4g", r == 0 ? v->most[1] : v->least[1]);
+            qdot_text_format(out, "%*s ", MARGIN - 1, panel->axis[2].text ? "" : left);
+        } else {
+            qdot_text_format(out, "%*s", MARGIN, "");
+        }
+        qdot_text_add(out, ascii ? "|" : "│");
+        while (n > 0 && g->cells[r * g->columns + n - 1] == 0)
+            n--;
+        for (size_t i = 0; i < n; i++)
+            add_cell(out, g->cells[r * g->columns + i], ascii);
+        qdot_text_char(out, '\n');
+    }
+    if (panel->axis[2].text != NULL)
+        return;
+    snprintf(left, sizeof left, "%.4g", v->least[0]);
+    snprintf(right, sizeof right, "%.4g", v->most[0]);
+    if (panel->axis[0].formula && !ascii)
+        qdot_figure_add_formula(&label, panel->axis[0].text, false);
+    else
+        qdot_text_add(&label, panel->axis[0].text != NULL ? panel->axis[0].text : "");
+    const long free = (long)g->columns - (long)strlen(left) - (long)strlen(right) -
+                      (long)qdot_utf8_columns(qdot_text_str(&label), label.n);
+
+    qdot_text_format(out, "%*s%s%*s%s%*s%s\n", MARGIN + 1, "", left, (int)(free / 2 + 1), "",
+                     qdot_text_str(&label), (int)(free - free / 2), "", right);
+    out->failed = out->failed || label.failed;
+    qdot_text_clear(&label);
+}
+
+qdot_status
+qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t rows,
+                   bool ascii, qdot_text *out)
+{
+    const qdot_panel *panel = &figure->panels[i];
+    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3};
+    qdot_figure_view view;
+
+    QDOT_TRY(qdot_figure_get_view(figure, i, &view));
+    g.cells = qdot_calloc(g.columns * g.rows, 1);
+    if (g.cells == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < panel->n; k++)
+        draw_curve(&g, panel, &view, &panel->curves[k]);
+    write_grid(&g, panel, &view, ascii, out);
+    qdot_free(g.cells);
+    return qdot_text_status(out);
+}

@@ -1,0 +1,248 @@
+/* trace.c -- points of a curve, where it bends more of them. */
+#include "show/trace.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+
+enum { ROUNDS = 14 };
+
+static const double bend = 0.06, shortest = 0.02; /* radians, cm */
+
+void
+qdot_trace_clear(qdot_trace *p)
+{
+    qdot_free(p->s);
+    for (int i = 0; i < 3; i++)
+        qdot_free(p->at[i]);
+    *p = (qdot_trace){0};
+}
+
+/* n points without numbers. */
+static qdot_status
+reserve(qdot_trace *p, size_t axes, size_t n)
+{
+    bool good;
+
+    *p = (qdot_trace){.n = n};
+    p->s = qdot_calloc(n + 1, sizeof *p->s);
+    good = p->s != NULL;
+    for (size_t i = 0; i < axes; i++) {
+        p->at[i] = qdot_calloc(n + 1, sizeof *p->at[i]);
+        good = good && p->at[i] != NULL;
+    }
+    if (good)
+        return QDOT_OK;
+    qdot_trace_clear(p);
+    return QDOT_ENOMEM;
+}
+
+qdot_status
+qdot_trace_begin(const qdot_trace_source *source, size_t n, const double *s,
+                  qdot_trace *p)
+{
+    double *values = qdot_calloc(source->axes * n + 1, sizeof *values);
+    qdot_status status = values == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    *p = (qdot_trace){0};
+    if (status == QDOT_OK)
+        status = reserve(p, source->axes, n);
+    if (status == QDOT_OK) {
+        memcpy(p->s, s, n * sizeof *s);
+        status = source->values(source->user, n, s, values);
+    }
+    for (size_t i = 0; i < source->axes && status == QDOT_OK; i++)
+        memcpy(p->at[i], values + i * n, n * sizeof *values);
+    qdot_free(values);
+    if (status != QDOT_OK)
+        qdot_trace_clear(p);
+    return status;
+}
+
+/* --- as it is seen -------------------------------------------------------------------- */
+
+/* A point in cm; side: -1, 1 for each axis that it lies beyond. */
+typedef struct {
+    double at[3];
+    int side[3];
+    bool shown;
+} place;
+
+static place
+seen(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
+{
+    place one = {.shown = true};
+
+    for (size_t i = 0; i < axes; i++) {
+        double x = p->at[i][k], least = v->least[i], most = v->most[i];
+
+        if (v->log[i]) {
+            x = x > 0 ? log(x) : NAN;
+            least = log(least);
+            most = log(most);
+        }
+        one.shown = one.shown && isfinite(x);
+        one.at[i] = (x - least) / (most - least) * v->length[i];
+        one.side[i] = (x > most) - (x < least);
+    }
+    return one;
+}
+
+/* Whether both ends lie beyond the same side. */
+static bool
+is_beyond(const place *a, const place *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (a->side[i] != 0 && a->side[i] == b->side[i])
+            return true;
+    return false;
+}
+
+/* From above the view to below it, or back. */
+static bool
+is_across(const place *a, const place *b)
+{
+    return a->shown && b->shown && a->side[1] * b->side[1] < 0;
+}
+
+static double
+length_of(const place *a, const place *b)
+{
+    return hypot(hypot(b->at[0] - a->at[0], b->at[1] - a->at[1]), b->at[2] - a->at[2]);
+}
+
+/* The angle at b between a-b and b-c. */
+static double
+turn(const place *a, const place *b, const place *c)
+{
+    double u[3], w[3], dot = 0, cross = 0;
+
+    for (int i = 0; i < 3; i++) {
+        u[i] = b->at[i] - a->at[i];
+        w[i] = c->at[i] - b->at[i];
+        dot += u[i] * w[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        cross = hypot(cross, u[j] * w[k] - u[k] * w[j]);
+    }
+    return atan2(cross, dot);
+}
+
+/* Which segments, k from point k to k + 1, are to be halved; how many. */
+static size_t
+mark(const place *places, size_t n, bool jumps, bool *halve)
+{
+    size_t marked = 0;
+
+    memset(halve, 0, n * sizeof *halve);
+    for (size_t k = 0; k + 1 < n; k++) {
+        const place *a = &places[k], *b = a + 1, *c = a + 2;
+
+        if (a->shown != b->shown || (jumps && is_across(a, b)))
+            halve[k] = true;
+        if (k + 2 >= n || !a->shown || !b->shown || !c->shown)
+            continue;
+        if (!(turn(a, b, c) > bend))
+            continue;
+        halve[k] = halve[k] || (length_of(a, b) > shortest && !is_beyond(a, b));
+        halve[k + 1] = length_of(b, c) > shortest && !is_beyond(b, c);
+    }
+    for (size_t k = 0; k + 1 < n; k++)
+        marked += halve[k];
+    return marked;
+}
+
+/* --- more points ---------------------------------------------------------------------- */
+
+/* The points with those of `more` after each segment that was halved. */
+static qdot_status
+merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
+{
+    qdot_trace all;
+    size_t at = 0, next = 0;
+
+    QDOT_TRY(reserve(&all, axes, p->n + more->n));
+    for (size_t k = 0; k < p->n; k++) {
+        const bool follows = k + 1 < p->n && halve[k];
+
+        for (size_t i = 0; i < axes; i++) {
+            all.at[i][at] = p->at[i][k];
+            if (follows)
+                all.at[i][at + 1] = more->at[i][next];
+        }
+        all.s[at++] = p->s[k];
+        if (follows)
+            all.s[at++] = more->s[next++];
+    }
+    qdot_trace_clear(p);
+    *p = all;
+    return QDOT_OK;
+}
+
+/* One round; *done: nothing was left to be halved. */
+static qdot_status
+halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
+           qdot_trace *p, bool *done)
+{
+    place *places = qdot_calloc(p->n, sizeof *places);
+    bool *halve = qdot_calloc(p->n, sizeof *halve);
+    double *s = qdot_calloc(p->n, sizeof *s);
+    qdot_trace more = {0};
+    qdot_status status = places && halve && s ? QDOT_OK : QDOT_ENOMEM;
+    size_t n = 0;
+
+    *done = true;
+    for (size_t k = 0; k < p->n && status == QDOT_OK; k++)
+        places[k] = seen(view, p, source->axes, k);
+    if (status == QDOT_OK && mark(places, p->n, source->jumps, halve) > 0) {
+        for (size_t k = 0; k + 1 < p->n; k++) {
+            const double middle = p->s[k] + (p->s[k + 1] - p->s[k]) / 2;
+
+            halve[k] = halve[k] && middle != p->s[k] && middle != p->s[k + 1] &&
+                       p->n + n < QDOT_TRACE_MOST;
+            if (halve[k])
+                s[n++] = middle;
+        }
+        *done = n == 0;
+        if (n > 0)
+            status = qdot_trace_begin(source, n, s, &more);
+        if (status == QDOT_OK && n > 0)
+            status = merge(p, &more, source->axes, halve);
+    }
+    qdot_trace_clear(&more);
+    qdot_free(places);
+    qdot_free(halve);
+    qdot_free(s);
+    return status;
+}
+
+/* What still goes from above the view to below it is a pole, not a curve. */
+static void
+break_jumps(const qdot_figure_view *view, qdot_trace *p, size_t axes)
+{
+    for (size_t k = 0; k + 1 < p->n; k++) {
+        const place a = seen(view, p, axes, k), b = seen(view, p, axes, k + 1);
+
+        if (is_across(&a, &b))
+            p->at[1][k] = NAN;
+    }
+}
+
+qdot_status
+qdot_trace_refine(const qdot_trace_source *source, const qdot_figure_view *view,
+                   qdot_trace *p)
+{
+    bool done = false;
+
+    for (int round = 0; round < ROUNDS && !done; round++) {
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(halve_once(source, view, p, &done));
+    }
+    if (source->jumps)
+        break_jumps(view, p, source->axes);
+    return QDOT_OK;
+}

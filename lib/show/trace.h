@@ -1,0 +1,39 @@
+/* trace.h -- points of a curve, dense enough that no corner is seen where there is none.
+ *
+ * A curve is (x, y) or (x, y, z) as a function of a parameter s. Segments are halved, round by
+ * round, until at every point the next segment turns by less than 3.4 degrees as it is seen in
+ * the figure, or both are shorter than 0.2 mm, or there are 20,001 points.
+ *
+ * Tests  tests/show/test_trace.c
+ */
+#ifndef QDOT_SHOW_TRACE_H
+#define QDOT_SHOW_TRACE_H
+
+#include "show/figure.h"
+
+/* The function: at s [n] its components [axes * n], one component after the other. */
+typedef struct {
+    size_t axes; /* 2 or 3 */
+    qdot_status (*values)(void *user, size_t n, const double *s, double *values);
+    void *user;
+    bool jumps; /* break the line where it jumps from above the view to below it, or back */
+} qdot_trace_source;
+
+/* Points in the order of s; all arrays [n], owned. */
+typedef struct {
+    size_t n;
+    double *s, *at[3]; /* at[2] NULL in the plane */
+} qdot_trace;
+
+enum { QDOT_TRACE_MOST = 20001 };
+
+/* The points at s [n], which is copied. */
+QDOT_MUST_CHECK qdot_status qdot_trace_begin(const qdot_trace_source *source, size_t n,
+                                              const double *s, qdot_trace *points);
+/* More points, as the view asks for. */
+QDOT_MUST_CHECK qdot_status qdot_trace_refine(const qdot_trace_source *source,
+                                               const qdot_figure_view *view,
+                                               qdot_trace *points);
+void qdot_trace_clear(qdot_trace *points);
+
+#endif

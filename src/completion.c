@@ -1,0 +1,123 @@
+/* completion.c -- the TAB key. */
+#include "completion.h"
+
+#include <langinfo.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <readline/readline.h>
+
+#include "lang/commands/complete.h"
+
+static qdot_session *session; /* readline's callbacks have no argument of ours */
+static const char *lines = "";
+
+/* The words found, handed to readline one by one. */
+static struct {
+    char **at;
+    size_t n, next;
+} words;
+
+/* Readline takes and frees what is returned, so it comes from malloc. */
+static char *
+next_word(const char *prefix, int again)
+{
+    char *word = NULL;
+
+    (void)prefix;
+    if (again == 0)
+        words.next = 0;
+    if (words.next < words.n) {
+        word = strdup(words.at[words.next]);
+        qdot_free(words.at[words.next++]);
+    }
+    if (word != NULL)
+        return word;
+    while (words.next < words.n)
+        qdot_free(words.at[words.next++]);
+    qdot_free(words.at);
+    words.at = NULL;
+    words.n = 0;
+    return NULL;
+}
+
+/* Whether the text ends within a comment or a quoted text. */
+typedef enum { PLAIN, QUOTED, COMMENT } place;
+
+static place
+place_of(const char *text, int length)
+{
+    place p = PLAIN;
+
+    for (int i = 0; i < length; i++) {
+        if (p == COMMENT)
+            p = text[i] == '\n' ? PLAIN : COMMENT;
+        else if (text[i] == '"')
+            p = p == QUOTED ? PLAIN : QUOTED;
+        else if (text[i] == '#' && p == PLAIN)
+            p = COMMENT;
+        else if (text[i] == '\\' && p == QUOTED && i + 1 < length)
+            i++;
+    }
+    return p;
+}
+
+static qdot_status
+find_words(const char *prefix, int start)
+{
+    qdot_text before = {0};
+    qdot_status status;
+
+    qdot_text_add(&before, lines);
+    qdot_text_add_n(&before, rl_line_buffer, (size_t)start);
+    status = qdot_text_status(&before);
+    if (status == QDOT_OK && prefix[0] == '\\')
+        status = qdot_complete_greek(
+            prefix + 1, strcmp(nl_langinfo(CODESET), "UTF-8") == 0, &words.at, &words.n);
+    else if (status == QDOT_OK)
+        status = qdot_complete(session, qdot_text_str(&before), before.n, prefix,
+                               &words.at, &words.n);
+    qdot_text_clear(&before);
+    return status;
+}
+
+static char **
+complete(const char *prefix, int start, int end)
+{
+    const place p = place_of(rl_line_buffer, start);
+
+    (void)end;
+    rl_completion_append_character = '\0';
+    if (p == QUOTED)
+        return NULL; /* file names, and their closing quote */
+    rl_attempted_completion_over = 1;
+    if (p == COMMENT || find_words(prefix, start) != QDOT_OK)
+        return NULL;
+    return rl_completion_matches(prefix, next_word);
+}
+
+/* What ends a word to the left of the cursor; within quotes only the quote. */
+static char *
+breaks(void)
+{
+    static char quote[] = "\"";
+
+    return place_of(rl_line_buffer, rl_point) == QUOTED ? quote : NULL;
+}
+
+void
+qdot_completion_install(qdot_session *s)
+{
+    session = s;
+    rl_attempted_completion_function = complete;
+    rl_basic_word_break_characters = " \t\n\"'`@$><=;|&{}()[]+-*/^,:.!%~#";
+    rl_completer_quote_characters = "\"";
+    rl_completion_word_break_hook = breaks;
+    rl_variable_bind("expand-tilde", "on"); /* the language knows no ~ */
+}
+
+void
+qdot_completion_continue(const char *before)
+{
+    lines = before;
+}

@@ -1,0 +1,18 @@
+/* completion.h -- the TAB key.
+ *
+ * Tests  tests/src/test_prompt.c, tests/lang/test_complete.c
+ */
+#ifndef QDOT_COMPLETION_H
+#define QDOT_COMPLETION_H
+
+#include "lang/session/session.h"
+
+/* Install it in readline for this session. Within quotes file names are completed, with one closing
+ * quote; behind a backslash Greek letters; elsewhere what may stand there
+ * (lang/commands/complete.h). */
+void qdot_completion_install(qdot_session *session);
+
+/* The lines typed before the present one, to which it belongs; borrowed. */
+void qdot_completion_continue(const char *lines);
+
+#endif

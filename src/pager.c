@@ -1,0 +1,116 @@
+/* pager.c -- answers that are longer than the screen. */
+#include "pager.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/terminal.h"
+#include "base/utf8.h"
+
+static FILE *collected, *out, *err; /* the session's files meanwhile */
+static char *text;
+static size_t length;
+
+/* The command that shows pages; NULL: none is wanted. */
+static const char *
+command(void)
+{
+    const char *pager = getenv("PAGER"), *term = getenv("TERM");
+
+    if (term == NULL || strcmp(term, "dumb") == 0)
+        return NULL;
+    if (pager == NULL)
+        return "less -FRX";
+    return pager[0] == '\0' || strcmp(pager, "cat") == 0 ? NULL : pager;
+}
+
+bool
+qdot_pager_begin(qdot_session *session)
+{
+    size_t columns, rows;
+
+    if (session->json || command() == NULL ||
+        !qdot_terminal_size(session->out, &columns, &rows))
+        return false;
+    collected = open_memstream(&text, &length);
+    if (collected == NULL)
+        return false;
+    out = session->out;
+    err = session->err;
+    session->pages = session->out = collected;
+    session->screen = out;
+    if (isatty(fileno(err)))
+        session->err = collected; /* an error stays behind the answers before it */
+    return true;
+}
+
+/* The columns of a line without the codes for colours. */
+static size_t
+columns_of(const char *line, size_t n)
+{
+    size_t codes = 0;
+
+    for (size_t i = 0; i < n; i++)
+        if (line[i] == '\033') {
+            const size_t end = i + strcspn(line + i, "m\n");
+
+            codes += end - i + 1;
+            i = end;
+        }
+    return qdot_utf8_columns(line, n) - codes;
+}
+
+static bool
+is_longer_than_the_screen(void)
+{
+    size_t columns, rows, lines = 0;
+
+    if (!qdot_terminal_size(out, &columns, &rows))
+        return false;
+    for (const char *at = text; at < text + length && lines < rows;) {
+        const size_t n = strcspn(at, "\n");
+
+        lines += 1 + (n > 0 ? (columns_of(at, n) - 1) / columns : 0);
+        at += n + 1;
+    }
+    return lines >= rows; /* the prompt takes a line too */
+}
+
+/* false: the command could not be started. */
+static bool
+show_pages(void)
+{
+    void (*before)(int) = signal(SIGPIPE, SIG_IGN); /* a pager may be left early */
+    FILE *pager;
+    int status = -1;
+
+    setenv("LESS", "FRX", 0);
+    fflush(NULL);
+    pager = popen(command(), "w");
+    if (pager != NULL) {
+        (void)fwrite(text, 1, length, pager);
+        status = pclose(pager);
+    }
+    signal(SIGPIPE, before);
+    qdot_interrupt_clear(); /* a Ctrl-C was the pager's */
+    return status != -1 && !(WIFEXITED(status) &&
+                             (WEXITSTATUS(status) == 126 || WEXITSTATUS(status) == 127));
+}
+
+void
+qdot_pager_end(qdot_session *session)
+{
+    fclose(collected);
+    session->out = out;
+    session->err = err;
+    session->pages = session->screen = NULL;
+    if (length > 0 && !(is_longer_than_the_screen() && show_pages()))
+        (void)fwrite(text, 1, length, out);
+    fflush(out);
+    free(text); /* from open_memstream */
+    text = NULL;
+}
