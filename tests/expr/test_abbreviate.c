@@ -27,7 +27,7 @@ repeated(qdot_pool *pool, unsigned k)
     qdot_expr d = qdot_add(pool, QDOT_ONE, qdot_mul(pool, s, s)), e = QDOT_ONE;
 
     for (unsigned i = 0; i < k; i++) {
-        char name[8];
+        char name[16];
 
         snprintf(name, sizeof name, "x%u", i);
         e = qdot_mul(pool, e,
