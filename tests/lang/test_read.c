@@ -134,7 +134,7 @@ missing_times_is_pointed_at(void **state)
     assert_fails(&r, "m 2", QDOT_ESYNTAX, 1, "`*` is missing", "write m*2");
     assert_fails(&r, "2(m + 1)", QDOT_ESYNTAX, 1, "`*` is missing", "write 2*(");
     assert_fails(&r, "m (g + 1)", QDOT_ESYNTAX, 1, "`*` is missing", "write m*(");
-    assert_fails(&r, "(m)(g)", QDOT_ESYNTAX, 3, "`*` is missing", "written with `*`");
+    assert_fails(&r, "(m)(g)", QDOT_ESYNTAX, 3, "`*` is missing", "write (m)*(g)");
     assert_fails(&r, "theta' m", QDOT_ESYNTAX, 6, "`*` is missing", "");
     assert_fails(&r, "m(g)", QDOT_ESYNTAX, 0, "`m` is not a function", "m*(...)");
     assert_fails(&r, "m nonsense", QDOT_ESYNTAX, 2, "found `nonsense`", "`*`");
