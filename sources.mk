@@ -1989,21 +1989,25 @@ other_files = \
 example_files = \
 	examples/acceleration-constraint.lag \
 	examples/bead-on-helix.lag \
+	examples/bead-on-helix.svg \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
+	examples/brachistochrone-bead.svg \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/cart-pendulum.lag \
+	examples/cart-pendulum.svg \
 	examples/chain.lag \
 	examples/chain.svg \
 	examples/chaplygin-sleigh.lag \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \
+	examples/coupled-oscillators.svg \
 	examples/curvature.lag \
 	examples/cylindrical.lag \
 	examples/damped-oscillator.lag \
@@ -2011,10 +2015,12 @@ example_files = \
 	examples/degrees-of-freedom.lag \
 	examples/digits.lag \
 	examples/dipole-field.lag \
+	examples/dipole-field.svg \
 	examples/double-pendulum-cartesian.lag \
 	examples/double-pendulum.lag \
 	examples/double-pendulum.svg \
 	examples/driven-pendulum.lag \
+	examples/driven-pendulum.svg \
 	examples/dry-friction.lag \
 	examples/dry-friction.svg \
 	examples/effective-potential.svg \
@@ -2025,6 +2031,7 @@ example_files = \
 	examples/equilibria.lag \
 	examples/export.lag \
 	examples/figure-eight.lag \
+	examples/figure-eight.svg \
 	examples/flexing-wire.lag \
 	examples/flexing-wire.svg \
 	examples/foucault.lag \
@@ -2041,11 +2048,13 @@ example_files = \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
 	examples/kapitza.lag \
+	examples/kapitza.svg \
 	examples/kepler.lag \
 	examples/kepler.svg \
 	examples/kinetic-energy.lag \
 	examples/knife-edge.lag \
 	examples/lagrange-points.lag \
+	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
@@ -2065,6 +2074,7 @@ example_files = \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
+	examples/rotating-body.svg \
 	examples/rotating-hoop.lag \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
@@ -2078,12 +2088,15 @@ example_files = \
 	examples/swinging-atwood.lag \
 	examples/swinging-atwood.svg \
 	examples/toda-chain.lag \
+	examples/toda-chain.svg \
 	examples/torus-geodesic.lag \
+	examples/torus-geodesic.svg \
 	examples/undo.lag \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
-	examples/wilberforce.lag
+	examples/wilberforce.lag \
+	examples/wilberforce.svg
 
 info_TEXINFOS = \
 	doc/qdot.texi
