@@ -90,7 +90,7 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"plot theta log ", "x xy y"},
         {"style ", "flat latex mathml plain unicode"},
         {"timing ", "off on"},
-        {"export ", "c julia latex python"},
+        {"export ", "c julia latex matlab python"},
         {"check integrable ", "rod"},
         {"check conser", "conserved"},
         {"event e: theta = 0 ", "falling for rising stop then"},

@@ -26,7 +26,7 @@
 
 #include "lang/source/token.h"
 
-enum { QDOT_USAGE_NODES = 160, QDOT_USAGE_TEXT = 24, QDOT_USAGE_STATES = 96 };
+enum { QDOT_USAGE_NODES = 160, QDOT_USAGE_TEXT = 48, QDOT_USAGE_STATES = 96 };
 
 /* A node; `before` is the last word of the usage before it. */
 typedef struct {
