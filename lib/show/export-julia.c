@@ -114,20 +114,24 @@ static const char system_text[] =
     "?d end\n"
     "end # module\n";
 
+/* What a function that holds such operations has before it. */
+#define REAL_FUNCTIONS \
+    "?g \n" \
+    "?g # nan where there is no real value, as in a branch that is not taken.\n" \
+    "?g real_sqrt(x) = x < 0 ? oftype(float(x), NaN) : sqrt(x)\n" \
+    "?g real_log(x) = x < 0 ? oftype(float(x), NaN) : log(x)\n" \
+    "?g real_pow(x, y) = x < 0 && !isinteger(y) ? oftype(float(x), NaN) : x^y\n" \
+    "?g real_asin(x) = abs(x) > 1 ? oftype(float(x), NaN) : asin(x)\n" \
+    "?g real_acos(x) = abs(x) > 1 ? oftype(float(x), NaN) : acos(x)\n" \
+    "?g real_acosh(x) = x < 1 ? oftype(float(x), NaN) : acosh(x)\n" \
+    "?g real_atanh(x) = abs(x) > 1 ? oftype(float(x), NaN) : atanh(x)\n"
+
 static const char value_text[] =
     "$origin$\n"
     "#\n"
     "# Written by qdot.\n"
     "?f using SpecialFunctions: erf, erfc\n"
-    "?g \n"
-    "?g # nan where there is no real value, as in a branch that is not taken.\n"
-    "?g real_sqrt(x) = x < 0 ? oftype(float(x), NaN) : sqrt(x)\n"
-    "?g real_log(x) = x < 0 ? oftype(float(x), NaN) : log(x)\n"
-    "?g real_pow(x, y) = x < 0 && !isinteger(y) ? oftype(float(x), NaN) : x^y\n"
-    "?g real_asin(x) = abs(x) > 1 ? oftype(float(x), NaN) : asin(x)\n"
-    "?g real_acos(x) = abs(x) > 1 ? oftype(float(x), NaN) : acos(x)\n"
-    "?g real_acosh(x) = x < 1 ? oftype(float(x), NaN) : acosh(x)\n"
-    "?g real_atanh(x) = abs(x) > 1 ? oftype(float(x), NaN) : atanh(x)\n"
+    REAL_FUNCTIONS
     "\n"
     "function $name$($arguments$)\n"
     "    $code$\n"
@@ -138,15 +142,7 @@ static const char values_text[] =
     "#\n"
     "# Written by qdot.\n"
     "?f using SpecialFunctions: erf, erfc\n"
-    "?g \n"
-    "?g # nan where there is no real value, as in a branch that is not taken.\n"
-    "?g real_sqrt(x) = x < 0 ? oftype(float(x), NaN) : sqrt(x)\n"
-    "?g real_log(x) = x < 0 ? oftype(float(x), NaN) : log(x)\n"
-    "?g real_pow(x, y) = x < 0 && !isinteger(y) ? oftype(float(x), NaN) : x^y\n"
-    "?g real_asin(x) = abs(x) > 1 ? oftype(float(x), NaN) : asin(x)\n"
-    "?g real_acos(x) = abs(x) > 1 ? oftype(float(x), NaN) : acos(x)\n"
-    "?g real_acosh(x) = x < 1 ? oftype(float(x), NaN) : acosh(x)\n"
-    "?g real_atanh(x) = abs(x) > 1 ? oftype(float(x), NaN) : atanh(x)\n"
+    REAL_FUNCTIONS
     "\n"
     "function $name$($arguments$)\n"
     "    out = zeros($shape$)\n"

@@ -113,6 +113,17 @@ static const char system_text[] =
     "?h     end\n"
     "?h end\n";
 
+/* What a function that holds a choice has behind it. */
+#define CHOOSE \
+    "?h \n" \
+    "?h function x = choose(condition, a, b)\n" \
+    "?h     if condition\n" \
+    "?h         x = a;\n" \
+    "?h     else\n" \
+    "?h         x = b;\n" \
+    "?h     end\n" \
+    "?h end\n"
+
 static const char value_text[] =
     "function h = $name$($arguments$)\n"
     "% $name$ -- written by qdot, for Matlab and Octave.\n"
@@ -120,14 +131,7 @@ static const char value_text[] =
     "$origin$\n"
     "    $code$\n"
     "end\n"
-    "?h \n"
-    "?h function x = choose(condition, a, b)\n"
-    "?h     if condition\n"
-    "?h         x = a;\n"
-    "?h     else\n"
-    "?h         x = b;\n"
-    "?h     end\n"
-    "?h end\n";
+    CHOOSE;
 
 static const char values_text[] =
     "function out = $name$($arguments$)\n"
@@ -137,14 +141,7 @@ static const char values_text[] =
     "    out = zeros($shape$);\n"
     "    $code$\n"
     "end\n"
-    "?h \n"
-    "?h function x = choose(condition, a, b)\n"
-    "?h     if condition\n"
-    "?h         x = a;\n"
-    "?h     else\n"
-    "?h         x = b;\n"
-    "?h     end\n"
-    "?h end\n";
+    CHOOSE;
 
 const qdot_export_syntax qdot_export_matlab = {
     .comment = "%",
