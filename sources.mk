@@ -42,56 +42,43 @@ library_sources = \
 	lib/lang/answer/formula.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
-	lib/lang/commands/abbreviate.c \
-	lib/lang/commands/animate.c \
-	lib/lang/commands/animated-facts.c \
-	lib/lang/commands/animated.c \
-	lib/lang/commands/ask.c \
-	lib/lang/commands/assumed.c \
-	lib/lang/commands/check.c \
-	lib/lang/commands/complete.c \
-	lib/lang/commands/constraints.c \
-	lib/lang/commands/data-file.c \
-	lib/lang/commands/declare-function.c \
-	lib/lang/commands/declare.c \
-	lib/lang/commands/derive.c \
-	lib/lang/commands/digits-table.c \
-	lib/lang/commands/equilibria.c \
-	lib/lang/commands/event.c \
-	lib/lang/commands/export-scene.c \
-	lib/lang/commands/export.c \
-	lib/lang/commands/figure-file.c \
-	lib/lang/commands/figure-option.c \
-	lib/lang/commands/help.c \
+	lib/lang/ask/abbreviate.c \
+	lib/lang/ask/ask.c \
+	lib/lang/ask/check.c \
+	lib/lang/ask/derive.c \
+	lib/lang/ask/equilibria.c \
 	lib/lang/commands/loop.c \
-	lib/lang/commands/objects.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
-	lib/lang/commands/plot-over.c \
-	lib/lang/commands/plot-run.c \
-	lib/lang/commands/plot.c \
-	lib/lang/commands/race.c \
-	lib/lang/commands/redirect.c \
-	lib/lang/commands/remove.c \
-	lib/lang/commands/report-page.c \
-	lib/lang/commands/report-work.c \
-	lib/lang/commands/request.c \
-	lib/lang/commands/reset.c \
-	lib/lang/commands/run.c \
-	lib/lang/commands/scene-file.c \
-	lib/lang/commands/script-file.c \
-	lib/lang/commands/script.c \
-	lib/lang/commands/search.c \
 	lib/lang/commands/set.c \
-	lib/lang/commands/settings.c \
-	lib/lang/commands/solid.c \
 	lib/lang/commands/statement.c \
-	lib/lang/commands/table.c \
-	lib/lang/commands/undo.c \
 	lib/lang/commands/usage.c \
 	lib/lang/commands/value-check.c \
 	lib/lang/commands/warnings.c \
-	lib/lang/commands/workprecision.c \
+	lib/lang/declare/assumed.c \
+	lib/lang/declare/constraints.c \
+	lib/lang/declare/declare-function.c \
+	lib/lang/declare/declare.c \
+	lib/lang/declare/export-scene.c \
+	lib/lang/declare/objects.c \
+	lib/lang/declare/remove.c \
+	lib/lang/declare/scene-file.c \
+	lib/lang/figures/animate.c \
+	lib/lang/figures/animated-facts.c \
+	lib/lang/figures/animated.c \
+	lib/lang/figures/figure-file.c \
+	lib/lang/figures/figure-option.c \
+	lib/lang/figures/plot-over.c \
+	lib/lang/figures/plot-run.c \
+	lib/lang/figures/plot.c \
+	lib/lang/figures/solid.c \
+	lib/lang/files/data-file.c \
+	lib/lang/files/digits-table.c \
+	lib/lang/files/export.c \
+	lib/lang/files/redirect.c \
+	lib/lang/files/report-page.c \
+	lib/lang/files/report-work.c \
+	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
 	lib/lang/functions/entry.c \
@@ -119,6 +106,11 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/event.c \
+	lib/lang/runs/race.c \
+	lib/lang/runs/request.c \
+	lib/lang/runs/run.c \
+	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
 	lib/lang/session/event-time.c \
@@ -139,6 +131,14 @@ library_sources = \
 	lib/lang/source/lex.c \
 	lib/lang/source/refuse.c \
 	lib/lang/source/source.c \
+	lib/lang/workbench/complete.c \
+	lib/lang/workbench/help.c \
+	lib/lang/workbench/reset.c \
+	lib/lang/workbench/script-file.c \
+	lib/lang/workbench/script.c \
+	lib/lang/workbench/search.c \
+	lib/lang/workbench/settings.c \
+	lib/lang/workbench/undo.c \
 	lib/machine/vector.c \
 	lib/machine/x86.c \
 	lib/mech/dynamics/accel.c \
@@ -475,34 +475,30 @@ library_headers = \
 	lib/lang/answer/formula.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
-	lib/lang/commands/animated.h \
-	lib/lang/commands/ask.h \
-	lib/lang/commands/assumed.h \
-	lib/lang/commands/complete.h \
-	lib/lang/commands/constraints.h \
-	lib/lang/commands/data-file.h \
-	lib/lang/commands/declare.h \
-	lib/lang/commands/digits-table.h \
-	lib/lang/commands/export-scene.h \
-	lib/lang/commands/figure-file.h \
-	lib/lang/commands/figure-option.h \
+	lib/lang/ask/ask.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
-	lib/lang/commands/plot-parts.h \
-	lib/lang/commands/redirect.h \
-	lib/lang/commands/report-work.h \
-	lib/lang/commands/request.h \
-	lib/lang/commands/scene-file.h \
-	lib/lang/commands/script.h \
-	lib/lang/commands/search.h \
 	lib/lang/commands/set.h \
-	lib/lang/commands/solid.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/usage.h \
 	lib/lang/commands/value-check.h \
 	lib/lang/commands/warnings.h \
+	lib/lang/declare/assumed.h \
+	lib/lang/declare/constraints.h \
+	lib/lang/declare/declare.h \
+	lib/lang/declare/export-scene.h \
+	lib/lang/declare/scene-file.h \
+	lib/lang/figures/animated.h \
+	lib/lang/figures/figure-file.h \
+	lib/lang/figures/figure-option.h \
+	lib/lang/figures/plot-parts.h \
+	lib/lang/figures/solid.h \
+	lib/lang/files/data-file.h \
+	lib/lang/files/digits-table.h \
+	lib/lang/files/redirect.h \
+	lib/lang/files/report-work.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
 	lib/lang/functions/entry.h \
@@ -528,6 +524,7 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/event-time.h \
@@ -549,6 +546,9 @@ library_headers = \
 	lib/lang/source/refuse.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
+	lib/lang/workbench/complete.h \
+	lib/lang/workbench/script.h \
+	lib/lang/workbench/search.h \
 	lib/machine/asm.h \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \

@@ -7,7 +7,7 @@
 
 #include <readline/readline.h>
 
-#include "lang/commands/complete.h"
+#include "lang/workbench/complete.h"
 
 static qdot_session *session; /* readline's callbacks have no argument of ours */
 static const char *lines = "";

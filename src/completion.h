@@ -9,7 +9,7 @@
 
 /* Install it in readline for this session. Within quotes file names are completed, with one closing
  * quote; behind a backslash Greek letters; elsewhere what may stand there
- * (lang/commands/complete.h). */
+ * (lang/workbench/complete.h). */
 void qdot_completion_install(qdot_session *session);
 
 /* The lines typed before the present one, to which it belongs; borrowed. */

@@ -13,7 +13,7 @@
 
 #include "base/memory.h"
 #include "base/terminal.h"
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 #include "num/kinds.h"
 #include "progress-line.h"
 #include "prompt.h"

@@ -2,7 +2,7 @@
 #ifndef QDOT_PROMPT_H
 #define QDOT_PROMPT_H
 
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 
 /* Read statements with readline and carry them out until Ctrl-D or `quit`. An error leaves
  * the session as it was. startup: after the startup file (startup.h). Ctrl-C never ends it. */

@@ -5,7 +5,7 @@
 #ifndef QDOT_STARTUP_H
 #define QDOT_STARTUP_H
 
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 
 /* Carry out $XDG_CONFIG_HOME/qdot/init.lag, or else ~/.config/qdot/init.lag, if there is one. An
  * error in it is reported, and the session goes on with what stands before it. */

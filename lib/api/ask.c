@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"

@@ -19,7 +19,8 @@ qdot_text_add_n(qdot_text *s, const char *text, size_t length)
         s->failed = true;
         return;
     }
-    memcpy(s->at + s->n, text, length);
+    if (length > 0) /* of nothing the address may be none */
+        memcpy(s->at + s->n, text, length);
     s->n += length;
     s->at[s->n] = '\0';
 }

@@ -20,7 +20,7 @@
 #include <time.h>
 
 #include "base/interrupt.h"
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 
 enum { LIMIT = 2000, EARLY = 64 }; /* milliseconds */
 

@@ -15,7 +15,7 @@
 
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 #include "lang/language/read.h"
 #include "lang/source/source.h"
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 
 typedef struct {
     qdot_session *session;

@@ -2,8 +2,8 @@
 #include "talk.h"
 
 #include "base/memory.h"
-#include "lang/commands/complete.h"
-#include "lang/commands/redirect.h"
+#include "lang/workbench/complete.h"
+#include "lang/files/redirect.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/usage.h"
 #include "lang/source/source.h"

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "lang/commands/script.h"
+#include "lang/workbench/script.h"
 #include "lang/language/partial-sum.h"
 
 static qdot_session *

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "lang/commands/solid.h"
+#include "lang/figures/solid.h"
 
 static void
 near(double x, double want)

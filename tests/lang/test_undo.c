@@ -6,7 +6,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/print.h"
-#include "lang/commands/scene-file.h"
+#include "lang/declare/scene-file.h"
 #include "lang/commands/statement.h"
 #include "lang/source/source.h"
 

@@ -1,0 +1,78 @@
+/* abbreviate.c -- a value with names for the parts that it repeats. */
+#include "expr/abbreviate.h"
+
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/ask/ask.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/measured.h"
+
+typedef struct {
+    const qdot_session *session;
+    qdot_expr atoms; /* of the value: a LIST of symbols and functions */
+} names_in_use;
+
+static bool
+is_taken(const char *name, void *user)
+{
+    const names_in_use *n = user;
+    const qdot_pool *pool = n->session->pool;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, n->atoms); i++) {
+        const qdot_symbol *s = qdot_expr_symbol(pool, qdot_expr_arg(pool, n->atoms, i));
+
+        if (s != NULL && strcmp(s->name, name) == 0)
+            return true;
+    }
+    return qdot_cursor_knows(n->session, name);
+}
+
+/* The parts, then the value in terms of them. */
+static qdot_status
+answer(qdot_session *session, const char *name, qdot_expr value)
+{
+    names_in_use taken = {session, qdot_expr_atoms(session->pool, value, false)};
+    qdot_abbreviated a;
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    status = qdot_abbreviate(session->pool, value, is_taken, &taken, &a);
+    for (size_t i = 0; i < a.parts.n && status == QDOT_OK; i++) {
+        const qdot_expr symbol = a.symbols.at[i];
+
+        status = qdot_answer_solved(session, qdot_expr_symbol(session->pool, symbol)->name,
+                                    symbol, a.parts.at[i]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_ask_answer(session, name, a.whole);
+    qdot_abbreviated_clear(&a);
+    return status;
+}
+
+qdot_status
+qdot_abbreviate_statement(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_text name = {0};
+    qdot_expr value, over;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_named(c, &value, &over));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    qdot_token_text(session, start, c->at, &name);
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_session_remember(session, value, over);
+    if (status == QDOT_OK && qdot_measured_occurs(session, value))
+        status = qdot_ask_answer(session, qdot_text_str(&name), value);
+    else if (status == QDOT_OK)
+        status = answer(session, qdot_text_str(&name), value);
+    qdot_text_clear(&name);
+    return status;
+}

@@ -1,0 +1,505 @@
+/* ask.c -- values asked for: expressions, print, show, vars, and the parts of a scene. */
+#include "lang/ask/ask.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/digits.h"
+#include "lang/answer/formula.h"
+#include "lang/answer/number-text.h"
+#include "lang/ask/ask.h"
+#include "lang/declare/constraints.h"
+#include "lang/declare/scene-file.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/function.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+
+/* --- expressions -------------------------------------------------------------------- */
+
+/* A value in which numbers of a run stand: a number, or a list of them. */
+static qdot_status
+answer_measured(qdot_session *session, const char *name, qdot_expr value)
+{
+    qdot_vec(double) values = {0}, errors = {0};
+    bool several = !qdot_expr_is_scalar(session->pool, value);
+    uint32_t n = several ? qdot_expr_count(session->pool, value) : 1;
+    qdot_status status = QDOT_OK;
+    int digits = qdot_digits_of(session, value);
+
+    if (digits > 0)
+        return qdot_digits_answer(session, name, value, digits);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_expr member = several ? qdot_expr_arg(session->pool, value, i) : value;
+        double x, error;
+
+        status = qdot_session_number(session, member, &x, &error);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, x);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&errors, error);
+    }
+    if (status == QDOT_OK)
+        status = several ? qdot_answer_numbers(session, name, n, values.at, errors.at)
+                         : qdot_answer_number(session, name, values.at[0], errors.at[0]);
+    qdot_free(values.at);
+    qdot_free(errors.at);
+    return status;
+}
+
+/* "eom[theta1]" for the member that goes with a coordinate, else "solve(...)[1]". */
+static void
+member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_t i,
+            qdot_text *out)
+{
+    qdot_text_add(out, name);
+    if (by_coordinate)
+        qdot_text_format(
+            out, "[%s]",
+            qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+    else
+        qdot_text_format(out, "[%u]", i + 1);
+}
+
+/* `equilibria[1]`, whose equations belong together. */
+static bool
+is_one_equilibrium(const char *name)
+{
+    return strncmp(name, "equilibria[", 11) == 0 && strchr(name + 11, '[') == NULL;
+}
+
+/* `equilibria[1]: x = 0, y = 0` */
+static qdot_status
+answer_joined(qdot_session *session, const char *name, qdot_expr list)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    qdot_text_format(&text, "%s: ", name);
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? ", " : "");
+        status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
+    }
+    return qdot_answer_written(session, name, status, &text);
+}
+
+static qdot_status
+answer_list(qdot_session *session, const char *name, qdot_expr list)
+{
+    uint32_t n = qdot_expr_count(session->pool, list);
+    const qdot_quantity *row = qdot_quantity_find(name);
+    bool by_coordinate = row != NULL && row->over_coordinates &&
+                         qdot_names_find(session->names, name) == NULL;
+
+    if (n == 0 || (session->json && is_one_equilibrium(name)))
+        return qdot_answer_expr(session, name, list);
+    if (is_one_equilibrium(name))
+        return answer_joined(session, name, list);
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(session->pool, list, i);
+        qdot_text member = {0};
+        qdot_status status;
+
+        member_name(session, name, by_coordinate, i, &member);
+        status = qdot_text_status(&member);
+        if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
+            qdot_expr q = session->scene->coordinates.at[i];
+
+            status = qdot_answer_solved(session, qdot_text_str(&member),
+                                        row->symbol(session->pool, q), one);
+        } else if (status == QDOT_OK) {
+            status = qdot_answer_expr(session, qdot_text_str(&member), one);
+        }
+        qdot_text_clear(&member);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value)
+{
+    if (qdot_measured_occurs(session, value))
+        return answer_measured(session, name, value);
+    if (qdot_expr_kind(session->pool, value) == QDOT_LIST)
+        return answer_list(session, name, value);
+    return qdot_answer_expr(session, name, value);
+}
+
+qdot_status
+qdot_ask_expression(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_expr value, over;
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_named(c, &value, &over));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    qdot_token_text(c->session, start, c->at, &name);
+    if (name.n > 200) { /* longer than it helps: by its number in the history */
+        qdot_text_truncate(&name, 0);
+        qdot_text_format(&name, "%%%zu", session->history.n + 1);
+    }
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_session_remember(session, value, over);
+    if (status == QDOT_OK)
+        status = qdot_ask_answer(session, qdot_text_str(&name), value);
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- print -------------------------------------------------------------------------- */
+
+/* A list of texts, each in a line of its own. */
+static bool
+is_texts(const qdot_pool *pool, qdot_expr e)
+{
+    bool list = qdot_expr_kind(pool, e) == QDOT_LIST;
+    uint32_t n = list ? qdot_expr_count(pool, e) : 0;
+
+    for (uint32_t i = 0; i < n && list; i++)
+        list = qdot_expr_is_class(pool, qdot_expr_arg(pool, e, i), QDOT_WORDS);
+    return list && n > 0;
+}
+
+static qdot_status
+add_texts(qdot_session *session, qdot_expr list, qdot_text *line)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list); i++) {
+        qdot_text_add(line, i > 0 ? "\n" : "");
+        QDOT_TRY(qdot_print(session->pool, qdot_expr_arg(session->pool, list, i),
+                            session->style, line));
+    }
+    return QDOT_OK;
+}
+
+/* One argument as text: a quoted one as it is, numbers of runs as numbers. */
+static qdot_status
+print_one(qdot_cursor *c, qdot_text *line)
+{
+    qdot_session *session = c->session;
+    const char *text;
+    qdot_expr value;
+    double x, error;
+    int digits;
+
+    if (c->at->kind == QDOT_TOKEN_STRING) {
+        QDOT_TRY(qdot_read_string(c, &text));
+        qdot_text_add(line, text);
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_read_value(c, &value));
+    if (is_texts(session->pool, value))
+        return add_texts(session, value, line);
+    if (!qdot_measured_occurs(session, value))
+        return qdot_formula(session, value, line);
+    digits = qdot_digits_of(session, value);
+    for (uint32_t i = 0;; i++) {
+        bool scalar = qdot_expr_is_scalar(session->pool, value);
+        qdot_expr member;
+
+        if (!scalar && i >= qdot_expr_count(session->pool, value))
+            return QDOT_OK;
+        member = scalar ? value : qdot_expr_arg(session->pool, value, i);
+        QDOT_TRY(qdot_session_number(session, member, &x, &error));
+        qdot_text_add(line, i > 0 ? ", " : "");
+        if (digits > 0)
+            QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
+        else
+            qdot_number_text(line, x, error);
+        if (scalar)
+            return QDOT_OK;
+    }
+}
+
+qdot_status
+qdot_ask_print(qdot_cursor *c)
+{
+    qdot_text line = {0};
+    qdot_status status = QDOT_OK;
+
+    if (!qdot_cursor_is_end(c)) {
+        do {
+            qdot_text_add(&line, line.n > 0 ? " " : "");
+            status = print_one(c, &line);
+        } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+        if (status == QDOT_OK)
+            status = qdot_cursor_expect_end(c);
+    }
+    return qdot_answer_written(c->session, "print", status, &line);
+}
+
+/* --- names -------------------------------------------------------------------------- */
+
+/* The value that `set` or `param` gave a symbol; nil: none. */
+static qdot_expr
+set_value(const qdot_session *session, qdot_expr symbol)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        if (session->set_symbols.at[i] == symbol)
+            return session->set_values.at[i];
+    return QDOT_NIL;
+}
+
+/* A value; how large it is where it is too large to print. */
+static qdot_status
+print_value(qdot_session *session, qdot_expr value, qdot_text *out)
+{
+    uint64_t size = qdot_expr_size(session->pool, value);
+
+    if (size <= QDOT_FORMULA_OPERATIONS)
+        return qdot_print(session->pool, value, QDOT_PLAIN, out);
+    qdot_text_format(out, "... # %" PRIu64 " operations", size);
+    return QDOT_OK;
+}
+
+/* A declared name as a statement that declares it. */
+static qdot_status
+print_name(qdot_session *session, const qdot_name *name, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr value;
+
+    switch (name->kind) {
+    case QDOT_NAME_PARAM:
+    case QDOT_NAME_COORD:
+        qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
+        QDOT_TRY(qdot_scene_print_domain(session->scene, name->value, out));
+        value = set_value(session, name->value);
+        if (value == QDOT_NIL)
+            return QDOT_OK;
+        qdot_text_add(out, " = ");
+        return print_value(session, value, out);
+    case QDOT_NAME_UFUN:
+        qdot_text_add(out, "function ");
+        return qdot_print(pool, name->value, QDOT_PLAIN, out);
+    case QDOT_NAME_FUNCTION: return qdot_function_print(session, name, out);
+    default:
+        qdot_text_format(out, "%s = ", name->name);
+        return print_value(session, name->value, out);
+    }
+}
+
+qdot_status
+qdot_ask_vars(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    for (size_t i = 0; qdot_names_at(session->names, i) != NULL && status == QDOT_OK;
+         i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_name(session, qdot_names_at(session->names, i), &text);
+    }
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "nothing is declared");
+    return qdot_answer_written(session, "vars", status, &text);
+}
+
+/* The line of the scene that declares a label. */
+static qdot_status
+print_label(qdot_session *session, const char *label, qdot_text *out)
+{
+    qdot_text scene = {0};
+    qdot_status status = qdot_scene_print(session->scene, &scene);
+    size_t n = strlen(label);
+
+    for (const char *line = qdot_text_str(&scene); status == QDOT_OK && *line != '\0';) {
+        const char *end = strchrnul(line, '\n'), *word = strchr(line, ' ');
+
+        if (word != NULL && word < end && strncmp(word + 1, label, n) == 0 &&
+            strchr(" :", word[1 + n]) != NULL) {
+            qdot_text_add_n(out, line, (size_t)(end - line));
+            break;
+        }
+        line = *end == '\0' ? end : end + 1;
+    }
+    qdot_text_clear(&scene);
+    return status;
+}
+
+qdot_status
+qdot_ask_show(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+    const qdot_quantity *quantity;
+    const qdot_builtin *builtin;
+    const qdot_name *known;
+    const char *name;
+
+    QDOT_TRY(qdot_read_name(c, &name));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    known = qdot_names_find(session->names, name);
+    quantity = qdot_quantity_find(name);
+    builtin = qdot_builtin_find(name);
+    if (known != NULL) {
+        status = print_name(session, known, &text);
+        if (status == QDOT_OK && known->file != NULL)
+            qdot_text_format(&text, "    # %s:%u", known->file, known->line);
+    } else if (qdot_scene_has_label(session->scene, name)) {
+        status = print_label(session, name, &text);
+    } else if (quantity != NULL) {
+        qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);
+    } else if (strcmp(name, "pi") == 0 || strcmp(name, "t") == 0) {
+        qdot_text_add(&text, name[0] == 't' ? "t: the time" : "pi: the number 3.14159...");
+    } else if (builtin != NULL) {
+        qdot_text_format(&text, "%s: %s", builtin->usage, builtin->summary);
+    } else if (qdot_statement_find(name) != NULL) {
+        qdot_text_format(&text, "%s: %s", qdot_statement_find(name)->usage,
+                         qdot_statement_find(name)->summary);
+    } else {
+        const char *near = qdot_names_nearest(session->names, name, 0, NULL);
+
+        (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
+        return near != NULL ? qdot_hint("did you mean `%s`?", near) : QDOT_ENAME;
+    }
+    return qdot_answer_written(session, name, status, &text);
+}
+
+/* --- the scene ---------------------------------------------------------------------- */
+
+qdot_status
+qdot_ask_scene(qdot_cursor *c)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (qdot_cursor_accept_word(c, "to"))
+        return qdot_scene_file_write(c, false);
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    status = qdot_scene_print(c->session->scene, &text);
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "the scene is empty");
+    return qdot_answer_written(c->session, "scene", status, &text);
+}
+
+qdot_status
+qdot_ask_forces(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_text text = {0};
+    qdot_status status;
+    qdot_expr forces;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    forces = qdot_mech_forces(session->scene);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_session_remember(session, forces,
+                                   qdot_list(session->pool,
+                                             (uint32_t)session->scene->coordinates.n,
+                                             session->scene->coordinates.at)));
+    QDOT_TRY(answer_list(session, "forces", forces));
+    status = qdot_mech_forces_parts(session->scene, session->style, &text);
+    if (status == QDOT_OK && text.n == 0)
+        qdot_text_add(&text, "nothing is applied");
+    return qdot_answer_written(session, "forces", status, &text);
+}
+
+qdot_status
+qdot_ask_dof(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_expr value;
+    qdot_text text = {0};
+    qdot_dof dof;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    QDOT_TRY(qdot_mech_dof(session->scene, &dof));
+    value = qdot_expr_int(session->pool, (long)dof.freedom);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_vec_push(&session->history, value));
+    QDOT_TRY(qdot_answer_expr(session, "dof", value));
+    qdot_text_format(&text,
+                     "coordinates %zu, constraints %zu, of them independent %zu: "
+                     "n = %zu - %zu = %zu",
+                     dof.coordinates, dof.constraints, dof.independent, dof.coordinates,
+                     dof.independent, dof.freedom);
+    if (dof.cartesian)
+        qdot_text_format(&text, "\nn = N*D - C = %zu*%zu - %zu = %zu", dof.particles,
+                         dof.dimension, dof.independent, dof.freedom);
+    qdot_constraints_print_redundant(session->scene, &dof, &text);
+    return qdot_answer_written(session, "dof", QDOT_OK, &text);
+}
+
+/* `theta: p[theta] = ... is conserved`, or with its rate. */
+static qdot_status
+print_cyclic(qdot_session *session, const qdot_cyclic *one, qdot_text *text)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_formula(session, one->coordinate, text));
+    qdot_text_add(text, ": ");
+    qdot_formula_bracket(session, true, text);
+    QDOT_TRY(qdot_print(pool, p, session->style, text));
+    qdot_text_add(text, qdot_formula_equals(session));
+    QDOT_TRY(qdot_formula_print(session, one->momentum, session->style, text));
+    qdot_formula_bracket(session, false, text);
+    if (one->rate == QDOT_NIL) {
+        qdot_text_add(text, " is conserved");
+        return QDOT_OK;
+    }
+    qdot_text_add(text, " changes at the rate ");
+    return qdot_formula(session, one->rate, text);
+}
+
+/* With --json the momenta are values too: `p[theta] = ...` by the name of
+ * cyclic[theta]. */
+static qdot_status
+answer_cyclic(qdot_session *session, const qdot_cyclic *one)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr p = qdot_symbol_of(pool, QDOT_MOMENTUM, one->coordinate);
+    qdot_expr equation = qdot_rel(pool, QDOT_EQ, p, one->momentum);
+    qdot_text name = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    qdot_text_format(&name, "cyclic[%s]", qdot_expr_symbol(pool, one->coordinate)->name);
+    status = qdot_text_status(&name);
+    if (status == QDOT_OK)
+        status = qdot_answer_expr(session, qdot_text_str(&name), equation);
+    qdot_text_clear(&name);
+    return status;
+}
+
+qdot_status
+qdot_ask_cyclic(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_status status;
+    qdot_text text = {0};
+    qdot_cyclic *list;
+    size_t n;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
+    status = QDOT_OK;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_cyclic(session, &list[i], &text);
+        if (status == QDOT_OK && session->json)
+            status = answer_cyclic(session, &list[i]);
+    }
+    if (n == 0)
+        qdot_text_add(&text, "no coordinate is cyclic");
+    qdot_free(list);
+    return qdot_answer_written(session, "cyclic", status, &text);
+}

@@ -1,0 +1,497 @@
+/* check.c -- `check`: is it so? Proved, refuted or undecided, component by component. */
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/digits.h"
+#include "lang/answer/formula.h"
+#include "lang/declare/assumed.h"
+#include "lang/declare/constraints.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/equilibria.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
+#include "mech/dynamics/quantity.h"
+#include "normal/inequality/contradiction.h"
+#include "normal/inequality/less.h"
+#include "normal/solve/proportion.h"
+
+/* --- deciding ----------------------------------------------------------------------- */
+
+typedef enum { EQUAL, LESS, LESS_EQUAL } comparison;
+
+static qdot_status
+decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+               const qdot_facts *known, qdot_decision *decision)
+{
+    return how == EQUAL ? qdot_decide_equal(session->pool, left, right, known, decision)
+                        : qdot_decide_less(session->pool, left, right, how == LESS, known,
+                                           decision);
+}
+
+/* A text, or a verdict of stability(...): equal to itself alone. */
+static bool
+is_word(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_class(pool, e, QDOT_WORDS) || qdot_equilibria_is_word(pool, e);
+}
+
+/* Two equations: one residual the other times a factor that has no zero. */
+static qdot_status
+decide_equations(qdot_session *session, qdot_expr left, qdot_expr right,
+                 const qdot_facts *known, qdot_decision *decision)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr a =
+        qdot_sub(pool, qdot_expr_arg(pool, left, 0), qdot_expr_arg(pool, left, 1));
+    qdot_expr b =
+        qdot_sub(pool, qdot_expr_arg(pool, right, 0), qdot_expr_arg(pool, right, 1));
+    qdot_expr factor = QDOT_NIL;
+    bool may_vanish = false;
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_node(pool, left)->op != QDOT_EQ ||
+        qdot_expr_node(pool, right)->op != QDOT_EQ)
+        return qdot_fail(QDOT_ETYPE, "inequalities are not compared with one another");
+    QDOT_TRY(qdot_decide_proportional(pool, a, b, known, decision, &factor, &may_vanish));
+    if (decision->verdict != QDOT_PROVED || !may_vanish || factor == QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_formula(session, factor, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session,
+                                    "the equations differ by the factor %s: where it is "
+                                    "0 or undefined they need not "
+                                    "agree",
+                                    qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+static const char *
+kind_word(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_scalar(pool, e) ? "a scalar" : qdot_value_kind_words(pool, e);
+}
+
+static qdot_status
+mismatch(const qdot_pool *pool, qdot_expr left, qdot_expr right)
+{
+    uint32_t m = qdot_expr_count(pool, left), n = qdot_expr_count(pool, right);
+
+    if (qdot_expr_kind(pool, left) == qdot_expr_kind(pool, right) && m != n)
+        return qdot_fail(QDOT_ETYPE, "the sides have %u and %u components", m, n);
+    if (qdot_expr_kind(pool, left) == qdot_expr_kind(pool, right))
+        return qdot_fail(QDOT_ETYPE, "the sides are matrices of different shapes");
+    return qdot_fail(QDOT_ETYPE, "%s is not compared with %s", kind_word(pool, left),
+                     kind_word(pool, right));
+}
+
+/* The verdict of all components is the worst of theirs: the first refutation, else the
+ * last undecided, else proved. Members of lists may be vectors: an explicit stack. */
+static qdot_status
+decide(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+       const qdot_facts *known, qdot_decision *decision)
+{
+    qdot_pool *pool = session->pool;
+    qdot_vec(qdot_expr) todo = {0};
+    qdot_status status = qdot_vec_push(&todo, left);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&todo, right);
+    *decision = (qdot_decision){.verdict = QDOT_PROVED, .left = NAN, .right = NAN};
+    while (status == QDOT_OK && todo.n > 0) {
+        qdot_expr b = todo.at[--todo.n], a = todo.at[--todo.n];
+        qdot_kind kind = qdot_expr_kind(pool, a);
+        qdot_decision one = {.left = NAN, .right = NAN};
+
+        if (how == EQUAL && is_word(pool, a) && is_word(pool, b)) {
+            one.verdict = a == b ? QDOT_PROVED : QDOT_REFUTED;
+        } else if (qdot_expr_is_scalar(pool, a) && qdot_expr_is_scalar(pool, b)) {
+            status = decide_scalars(session, a, b, how, known, &one);
+        } else if (kind != qdot_expr_kind(pool, b) || kind == QDOT_LOGIC ||
+                   qdot_expr_count(pool, a) != qdot_expr_count(pool, b) ||
+                   (kind == QDOT_MAT &&
+                    qdot_expr_node(pool, a)->op != qdot_expr_node(pool, b)->op)) {
+            status = mismatch(pool, a, b);
+        } else if (how != EQUAL) {
+            status =
+                qdot_fail(QDOT_ETYPE, "`<` compares numbers, not %s", kind_word(pool, a));
+        } else if (kind == QDOT_REL) {
+            status = decide_equations(session, a, b, known, &one);
+        } else {
+            for (uint32_t i = 2 * qdot_expr_count(pool, a); i-- > 0 && status == QDOT_OK;)
+                status =
+                    qdot_vec_push(&todo, qdot_expr_arg(pool, i % 2 != 0 ? a : b, i / 2));
+            continue;
+        }
+        if (status == QDOT_OK && one.verdict != QDOT_PROVED)
+            *decision = one;
+        if (one.verdict == QDOT_REFUTED)
+            break;
+    }
+    qdot_free(todo.at);
+    return status;
+}
+
+/* Numbers of a run: |a - b| <= tol max(1, |b|), or a < b. */
+static qdot_status
+compare_numbers(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+                double tol, qdot_decision *decision)
+{
+    double difference, errors[2];
+    bool holds;
+
+    QDOT_TRY(qdot_session_number(session, left, &decision->left, &errors[0]));
+    QDOT_TRY(qdot_session_number(session, right, &decision->right, &errors[1]));
+    difference = decision->left - decision->right;
+    if (qdot_digits_of(session, left) > 0 || qdot_digits_of(session, right) > 0)
+        QDOT_TRY(qdot_digits_difference(session, left, right, &difference));
+    if (how == EQUAL)
+        holds = fabs(difference) <= tol * fmax(1, fabs(decision->right));
+    else
+        holds = how == LESS ? difference < 0 : difference <= 0;
+    decision->verdict = holds ? QDOT_PROVED : QDOT_REFUTED;
+    if (holds || !(isnan(errors[0]) || isnan(errors[1])))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "refuted by numbers whose error is unknown");
+}
+
+/* The same for every component; the first that is refuted decides. */
+static qdot_status
+decide_within(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
+              double tol, qdot_decision *decision)
+{
+    qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, left);
+
+    *decision = (qdot_decision){.verdict = QDOT_PROVED};
+    if (qdot_expr_is_scalar(pool, left) || qdot_expr_is_scalar(pool, right))
+        return compare_numbers(session, left, right, how, tol, decision);
+    if (n != qdot_expr_count(pool, right) || qdot_expr_kind(pool, left) == QDOT_REL)
+        return mismatch(pool, left, right);
+    for (uint32_t i = 0; i < n && decision->verdict == QDOT_PROVED; i++)
+        QDOT_TRY(compare_numbers(session, qdot_expr_arg(pool, left, i),
+                                 qdot_expr_arg(pool, right, i), how, tol, decision));
+    return QDOT_OK;
+}
+
+/* --- the statement ------------------------------------------------------------------ */
+
+typedef struct {
+    bool not, conserved, within, integrable;
+    bool turned; /* a > b is decided as b < a */
+    qdot_expr left, right;
+    comparison how;
+    double tol;
+    qdot_passed passed; /* on the way to the sides */
+} question;
+
+/* `conserved E`, but not the value `conserved[2]`. */
+static bool
+is_conserved(const qdot_cursor *c)
+{
+    const qdot_token *next = c->at + 1;
+
+    return qdot_cursor_is_word(c, "conserved") &&
+           qdot_names_find(c->session->names, "conserved") == NULL &&
+           (next->kind == QDOT_TOKEN_NAME || next->kind == QDOT_TOKEN_NUMBER ||
+            (next->kind == QDOT_TOKEN_OPERATOR &&
+             (strcmp(next->text, "(") == 0 || strcmp(next->text, "-") == 0 ||
+              strcmp(next->text, "sqrt") == 0)));
+}
+
+/* A bare relation, `check (a = b)`, `check E1`: its two sides. */
+static qdot_status
+take_apart(qdot_cursor *c, question *q)
+{
+    qdot_pool *pool = c->session->pool;
+    qdot_expr e = q->left;
+    static const comparison how[] = {
+        [QDOT_EQ] = EQUAL, [QDOT_LT] = LESS, [QDOT_LE] = LESS_EQUAL};
+
+    if (e == QDOT_TRUE || e == QDOT_FALSE) { /* numbers, decided when they were read */
+        q->left = e == QDOT_TRUE ? QDOT_ZERO : QDOT_ONE;
+        q->right = QDOT_ZERO;
+        return QDOT_OK;
+    }
+    if (qdot_expr_kind(pool, e) != QDOT_REL)
+        return qdot_cursor_expected(c, "`==` and the other side");
+    q->how = how[qdot_expr_node(pool, e)->op];
+    q->left = qdot_expr_arg(pool, e, 0);
+    q->right = qdot_expr_arg(pool, e, 1);
+    return QDOT_OK;
+}
+
+static qdot_status
+read_comparison(qdot_cursor *c, question *q)
+{
+    static const struct {
+        const char *op;
+        comparison how;
+        bool turned;
+    } ops[] = {{"==", EQUAL, false},      {"=", EQUAL, false}, {"<", LESS, false},
+               {"<=", LESS_EQUAL, false}, {">", LESS, true},   {">=", LESS_EQUAL, true}};
+
+    QDOT_TRY(qdot_read_side(c, &q->left));
+    for (size_t i = 0; i < sizeof ops / sizeof *ops; i++) {
+        if (!qdot_cursor_accept_op(c, ops[i].op))
+            continue;
+        q->how = ops[i].how;
+        QDOT_TRY(qdot_read_side(c, &q->right));
+        q->turned = ops[i].turned;
+        return QDOT_OK;
+    }
+    return take_apart(c, q);
+}
+
+static qdot_status
+read_question(qdot_cursor *c, question *q, qdot_assumed *f)
+{
+    if (qdot_cursor_accept_word(c, "not"))
+        q->not = true;
+    if (qdot_cursor_is_word(c, "integrable") && c->at[1].kind == QDOT_TOKEN_NAME) {
+        c->at++;
+        q->integrable = true;
+        return QDOT_OK;
+    }
+    if (is_conserved(c)) {
+        c->at++;
+        q->conserved = true;
+        QDOT_TRY(qdot_read_side(c, &q->left));
+    } else {
+        qdot_status status;
+
+        c->session->passed = &q->passed;
+        status = read_comparison(c, q);
+        c->session->passed = NULL;
+        QDOT_TRY(status);
+    }
+    while (!qdot_cursor_is_end(c)) {
+        if (qdot_cursor_accept_word(c, "when")) {
+            do
+                QDOT_TRY(qdot_assumed_read(c, f));
+            while (qdot_cursor_accept_op(c, ","));
+        } else if (qdot_cursor_accept_word(c, "within")) {
+            QDOT_TRY(qdot_cursor_once(c, "within", q->within));
+            q->within = true;
+            QDOT_TRY(qdot_read_number(c, &q->tol));
+        } else {
+            return qdot_cursor_expected(c,
+                                        "`when`, `within` or the end of the statement");
+        }
+    }
+    return QDOT_OK;
+}
+
+/* `check eom == (x'' = -x)`: the only member of a list, beside what is no list. */
+static void
+unwrap(const qdot_pool *pool, qdot_expr *left, qdot_expr *right)
+{
+    qdot_expr *sides[] = {left, right};
+
+    for (int i = 0; i < 2; i++)
+        if (qdot_expr_kind(pool, *sides[i]) == QDOT_LIST &&
+            qdot_expr_count(pool, *sides[i]) == 1 &&
+            qdot_expr_kind(pool, *sides[1 - i]) != QDOT_LIST)
+            *sides[i] = qdot_expr_arg(pool, *sides[i], 0);
+}
+
+/* The values of the sides, the other way round. */
+static void
+turn(qdot_decision *decision)
+{
+    double left = decision->left;
+
+    decision->left = decision->right;
+    decision->right = left;
+}
+
+/* The LIST of values that must exist, with the replacements of `when`; nil on failure. */
+static qdot_expr
+passed_list(qdot_session *session, const qdot_assumed *f, const question *q)
+{
+    qdot_expr list =
+        qdot_list(session->pool, (uint32_t)q->passed.value.n, q->passed.value.at);
+
+    return list == QDOT_NIL ? list : qdot_assumed_replace(session, f, list);
+}
+
+/* Where nothing was refuted: a notice if the conditions contradict each other. */
+static qdot_status
+look_for_contradiction(qdot_session *session, const qdot_assumed *f, const qdot_facts *known)
+{
+    qdot_pool *pool = session->pool;
+    qdot_vec(qdot_expr) conditions = {0};
+    qdot_facts all = *known;
+    qdot_status status = QDOT_OK;
+    bool found = false;
+
+    for (size_t i = 0; i < known->n_conditions && status == QDOT_OK; i++)
+        status = qdot_vec_push(&conditions,
+                               qdot_assumed_replace(session, f, known->conditions[i]));
+    for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++) { /* bounds of what is replaced */
+        qdot_symbol s = *qdot_expr_symbol(pool, f->from.at[i]);
+
+        if (s.lo != QDOT_NIL)
+            status = qdot_vec_push(&conditions, qdot_rel(pool, s.lo_open ? QDOT_LT : QDOT_LE,
+                                                         s.lo, f->to.at[i]));
+        if (s.hi != QDOT_NIL && status == QDOT_OK)
+            status = qdot_vec_push(&conditions, qdot_rel(pool, s.hi_open ? QDOT_LT : QDOT_LE,
+                                                         f->to.at[i], s.hi));
+    }
+    all.n_conditions = conditions.n;
+    all.conditions = conditions.at;
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_contradiction(pool, &all, &found);
+    qdot_free(conditions.at);
+    if (status == QDOT_OK && found)
+        status = qdot_answer_notice(session, "what is assumed contradicts itself or the declared "
+                                             "domains: there is nothing to compare");
+    return status;
+}
+
+/* The facts in the form that qdot_decide_... takes. */
+static qdot_facts
+all_known(qdot_session *session, const qdot_assumed *f, const question *q)
+{
+    /* accelerations follow a function of time whatever its second derivative is */
+    return (qdot_facts){f->relations.n, f->relations.at,
+                        f->conditions.n, f->conditions.at,
+                        f->motion && !f->stated ? 2 : 0,
+                        q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
+}
+
+static qdot_status
+answer(qdot_cursor *c, question *q, qdot_assumed *f)
+{
+    qdot_session *session = c->session;
+    qdot_pool *pool = session->pool;
+    qdot_expr left, right;
+    qdot_decision decision;
+    qdot_facts known;
+    bool measured;
+
+    unwrap(pool, &q->left, &q->right);
+    measured =
+        qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
+    if (measured && q->how == EQUAL && !q->within) {
+        (void)qdot_fail(QDOT_EINVAL, "numbers of a run are never exactly equal");
+        return qdot_hint("check ... within 1e-9");
+    }
+    if (q->within || measured) {
+        left = q->turned ? q->right : q->left;
+        right = q->turned ? q->left : q->right;
+        QDOT_TRY(decide_within(session, left, right, q->how, q->tol, &decision));
+        if (q->turned)
+            turn(&decision);
+    } else {
+        left = qdot_assumed_replace(session, f, q->left);
+        right = qdot_assumed_replace(session, f, q->right);
+        QDOT_TRY(qdot_pool_check(pool));
+        known = all_known(session, f, q);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (q->turned) {
+            QDOT_TRY(decide(session, right, left, q->how, &known, &decision));
+            turn(&decision);
+        } else {
+            QDOT_TRY(decide(session, left, right, q->how, &known, &decision));
+        }
+    }
+    if (!q->within && !measured &&
+        (decision.verdict == QDOT_PROVED || decision.points == 0 || f->from.n > 0))
+        QDOT_TRY(look_for_contradiction(session, f, &known));
+    if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
+        session->refuted = true;
+    return qdot_answer_check(session, q->left, q->right, &decision);
+}
+
+/* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
+ * Where multipliers are left, which the state tells, only a proof counts. */
+static qdot_status
+answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
+{
+    qdot_pool *pool = session->pool;
+    qdot_decision decision;
+    qdot_facts known;
+    qdot_expr rate;
+
+    *done = false;
+    if (!qdot_expr_is_scalar(pool, q->left) || session->scene->coordinates.n == 0 ||
+        f->from.n > 0 || qdot_measured_occurs(session, q->left))
+        return QDOT_OK;
+    rate = qdot_mech_rate(session->scene, q->left);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (rate == QDOT_NIL)
+        return QDOT_OK;
+    f->motion = true;
+    for (size_t i = 0; i < session->scene->constraints.n; i++)
+        QDOT_TRY(qdot_assumed_constraint(session, f, i, false));
+    known = all_known(session, f, q);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
+    *done = decision.verdict == QDOT_PROVED ||
+            (qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0;
+    if (!*done)
+        return QDOT_OK;
+    if (decision.verdict == QDOT_PROVED)
+        QDOT_TRY(look_for_contradiction(session, f, &known));
+    if (decision.verdict == (q->not ? QDOT_PROVED : QDOT_REFUTED))
+        session->refuted = true;
+    return qdot_answer_check(session, rate, QDOT_ZERO, &decision);
+}
+
+/* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
+ * undecided. */
+static qdot_status
+answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
+{
+    qdot_session *session = c->session;
+    bool done;
+    qdot_status status;
+
+    QDOT_TRY(answer_by_rate(session, q, f, &done));
+    if (done)
+        return QDOT_OK;
+    q->left = qdot_ddt(session->pool, q->left);
+    q->right = QDOT_ZERO;
+    QDOT_TRY(qdot_pool_check(session->pool));
+    status = qdot_assumed_motion(session, f);
+    if (status == QDOT_ELIMIT) {
+        qdot_decision decision = {.verdict = QDOT_UNDECIDED};
+
+        QDOT_TRY(qdot_answer_notice(session, "%s", qdot_last_error()->message));
+        return qdot_answer_check(session, q->left, q->right, &decision);
+    }
+    QDOT_TRY(status);
+    return answer(c, q, f);
+}
+
+qdot_status
+qdot_check(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    question q = {.right = QDOT_ZERO};
+    qdot_assumed f = {0};
+    qdot_status status = qdot_assumed_begin(c->session, &f);
+
+    if (status == QDOT_OK)
+        status = read_question(c, &q, &f);
+    if (status == QDOT_OK && q.integrable) {
+        status = qdot_constraints_check_integrable(c, q.not);
+    } else if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
+    }
+    qdot_free(q.passed.value.at);
+    qdot_assumed_free(&f);
+    return status;
+}

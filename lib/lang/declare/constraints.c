@@ -1,0 +1,294 @@
+/* constraints.c -- what is asked of constraints: reactions, and whether one is holonomic
+ * in disguise. */
+#include "lang/declare/constraints.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/formula.h"
+#include "lang/commands/statement.h"
+#include "lang/language/hints.h"
+#include "lang/language/read.h"
+#include "mech/study/integrable.h"
+#include "mech/study/reactions.h"
+
+/* "blade", "roll[2]" */
+static void
+print_constraint(const qdot_constraint *c, qdot_text *out)
+{
+    const char *comma = strchr(c->name, ',');
+
+    if (comma != NULL)
+        qdot_text_format(out, "%.*s[%s]", (int)(comma - c->name), c->name,
+                         comma + 1 + strspn(comma + 1, " "));
+    else
+        qdot_text_add(out, c->name);
+}
+
+/* A value between the marks of a formula. */
+static qdot_status
+formula(qdot_session *session, qdot_expr e, qdot_text *out)
+{
+    qdot_formula_bracket(session, true, out);
+    QDOT_TRY(qdot_formula_print(session, e, session->style, out));
+    qdot_formula_bracket(session, false, out);
+    return qdot_text_status(out);
+}
+
+/* --- reactions ---------------------------------------------------------------------- */
+
+static bool
+is_zero(const qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 0; qdot_expr_kind(pool, e) == QDOT_VEC; i++) {
+        if (i == qdot_expr_count(pool, e))
+            return true;
+        if (qdot_expr_arg(pool, e, i) != QDOT_ZERO)
+            return false;
+    }
+    return e == QDOT_ZERO;
+}
+
+static qdot_status
+print_reaction(qdot_session *session, const qdot_reaction *r, qdot_text *out)
+{
+    qdot_pool *pool = session->pool;
+
+    if (r->name == NULL)
+        QDOT_TRY(formula(session, r->coordinate, out));
+    else
+        qdot_text_add(out, r->name);
+    if (r->name == NULL || r->torque == QDOT_NIL || !is_zero(pool, r->force)) {
+        qdot_text_add(out, r->name == NULL ? ": generalized reaction " : ": force ");
+        QDOT_TRY(formula(session, r->force, out));
+        if (r->torque == QDOT_NIL || is_zero(pool, r->torque))
+            return QDOT_OK;
+        qdot_text_add(out, " at its centre, torque ");
+    } else {
+        qdot_text_add(out, ": torque ");
+    }
+    return formula(session, r->torque, out);
+}
+
+qdot_status
+qdot_ask_reactions(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_reaction *list = NULL;
+    qdot_text text = {0};
+    qdot_status status;
+    qdot_expr value;
+    size_t n = 0;
+
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    if (session->scene->constraints.n == 0) {
+        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+        return qdot_hint("constraint rod: x^2 + y^2 = L^2");
+    }
+    value = qdot_mech_reaction_list(session->scene);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_vec_push(&session->history, value));
+    if (session->json)
+        QDOT_TRY(qdot_answer_expr(session, "reactions", value));
+    status = qdot_mech_reactions(session->scene, &list, &n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i > 0 ? "\n" : "");
+        status = print_reaction(session, &list[i], &text);
+    }
+    if (n == 0)
+        qdot_text_add(&text, "the constraints act on nothing");
+    status = qdot_answer_written(session, "reactions", status, &text);
+    qdot_free(list);
+    return status;
+}
+
+/* --- redundant ones ----------------------------------------------------------------- */
+
+void
+qdot_constraints_print_redundant(const qdot_scene *scene, const qdot_dof *dof,
+                                 qdot_text *out)
+{
+    size_t found = 0, hidden = 0;
+
+    for (size_t k = 0; k < dof->constraints; k++) {
+        if (dof->is_independent[k] || dof->is_hidden[k])
+            continue;
+        qdot_text_add(out, found++ > 0   ? ", "
+                           : dof->unmet ? "\nredundant or contradicting those before: "
+                                        : "\nredundant, beside those before: ");
+        print_constraint(&scene->constraints.at[k], out);
+    }
+    if (found > 0 && !dof->unmet)
+        qdot_text_add(out, "; the motion is unique, the multipliers are not");
+    for (size_t k = 0; k < dof->constraints; k++) {
+        if (!dof->is_hidden[k])
+            continue;
+        qdot_text_add(out, hidden++ > 0 ? ", "
+                                        : "\nleaving, with those before, a condition that is none of the "
+                                          "constraints, and that n does not count: ");
+        print_constraint(&scene->constraints.at[k], out);
+    }
+    if (dof->unmet)
+        qdot_text_add(out, "\nno configuration was found at which all constraints hold");
+    else if (dof->freedom == 0 && dof->coordinates > 0)
+        qdot_text_add(out, "\nthe constraints leave no freedom: they alone set the motion");
+}
+
+/* --- integrable --------------------------------------------------------------------- */
+
+/* `x - R*theta = const` */
+static qdot_status
+print_integral(qdot_session *session, qdot_expr integral, qdot_text *out)
+{
+    QDOT_TRY(formula(session, integral, out));
+    qdot_text_add(out, " = const");
+    return QDOT_OK;
+}
+
+static qdot_status
+print_refuted(qdot_session *session, const qdot_integrability *i, qdot_text *out)
+{
+    qdot_expr at = i->decision.at;
+
+    qdot_text_add(out, " is not integrable: dw along ");
+    QDOT_TRY(formula(session, i->along[0], out));
+    qdot_text_add(out, " and ");
+    QDOT_TRY(formula(session, i->along[1], out));
+    qdot_text_add(out, " is ");
+    QDOT_TRY(formula(session, i->component, out));
+    if (at == QDOT_NIL || qdot_expr_count(session->pool, at) == 0)
+        return QDOT_OK;
+    if (isfinite(i->decision.left)) {
+        qdot_text_add(out, ", ");
+        qdot_text_double(out, i->decision.left, 12);
+    }
+    for (uint32_t k = 0; k < qdot_expr_count(session->pool, at); k++) {
+        qdot_text_add(out, k == 0 ? " at " : ", ");
+        QDOT_TRY(formula(session, qdot_expr_arg(session->pool, at, k), out));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
+{
+    static const char *const verdicts[] = {[QDOT_PROVED] = "proved",
+                                           [QDOT_REFUTED] = "refuted",
+                                           [QDOT_UNDECIDED] = "undecided"};
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    qdot_text_format(&text, "%s: ", verdicts[i->decision.verdict]);
+    print_constraint(c, &text);
+    if (i->decision.verdict == QDOT_REFUTED) {
+        status = print_refuted(session, i, &text);
+    } else if (i->decision.verdict == QDOT_UNDECIDED) {
+        qdot_text_add(&text, " may be integrable beside the other constraints");
+    } else {
+        qdot_text_format(&text, " is integrable%s",
+                         i->alone ? "" : " beside the other constraints");
+        qdot_text_add(&text, i->integral == QDOT_NIL ? "; its integral was not found"
+                                                     : ": ");
+        if (i->integral != QDOT_NIL)
+            status = print_integral(session, i->integral, &text);
+    }
+    return qdot_answer_written(session, "check", status, &text);
+}
+
+/* As JSON the sides are mu f and dF/dt where an integral proves it, else the worst
+ * component of dw and 0. */
+static qdot_status
+answer_json(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
+{
+    qdot_pool *pool = session->pool;
+    bool shown = i->integral != QDOT_NIL && i->factor != QDOT_NIL;
+    qdot_expr left = shown                        ? qdot_mul(pool, i->factor, c->f)
+                     : i->component != QDOT_NIL ? i->component
+                                                : QDOT_ZERO;
+    qdot_expr right = shown ? qdot_ddt(pool, i->integral) : QDOT_ZERO;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_answer_check(session, left, right, &i->decision));
+    return i->integral != QDOT_NIL
+               ? qdot_answer_expr(session, "integral", i->integral)
+               : QDOT_OK;
+}
+
+qdot_status
+qdot_constraints_check_integrable(qdot_cursor *c, bool not)
+{
+    qdot_session *session = c->session;
+    const qdot_token *start = c->at;
+    qdot_scene *scene = session->scene;
+    const char *label, *nearest;
+    bool found = false;
+
+    QDOT_TRY(qdot_read_name(c, &label));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    for (size_t k = 0; k < scene->constraints.n; k++) {
+        qdot_integrability i;
+
+        if (scene->constraints.at[k].label == NULL ||
+            strcmp(scene->constraints.at[k].label, label) != 0)
+            continue;
+        found = true;
+        QDOT_TRY(qdot_mech_integrable(scene, k, false, &i));
+        QDOT_TRY(qdot_pool_check(session->pool));
+        if (i.decision.verdict == (not? QDOT_PROVED : QDOT_REFUTED))
+            session->refuted = true;
+        QDOT_TRY(session->json ? answer_json(session, &scene->constraints.at[k], &i)
+                               : answer_text(session, &scene->constraints.at[k], &i));
+    }
+    if (found)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ENAME, "no constraint is labelled `%s`", label);
+    nearest = qdot_hints_nearest(session, label);
+    if (nearest != NULL && qdot_scene_has_label(scene, nearest))
+        return qdot_hint("did you mean `%s`?", nearest);
+    return qdot_hint("constraint %s: ... labels one", label);
+}
+
+/* --- at a declaration --------------------------------------------------------------- */
+
+/* Larger constraints are tested by `check integrable` only. */
+enum { MOST_OPERATIONS = 400 };
+
+qdot_status
+qdot_constraints_tell_disguise(qdot_session *session, size_t before)
+{
+    qdot_scene *scene = session->scene;
+
+    for (size_t k = before; k < scene->constraints.n; k++) {
+        const qdot_constraint *c = &scene->constraints.at[k];
+        qdot_integrability i;
+        qdot_text text = {0};
+        qdot_status status;
+
+        if (c->kind != QDOT_VELOCITY ||
+            qdot_expr_size(session->pool, c->f) > MOST_OPERATIONS)
+            continue;
+        status = qdot_mech_integrable(scene, k, true, &i);
+        if (status == QDOT_EINVAL) /* not linear in the velocities */
+            continue;
+        QDOT_TRY(status);
+        if (i.decision.verdict != QDOT_PROVED)
+            continue;
+        print_constraint(c, &text);
+        qdot_text_add(&text, " is holonomic in disguise");
+        if (i.integral != QDOT_NIL) {
+            qdot_text_add(&text, ": ");
+            status = print_integral(session, i.integral, &text);
+        }
+        if (status == QDOT_OK)
+            status = qdot_text_status(&text);
+        if (status == QDOT_OK)
+            status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+        qdot_text_clear(&text);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,156 @@
+/* declare-function.c -- functions that stay undefined. */
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/declare/declare.h"
+#include "lang/commands/statement.h"
+#include "lang/language/formals.h"
+#include "lang/language/read.h"
+
+/* --- undefined functions ------------------------------------------------------------ */
+
+/* The symbol that an argument in `function x(s, t)` means: a declared one, the time,
+ * else a symbol of its own. */
+static qdot_expr
+argument_symbol(qdot_session *session, const char *name)
+{
+    const qdot_name *known = qdot_names_find(session->names, name);
+
+    if (strcmp(name, "t") == 0)
+        return QDOT_T;
+    if (known != NULL && qdot_expr_kind(session->pool, known->value) == QDOT_SYM)
+        return known->value;
+    return qdot_symbol_get(session->pool, QDOT_FORMAL, name);
+}
+
+static qdot_status
+declare_ufun(qdot_cursor *c, const qdot_token *start, const char *name, size_t n,
+             const qdot_token *const *names)
+{
+    qdot_pool *pool = c->session->pool;
+    qdot_name entry = {.name = (char *)name, .kind = QDOT_NAME_UFUN};
+    qdot_vec(qdot_expr) formals = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&formals, argument_symbol(c->session, names[i]->text));
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_ufun_declare(pool, name, (uint32_t)n, formals.at, &entry.ufun);
+    if (status == QDOT_OK) {
+        entry.value = qdot_ufun_apply(pool, entry.ufun, formals.at, NULL);
+        entry.formals = qdot_list(pool, (uint32_t)n, formals.at);
+        status = qdot_pool_check(pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_declare_name(c, start, &entry);
+    qdot_free(formals.at);
+    return status;
+}
+
+qdot_status
+qdot_declare_function(qdot_cursor *c)
+{
+    qdot_vec(const char *) done = {0};
+    qdot_status status = QDOT_OK;
+
+    do {
+        const qdot_token *start = c->at, **names = NULL;
+        const char *name;
+        size_t n = 0;
+
+        status = qdot_read_name(c, &name);
+        if (status == QDOT_OK)
+            status = qdot_formals_read_names(c, &names, &n);
+        if (status == QDOT_OK && !qdot_cursor_is_op(c, ",")) {
+            status = qdot_cursor_expect_end(c);
+            if (status == QDOT_OK)
+                status = declare_ufun(c, start, name, n, names);
+        } else if (status == QDOT_OK) {
+            status = declare_ufun(c, start, name, n, names);
+        }
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&done, name);
+        qdot_free(names);
+    } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    if (status != QDOT_OK)
+        while (done.n > 0)
+            qdot_names_remove(c->session->names, done.at[--done.n]);
+    qdot_free(done.at);
+    return status;
+}
+
+/* --- a name that comes after the function ------------------------------------------- */
+
+/* formals with the symbol of its own for NAME replaced by `symbol`; the same LIST if
+ * there is none. */
+static qdot_expr
+rename_formal(qdot_pool *pool, qdot_expr formals, const char *name, qdot_expr symbol)
+{
+    qdot_expr own = qdot_symbol_get(pool, QDOT_FORMAL, name);
+
+    return qdot_subs(pool, formals, 1, &own, &symbol);
+}
+
+/* `own`, the symbol that stood for the argument, by the declared one, in every value named, asked
+ * or set and in the scene. */
+static qdot_status
+replace_argument(qdot_session *session, qdot_expr own, qdot_expr symbol)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_name *one;
+
+    for (size_t i = 0; (one = qdot_names_at(session->names, i)) != NULL; i++) {
+        qdot_expr value = one->value;
+
+        if (value == QDOT_NIL)
+            continue;
+        value = qdot_subs(pool, value, 1, &own, &symbol);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(qdot_names_update(session->names, one->name, value, one->formals));
+    }
+    for (size_t i = 0; i < session->history.n; i++)
+        session->history.at[i] =
+            qdot_subs(pool, session->history.at[i], 1, &own, &symbol);
+    for (size_t i = 0; i < session->set_symbols.n; i++) {
+        session->set_symbols.at[i] =
+            qdot_subs(pool, session->set_symbols.at[i], 1, &own, &symbol);
+        session->set_values.at[i] =
+            qdot_subs(pool, session->set_values.at[i], 1, &own, &symbol);
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_scene_replace(session->scene, own, symbol);
+}
+
+qdot_status
+qdot_declare_meet_functions(qdot_session *session, const char *name, qdot_expr symbol)
+{
+    qdot_vec(const char *) met = {0};
+    qdot_status status = QDOT_OK;
+    const qdot_name *one;
+
+    for (size_t i = 0;
+         status == QDOT_OK && (one = qdot_names_at(session->names, i)) != NULL; i++)
+        if (one->kind == QDOT_NAME_UFUN &&
+            rename_formal(session->pool, one->formals, name, symbol) != one->formals)
+            status = qdot_vec_push(&met, one->name);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(session->pool);
+    for (size_t i = 0; i < met.n && status == QDOT_OK; i++) {
+        const qdot_name *entry = qdot_names_find(session->names, met.at[i]);
+        qdot_expr formals = rename_formal(session->pool, entry->formals, name, symbol);
+
+        status = qdot_pool_check(session->pool);
+        if (status == QDOT_OK)
+            status = qdot_ufun_redeclare(session->pool, entry->ufun, formals);
+        if (status == QDOT_OK)
+            status = qdot_names_update(session->names, met.at[i], entry->value, formals);
+    }
+    if (status == QDOT_OK && met.n > 0)
+        status = replace_argument(
+            session, qdot_symbol_get(session->pool, QDOT_FORMAL, name), symbol);
+    qdot_free(met.at);
+    return status;
+}

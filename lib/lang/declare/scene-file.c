@@ -1,0 +1,254 @@
+/* scene-file.c -- what is declared, written as the statements that declare it. */
+#include "lang/declare/scene-file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "lang/answer/answer.h"
+#include "lang/language/function.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/measured.h"
+#include "lang/source/source.h"
+
+static const char header[] = "# a scene written by qdot\n";
+
+bool
+qdot_scene_file_is(const qdot_token *token)
+{
+    const char *dot = token->kind == QDOT_TOKEN_STRING ? strrchr(token->text, '.') : NULL;
+
+    return dot != NULL && strcmp(dot, ".lag") == 0;
+}
+
+static qdot_status
+put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
+{
+    qdot_text_add(out, before);
+    return qdot_print(s->pool, e, QDOT_PLAIN, out);
+}
+
+/* --- names ---------------------------------------------------------------------------- */
+
+/* `param m > 0`, `function x(s, t)`, `coord theta`: in one order, which is also that of terms. */
+static qdot_status
+put_symbols(qdot_session *s, qdot_text *out)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
+        if (name->kind == QDOT_NAME_UFUN) {
+            QDOT_TRY(put(s, "function ", name->value, out));
+        } else if (name->kind == QDOT_NAME_PARAM || name->kind == QDOT_NAME_COORD) {
+            qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
+            QDOT_TRY(qdot_scene_print_domain(s->scene, name->value, out));
+        } else {
+            continue;
+        }
+        qdot_text_char(out, '\n');
+    }
+    return QDOT_OK;
+}
+
+/* Whether the text has just this value here, and its entries go by these coordinates. */
+static qdot_status
+reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
+{
+    qdot_source *source = NULL;
+    qdot_expr read = QDOT_NIL, its_over = QDOT_NIL;
+    qdot_status status;
+    size_t at;
+
+    *is = false;
+    QDOT_TRY(qdot_text_status(text));
+    status = qdot_source_new("a definition", qdot_text_str(text), text->n, &source, &at);
+    if (status == QDOT_OK) {
+        qdot_cursor c = {.session = s, .source = source, .at = source->tokens.at};
+
+        status = qdot_read_named(&c, &read, &its_over);
+        *is = status == QDOT_OK && qdot_cursor_is_end(&c) && read == value &&
+              its_over == over;
+    }
+    qdot_source_free(source);
+    (void)!qdot_pool_check(s->pool); /* a text without meaning here is no failure */
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Whether the text means the same wherever it stands: no `%`. */
+static bool
+is_lasting(const qdot_function_body *body)
+{
+    for (const qdot_token *k = body->from; k < body->to; k++)
+        if (k->kind == QDOT_TOKEN_OPERATOR && strcmp(k->text, "%") == 0)
+            return false;
+    return true;
+}
+
+enum { VALUE, CANONICAL, SAID, FORMS };
+
+/* One way to write the right side; nothing: it has no such form. */
+static qdot_status
+put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot_text *out)
+{
+    if (form == SAID) {
+        if (name->body != NULL && is_lasting(name->body))
+            qdot_token_text(s, name->body->from, name->body->to, out);
+        return QDOT_OK;
+    }
+    if (form == CANONICAL && !(qdot_expr_node(s->pool, value)->holds & QDOT_HAS_MOMENTUM))
+        return QDOT_OK;
+    QDOT_TRY(qdot_print(s->pool, value, QDOT_PLAIN, out));
+    qdot_text_add(out, form == CANONICAL ? " + 0*hamiltonian" : ""); /* p[ ] as in that */
+    return QDOT_OK;
+}
+
+/* The first form that reads back; *is: there is one. */
+static qdot_status
+put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr over,
+          qdot_text *out, bool *is)
+{
+    qdot_status status = QDOT_OK;
+
+    for (int form = 0; form < FORMS && status == QDOT_OK && !*is; form++) {
+        qdot_text right = {0};
+
+        status = put_form(s, name, value, form, &right);
+        if (status == QDOT_OK && right.n > 0)
+            status = reads_back(s, &right, value, over, is);
+        if (status == QDOT_OK && *is)
+            qdot_text_format(out, "%s = %s\n", name->name, qdot_text_str(&right));
+        qdot_text_clear(&right);
+    }
+    return status;
+}
+
+static qdot_status
+put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
+{
+    const qdot_expr value = qdot_measured_as_rationals(s, name->value);
+    bool is = false;
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(put_first(s, name, value, name->over, out, &is));
+    if (!is && name->over != QDOT_NIL) /* its entries by numbers only */
+        QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
+    if (is)
+        return QDOT_OK;
+    qdot_text_format(out, "# %s: no statement gives this value\n", name->name);
+    return qdot_answer_notice(s, "`%.200s` is not written: no statement gives its value again",
+                              name->name);
+}
+
+static qdot_status
+put_definitions(qdot_session *s, qdot_text *out)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
+        if (name->kind == QDOT_NAME_FUNCTION) {
+            QDOT_TRY(qdot_function_print(s, name, out));
+            qdot_text_char(out, '\n');
+        } else if (name->kind == QDOT_NAME_VALUE) {
+            QDOT_TRY(put_definition(s, name, out));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- values --------------------------------------------------------------------------- */
+
+static qdot_status
+put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
+           const qdot_expr *values, const char *last, qdot_text *out)
+{
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(put(s, word, symbols[i], out));
+        QDOT_TRY(put(s, " = ", values[i], out));
+        qdot_text_add(out, i + 1 == n ? last : "\n");
+    }
+    return QDOT_OK;
+}
+
+/* --- what is no scene ----------------------------------------------------------------- */
+
+/* The runs as comments: reading the file shall not integrate. */
+static void
+put_runs(const qdot_session *s, qdot_text *out)
+{
+    for (size_t i = 0; i < s->runs.n; i++)
+        qdot_text_format(out, "# run %s as %s\n", s->runs.at[i].text, s->runs.at[i].name);
+}
+
+static void
+put_settings(const qdot_session *s, qdot_text *out)
+{
+    static const char *const styles[] = {[QDOT_PLAIN] = "plain",
+                                         [QDOT_UNICODE] = "unicode",
+                                         [QDOT_LATEX] = "latex",
+                                         [QDOT_MATHML] = "mathml"};
+
+    qdot_text_format(out, "style %s\n", styles[s->style]);
+    qdot_text_add(out, s->flat ? "style flat\n" : "");
+    qdot_text_add(out, s->timing ? "timing on\n" : "");
+    put_runs(s, out);
+}
+
+/* --- the file ------------------------------------------------------------------------- */
+
+qdot_status
+qdot_scene_file_text(qdot_session *s, bool whole, qdot_text *out)
+{
+    qdot_text_add(out, header);
+    QDOT_TRY(put_symbols(s, out));
+    QDOT_TRY(qdot_scene_print_things(s->scene, out));
+    QDOT_TRY(put_definitions(s, out));
+    QDOT_TRY(put_values(s, "set ", s->set_symbols.n, s->set_symbols.at, s->set_values.at,
+                        "\n", out));
+    QDOT_TRY(put_values(s, "start ", s->start_symbols.n, s->start_symbols.at,
+                        s->start_values.at,
+                        s->start_exactly ? " exactly\n" : "\n", out));
+    if (whole)
+        put_settings(s, out);
+    return qdot_text_status(out);
+}
+
+/* Refuse to overwrite a file that does not begin as these files do. */
+static qdot_status
+may_overwrite(const char *path)
+{
+    char begin[sizeof header] = "";
+    FILE *file = fopen(path, "rbe");
+    size_t n;
+
+    if (file == NULL)
+        return QDOT_OK; /* writing tells why it cannot be */
+    n = fread(begin, 1, sizeof header - 1, file);
+    fclose(file);
+    if (n == 0 || strcmp(begin, header) == 0)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` is there and was not written by `scene to`", path);
+    return qdot_hint("another name; only files that begin with `%.*s` are overwritten",
+                     (int)sizeof header - 2, header);
+}
+
+qdot_status
+qdot_scene_file_write(qdot_cursor *c, bool whole)
+{
+    const qdot_token *start = c->at;
+    qdot_text text = {0};
+    qdot_status status;
+    const char *path;
+
+    if (!qdot_scene_file_is(c->at))
+        return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
+    QDOT_TRY(qdot_read_string(c, &path));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    status = qdot_scene_file_text(c->session, whole, &text);
+    c->error_at = start->start;
+    if (status == QDOT_OK)
+        status = may_overwrite(path);
+    if (status == QDOT_OK)
+        status = qdot_answer_in_file(c->session, path, &text);
+    qdot_text_clear(&text);
+    return status;
+}

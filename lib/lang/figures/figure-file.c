@@ -1,0 +1,132 @@
+/* figure-file.c -- where a figure goes. */
+#include "lang/figures/figure-file.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/terminal.h"
+#include "lang/answer/answer.h"
+#include "lang/language/read.h"
+
+enum { SKETCH_COLUMNS = 100, SKETCH_ROWS = 16, MOST_FILES = 1000000 };
+
+/* --- a file with a number ------------------------------------------------------------- */
+
+/* "dir/NAME" of the script dir/NAME.lag, "qdot" elsewhere. */
+static void
+add_stem(const qdot_session *session, qdot_text *path)
+{
+    const char *script =
+        session->including.n > 0 ? session->including.at[session->including.n - 1] : "-";
+    size_t n = strlen(script);
+
+    if (strcmp(script, "-") == 0)
+        qdot_text_add(path, "qdot");
+    else if (n > 4 && strcmp(script + n - 4, ".lag") == 0)
+        qdot_text_add_n(path, script, n - 4);
+    else
+        qdot_text_add(path, script);
+}
+
+/* The first of STEM-1.svg, STEM-2.svg ... that is not there. */
+static qdot_status
+default_path(const qdot_session *session, qdot_text *path)
+{
+    size_t stem;
+
+    add_stem(session, path);
+    stem = path->n;
+    for (size_t k = 1; k < MOST_FILES; k++) {
+        qdot_text_truncate(path, stem);
+        qdot_text_format(path, "-%zu.svg", k);
+        QDOT_TRY(qdot_text_status(path));
+        if (access(path->at, F_OK) != 0) /* where this cannot be known, writing says why */
+            return QDOT_OK;
+    }
+    return qdot_fail(QDOT_ELIMIT, "there are figures enough: remove some of `%s`", path->at);
+}
+
+/* --- a sketch ------------------------------------------------------------------------- */
+
+static bool
+has_terminal(const qdot_session *session)
+{
+    return !session->json && session->out == stdout && isatty(STDOUT_FILENO);
+}
+
+/* Every panel in characters, as wide as the terminal. */
+static qdot_status
+sketch(qdot_session *session, const qdot_figure *figure)
+{
+    size_t columns = 80, rows = 24;
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    (void)qdot_terminal_size(stdout, &columns, &rows);
+    columns = columns > SKETCH_COLUMNS ? SKETCH_COLUMNS : columns;
+    rows = rows > SKETCH_ROWS + 4 ? SKETCH_ROWS : rows > 8 ? rows - 4 : 4;
+    for (size_t i = 0; i < figure->n && status == QDOT_OK; i++)
+        status = qdot_figure_sketch(figure, i, columns, figure->n > 1 ? rows / 2 + 2 : rows,
+                                    session->style != QDOT_UNICODE, &text);
+    return qdot_answer_written(session, "sketch", status, &text);
+}
+
+/* --- a window, or a file -------------------------------------------------------------- */
+
+static bool
+expects_window(const qdot_session *session)
+{
+    return has_terminal(session) &&
+           (getenv("DISPLAY") != NULL || getenv("WAYLAND_DISPLAY") != NULL);
+}
+
+/* *open: a window shows the figure. A window that cannot be opened is told. */
+static qdot_status
+try_window(qdot_session *session, const qdot_figure *figure, bool *open)
+{
+    qdot_status status = qdot_figure_write(figure, NULL);
+
+    *open = status == QDOT_OK;
+    if (status != QDOT_EIO)
+        return status;
+    return qdot_answer_notice_once(session, "no window: %.200s; figures go to files",
+                                   qdot_last_error()->message);
+}
+
+qdot_status
+qdot_figure_file_show(qdot_session *session, const qdot_figure *figure, const char *path)
+{
+    qdot_text own = {0};
+    qdot_status status = QDOT_OK;
+    bool open = false;
+
+    if (path == NULL && !figure->keep && expects_window(session))
+        QDOT_TRY(try_window(session, figure, &open));
+    if (open)
+        return QDOT_OK;
+    if (path == NULL && has_terminal(session))
+        QDOT_TRY(sketch(session, figure));
+    if (path != NULL)
+        qdot_text_add(&own, path);
+    else
+        status = default_path(session, &own);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&own);
+    if (status == QDOT_OK)
+        status = qdot_figure_write(figure, qdot_text_str(&own));
+    if (status == QDOT_OK)
+        status = qdot_answer_file(session, qdot_text_str(&own));
+    qdot_text_clear(&own);
+    return status;
+}
+
+qdot_status
+qdot_figure_file_read(qdot_cursor *c, const char **path)
+{
+    if (*path != NULL)
+        return qdot_cursor_once(c, "to", true);
+    if (c->at->kind != QDOT_TOKEN_STRING)
+        return qdot_cursor_expected(c, "the name of a file in quotes");
+    return qdot_read_string(c, path);
+}

@@ -1,0 +1,54 @@
+/* plot-parts.h -- what the files of the statement `plot` share. */
+#ifndef QDOT_LANG_PLOT_PARTS_H
+#define QDOT_LANG_PLOT_PARTS_H
+
+#include "lang/figures/figure-option.h"
+#include "lang/commands/operands.h"
+#include "show/trace.h"
+#include "tape/tape.h"
+
+/* A curve and where its numbers come from: along a run (y of an operand, x of another or t), or
+ * over a variable (a tape). */
+typedef struct {
+    char *label, *axis; /* in the key; along the ordinate */
+    const qdot_operand *y;
+    qdot_operand x;  /* its strings and columns borrowed; session NULL: t is the abscissa */
+    size_t component; /* of y, where that is no path */
+    bool drift;      /* y's drift from `begin` on */
+    double begin;
+    qdot_tape *tape; /* owned */
+    double *work;
+    qdot_trace_source source;
+    qdot_trace points;
+} qdot_plot_curve;
+
+/* An item between commas: an operand; its abscissa, counted from 1 in `versus`, 0: t. */
+typedef struct {
+    size_t versus;
+    bool drift;
+} qdot_plot_item;
+
+typedef struct {
+    qdot_operands operands, versus;
+    qdot_vec(qdot_plot_item) items; /* beside operands */
+    qdot_vec(qdot_plot_curve *) curves; /* each owned */
+    char *variable;                 /* the abscissa of `vs NAME = A..B`; NULL */
+    qdot_panel_choice choice;
+} qdot_plot_panel;
+
+void qdot_plot_panel_clear(qdot_plot_panel *panel);
+/* A curve without numbers yet. */
+QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
+                                                const char *axis, qdot_plot_curve **added);
+
+/* `E, ... [vs E], ...` with options, and the first points of each curve along its run. */
+QDOT_MUST_CHECK qdot_status qdot_plot_run(qdot_cursor *c, qdot_plot_panel *panel,
+                                          qdot_figure_choice *figure);
+/* The `vs` of `vs NAME = A..B` at the top level; NULL: there is none. */
+const qdot_token *qdot_plot_over_find(const qdot_cursor *c);
+/* `E, ... vs NAME = A..B [for ...]` with options, and the first points of each curve. */
+QDOT_MUST_CHECK qdot_status qdot_plot_over(qdot_cursor *c, const qdot_token *vs,
+                                           qdot_plot_panel *panel,
+                                           qdot_figure_choice *figure);
+
+#endif

@@ -1,0 +1,323 @@
+/* plot-run.c -- curves along runs: against t, against each other, paths, drifts. */
+#include <math.h>
+#include <string.h>
+
+#include "lang/figures/plot-parts.h"
+#include "lang/language/read.h"
+#include "lang/session/member.h"
+
+enum { LEAST_POINTS = 201, PARTS_OF_STEP = 8, MOST_AT_FIRST = 10001 };
+
+/* A drift of 0 has no logarithm: it is drawn where rounding is. */
+static const double drift_floor = 0x1p-54;
+
+/* --- reading ------------------------------------------------------------------------ */
+
+static qdot_status
+push_item(qdot_plot_panel *p, bool drift)
+{
+    while (p->items.n < p->operands.n)
+        QDOT_TRY(qdot_vec_push(&p->items, ((qdot_plot_item){.drift = drift})));
+    return QDOT_OK;
+}
+
+/* Whether `drift(...)` is the whole operand. */
+static bool
+is_drift(const qdot_cursor *c)
+{
+    qdot_cursor inside = *c;
+    const qdot_token *end;
+
+    if (!qdot_cursor_is_word(c, "drift") || !qdot_token_is(c->at + 1, "("))
+        return false;
+    inside.at += 2;
+    end = qdot_cursor_find_word(&inside, NULL);
+    return qdot_token_is(end, ")") &&
+           (end[1].kind == QDOT_TOKEN_END || end[1].kind == QDOT_TOKEN_NAME ||
+            qdot_token_is(end + 1, ","));
+}
+
+/* E, or drift(E, ...) */
+static qdot_status
+read_item(qdot_cursor *c, qdot_plot_panel *p)
+{
+    const bool drift = is_drift(c);
+
+    if (drift)
+        c->at += 2;
+    do {
+        qdot_operand o = {0};
+        qdot_status status = qdot_operand_read(c, &o);
+
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&p->operands, o);
+        if (status != QDOT_OK) {
+            qdot_operand_clear(&o);
+            return status;
+        }
+        QDOT_TRY(push_item(p, drift));
+    } while (drift && qdot_cursor_accept_op(c, ","));
+    return drift ? qdot_cursor_expect_op(c, ")") : QDOT_OK;
+}
+
+/* E, the abscissa of the items from `first` on */
+static qdot_status
+read_versus(qdot_cursor *c, qdot_plot_panel *p, size_t first)
+{
+    const qdot_token *start = c->at;
+    qdot_operand o = {0};
+    qdot_status status = qdot_operand_read(c, &o);
+
+    if (status == QDOT_OK && o.columns.n != 1) {
+        c->error_at = start->start;
+        status = qdot_fail(QDOT_ETYPE, "`vs` takes one number");
+    }
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&p->versus, o);
+    if (status != QDOT_OK) {
+        qdot_operand_clear(&o);
+        return status;
+    }
+    for (size_t i = first; i < p->items.n; i++)
+        p->items.at[i].versus = p->versus.n;
+    return QDOT_OK;
+}
+
+static qdot_status
+read_all(qdot_cursor *c, qdot_plot_panel *p, qdot_figure_choice *figure)
+{
+    size_t first = 0;
+
+    do {
+        QDOT_TRY(read_item(c, p));
+        if (qdot_cursor_accept_word(c, "vs")) {
+            QDOT_TRY(read_versus(c, p, first));
+            first = p->items.n;
+        }
+    } while (qdot_cursor_accept_op(c, ","));
+    QDOT_TRY(qdot_figure_option_read(c, figure, &p->choice));
+    if (qdot_cursor_is_end(c))
+        return QDOT_OK;
+    return qdot_cursor_expected(c, p->versus.n > 0 ? QDOT_FIGURE_OPTIONS
+                                                   : "`vs`, " QDOT_FIGURE_OPTIONS);
+}
+
+/* Curves that share no axes. */
+static qdot_status
+check_kinds(const qdot_plot_panel *p)
+{
+    size_t paths = 0, space = 0, against = 0;
+
+    for (size_t i = 0; i < p->operands.n; i++) {
+        const qdot_operand *o = &p->operands.at[i];
+
+        paths += o->vector;
+        space += o->vector && o->columns.n == 3;
+        against += p->items.at[i].versus > 0;
+        if (o->vector && o->columns.n > 3) {
+            (void)qdot_fail(QDOT_ETYPE, "a path has two or three components, `%s` has %zu",
+                            o->label, o->columns.n);
+            return qdot_hint("plot %s[1], %s[2], ... shows its components", o->label,
+                             o->label);
+        }
+        if (o->vector && p->items.at[i].versus > 0)
+            return qdot_fail(QDOT_ETYPE,
+                             "a path has no `vs`: its components are the axes");
+        if (o->vector && p->items.at[i].drift)
+            return qdot_fail(QDOT_ETYPE, "the drift of a path is that of its components");
+    }
+    if (paths > 0 && paths < p->operands.n)
+        return qdot_fail(QDOT_ETYPE, "a path and a curve against t share no axes");
+    if (space > 0 && space < paths)
+        return qdot_fail(QDOT_ETYPE, "paths in the plane and in space share no axes");
+    if (space > 0 && (p->choice.range[0].set || p->choice.range[1].set || p->choice.logs))
+        return qdot_fail(QDOT_EINVAL, "a path in space is shown whole, on linear axes");
+    if (paths > 0 && p->choice.logs)
+        return qdot_fail(QDOT_EINVAL, "a path has equal scales, which are not logarithmic");
+    if (p->choice.n_labels == 3 && space == 0)
+        return qdot_fail(QDOT_EINVAL, "axes in the plane have two labels");
+    if (against == 0 || against == p->operands.n)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ETYPE, "some curves have a `vs` and `%s` has none",
+                    p->operands.at[p->operands.n - 1].label);
+    return qdot_hint("plot y1 vs x1, y2 vs x2; `vs t` is the course");
+}
+
+/* --- numbers ------------------------------------------------------------------------ */
+
+static qdot_status
+path_values(void *user, size_t n, const double *s, double *values)
+{
+    const qdot_plot_curve *curve = user;
+
+    return qdot_operands_values(curve->y, n, s, values);
+}
+
+static qdot_status
+curve_values(void *user, size_t n, const double *s, double *values)
+{
+    const qdot_plot_curve *curve = user;
+    const size_t m = curve->y->columns.n;
+    double *all = qdot_calloc(m * n + 1, sizeof *all), *y = values + n;
+    qdot_status status = all == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    memcpy(values, s, n * sizeof *s);
+    if (status == QDOT_OK && curve->x.session != NULL)
+        status = qdot_operands_values(&curve->x, n, s, values);
+    if (status == QDOT_OK)
+        status = qdot_operands_values(curve->y, n, s, all);
+    if (status == QDOT_OK)
+        memcpy(y, all + curve->component * n, n * sizeof *y);
+    for (size_t k = 0; curve->drift && k < n && status == QDOT_OK; k++) {
+        y[k] = fabs(y[k] - curve->begin) / fmax(1, fabs(curve->begin));
+        y[k] = y[k] < drift_floor ? drift_floor : y[k];
+    }
+    qdot_free(all);
+    return status;
+}
+
+/* Narrow low..high to the times of an operand's runs. */
+static qdot_status
+narrow(const qdot_operand *o, double *low, double *high)
+{
+    const qdot_run_report *r = qdot_run_get_report(o->run);
+
+    *low = fmax(*low, fmin(r->t0, r->t1));
+    *high = fmin(*high, fmax(r->t0, r->t1));
+    return o->mixed ? qdot_member_span(o->session, o->columns.at[0], low, high) : QDOT_OK;
+}
+
+/* The first times: each step in parts, or evenly where there are many steps. */
+static qdot_status
+first_times(const qdot_plot_curve *curve, double low, double high, double **times, size_t *n)
+{
+    size_t steps, parts, at = 0, most;
+    const double *ends = qdot_run_times(curve->y->run, &steps);
+    const bool back = steps > 1 && ends[steps - 1] < ends[0];
+    const double from = back ? high : low, to = back ? low : high;
+
+    parts = steps > 1 ? LEAST_POINTS / (steps - 1) + 1 : LEAST_POINTS;
+    parts = parts < PARTS_OF_STEP ? PARTS_OF_STEP : parts;
+    most = parts * (steps + 1) + 2;
+    most = most > MOST_AT_FIRST ? MOST_AT_FIRST : most;
+    *times = qdot_calloc(most + 1, sizeof **times);
+    if (*times == NULL)
+        return QDOT_ENOMEM;
+    if (most == MOST_AT_FIRST) {
+        for (size_t k = 0; k < most; k++)
+            (*times)[k] = from + (to - from) * (double)k / (double)(most - 1);
+        (*times)[most - 1] = to;
+        *n = most;
+        return QDOT_OK;
+    }
+    (*times)[at++] = from;
+    for (size_t k = 0; k + 1 < steps; k++)
+        for (size_t j = 0; j < parts; j++) {
+            double t = ends[k] + (ends[k + 1] - ends[k]) * (double)j / (double)parts;
+
+            if (back ? t < (*times)[at - 1] && t > to : t > (*times)[at - 1] && t < to)
+                (*times)[at++] = t;
+        }
+    if (to != from)
+        (*times)[at++] = to;
+    *n = at;
+    return QDOT_OK;
+}
+
+/* The first points of a curve along its run. */
+static qdot_status
+begin(qdot_plot_panel *p, qdot_plot_curve *curve)
+{
+    double low = -INFINITY, high = INFINITY, *times = NULL;
+    const qdot_figure_range *r = &p->choice.range[0];
+    size_t n = 0;
+    qdot_status status;
+
+    QDOT_TRY(narrow(curve->y, &low, &high));
+    if (curve->x.session != NULL)
+        QDOT_TRY(narrow(&curve->x, &low, &high));
+    if (low > high)
+        return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
+    if (curve->drift) {
+        const double t0 = qdot_run_get_report(curve->y->run)->t0;
+        qdot_plot_curve whole = *curve;
+        double at[2];
+
+        whole.drift = false;
+        whole.x.session = NULL;
+        QDOT_TRY(curve_values(&whole, 1, &t0, at));
+        curve->begin = at[1];
+    }
+    if (r->set && !curve->y->vector && curve->x.session == NULL) {
+        if (r->least >= high || r->most <= low)
+            return qdot_fail(QDOT_EINVAL, "the run has no time between %.6g and %.6g",
+                             r->least, r->most);
+        low = fmax(low, r->least);
+        high = fmin(high, r->most);
+    }
+    status = first_times(curve, low, high, &times, &n);
+    if (status == QDOT_OK)
+        status = qdot_trace_begin(&curve->source, n, times, &curve->points);
+    qdot_free(times);
+    return status;
+}
+
+/* "theta' vs theta" where the abscissae differ. */
+static qdot_status
+write_labels(const qdot_plot_panel *p, size_t i, qdot_text *label, qdot_text *axis)
+{
+    const qdot_operand *o = &p->operands.at[i];
+    const size_t versus = p->items.at[i].versus;
+
+    qdot_text_format(axis, p->items.at[i].drift ? "drift(%s)" : "%s", o->label);
+    qdot_text_add(label, qdot_text_str(axis));
+    if (p->versus.n > 1 && versus > 0)
+        qdot_text_format(label, " vs %s", p->versus.at[versus - 1].label);
+    QDOT_TRY(qdot_text_status(axis));
+    return qdot_text_status(label);
+}
+
+static qdot_status
+curves_of(qdot_plot_panel *p, size_t i)
+{
+    const qdot_operand *o = &p->operands.at[i];
+    const size_t versus = p->items.at[i].versus, m = o->vector ? 1 : o->columns.n;
+    qdot_text label = {0}, axis = {0};
+    qdot_status status = write_labels(p, i, &label, &axis);
+
+    for (size_t k = 0; k < m && status == QDOT_OK; k++) {
+        qdot_plot_curve *curve;
+
+        status = qdot_plot_curve_add(p, qdot_text_str(&label), qdot_text_str(&axis), &curve);
+        if (status != QDOT_OK)
+            break;
+        curve->y = o;
+        curve->component = k;
+        curve->drift = p->items.at[i].drift;
+        if (versus > 0) {
+            curve->x = p->versus.at[versus - 1];
+            curve->x.run = curve->x.run != NULL ? curve->x.run : o->run;
+        }
+        curve->source = (qdot_trace_source){.axes = o->vector ? o->columns.n : 2,
+                                             .values = o->vector ? path_values : curve_values,
+                                             .user = curve};
+        status = begin(p, curve);
+    }
+    qdot_text_clear(&label);
+    qdot_text_clear(&axis);
+    return status;
+}
+
+qdot_status
+qdot_plot_run(qdot_cursor *c, qdot_plot_panel *p, qdot_figure_choice *figure)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(read_all(c, p, figure));
+    c->error_at = start->start;
+    QDOT_TRY(check_kinds(p));
+    QDOT_TRY(qdot_operands_find_runs(c->session, &p->operands));
+    for (size_t i = 0; i < p->operands.n; i++)
+        QDOT_TRY(curves_of(p, i));
+    return QDOT_OK;
+}

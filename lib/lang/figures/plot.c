@@ -1,0 +1,268 @@
+/* plot.c -- the statement `plot`: panels of curves as a figure. */
+#include <string.h>
+
+#include "lang/figures/figure-file.h"
+#include "lang/figures/plot-parts.h"
+#include "lang/commands/statement.h"
+
+enum { LONGEST_LABEL = 48 };
+
+typedef qdot_vec(qdot_plot_panel) panels;
+
+/* --- curves and panels -------------------------------------------------------------- */
+
+static void
+free_curve(qdot_plot_curve *curve)
+{
+    qdot_free(curve->label);
+    qdot_free(curve->axis);
+    qdot_tape_free(curve->tape);
+    qdot_free(curve->work);
+    qdot_trace_clear(&curve->points);
+    qdot_free(curve);
+}
+
+void
+qdot_plot_panel_clear(qdot_plot_panel *p)
+{
+    for (size_t i = 0; i < p->curves.n; i++)
+        free_curve(p->curves.at[i]);
+    qdot_free(p->curves.at);
+    qdot_free(p->items.at);
+    qdot_free(p->variable);
+    qdot_operands_free(&p->operands);
+    qdot_operands_free(&p->versus);
+}
+
+qdot_status
+qdot_plot_curve_add(qdot_plot_panel *p, const char *label, const char *axis,
+                    qdot_plot_curve **added)
+{
+    qdot_plot_curve *curve = qdot_calloc(1, sizeof *curve);
+
+    if (curve == NULL)
+        return QDOT_ENOMEM;
+    curve->label = qdot_strdup(label);
+    curve->axis = qdot_strdup(axis);
+    if (curve->label == NULL || curve->axis == NULL ||
+        qdot_vec_push(&p->curves, curve) != QDOT_OK) {
+        free_curve(curve);
+        return QDOT_ENOMEM;
+    }
+    *added = curve;
+    return QDOT_OK;
+}
+
+/* --- as a figure -------------------------------------------------------------------- */
+
+/* What a figure borrows while it is drawn. */
+typedef struct {
+    qdot_panel *panels;
+    qdot_curve *curves;
+    qdot_text *labels; /* [2 * n]: of x and y of each panel */
+    size_t n;
+} frame;
+
+static void
+free_frame(frame *f)
+{
+    for (size_t i = 0; f->labels != NULL && i < 2 * f->n; i++)
+        qdot_text_clear(&f->labels[i]);
+    qdot_free(f->labels);
+    qdot_free(f->panels);
+    qdot_free(f->curves);
+}
+
+/* Different labels of one axis, joined; a long list becomes no label. */
+static void
+join_labels(const qdot_plot_panel *p, qdot_text *x, qdot_text *y)
+{
+    for (size_t i = 0; i < p->curves.n; i++) {
+        bool known = false;
+
+        for (size_t k = 0; k < i; k++)
+            known = known || strcmp(p->curves.at[k]->axis, p->curves.at[i]->axis) == 0;
+        if (!known)
+            qdot_text_format(y, "%s%s", y->n > 0 ? ", " : "", p->curves.at[i]->axis);
+    }
+    for (size_t i = 0; i < p->versus.n; i++) {
+        bool known = false;
+
+        for (size_t k = 0; k < i; k++)
+            known = known || strcmp(p->versus.at[k].label, p->versus.at[i].label) == 0;
+        if (!known)
+            qdot_text_format(x, "%s%s", x->n > 0 ? ", " : "", p->versus.at[i].label);
+    }
+    if (p->versus.n == 0)
+        qdot_text_add(x, p->variable != NULL ? p->variable : "t");
+    if (y->n > LONGEST_LABEL)
+        qdot_text_truncate(y, 0);
+    if (x->n > LONGEST_LABEL)
+        qdot_text_truncate(x, 0);
+}
+
+/* Labels of paths are the axes of space, the path's name above. */
+static void
+label_panel(const qdot_plot_panel *p, qdot_text *labels, qdot_panel *panel)
+{
+    static const char *const space[] = {"x", "y", "z"};
+
+    if (panel->equal) {
+        for (int k = 0; k < (panel->curves[0].z != NULL ? 3 : 2); k++)
+            panel->axis[k] = (qdot_figure_label){space[k], false};
+        if (panel->n == 1)
+            panel->title = panel->curves[0].label;
+        return;
+    }
+    join_labels(p, &labels[0], &labels[1]);
+    for (int k = 0; k < 2; k++)
+        panel->axis[k] = (qdot_figure_label){qdot_text_str(&labels[k]), true};
+}
+
+static bool
+all_drift(const qdot_plot_panel *p)
+{
+    bool all = p->items.n > 0;
+
+    for (size_t i = 0; i < p->items.n; i++)
+        all = all && p->items.at[i].drift;
+    return all;
+}
+
+static void
+point_at(const qdot_plot_curve *from, qdot_curve *to)
+{
+    *to = (qdot_curve){.label = {from->label, true},
+                       .rows = from->points.n,
+                       .x = from->points.at[0],
+                       .y = from->points.at[1],
+                       .z = from->points.at[2]};
+}
+
+/* The figure of the points that there are. */
+static qdot_status
+build(const panels *all, frame *f)
+{
+    size_t n = 0, next = 0;
+
+    for (size_t i = 0; i < all->n; i++)
+        n += all->at[i].curves.n;
+    f->n = all->n;
+    f->panels = qdot_calloc(all->n, sizeof *f->panels);
+    f->curves = qdot_calloc(n, sizeof *f->curves);
+    f->labels = qdot_calloc(2 * all->n, sizeof *f->labels);
+    if (f->panels == NULL || f->curves == NULL || f->labels == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < all->n; i++) {
+        const qdot_plot_panel *p = &all->at[i];
+        qdot_panel *panel = &f->panels[i];
+
+        *panel = (qdot_panel){.curves = f->curves + next, .n = p->curves.n};
+        for (size_t k = 0; k < panel->n; k++)
+            point_at(p->curves.at[k], &f->curves[next + k]);
+        next += panel->n;
+        panel->equal = p->operands.n > 0 && p->operands.at[0].vector;
+        panel->log[1] = all_drift(p);
+        label_panel(p, f->labels + 2 * i, panel);
+        qdot_figure_option_apply(&p->choice, panel);
+        for (int k = 0; k < 2; k++)
+            QDOT_TRY(qdot_text_status(&f->labels[2 * i + (size_t)k]));
+    }
+    return QDOT_OK;
+}
+
+/* More points where the curves bend, as each panel will show them. */
+static qdot_status
+refine(panels *all, const qdot_figure *figure, frame *f)
+{
+    size_t next = 0;
+
+    for (size_t i = 0; i < all->n; i++) {
+        qdot_plot_panel *p = &all->at[i];
+        qdot_figure_view view;
+
+        QDOT_TRY(qdot_figure_get_view(figure, i, &view));
+        for (size_t k = 0; k < p->curves.n; k++, next++) {
+            qdot_plot_curve *curve = p->curves.at[k];
+
+            QDOT_TRY(qdot_trace_refine(&curve->source, &view, &curve->points));
+            point_at(curve, &f->curves[next]);
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- the statement ------------------------------------------------------------------ */
+
+/* The next `|` outside brackets, or the end. */
+static qdot_token *
+find_bar(const qdot_cursor *c)
+{
+    const qdot_token *t = c->at;
+    int depth = 0;
+
+    for (; t->kind != QDOT_TOKEN_END && (depth > 0 || !qdot_token_is(t, "|")); t++)
+        depth += qdot_token_bracket(t);
+    return (qdot_token *)t;
+}
+
+static qdot_status
+read_panel(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
+{
+    qdot_plot_panel empty = {0}, *p;
+    const qdot_token *vs = qdot_plot_over_find(c);
+
+    QDOT_TRY(qdot_vec_push(all, empty));
+    p = &all->at[all->n - 1];
+    return vs != NULL ? qdot_plot_over(c, vs, p, figure) : qdot_plot_run(c, p, figure);
+}
+
+/* Panels, each with an end of its own while it is read. */
+static qdot_status
+read_panels(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
+{
+    for (;;) {
+        qdot_token *bar = find_bar(c);
+        const uint8_t kind = bar->kind;
+        qdot_status status;
+
+        bar->kind = QDOT_TOKEN_END;
+        status = read_panel(c, figure, all);
+        bar->kind = kind;
+        QDOT_TRY(status);
+        if (!qdot_cursor_accept_op(c, "|"))
+            return QDOT_OK;
+        if (!qdot_cursor_accept_word(c, "plot")) {
+            (void)qdot_cursor_expected(c, "`plot` and what the next panel shows");
+            return qdot_hint("plot A, B | plot C");
+        }
+    }
+}
+
+qdot_status
+qdot_plot_statement(qdot_cursor *c)
+{
+    qdot_figure_choice choice = {0};
+    panels all = {0};
+    frame f = {0};
+    qdot_status status = read_panels(c, &choice, &all);
+
+    if (status == QDOT_OK)
+        status = build(&all, &f);
+    if (status == QDOT_OK) {
+        const qdot_figure figure = {.panels = f.panels,
+                                    .n = f.n,
+                                    .width = choice.width,
+                                    .height = choice.height,
+                                    .keep = choice.keep};
+
+        status = refine(&all, &figure, &f);
+        if (status == QDOT_OK)
+            status = qdot_figure_file_show(c->session, &figure, choice.path);
+    }
+    free_frame(&f);
+    for (size_t i = 0; i < all.n; i++)
+        qdot_plot_panel_clear(&all.at[i]);
+    qdot_free(all.at);
+    return status;
+}

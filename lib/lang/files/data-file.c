@@ -1,0 +1,153 @@
+/* data-file.c -- columns in a file by its ending, and the facts of their run. */
+#include "lang/files/data-file.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer/answer.h"
+#include "show/data.h"
+
+enum { TEXT_DIGITS = 12 };
+
+typedef enum { CSV, TEXT, JSON, HTML, HDF5, NONE } type;
+
+static type
+type_of(const char *path)
+{
+    static const char *const endings[] = {
+        [CSV] = ".csv", [TEXT] = ".txt", [JSON] = ".json", [HTML] = ".html", [HDF5] = ".h5"};
+    const char *dot = strrchr(path, '.');
+
+    for (size_t i = 0; dot != NULL && i < NONE; i++)
+        if (strcmp(dot, endings[i]) == 0)
+            return (type)i;
+    return NONE;
+}
+
+qdot_status
+qdot_data_file_check(const char *path)
+{
+    if (type_of(path) != NONE)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file of numbers ends in .csv, .json, "
+                                 ".txt, .html or .h5", path);
+    return qdot_hint("as in \"run.csv\"");
+}
+
+/* --- what is known ------------------------------------------------------------------------ */
+
+typedef qdot_vec(qdot_data_fact) facts;
+
+static qdot_status
+add_text(facts *to, const char *name, const char *text)
+{
+    return text == NULL ? QDOT_OK : qdot_vec_push(to, ((qdot_data_fact){name, text, 0}));
+}
+
+static qdot_status
+add_number(facts *to, const char *name, double x)
+{
+    return isnan(x) ? QDOT_OK : qdot_vec_push(to, ((qdot_data_fact){name, NULL, x}));
+}
+
+static qdot_status
+add_run(const qdot_session *session, const qdot_run *run, facts *to)
+{
+    static const char *const ends[] = {
+        [QDOT_RUN_DONE] = "done", [QDOT_RUN_STOPPED] = "stopped", [QDOT_RUN_FAILED] = "failed"};
+    const qdot_run_report *r = qdot_run_get_report(run);
+
+    for (size_t i = 0; i < session->runs.n; i++)
+        if (session->runs.at[i].run == run) {
+            QDOT_TRY(add_text(to, "run", session->runs.at[i].name));
+            QDOT_TRY(add_text(to, "statement", session->runs.at[i].text));
+        }
+    QDOT_TRY(add_text(to, "method", r->method));
+    QDOT_TRY(add_number(to, "tol", r->digits > 0 ? NAN : r->tol));
+    QDOT_TRY(add_number(to, "digits", r->digits > 0 ? r->digits : NAN));
+    QDOT_TRY(add_number(to, "t0", r->t0));
+    QDOT_TRY(add_number(to, "t1", r->t1));
+    QDOT_TRY(add_text(to, "status", ends[r->status]));
+    QDOT_TRY(add_text(to, "reason", r->reason));
+    QDOT_TRY(add_number(to, "error", r->error));
+    QDOT_TRY(add_number(to, "energy drift", r->energy_drift));
+    return add_number(to, "constraint drift", r->m > 0 ? r->constraint_drift : NAN);
+}
+
+/* The values that the parameters had in the run, at its beginning. */
+static qdot_status
+add_parameters(const qdot_session *session, qdot_run *run, facts *to)
+{
+    const double t0 = qdot_run_get_report(run)->t0;
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++) {
+        qdot_status status;
+        double x;
+
+        if (name->kind != QDOT_NAME_PARAM)
+            continue;
+        status = qdot_run_values(run, 1, &name->value, 1, &t0, &x, NULL);
+        QDOT_TRY(qdot_grave(status));
+        if (status == QDOT_OK) /* else it has no value */
+            QDOT_TRY(add_number(to, name->name, x));
+    }
+    return QDOT_OK;
+}
+
+/* --- the file ----------------------------------------------------------------------------- */
+
+static qdot_status
+write_facts(qdot_session *session, qdot_run *run, type type, qdot_data *data, const char *path)
+{
+    facts known = {0}, parameters = {0};
+    qdot_status status = add_text(&known, "program", PACKAGE_STRING);
+
+    if (status == QDOT_OK && run != NULL)
+        status = add_run(session, run, &known);
+    if (status == QDOT_OK && run != NULL)
+        status = add_parameters(session, run, &parameters);
+    data->n_facts = known.n;
+    data->facts = known.at;
+    data->n_parameters = parameters.n;
+    data->parameters = parameters.at;
+    if (status == QDOT_OK)
+        status = type == JSON   ? qdot_data_json(data, path)
+                 : type == HTML ? qdot_data_html(data, TEXT_DIGITS, path)
+                                : qdot_data_hdf5(data, path);
+    qdot_free(known.at);
+    qdot_free(parameters.at);
+    return status;
+}
+
+static qdot_status
+write_text(size_t n, const qdot_column *columns, size_t rows, const char *path,
+           qdot_session *session)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_table_text(n, columns, rows, TEXT_DIGITS, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
+qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n, const qdot_column *columns,
+                     size_t rows, const char *path)
+{
+    const type type = type_of(path);
+    const char *base = strrchr(path, '/');
+    qdot_data data = {.title = base == NULL ? path : base + 1,
+                      .columns = n,
+                      .rows = rows,
+                      .column = columns};
+
+    QDOT_TRY(qdot_data_file_check(path));
+    if (type == TEXT)
+        return write_text(n, columns, rows, path, session);
+    QDOT_TRY(type == CSV ? qdot_table_csv(n, columns, rows, path)
+                         : write_facts(session, run, type, &data, path));
+    return qdot_answer_file(session, path);
+}

@@ -1,0 +1,157 @@
+/* redirect.c -- `to FILE` behind a statement that answers: its answers go there.
+ *
+ * The answers are kept in memory till the statement has ended well; only then is the file
+ * written. Notices and errors stay where they always go.
+ */
+#include "lang/files/redirect.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/spelling.h"
+#include "lang/answer/answer.h"
+#include "lang/declare/scene-file.h"
+#include "show/formula-page.h"
+#include "show/sink.h"
+
+struct qdot_redirect_type {
+    const char *ending;
+    enum { AS_PRINTED, JSON, PAGE } kind;
+    qdot_style style; /* of the formulas of a page */
+};
+
+static const struct qdot_redirect_type endings[] = {{".txt", AS_PRINTED, QDOT_PLAIN},
+                                                    {".tex", PAGE, QDOT_LATEX},
+                                                    {".html", PAGE, QDOT_MATHML},
+                                                    {".json", JSON, QDOT_PLAIN}};
+
+bool
+qdot_redirect_answers(const qdot_statement *row)
+{
+    /* of other groups; those not here read a `to` of their own, or have nothing to say */
+    static const char *const words[] = {"run",  "plan", "events", "help",
+                                        "show", "vars", "print"};
+
+    if (row == NULL || strcmp(row->group, "asking") == 0)
+        return true;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(row->word, words[i]) == 0)
+            return true;
+    return false;
+}
+
+const qdot_token *
+qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
+{
+    const qdot_token *end = first;
+
+    if (!qdot_redirect_answers(row))
+        return NULL;
+    while (end->kind != QDOT_TOKEN_END)
+        end++;
+    if (end - first < (row == NULL ? 3 : 2) || end[-1].kind != QDOT_TOKEN_STRING ||
+        end[-2].kind != QDOT_TOKEN_NAME || strcmp(end[-2].text, "to") != 0 ||
+        (row != NULL && strcmp(row->word, "scene") == 0 && qdot_scene_file_is(end - 1)))
+        return NULL;
+    return end - 2;
+}
+
+/* Endings of figures and of columns of numbers, which a formula cannot be. */
+static qdot_status
+refuse(const char *path, const char *ending)
+{
+    static const char *const figures[] = {".svg", ".png", ".pdf", ".gif"};
+    static const char *const data[] = {".csv", ".h5"};
+    qdot_spelling nearest;
+
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        if (strcmp(ending, figures[i]) == 0) {
+            (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for figures", path, ending);
+            return qdot_hint("formulas: \"x.tex\" (LaTeX) or \"x.html\" (MathML); figures: "
+                             "`plot ... to \"x%s\"`", ending);
+        }
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++)
+        if (strcmp(ending, data[i]) == 0) {
+            (void)qdot_fail(QDOT_EINVAL, "`%.200s`: a `%s` file is for columns of numbers", path,
+                            ending);
+            return qdot_hint("answers: .tex, .html, .txt, .json; numbers: `table ... every 0.1 to "
+                             "\"x%s\"`, `save to \"x%s\"`", ending, ending);
+        }
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s`: the name of a file ends in what it is to be", path);
+    qdot_spelling_begin(&nearest, ending);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        qdot_spelling_offer(&nearest, endings[i].ending);
+    return nearest.best != NULL && ending[0] != '\0'
+               ? qdot_hint("did you mean `%s`?", nearest.best)
+               : qdot_hint("as in \"a.tex\", \"a.html\", \"a.txt\", \"a.json\"");
+}
+
+qdot_status
+qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    const char *ending = dot == NULL || strchr(dot, '/') != NULL ? "" : dot;
+
+    *r = (qdot_redirect){.session = session, .path = path};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        if (strcmp(ending, endings[i].ending) != 0)
+            continue;
+        r->file = open_memstream(&r->text, &r->length);
+        if (r->file == NULL)
+            return qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", path);
+        r->out = session->out;
+        r->json = session->json;
+        r->console = session->console;
+        if (r->console == NULL) {
+            session->console = r->out;
+            session->console_json = r->json;
+        }
+        r->type = &endings[i];
+        r->style = session->style;
+        session->out = r->file;
+        session->json = r->type->kind == JSON;
+        session->marked = r->type->kind == PAGE;
+        if (session->marked)
+            session->style = r->type->style;
+        return QDOT_OK;
+    }
+    return refuse(path, ending);
+}
+
+/* What was answered, as a page. */
+static qdot_status
+make_page(qdot_redirect *r, qdot_text *page)
+{
+    const char *name = strrchr(r->path, '/');
+
+    return r->type->style == QDOT_LATEX
+               ? qdot_page_latex(r->text, page)
+               : qdot_page_html(name == NULL ? r->path : name + 1, r->text, page);
+}
+
+qdot_status
+qdot_redirect_end(qdot_redirect *r, qdot_status status)
+{
+    qdot_session *session = r->session;
+    bool complete = fclose(r->file) == 0, paged = r->type->kind == PAGE;
+    qdot_text page = {0};
+
+    session->out = r->out;
+    session->json = r->json;
+    session->console = r->console;
+    if (paged)
+        session->style = r->style;
+    session->marked = false;
+    if (status == QDOT_OK && !complete)
+        status = qdot_fail(QDOT_ENOMEM, "no memory for what goes to `%s`", r->path);
+    if (status == QDOT_OK && paged)
+        status = make_page(r, &page);
+    if (status == QDOT_OK)
+        status = paged ? qdot_sink_write(r->path, qdot_text_str(&page), page.n)
+                       : qdot_sink_write(r->path, r->text, r->length);
+    if (status == QDOT_OK)
+        status = qdot_answer_file(session, r->path);
+    qdot_text_clear(&page);
+    free(r->text); /* from open_memstream */
+    return status;
+}

@@ -1,0 +1,324 @@
+/* table.c -- the statements `table` and `save`. */
+#include <math.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/files/data-file.h"
+#include "lang/files/digits-table.h"
+#include "lang/figures/figure-file.h"
+#include "lang/declare/scene-file.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/member.h"
+#include "show/show.h"
+
+/* --- columns of numbers ------------------------------------------------------------- */
+
+typedef struct {
+    size_t rows, n;
+    double *values; /* column by column */
+    char **labels;
+    qdot_column *columns; /* [n] into the two */
+} grid;
+
+static void
+free_grid(grid *g)
+{
+    for (size_t i = 0; g->labels != NULL && i < g->n; i++)
+        qdot_free(g->labels[i]);
+    qdot_free(g->labels);
+    qdot_free(g->values);
+    qdot_free(g->columns);
+}
+
+static qdot_status
+new_grid(grid *g, size_t n, size_t rows)
+{
+    g->n = n;
+    g->rows = rows;
+    g->values = qdot_calloc(n * rows, sizeof *g->values);
+    g->labels = qdot_calloc(n, sizeof *g->labels);
+    g->columns = qdot_calloc(n, sizeof *g->columns);
+    if (g->values == NULL || g->labels == NULL || g->columns == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++)
+        g->columns[i].at = g->values + i * rows;
+    return QDOT_OK;
+}
+
+/* Column i: its label, "R" or "R[2]" for a component of several. */
+static qdot_status
+label_column(grid *g, size_t i, const char *label, size_t component, size_t components)
+{
+    qdot_text text = {0};
+
+    qdot_text_add(&text, label);
+    if (components > 1)
+        qdot_text_format(&text, "[%zu]", component + 1);
+    if (qdot_text_status(&text) != QDOT_OK) {
+        qdot_text_clear(&text);
+        return QDOT_ENOMEM;
+    }
+    g->labels[i] = text.at;
+    g->columns[i].label = text.at;
+    return QDOT_OK;
+}
+
+/* t and every column of the operands at these times. */
+static qdot_status
+fill_grid(grid *g, const qdot_operands *list, size_t rows, const double *times)
+{
+    size_t n = 1, next = 1;
+
+    for (size_t i = 0; i < list->n; i++)
+        n += list->at[i].columns.n;
+    QDOT_TRY(new_grid(g, n, rows));
+    memcpy(g->values, times, rows * sizeof *times);
+    QDOT_TRY(label_column(g, 0, "t", 0, 1));
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_operand *o = &list->at[i];
+
+        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows));
+        for (size_t k = 0; k < o->columns.n; k++)
+            QDOT_TRY(label_column(g, next + k, o->label, k, o->columns.n));
+        next += o->columns.n;
+    }
+    return QDOT_OK;
+}
+
+/* The run that all operands are along; NULL: several. */
+static qdot_run *
+only_run(const qdot_operands *list)
+{
+    for (size_t i = 0; i < list->n; i++)
+        if (list->at[i].run != list->at[0].run || list->at[i].mixed)
+            return NULL;
+    return list->at[0].run;
+}
+
+/* To a file by its ending; path NULL: as an answer. run: that of all columns, or NULL. */
+static qdot_status
+write_grid(qdot_session *session, const grid *g, qdot_run *run, const char *path)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    if (path != NULL)
+        return qdot_data_file_write(session, run, g->n, g->columns, g->rows, path);
+    if (!session->json) {
+        status = qdot_table_text(g->n, g->columns, g->rows, 10, &text);
+        return qdot_answer_written(session, "table", status, &text);
+    }
+    for (size_t k = 0; k < g->rows && status == QDOT_OK; k++) {
+        double *row = qdot_calloc(g->n, sizeof *row);
+
+        if (row == NULL)
+            return QDOT_ENOMEM;
+        for (size_t i = 0; i < g->n; i++)
+            row[i] = g->values[i * g->rows + k];
+        status = qdot_answer_row(session, g->n, row);
+        qdot_free(row);
+    }
+    return status;
+}
+
+/* --- table -------------------------------------------------------------------------- */
+
+/* What all the runs cover, in the direction of the first. */
+static qdot_status
+common_span(const qdot_operands *list, double *from, double *to)
+{
+    const qdot_run_report *first = qdot_run_get_report(list->at[0].run);
+    double low = -INFINITY, high = INFINITY;
+
+    for (size_t i = 0; i < list->n; i++) {
+        const qdot_run_report *one = qdot_run_get_report(list->at[i].run);
+
+        low = fmax(low, fmin(one->t0, one->t1));
+        high = fmin(high, fmax(one->t0, one->t1));
+        if (list->at[i].mixed)
+            QDOT_TRY(qdot_member_span(list->at[i].session, list->at[i].columns.at[0],
+                                      &low, &high));
+    }
+    if (low > high)
+        return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
+    *from = first->t1 >= first->t0 ? low : high;
+    *to = first->t1 >= first->t0 ? high : low;
+    return QDOT_OK;
+}
+
+/* t0, t0 + step, ... up to t1, whichever way the runs went. */
+static qdot_status
+ladder(const qdot_operands *list, double step, double **times, size_t *n)
+{
+    double from = 0, to = 0, span, count;
+
+    if (!(step > 0))
+        return qdot_fail(QDOT_EINVAL, "a table needs a step above 0");
+    QDOT_TRY(common_span(list, &from, &to));
+    span = to - from;
+    count = floor(fabs(span) / step * (1 + 1e-12)) + 1;
+    if (count > 1e7)
+        return qdot_fail(QDOT_ELIMIT, "a table of %.3g rows is too long", count);
+    *n = (size_t)count;
+    *times = qdot_calloc(*n, sizeof **times);
+    if (*times == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < *n; k++) {
+        double t = from + copysign((double)k * step, span);
+
+        (*times)[k] = span >= 0 ? fmin(t, to) : fmax(t, to);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+read_table(qdot_cursor *c, qdot_operands *list, qdot_expr *step, const char **path)
+{
+    bool every = false;
+
+    QDOT_TRY(qdot_operands_read(c, list));
+    while (!qdot_cursor_is_end(c)) {
+        if (qdot_cursor_accept_word(c, "every")) {
+            QDOT_TRY(qdot_cursor_once(c, "every", every));
+            every = true;
+            QDOT_TRY(qdot_read_scalar(c, step));
+        } else if (qdot_cursor_accept_word(c, "to")) {
+            const qdot_token *at = c->at;
+
+            QDOT_TRY(qdot_figure_file_read(c, path));
+            c->error_at = at->start;
+            QDOT_TRY(qdot_data_file_check(*path));
+        } else {
+            return qdot_cursor_expected(c, "`every` or `to`");
+        }
+    }
+    return every ? QDOT_OK : qdot_cursor_expected(c, "`every` and a step");
+}
+
+/* Of runs with `digits`: times that are exact, from the first of the ladder. */
+static qdot_status
+exact_table(qdot_session *session, const qdot_operands *list, const double *times,
+            qdot_expr step, size_t rows, const char *path)
+{
+    qdot_expr from = qdot_measured_rational(session->pool, times[0]);
+
+    step = qdot_session_bind(session, qdot_measured_as_rationals(session, step));
+    if (rows > 1 && times[1] < times[0])
+        step = qdot_neg(session->pool, step);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    return qdot_digits_table(session, list, from, step, rows, path);
+}
+
+qdot_status
+qdot_table_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_operands list = {0};
+    const char *path = NULL;
+    double step = 0, *times = NULL;
+    qdot_expr exact_step = QDOT_NIL;
+    size_t rows = 0;
+    grid g = {0};
+    qdot_status status = read_table(c, &list, &exact_step, &path);
+
+    if (status == QDOT_OK)
+        status = qdot_session_number(c->session, exact_step, &step, NULL);
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = qdot_operands_find_runs(c->session, &list);
+    }
+    if (status == QDOT_OK)
+        status = ladder(&list, step, &times, &rows);
+    if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
+        status = exact_table(c->session, &list, times, exact_step, rows, path);
+        qdot_free(times);
+        qdot_operands_free(&list);
+        return status;
+    }
+    if (status == QDOT_OK)
+        status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK)
+        status = write_grid(c->session, &g, only_run(&list), path);
+    free_grid(&g);
+    qdot_free(times);
+    qdot_operands_free(&list);
+    return status;
+}
+
+/* --- save --------------------------------------------------------------------------- */
+
+static qdot_status
+push_symbol(qdot_session *session, qdot_run *run, qdot_expr symbol, qdot_operands *list)
+{
+    qdot_operand o = {.run = run};
+    qdot_status status = qdot_pool_check(session->pool);
+
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&o.columns, symbol);
+    if (status == QDOT_OK) {
+        o.label = qdot_strdup(qdot_expr_symbol(session->pool, symbol)->name);
+        status = o.label == NULL ? QDOT_ENOMEM : qdot_vec_push(list, o);
+    }
+    if (status != QDOT_OK)
+        qdot_operand_clear(&o);
+    return status;
+}
+
+/* Every coordinate, velocity and multiplier of the run as operands. */
+static qdot_status
+whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
+{
+    const qdot_run_report *report = qdot_run_get_report(run);
+
+    for (unsigned order = 0; order < 2; order++)
+        for (size_t i = 0; i < report->n - (order > 0 ? report->n_states : 0); i++) {
+            qdot_expr jet = qdot_symbol_jet(session->pool, report->coordinates[i], order);
+
+            QDOT_TRY(push_symbol(session, run, jet, list));
+        }
+    for (size_t k = 0; k < report->m; k++)
+        QDOT_TRY(push_symbol(session, run, report->multipliers[k], list));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_table_save(qdot_cursor *c)
+{
+    const qdot_token *start = c->at, *file;
+    const char *name = NULL, *path = NULL;
+    qdot_operands list = {0};
+    qdot_named_run *named;
+    const double *times;
+    qdot_status status;
+    grid g = {0};
+    size_t rows;
+
+    if (!qdot_cursor_is_word(c, "to"))
+        QDOT_TRY(qdot_read_name(c, &name));
+    if (!qdot_cursor_accept_word(c, "to"))
+        return qdot_cursor_expected(c, "`to` and the name of a file");
+    if (name != NULL && strcmp(name, "session") == 0 &&
+        (qdot_scene_file_is(c->at) ||
+         qdot_runs_find(c->session, name, &named) != QDOT_OK))
+        return qdot_scene_file_write(c, true);
+    file = c->at;
+    QDOT_TRY(qdot_figure_file_read(c, &path));
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = file->start;
+    QDOT_TRY(qdot_data_file_check(path));
+    c->error_at = start->start;
+    QDOT_TRY(qdot_runs_find(c->session, name, &named));
+    times = qdot_run_times(named->run, &rows);
+    status = whole_state(c->session, named->run, &list);
+    if (status == QDOT_OK)
+        status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK)
+        status = write_grid(c->session, &g, named->run, path);
+    free_grid(&g);
+    qdot_operands_free(&list);
+    return status;
+}

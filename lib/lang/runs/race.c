@@ -1,0 +1,239 @@
+/* race.c -- the statement `race`: a table, and a figure of error against time. */
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/figures/figure-file.h"
+#include "lang/figures/figure-option.h"
+#include "lang/runs/request.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "show/figure.h"
+#include "sim/study/race.h"
+
+/* An error of 0 has no logarithm: it is drawn where rounding is. */
+static const double least_error = 1e-17;
+
+/* "1e-12", "-" where there is none */
+static void
+print_bound(double value, int width, qdot_text *out)
+{
+    qdot_text one = {0};
+
+    if (isnan(value))
+        qdot_text_add(&one, "-");
+    else
+        qdot_text_format(&one, value == 0 ? "0" : "%.1e", value);
+    qdot_text_format(out, "%*s", width, qdot_text_str(&one));
+    qdot_text_clear(&one);
+}
+
+static void
+print_lane(const qdot_race_lane *lane, qdot_text *out)
+{
+    for (int k = 0; k < QDOT_RACE_TOLERANCES; k++) {
+        const qdot_race_entry *e = &lane->entry[k];
+
+        if (e->method == NULL)
+            continue;
+        qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
+        print_bound(e->error, 9, out);
+        print_bound(e->energy, 9, out);
+        print_bound(e->constraint, 12, out);
+        qdot_text_format(out, "  %10.3g", 1e3 * e->cpu);
+    }
+}
+
+static qdot_status
+print_race(const qdot_race *race, qdot_text *out)
+{
+    qdot_text_format(out,
+                     "race: end errors against the scene as given, projected, at tol %.0e, "
+                     "its own error about ",
+                     race->reference_tol);
+    qdot_number_text_bound(out, race->reference_error);
+    if (race->minimal > 0)
+        qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
+                         race->coordinates, race->minimal);
+    qdot_text_format(out, "\n%-20s  %-7s  %5s%9s%9s%12s  %10s", "formulation", "method",
+                     "tol", "error", "energy", "constraints", "cpu ms");
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].name != NULL)
+            print_lane(&race->lane[i], out);
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        if (race->lane[i].reason != NULL)
+            qdot_text_format(out, "\nnot in %s: %s",
+                             i + 1 < QDOT_RACE_FORMULATIONS ? "this treatment"
+                                                            : "minimal coordinates",
+                             race->lane[i].reason);
+    return qdot_text_status(out);
+}
+
+/* Formulation, method, tolerance, error, energy drift, constraint drift, CPU seconds. */
+static qdot_status
+answer_rows(qdot_session *session, const qdot_race *race)
+{
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+            double row[] = {e->tol, e->error, e->energy, e->constraint, e->cpu};
+            qdot_text cells = {0};
+            qdot_status status;
+
+            if (e->method == NULL)
+                continue;
+            qdot_text_json(&cells, race->lane[i].name);
+            qdot_text_char(&cells, ',');
+            qdot_text_json(&cells, e->method != NULL ? e->method : "");
+            for (size_t j = 0; j < sizeof row / sizeof *row; j++) {
+                qdot_text_char(&cells, ',');
+                qdot_number_text_json(&cells, row[j]);
+            }
+            status = qdot_answer_cells(session, &cells);
+            qdot_text_clear(&cells);
+            QDOT_TRY(status);
+        }
+    return QDOT_OK;
+}
+
+/* CPU time to the right, error up, both in powers of ten. */
+static qdot_status
+draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
+     const qdot_panel_choice *of_panel)
+{
+    enum { N = QDOT_RACE_FORMULATIONS, K = QDOT_RACE_TOLERANCES };
+    double x[N][K], y[N][K];
+    qdot_curve curves[N];
+    qdot_text note = {0};
+    qdot_panel panel = {.title = {"one scene in every formulation", false},
+                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .curves = curves,
+                        .log = {true, true},
+                        .marks = true};
+    const qdot_figure figure = {.panels = &panel,
+                                .n = 1,
+                                .width = choice->width,
+                                .height = choice->height,
+                                .keep = choice->keep};
+    qdot_status status;
+
+    for (int i = 0; i < N; i++) {
+        size_t points = 0;
+
+        for (int k = 0; race->lane[i].name != NULL && k < K; k++) {
+            const qdot_race_entry *e = &race->lane[i].entry[k];
+
+            if (!isfinite(e->error) || !(e->cpu > 0))
+                continue;
+            x[panel.n][points] = e->cpu;
+            y[panel.n][points++] = fmax(e->error, least_error);
+        }
+        if (points == 0)
+            continue;
+        curves[panel.n] = (qdot_curve){.label = {race->lane[i].name, false},
+                                       .rows = points,
+                                       .x = x[panel.n],
+                                       .y = y[panel.n]};
+        panel.n++;
+    }
+    if (panel.n == 0)
+        return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
+    qdot_text_format(&note, "reference: as given, projected, tol %.0e, its own error ",
+                     race->reference_tol);
+    qdot_number_text_bound(&note, race->reference_error);
+    panel.note = qdot_text_str(&note);
+    qdot_figure_option_apply(of_panel, &panel);
+    status = qdot_text_status(&note);
+    if (status == QDOT_OK)
+        status = qdot_figure_file_show(session, &figure, choice->path);
+    qdot_text_clear(&note);
+    return status;
+}
+
+static qdot_status
+answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
+       const qdot_panel_choice *panel)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    if (race->notice != NULL)
+        status = qdot_answer_notice(session, "%s", race->notice);
+    if (status == QDOT_OK)
+        status = print_race(race, &text);
+    if (status == QDOT_OK)
+        status = qdot_answer_text(session, "race", qdot_text_str(&text));
+    if (status == QDOT_OK && session->json)
+        status = answer_rows(session, race);
+    qdot_text_clear(&text);
+    /* who stopped it does not wait for a figure unless it was asked for */
+    if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
+        status = draw(session, race, figure, panel);
+    return status;
+}
+
+/* Refuse options of `run` that a race chooses itself. */
+static qdot_status
+refuse_option(qdot_cursor *c)
+{
+    static const char *const options[] = {"tol", "digits", "method", "constraints", "with",
+                                          "as"};
+
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (qdot_cursor_is_word(c, options[i])) {
+            c->error_at = c->at->start;
+            qdot_fail(QDOT_ESYNTAX, "a race takes no `%s`: it compares tolerances and "
+                                    "formulations by itself",
+                      options[i]);
+            return qdot_hint("race T0..T1 [to \"FILE\"]");
+        }
+    (void)qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
+    return qdot_hint("race T0..T1 [to \"FILE\"] compares formulations; `workprecision` "
+                     "compares methods");
+}
+
+qdot_status
+qdot_race_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_request order = {0};
+    qdot_expr from, to;
+    qdot_figure_choice figure = {0};
+    qdot_panel_choice panel = {0};
+    qdot_race race;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    QDOT_TRY(qdot_figure_option_read(c, &figure, &panel));
+    if (!qdot_cursor_is_end(c))
+        return refuse_option(c);
+    c->error_at = start->start;
+    status = qdot_request_fill(c->session, &order);
+    if (status == QDOT_OK) {
+        qdot_session *session = c->session;
+
+        order.request.t0 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
+        order.request.t1 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
+        order.request.method = "auto";
+        order.request.tol = 1e-12;
+        status = qdot_pool_check(session->pool);
+    }
+    if (status == QDOT_OK) {
+        status = qdot_race_hold(c->session->scene, &order.request, &race);
+        if (status == QDOT_OK) {
+            if (race.interrupted)
+                qdot_interrupt_clear(); /* heard: the rows so far are told */
+            status = answer(c->session, &race, &figure, &panel);
+            if (status == QDOT_OK && race.interrupted)
+                status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
+            qdot_race_clear(&race);
+        }
+    }
+    qdot_request_free(&order);
+    return status;
+}

@@ -1,0 +1,128 @@
+/* request.c -- what is asked of a run: the values and the start of the moment. */
+#include "lang/runs/request.h"
+
+#include "expr/calculus.h"
+#include "lang/commands/value-check.h"
+#include "lang/session/bind.h"
+
+void
+qdot_request_free(qdot_request *o)
+{
+    qdot_pairs_free(&o->values);
+    qdot_free(o->q0.at);
+    qdot_free(o->v0.at);
+    qdot_free(o->q_named.at);
+    qdot_free(o->v_named.at);
+}
+
+static qdot_expr
+start_value(const qdot_session *session, qdot_expr jet, bool *named)
+{
+    for (size_t i = 0; i < session->start_symbols.n; i++)
+        if (session->start_symbols.at[i] == jet) {
+            *named = true;
+            return session->start_values.at[i];
+        }
+    *named = false;
+    return QDOT_ZERO;
+}
+
+static qdot_status
+order_start(qdot_session *session, qdot_request *o)
+{
+    const qdot_scene *scene = session->scene;
+
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        qdot_expr q = scene->coordinates.at[i], v = qdot_symbol_jet(session->pool, q, 1);
+        bool named, v_named;
+        qdot_expr q0 = qdot_session_bind(session, start_value(session, q, &named));
+        qdot_expr v0 = qdot_session_bind(session, start_value(session, v, &v_named));
+        qdot_status status;
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        /* values that constraints solve for are checked after that */
+        status = named || scene->constraints.n == 0
+                     ? qdot_session_in_domain(session, q, q0)
+                     : QDOT_OK;
+        if (status != QDOT_OK)
+            return named ? status
+                         : qdot_hint("start %s = ...: what was never named starts at 0",
+                                     qdot_expr_symbol(session->pool, q)->name);
+        QDOT_TRY(qdot_vec_push(&o->q_named, named));
+        QDOT_TRY(qdot_vec_push(&o->v_named, v_named));
+        QDOT_TRY(qdot_vec_push(&o->q0, q0));
+        QDOT_TRY(qdot_vec_push(&o->v0, v0));
+    }
+    return QDOT_OK;
+}
+
+/* Whether an event sets it, in a run. */
+static bool
+is_set_by_event(const qdot_scene *scene, qdot_expr symbol)
+{
+    for (size_t i = 0; i < scene->events.n; i++)
+        for (size_t k = 0; k < scene->events.at[i].targets.n; k++)
+            if (scene->events.at[i].targets.at[k] == symbol)
+                return true;
+    return false;
+}
+
+/* Values made of parameters that events set keep these symbols, so that they change with them. */
+static qdot_status
+follow_events(qdot_session *session, qdot_request *o)
+{
+    const size_t n = session->set_symbols.n;
+    const qdot_expr *symbols = session->set_symbols.at;
+    qdot_expr *const at = session->set_values.at;
+    qdot_expr *kept = qdot_malloc((n + 1) * sizeof *kept);
+    bool some = false;
+
+    if (kept == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        kept[i] = at[i];
+        if (is_set_by_event(session->scene, symbols[i])) {
+            at[i] = symbols[i];
+            some = true;
+        }
+    }
+    for (size_t i = 0; i < n && some; i++)
+        if (at[i] != symbols[i])
+            o->values.values.at[i] = qdot_session_bind(session, at[i]);
+    for (size_t i = 0; i < n; i++)
+        at[i] = kept[i];
+    qdot_free(kept);
+    return qdot_pool_check(session->pool);
+}
+
+/* The values and the start of the moment. */
+qdot_status
+qdot_request_fill(qdot_session *session, qdot_request *o)
+{
+    if (session->scene->coordinates.n == 0) {
+        (void)qdot_fail(QDOT_EINVAL,
+                        "there is nothing to integrate: no coordinate is declared");
+        return qdot_hint("coord theta");
+    }
+    for (size_t i = 0; i < session->set_symbols.n; i++) {
+        qdot_expr symbol = session->set_symbols.at[i];
+        qdot_expr value = qdot_session_bind(session, session->set_values.at[i]);
+
+        QDOT_TRY(qdot_pool_check(session->pool));
+        if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
+            QDOT_TRY(qdot_session_in_domain(session, symbol, value));
+        QDOT_TRY(qdot_pairs_push(&o->values, NULL, symbol, value));
+    }
+    QDOT_TRY(follow_events(session, o));
+    QDOT_TRY(qdot_value_check_assumed(session));
+    QDOT_TRY(order_start(session, o));
+    o->request.n_values = o->values.symbols.n;
+    o->request.symbols = o->values.symbols.at;
+    o->request.values = o->values.values.at;
+    o->request.q0 = o->q0.at;
+    o->request.v0 = o->v0.at;
+    o->request.q_named = o->q_named.at;
+    o->request.v_named = o->v_named.at;
+    o->request.exactly = session->start_exactly;
+    return QDOT_OK;
+}

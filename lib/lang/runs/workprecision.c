@@ -1,0 +1,330 @@
+/* workprecision.c -- error against time, every method: a table, a figure, a file. */
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/figures/figure-file.h"
+#include "lang/figures/figure-option.h"
+#include "lang/runs/request.h"
+#include "lang/commands/statement.h"
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "show/figure.h"
+#include "sim/study/workprecision.h"
+
+typedef struct {
+    qdot_figure_choice figure;
+    qdot_panel_choice panel;
+} choices;
+
+/* The columns, in the order of every form. */
+enum { COLUMNS = 13, CONSTRAINT_ERR = 10 };
+
+static const char *const names[COLUMNS] = {
+    "method", "tol",      "err",        "scd",            "time_min", "time_median", "evals",
+    "steps",  "rejected", "energy_err", "constraint_err", "ref_err",  "status"};
+
+/* The column of constraint errors stands only where there are constraints. */
+static bool
+has_column(const qdot_workprecision *w, size_t i)
+{
+    return i != CONSTRAINT_ERR || w->constraints;
+}
+
+/* The numbers of a row, columns 1 ... 11. */
+static void
+numbers_of(const qdot_workprecision *w, const qdot_workprecision_row *r, double *x)
+{
+    const double all[COLUMNS - 2] = {
+        r->tol,          r->err,           r->scd,              r->time_min,
+        r->time_median,  (double)r->evals, (double)r->steps,    (double)r->rejected,
+        r->energy_err,   r->constraint_err, w->ref_err};
+
+    memcpy(x, all, sizeof all);
+}
+
+/* --- a file of values ---------------------------------------------------------------- */
+
+static void
+csv_field(qdot_text *out, const char *field)
+{
+    if (strpbrk(field, ",\"\n") == NULL) {
+        qdot_text_add(out, field);
+        return;
+    }
+    qdot_text_char(out, '"');
+    for (; *field != '\0'; field++) {
+        if (*field == '"')
+            qdot_text_char(out, '"');
+        qdot_text_char(out, *field);
+    }
+    qdot_text_char(out, '"');
+}
+
+static void
+csv(const qdot_workprecision *w, qdot_text *out)
+{
+    for (size_t i = 0; i < COLUMNS; i++)
+        if (has_column(w, i))
+            qdot_text_format(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
+    for (size_t k = 0; k < w->n; k++) {
+        double x[COLUMNS - 2];
+
+        numbers_of(w, &w->rows[k], x);
+        qdot_text_add(out, w->rows[k].method);
+        for (size_t i = 0; i < COLUMNS - 2; i++) {
+            if (!has_column(w, i + 1))
+                continue;
+            qdot_text_char(out, ',');
+            if (!isnan(x[i]))
+                qdot_text_double(out, x[i], i == 0 ? 1 : 17);
+        }
+        qdot_text_char(out, ',');
+        csv_field(out, w->rows[k].status);
+        qdot_text_char(out, '\n');
+    }
+}
+
+/* --- a table ------------------------------------------------------------------------- */
+
+/* A cell, right-aligned; nothing for what is not known. */
+static void
+cell(qdot_text *out, int width, const char *format, double x)
+{
+    char text[40] = "-";
+
+    if (!isnan(x))
+        snprintf(text, sizeof text, format, x);
+    qdot_text_format(out, "%*s", width, text);
+}
+
+static void
+table(const qdot_workprecision *w, qdot_text *out)
+{
+    static const struct {
+        const char *head, *format;
+        int width, column;
+    } shown[] = {{"tol", "%.0e", 7, 0},      {"err", "%.1e", 9, 1},
+                 {"scd", "%.1f", 6, 2},      {"time/s", "%.2e", 10, 3},
+                 {"median", "%.2e", 10, 4},  {"evals", "%.0f", 9, 5},
+                 {"steps", "%.0f", 8, 6},    {"rejected", "%.0f", 9, 7},
+                 {"energy err", "%.1e", 11, 8}, {"constr. err", "%.1e", 12, 9}};
+    const size_t n = sizeof shown / sizeof *shown;
+
+    qdot_text_format(out, "%-8s", "method");
+    for (size_t i = 0; i < n; i++)
+        if (has_column(w, (size_t)shown[i].column + 1))
+            qdot_text_format(out, "%*s", shown[i].width, shown[i].head);
+    qdot_text_add(out, "  status\n");
+    for (size_t k = 0; k < w->n; k++) {
+        double x[COLUMNS - 2];
+
+        numbers_of(w, &w->rows[k], x);
+        qdot_text_format(out, "%-8s", w->rows[k].method);
+        for (size_t i = 0; i < n; i++)
+            if (has_column(w, (size_t)shown[i].column + 1))
+                cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
+        qdot_text_format(out, "  %s\n", w->rows[k].status);
+    }
+    qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
+                       "|value|), against a reference whose own is ");
+    qdot_number_text_bound(out, w->ref_err);
+    qdot_text_add(out, ";\nscd = -log10 err; time: CPU seconds of the integration, the "
+                       "least and the median\n");
+}
+
+static qdot_status
+rows_json(qdot_session *session, const qdot_workprecision *w)
+{
+    for (size_t k = 0; k < w->n; k++) {
+        qdot_text values = {0};
+        double x[COLUMNS - 2];
+        qdot_status status;
+
+        numbers_of(w, &w->rows[k], x);
+        qdot_text_json(&values, w->rows[k].method);
+        for (size_t i = 0; i < COLUMNS - 2; i++) {
+            if (!has_column(w, i + 1))
+                continue;
+            qdot_text_char(&values, ',');
+            qdot_number_text_json(&values, x[i]);
+        }
+        qdot_text_char(&values, ',');
+        qdot_text_json(&values, w->rows[k].status);
+        status = qdot_answer_cells(session, &values);
+        qdot_text_clear(&values);
+        QDOT_TRY(status);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+answer_table(qdot_session *session, const qdot_workprecision *w)
+{
+    qdot_text text = {0};
+
+    if (session->json)
+        return rows_json(session, w);
+    table(w, &text);
+    return qdot_answer_written(session, "workprecision", QDOT_OK, &text);
+}
+
+/* --- a figure ------------------------------------------------------------------------ */
+
+/* One curve a method, over the rows that arrived. */
+static void
+fill_curves(const qdot_workprecision *w, double *values, qdot_curve *curves, size_t *n)
+{
+    size_t at = 0;
+
+    for (size_t k = 0; k < w->n;) {
+        const char *method = w->rows[k].method;
+        const size_t first = at;
+
+        for (; k < w->n && w->rows[k].method == method; k++)
+            if (!isnan(w->rows[k].err)) { /* an error of 0 has a place too */
+                values[at] = w->rows[k].time_median;
+                values[w->n + at++] = fmax(w->rows[k].err, 0x1p-60);
+            }
+        if (at > first)
+            curves[(*n)++] = (qdot_curve){.label = {method, false},
+                                          .rows = at - first,
+                                          .x = values + first,
+                                          .y = values + w->n + first};
+    }
+}
+
+static qdot_status
+figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+{
+    qdot_curve *curves = qdot_calloc(w->n + 1, sizeof *curves);
+    double *values = qdot_calloc(2 * w->n + 1, sizeof *values);
+    qdot_text note = {0};
+    qdot_panel panel = {.title = {"work and precision", false},
+                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .curves = curves,
+                        .log = {true, true},
+                        .marks = true};
+    const qdot_figure f = {.panels = &panel,
+                           .n = 1,
+                           .width = chosen->figure.width,
+                           .height = chosen->figure.height,
+                           .keep = chosen->figure.keep};
+    qdot_status status = curves && values ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        fill_curves(w, values, curves, &panel.n);
+        qdot_text_add(&note, "medians of several runs; error of the reference ");
+        qdot_number_text_bound(&note, w->ref_err);
+        panel.note = qdot_text_str(&note);
+        qdot_figure_option_apply(&chosen->panel, &panel);
+        status = qdot_text_status(&note);
+    }
+    if (status == QDOT_OK)
+        status = qdot_figure_file_show(session, &f, chosen->figure.path);
+    qdot_text_clear(&note);
+    qdot_free(curves);
+    qdot_free(values);
+    return status;
+}
+
+/* --- the statement ------------------------------------------------------------------- */
+
+static bool
+ends_in(const char *path, const char *ending)
+{
+    size_t n = strlen(path), m = strlen(ending);
+
+    return n > m && strcmp(path + n - m, ending) == 0;
+}
+
+static bool
+any_done(const qdot_workprecision *w)
+{
+    for (size_t i = 0; i < w->n; i++)
+        if (isfinite(w->rows[i].err))
+            return true;
+    return false;
+}
+
+static qdot_status
+tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+{
+    const char *path = chosen->figure.path;
+    qdot_text text = {0};
+    qdot_status status;
+
+    for (size_t i = 0; i < w->n_unfit; i++)
+        QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s",
+                                    w->unfit[i].method, w->unfit[i].reason));
+    if (path == NULL || (!ends_in(path, ".csv") && !ends_in(path, ".txt"))) {
+        QDOT_TRY(answer_table(session, w));
+        if (w->interrupted && path == NULL)
+            return QDOT_OK; /* who stopped it does not wait for a figure */
+        return any_done(w) ? figure(session, w, chosen)
+                           : qdot_fail(QDOT_EFAILED, "no method came to the end");
+    }
+    (ends_in(path, ".csv") ? csv : table)(w, &text);
+    status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+read_options(qdot_cursor *c, choices *chosen)
+{
+    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
+    const qdot_token *start = c->at;
+    bool good = false;
+
+    QDOT_TRY(qdot_figure_option_read(c, &chosen->figure, &chosen->panel));
+    if (!qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
+    for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
+        good = good || ends_in(chosen->figure.path, known[i]);
+    if (good || chosen->figure.path == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
+                    chosen->figure.path);
+    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+}
+
+qdot_status
+qdot_workprecision_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_session *session = c->session;
+    qdot_request order = {0};
+    qdot_workprecision w = {0};
+    choices chosen = {0};
+    qdot_expr from, to;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    QDOT_TRY(read_options(c, &chosen));
+    c->error_at = start->start;
+    status = qdot_request_fill(session, &order);
+    if (status == QDOT_OK) {
+        order.request.t0 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
+        order.request.t1 =
+            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
+        status = qdot_pool_check(session->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_workprecision_measure(session->scene, &order.request, &w);
+    if (w.interrupted)
+        qdot_interrupt_clear(); /* heard: the rows so far are told */
+    if (status == QDOT_OK)
+        status = tell(session, &w, &chosen);
+    if (status == QDOT_OK && w.interrupted)
+        status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
+    qdot_workprecision_clear(&w);
+    qdot_request_free(&order);
+    return status;
+}

@@ -1,0 +1,477 @@
+/* complete.c -- completions at a place of a text. */
+#include "lang/workbench/complete.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lang/files/redirect.h"
+#include "lang/commands/statement.h"
+#include "lang/commands/usage.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/session/labels.h"
+#include "lang/source/letters.h"
+#include "lang/source/source.h"
+#include "ode/method.h"
+
+typedef struct {
+    qdot_session *session;
+    const char *prefix;
+    qdot_vec(char *) words;
+    qdot_status status;
+} completion;
+
+/* --- words of a kind ------------------------------------------------------------------ */
+
+/* Kinds of words, as bits. */
+enum {
+    COORDINATES = 1 << 0,
+    PARAMETERS = 1 << 1,
+    FUNCTIONS = 1 << 2, /* undefined ones of the user */
+    DEFINED = 1 << 3,   /* named expressions and functions */
+    BUILTINS = 1 << 4,
+    QUANTITIES = 1 << 5,
+    CONSTANTS = 1 << 6, /* pi, t */
+    PARTICLES = 1 << 7,
+    BODIES = 1 << 8,
+    CONSTRAINTS = 1 << 9,
+    TIES = 1 << 10, /* springs, dampers */
+    APPLIED =
+        1 << 11, /* labels of gravities, potentials, dissipations, forces, torques */
+    EVENTS = 1 << 12,
+    RUNS = 1 << 13,
+    METHODS = 1 << 14,
+    STATEMENTS = 1 << 15,
+    KINDS = 1 << 16, /* what `remove` takes by its kind */
+    NAMES = COORDINATES | PARAMETERS | FUNCTIONS | DEFINED,
+    LABELS = PARTICLES | BODIES | CONSTRAINTS | TIES | APPLIED | EVENTS,
+    EXPRESSION =
+        NAMES | BUILTINS | QUANTITIES | CONSTANTS | PARTICLES | BODIES | EVENTS | RUNS,
+    CONSTANT = PARAMETERS | FUNCTIONS | DEFINED | BUILTINS | CONSTANTS | EVENTS,
+    NOTHING = 0
+};
+
+enum { FINAL_SIGMA = 0x3C2 };
+
+static void
+offer_n(completion *c, const char *word, size_t n)
+{
+    const size_t typed = strlen(c->prefix);
+    char *copy;
+
+    if (c->status != QDOT_OK || n < typed || strncmp(word, c->prefix, typed) != 0)
+        return;
+    copy = qdot_malloc(n + 1);
+    if (copy == NULL) {
+        c->status = QDOT_ENOMEM;
+        return;
+    }
+    memcpy(copy, word, n);
+    copy[n] = '\0';
+    c->status = qdot_vec_push(&c->words, copy);
+    if (c->status != QDOT_OK)
+        qdot_free(copy);
+}
+
+static void
+offer(completion *c, const char *word)
+{
+    if (word != NULL)
+        offer_n(c, word, strlen(word));
+}
+
+/* A family by its name and the bracket. */
+static void
+offer_member(completion *c, const char *name)
+{
+    const char *bracket = strchr(name, '[');
+
+    if (bracket == NULL)
+        offer(c, name);
+    else if (c->words.n == 0 || strncmp(c->words.at[c->words.n - 1], name,
+                                        (size_t)(bracket + 1 - name)) != 0)
+        offer_n(c, name, (size_t)(bracket + 1 - name));
+}
+
+static void
+offer_names(completion *c, unsigned kinds)
+{
+    static const unsigned bits[] = {
+        [QDOT_NAME_PARAM] = PARAMETERS, [QDOT_NAME_COORD] = COORDINATES,
+        [QDOT_NAME_UFUN] = FUNCTIONS,   [QDOT_NAME_VALUE] = DEFINED,
+        [QDOT_NAME_FUNCTION] = DEFINED, [QDOT_NAME_INDEX] = 0,
+        [QDOT_NAME_ARGUMENT] = 0};
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(c->session->names, i)) != NULL; i++)
+        if ((bits[name->kind] & kinds) != 0)
+            offer_member(c, name->name);
+}
+
+static void
+offer_labels(completion *c, unsigned kinds)
+{
+    const qdot_scene *scene = c->session->scene;
+
+#define OFFER(bit, list, field)                                                          \
+    for (size_t i = 0; (kinds & (bit)) != 0 && i < scene->list.n; i++)                   \
+        if (scene->list.at[i].field != NULL)                                             \
+            offer_member(c, scene->list.at[i].field);
+    OFFER(PARTICLES, particles, name)
+    OFFER(BODIES, bodies, name)
+    OFFER(CONSTRAINTS, constraints, label)
+    OFFER(TIES, springs, name)
+    OFFER(TIES, dampers, name)
+    OFFER(APPLIED, gravities, name)
+    OFFER(APPLIED, potentials, name)
+    OFFER(APPLIED, dissipations, name)
+    OFFER(APPLIED, forces, name)
+    OFFER(APPLIED, torques, name)
+    OFFER(EVENTS, events, name)
+#undef OFFER
+}
+
+/* Words of the tables. */
+static void
+offer_tables(completion *c, unsigned kinds)
+{
+    static const char *const removable[] = {"gravity", "potential",   "spring", "damper",
+                                            "force",   "dissipation", "torque"};
+
+    for (size_t i = 0; (kinds & BUILTINS) != 0 && qdot_builtin_at(i) != NULL; i++)
+        if ((qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT) == 0)
+            offer(c, qdot_builtin_at(i)->name);
+    for (int i = 0; (kinds & BUILTINS) != 0 && i < QDOT_FUNCTION_COUNT; i++)
+        offer(c, qdot_fun_name((qdot_fun_id)i));
+    for (size_t i = 0; (kinds & QUANTITIES) != 0 && qdot_quantity_at(i) != NULL; i++)
+        if (qdot_quantity_at(i)->example[0] != '\0')
+            offer(c, qdot_quantity_at(i)->name);
+    for (size_t i = 0; (kinds & STATEMENTS) != 0 && qdot_statement_at(i) != NULL; i++)
+        if (qdot_statement_at(i)->run != NULL)
+            offer(c, qdot_statement_at(i)->word);
+    for (size_t i = 0; (kinds & METHODS) != 0 && qdot_ode_method_at(i) != NULL; i++)
+        offer(c, qdot_ode_method_at(i)->name);
+    if ((kinds & METHODS) != 0)
+        offer(c, "auto");
+    for (size_t i = 0; (kinds & KINDS) != 0 && i < sizeof removable / sizeof *removable;
+         i++)
+        offer(c, removable[i]);
+    if ((kinds & CONSTANTS) != 0) {
+        offer(c, "pi");
+        offer(c, "t");
+    }
+}
+
+static void
+offer_kinds(completion *c, unsigned kinds)
+{
+    offer_tables(c, kinds);
+    offer_names(c, kinds);
+    offer_labels(c, kinds);
+    for (size_t i = 0; (kinds & RUNS) != 0 && i < c->session->runs.n; i++)
+        offer(c, c->session->runs.at[i].name);
+}
+
+/* --- within brackets ------------------------------------------------------------------- */
+
+/* The members of the family: what stands in their brackets, up to a comma. */
+static bool
+offer_indices(completion *c, const char *family)
+{
+    const size_t n = strlen(family);
+    const qdot_name *name;
+    bool found = false;
+
+    for (size_t i = 0; (name = qdot_names_at(c->session->names, i)) != NULL; i++)
+        if (strncmp(name->name, family, n) == 0 && name->name[n] == '[') {
+            offer_n(c, name->name + n + 1, strcspn(name->name + n + 1, ",]"));
+            found = true;
+        }
+    return found;
+}
+
+/* Behind `NAME[` or `NAME(...)[`: what the entries go by. */
+static void
+complete_index(completion *c, const qdot_token *first, const qdot_token *open)
+{
+    const qdot_token *name = open - 1;
+    const qdot_quantity *quantity;
+    const qdot_builtin *builtin;
+    int depth = 0;
+
+    if (open == first || !open->glued) { /* a matrix, a list */
+        offer_kinds(c, EXPRESSION);
+        return;
+    }
+    if (qdot_token_is(name, ")") || qdot_token_is(name, "]")) {
+        do {
+            depth -= qdot_token_bracket(name);
+            name--;
+        } while (depth > 0 && name > first);
+        builtin = name->kind == QDOT_TOKEN_NAME ? qdot_builtin_find(name->text) : NULL;
+        if (builtin != NULL && builtin->over != NULL)
+            offer_kinds(c, COORDINATES);
+        return;
+    }
+    if (name->kind != QDOT_TOKEN_NAME || offer_indices(c, name->text))
+        return;
+    quantity = qdot_quantity_find(name->text);
+    if (strcmp(name->text, "lambda") == 0)
+        offer_kinds(c, CONSTRAINTS);
+    else if (strcmp(name->text, "p") == 0 || strcmp(name->text, "delta") == 0 ||
+             strcmp(name->text, "modes") == 0 ||
+             (quantity != NULL && quantity->symbol != NULL) ||
+             (quantity != NULL && quantity->over_coordinates && quantity->most > 0))
+        offer_kinds(c, COORDINATES);
+}
+
+/* Behind `NAME(`: labels where the function takes one. */
+static void
+complete_argument(completion *c, const qdot_token *first, const qdot_token *open,
+                  const qdot_token *end)
+{
+    const qdot_builtin *builtin =
+        open > first && open[-1].kind == QDOT_TOKEN_NAME && open->glued
+            ? qdot_builtin_find(open[-1].text)
+            : NULL;
+
+    offer_kinds(c, builtin != NULL && (builtin->flags & QDOT_BUILTIN_LABEL) != 0 &&
+                           end == open + 1
+                       ? BODIES | PARTICLES
+                       : EXPRESSION);
+}
+
+/* --- within a statement ---------------------------------------------------------------- */
+
+/* What the holes of usage texts take: the row of that statement, last word before and hole. NULL,
+ * or an entry left out, is any. */
+static const struct {
+    const char *statement, *before, *hole;
+    unsigned kinds;
+} holes[] = {
+    {"set", NULL, "NAME", PARAMETERS},
+    {"set", NULL, "F(ARGUMENTS)", FUNCTIONS},
+    {NULL, "with", "NAME", PARAMETERS | COORDINATES},
+    {NULL, "then", "NAME", PARAMETERS | COORDINATES},
+    {NULL, "vs", "NAME", PARAMETERS | COORDINATES},
+    {"sweep", "sweep", "NAME", PARAMETERS | COORDINATES},
+    {NULL, "method", "NAME", METHODS},
+    {"show", NULL, "NAME", NAMES | LABELS | RUNS},
+    {"remove", NULL, "NAME", LABELS},
+    {"remove", NULL, "KIND", KINDS},
+    {NULL, NULL, "NAME", NOTHING}, /* a new one */
+    {NULL, NULL, "LABEL", CONSTRAINTS},
+    {NULL, NULL, "Q", COORDINATES},
+    {NULL, NULL, "Q'", COORDINATES},
+    {NULL, NULL, "COORDINATE", COORDINATES},
+    {NULL, NULL, "PARTICLE", PARTICLES},
+    {NULL, NULL, "BODY", BODIES},
+    {NULL, NULL, "RUN", RUNS},
+    {NULL, NULL, "WORD", STATEMENTS | BUILTINS | QUANTITIES | METHODS},
+    {NULL, "between", NULL, PARTICLES | BODIES | DEFINED},
+    {NULL, NULL, "EQUILIBRIUM", QUANTITIES},
+    {NULL, NULL, "LO", NOTHING},
+    {NULL, NULL, "HI", CONSTANT},
+    {NULL, NULL, "VALUE", CONSTANT},
+    {NULL, "tol", "E", CONSTANT},
+    {NULL, "mass", "M", CONSTANT},
+    {NULL, NULL, "T0..T1", CONSTANT},
+    {NULL, NULL, "DT", CONSTANT},
+    {NULL, NULL, "N", NOTHING},
+    {NULL, NULL, "K", NOTHING},
+    {NULL, NULL, "W", NOTHING},
+    {NULL, NULL, "H", NOTHING},
+    {NULL, NULL, "TEXT", NOTHING},
+    {NULL, NULL, "0", NOTHING},
+    {NULL, NULL, "...", NOTHING},
+};
+
+static bool
+fits(const char *row, const char *text)
+{
+    return row == NULL || strcmp(row, text) == 0;
+}
+
+static unsigned
+hole_kinds(const char *statement, const qdot_usage_node *hole)
+{
+    /* values and their kin stand beside the quoted texts of `print` */
+    if (hole->text[0] == '"')
+        return NOTHING;
+    for (size_t i = 0; i < sizeof holes / sizeof *holes; i++)
+        if (fits(holes[i].statement, statement) && fits(holes[i].before, hole->before) &&
+            fits(holes[i].hole, hole->text))
+            return holes[i].kinds;
+    return EXPRESSION;
+}
+
+/* What the usage says may stand at the end of what was read. */
+static void
+offer_usage(completion *c, const char *statement, const qdot_usage *u)
+{
+    unsigned kinds = 0;
+
+    for (int i = 0; i < u->states; i++) {
+        const qdot_usage_node *node = &u->node[u->state[i].node];
+
+        if (node->kind == QDOT_USAGE_WORD && !u->state[i].inside)
+            offer(c, node->text);
+        else if (node->kind == QDOT_USAGE_HOLE && !u->state[i].inside)
+            kinds |= hole_kinds(statement, node);
+        else if (node->kind == QDOT_USAGE_HOLE && !u->operand)
+            kinds |= EXPRESSION;
+    }
+    offer_kinds(c, kinds);
+}
+
+/* Behind the tokens [first, end) of a statement, none of which opens a bracket that stays open. */
+static void
+complete_statement(completion *c, const qdot_token *first, const qdot_token *end)
+{
+    const qdot_statement *row = first < end && first->kind == QDOT_TOKEN_NAME
+                                    ? qdot_statement_find(first->text)
+                                    : NULL;
+    qdot_usage u;
+
+    if (first == end) {
+        offer_kinds(c, STATEMENTS | (c->prefix[0] != '\0' ? EXPRESSION : 0));
+        return;
+    }
+    if (row != NULL &&
+        qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row))) {
+        qdot_usage_read(&u, first, end);
+        offer_usage(c, row->word, &u);
+    }
+    if ((row == NULL || row->alone ||
+         (end > first + 1 && qdot_token_is(first + 1, "="))) &&
+        qdot_usage_begin(&u, "", "EXPR | NAME = EXPR", true)) {
+        qdot_usage_read(&u, first, end);
+        offer_usage(c, "", &u);
+    }
+}
+
+/* Whether a word may not begin directly behind the token: it needs a blank. */
+static bool
+needs_blank(const qdot_token *token)
+{
+    return token->kind != QDOT_TOKEN_END &&
+           (token->kind != QDOT_TOKEN_OPERATOR || strchr(")]'%", token->text[0]) != NULL);
+}
+
+/* Behind the tokens [first, end), in which the bracket at `open` is not closed; NULL: none. */
+static void
+complete_at(completion *c, const qdot_token *first, const qdot_token *open,
+            const qdot_token *end)
+{
+    if (end > first && qdot_token_is(end - 1, ".") && end[-1].glued)
+        offer_kinds(c, EXPRESSION); /* along a run */
+    else if (open == NULL)
+        complete_statement(c, first, end);
+    else if (qdot_token_is(open, "["))
+        complete_index(c, first, open);
+    else
+        complete_argument(c, first, open, end);
+}
+
+/* Find the statement that the last of the tokens belongs to, and its innermost open bracket. */
+static void
+complete_tokens(completion *c, const qdot_token *tokens, size_t n)
+{
+    const qdot_token *end = tokens + n, *first = tokens, *open = NULL;
+    long depth = 0;
+
+    for (const qdot_token *k = tokens; k < end; k++)
+        if (k->kind == QDOT_TOKEN_END || qdot_token_is(k, "{"))
+            first = k + 1;
+    for (const qdot_token *k = end; k > first && open == NULL;) {
+        depth += qdot_token_bracket(--k);
+        if (depth > 0)
+            open = k;
+    }
+    complete_at(c, first, open, end);
+}
+
+/* --- the whole ------------------------------------------------------------------------- */
+
+static int
+by_spelling(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Hand over the words, sorted, each once. */
+static qdot_status
+finish(completion *c, char ***words, size_t *n)
+{
+    size_t kept = 0;
+
+    if (c->words.n > 0)
+        qsort(c->words.at, c->words.n, sizeof *c->words.at, by_spelling);
+    for (size_t i = 0; i < c->words.n; i++) {
+        if (kept > 0 && strcmp(c->words.at[kept - 1], c->words.at[i]) == 0)
+            qdot_free(c->words.at[i]);
+        else
+            c->words.at[kept++] = c->words.at[i];
+    }
+    if (c->status != QDOT_OK) {
+        while (kept > 0)
+            qdot_free(c->words.at[--kept]);
+        qdot_free(c->words.at);
+        c->words.at = NULL;
+    }
+    *words = c->words.at;
+    *n = kept;
+    return c->status;
+}
+
+qdot_status
+qdot_complete(qdot_session *session, const char *before, size_t length,
+              const char *prefix, char ***words, size_t *n)
+{
+    completion c = {.session = session, .prefix = prefix};
+    qdot_source *source;
+    size_t at;
+
+    /* a bracket left open is an error, all of whose tokens are there */
+    c.status = qdot_source_new("completion", before, length, &source, &at);
+    if (source != NULL) {
+        size_t tokens = source->tokens.n;
+
+        if (c.status == QDOT_OK &&
+            !(length > 0 && strchr(";\n{}", before[length - 1]) != NULL))
+            tokens--; /* the END that closes the text */
+        c.status = QDOT_OK;
+        if (tokens == 0 || !needs_blank(source->tokens.at + tokens - 1) ||
+            source->tokens.at[tokens - 1].start + source->tokens.at[tokens - 1].length <
+                length)
+            complete_tokens(&c, source->tokens.at, tokens);
+        qdot_source_free(source);
+    }
+    return finish(&c, words, n);
+}
+
+qdot_status
+qdot_complete_greek(const char *prefix, bool letter, char ***words, size_t *n)
+{
+    completion c = {.prefix = "\\"};
+    char word[32] = "";
+    uint32_t only = 0;
+
+    for (uint32_t code = 0x391; code <= 0x3C9; code++) {
+        const char *name = code == FINAL_SIGMA ? NULL : qdot_letters_greek(code);
+
+        if (name == NULL || strncmp(name, prefix, strlen(prefix)) != 0)
+            continue;
+        only = c.words.n == 0 ? code : 0;
+        snprintf(word, sizeof word, "\\%s", name);
+        offer(&c, word);
+    }
+    if (only != 0 && c.status == QDOT_OK) {
+        /* a code point below U+0800 */
+        const char sign[] = {(char)(0xC0 | only >> 6), (char)(0x80 | (only & 0x3F)),
+                             '\0'};
+
+        strcpy(c.words.at[0], letter ? sign : word + 1);
+    }
+    return finish(&c, words, n);
+}

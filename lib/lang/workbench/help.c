@@ -1,0 +1,238 @@
+/* help.c -- the tables, told: statements, functions, values. */
+#include <string.h>
+
+#include "base/spelling.h"
+#include "lang/answer/answer.h"
+#include "lang/workbench/search.h"
+#include "lang/commands/statement.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/language/hints.h"
+#include "lang/language/read.h"
+#include "ode/method.h"
+
+/* A word and what follows it, in two columns. */
+static void
+entry(qdot_text *text, const char *word, const char *summary)
+{
+    qdot_text_format(text, "  %-14s %s\n", word, summary);
+}
+
+/* Words in running lines. */
+static void
+flow(qdot_text *text, const char *word, size_t *column)
+{
+    size_t n = strlen(word) + 1;
+
+    if (*column + n > 86) {
+        qdot_text_add(text, "\n ");
+        *column = 1;
+    }
+    qdot_text_format(text, " %s", word);
+    *column += n;
+}
+
+/* What is not built yet has no example. */
+static bool
+is_built(const qdot_quantity *row)
+{
+    return row->example[0] != '\0';
+}
+
+static void
+overview(qdot_text *text)
+{
+    const qdot_statement *row;
+    const char *group = "";
+    size_t column = 1;
+
+    for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++) {
+        if (row->run == NULL)
+            continue;
+        if (strcmp(group, row->group) != 0)
+            qdot_text_format(text, "%s%s\n", i > 0 ? "\n" : "", row->group);
+        group = row->group;
+        entry(text, row->word, row->summary);
+    }
+    qdot_text_add(text, "\nvalues\n ");
+    for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
+        if (is_built(qdot_quantity_at(i)))
+            flow(text, qdot_quantity_at(i)->name, &column);
+    qdot_text_add(text, "\n\nfunctions\n ");
+    column = 1;
+    for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
+        if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT))
+            flow(text, qdot_builtin_at(i)->name, &column);
+    qdot_text_add(text, "\n\nhelp WORD says more of each, help search WORD finds it; any "
+                        "statement may end in `for k = a..b`\n");
+}
+
+static void
+explain(qdot_text *text, const char *usage, const char *summary, const char *example)
+{
+    qdot_text_format(text, "%s\n    %s\n", usage, summary);
+    if (example != NULL && example[0] != '\0' && strcmp(example, usage) != 0)
+        qdot_text_format(text, "    example: %s\n", example);
+}
+
+/* Words that are no statement, value or function. */
+static const struct {
+    const char *word, *usage, *summary, *example;
+} topics[] = {
+    {"for",
+     "STATEMENT for K = A..B [, J = C..D] | STATEMENT for K = [LIST] | { ... } for ...",
+     "the statement or the block once for each value, in order",
+     "print k^2 for k = 1..3"},
+    {"to", "STATEMENT to \"FILE\"",
+     "its answer goes to a file; type by ending: .txt .tex .json, figures .svg .png "
+     ".pdf, "
+     "tables .csv .txt",
+     "eom to \"eom.tex\""},
+    {"pi", "pi", "the number 3.14159...; it stays exact", "cos(pi)"},
+    {"t", "t", "the time", "diff(sin(t), t)"},
+    {"and", "A and B", "both hold", "if(x > 0 and y > 0, 1, 0)"},
+    {"or", "A or B", "at least one holds", "if(x > 0 or y > 0, 1, 0)"},
+    {"not", "not A", "A does not hold; `check not A == B` expects a refutation",
+     "check not sin(t) == t"},
+    {"search", "help search WORD ...",
+     "the words of the language whose name, summary or example holds all of these",
+     "help search energy"},
+    {"%", "% | %3", "the last value; the third of the session", ""},
+};
+
+/* Whether `usage` holds the word by itself. */
+static bool
+names_word(const char *usage, const char *word)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    size_t n = strlen(word);
+
+    for (const char *at = strstr(usage, word); at != NULL; at = strstr(at + 1, word))
+        if ((at == usage || strchr(letters, at[-1]) == NULL) &&
+            (at[n] == '\0' || strchr(letters, at[n]) == NULL))
+            return true;
+    return false;
+}
+
+/* Every statement of which the word is an option. */
+static void
+look_up_option(qdot_text *text, const char *word)
+{
+    const qdot_statement *row;
+
+    if (word[0] < 'a' || word[0] > 'z')
+        return;
+    for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++)
+        if (names_word(row->usage, word)) {
+            explain(text, row->usage, row->summary, row->example);
+            if (row->run == NULL)
+                qdot_text_add(text, "    not built yet\n");
+        }
+}
+
+/* Append what the word is: statement, function, value; false: none of these. */
+static bool
+look_up(qdot_text *text, const char *word)
+{
+    const qdot_statement *statement = qdot_statement_find(word);
+    const qdot_quantity *quantity = qdot_quantity_find(word);
+    const qdot_builtin *builtin = qdot_builtin_find(word);
+    qdot_fun_id id;
+
+    if (statement != NULL) {
+        explain(text, statement->usage, statement->summary, statement->example);
+        if (statement->run == NULL)
+            qdot_text_add(text, "    not built yet\n");
+    }
+    if (quantity != NULL) {
+        explain(text, quantity->usage, quantity->summary, quantity->example);
+        if (!is_built(quantity))
+            qdot_text_add(text, "    not built yet\n");
+    }
+    if (builtin != NULL) {
+        explain(text, builtin->usage, builtin->summary, builtin->example);
+        if (builtin->flags & QDOT_BUILTIN_UNBUILT)
+            qdot_text_add(text, "    not built yet\n");
+    } else if (qdot_fun_find(word, &id)) {
+        qdot_text_format(text, "%s: an elementary function\n", qdot_fun_name(id));
+    }
+    for (size_t i = 0; i < sizeof topics / sizeof *topics; i++)
+        if (strcmp(word, topics[i].word) == 0)
+            explain(text, topics[i].usage, topics[i].summary, topics[i].example);
+    if (qdot_ode_method_find(word) != NULL) {
+        qdot_text_format(text, "run T0..T1 method %s", word);
+        qdot_text_format(text, "\n    %s\n", qdot_ode_method_find(word)->fits);
+    }
+    if (text->n == 0)
+        look_up_option(text, word);
+    return text->n > 0;
+}
+
+/* `search WORD ...`, `search "TEXT"`: at the words. */
+static qdot_status
+find(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_text words = {0}, text = {0};
+    qdot_status status;
+
+    for (; c->at->kind == QDOT_TOKEN_NAME || c->at->kind == QDOT_TOKEN_STRING; c->at++)
+        qdot_text_format(&words, "%s%s", words.n > 0 ? " " : "", c->at->text);
+    status = c->at == start ? qdot_cursor_expected(c, "what to search for")
+                            : qdot_cursor_expect_end(c);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&words);
+    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
+        c->error_at = start->start;
+        (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
+        status = qdot_hint("`help` lists every word");
+    }
+    qdot_text_clear(&words);
+    return qdot_answer_written(c->session, "help", status, &text);
+}
+
+/* The statement, function or value whose word is nearest; NULL if none is near. */
+static const char *
+nearest_word(qdot_session *session, const char *word)
+{
+    const char *other = qdot_hints_nearest(session, word);
+    qdot_spelling near;
+
+    qdot_spelling_begin(&near, word);
+    for (size_t i = 0; qdot_statement_at(i) != NULL; i++)
+        qdot_spelling_offer(&near, qdot_statement_at(i)->word);
+    if (other != NULL)
+        qdot_spelling_offer(&near, other);
+    return near.best;
+}
+
+qdot_status
+qdot_help(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    const char *word = "help", *near;
+    qdot_text text = {0};
+
+    if (qdot_token_is_word(c->at, "search") && c->at[1].kind != QDOT_TOKEN_END) {
+        c->at++;
+        return find(c);
+    }
+    if (c->at->kind == QDOT_TOKEN_NAME)
+        word = c->at++->text;
+    else if (c->at->kind == QDOT_TOKEN_STRING)
+        QDOT_TRY(qdot_read_string(c, &word));
+    else if (qdot_cursor_accept_op(c, "%"))
+        word = "%";
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    c->error_at = start->start;
+    if (c->at == start) {
+        overview(&text);
+    } else if (!look_up(&text, word)) {
+        (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word);
+        near = nearest_word(c->session, word);
+        return near != NULL
+                   ? qdot_hint("did you mean `%s`?", near)
+                   : qdot_hint("`help` lists every word; `show NAME` tells of your own names");
+    }
+    return qdot_answer_written(c->session, "help", QDOT_OK, &text);
+}

@@ -1,0 +1,173 @@
+/* script-file.c -- scripts from files, and the exit status that they leave. */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "lang/answer/answer.h"
+#include "lang/workbench/script.h"
+#include "lang/commands/statement.h"
+#include "lang/source/source.h"
+
+enum { FILE_LIMIT = 1 << 28, INCLUDE_LIMIT = 100 };
+
+static int
+exit_status(qdot_session *session, qdot_status status)
+{
+    session->failed = status != QDOT_OK;
+    if (status != QDOT_OK)
+        return status == QDOT_ESYNTAX ? 2 : 1;
+    return session->refuted ? 1 : 0;
+}
+
+int
+qdot_script_run_text(qdot_session *session, const char *name, const char *text,
+                     size_t length)
+{
+    return exit_status(session, qdot_script_carry_out(session, name, text, length));
+}
+
+static qdot_status
+read_stream(FILE *file, const char *path, qdot_text *text)
+{
+    char block[65536];
+    size_t n;
+
+    while ((n = fread(block, 1, sizeof block, file)) > 0) {
+        qdot_text_add_n(text, block, n);
+        if (text->n > FILE_LIMIT)
+            return qdot_fail(QDOT_ELIMIT, "`%s` is larger than %d MB", path,
+                             FILE_LIMIT >> 20);
+    }
+    if (ferror(file))
+        return qdot_fail(QDOT_EIO, "`%s` cannot be read: %s", path, strerror(errno));
+    return qdot_text_status(text);
+}
+
+static qdot_status
+read_file(const char *path, qdot_text *text)
+{
+    bool standard = strcmp(path, "-") == 0;
+    FILE *file = standard ? stdin : fopen(path, "rb");
+    qdot_status status;
+    struct stat info;
+
+    if (file == NULL)
+        return qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
+    if (fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode))
+        status = qdot_fail(QDOT_EIO, "`%s` is a directory", path);
+    else
+        status = read_stream(file, path, text);
+    if (!standard)
+        fclose(file);
+    return status;
+}
+
+/* Whether the file is being read already. */
+static bool
+is_open(const qdot_session *session, const char *path)
+{
+    struct stat info, other;
+
+    if (stat(path, &info) != 0)
+        return false;
+    for (size_t i = 0; i < session->including.n; i++)
+        if (stat(session->including.at[i], &other) == 0 && info.st_dev == other.st_dev &&
+            info.st_ino == other.st_ino)
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened)
+{
+    bool standard = strcmp(path, "-") == 0;
+    qdot_text text = {0};
+    qdot_status status;
+    char *own;
+
+    *opened = false;
+    if (!standard && is_open(session, path))
+        return qdot_fail(QDOT_EINVAL, "`%s` includes itself", path);
+    if (session->including.n >= INCLUDE_LIMIT)
+        return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
+                         INCLUDE_LIMIT);
+    own = qdot_strdup(path);
+    if (own == NULL)
+        return QDOT_ENOMEM;
+    status = qdot_vec_push(&session->including, own);
+    if (status != QDOT_OK) {
+        qdot_free(own);
+        return status;
+    }
+    status = read_file(path, &text);
+    if (status == QDOT_OK) {
+        *opened = true;
+        status = qdot_script_carry_out(session, standard ? "standard input" : path,
+                                       qdot_text_str(&text), text.n);
+    }
+    qdot_text_clear(&text);
+    qdot_free(session->including.at[--session->including.n]);
+    return status;
+}
+
+int
+qdot_script_run_file(qdot_session *session, const char *path)
+{
+    bool opened;
+    qdot_status status = qdot_script_carry_out_file(session, path, &opened);
+
+    if (status != QDOT_OK && !opened)
+        qdot_answer_error(session, NULL, 0);
+    return exit_status(session, status);
+}
+
+bool
+qdot_script_takes_long(const char *text, size_t length)
+{
+    qdot_source *source = NULL;
+    bool found = false, start = true;
+    size_t at;
+
+    if (qdot_source_new("", text, length, &source, &at) != QDOT_OK) {
+        qdot_source_free(source);
+        return false; /* an error is soon told */
+    }
+    for (size_t i = 0; i < source->tokens.n && !found; i++) {
+        const qdot_token *token = &source->tokens.at[i];
+        const qdot_statement *row =
+            start && token->kind == QDOT_TOKEN_NAME ? qdot_statement_find(token->text) : NULL;
+
+        found = row != NULL &&
+                (strcmp(row->group, "numbers") == 0 || strcmp(row->word, "include") == 0);
+        start = token->kind == QDOT_TOKEN_END || qdot_token_is(token, "{");
+    }
+    qdot_source_free(source);
+    return found;
+}
+
+bool
+qdot_script_is_incomplete(const char *text, size_t length)
+{
+    long open = 0;
+    bool more = false; /* behind a trailing backslash */
+
+    for (size_t i = 0; i < length; i++) {
+        char c = text[i];
+
+        if (c == '"') {
+            for (i++; i < length && text[i] != '"' && text[i] != '\n'; i++)
+                i += text[i] == '\\';
+            more = false;
+        } else if (c == '#') {
+            while (i < length && text[i] != '\n')
+                i++;
+        } else if (c == '\\') {
+            more = true;
+        } else if (c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+            more = false;
+            open += c == '(' || c == '[' || c == '{';
+            open -= c == ')' || c == ']' || c == '}';
+        }
+    }
+    return open > 0 || more;
+}

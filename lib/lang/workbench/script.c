@@ -1,0 +1,574 @@
+/* script.c -- a source carried out, statement by statement.
+ *
+ * Blocks nest on an explicit stack of frames, one for each `{ ... } for` that runs. While
+ * a statement with a trailing `for` runs, that word is an end to it: its token is an END
+ * for the while.
+ */
+#include "lang/workbench/script.h"
+
+#include <string.h>
+#include <time.h>
+
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "lang/answer/answer.h"
+#include "lang/commands/loop.h"
+#include "lang/files/redirect.h"
+#include "lang/functions/quantity.h"
+#include "lang/functions/short-names.h"
+#include "lang/language/foreign.h"
+#include "lang/session/undo.h"
+#include "lang/source/source.h"
+
+typedef struct {
+    size_t body, close; /* tokens: the first inside, the `}` */
+    size_t resume;      /* the token behind the whole */
+    qdot_loop loop;
+} frame;
+
+typedef struct {
+    qdot_session *session;
+    qdot_source *source;
+    qdot_token *tokens;
+    size_t n;
+    uint32_t *match; /* of each `{` its `}`; NULL where the source has no block */
+    qdot_vec(frame) frames;
+    size_t error_at;
+} engine;
+
+/* --- what a statement is ------------------------------------------------------------ */
+
+/* The token behind the bracket that opens at `open`. */
+static const qdot_token *
+behind_bracket(const qdot_token *open)
+{
+    long depth = 0;
+
+    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
+        const int step = qdot_token_bracket(k);
+
+        depth += step;
+        if (step != 0 && depth == 0)
+            return k + 1;
+    }
+    return open; /* a statement cut by a `for` inside: not a bracket that closes */
+}
+
+/* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an
+ * operand unless it is written close to it. */
+static bool
+is_definition(const qdot_token *name, bool word)
+{
+    const qdot_token *next = name + 1;
+
+    if (qdot_token_is(next, "="))
+        return true;
+    if (!(qdot_token_is(next, "[") || qdot_token_is(next, "(")) || (word && !next->glued))
+        return false;
+    if (qdot_token_is(next, "(")) {
+        const qdot_token *k = next + 1;
+
+        while (k->kind == QDOT_TOKEN_NAME && qdot_token_is(k + 1, ","))
+            k += 2;
+        return k->kind == QDOT_TOKEN_NAME && qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=");
+    }
+    next = behind_bracket(next);
+    return qdot_token_is(next, "=");
+}
+
+/* Whether the token begins an operand, written as a word or a number. */
+static bool
+begins_operand(const qdot_token *token)
+{
+    static const char *const words[] = {"and", "or", "to", "when", "within", "for", "at"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_token_is_word(token, words[i]))
+            return false;
+    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER;
+}
+
+/* Whether the statement's word is meant as a name here: `run*2`, a user's own `scene`. */
+static bool
+is_used_as_name(const qdot_session *session, const qdot_token *name,
+                const qdot_statement *row)
+{
+    static const char *const binary[] = {"*", "/",  "^",  "'", "==", "<",
+                                         ">", "<=", ">=", "=", "!=", "."};
+    const qdot_token *next = name + 1;
+    bool declared = qdot_names_find(session->names, name->text) != NULL ||
+                    qdot_names_is_family(session->names, name->text);
+
+    /* `hamiltonian` is a value; with an operand behind it, a statement */
+    if (!row->alone && qdot_quantity_find(row->word) != NULL)
+        return declared || !begins_operand(next);
+    if (row->alone)
+        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") &&
+                !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
+               declared;
+    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
+        if (qdot_token_is(next, binary[i]))
+            return true;
+    return declared &&
+           (next->kind == QDOT_TOKEN_END || qdot_token_is(next, "+") || qdot_token_is(next, "-") ||
+            ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
+}
+
+/* The statement whose word is nearest in spelling; NULL if none is near. */
+static const qdot_statement *
+nearest_statement(const qdot_session *session, const char *name)
+{
+    const char *words[128], *near;
+    size_t n = 0;
+
+    for (; n < 128 && qdot_statement_at(n) != NULL; n++)
+        words[n] = qdot_statement_at(n)->word;
+    near = qdot_names_nearest(session->names, name, n, words);
+    return near != NULL ? qdot_statement_find(near) : NULL;
+}
+
+/* `partcle bob mass m`: two names side by side, the first of them unknown. */
+static qdot_status
+unknown_word(qdot_cursor *c)
+{
+    const qdot_statement *near = nearest_statement(c->session, c->at->text);
+
+    c->error_at = c->at->start;
+    (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
+    if (qdot_token_is_word(c->at, "for"))
+        return qdot_hint("it ends one: print k^2 for k = 1..3");
+    return near != NULL
+               ? qdot_hint("did you mean `%s`?", near->word)
+               : qdot_hint("`help` lists the statements; a product is written with *");
+}
+
+static bool
+is_unknown_word(const qdot_session *session, const qdot_token *name)
+{
+    return name->kind == QDOT_TOKEN_NAME && name[1].kind == QDOT_TOKEN_NAME &&
+           !qdot_token_is_word(name + 1, "and") && !qdot_token_is_word(name + 1, "or") &&
+           !qdot_token_is_word(name, "not") && !qdot_cursor_knows(session, name->text);
+}
+
+static qdot_status
+carry_out_row(qdot_cursor *c, const qdot_statement *row)
+{
+    qdot_status status;
+
+    c->session->declares = qdot_statement_declares(row);
+    qdot_short_names_forget(c->session);
+    status = row->run(c);
+    if (c->session->declares)
+        status = qdot_short_names_tell(c->session, status);
+    c->session->declares = false;
+    return status;
+}
+
+static qdot_status
+dispatch(qdot_cursor *c)
+{
+    const qdot_statement *row =
+        c->at->kind == QDOT_TOKEN_NAME ? qdot_statement_find(c->at->text) : NULL;
+
+    if (c->at->kind == QDOT_TOKEN_NAME && is_definition(c->at, row != NULL)) {
+        QDOT_TRY(qdot_declare_definition(c));
+    } else if (row != NULL && !is_used_as_name(c->session, c->at, row)) {
+        if (row->run == NULL) {
+            c->error_at = c->at->start;
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
+        }
+        c->at++;
+        QDOT_TRY(carry_out_row(c, row));
+    } else if (is_unknown_word(c->session, c->at)) {
+        return unknown_word(c);
+    } else {
+        QDOT_TRY(qdot_ask_expression(c));
+    }
+    QDOT_TRY(qdot_pool_check(c->session->pool));
+    return qdot_cursor_expect_end(c);
+}
+
+/* The `to FILE` that ends the statement, where its own handler does not read it. */
+static const qdot_token *
+find_to(const qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (first->kind == QDOT_TOKEN_NAME && is_definition(first, row != NULL))
+        return NULL;
+    if (row != NULL && is_used_as_name(session, first, row) && !qdot_token_is_word(first + 1, "to"))
+        row = NULL;
+    return qdot_redirect_find(row, first);
+}
+
+/* The statement with its answers in a file; `to` is an end to it for the while. */
+static qdot_status
+dispatch_to(engine *x, qdot_cursor *c, size_t to)
+{
+    qdot_redirect redirect;
+    qdot_status status;
+
+    c->error_at = x->tokens[to + 1].start;
+    QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
+    x->tokens[to].kind = QDOT_TOKEN_END;
+    status = dispatch(c);
+    x->tokens[to].kind = QDOT_TOKEN_NAME;
+    if (status == QDOT_OK)
+        c->error_at = x->tokens[to + 1].start;
+    return qdot_redirect_end(&redirect, status);
+}
+
+/* One notice for all forms of the answer that the work budget left unfinished. Where none is
+ * shown, as by `check` or `run`, it does not matter. */
+static qdot_status
+tell_unfinished(qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (!qdot_pool_unfinished_taken(session->pool) ||
+        (row != NULL && !row->alone && strcmp(row->word, "print") != 0))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "simplification stopped at its budget of work: there "
+                                       "may be a shorter form");
+}
+
+static qdot_status
+statement(engine *x, size_t i)
+{
+    qdot_cursor c = {.session = x->session,
+                     .source = x->source,
+                     .at = &x->tokens[i],
+                     .error_at = x->tokens[i].start};
+    qdot_status status = qdot_interrupt_check();
+    const qdot_token *to = status == QDOT_OK ? find_to(x->session, &x->tokens[i]) : NULL;
+
+    (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
+    if (status == QDOT_OK)
+        status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
+    qdot_progress_clear();
+    if (status == QDOT_OK)
+        return tell_unfinished(x->session, &x->tokens[i]);
+    x->error_at = c.error_at;
+    if (qdot_pool_failed(
+            x->session->pool)) { /* the statement's failure is the one to tell */
+        qdot_error error = *qdot_last_error();
+
+        (void)!qdot_pool_check(x->session->pool);
+        (void)qdot_fail_again(&error);
+    }
+    return status;
+}
+
+/* --- trailing `for` ----------------------------------------------------------------- */
+
+/* The top-level `for NAME =` of the statement at i, or its END. plot keeps the one
+ * that goes with `vs NAME =`. */
+static size_t
+statement_end(const engine *x, size_t i)
+{
+    bool own = false;
+    long depth = 0;
+
+    for (size_t k = i;; k++) {
+        const qdot_token *token = &x->tokens[k];
+
+        if (token->kind == QDOT_TOKEN_END)
+            return k;
+        depth += qdot_token_bracket(token);
+        if (depth != 0 || k == i)
+            continue;
+        if (qdot_token_is_word(token, "vs") && token[1].kind == QDOT_TOKEN_NAME &&
+            qdot_token_is(token + 2, "=") && qdot_token_is_word(&x->tokens[i], "plot"))
+            own = true;
+        if (!own && qdot_token_is_word(token, "for") && token[1].kind == QDOT_TOKEN_NAME &&
+            (qdot_token_is(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME ||
+             token[2].kind == QDOT_TOKEN_END))
+            return k;
+    }
+}
+
+/* Index of the END at or behind i. */
+static size_t
+find_end(const engine *x, size_t i)
+{
+    while (x->tokens[i].kind != QDOT_TOKEN_END)
+        i++;
+    return i;
+}
+
+/* Say in which pass it failed, where there is room for a hint. */
+static void
+tell_pass(const engine *x, const qdot_loop *loop)
+{
+    qdot_text text = {0};
+
+    if (qdot_last_error()->hint[0] != '\0' || qdot_last_error()->status == QDOT_EINTR)
+        return;
+    for (size_t i = 0; i < loop->indices.n; i++) {
+        const qdot_loop_index *index = &loop->indices.at[i];
+
+        qdot_text_format(&text, "%s%s = ", i > 0 ? ", " : "", index->name);
+        if (!index->listed)
+            qdot_text_format(&text, "%ld", index->at);
+        else if (qdot_print(x->session->pool, index->values.at[index->next], QDOT_PLAIN,
+                            &text) != QDOT_OK)
+            break;
+    }
+    if (text.n > 0 && text.n < 100)
+        (void)qdot_hint("in the pass with %s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+}
+
+static qdot_status
+repeat(engine *x, size_t i, size_t word)
+{
+    qdot_cursor c = {
+        .session = x->session, .source = x->source, .at = &x->tokens[word + 1]};
+    qdot_loop loop;
+    qdot_status status;
+    bool more;
+
+    status = qdot_loop_begin(&loop, &c, &more);
+    while (status == QDOT_OK && more) {
+        x->tokens[word].kind = QDOT_TOKEN_END;
+        status = statement(x, i);
+        x->tokens[word].kind = QDOT_TOKEN_NAME;
+        if (status != QDOT_OK) {
+            tell_pass(x, &loop);
+            qdot_loop_end(&loop);
+            return status;
+        }
+        status = qdot_loop_next(&loop, &more);
+    }
+    if (status != QDOT_OK)
+        x->error_at = loop.error_at;
+    qdot_loop_end(&loop);
+    return status;
+}
+
+static void
+tell_time(const engine *x, clock_t since)
+{
+    qdot_text text = {0};
+    double s = (double)(clock() - since) / CLOCKS_PER_SEC;
+
+    qdot_text_add(&text, "cpu ");
+    qdot_text_double(&text, s * 1e3, 3);
+    qdot_text_format(&text, " ms; %zu nodes in ", qdot_pool_count(x->session->pool));
+    qdot_text_double(&text, (double)qdot_pool_bytes(x->session->pool) / 1e6, 3);
+    qdot_text_add(&text, " MB");
+    (void)!qdot_answer_text(x->session, "timing", qdot_text_str(&text));
+    qdot_text_clear(&text);
+}
+
+/* The statement [i, end) failed: the hint of its form, if that is known. */
+static qdot_status
+lead(engine *x, size_t i, size_t end, qdot_status status)
+{
+    qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
+
+    if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->placed)
+        return status;
+    if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
+        qdot_last_error()->hint[0] == '\0') { /* `runn 0..10` */
+        const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
+
+        if (near != NULL)
+            (void)qdot_hint("did you mean `%s`?", near->word);
+    }
+    (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
+    x->error_at = c.error_at;
+    return status;
+}
+
+/* A notice, if the statement [i, end) that was carried out is seldom meant so. */
+static qdot_status
+tell_seldom_meant(engine *x, size_t i, size_t end)
+{
+    const qdot_cursor c = {.session = x->session, .source = x->source};
+    qdot_text text = {0};
+    const char *notice = qdot_foreign_notice(&c, x->tokens + i, x->tokens + end, &text);
+    qdot_status status =
+        notice != NULL ? qdot_answer_notice(x->session, "%s", notice) : QDOT_OK;
+
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* The simple statement at i, each pass of its `for`; *next: the token behind it. */
+static qdot_status
+simple(engine *x, size_t i, size_t *next)
+{
+    size_t end = statement_end(x, i);
+    clock_t since = clock();
+    bool timed = x->session->timing && x->frames.n == 0;
+    qdot_status status;
+
+    *next = find_end(x, end);
+    x->session->placed = false;
+    status = x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end);
+    if (status != QDOT_OK)
+        return lead(x, i, *next, status);
+    QDOT_TRY(tell_seldom_meant(x, i, *next));
+    if (timed && x->session->timing)
+        tell_time(x, since);
+    return QDOT_OK;
+}
+
+/* --- blocks ------------------------------------------------------------------------- */
+
+/* The `}` of every `{`. */
+static qdot_status
+match_blocks(engine *x)
+{
+    qdot_vec(uint32_t) open = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
+        if (qdot_token_is(&x->tokens[i], "{")) {
+            if (x->match == NULL)
+                x->match = qdot_calloc(x->n, sizeof *x->match);
+            status = x->match != NULL ? qdot_vec_push(&open, (uint32_t)i) : QDOT_ENOMEM;
+        } else if (qdot_token_is(&x->tokens[i], "}") && open.n > 0) {
+            x->match[open.at[--open.n]] = (uint32_t)i;
+        }
+    }
+    qdot_free(open.at);
+    return status;
+}
+
+/* Enter the block that opens at i, or step over it. */
+static qdot_status
+enter(engine *x, size_t i, size_t *next)
+{
+    frame f = {.body = i + 1, .close = x->match[i]};
+    qdot_cursor c = {
+        .session = x->session, .source = x->source, .at = &x->tokens[f.close + 1]};
+    qdot_status status;
+    bool more;
+
+    x->error_at = c.at->start;
+    QDOT_TRY(qdot_interrupt_check());
+    if (!qdot_cursor_accept_word(&c, "for")) {
+        const qdot_token *first = &x->tokens[f.body];
+
+        (void)qdot_cursor_expected(&c, "`for` behind the block");
+        if (first->kind != QDOT_TOKEN_NAME || qdot_statement_find(first->text) == NULL)
+            return qdot_hint("a list is written [a, b], a vector (a, b)");
+        return QDOT_ESYNTAX;
+    }
+    f.resume = find_end(x, f.close + 1);
+    status = qdot_loop_begin(&f.loop, &c, &more);
+    if (status != QDOT_OK) {
+        x->error_at = f.loop.error_at;
+        return status;
+    }
+    *next = more ? f.body : f.resume;
+    if (!more)
+        return QDOT_OK;
+    status = qdot_vec_push(&x->frames, f);
+    if (status != QDOT_OK)
+        qdot_loop_end(&f.loop);
+    return status;
+}
+
+/* At the `}` of the innermost block: round again or on. */
+static qdot_status
+round_again(engine *x, size_t *next)
+{
+    frame *top = &x->frames.at[x->frames.n - 1];
+    bool more = false;
+    qdot_status status = qdot_loop_next(&top->loop, &more);
+
+    if (status != QDOT_OK)
+        x->error_at = top->loop.error_at;
+    *next = more ? top->body : top->resume;
+    if (!more) {
+        qdot_loop_end(&top->loop);
+        x->frames.n--;
+    }
+    return status;
+}
+
+/* One step from *i. */
+static qdot_status
+advance(engine *x, size_t *i)
+{
+    if (x->frames.n > 0 && *i == x->frames.at[x->frames.n - 1].close)
+        return round_again(x, i);
+    if (qdot_token_is(&x->tokens[*i], "{"))
+        return enter(x, *i, i);
+    if (x->tokens[*i].kind != QDOT_TOKEN_END)
+        return simple(x, *i, i);
+    ++*i;
+    return QDOT_OK;
+}
+
+/* The statement or block at *i, to its end. */
+static qdot_status
+whole(engine *x, size_t *i)
+{
+    const qdot_token *first = &x->tokens[*i], *last;
+    size_t begun = qdot_undo_begin(x->session);
+    qdot_status status;
+
+    do
+        status = advance(x, i);
+    while (status == QDOT_OK && x->frames.n > 0 && !x->session->quit);
+    last = &x->tokens[x->frames.n > 0         ? x->frames.at[0].resume
+                      : status == QDOT_OK     ? *i
+                                              : find_end(x, (size_t)(first - x->tokens))];
+    last -= last > first;
+    qdot_undo_end(x->session, begun, x->source->text + first->start,
+                  last->start + last->length - first->start);
+    return status;
+}
+
+static qdot_status
+carry_out(engine *x)
+{
+    size_t i = 0;
+
+    while (i < x->n && !x->session->quit) {
+        if (x->tokens[i].kind == QDOT_TOKEN_END)
+            i++;
+        else
+            QDOT_TRY(whole(x, &i));
+    }
+    return QDOT_OK;
+}
+
+/* --- a whole text ------------------------------------------------------------------- */
+
+qdot_status
+qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
+                      size_t length)
+{
+    engine x = {.session = session};
+    qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
+    size_t outer = qdot_undo_text_begin(session);
+
+    if (status == QDOT_OK) {
+        x.tokens = x.source->tokens.at;
+        x.n = x.source->tokens.n;
+        status = match_blocks(&x);
+    }
+    if (status == QDOT_OK)
+        status = carry_out(&x);
+    qdot_undo_text_end(session, outer);
+    while (x.frames.n > 0) {
+        if (status != QDOT_OK)
+            tell_pass(&x, &x.frames.at[x.frames.n - 1].loop);
+        qdot_loop_end(&x.frames.at[--x.frames.n].loop);
+    }
+    if (status != QDOT_OK && x.error_at != QDOT_SCRIPT_REPORTED)
+        qdot_answer_error(session, x.source, x.error_at);
+    if (status == QDOT_EINTR)
+        qdot_interrupt_clear();
+    qdot_free(x.frames.at);
+    qdot_free(x.match);
+    qdot_source_free(x.source);
+    return status;
+}

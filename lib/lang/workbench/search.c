@@ -1,0 +1,99 @@
+/* search.c -- the words of the language whose name, summary or example holds a text. */
+#include "lang/workbench/search.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "lang/commands/statement.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "ode/method.h"
+
+typedef struct {
+    const char *text;
+    bool by_name; /* this time round: those whose name holds it; else the others */
+    qdot_text *out;
+    size_t n;
+} search;
+
+static bool
+is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* Whether `where` holds the n bytes of `word`, whatever the case of letters. A single letter must
+ * stand by itself. */
+static bool
+holds_word(const char *where, const char *word, size_t n)
+{
+    for (const char *at = where; *at != '\0'; at++)
+        if (strncasecmp(at, word, n) == 0 &&
+            (n > 1 || ((at == where || !is_letter(at[-1])) && !is_letter(at[1]))))
+            return true;
+    return false;
+}
+
+/* Whether every word of `text` is in one of the n texts `where`. */
+static bool
+holds(size_t n, const char *const *where, const char *text)
+{
+    size_t length;
+
+    for (text += strspn(text, " "); *text != '\0'; text += strspn(text, " ")) {
+        bool found = false;
+
+        length = strcspn(text, " ");
+        for (size_t i = 0; i < n && !found; i++)
+            found = where[i] != NULL && holds_word(where[i], text, length);
+        if (!found)
+            return false;
+        text += length;
+    }
+    return true;
+}
+
+static void
+look(search *s, const char *name, const char *usage, const char *summary,
+     const char *example)
+{
+    const char *const all[] = {name, usage, summary, example};
+
+    if (holds(1, all, s->text) != s->by_name || (!s->by_name && !holds(4, all, s->text)))
+        return;
+    qdot_text_format(s->out, "  %-18s %s\n", name, summary);
+    s->n++;
+}
+
+static void
+look_at_all(search *s)
+{
+    const qdot_statement *statement;
+    const qdot_quantity *quantity;
+    const qdot_builtin *builtin;
+
+    for (size_t i = 0; (statement = qdot_statement_at(i)) != NULL; i++)
+        if (statement->run != NULL && qdot_quantity_find(statement->word) == NULL)
+            look(s, statement->word, statement->usage, statement->summary,
+                 statement->example);
+    for (size_t i = 0; (quantity = qdot_quantity_at(i)) != NULL; i++)
+        if (quantity->example[0] != '\0')
+            look(s, quantity->name, quantity->usage, quantity->summary,
+                 quantity->example);
+    for (size_t i = 0; (builtin = qdot_builtin_at(i)) != NULL; i++)
+        if (!(builtin->flags & QDOT_BUILTIN_UNBUILT))
+            look(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
+    for (size_t i = 0; qdot_ode_method_at(i) != NULL; i++)
+        look(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
+}
+
+size_t
+qdot_search(const char *text, qdot_text *out)
+{
+    search s = {.text = text, .by_name = true, .out = out};
+
+    look_at_all(&s);
+    s.by_name = false;
+    look_at_all(&s);
+    return s.n;
+}
