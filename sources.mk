@@ -1116,6 +1116,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/alone-word.lag \
 	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
@@ -1422,6 +1423,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/alone-word.out \
 	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \

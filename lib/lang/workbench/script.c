@@ -134,6 +134,11 @@ unknown_word(qdot_cursor *c)
 {
     const qdot_statement *near = nearest_statement(c->session, c->at->text);
 
+    if (near != NULL && strcmp(near->word, c->at->text) == 0) { /* it stands alone */
+        c->error_at = c->at[1].start;
+        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", near->word,
+                         c->at[1].text);
+    }
     c->error_at = c->at->start;
     (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
     if (qdot_token_is_word(c->at, "for"))
