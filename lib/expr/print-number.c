@@ -325,15 +325,13 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
             return;
         }
     }
-    if (style == QDOT_LATEX && !whole) {
-        qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
-        fmpz_init(top);
-        fmpz_abs(top, fmpq_numref(x));
-        integer(top, out);
-        fmpz_clear(top);
-    } else {
-        integer(fmpq_numref(x), out);
-    }
+    if (qdot_rational_sgn(x) < 0)
+        qdot_text_add(out, style == QDOT_UNICODE ? "−" : "-");
+    qdot_text_add(out, style == QDOT_LATEX && !whole ? "\\frac{" : "");
+    fmpz_init(top);
+    fmpz_abs(top, fmpq_numref(x));
+    integer(top, out);
+    fmpz_clear(top);
     if (!whole) {
         qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
         integer(fmpq_denref(x), out);

@@ -24,7 +24,8 @@ qdot_sheet_begin(qdot_session *session)
     qdot_sheet s = {.style = session->style, .marked = session->marked};
 
     s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(session->out == session->pages ? session->screen : session->out,
+                 qdot_terminal_size(session->out == session->pages ? session->screen
+                                                                   : session->out,
                                     &s.columns, &s.rows);
     session->marked = session->marked || makes_blocks(session);
     if (s.laid_out)
@@ -70,7 +71,8 @@ as_formula(const char *line, size_t n, qdot_text *out)
             return any;
         }
         add_words(line, (size_t)(open - line), out);
-        qdot_text_add_n(out, open + sizeof begin - 1, (size_t)(close - open) - (sizeof begin - 1));
+        qdot_text_add_n(out, open + sizeof begin - 1,
+                        (size_t)(close - open) - (sizeof begin - 1));
         line = close + sizeof end - 1;
         any = true;
     }
@@ -115,10 +117,11 @@ cut(const qdot_session *session, const qdot_sheet *s, const qdot_layout_size *si
     for (size_t i = 0; i < shown; i++)
         at += strcspn(text->at + at, "\n") + 1;
     qdot_text_truncate(text, at);
-    qdot_text_format(text,
-                     "... %zu of %zu lines; `%%%zu to \"all.txt\"` writes all of it, `style flat` "
-                     "shows it\n",
-                     shown, size->lines, session->history.n + 1);
+    qdot_text_format(
+        text,
+        "... %zu of %zu lines; `%%%zu to \"all.txt\"` writes all of it, `style flat` "
+        "shows it\n",
+        shown, size->lines, session->history.n + 1);
 }
 
 /* --- the end --------------------------------------------------------------------------- */
@@ -136,8 +139,8 @@ draw(qdot_session *session, const qdot_sheet *s, const char *name, const qdot_te
 }
 
 qdot_status
-qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name, qdot_status status,
-               qdot_text *lines)
+qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name,
+               qdot_status status, qdot_text *lines)
 {
     const bool block = session->marked && !s->marked;
 
@@ -168,8 +171,9 @@ qdot_sheet_flush(qdot_session *session)
     if (lines.n == 0)
         return QDOT_OK;
     session->block = (qdot_text){0};
-    status = session->style == QDOT_LATEX ? qdot_page_latex(qdot_text_str(&lines), &page)
-                                          : qdot_page_mathml(qdot_text_str(&lines), &page);
+    status = session->style == QDOT_LATEX
+                 ? qdot_page_latex(qdot_text_str(&lines), &page)
+                 : qdot_page_mathml(qdot_text_str(&lines), &page);
     qdot_text_clear(&lines);
     return qdot_answer_written(session, "formulas", status, &page);
 }

@@ -25,7 +25,8 @@ qdot_sheet qdot_sheet_begin(qdot_session *session);
 
 /* The lines are answered if the status is good; they are cleared. With --json as the text `name`. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_session *session, const qdot_sheet *sheet,
-                                           const char *name, qdot_status status, qdot_text *lines);
+                                           const char *name, qdot_status status,
+                                           qdot_text *lines);
 
 /* Equations of the present statement that are collected for one block are written. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_flush(qdot_session *session);
