@@ -118,6 +118,8 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
+	lib/lang/session/mixture-range.c \
+	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
@@ -532,6 +534,8 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
+	lib/lang/session/mixture-range.h \
+	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
@@ -1087,6 +1091,7 @@ script_tests = \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
+	tests/script/several-ranges.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
@@ -1203,6 +1208,7 @@ script_tests = \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
 	tests/bad/max-without-run.lag \
+	tests/bad/members.sh \
 	tests/bad/mismatched.lag \
 	tests/bad/missing-option.lag \
 	tests/bad/missing-times.lag \
@@ -1509,6 +1515,7 @@ test_files = \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
 	tests/bad/max-without-run.out \
+	tests/bad/members.out \
 	tests/bad/mismatched.out \
 	tests/bad/missing-option.out \
 	tests/bad/missing-times.out \
@@ -1896,6 +1903,7 @@ test_files = \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
+	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \
