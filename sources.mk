@@ -40,8 +40,11 @@ library_sources = \
 	lib/lang/answer/answer.c \
 	lib/lang/answer/digits.c \
 	lib/lang/answer/formula.c \
+	lib/lang/answer/notation.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/answer/sheet.c \
+	lib/lang/answer/write.c \
 	lib/lang/ask/abbreviate.c \
 	lib/lang/ask/ask.c \
 	lib/lang/ask/check.c \
@@ -156,6 +159,7 @@ library_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/parts.c \
 	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
@@ -475,8 +479,11 @@ library_headers = \
 	lib/lang/answer/answer.h \
 	lib/lang/answer/digits.h \
 	lib/lang/answer/formula.h \
+	lib/lang/answer/notation.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/answer/sheet.h \
+	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
@@ -864,6 +871,7 @@ unit_tests = \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \
+	tests/lang/test_notation \
 	tests/lang/test_numeric \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
@@ -1113,6 +1121,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/alone-word.lag \
 	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
@@ -1420,6 +1429,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/alone-word.out \
 	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
