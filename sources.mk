@@ -122,6 +122,8 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
+	lib/lang/session/mixture-range.c \
+	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
@@ -389,16 +391,16 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
-	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
-	lib/sim/form/residual-series.c \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/tree-series.c \
+	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -419,6 +421,8 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/cost.c \
+	lib/sim/plan/form.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -541,6 +545,8 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
+	lib/lang/session/mixture-range.h \
+	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
@@ -770,16 +776,16 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
-	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
-	lib/sim/form/residual-series.h \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/tree-series.h \
+	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
@@ -796,6 +802,8 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/cost.h \
+	lib/sim/plan/form.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -941,6 +949,7 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
@@ -1098,6 +1107,7 @@ script_tests = \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
+	tests/script/several-ranges.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
@@ -1215,6 +1225,7 @@ script_tests = \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
 	tests/bad/max-without-run.lag \
+	tests/bad/members.sh \
 	tests/bad/mismatched.lag \
 	tests/bad/missing-option.lag \
 	tests/bad/missing-times.lag \
@@ -1522,6 +1533,7 @@ test_files = \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
 	tests/bad/max-without-run.out \
+	tests/bad/members.out \
 	tests/bad/mismatched.out \
 	tests/bad/missing-option.out \
 	tests/bad/missing-times.out \
@@ -1910,6 +1922,7 @@ test_files = \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
+	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \
