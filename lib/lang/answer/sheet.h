@@ -18,6 +18,7 @@ typedef struct {
     size_t columns, rows; /* of the terminal */
     qdot_style style;     /* of the session before */
     bool whole;           /* never cut where it is higher than the terminal */
+    uint64_t operations;  /* of the one formula in it; 0: not said where it is cut */
 } qdot_sheet;
 
 /* From here to the end the session has the style and the marks that the lines are to be in. */

@@ -19,6 +19,13 @@ qdot_write(FILE *file, qdot_text *text)
     return status;
 }
 
+bool
+qdot_write_colours(const qdot_session *session)
+{
+    return (session->colours & QDOT_COLOURS_ANSWERS) != 0 &&
+           (session->console == NULL || session->out == session->console);
+}
+
 void
 qdot_write_field(qdot_text *line, const char *before, const char *text)
 {
