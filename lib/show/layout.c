@@ -9,7 +9,7 @@
 
 /* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
  * factors, before a sign and not a relation, within a text; later behind `spring s1: `. */
-static const double deeper = 0.35, between_factors = 0.55, before_sign = 0.15, after_word = 0.3,
+static const double deeper = 0.35, between_factors = 0.75, before_sign = 0.15, after_word = 0.3,
                     after_label = -0.35;
 
 /* Of lines that follow, where no relation gives one; the least that is left for what stands there. */
@@ -105,7 +105,8 @@ push_table(layout *l, const qdot_box *table, uint32_t depth)
     for (uint32_t k = table->count; k-- > 0;) {
         push(l, l->boxes.children.at[table->first + k], depth);
         if (k > 0)
-            push_text(l, k % table->across > 0 ? ", " : "; ", QDOT_BOX_COMMA, depth);
+            push_text(l, k % table->across > 0 ? ", " : ";",
+                      k % table->across > 0 ? QDOT_BOX_COMMA : QDOT_BOX_END, depth);
     }
 }
 
@@ -247,6 +248,8 @@ end_of_line(const layout *l, size_t from, size_t x)
     double least = 0;
 
     for (; i < l->items.n; i++) {
+        if (i > from && role_of(l, i - 1) == QDOT_BOX_END)
+            return i;
         if (i > from && x + columns > l->indent && may_begin(l, i)) {
             const double lost = 1 - (double)columns / room + loss(l, i);
 

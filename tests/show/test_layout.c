@@ -101,6 +101,19 @@ columns_of_matrices_are_aligned(void **state)
           "⎩2  otherwise\n");
 }
 
+/* Each row in lines of its own. */
+static void
+matrices_that_are_too_wide_are_broken_by_rows(void **state)
+{
+    (void)state;
+    draws(I("M") O("=") ROW(O("(") "<mtable><mtr>" CELL(I("aaaaaa")) CELL(I("bbb")) "</mtr><mtr>" CELL(
+              I("cccccc") O("+") I("dddddd")) CELL(I("e")) "</mtr></mtable>" O(")")),
+          20,
+          "M = [aaaaaa, bbb;\n"
+          "    cccccc + dddddd,\n"
+          "    e]\n");
+}
+
 /* At = first, then signs, then factors; outside of brackets first. */
 static void
 long_formulas_are_broken(void **state)
@@ -288,6 +301,7 @@ main(void)
         cmocka_unit_test(scripts_are_raised_and_lowered),
         cmocka_unit_test(columns_of_matrices_are_aligned),
         cmocka_unit_test(long_formulas_are_broken),
+        cmocka_unit_test(matrices_that_are_too_wide_are_broken_by_rows),
         cmocka_unit_test(words_before_a_formula_are_labels),
         cmocka_unit_test(lines_beyond_are_only_counted),
         cmocka_unit_test(names_are_coloured),

@@ -25,8 +25,7 @@ qdot_sheet_begin(qdot_session *session)
     qdot_sheet s = {.style = session->style, .marked = session->marked};
 
     s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(session->out == session->pages ? session->screen
-                                                                   : session->out,
+                 qdot_terminal_size(qdot_write_stream(session),
                                     &s.columns, &s.rows);
     session->marked = session->marked || makes_blocks(session);
     if (s.laid_out)

@@ -19,6 +19,12 @@ qdot_write(FILE *file, qdot_text *text)
     return status;
 }
 
+FILE *
+qdot_write_stream(const qdot_session *session)
+{
+    return session->out == session->pages ? session->screen : session->out;
+}
+
 bool
 qdot_write_colours(const qdot_session *session)
 {

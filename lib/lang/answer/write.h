@@ -11,6 +11,9 @@
 /* Write a finished text and clear it. QDOT_EIO. */
 QDOT_MUST_CHECK qdot_status qdot_write(FILE *file, qdot_text *text);
 
+/* The stream that answers are for: the terminal, while they are collected for pages. */
+FILE *qdot_write_stream(const qdot_session *session);
+
 /* Whether answers show colours where they go now. */
 bool qdot_write_colours(const qdot_session *session);
 #define QDOT_NAME_COLOUR QDOT_CYAN /* of names and labels */
