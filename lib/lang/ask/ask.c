@@ -89,6 +89,7 @@ is_one_equilibrium(const char *name)
 static qdot_status
 answer_joined(qdot_session *session, const char *name, qdot_expr list)
 {
+    const qdot_sheet sheet = qdot_sheet_begin(session);
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
@@ -97,7 +98,7 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
         qdot_text_add(&text, i > 0 ? ", " : "");
         status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
     }
-    return qdot_answer_written(session, name, status, &text);
+    return qdot_sheet_end(session, &sheet, name, status, &text);
 }
 
 static qdot_status
@@ -521,14 +522,15 @@ qdot_status
 qdot_ask_cyclic(qdot_cursor *c)
 {
     qdot_session *session = c->session;
-    qdot_status status;
+    qdot_status status = QDOT_OK;
     qdot_text text = {0};
     qdot_cyclic *list;
+    qdot_sheet sheet;
     size_t n;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
     QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
-    status = QDOT_OK;
+    sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_text_add(&text, i > 0 ? "\n" : "");
         status = print_cyclic(session, &list[i], &text);
@@ -538,5 +540,5 @@ qdot_ask_cyclic(qdot_cursor *c)
     if (n == 0)
         qdot_text_add(&text, "no coordinate is cyclic");
     qdot_free(list);
-    return qdot_answer_written(session, "cyclic", status, &text);
+    return qdot_sheet_end(session, &sheet, "cyclic", status, &text);
 }
