@@ -1379,18 +1379,23 @@ script_tests = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/race.lag \
+	examples/rattleback.lag \
+	examples/rolling-coin.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/tautochrone.lag \
+	examples/tippe-top.lag \
 	examples/toda-chain.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
@@ -1406,6 +1411,7 @@ meta_tests = \
 	tests/meta/embed.test \
 	tests/meta/exports.test \
 	tests/meta/floors.test \
+	tests/meta/gallery.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
@@ -1992,6 +1998,7 @@ example_files = \
 	examples/bead-on-helix.svg \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
+	examples/bicycle.svg \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
 	examples/bowling-ball.lag \
@@ -2004,6 +2011,7 @@ example_files = \
 	examples/chain.lag \
 	examples/chain.svg \
 	examples/chaplygin-sleigh.lag \
+	examples/chaplygin-sleigh.svg \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \
@@ -2057,6 +2065,7 @@ example_files = \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
+	examples/magnetic-field.svg \
 	examples/metrics.lag \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
@@ -2071,6 +2080,10 @@ example_files = \
 	examples/pumped-swing.svg \
 	examples/race.lag \
 	examples/race.svg \
+	examples/rattleback.lag \
+	examples/rattleback.svg \
+	examples/rolling-coin.lag \
+	examples/rolling-coin.svg \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
@@ -2079,14 +2092,21 @@ example_files = \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
+	examples/snakeboard.svg \
 	examples/spherical-pendulum.lag \
 	examples/spherical-pendulum.svg \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
+	examples/stated-lagrangian.svg \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
 	examples/swinging-atwood.svg \
+	examples/tautochrone.lag \
+	examples/tautochrone.svg \
+	examples/tippe-top.lag \
+	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
 	examples/torus-geodesic.lag \

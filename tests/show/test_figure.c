@@ -486,6 +486,29 @@ paths_have_equal_axes(void **state)
     free(text);
 }
 
+/* A flat path, one that is tall in space: both axes have tics that tell the scale, numbers that do not
+ * touch, and the whole is seen. */
+static void
+paths_of_any_shape_have_tics(void **state)
+{
+    const double at[] = {0, 8, 4, 0}, little[] = {0, 0, 0.1, 0}, tall[] = {0, 4, 80, 0};
+    const size_t n = 4;
+    qdot_curve curve = {.rows = n, .x = at, .y = little};
+    const qdot_panel figure = {.curves = &curve, .n = 1, .equal = true};
+    char *text;
+
+    (void)state;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set xtics ('0' 0, '1' 1, "));
+    assert_non_null(strstr(text, "set ytics ('−1.0' -1, '−0.5' -0.5, '0.0' 0, '0.5' 0.5, '1.0' 1)"));
+    free(text);
+    curve.z = tall;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set view 62,32,0.19"));
+    assert_non_null(strstr(text, "set ztics ('0' 0, '10' 10, '20' 20, "));
+    free(text);
+}
+
 static void
 a_locale_with_commas_changes_nothing(void **state)
 {
@@ -671,6 +694,7 @@ main(void)
         cmocka_unit_test(flat_lone_and_logarithmic_curves_are_drawn),
         cmocka_unit_test(long_logarithmic_axes_have_even_marks),
         cmocka_unit_test(paths_have_equal_axes),
+        cmocka_unit_test(paths_of_any_shape_have_tics),
         cmocka_unit_test(values_that_differ_late_have_an_offset),
         cmocka_unit_test(formulas_are_set),
         cmocka_unit_test(more_than_four_curves_have_patterns),
