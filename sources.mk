@@ -1090,6 +1090,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
+	tests/script/quit.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1436,7 +1437,8 @@ meta_tests = \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
 	tests/meta/sources.test \
-	tests/meta/symbols.test
+	tests/meta/symbols.test \
+	tests/meta/words.test
 
 test_files = \
 	tests/bad/acceleration-position.out \
@@ -1910,6 +1912,7 @@ test_files = \
 	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
+	tests/script/quit.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
