@@ -369,6 +369,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-hold.c \
 	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
@@ -755,6 +756,7 @@ library_headers = \
 	lib/sim/course/watch.h \
 	lib/sim/digits/digits.h \
 	lib/sim/digits/precise-course.h \
+	lib/sim/digits/precise-hold.h \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
@@ -1001,6 +1003,7 @@ script_tests = \
 	tests/script/definitions.lag \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
+	tests/script/digits-constraint-events.lag \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
 	tests/script/digits-start.lag \
@@ -1804,6 +1807,7 @@ test_files = \
 	tests/script/definitions.out \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
+	tests/script/digits-constraint-events.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
 	tests/script/digits-start.out \
