@@ -12,7 +12,7 @@
 
 typedef struct qdot_tree_series qdot_tree_series;
 
-/* Of plan and residual, both borrowed (plan->residual need not be it); *series NULL: it has no tree,
+/* Of plan and residual with its programs, both borrowed (plan->residual need not be it); *series NULL: it has no tree,
  * or its program no vectors. `shaken` as for qdot_bind_new. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tree_series_new(const qdot_plan *plan,
                                                  const qdot_residual *residual, bool shaken,

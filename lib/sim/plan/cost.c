@@ -329,13 +329,17 @@ qdot_cost_steps(const qdot_ode_cost *cost)
     return qdot_ode_taylor_cost(cost, most_order, middle_tol);
 }
 
-/* Of kernels the projection is there already. */
+/* Of kernels the projection is there already. Forms take orders far from each other (18 and 26). Steps of
+ * a motion without singularities, as rolling, are longer by the order than its radius says; whether
+ * it has some is not known, so the mean is taken: of nine scenes at 1e-4, 1e-6, 1e-8, with AVX2, 24 take
+ * the faster of elimination and bordered code, three lose 3, 9 and 12 %. */
 double
 qdot_cost_constrained_steps(const qdot_plan *p, const qdot_ode_cost *cost, double tol)
 {
-    qdot_ode_cost c = *cost;
+    qdot_ode_series series = {.most = most_order, .cost = *cost};
+    const int order = qdot_ode_taylor_order(&series, tol, false, 0);
 
-    if (c.code[0] > 0)
-        c.code[0] += qdot_cost_projection(p);
-    return qdot_ode_taylor_cost(&c, most_order, tol);
+    if (series.cost.code[0] > 0)
+        series.cost.code[0] += qdot_cost_projection(p);
+    return qdot_ode_taylor_cost(&series.cost, most_order, tol) / sqrt(order);
 }

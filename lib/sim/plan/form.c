@@ -84,6 +84,7 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     c->lanes = qdot_cost_lanes(&work);
     if (!may_be_tree)
         return QDOT_OK;
+    QDOT_TRY(qdot_residual_programs(r));
     QDOT_TRY(qdot_tree_series_new(p, r, false, &tree));
     if (!tree)
         return QDOT_OK;
