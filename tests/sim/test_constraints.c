@@ -4,11 +4,12 @@
 
 #include "sim/course/bind.h"
 #include "sim/form/constrained-series.h"
+#include "sim/model/constraints.h"
+#include "sim/plan/plan.h"
+
 #include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
 #include "sim/plan/form.h"
-#include "sim/model/constraints.h"
-#include "sim/plan/plan.h"
 
 #include <math.h>
 
