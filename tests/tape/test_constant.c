@@ -49,9 +49,9 @@ rationals_round_to_nearest(void **state)
             assert_true(constant(pool, qdot_expr_ratio(pool, p, q))
                         == mpfr_get_d(x, MPFR_RNDN));
         }
-    /* up to what a double holds, with what it leaves */
+    /* up to what a double holds and beyond, with what it leaves */
     for (long k = 0; k < 200; k++) {
-        const long p = ((1L << 53) - 1) / (k + 1) - 7 * k, q = 1000000000000 + 13 * k;
+        const long p = ((1L << 57) - 1) / (k + 1) - 7 * k, q = 1000000000000 + 13 * k;
         double value, low;
         int side;
 
