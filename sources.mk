@@ -309,6 +309,7 @@ library_sources = \
 	lib/series/taylor-near.c \
 	lib/series/taylor-order-fma.c \
 	lib/series/taylor-order.c \
+	lib/series/taylor-products.c \
 	lib/series/taylor-text.c \
 	lib/series/taylor-unknowns.c \
 	lib/series/taylor-wide.c \
@@ -376,7 +377,6 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/canonical.c \
-	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
@@ -385,6 +385,7 @@ library_sources = \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
 	lib/sim/form/motion-cost.c \
+	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -394,6 +395,7 @@ library_sources = \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/saddle-solver.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -700,6 +702,7 @@ library_headers = \
 	lib/series/taylor-motion.h \
 	lib/series/taylor-order.def \
 	lib/series/taylor-order.h \
+	lib/series/taylor-products.h \
 	lib/series/taylor-steps.h \
 	lib/series/taylor-text.h \
 	lib/series/taylor-wide.def \
@@ -753,7 +756,6 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/canonical.h \
-	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
@@ -762,6 +764,7 @@ library_headers = \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
 	lib/sim/form/motion-cost.h \
+	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -771,6 +774,7 @@ library_headers = \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/saddle-solver.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \

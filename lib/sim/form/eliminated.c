@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "ode/taylor.h"
-#include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/guarded.h"
@@ -288,17 +287,17 @@ qdot_eliminated_series(const qdot_eliminated *e)
 static qdot_status
 compare(const qdot_plan *p, double tol, bool *cheaper)
 {
-    qdot_constrained_series *whole = NULL;
+    qdot_motion_series *whole = NULL;
     qdot_eliminated *e = NULL;
-    qdot_status status = qdot_constrained_series_new(p, false, &whole);
+    qdot_status status = qdot_motion_series_of_constraints(p, false, &whole);
 
     if (status == QDOT_OK)
-        status = qdot_eliminated_new(p, false, qdot_constrained_series_get(whole), &e);
+        status = qdot_eliminated_new(p, false, qdot_motion_series_get(whole), &e);
     if (status == QDOT_OK)
         *cheaper = qdot_ode_taylor_cost(&e->guarded.series, tol) <
                    qdot_ode_taylor_cost(e->guarded.other, tol);
     qdot_eliminated_free(e);
-    qdot_constrained_series_free(whole);
+    qdot_motion_series_free(whole);
     return status;
 }
 

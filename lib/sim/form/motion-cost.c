@@ -2,6 +2,7 @@
 #include "sim/form/motion-cost.h"
 
 #include "num/kinds.h"
+#include "sim/model/constrained.h"
 
 static double
 of_calls(const qdot_motion_work *w)
@@ -103,6 +104,24 @@ qdot_motion_cost_bordered(const qdot_motion_work *w, qdot_ode_series *series)
     code->narrow = narrow;
     code->of_vector = 16;
     code->wider = loops * instructions > decoded ? 0.3 * instructions : 0;
+}
+
+void
+qdot_motion_cost_constrained(const qdot_motion_work *w, const qdot_saddle_solver *solver,
+                             qdot_ode_series *series)
+{
+    const qdot_saddle *matrix = &solver->matrix;
+    const double all = (double)(matrix->n + matrix->m);
+    const double filled = matrix->patterned ? (double)matrix->sparse.filled : all * all;
+    const double solve = 30 + 6 * all + 2.5 * filled;
+    const double length = of_length(w), convolutions = qdot_taylor_convolutions(w->taylor);
+    double *c = series->cost;
+
+    c[0] = 500 + qdot_constrained_cost(solver->plan) + 15 * of_calls(w) + 4 * length + 5 * all +
+           3 * filled * filled / all + (matrix->inverse ? all * solve : 0);
+    c[1] = 20 + 1.2 * length + 3.5 * convolutions + 10 * (double)matrix->n +
+           (matrix->inverse ? 0.5 * all * all : solve);
+    c[2] = 0.12 * convolutions;
 }
 
 /* Nineteen scenes at orders 8 to 30, of 2 to 16 coordinates, to 20 %. */

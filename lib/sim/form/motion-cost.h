@@ -11,6 +11,7 @@
 #include "ode/system.h"
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
+#include "sim/form/saddle-solver.h"
 
 typedef struct {
     const qdot_taylor *taylor;  /* its program */
@@ -23,6 +24,9 @@ typedef struct {
 void qdot_motion_cost_explicit(const qdot_motion_work *of, qdot_ode_series *series);
 /* Of these bordered by constraints, which are code only. */
 void qdot_motion_cost_bordered(const qdot_motion_work *of, qdot_ode_series *series);
+/* Of constraints by their own coefficients, solved by this. */
+void qdot_motion_cost_constrained(const qdot_motion_work *of, const qdot_saddle_solver *solver,
+                                  qdot_ode_series *series);
 /* Equations that the steps write. */
 void qdot_motion_cost_implicit(const qdot_motion_work *of, qdot_ode_series *series);
 

@@ -10,6 +10,7 @@
 #include "sim/form/expansion.h"
 #include "sim/form/momentum-rows.h"
 #include "sim/form/motion-cost.h"
+#include "sim/form/saddle-solver.h"
 #include "tape/shake.h"
 
 enum { most_order = 47, highest = most_order - 3 };
@@ -27,6 +28,8 @@ struct qdot_motion_series {
     const qdot_plan *plan;
     const qdot_motion *motion;
     qdot_expansion at; /* its program */
+    qdot_saddle_solver *saddle; /* of constraints by their own coefficients, */
+    int refined;                /* and orders up to this one are; else NULL, and: */
     qdot_blocks solvers;
     size_t blocks;  /* of the motion, */
     size_t *block;  /* [blocks] by their number in `solvers` */
@@ -49,6 +52,8 @@ struct qdot_motion_series {
 static qdot_status
 factor(qdot_motion_series *s)
 {
+    if (s->saddle)
+        return qdot_saddle_solver_factor(s->saddle);
     for (size_t k = 0; k < s->blocks; k++) {
         const qdot_solver *at = s->solvers.at + s->block[k];
 
@@ -78,6 +83,10 @@ solve(qdot_motion_series *s, int k)
 {
     double *by = s->by;
 
+    if (s->saddle && k <= s->refined)
+        qdot_saddle_solve_refined(&s->saddle->matrix);
+    else if (s->saddle)
+        qdot_saddle_apply(&s->saddle->matrix);
     for (size_t b = 0; b < s->blocks; b++) {
         const qdot_solver *at = s->solvers.at + s->block[b];
 
@@ -137,6 +146,8 @@ expand_zero(qdot_motion_series *s, double t, const double *y)
             evaluate_masses(s, t, y);
             QDOT_TRY(factor(s));
         }
+        if (s->saddle)
+            QDOT_TRY(qdot_saddle_solver_look(s->saddle, t, y));
         for (int k = qdot_motion_first(s->motion); k <= 0; k++)
             QDOT_TRY(stage(s, k));
     }
@@ -152,6 +163,7 @@ begin(double t, const double *y, double unit, void *user)
     qdot_status status;
 
     s->unit = unit;
+    s->refined = QDOT_SADDLE_REFINED;
     qdot_taylor_set_unit(s->at.taylor, unit);
     qdot_expansion_begin(&s->at, t, y, unit);
     if (s->plan->n_kept > 0)
@@ -211,6 +223,10 @@ extend(int p, void *user)
     qdot_motion_series *s = user;
     const bool as_code = qdot_taylor_is_code(s->at.taylor, p - 1);
 
+    if (s->saddle) {
+        s->refined = p < QDOT_SADDLE_LEAST_REFINED ? 0 : QDOT_SADDLE_REFINED;
+        qdot_saddle_prepare(&s->saddle->matrix);
+    }
     for (size_t b = 0; b < s->blocks; b++) {
         const qdot_solver *at = s->solvers.at + s->block[b];
 
@@ -236,6 +252,20 @@ static double
 near(int p, double step, void *user)
 {
     return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step);
+}
+
+static double
+noise(void *user)
+{
+    return qdot_saddle_solver_noise(((const qdot_motion_series *)user)->saddle);
+}
+
+static double
+ahead(void *user)
+{
+    const qdot_motion_series *s = user;
+
+    return qdot_saddle_solver_ahead(s->saddle, s->unit);
 }
 
 /* --- machine code by lanes -------------------------------------------------------------- */
@@ -325,6 +355,17 @@ make_entries(qdot_motion_series *s)
 }
 
 static qdot_status
+make_saddle(qdot_motion_series *s)
+{
+    s->saddle = qdot_calloc(1, sizeof *s->saddle);
+    if (!s->saddle)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_saddle_solver_init(s->saddle, s->plan, s->at.taylor));
+    s->by = s->saddle->matrix.x;
+    return QDOT_OK;
+}
+
+static qdot_status
 make_masses(qdot_motion_series *s, bool shaken)
 {
     if (shaken)
@@ -354,7 +395,9 @@ choose_code(qdot_motion_series *s)
                                    : p->bordered ? p->bordered
                                                  : p->tape};
 
-    if (s->masses) {
+    if (s->saddle) {
+        qdot_motion_cost_constrained(&work, s->saddle, &s->series);
+    } else if (s->masses) {
         s->why = "machine code is not asked for";
         s->series.code = (qdot_ode_code){
             .take = take_lanes, .there = is_code_of_lanes, .drop = drop_lanes, .user = s};
@@ -375,20 +418,27 @@ choose_code(qdot_motion_series *s)
 }
 
 static qdot_status
+make_blocks(qdot_motion_series *s, bool shaken)
+{
+    s->by = qdot_calloc(s->motion->solved.n + 1, sizeof *s->by);
+    if (!s->by)
+        return QDOT_ENOMEM;
+    QDOT_TRY(make_solvers(s, shaken));
+    return s->masses ? make_masses(s, shaken) : make_entries(s);
+}
+
+static qdot_status
 make(qdot_motion_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const bool has_factor = !p->constraints;
+    const bool constrained = p->constraints && s->motion == &p->constraints->motion;
 
     QDOT_TRY(qdot_taylor_of_motion(s->motion, shaken, most_order,
                                    has_factor ? QDOT_BLOCKS_SOLVED : 0, &s->at.taylor));
     s->at = qdot_expansion_of(s->at.taylor, p->n);
     QDOT_TRY(qdot_momentum_rows_init(&s->momenta, p, s->at, shaken));
-    s->by = qdot_calloc(s->motion->solved.n + 1, sizeof *s->by);
-    if (!s->by)
-        return QDOT_ENOMEM;
-    QDOT_TRY(make_solvers(s, shaken));
-    QDOT_TRY(s->masses ? make_masses(s, shaken) : make_entries(s));
+    QDOT_TRY(constrained ? make_saddle(s) : make_blocks(s, shaken));
     s->series = (qdot_ode_series){
         .most = highest,
         .x = s->at.q,
@@ -396,6 +446,8 @@ make(qdot_motion_series *s, bool shaken)
         .checked = p->n,
         .begin = begin,
         .extend = extend,
+        .noise = constrained ? noise : NULL,
+        .ahead = constrained ? ahead : NULL,
         .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
         .user = s};
     choose_code(s);
@@ -431,6 +483,12 @@ qdot_motion_series_new(const qdot_plan *plan, bool shaken, qdot_motion_series **
     return qdot_motion_series_of_residual(plan, plan->motion, NULL, shaken, series);
 }
 
+qdot_status
+qdot_motion_series_of_constraints(const qdot_plan *plan, bool shaken, qdot_motion_series **series)
+{
+    return qdot_motion_series_of_residual(plan, &plan->constraints->motion, NULL, shaken, series);
+}
+
 void
 qdot_motion_series_free(qdot_motion_series *s)
 {
@@ -443,7 +501,11 @@ qdot_motion_series_free(qdot_motion_series *s)
     qdot_blocks_clear(&s->solvers);
     qdot_free(s->block);
     qdot_free(s->entries);
-    qdot_free(s->by);
+    if (s->saddle)
+        qdot_saddle_solver_clear(s->saddle);
+    else
+        qdot_free(s->by);
+    qdot_free(s->saddle);
     qdot_free(s->in);
     qdot_free(s->out);
     qdot_free(s->work);
@@ -478,7 +540,7 @@ qdot_motion_series_convolutions(const qdot_motion_series *s)
 size_t
 qdot_motion_series_factored(const qdot_motion_series *s)
 {
-    return s->solvers.factored;
+    return s->saddle ? s->saddle->matrix.factored : s->solvers.factored;
 }
 
 size_t

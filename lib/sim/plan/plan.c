@@ -7,7 +7,8 @@
 #include "ode/leading.h"
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
-#include "sim/form/constrained-series.h"
+#include "sim/form/motion-of-constraints.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/residual.h"
 #include "sim/form/residual-series.h"
@@ -221,11 +222,11 @@ find_canonical(qdot_plan *p, qdot_scene *scene)
 static qdot_status
 find_cost(qdot_plan *p)
 {
-    qdot_constrained_series *tied;
+    qdot_motion_series *series;
 
-    QDOT_TRY(qdot_constrained_series_new(p, false, &tied));
-    p->convolutions_derived = qdot_constrained_series_convolutions(tied);
-    qdot_constrained_series_free(tied);
+    QDOT_TRY(qdot_motion_series_of_constraints(p, false, &series));
+    p->convolutions_derived = qdot_motion_series_convolutions(series);
+    qdot_motion_series_free(series);
     return QDOT_OK;
 }
 
@@ -260,11 +261,13 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
-    if (p->smooth && !request->lanes)
-        QDOT_TRY(find_cost(p));
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
+    if (p->smooth)
+        QDOT_TRY(qdot_motion_of_constraints(p));
+    if (p->smooth && !request->lanes)
+        QDOT_TRY(find_cost(p));
     if (request->digits > 0 || request->lanes)
         return QDOT_OK;
     QDOT_TRY(qdot_eliminated_find(p, request->tol));
