@@ -40,8 +40,11 @@ library_sources = \
 	lib/lang/answer/answer.c \
 	lib/lang/answer/digits.c \
 	lib/lang/answer/formula.c \
+	lib/lang/answer/notation.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/answer/sheet.c \
+	lib/lang/answer/write.c \
 	lib/lang/ask/abbreviate.c \
 	lib/lang/ask/ask.c \
 	lib/lang/ask/check.c \
@@ -118,6 +121,8 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
+	lib/lang/session/mixture-range.c \
+	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
@@ -154,6 +159,7 @@ library_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/parts.c \
 	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
@@ -475,8 +481,11 @@ library_headers = \
 	lib/lang/answer/answer.h \
 	lib/lang/answer/digits.h \
 	lib/lang/answer/formula.h \
+	lib/lang/answer/notation.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/answer/sheet.h \
+	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
@@ -534,6 +543,8 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
+	lib/lang/session/mixture-range.h \
+	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
@@ -864,6 +875,7 @@ unit_tests = \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \
+	tests/lang/test_notation \
 	tests/lang/test_numeric \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
@@ -1091,6 +1103,7 @@ script_tests = \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
+	tests/script/several-ranges.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
@@ -1112,6 +1125,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
+	tests/bad/alone-word.lag \
 	tests/bad/animate.sh \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
@@ -1207,6 +1221,7 @@ script_tests = \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
 	tests/bad/max-without-run.lag \
+	tests/bad/members.sh \
 	tests/bad/mismatched.lag \
 	tests/bad/missing-option.lag \
 	tests/bad/missing-times.lag \
@@ -1418,6 +1433,7 @@ meta_tests = \
 
 test_files = \
 	tests/bad/acceleration-position.out \
+	tests/bad/alone-word.out \
 	tests/bad/animate.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
@@ -1513,6 +1529,7 @@ test_files = \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
 	tests/bad/max-without-run.out \
+	tests/bad/members.out \
 	tests/bad/mismatched.out \
 	tests/bad/missing-option.out \
 	tests/bad/missing-times.out \
@@ -1900,6 +1917,7 @@ test_files = \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
+	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \

@@ -5,8 +5,8 @@
  * belong to whoever carries it out (an executor: taylor.h, lanes.h, two.h, precise.h), in the
  * arithmetic that it has. The recurrences are rows of recurrence.def.
  *
- * Tests  tests/series/test_program.c; test_taylor-wide.c (every recurrence by its row against the
- *        tuned one), test_two.c, test_precise.c
+ * Tests  tests/series/test_program.c; test_taylor-wide.c, test_two.c, test_precise.c (every
+ *        recurrence by one executor against another)
  */
 #ifndef QDOT_SERIES_PROGRAM_H
 #define QDOT_SERIES_PROGRAM_H

@@ -5,9 +5,7 @@
 QDOT_KIND_AVX2
 #define NAME(x) fma_##x
 #define MA(a, b, c) __builtin_fma(a, b, c)
+#define TABLE qdot_taylor_function *const qdot_taylor_order_fma
 #include "series/taylor-order.def"
 QDOT_KIND_END
-
-qdot_taylor_function *const qdot_taylor_order_fma[QDOT_SERIES_MOST + 1][QDOT_T_COUNT] = {
-    FUNCTIONS};
 #endif

@@ -71,9 +71,8 @@ qdot_taylor_value(qdot_taylor_step *i)
 
 #define NAME(x) portable_##x
 #define MA(a, b, c) QDOT_MA(a, b, c)
+#define TABLE static qdot_taylor_function *const portable
 #include "series/taylor-order.def"
-
-static qdot_taylor_function *const portable[QDOT_SERIES_MOST + 1][QDOT_T_COUNT] = {FUNCTIONS};
 
 void
 qdot_taylor_find_functions(qdot_taylor *t)

@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/sheet.h"
 #include "lang/commands/loop.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
@@ -133,6 +134,11 @@ unknown_word(qdot_cursor *c)
 {
     const qdot_statement *near = nearest_statement(c->session, c->at->text);
 
+    if (near != NULL && strcmp(near->word, c->at->text) == 0) { /* it stands alone */
+        c->error_at = c->at[1].start;
+        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", near->word,
+                         c->at[1].text);
+    }
     c->error_at = c->at->start;
     (void)qdot_fail(QDOT_ESYNTAX, "no statement begins with `%s`", c->at->text);
     if (qdot_token_is_word(c->at, "for"))
@@ -248,6 +254,10 @@ statement(engine *x, size_t i)
     if (status == QDOT_OK)
         status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
+    if (status == QDOT_OK)
+        status = qdot_sheet_flush(x->session);
+    else
+        qdot_text_clear(&x->session->block);
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;
