@@ -390,18 +390,18 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
-	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
-	lib/sim/form/residual-series.c \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
 	lib/sim/form/saddle-solver.c \
+	lib/sim/form/tree-series.c \
+	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -422,6 +422,8 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/cost.c \
+	lib/sim/plan/form.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -774,18 +776,18 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
-	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
-	lib/sim/form/residual-series.h \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
 	lib/sim/form/saddle-solver.h \
+	lib/sim/form/tree-series.h \
+	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
@@ -802,6 +804,8 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/cost.h \
+	lib/sim/plan/form.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -947,6 +951,7 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
