@@ -3,7 +3,7 @@
 #include "scenes.h"
 
 #include "sim/course/bind.h"
-#include "sim/form/constrained-series.h"
+#include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/plan.h"
 
@@ -435,7 +435,7 @@ tied_bob(fixture *f)
 typedef struct {
     qdot_plan *plan;
     qdot_bind *bind;
-    qdot_constrained_series *whole;
+    qdot_motion_series *whole;
     const qdot_ode_series *series[2]; /* with multipliers eliminated; solved for */
 } both;
 
@@ -462,9 +462,9 @@ both_begin(both *b, fixture *f)
     tied_bob(f);
     b->plan = plan_eliminated(f);
     must(qdot_bind_new(b->plan, false, &b->bind));
-    must(qdot_constrained_series_new(b->plan, false, &b->whole));
+    must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
     b->series[0] = qdot_bind_system(b->bind).series;
-    b->series[1] = qdot_constrained_series_get(b->whole);
+    b->series[1] = qdot_motion_series_get(b->whole);
 }
 
 static void
@@ -479,7 +479,7 @@ both_expand(const both *b, double t, const double *y, double unit, int p)
 static void
 both_end(both *b)
 {
-    qdot_constrained_series_free(b->whole);
+    qdot_motion_series_free(b->whole);
     qdot_bind_free(b->bind);
     qdot_plan_free(b->plan);
 }
