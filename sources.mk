@@ -298,6 +298,7 @@ library_sources = \
 	lib/series/near.c \
 	lib/series/precise.c \
 	lib/series/program.c \
+	lib/series/recurrence.c \
 	lib/series/taylor-code-fold.c \
 	lib/series/taylor-code-order.c \
 	lib/series/taylor-code-solve.c \
@@ -694,6 +695,7 @@ library_headers = \
 	lib/series/precise.h \
 	lib/series/program.h \
 	lib/series/recurrence.def \
+	lib/series/recurrence.h \
 	lib/series/taylor-code-sum.h \
 	lib/series/taylor-code.h \
 	lib/series/taylor-generator.h \
