@@ -40,8 +40,11 @@ library_sources = \
 	lib/lang/answer/answer.c \
 	lib/lang/answer/digits.c \
 	lib/lang/answer/formula.c \
+	lib/lang/answer/notation.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/answer/sheet.c \
+	lib/lang/answer/write.c \
 	lib/lang/ask/abbreviate.c \
 	lib/lang/ask/ask.c \
 	lib/lang/ask/check.c \
@@ -118,6 +121,8 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
+	lib/lang/session/mixture-range.c \
+	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
@@ -154,6 +159,7 @@ library_sources = \
 	lib/mech/dynamics/momentum.c \
 	lib/mech/dynamics/nested.c \
 	lib/mech/dynamics/numeric.c \
+	lib/mech/dynamics/parts.c \
 	lib/mech/dynamics/potential.c \
 	lib/mech/dynamics/recursive.c \
 	lib/mech/dynamics/squares.c \
@@ -385,16 +391,16 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
-	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
-	lib/sim/form/residual-series.c \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/tree-series.c \
+	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -415,6 +421,8 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/cost.c \
+	lib/sim/plan/form.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -474,8 +482,11 @@ library_headers = \
 	lib/lang/answer/answer.h \
 	lib/lang/answer/digits.h \
 	lib/lang/answer/formula.h \
+	lib/lang/answer/notation.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/answer/sheet.h \
+	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
@@ -533,6 +544,8 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
+	lib/lang/session/mixture-range.h \
+	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
@@ -763,16 +776,16 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
-	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
-	lib/sim/form/residual-series.h \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/tree-series.h \
+	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
@@ -789,6 +802,8 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/cost.h \
+	lib/sim/plan/form.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -862,6 +877,7 @@ unit_tests = \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \
+	tests/lang/test_notation \
 	tests/lang/test_numeric \
 	tests/lang/test_partial-sum \
 	tests/lang/test_read \
@@ -933,6 +949,7 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
@@ -1089,6 +1106,7 @@ script_tests = \
 	tests/script/saved-run.sh \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
+	tests/script/several-ranges.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
@@ -1206,6 +1224,7 @@ script_tests = \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
 	tests/bad/max-without-run.lag \
+	tests/bad/members.sh \
 	tests/bad/mismatched.lag \
 	tests/bad/missing-option.lag \
 	tests/bad/missing-times.lag \
@@ -1513,6 +1532,7 @@ test_files = \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
 	tests/bad/max-without-run.out \
+	tests/bad/members.out \
 	tests/bad/mismatched.out \
 	tests/bad/missing-option.out \
 	tests/bad/missing-times.out \
@@ -1900,6 +1920,7 @@ test_files = \
 	tests/script/saved-run.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
+	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/slow-margin.out \

@@ -129,7 +129,16 @@ begins(const reader *r)
         return true;
     role = r->to->box.at[r->done.at[r->done.n - 1]].role;
     return role == QDOT_BOX_RELATION || role == QDOT_BOX_SIGN || role == QDOT_BOX_COMMA ||
-           role == QDOT_BOX_OPENING;
+           role == QDOT_BOX_OPENING || role == QDOT_BOX_WORD;
+}
+
+/* A word of a text is one by the blank behind it. */
+static qdot_status
+finish_words(reader *r, size_t from)
+{
+    const qdot_text *t = &r->to->text;
+
+    return finish_text(r, from, t->n > from && t->at[t->n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME);
 }
 
 static qdot_status
@@ -506,7 +515,9 @@ begin_element(reader *r, tag t, const char **at)
     if (t > MTEXT)
         return QDOT_OK;
     *at = add_characters(&r->to->text, *at);
-    status = t == MO ? finish_operator(r, from) : finish_text(r, from, QDOT_BOX_NAME);
+    status = t == MO      ? finish_operator(r, from)
+             : t == MTEXT ? finish_words(r, from)
+                          : finish_text(r, from, QDOT_BOX_NAME);
     return status;
 }
 

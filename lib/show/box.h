@@ -31,6 +31,7 @@ typedef enum {
     QDOT_BOX_SIGN, /* + - of two terms, and, or */
     QDOT_BOX_TIMES,
     QDOT_BOX_COMMA,
+    QDOT_BOX_WORD, /* of a text, with the blank behind it */
     QDOT_BOX_OPENING, /* brackets, as high as their row */
     QDOT_BOX_CLOSING
 } qdot_box_role;

@@ -23,6 +23,7 @@ typedef struct {
     page_kind kind;
     qdot_text *out;
     bool block; /* a block of equations is open */
+    bool told;  /* ... and its last row is ended, by words */
     const char *label; /* what names the next row, in LaTeX */
     size_t label_n;
     qdot_vec(cut) cuts; /* of the present formula */
@@ -210,7 +211,10 @@ typedef struct {
 static void
 latex_row(page *p, const row *r)
 {
-    qdot_text_add(p->out, p->block ? " \\\\\n    " : "\\begin{align*}\n    ");
+    qdot_text_add(p->out, p->told    ? ""
+                          : p->block ? " \\\\\n    "
+                                     : "\\begin{align*}\n    ");
+    p->told = false;
     if (p->label_n > 0) {
         qdot_text_add(p->out, "% ");
         qdot_text_add_n(p->out, p->label, p->label_n);
@@ -429,11 +433,13 @@ static void
 add_text(page *p, const char *line, size_t n)
 {
     const char *const end = line + n;
+    const size_t blanks = strspn(line, " ");
     bool title = heading(line, n) > 0, latex = p->kind == LATEX;
     const char *formula;
     size_t size;
 
     end_block(p);
+    line += blanks;
     qdot_text_add(p->out, latex ? title ? "\\medskip\\noindent\\textbf{" : "\\noindent "
                           : title ? "<h2>"
                                   : "<p>");
@@ -448,6 +454,23 @@ add_text(page *p, const char *line, size_t n)
                                   : "</p>\n");
 }
 
+/* The words before a colon and one formula, `    kinetic energy of bob: `. */
+static void
+add_words(page *p, const char *words, size_t n)
+{
+    const bool latex = p->kind == LATEX, open = p->block;
+
+    if (latex && open) {
+        qdot_text_add(p->out, " \\\\\n    \\intertext{");
+    } else {
+        end_block(p);
+        qdot_text_add(p->out, latex ? "\\noindent " : "<p class=\"label\">");
+    }
+    escape(p, words, n);
+    qdot_text_add(p->out, latex ? open ? "}\n    " : "\n" : "</p>\n");
+    p->told = latex && open;
+}
+
 static qdot_status
 add_line(page *p, const char *line, size_t n)
 {
@@ -458,6 +481,11 @@ add_line(page *p, const char *line, size_t n)
     formula = next_formula(p, line, line + n, &size);
     if (formula == line + blanks && blanks + size == n)
         return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
+    if (formula != NULL && blanks > 0 && formula + size == line + n &&
+        begins(formula - 2, ": ")) {
+        add_words(p, line + blanks, (size_t)(formula - line) - blanks - 1);
+        return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
+    }
     if (blanks < n)
         add_text(p, line, n);
     else

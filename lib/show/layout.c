@@ -8,8 +8,9 @@
 #include "show/draw.h"
 
 /* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
- * factors, before a sign and not a relation. */
-static const double deeper = 0.35, between_factors = 0.55, before_sign = 0.15;
+ * factors, before a sign and not a relation, within a text; later behind `spring s1: `. */
+static const double deeper = 0.35, between_factors = 0.55, before_sign = 0.15, after_word = 0.3,
+                    after_label = -0.35;
 
 /* Of lines that follow, where no relation gives one; the least that is left for what stands there. */
 enum { usual_indent = 4, least_room = 16 };
@@ -126,24 +127,28 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
     }
 }
 
-/* Of lines that follow: behind the first relation, where there is one not far from the left. */
+/* Of lines that follow: behind the first relation, where there is one not far from the left; else
+ * a little more than the blanks that the first begins with. */
 static size_t
 indent_of(const layout *l)
 {
     const qdot_box *all = box_of(l, (uint32_t)(l->boxes.box.n - 1));
-    size_t columns = 0;
+    size_t columns = 0, blanks = 0;
 
     for (uint32_t k = 0; k < all->count; k++) {
         const qdot_box *b = box_of(l, l->boxes.children.at[all->first + k]);
 
+        if (k == 0 && b->kind == QDOT_BOX_TEXT)
+            while (blanks < b->count && l->boxes.text.at[b->first + blanks] == ' ')
+                blanks++;
         columns += b->columns;
-        if (columns > l->width / 3)
+        if (columns > blanks + l->width / 3)
             break;
         if (b->kind == QDOT_BOX_TEXT &&
             (b->role == QDOT_BOX_RELATION || b->role == QDOT_BOX_COMMA))
             return columns;
     }
-    return usual_indent;
+    return blanks + usual_indent;
 }
 
 /* Whether a box loses more than a line where it is broken: a fraction, a root, a matrix. */
@@ -203,8 +208,18 @@ may_begin(const layout *l, size_t i)
     case QDOT_BOX_RELATION:
     case QDOT_BOX_SIGN:
     case QDOT_BOX_TIMES: return true;
-    default: return i > 0 && role_of(l, i - 1) == QDOT_BOX_COMMA;
+    default:
+        return i > 0 && (role_of(l, i - 1) == QDOT_BOX_COMMA || role_of(l, i - 1) == QDOT_BOX_WORD);
     }
+}
+
+/* Whether item i is a word with a colon. */
+static bool
+ends_label(const layout *l, size_t i)
+{
+    const qdot_box *b = box_of(l, l->items.at[i].box);
+
+    return b->count >= 2 && l->boxes.text.at[b->first + b->count - 2] == ':';
 }
 
 /* What a break before item i loses, as a part of the line. */
@@ -213,6 +228,8 @@ loss(const layout *l, size_t i)
 {
     const qdot_box_role role = role_of(l, i);
 
+    if (i > 0 && role_of(l, i - 1) == QDOT_BOX_WORD)
+        return ends_label(l, i - 1) ? after_label : after_word;
     return deeper * l->items.at[i].depth + (role == QDOT_BOX_RELATION ? 0
                                             : role == QDOT_BOX_SIGN   ? before_sign
                                                                       : between_factors);

@@ -44,6 +44,22 @@ text_stands_between_blocks(void **state)
             "\\noindent x\\_1: \\(a\\) is 5 \\%\\par\n");
 }
 
+/* A block goes on behind the words. */
+static void
+words_stand_before_their_equation(void **state)
+{
+    (void)state;
+    becomes(qdot_page_latex,
+            "    energy of a_1: \\(T = m\\)\n    together: \\(T = 2 m\\)\n    they are 2\n",
+            "\\noindent energy of a\\_1:\n"
+            "\\begin{align*}\n"
+            "    T & = m \\\\\n"
+            "    \\intertext{together:}\n"
+            "    T & = 2 m\n"
+            "\\end{align*}\n"
+            "\\noindent they are 2\\par\n");
+}
+
 #define MATH "<math xmlns=\"http://www.w3.org/1998/Math/MathML\">"
 #define BLOCK                                                                             \
     "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">"              \
@@ -58,6 +74,10 @@ mathml_is_a_table_of_rows(void **state)
             "<h2>3. a &lt; b</h2>\n" BLOCK
             "<mtr><mtd class=\"left\"><mi>T</mi></mtd><mtd class=\"right\">"
             "<mo form=\"infix\">=</mo><mo>−</mo><mi>m</mi></mtd></mtr>\n</mtable></math>\n");
+    becomes(qdot_page_mathml, "    of a: " MATH "<mi>x</mi></math>\n",
+            "<p class=\"label\">of a:</p>\n" BLOCK
+            "<mtr><mtd class=\"left\"></mtd><mtd class=\"right\"><mi>x</mi></mtd></mtr>\n"
+            "</mtable></math>\n");
     becomes(qdot_page_mathml, MATH "<mtext>eom[x]</mtext><mo>:</mo><mi>x</mi></math>\n",
             "<p class=\"label\">" MATH "<mtext>eom[x]</mtext></math></p>\n" BLOCK
             "<mtr><mtd class=\"left\"></mtd><mtd class=\"right\"><mi>x</mi></mtd></mtr>\n"
@@ -144,6 +164,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equations_of_a_block_are_aligned),
         cmocka_unit_test(text_stands_between_blocks),
+        cmocka_unit_test(words_stand_before_their_equation),
         cmocka_unit_test(mathml_is_a_table_of_rows),
         cmocka_unit_test(long_formulas_are_broken_between_terms),
         cmocka_unit_test(failing_memory_is_told),

@@ -119,6 +119,22 @@ long_formulas_are_broken(void **state)
     draws(N("123456789012345678901234567890"), 16, "123456789012345678901234567890\n");
 }
 
+/* Behind a label first, between words where that does not do; a minus behind one is no sign of two. */
+static void
+words_before_a_formula_are_labels(void **state)
+{
+#define WORD(x) "<mtext>" x " </mtext>"
+    (void)state;
+    draws(WORD("    energy") WORD("of") WORD("bob:") I("T") O("=") O("−") I("a"), 40,
+          "    energy of bob: T = −a\n");
+    draws(WORD("    energy") WORD("of") WORD("bob:") I("T") O("=") I("aaaa") O("+") I("bbbb"), 26,
+          "    energy of bob:\n"
+          "        T = aaaa + bbbb\n");
+    draws(WORD("the") WORD("sum") WORD("is") I("aaaaaaaa") O("+") I("b"), 17,
+          "the sum is\n"
+          "    aaaaaaaa + b\n");
+}
+
 /* No line is longer than the terminal but by one name; what is drawn is as wide as is said. */
 static void
 every_width_is_kept(void **state)
@@ -219,6 +235,7 @@ main(void)
         cmocka_unit_test(scripts_are_raised_and_lowered),
         cmocka_unit_test(columns_of_matrices_are_aligned),
         cmocka_unit_test(long_formulas_are_broken),
+        cmocka_unit_test(words_before_a_formula_are_labels),
         cmocka_unit_test(every_width_is_kept),
         cmocka_unit_test(what_is_no_formula_is_refused),
         cmocka_unit_test(depth_is_no_matter),

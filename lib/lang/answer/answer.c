@@ -6,16 +6,15 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "base/progress.h"
 #include "base/terminal.h"
 #include "expr/walk.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/number-text.h"
+#include "lang/answer/sheet.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "lang/source/source.h"
-#include "show/layout.h"
 #include "show/sink.h"
 
 /* A code for a colour of answers, "" where none is shown. */
@@ -28,107 +27,22 @@ paint(const qdot_session *session, const char *code)
     return shown ? code : "";
 }
 
-/* Write a finished text and let go of it. */
-static qdot_status
-put(FILE *file, qdot_text *text)
-{
-    qdot_status status = qdot_text_status(text);
-
-    qdot_progress_clear();
-    if (status == QDOT_OK && fwrite(qdot_text_str(text), 1, text->n, file) != text->n)
-        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
-    if (status == QDOT_OK && fflush(file) != 0)
-        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
-    qdot_text_clear(text);
-    return status;
-}
-
 /* The end of an answer that went well or not: a line written, its text let go of. */
 static qdot_status
 end_line(qdot_session *session, qdot_status status, qdot_text *line)
 {
     if (status == QDOT_OK)
-        status = put(session->out, line);
+        status = qdot_write(session->out, line);
     qdot_text_clear(line);
     return status;
 }
 
-/* Likewise of a formula, which qdot_formula_bracket began. */
+/* Likewise of a formula in a sheet, which qdot_formula_bracket began. */
 static qdot_status
-end_formula(qdot_session *session, qdot_status status, qdot_text *line)
+end_formula(qdot_session *session, const qdot_sheet *s, qdot_status status, qdot_text *line)
 {
     qdot_formula_bracket(session, false, line);
-    qdot_text_char(line, '\n');
-    return end_line(session, status, line);
-}
-
-/* --- formulas laid out ---------------------------------------------------------------- */
-
-/* A formula that is written as MathML, to be laid out on a terminal; or in a line as it stands. */
-typedef struct {
-    bool laid_out;
-    size_t columns, rows;
-    qdot_style style; /* of the session, which has another one meanwhile */
-} sheet;
-
-static sheet
-begin_sheet(qdot_session *session, qdot_text *line)
-{
-    sheet s = {.style = session->style};
-
-    s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(session->out == session->pages ? session->screen : session->out,
-                                    &s.columns, &s.rows);
-    if (s.laid_out)
-        session->style = QDOT_MATHML;
-    else
-        qdot_formula_bracket(session, true, line);
-    return s;
-}
-
-/* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
-static void
-cut(const qdot_session *session, const sheet *s, const qdot_layout_size *size, qdot_text *text)
-{
-    const size_t shown = s->rows / 2;
-    size_t at = 0;
-
-    if (size->lines < s->rows || qdot_text_status(text) != QDOT_OK)
-        return;
-    for (size_t i = 0; i < shown; i++)
-        at += strcspn(text->at + at, "\n") + 1;
-    qdot_text_truncate(text, at);
-    qdot_text_format(text,
-                     "... %zu of %zu lines; `%%%zu to \"all.txt\"` writes all of it, `style flat` "
-                     "shows it\n",
-                     shown, size->lines, session->history.n + 1);
-}
-
-static qdot_status
-end_sheet(qdot_session *session, const sheet *s, qdot_status status, qdot_text *line)
-{
-    qdot_layout_size size = {0};
-    qdot_text drawn = {0};
-
-    session->style = s->style;
-    if (!s->laid_out)
-        return end_formula(session, status, line);
-    if (status == QDOT_OK)
-        status = qdot_text_status(line);
-    if (status == QDOT_OK)
-        status = qdot_layout(qdot_text_str(line), s->columns, &drawn, &size);
-    if (status == QDOT_OK)
-        cut(session, s, &size, &drawn);
-    qdot_text_clear(line);
-    return end_line(session, status, &drawn);
-}
-
-/* Append `before`, then the text as a JSON string. */
-static void
-field(qdot_text *line, const char *before, const char *text)
-{
-    qdot_text_add(line, before);
-    qdot_text_json(line, text);
+    return qdot_sheet_end(session, s, "", status, line);
 }
 
 /* --- expressions -------------------------------------------------------------------- */
@@ -160,12 +74,13 @@ static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
     qdot_text line = {0}, plain = {0}, shown = {0};
-    const sheet s = begin_sheet(session, &line);
+    const qdot_sheet s = qdot_sheet_begin(session);
     qdot_status status = qdot_formula_print(session, value, session->style, &shown);
     bool bare = name == NULL || strlen(name) > 200;
     bool relation = qdot_value_kind_is_equation(session->pool, value) ||
                     holds_relations(session->pool, value);
 
+    qdot_formula_bracket(session, true, &line);
     if (status == QDOT_OK && !bare)
         status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
     if (!bare && relation)
@@ -182,7 +97,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
         line.failed = true;
     qdot_text_clear(&shown);
     qdot_text_clear(&plain);
-    return end_sheet(session, &s, status, &line);
+    return end_formula(session, &s, status, &line);
 }
 
 static qdot_status
@@ -191,13 +106,13 @@ expr_json(qdot_session *session, const char *name, qdot_expr value)
     qdot_text line = {0}, part = {0};
     qdot_status status;
 
-    field(&line, "{\"kind\":\"expr\",\"name\":", name == NULL ? "" : name);
+    qdot_write_field(&line, "{\"kind\":\"expr\",\"name\":", name == NULL ? "" : name);
     status = qdot_formula_print(session, value, QDOT_PLAIN, &part);
-    field(&line, ",\"plain\":", qdot_text_str(&part));
+    qdot_write_field(&line, ",\"plain\":", qdot_text_str(&part));
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
         status = qdot_formula_print(session, value, QDOT_LATEX, &part);
-    field(&line, ",\"latex\":", qdot_text_str(&part));
+    qdot_write_field(&line, ",\"latex\":", qdot_text_str(&part));
     qdot_text_format(&line, ",\"ops\":%" PRIu64 "}\n",
                      qdot_expr_size(session->pool, value));
     line.failed = line.failed || part.failed;
@@ -216,7 +131,8 @@ qdot_answer_expr(qdot_session *session, const char *name, qdot_expr value)
             return qdot_answer_text(session, name, words);
         qdot_formula_bracket(session, true, &line); /* of latex(...) */
         qdot_text_add(&line, words);
-        return end_formula(session, QDOT_OK, &line);
+        qdot_formula_bracket(session, false, &line);
+        return qdot_answer_written(session, name, QDOT_OK, &line);
     }
     return session->json ? expr_json(session, name, value)
                          : expr_text(session, name, value);
@@ -228,16 +144,17 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
 {
     qdot_text line = {0};
     qdot_status status;
-    sheet s;
+    qdot_sheet s;
 
     if (session->json)
         return expr_json(session, name, value);
-    s = begin_sheet(session, &line);
+    s = qdot_sheet_begin(session);
+    qdot_formula_bracket(session, true, &line);
     status = qdot_print(session->pool, symbol, session->style, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     if (status == QDOT_OK)
         status = qdot_formula_print(session, value, session->style, &line);
-    return end_sheet(session, &s, status, &line);
+    return end_formula(session, &s, status, &line);
 }
 
 /* 1.25 ± 3e-13, marked up where the style is. */
@@ -263,6 +180,7 @@ static qdot_status
 numbers_text(qdot_session *session, const char *name, size_t n, const double *values,
              const double *errors)
 {
+    const qdot_sheet s = qdot_sheet_begin(session);
     qdot_text line = {0};
     qdot_status status;
 
@@ -274,7 +192,7 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>,</mo>" : ", ");
         measured(session, values[i], errors[i], &line);
     }
-    return end_formula(session, status, &line);
+    return end_formula(session, &s, status, &line);
 }
 
 /* {"kind":"number"}, {"kind":"numbers"} of JSON values and errors with their commas. */
@@ -285,14 +203,14 @@ numbers_json(qdot_session *session, const char *name, bool several,
     qdot_text line = {0};
 
     qdot_text_format(&line, "{\"kind\":\"number%s\"", several ? "s" : "");
-    field(&line, ",\"name\":", name);
+    qdot_write_field(&line, ",\"name\":", name);
     qdot_text_add(&line, several ? ",\"values\":[" : ",\"value\":");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, several ? "],\"errors\":[" : ",\"error\":");
     qdot_text_add(&line, qdot_text_str(errors));
     qdot_text_add(&line, several ? "]}\n" : "}\n");
     line.failed = line.failed || values->failed || errors->failed;
-    return put(session->out, &line);
+    return qdot_write(session->out, &line);
 }
 
 static qdot_status
@@ -333,16 +251,18 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
 {
     qdot_text line = {0};
     qdot_status status;
+    qdot_sheet s;
 
     if (session->json)
         return numbers_json(session, name, several, values, errors);
+    s = qdot_sheet_begin(session);
     qdot_formula_bracket(session, true, &line);
     status = qdot_formula_name(session, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "</mtext>" : "");
-    return end_formula(session, status, &line);
+    return end_formula(session, &s, status, &line);
 }
 
 /* --- checks ------------------------------------------------------------------------- */
@@ -455,7 +375,7 @@ check_json(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_text_truncate(&part, 0);
     if (status == QDOT_OK)
         status = print_side(session, right, &part);
-    field(&line, ",\"right\":", qdot_text_str(&part));
+    qdot_write_field(&line, ",\"right\":", qdot_text_str(&part));
     if (decision->verdict == QDOT_REFUTED) {
         qdot_text_add(&line, ",\"at\":");
         if (status == QDOT_OK)
@@ -486,36 +406,6 @@ qdot_answer_check(qdot_session *session, qdot_expr left, qdot_expr right,
 /* --- texts, files, notices, errors -------------------------------------------------- */
 
 qdot_status
-qdot_answer_text(qdot_session *session, const char *name, const char *text)
-{
-    qdot_text line = {0};
-    size_t n = strlen(text);
-
-    if (session->json) {
-        field(&line, "{\"kind\":\"text\",\"name\":", name);
-        field(&line, ",\"text\":", text);
-        qdot_text_add(&line, "}\n");
-    } else {
-        qdot_text_add_n(&line, text, n);
-        if (n == 0 || text[n - 1] != '\n')
-            qdot_text_char(&line, '\n');
-    }
-    return put(session->out, &line);
-}
-
-qdot_status
-qdot_answer_written(qdot_session *session, const char *name, qdot_status status,
-                    qdot_text *text)
-{
-    if (status == QDOT_OK)
-        status = qdot_text_status(text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(text));
-    qdot_text_clear(text);
-    return status;
-}
-
-qdot_status
 qdot_answer_cells(qdot_session *session, const qdot_text *values)
 {
     qdot_text line = {0};
@@ -523,7 +413,7 @@ qdot_answer_cells(qdot_session *session, const qdot_text *values)
     qdot_text_add(&line, "{\"kind\":\"row\",\"values\":[");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, "]}\n");
-    return put(session->out, &line);
+    return qdot_write(session->out, &line);
 }
 
 qdot_status
@@ -549,14 +439,14 @@ qdot_answer_file(qdot_session *session, const char *path)
     qdot_text line = {0};
 
     if (session->json) {
-        field(&line, "{\"kind\":\"file\",\"path\":", path);
+        qdot_write_field(&line, "{\"kind\":\"file\",\"path\":", path);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_add(&line, "wrote ");
         qdot_text_add(&line, path);
         qdot_text_char(&line, '\n');
     }
-    return put(session->out, &line);
+    return qdot_write(session->out, &line);
 }
 
 qdot_status
@@ -575,13 +465,13 @@ put_notice(qdot_session *session, const char *message)
     qdot_text line = {0};
 
     if (session->console != NULL ? session->console_json : session->json) {
-        field(&line, "{\"kind\":\"notice\",\"message\":", message);
+        qdot_write_field(&line, "{\"kind\":\"notice\",\"message\":", message);
         qdot_text_add(&line, "}\n");
     } else {
         qdot_text_format(&line, "%snotice:%s %s\n", paint(session, QDOT_YELLOW),
                          paint(session, QDOT_COLOUR_END), message);
     }
-    return put(session->console != NULL ? session->console : session->out, &line);
+    return qdot_write(session->console != NULL ? session->console : session->out, &line);
 }
 
 qdot_status
@@ -633,14 +523,14 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
     } else {
         qdot_text_add(&line, "null,\"line\":null,\"column\":null");
     }
-    field(&line, ",\"message\":", error->message);
+    qdot_write_field(&line, ",\"message\":", error->message);
     qdot_text_add(&line, ",\"hint\":");
     if (error->hint[0] != '\0')
         qdot_text_json(&line, error->hint);
     else
         qdot_text_add(&line, "null");
     qdot_text_add(&line, "}\n");
-    (void)put(session->out, &line);
+    (void)!qdot_write(session->out, &line);
 }
 
 void
@@ -662,7 +552,7 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
                              colours ? QDOT_COLOUR_END : "", error.hint);
     }
     fflush(session->out);
-    if (put(session->err, &text) != QDOT_OK)
+    if (qdot_write(session->err, &text) != QDOT_OK)
         fprintf(session->err, "error: %s\n", error.message); /* no memory for more */
     if (session->json)
         error_json(session, source, at, &error);

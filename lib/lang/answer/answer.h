@@ -11,7 +11,7 @@
 #ifndef QDOT_LANG_ANSWER_H
 #define QDOT_LANG_ANSWER_H
 
-#include "lang/session/session.h"
+#include "lang/answer/write.h"
 #include "normal/prove/decide.h"
 
 /* {"kind":"expr"}: `name = value`, `name: left = right` for an equation; just the
@@ -42,14 +42,6 @@ QDOT_MUST_CHECK qdot_status qdot_answer_numerals(qdot_session *session, const ch
 QDOT_MUST_CHECK qdot_status qdot_answer_check(qdot_session *session, qdot_expr left,
                                               qdot_expr right,
                                               const qdot_decision *decision);
-
-/* {"kind":"text"}: text as it stands, a newline added where there is none. */
-QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
-                                             const char *text);
-/* The same of a text that was written with that status, which is returned if it is none; the text
- * is cleared. */
-QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,
-                                                qdot_status status, qdot_text *text);
 
 /* {"kind":"row"}: values [n]; JSON only (as text rows are a table). */
 QDOT_MUST_CHECK qdot_status qdot_answer_row(qdot_session *session, size_t n,

@@ -240,11 +240,10 @@ next(writer *w)
     return QDOT_OK;
 }
 
-/* A text between tags. */
-static void
-escaped(const char *text, qdot_text *out)
+void
+qdot_formula_escape(const char *text, size_t n, qdot_text *out)
 {
-    for (; *text != '\0'; text++)
+    for (; n > 0; text++, n--)
         if (*text == '&' || *text == '<')
             qdot_text_add(out, *text == '&' ? "&amp;" : "&lt;");
         else
@@ -274,7 +273,7 @@ qdot_formula_name(qdot_session *session, const char *name, qdot_text *out)
         status = next(&w);
     if (session->style == QDOT_MATHML) {
         qdot_text_add(out, "<mtext>");
-        escaped(qdot_text_str(&typed), out);
+        qdot_formula_escape(qdot_text_str(&typed), typed.n, out);
         qdot_text_add(out, "</mtext>");
         out->failed = out->failed || typed.failed;
     }

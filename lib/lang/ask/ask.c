@@ -9,6 +9,7 @@
 #include "lang/answer/digits.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/number-text.h"
+#include "lang/answer/sheet.h"
 #include "lang/ask/ask.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/scene-file.h"
@@ -389,13 +390,39 @@ qdot_ask_scene(qdot_cursor *c)
     return qdot_answer_written(c->session, "scene", status, &text);
 }
 
+/* `theta, spring s1: part`, one line a coordinate and source. */
+static qdot_status
+print_sources(qdot_session *session, qdot_text *out)
+{
+    qdot_scene *s = session->scene;
+    qdot_force_source source;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++) {
+            const qdot_expr q = s->coordinates.at[i];
+            const qdot_expr part = qdot_mech_source_force(s, &source, q);
+
+            QDOT_TRY(qdot_pool_check(session->pool));
+            if (part == QDOT_ZERO)
+                continue;
+            QDOT_TRY(qdot_formula(session, q, out));
+            qdot_text_format(out, ", %s%s%s: ", source.kind, source.name != NULL ? " " : "",
+                             source.name != NULL ? source.name : "");
+            QDOT_TRY(qdot_formula(session, part, out));
+            qdot_text_char(out, '\n');
+        }
+    if (out->n == 0)
+        qdot_text_add(out, "nothing is applied");
+    return qdot_text_status(out);
+}
+
 qdot_status
 qdot_ask_forces(qdot_cursor *c)
 {
     qdot_session *session = c->session;
     qdot_text text = {0};
-    qdot_status status;
     qdot_expr forces;
+    qdot_sheet sheet;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
     forces = qdot_mech_forces(session->scene);
@@ -405,10 +432,8 @@ qdot_ask_forces(qdot_cursor *c)
                                              (uint32_t)session->scene->coordinates.n,
                                              session->scene->coordinates.at)));
     QDOT_TRY(answer_list(session, "forces", forces));
-    status = qdot_mech_forces_parts(session->scene, session->style, &text);
-    if (status == QDOT_OK && text.n == 0)
-        qdot_text_add(&text, "nothing is applied");
-    return qdot_answer_written(session, "forces", status, &text);
+    sheet = qdot_sheet_begin(session);
+    return qdot_sheet_end(session, &sheet, "forces", print_sources(session, &text), &text);
 }
 
 qdot_status

@@ -1,11 +1,12 @@
 /* derive.c -- the whole derivation, from r(q) to the equations, as a textbook would. */
-#include <stdio.h>
+#include <string.h>
 
 #include "expr/calculus.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
-#include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
+#include "lang/answer/notation.h"
+#include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/form/common.h"
@@ -13,15 +14,42 @@
 
 typedef struct {
     qdot_session *session;
+    qdot_sheet sheet;
     qdot_text text;
     int step;
 } derivation;
 
-static void
-heading(derivation *d, const char *title)
+/* The style of headings and words: on a terminal formulas stand in their line. */
+static qdot_style
+words_style(const derivation *d)
 {
-    qdot_text_format(&d->text, "%s%d. %s\n", d->step > 0 ? "\n" : "", d->step + 1, title);
+    return d->sheet.laid_out ? QDOT_UNICODE : d->session->style;
+}
+
+/* `3. Title: formula`, the formula as qdot_notation reads it; NULL: none. */
+static void
+heading(derivation *d, const char *title, const char *formula)
+{
+    qdot_text_format(&d->text, "%s%d. %s", d->step > 0 ? "\n" : "", d->step + 1, title);
     d->step++;
+    if (formula != NULL) {
+        qdot_text_add(&d->text, ": ");
+        if (!d->sheet.laid_out)
+            qdot_formula_bracket(d->session, true, &d->text);
+        qdot_notation(formula, words_style(d), &d->text);
+        if (!d->sheet.laid_out)
+            qdot_formula_bracket(d->session, false, &d->text);
+    }
+    qdot_text_char(&d->text, '\n');
+}
+
+/* What a line is of, before its formula: `    potential energy of gravity on bob: `; the last two
+ * may be NULL. */
+static void
+label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
+{
+    qdot_text_format(&d->text, "    %s%s%s%s%s: ", what, of != NULL ? " of " : "",
+                     of != NULL ? of : "", name != NULL ? joined : "", name != NULL ? name : "");
 }
 
 /* ` = value`, the end of a formula and of its line. */
@@ -35,77 +63,131 @@ equals(derivation *d, qdot_expr value)
     return QDOT_OK;
 }
 
-/* `    name = value`, the name `before[of]behind` in the style of the session. */
-static qdot_status
-named(derivation *d, const char *before, const char *of, const char *behind,
-      qdot_expr value)
-{
-    qdot_session *s = d->session;
-    qdot_text name = {0};
-    qdot_status status;
+/* A symbol of books with what it is of: r[bob], in LaTeX and on a page r with a subscript. */
+typedef struct {
+    const char *plain, *letter; /* the letter as qdot_notation reads it */
+    const char *of;             /* a label or the name of a coordinate; NULL */
+    qdot_expr coordinate;       /* nil: `of` is a label */
+    bool square;
+} symbol;
 
-    QDOT_TRY(qdot_pool_check(s->pool));
-    qdot_text_add(&name, before);
-    qdot_text_add(&name, of);
-    qdot_text_add(&name, behind);
-    qdot_text_add(&d->text, "    ");
-    qdot_formula_bracket(s, true, &d->text);
-    status = qdot_text_status(&name);
-    if (status == QDOT_OK)
-        status = qdot_formula_name(s, qdot_text_str(&name), &d->text);
-    qdot_text_clear(&name);
-    QDOT_TRY(status);
+static qdot_status
+add_index(derivation *d, const symbol *x, qdot_style style, qdot_text *out)
+{
+    if (x->coordinate != QDOT_NIL)
+        return qdot_print(d->session->pool, x->coordinate, style, out);
+    qdot_text_add(out, style == QDOT_LATEX    ? "\\mathrm{"
+                       : style == QDOT_MATHML ? "<mtext>"
+                                              : "");
+    for (const char *c = x->of; *c != '\0'; c++) {
+        qdot_text_add(out, style == QDOT_LATEX && *c == '_' ? "\\" : "");
+        qdot_text_char(out, *c);
+    }
+    qdot_text_add(out, style == QDOT_LATEX ? "}" : style == QDOT_MATHML ? "</mtext>" : "");
+    return QDOT_OK;
+}
+
+/* On a terminal and in a line: letter, index in brackets, square. */
+static qdot_status
+add_linear(derivation *d, const symbol *x, qdot_text *out)
+{
+    const qdot_style style = words_style(d);
+
+    if (style == QDOT_PLAIN)
+        qdot_text_add(out, x->plain);
+    else
+        qdot_notation(x->letter, style, out);
+    if (x->of != NULL) {
+        qdot_text_char(out, '[');
+        QDOT_TRY(add_index(d, x, style, out));
+        qdot_text_char(out, ']');
+    }
+    qdot_text_add(out, !x->square ? "" : style == QDOT_PLAIN ? "^2" : "²");
+    return QDOT_OK;
+}
+
+static qdot_status
+add_symbol(derivation *d, const symbol *x, qdot_text *out)
+{
+    const bool latex = d->session->style == QDOT_LATEX;
+    const qdot_style style = d->session->style;
+
+    if (d->sheet.laid_out || (!latex && style != QDOT_MATHML)) {
+        qdot_text_add(out, d->sheet.laid_out ? "<mtext>" : "");
+        QDOT_TRY(add_linear(d, x, out));
+        qdot_text_add(out, d->sheet.laid_out ? "</mtext>" : "");
+        return QDOT_OK;
+    }
+    qdot_text_add(out, !latex && x->square ? "<msup>" : "");
+    qdot_text_add(out, !latex && x->of != NULL ? "<msub><mrow>" : "");
+    qdot_notation(x->letter, style, out);
+    if (x->of != NULL) {
+        qdot_text_add(out, latex ? "_{" : "</mrow><mrow>");
+        QDOT_TRY(add_index(d, x, style, out));
+        qdot_text_add(out, latex ? "}" : "</mrow></msub>");
+    }
+    if (x->square)
+        qdot_text_add(out, latex ? "^{2}" : "<mn>2</mn></msup>");
+    return QDOT_OK;
+}
+
+/* `symbol = value`, behind a label or four blanks. */
+static qdot_status
+is(derivation *d, symbol x, qdot_expr value)
+{
+    QDOT_TRY(qdot_pool_check(d->session->pool));
+    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
+        qdot_text_add(&d->text, "    ");
+    qdot_formula_bracket(d->session, true, &d->text);
+    QDOT_TRY(add_symbol(d, &x, &d->text));
     return equals(d, value);
 }
 
-/* `    d/dt dF/dq' = value` (total), `dF/dq' = value` or, not `fast`, `dF/dq = value`; drawn as a fraction
- * where the style draws. */
+static symbol
+bare(const char *letter)
+{
+    return (symbol){.plain = letter, .letter = letter};
+}
+
+/* d/dt dF/dq' (total), dF/dq' or, not `fast`, dF/dq, as a fraction where the style draws. */
 static qdot_status
 slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value)
 {
     qdot_session *s = d->session;
-    qdot_expr q = s->scene->coordinates.at[i];
-    bool latex = s->style == QDOT_LATEX;
-    char before[16];
+    const qdot_style style = s->style;
+    qdot_expr q = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i], fast);
+    const char *const partial = style == QDOT_PLAIN    ? "d"
+                                : style == QDOT_LATEX  ? "\\partial "
+                                : style == QDOT_MATHML ? "<mo>∂</mo>"
+                                                       : "∂";
+    qdot_text up = {0}, down = {0};
+    qdot_status status;
 
-    if (!latex && s->style != QDOT_MATHML) {
-        snprintf(before, sizeof before, "%sd%c/d", total ? "d/dt " : "", F);
-        return named(d, before, qdot_expr_symbol(s->pool, q)->name, fast ? "'" : "",
-                     value);
-    }
-    q = qdot_symbol_jet(s->pool, q, fast);
     QDOT_TRY(qdot_pool_check(s->pool));
     qdot_text_add(&d->text, "    ");
     qdot_formula_bracket(s, true, &d->text);
-    if (total)
-        qdot_text_add(&d->text, latex ? "\\frac{d}{dt} "
-                                      : "<mfrac><mi>d</mi><mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
-                                        "<mo>&#x2062;</mo>");
-    qdot_text_format(&d->text,
-                     latex ? "\\frac{\\partial %c}{\\partial "
-                           : "<mfrac><mrow><mo>∂</mo><mi>%c</mi></mrow><mrow><mo>∂</mo>",
-                     F);
-    QDOT_TRY(qdot_print(s->pool, q, s->style, &d->text));
-    qdot_text_add(&d->text, latex ? "}" : "</mrow></mfrac>");
+    if (total) {
+        qdot_notation("d/dt", style, &d->text);
+        qdot_text_add(&d->text, style == QDOT_MATHML ? "<mo>&#x2062;</mo>" : " ");
+    }
+    qdot_text_format(&up, style == QDOT_MATHML ? "%s<mi>%c</mi>" : "%s%c", partial, F);
+    qdot_text_add(&down, partial);
+    status = qdot_print(s->pool, q, style, &down);
+    qdot_notation_over(qdot_text_str(&up), qdot_text_str(&down), style, &d->text);
+    d->text.failed = d->text.failed || up.failed || down.failed;
+    qdot_text_clear(&up);
+    qdot_text_clear(&down);
+    QDOT_TRY(status);
     return equals(d, value);
 }
 
-/* The relation as it stands, behind its label: in LaTeX as text. */
+/* The relation as it stands, behind a label or four blanks. */
 static qdot_status
-relation(derivation *d, const char *label, qdot_expr e)
+relation(derivation *d, qdot_expr e)
 {
-    bool latex = d->session->style == QDOT_LATEX;
-
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    qdot_text_add(&d->text, "    ");
-    if (label != NULL) {
-        qdot_text_add(&d->text, latex ? "\\text{" : "");
-        for (const char *c = label; *c != '\0'; c++) {
-            qdot_text_add(&d->text, latex && *c == '_' ? "\\" : "");
-            qdot_text_char(&d->text, *c);
-        }
-        qdot_text_add(&d->text, latex ? "}: " : ": ");
-    }
+    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
+        qdot_text_add(&d->text, "    ");
     QDOT_TRY(qdot_formula(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
@@ -129,19 +211,20 @@ tidy(derivation *d, qdot_expr e)
     return qdot_common_out(d->session->pool, qdot_simplify(d->session->pool, e, &facts));
 }
 
-/* w, in space also along the body's own axes, in which its inertia is given. */
+/* omega, in space also along the body's own axes, in which its inertia is given. */
 static qdot_status
 spin(derivation *d, const qdot_body *b)
 {
     qdot_scene *s = d->session->scene;
+    const symbol omega = {.plain = "omega", .letter = "omega", .of = b->name};
     qdot_expr w = qdot_scene_spin(s, b->name);
 
     if (b->angle != QDOT_NIL)
-        return named(d, "w[", b->name, "]", w);
-    QDOT_TRY(named(d, "w[", b->name, "]", w));
+        return is(d, omega, w);
+    QDOT_TRY(is(d, omega, w));
     w = qdot_value_mul(s->pool, qdot_transpose(s->pool, b->rotation), w);
-    qdot_text_add(&d->text, "    along the axes of the body:\n");
-    return named(d, "w[", b->name, "]", tidy(d, w));
+    label(d, "along the axes of the body", NULL, NULL, NULL);
+    return is(d, omega, tidy(d, w));
 }
 
 /* What the steps below may use beside the laws of algebra. */
@@ -151,9 +234,9 @@ assumptions(derivation *d)
     const qdot_scene *s = d->session->scene;
 
     if (s->assumed.n > 0)
-        heading(d, "Assumed");
+        heading(d, "Assumed", NULL);
     for (size_t i = 0; i < s->assumed.n; i++)
-        QDOT_TRY(relation(d, NULL, s->assumed.at[i].relation));
+        QDOT_TRY(relation(d, s->assumed.at[i].relation));
     return QDOT_OK;
 }
 
@@ -165,21 +248,24 @@ kinematics(derivation *d)
     size_t n = s->particles.n + s->bodies.n;
 
     for (int step = 0; step < 3; step++) {
-        heading(d, step == 0   ? "Positions: r(q, t)"
-                   : step == 1 ? "Velocities: v = sum dr/dq q' + dr/dt"
-                               : "Speeds: v^2 = v.v");
+        heading(d, step == 0 ? "Positions" : step == 1 ? "Velocities" : "Squares of speeds",
+                step == 0   ? "r(q, t)"
+                : step == 1 ? "v = sum dr/dq q' + dr/dt"
+                            : "v^2 = v.v");
         for (size_t i = 0; i < n; i++) {
             bool particle = i < s->particles.n;
             const qdot_body *b = particle ? NULL : &s->bodies.at[i - s->particles.n];
             const char *name = particle ? s->particles.at[i].name : b->name;
             qdot_expr r = particle ? s->particles.at[i].position : b->position;
+            symbol x = {.plain = step == 0 ? "r" : "v",
+                        .letter = step == 0 ? "r" : "v",
+                        .of = name,
+                        .square = step == 2};
 
-            if (step == 0)
-                QDOT_TRY(named(d, "r[", name, "]", r));
-            else if (step == 1)
-                QDOT_TRY(named(d, "v[", name, "]", tidy(d, qdot_ddt(s->pool, r))));
-            else
-                QDOT_TRY(named(d, "v[", name, "]^2", qdot_mech_speed2(s, r)));
+            QDOT_TRY(is(d, x,
+                        step == 0   ? r
+                        : step == 1 ? tidy(d, qdot_ddt(s->pool, r))
+                                    : qdot_mech_speed2(s, r)));
             if (step == 1 && !particle)
                 QDOT_TRY(spin(d, b));
         }
@@ -187,30 +273,83 @@ kinematics(derivation *d)
     return QDOT_OK;
 }
 
+/* What each thing has of T, then T. */
+static qdot_status
+kinetic(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    const size_t n = s->particles.n + s->bodies.n;
+    bool plane = false, space = false;
+    qdot_energy_part part;
+
+    for (size_t i = 0; i < s->bodies.n; i++)
+        *(s->bodies.at[i].angle != QDOT_NIL ? &plane : &space) = true;
+    heading(d, "Kinetic energy",
+            plane && space ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega (I omega^2)"
+            : space        ? "T = 1/2 sum m v^2 + 1/2 sum omega.I omega"
+            : plane        ? "T = 1/2 sum m v^2 + 1/2 sum I omega^2"
+                           : "T = 1/2 sum m v^2");
+    for (size_t k = 0; n > 1 && qdot_mech_kinetic_part(s, k, &part); k++) {
+        const symbol T = {.plain = "T", .letter = "T", .of = part.name};
+
+        label(d, part.kind, part.name, NULL, NULL);
+        QDOT_TRY(is(d, T, part.value));
+    }
+    if (n > 1)
+        label(d, "together", NULL, NULL, NULL);
+    QDOT_TRY(is(d, bare("T"), qdot_mech_kinetic(s)));
+    if (s->coordinates.n == 1)
+        return QDOT_OK;
+    label(d, "mass matrix", NULL, NULL, NULL);
+    return is(d, bare("M"), qdot_mech_mass_matrix(s));
+}
+
+/* What each field, potential and spring has of V, then V. */
+static qdot_status
+potential(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    qdot_energy_part part;
+    bool several = qdot_mech_potential_part(s, 1, &part);
+
+    heading(d, "Potential energy",
+            s->gravities.n > 0 && s->potentials.n + s->springs.n == 0 ? "V = -sum m g.r" : NULL);
+    for (size_t k = 0; several && qdot_mech_potential_part(s, k, &part); k++) {
+        if (strcmp(part.kind, "potential") == 0)
+            label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
+                  part.name, NULL, NULL);
+        else
+            label(d, "potential energy", part.kind,
+                  strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
+        QDOT_TRY(is(d, bare("V"), part.value));
+    }
+    if (several)
+        label(d, "together", NULL, NULL, NULL);
+    return is(d, bare("V"), qdot_mech_potential(s));
+}
+
 static qdot_status
 energies(derivation *d)
 {
     qdot_scene *s = d->session->scene;
-    bool plane = false, space = false;
 
     if (s->lagrangian != QDOT_NIL) {
-        heading(d, "Lagrangian, as stated");
-        return named(d, "L", "", "", qdot_mech_lagrangian(s));
+        heading(d, "Lagrangian, as stated", NULL);
+        return is(d, bare("L"), qdot_mech_lagrangian(s));
     }
-    for (size_t i = 0; i < s->bodies.n; i++)
-        *(s->bodies.at[i].angle != QDOT_NIL ? &plane : &space) = true;
-    heading(d, plane && space
-                   ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w (I w^2)"
-               : space ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum w.I w"
-               : plane ? "Kinetic energy: T = 1/2 sum m v^2 + 1/2 sum I w^2"
-                       : "Kinetic energy: T = 1/2 sum m v^2");
-    QDOT_TRY(named(d, "T", "", "", qdot_mech_kinetic(s)));
-    if (s->coordinates.n > 1)
-        QDOT_TRY(named(d, "M", "", "", qdot_mech_mass_matrix(s)));
-    heading(d, "Potential energy");
-    QDOT_TRY(named(d, "V", "", "", qdot_mech_potential(s)));
-    heading(d, "Lagrangian: L = T - V");
-    return named(d, "L", "", "", qdot_mech_lagrangian(s));
+    QDOT_TRY(kinetic(d));
+    QDOT_TRY(potential(d));
+    heading(d, "Lagrangian", "L = T - V");
+    return is(d, bare("L"), qdot_mech_lagrangian(s));
+}
+
+static symbol
+of_coordinate(const derivation *d, const char *letter, size_t i)
+{
+    return (symbol){.plain = letter,
+                    .letter = letter,
+                    .of = name_of(d, i),
+                    .coordinate = d->session->scene->coordinates.at[i]};
 }
 
 /* p = dL/dq', then what stands on the left: F = T, or L where it is stated. */
@@ -223,11 +362,10 @@ left_sides(derivation *d)
     qdot_expr F = stated ? qdot_mech_lagrangian(s) : qdot_mech_kinetic(s);
     char letter = stated ? 'L' : 'T';
 
-    heading(d, "Momenta: p = dL/dq'");
+    heading(d, "Momenta", "p = dL/dq'");
     for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(named(d, "p[", name_of(d, i), "]",
-                       qdot_mech_momentum(s, s->coordinates.at[i])));
-    heading(d, stated ? "Slopes of L" : "Slopes of T");
+        QDOT_TRY(is(d, of_coordinate(d, "p", i), qdot_mech_momentum(s, s->coordinates.at[i])));
+    heading(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
         qdot_expr slope = qdot_diff(pool, F, qdot_symbol_jet(pool, q, 1));
@@ -283,21 +421,95 @@ no_forces(qdot_scene *s)
 
 /* f' = 0 and f'' = 0, as far as the constraint has them to give. */
 static qdot_status
-slopes(derivation *d, const qdot_constraint *c)
+rates(derivation *d, const qdot_constraint *c)
 {
-    static const char *const names[] = {"f'", "f''"};
     enum { LINE = 60 };
     qdot_pool *pool = d->session->pool;
     qdot_expr f = c->f;
 
     for (int k = (int)c->kind; k < 2; k++) {
+        const bool once = k == (int)c->kind;
+
         f = qdot_ddt(pool, f);
         if (f == QDOT_NIL || qdot_expr_size(pool, f) > LINE)
             break;
-        QDOT_TRY(relation(d, names[k - (int)c->kind],
-                          qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
+        label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
+        QDOT_TRY(relation(d, qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
     }
     return qdot_pool_check(pool);
+}
+
+/* What is applied beside V where L is stated, all of it otherwise. */
+static bool
+acts(const derivation *d, const qdot_force_source *source)
+{
+    return d->session->scene->lagrangian == QDOT_NIL || !source->conservative;
+}
+
+/* The work of each source in a displacement delta q. */
+static qdot_status
+virtual_work(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    qdot_force_source source;
+    size_t sources = 0;
+
+    for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++)
+        sources += acts(d, &source);
+    if (sources < 2)
+        return QDOT_OK;
+    heading(d, "Virtual work of what acts",
+            on_material(s) ? "deltaW = sum F.dv/dq' deltaq" : "deltaW = sum F.dr/dq deltaq");
+    for (size_t k = 0; qdot_mech_source_at(s, k, &source); k++) {
+        const bool on = source.name != NULL && (strcmp(source.kind, "force") == 0 ||
+                                                strcmp(source.kind, "torque") == 0);
+        qdot_expr W = QDOT_ZERO;
+
+        if (!acts(d, &source))
+            continue;
+        for (size_t i = 0; i < s->coordinates.n; i++) {
+            const qdot_expr q = s->coordinates.at[i];
+
+            W = qdot_add(s->pool, W,
+                         qdot_mul(s->pool, qdot_mech_source_force(s, &source, q),
+                                  qdot_symbol_of(s->pool, QDOT_DELTA, q)));
+        }
+        label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
+        QDOT_TRY(is(d, bare("deltaW"), W));
+    }
+    return QDOT_OK;
+}
+
+/* "sum F.dr/dq - dV/dq - dD/dq'": of what stands in it. */
+static qdot_status
+forces_heading(derivation *d)
+{
+    qdot_scene *s = d->session->scene;
+    const bool stated = s->lagrangian != QDOT_NIL;
+    const bool forces = s->forces.n + s->torques.n + s->dampers.n > 0;
+    const qdot_expr V = stated ? QDOT_ZERO : qdot_mech_potential(s);
+    qdot_text formula = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    qdot_text_format(&formula, "Q = %s%s%s",
+                     !forces          ? ""
+                     : on_material(s) ? "sum F.dv/dq'"
+                                      : "sum F.dr/dq",
+                     holds_velocity(s, V) ? forces ? " + d/dt dV/dq' - dV/dq"
+                                                   : "d/dt dV/dq' - dV/dq"
+                     : stated             ? ""
+                     : forces             ? " - dV/dq"
+                                          : "-dV/dq",
+                     s->dissipations.n == 0 ? ""
+                     : forces || !stated    ? " - dD/dq'"
+                                            : "-dD/dq'");
+    status = qdot_text_status(&formula);
+    if (status == QDOT_OK)
+        heading(d, stated ? "Generalized forces beside L" : "Generalized forces",
+                qdot_text_str(&formula));
+    qdot_text_clear(&formula);
+    return status;
 }
 
 static qdot_status
@@ -308,42 +520,23 @@ right_sides(derivation *d)
     bool applied = s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
 
     if (!stated || applied) {
-        qdot_text title = {0};
-        bool forces = s->forces.n + s->torques.n + s->dampers.n > 0;
-        qdot_expr V = stated ? QDOT_ZERO : qdot_mech_potential(s);
-
-        QDOT_TRY(qdot_pool_check(s->pool));
-        qdot_text_format(&title, "Generalized forces%s: Q =%s%s%s%s",
-                         stated ? " beside L" : "",
-                         !forces            ? ""
-                         : on_material(s) ? " sum F.dv/dq'"
-                                          : " sum F.dr/dq",
-                         forces && holds_velocity(s, V) ? " +" : "",
-                         holds_velocity(s, V) ? " d/dt dV/dq' - dV/dq"
-                         : stated             ? ""
-                         : forces             ? " - dV/dq"
-                                              : " -dV/dq",
-                         s->dissipations.n == 0 ? ""
-                         : forces || !stated    ? " - dD/dq'"
-                                                : " -dD/dq'");
-        QDOT_TRY(qdot_text_status(&title));
-        heading(d, qdot_text_str(&title));
-        qdot_text_clear(&title);
+        QDOT_TRY(virtual_work(d));
+        QDOT_TRY(forces_heading(d));
         if (no_forces(s))
             qdot_text_add(&d->text, "    none\n");
         for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++)
-            QDOT_TRY(named(d, "Q[", name_of(d, i), "]",
-                           qdot_mech_force(s, s->coordinates.at[i])));
+            QDOT_TRY(is(d, of_coordinate(d, "Q", i), qdot_mech_force(s, s->coordinates.at[i])));
     }
     if (s->constraints.n == 0)
         return QDOT_OK;
-    heading(d, "Constraints: f = left - right = 0");
+    heading(d, "Constraints", "f = left - right = 0");
     for (size_t i = 0; i < s->constraints.n; i++) {
         const qdot_constraint *c = &s->constraints.at[i];
 
-        QDOT_TRY(relation(d, c->label == NULL ? NULL : c->name,
-                          qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
-        QDOT_TRY(slopes(d, c));
+        if (c->label != NULL)
+            label(d, "constraint", NULL, " ", c->name);
+        QDOT_TRY(relation(d, qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
+        QDOT_TRY(rates(d, c));
     }
     return QDOT_OK;
 }
@@ -355,18 +548,21 @@ equations(derivation *d)
     bool stated = s->lagrangian != QDOT_NIL;
     bool right =
         !stated || s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
-    qdot_text title = {0};
+    qdot_text formula = {0};
+    qdot_status status;
 
-    qdot_text_format(&title, "Lagrange's equations: d/dt d%c/dq' - d%c/dq = %s%s",
-                     stated ? 'L' : 'T', stated ? 'L' : 'T', right ? "Q" : "",
+    qdot_text_format(&formula, "d/dt d%c/dq' - d%c/dq = %s%s", stated ? 'L' : 'T',
+                     stated ? 'L' : 'T', right ? "Q" : "",
                      s->constraints.n == 0 ? right ? "" : "0"
                      : right               ? reaction(s)
                                            : reaction(s) + 3);
-    QDOT_TRY(qdot_text_status(&title));
-    heading(d, qdot_text_str(&title));
-    qdot_text_clear(&title);
+    status = qdot_text_status(&formula);
+    if (status == QDOT_OK)
+        heading(d, "Lagrange's equations", qdot_text_str(&formula));
+    qdot_text_clear(&formula);
+    QDOT_TRY(status);
     for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(relation(d, NULL, qdot_mech_equation(s, s->coordinates.at[i])));
+        QDOT_TRY(relation(d, qdot_mech_equation(s, s->coordinates.at[i])));
     if (s->constraints.n > 0)
         qdot_text_format(&d->text,
                          "    with the constraints %zu equations for %zu coordinate%s and "
@@ -381,22 +577,25 @@ equations(derivation *d)
 static qdot_status
 conserved_momenta(derivation *d)
 {
-    qdot_pool *pool = d->session->pool;
     qdot_cyclic *list;
     size_t n, kept = 0;
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     QDOT_TRY(qdot_mech_cyclic(d->session->scene, &list, &n));
     for (size_t i = 0; i < n; i++)
         if (list[i].rate == QDOT_NIL)
             list[kept++] = list[i];
     if (kept > 0)
-        heading(d, "Cyclic coordinates: dL/dq = 0, p is conserved");
-    status = QDOT_OK;
+        heading(d, "Momenta of cyclic coordinates are conserved", "dL/dq = 0");
     for (size_t i = 0; i < kept && status == QDOT_OK; i++) {
-        const char *name = qdot_expr_symbol(pool, list[i].coordinate)->name;
+        const qdot_symbol *q = qdot_expr_symbol(d->session->pool, list[i].coordinate);
 
-        status = named(d, "p[", name, "]", list[i].momentum);
+        status = is(d,
+                    (symbol){.plain = "p",
+                             .letter = "p",
+                             .of = q->name,
+                             .coordinate = list[i].coordinate},
+                    list[i].momentum);
     }
     qdot_free(list);
     return status;
@@ -406,16 +605,19 @@ qdot_status
 qdot_derive_all(qdot_cursor *c)
 {
     derivation d = {.session = c->session};
-    qdot_status status = qdot_cursor_expect_end(c);
+    qdot_session *session = c->session;
+    qdot_status status = QDOT_OK;
 
-    if (status == QDOT_OK && c->session->scene->coordinates.n == 0) {
+    QDOT_TRY(qdot_cursor_expect_end(c));
+    if (session->scene->coordinates.n == 0) {
         (void)qdot_fail(QDOT_EINVAL,
                         "there is nothing to derive: no coordinate is declared");
-        status = qdot_hint("coord theta");
+        return qdot_hint("coord theta");
     }
-    if (status == QDOT_OK)
-        status = assumptions(&d);
-    if (status == QDOT_OK && c->session->scene->lagrangian == QDOT_NIL)
+    d.sheet = qdot_sheet_begin(session);
+    d.sheet.whole = true;
+    status = assumptions(&d);
+    if (status == QDOT_OK && session->scene->lagrangian == QDOT_NIL)
         status = kinematics(&d);
     if (status == QDOT_OK)
         status = energies(&d);
@@ -427,5 +629,5 @@ qdot_derive_all(qdot_cursor *c)
         status = equations(&d);
     if (status == QDOT_OK)
         status = conserved_momenta(&d);
-    return qdot_answer_written(c->session, "derive", status, &d.text);
+    return qdot_sheet_end(session, &d.sheet, "derive", status, &d.text);
 }

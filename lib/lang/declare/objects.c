@@ -11,6 +11,7 @@
 #include "lang/commands/warnings.h"
 #include "lang/language/hints.h"
 #include "lang/language/read.h"
+#include "lang/session/member.h"
 
 /* --- operands ----------------------------------------------------------------------- */
 
@@ -568,6 +569,8 @@ qdot_object_constraint(qdot_cursor *c)
     }
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
+    QDOT_TRY(qdot_member_refuse(c->session, left));
+    QDOT_TRY(qdot_member_refuse(c->session, right));
     before = c->session->scene->constraints.n;
     QDOT_TRY(qdot_scene_constraint(c->session->scene, label, left, right));
     QDOT_TRY(tell_dropped(c->session, label, left,

@@ -7,6 +7,7 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/member.h"
 
 enum { FIRST_POINTS = 401 };
 
@@ -48,6 +49,7 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     qdot_expr x = qdot_symbol_get(pool, QDOT_FORMAL, "vs#x");
     double s[FIRST_POINTS];
 
+    QDOT_TRY(qdot_member_refuse(session, e));
     e = qdot_session_bind(session, qdot_subs(pool, e, 1, &v->symbol, &x));
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_tape_new(pool, 1, &x, 1, &e, &one->tape));

@@ -34,7 +34,7 @@ typedef struct {
 /* What stays of a session while an answer is taken down. */
 typedef struct {
     FILE *out, *console, *file;
-    bool json, console_json;
+    bool json, console_json, marked;
     qdot_style style;
     size_t history, history_over;
     char *text;
@@ -47,6 +47,7 @@ begin_answer(qdot_session *s, qdot_style style, kept *k)
     *k = (kept){.out = s->out,
                 .console = s->console,
                 .json = s->json,
+                .marked = s->marked,
                 .console_json = s->console_json,
                 .style = s->style,
                 .history = s->history.n,
@@ -61,6 +62,7 @@ begin_answer(qdot_session *s, qdot_style style, kept *k)
     s->out = k->file;
     s->json = false;
     s->style = style;
+    s->marked = true;
     return QDOT_OK;
 }
 
@@ -75,6 +77,7 @@ end_answer(qdot_session *s, kept *k, qdot_status status, qdot_text *text)
     s->json = k->json;
     s->console_json = k->console_json;
     s->style = k->style;
+    s->marked = k->marked;
     s->history.n = k->history;
     if (s->history_over.n > k->history_over)
         s->history_over.n = k->history_over;

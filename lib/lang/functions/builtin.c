@@ -15,6 +15,7 @@
 #include "lang/functions/series.h"
 #include "lang/session/along.h"
 #include "lang/session/labels.h"
+#include "lang/session/member.h"
 #include "lang/session/range.h"
 #include "lang/session/value-kind.h"
 #include "mech/study/geometry.h"
@@ -29,7 +30,8 @@ elementary_of(qdot_pool *pool, qdot_expr scalar, void *user)
 }
 
 /* Of one argument on every scalar inside it; of more, of numbers. min and max of one list
- * or vector are those of its members, of one number that moves those of the latest run. */
+ * or vector are those of its members, of one number that moves those of its run, or
+ * of the latest. */
 static qdot_status
 elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
            qdot_expr *value)
@@ -42,7 +44,8 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
         return qdot_value_kind_give(
             s->pool, qdot_value_map(s->pool, args[0], elementary_of, &id), value);
     if (n == 1 && qdot_expr_is_scalar(s->pool, args[0]) &&
-        (qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
+        ((qdot_expr_node(s->pool, args[0])->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) ||
+         qdot_member_any(s, args[0])))
         return qdot_range_value(s, NULL, qdot_fun_name(id), 1, args, NULL, value);
     if (n > 1 || (kind != QDOT_LIST && kind != QDOT_VEC) ||
         qdot_expr_count(s->pool, args[0]) == 0) {

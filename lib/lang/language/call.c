@@ -10,8 +10,30 @@
 #include "lang/language/function.h"
 #include "lang/language/hints.h"
 #include "lang/session/along.h"
+#include "lang/session/member.h"
 #include "lang/session/range.h"
 #include "lang/session/value-kind.h"
+
+/* Functions that differentiate or solve: a value along a run would count as a constant. */
+static const char *const of_formulas[] = {
+    "diff",  "ddt",        "solve",  "series", "integral",  "limit", "poisson",
+    "ds2",   "speed2",     "metric", "christoffel", "gradient", "divergence", "curl",
+    "laplacian", "geodesic", "riemann", "ricci", "scalar_curvature", "volume_element",
+    "scale_factors"};
+
+static qdot_status
+refuse_members(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args)
+{
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < sizeof of_formulas / sizeof *of_formulas; i++)
+        if (strcmp(of_formulas[i], row->name) == 0)
+            for (uint32_t k = 0; k < n && status == QDOT_OK; k++)
+                status = qdot_member_refuse(s, args[k]);
+    return status == QDOT_OK
+               ? status
+               : qdot_hint("the run stands outside, as in `a.(%s(...))`", row->name);
+}
 
 static qdot_status
 call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_expr *args,
@@ -30,6 +52,7 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
                       row->most, n);
         return qdot_hint("as in %s", row->usage);
     }
+    QDOT_TRY(refuse_members(s, row, n, args));
     if (run != NULL && qdot_range_is_word(row->name))
         QDOT_TRY(qdot_range_value(s, run, row->name, n, args, NULL, value));
     else if (run != NULL)

@@ -39,9 +39,10 @@ static qdot_status
 sum(qdot_machine *m, size_t n)
 {
     const qdot_slot *s = qdot_machine_top(m, n);
-    qdot_expr value = s[0].value;
+    qdot_expr value;
 
     QDOT_TRY(qdot_machine_take(m, n)); /* the slots above the stack stay readable */
+    value = m->args.at[0];
     if (qdot_machine_all_scalars(m))
         return qdot_machine_push(m, qdot_sum(m->pool, n, m->args.at));
     for (size_t i = 1; i < n; i++) {
@@ -57,10 +58,11 @@ product(qdot_machine *m, size_t n)
 {
     enum { LONG = 16 }; /* from here on at once */
     const qdot_slot *s = qdot_machine_top(m, n);
-    qdot_expr value = s[0].value;
+    qdot_expr value;
     bool at_once;
 
     QDOT_TRY(qdot_machine_take(m, n));
+    value = m->args.at[0];
     at_once = n > LONG && qdot_machine_all_scalars(m);
     for (size_t i = 1; i < n; i++) {
         bool divide = s[i].sign->text[0] == '/';
@@ -287,7 +289,7 @@ member(qdot_machine *m, const char *run)
     for (size_t i = 0; i < m->session->runs.n; i++)
         if (strcmp(m->session->runs.at[i].name, run) == 0) {
             if (qdot_machine_top(m, 1)->run != NULL)
-                return qdot_machine_along_runs();
+                return qdot_machine_along_two(qdot_machine_top(m, 1)->run, run);
             qdot_machine_top(m, 1)->run = run;
             return QDOT_OK;
         }
@@ -383,13 +385,13 @@ qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value
     qdot_status status = run_program(&m);
 
     if (status == QDOT_OK) {
-        *value = m.stack.at[0].value;
         if (over != NULL)
             *over = m.stack.at[0].over;
         if (run != NULL)
             *run = m.stack.at[0].run;
-        else if (m.stack.at[0].run != NULL)
-            status = qdot_machine_along_runs();
+        else
+            status = qdot_machine_enter(&m, &m.stack.at[0]);
+        *value = m.stack.at[0].value;
     } else if (m.blame != NULL) {
         c->error_at = m.blame->start;
     }

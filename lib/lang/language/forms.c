@@ -135,7 +135,7 @@ qdot_forms_if(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     if (m->session->passed != NULL)
         m->session->passed->branches++;
     if (s->run != NULL)
-        return qdot_machine_along_runs();
+        return qdot_machine_along_condition(s->run);
     if (!qdot_condition_is(m->pool, s->value))
         return qdot_fail(QDOT_ETYPE, "if(CONDITION, A, B) takes a condition, not %s",
                          qdot_value_kind_words(m->pool, s->value));

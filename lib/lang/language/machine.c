@@ -40,10 +40,18 @@ qdot_machine_spoil(qdot_machine *m, const char *name)
 }
 
 qdot_status
-qdot_machine_along_runs(void)
+qdot_machine_along_two(const char *inner, const char *outer)
 {
-    qdot_fail(QDOT_ENOTBUILT, "not built yet: comparing runs");
-    return qdot_hint("the value along a run is value(a.theta, 20)");
+    qdot_fail(QDOT_EINVAL, "this is along the run %.100s and the run %.100s", inner, outer);
+    return qdot_hint("runs are compared by what is along each, as in `%.40s.x - %.40s.x`",
+                     outer, inner);
+}
+
+qdot_status
+qdot_machine_along_condition(const char *run)
+{
+    qdot_fail(QDOT_EINVAL, "a condition is along no run as a whole");
+    return qdot_hint("name the run at what moves, as in `if(%.60s.x > 0, ...)`", run);
 }
 
 qdot_status

@@ -52,8 +52,10 @@ QDOT_MUST_CHECK qdot_status qdot_machine_pass(qdot_machine *m, qdot_expr value);
 void qdot_machine_spoil(qdot_machine *m, const char *name);
 /* What is meant along a run and enters an expression: a symbol from now on. */
 QDOT_MUST_CHECK qdot_status qdot_machine_enter(qdot_machine *m, qdot_slot *s);
-/* The failure that runs are not compared yet. */
-qdot_status qdot_machine_along_runs(void);
+/* The failures of what is meant along two runs at once, b.(a.x), and of a condition along a run,
+ * a.(x > 0). */
+qdot_status qdot_machine_along_two(const char *inner, const char *outer);
+qdot_status qdot_machine_along_condition(const char *run);
 /* The top n values, popped into m->args; take: where a text, latex(e), has no place. */
 QDOT_MUST_CHECK qdot_status qdot_machine_take_any(qdot_machine *m, size_t n);
 QDOT_MUST_CHECK qdot_status qdot_machine_take(qdot_machine *m, size_t n);

@@ -7,6 +7,7 @@
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
 #include "lang/session/bind.h"
+#include "lang/session/member.h"
 #include "lang/session/value-kind.h"
 
 static qdot_status
@@ -62,6 +63,17 @@ is_number(const qdot_pool *pool, qdot_expr value)
     return qdot_expr_is_scalar(pool, value) && value != QDOT_TRUE && value != QDOT_FALSE;
 }
 
+/* a.x, which is along a run, is no number by itself. */
+static qdot_status
+refuse_member(qdot_cursor *c, const qdot_token *start, qdot_expr value)
+{
+    const qdot_status status = qdot_member_refuse(c->session, value);
+
+    if (status != QDOT_OK)
+        c->error_at = start->start;
+    return status;
+}
+
 qdot_status
 qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
 {
@@ -70,7 +82,7 @@ qdot_read_scalar(qdot_cursor *c, qdot_expr *value)
     QDOT_TRY(qdot_read_side(c, value));
     if (!is_number(c->session->pool, *value))
         return wrong_kind(c, start, "a number", *value);
-    return QDOT_OK;
+    return refuse_member(c, start, *value);
 }
 
 qdot_status
@@ -80,6 +92,7 @@ qdot_read_point(qdot_cursor *c, qdot_expr *value)
     const qdot_pool *pool = c->session->pool;
 
     QDOT_TRY(qdot_read_side(c, value));
+    QDOT_TRY(refuse_member(c, start, *value));
     if (qdot_expr_kind(pool, *value) == QDOT_VEC) {
         if (qdot_expr_count(pool, *value) <= 3)
             return QDOT_OK;

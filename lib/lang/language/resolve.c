@@ -14,6 +14,7 @@
 #include "lang/functions/short-names.h"
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
+#include "lang/session/member.h"
 #include "lang/session/value-kind.h"
 #include "lang/source/letters.h"
 
@@ -65,6 +66,8 @@ qdot_resolve_no_prime(const char *name, const char *why)
 static qdot_status
 ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
 {
+    if (primes > 0)
+        QDOT_TRY(qdot_member_refuse(s, *value));
     for (; primes > 0; primes--) {
         *value = qdot_ddt(s->pool, *value);
         QDOT_TRY(qdot_value_kind_check(s->pool, *value));

@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "lang/session/member.h"
 #include "lang/session/value-kind.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
@@ -203,6 +204,7 @@ qdot_session_number(qdot_session *session, qdot_expr e, double *value, double *e
     e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(not_a_number(session, e));
+    QDOT_TRY(qdot_member_refuse(session, e));
     QDOT_TRY(find_measured(session, e, &n, &list));
     status = n == 0 ? qdot_tape_constant(session->pool, e, value)
                     : evaluate(session, e, n, list, value, &own_error);

@@ -4,10 +4,19 @@
 
 #include "lang/session/session.h"
 
+/* What a symbol that stands alone reads along the latest run. */
+#define QDOT_MEMBER_MOTION                                                               \
+    (QDOT_HAS_TIME | QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |        \
+     QDOT_HAS_MULTIPLIER)
+
 /* e along the run, as a symbol (of a vector or list: of its members) "a.x". */
 qdot_expr qdot_member_of(qdot_session *session, const char *run, qdot_expr e);
+/* What such a symbol stands for; NULL: it is none. */
+const qdot_member *qdot_member_find(const qdot_session *session, qdot_expr symbol);
 /* Whether such symbols occur. */
 bool qdot_member_any(const qdot_session *session, qdot_expr e);
+/* QDOT_EINVAL where such symbols occur: nothing is read along a run here. */
+QDOT_MUST_CHECK qdot_status qdot_member_refuse(const qdot_session *session, qdot_expr e);
 /* Where all such symbols of *e are along one run: *run is that run, *e has what they stand for in
  * their place. Else *mixed. */
 QDOT_MUST_CHECK qdot_status qdot_member_resolve(qdot_session *session, const char **run,

@@ -6,6 +6,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/mixture-range.h"
 #include "lang/session/runs.h"
 
 static const struct {
@@ -25,6 +26,22 @@ qdot_range_is_word(const char *word)
     return false;
 }
 
+static qdot_status
+measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
+              const double *range, qdot_expr *value)
+{
+    qdot_mixture *mixture;
+    double x, error;
+    qdot_status status = qdot_mixture_new(session, run, e, &mixture);
+
+    if (status == QDOT_OK)
+        status = qdot_mixture_range(mixture, kind, range, &x, &error);
+    qdot_mixture_free(mixture);
+    QDOT_TRY(status);
+    *value = qdot_measured_new(session, x, error);
+    return qdot_pool_check(session->pool);
+}
+
 /* The value of one expression, a new symbol. */
 static qdot_status
 measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
@@ -37,8 +54,7 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (mixed)
-        return qdot_fail(QDOT_ENOTBUILT,
-                         "not built yet: a range of several runs in one expression");
+        return measure_mixed(session, run, kind, e, range, value);
     QDOT_TRY(qdot_runs_find(session, run, &named));
     report = qdot_run_get_report(named->run);
     QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,

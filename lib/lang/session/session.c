@@ -63,6 +63,7 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);
+    qdot_text_clear(&session->block);
     if (session->scene != NULL)
         qdot_scene_free(session->scene);
     if (session->names != NULL)
@@ -86,6 +87,7 @@ qdot_session_exchange(qdot_session *session, qdot_session *other)
     STAYS(err)
     STAYS(style)
     STAYS(flat)
+    STAYS(block)
     STAYS(json)
     STAYS(timing)
     STAYS(interactive)

@@ -56,6 +56,7 @@ typedef struct qdot_session {
     qdot_style style;
     bool flat; /* formulas stand in one line on a terminal too */
     bool marked; /* formulas of LaTeX in answers stand between \( and \) */
+    qdot_text block; /* of the present statement: equations for a block (lang/answer/sheet) */
     bool json, timing, interactive;
     FILE *console; /* where notices go; NULL: with the answers */
     bool console_json;

@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/sheet.h"
 #include "lang/commands/loop.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
@@ -253,6 +254,10 @@ statement(engine *x, size_t i)
     if (status == QDOT_OK)
         status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
+    if (status == QDOT_OK)
+        status = qdot_sheet_flush(x->session);
+    else
+        qdot_text_clear(&x->session->block);
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;

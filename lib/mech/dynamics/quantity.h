@@ -37,10 +37,28 @@ qdot_expr qdot_mech_force(qdot_scene *s, qdot_expr q);     /* Q[q], all that is 
 /* The same by Kane's form, sum F . dv/dq'. */
 qdot_expr qdot_mech_force_kane(qdot_scene *s, qdot_expr q);
 qdot_expr qdot_mech_forces(qdot_scene *s); /* LIST, in order of q */
-/* `forces` with its parts in words: one line a coordinate and source. */
-QDOT_MUST_CHECK qdot_status qdot_mech_forces_parts(qdot_scene *s, qdot_style style,
-                                                   qdot_text *out);
 qdot_expr qdot_mech_virtual_work(qdot_scene *s); /* sum Q delta[q] */
+
+/* --- what T, V and the forces are made of, one thing after another --- */
+typedef struct {
+    const char *kind; /* "kinetic energy", "gravity", "potential", "spring" */
+    const char *name; /* what it is of or on, its label; NULL: none */
+    qdot_expr value;  /* simplified, common factors kept; nil on failure */
+} qdot_energy_part;
+/* 1/2 m v^2 of particle or body k, with 1/2 w.I w of a body; part k of V. False past the end. */
+bool qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part);
+bool qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part);
+
+typedef struct {
+    const char *kind, *name; /* "gravity", "spring", "damper" ...; its label or what it acts on, or
+                                NULL */
+    bool conservative;       /* a part of V */
+    size_t row, k;           /* internal */
+} qdot_force_source;
+/* Source k of generalized forces; false past the end. */
+bool qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source);
+/* Its part of Q[q], simplified. */
+qdot_expr qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q);
 
 /* --- equations --- */
 qdot_expr qdot_mech_equation(qdot_scene *s, qdot_expr q); /* an EQ, with multipliers */

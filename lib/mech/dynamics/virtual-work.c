@@ -13,7 +13,6 @@
 #include "mech/dynamics/virtual-work.h"
 
 #include "expr/calculus.h"
-#include "expr/print.h"
 #include "expr/tensor.h"
 #include "mech/dynamics/alike.h"
 #include "mech/dynamics/kinematics.h"
@@ -382,27 +381,33 @@ qdot_mech_forces(qdot_scene *s)
     return qdot_mech_each(s, qdot_mech_force);
 }
 
-qdot_status
-qdot_mech_forces_parts(qdot_scene *s, qdot_style style, qdot_text *out)
+bool
+qdot_mech_source_at(qdot_scene *s, size_t k, qdot_force_source *source)
 {
-    for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr q = s->coordinates.at[i];
-        for (size_t a = 0; a < SOURCES; a++)
-            for (size_t k = 0; k < sources[a].count(s); k++) {
-                qdot_expr part = qdot_mech_tidy(s, sources[a].force(s, k, i, false));
-                const char *name = sources[a].name(s, k);
+    for (size_t a = 0; a < SOURCES; a++) {
+        const size_t n = sources[a].count(s);
 
-                QDOT_TRY(qdot_pool_check(s->pool));
-                if (part == QDOT_ZERO)
-                    continue;
-                QDOT_TRY(qdot_print_formula(s->pool, q, style, out));
-                qdot_text_format(out, ", %s%s%s: ", sources[a].words(s, k),
-                                 name ? " " : "", name ? name : "");
-                QDOT_TRY(qdot_print_formula(s->pool, part, style, out));
-                qdot_text_char(out, '\n');
-            }
+        if (k < n) {
+            *source = (qdot_force_source){.kind = sources[a].words(s, k),
+                                    .name = sources[a].name(s, k),
+                                    .conservative = sources[a].conservative,
+                                    .row = a,
+                                    .k = k};
+            return true;
+        }
+        k -= n;
     }
-    return qdot_text_status(out);
+    return false;
+}
+
+qdot_expr
+qdot_mech_source_force(qdot_scene *s, const qdot_force_source *source, qdot_expr q)
+{
+    size_t i;
+
+    if (!qdot_mech_index(s, q, &i))
+        return QDOT_NIL;
+    return qdot_mech_tidy(s, sources[source->row].force(s, source->k, i, false));
 }
 
 qdot_expr

@@ -1,0 +1,24 @@
+/* write.h -- answers written: texts, as they stand or as JSON.
+ *
+ * Tests  tests/script/, tests/lang/test_session.c
+ */
+#ifndef QDOT_LANG_WRITE_H
+#define QDOT_LANG_WRITE_H
+
+#include "lang/session/session.h"
+
+/* Write a finished text and clear it. QDOT_EIO. */
+QDOT_MUST_CHECK qdot_status qdot_write(FILE *file, qdot_text *text);
+
+/* Append `before`, then the text as a JSON string. */
+void qdot_write_field(qdot_text *line, const char *before, const char *text);
+
+/* {"kind":"text"}: text as it stands, a newline added where there is none. */
+QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *name,
+                                             const char *text);
+/* The same of a text that was written with that status, which is returned if it is none; the text
+ * is cleared. */
+QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,
+                                                qdot_status status, qdot_text *text);
+
+#endif

@@ -1,0 +1,255 @@
+/* mixture.c -- an expression along several runs at once, evaluated at times. */
+#include "lang/session/mixture.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+#include "tape/tape.h"
+
+/* A symbol: what it stands for, and where. */
+typedef struct {
+    qdot_expr e;
+    qdot_run *run;
+} source;
+
+struct qdot_mixture {
+    qdot_vec(qdot_expr) symbols; /* members, and what moves beside them */
+    qdot_vec(source) sources;    /* of each symbol */
+    qdot_tape *tape;             /* from the symbols */
+    size_t room;                 /* in values and errors */
+    double *values, *errors;     /* [symbols x times] */
+    double *in;                  /* [symbols], work space of the tape */
+};
+
+void
+qdot_mixture_free(qdot_mixture *x)
+{
+    if (x == NULL)
+        return;
+    qdot_free(x->symbols.at);
+    qdot_free(x->sources.at);
+    qdot_tape_free(x->tape);
+    qdot_free(x->values);
+    qdot_free(x->errors);
+    qdot_free(x->in);
+    qdot_free(x);
+}
+
+static qdot_status
+find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+{
+    const qdot_expr atoms = qdot_expr_atoms(session->pool, e, false);
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, atoms); i++) {
+        const qdot_expr atom = qdot_expr_arg(session->pool, atoms, i);
+        const qdot_member *m = qdot_member_find(session, atom);
+        qdot_named_run *named;
+
+        if (m == NULL &&
+            !(qdot_expr_node(session->pool, atom)->holds & QDOT_MEMBER_MOTION))
+            continue;
+        QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
+        QDOT_TRY(qdot_vec_push(&x->symbols, atom));
+        QDOT_TRY(qdot_vec_push(&x->sources,
+                               ((source){m != NULL ? m->value : atom, named->run})));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+prepare(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+{
+    QDOT_TRY(find_symbols(session, run, e, x));
+    e = qdot_session_bind(session, e);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_tape_new(session->pool, x->symbols.n, x->symbols.at, 1, &e, &x->tape));
+    x->in = qdot_calloc(x->symbols.n + qdot_tape_work(x->tape) + 1, sizeof *x->in);
+    return x->in != NULL ? QDOT_OK : QDOT_ENOMEM;
+}
+
+qdot_status
+qdot_mixture_new(qdot_session *session, const char *run, qdot_expr e, qdot_mixture **out)
+{
+    qdot_mixture *x = qdot_calloc(1, sizeof *x);
+    qdot_status status = x != NULL ? prepare(session, run, e, x) : QDOT_ENOMEM;
+
+    if (status != QDOT_OK) {
+        qdot_mixture_free(x);
+        x = NULL;
+    }
+    *out = x;
+    return status;
+}
+
+static qdot_status
+make_room(qdot_mixture *x, size_t times)
+{
+    const size_t n = x->symbols.n * times + 1;
+
+    if (n <= x->room)
+        return QDOT_OK;
+    qdot_free(x->values);
+    qdot_free(x->errors);
+    x->values = qdot_calloc(n, sizeof *x->values);
+    x->errors = qdot_calloc(n, sizeof *x->errors);
+    x->room = x->values != NULL && x->errors != NULL ? n : 0;
+    return x->room > 0 ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* The value at time j and its error, by moving each symbol by its own. */
+static void
+combine(const qdot_mixture *x, const qdot_samples *at, size_t j)
+{
+    const size_t k = at->n;
+    double *in = x->in, *work = in + x->symbols.n, *value = at->values + j, sum, moved;
+
+    for (size_t i = 0; i < x->symbols.n; i++)
+        in[i] = x->values[i * k + j];
+    qdot_tape_eval(x->tape, in, value, work);
+    if (at->errors == NULL)
+        return;
+    sum = DBL_EPSILON * fabs(*value);
+    for (size_t i = 0; i < x->symbols.n; i++) {
+        in[i] += x->errors[i * k + j];
+        qdot_tape_eval(x->tape, in, &moved, work);
+        sum += fabs(moved - *value);
+        in[i] = x->values[i * k + j];
+    }
+    at->errors[j] = sum;
+}
+
+qdot_status
+qdot_mixture_values(qdot_mixture *x, const qdot_samples *at)
+{
+    const qdot_exact_times times = {at->n, at->times, at->lows};
+
+    QDOT_TRY(make_room(x, at->n));
+    for (size_t i = 0; i < x->symbols.n; i++)
+        QDOT_TRY(qdot_run_values_beyond(
+            x->sources.at[i].run, 1, &x->sources.at[i].e, &times, x->values + i * at->n,
+            at->errors != NULL ? x->errors + i * at->n : NULL));
+    for (size_t j = 0; j < at->n; j++)
+        combine(x, at, j);
+    return QDOT_OK;
+}
+
+/* Whether the run of symbol i is that of an earlier one. */
+static bool
+is_again(const qdot_mixture *x, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (x->sources.at[k].run == x->sources.at[i].run)
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_mixture_steps(const qdot_mixture *x, qdot_mixture_times *times)
+{
+    for (size_t i = 0; i < x->sources.n; i++) {
+        size_t n;
+        const double *at = qdot_run_times(x->sources.at[i].run, &n);
+
+        if (is_again(x, i))
+            continue;
+        for (size_t k = 0; k < n; k++)
+            QDOT_TRY(qdot_vec_push(times, at[k]));
+    }
+    return QDOT_OK;
+}
+
+void
+qdot_mixture_span(const qdot_mixture *x, double *from, double *to)
+{
+    *from = -INFINITY;
+    *to = INFINITY;
+    for (size_t i = 0; i < x->sources.n; i++) {
+        size_t n;
+        const double *t = qdot_run_times(x->sources.at[i].run, &n);
+
+        *from = fmax(*from, fmin(t[0], t[n - 1]));
+        *to = fmin(*to, fmax(t[0], t[n - 1]));
+    }
+}
+
+bool
+qdot_mixture_is_backward(const qdot_mixture *x)
+{
+    for (size_t i = 0; i < x->sources.n; i++) {
+        size_t n;
+        const double *t = qdot_run_times(x->sources.at[i].run, &n);
+
+        if (t[n - 1] >= t[0])
+            return false;
+    }
+    return x->sources.n > 0;
+}
+
+/* --- at once ------------------------------------------------------------------------- */
+
+qdot_status
+qdot_member_values(qdot_session *session, const char *run, qdot_expr e,
+                   const qdot_samples *at)
+{
+    qdot_mixture *x;
+    qdot_status status = qdot_mixture_new(session, run, e, &x);
+
+    if (status == QDOT_OK)
+        status = qdot_mixture_values(x, at);
+    qdot_mixture_free(x);
+    return status;
+}
+
+qdot_status
+qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_expr time,
+                    qdot_expr *value)
+{
+    qdot_mixture *x;
+    bool exact = true;
+    qdot_status status = qdot_mixture_new(session, run, e, &x);
+
+    *value = QDOT_NIL;
+    for (size_t i = 0; status == QDOT_OK && i < x->sources.n; i++)
+        exact = exact && qdot_run_get_report(x->sources.at[i].run)->digits > 0;
+    for (size_t i = 0; status == QDOT_OK && exact && i < x->symbols.n; i++) {
+        const qdot_member *m = qdot_member_find(session, x->symbols.at[i]);
+        qdot_measured number;
+        qdot_expr by;
+
+        status = qdot_runs_measure_one(session, m != NULL ? m->run : run,
+                                       x->sources.at[i].e, time, &number);
+        if (status != QDOT_OK)
+            break;
+        by = qdot_measured_add(session, number);
+        e = qdot_subs(session->pool, e, 1, &x->symbols.at[i], &by);
+    }
+    if (status == QDOT_OK && exact) {
+        *value = e;
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_mixture_free(x);
+    return status;
+}
+
+qdot_status
+qdot_member_span(qdot_session *session, qdot_expr e, double *from, double *to)
+{
+    for (size_t i = 0; i < session->members.n; i++) {
+        const qdot_run_report *report;
+        qdot_named_run *named;
+
+        if (!qdot_expr_contains(session->pool, e, session->members.at[i].symbol))
+            continue;
+        QDOT_TRY(qdot_runs_find(session, session->members.at[i].run, &named));
+        report = qdot_run_get_report(named->run);
+        *from = fmax(*from, fmin(report->t0, report->t1));
+        *to = fmin(*to, fmax(report->t0, report->t1));
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,35 @@
+/* mixture.h -- an expression along several runs at once, evaluated at times.
+ *
+ * Every symbol of the expression is read along its own run; what names none is read along one run
+ * that the caller names. The error of a value is the sum of the changes that the error of each
+ * symbol makes.
+ *
+ * Tests  tests/script/ranges.lag, tests/script/several-ranges.lag
+ */
+#ifndef QDOT_LANG_MIXTURE_H
+#define QDOT_LANG_MIXTURE_H
+
+#include "lang/session/member.h"
+
+typedef struct qdot_mixture qdot_mixture;
+
+/* Of e, with the values of `set`; `run`: of what names no run, NULL: the latest. On QDOT_OK the
+ * caller frees it. The session and its runs must outlive it. */
+QDOT_MUST_CHECK qdot_status qdot_mixture_new(qdot_session *session, const char *run,
+                                             qdot_expr e, qdot_mixture **out);
+void qdot_mixture_free(qdot_mixture *x);
+
+/* Its values at times. QDOT_EDOMAIN: outside one of the runs. */
+QDOT_MUST_CHECK qdot_status qdot_mixture_values(qdot_mixture *x, const qdot_samples *at);
+
+/* Appends the times of the steps of all its runs to *times. */
+typedef qdot_vec(double) qdot_mixture_times;
+QDOT_MUST_CHECK qdot_status qdot_mixture_steps(const qdot_mixture *x,
+                                               qdot_mixture_times *times);
+
+/* The times [*from, *to], ascending, that all its runs cover. */
+void qdot_mixture_span(const qdot_mixture *x, double *from, double *to);
+/* Whether all its runs go back in time. */
+bool qdot_mixture_is_backward(const qdot_mixture *x);
+
+#endif

@@ -1,0 +1,100 @@
+/* parts.c -- T and V by what they are made of: each particle, body, field, spring. */
+#include "expr/calculus.h"
+#include "expr/tensor.h"
+#include "mech/dynamics/potential.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "normal/form/common.h"
+
+/* What has a mass: particles, then bodies. */
+typedef struct {
+    const char *name;
+    qdot_expr mass, position;
+    const qdot_body *body; /* NULL: a particle */
+} massive;
+
+static massive
+massive_at(const qdot_scene *s, size_t k)
+{
+    if (k < s->particles.n) {
+        const qdot_particle *p = &s->particles.at[k];
+
+        return (massive){.name = p->name, .mass = p->mass, .position = p->position};
+    }
+    const qdot_body *b = &s->bodies.at[k - s->particles.n];
+
+    return (massive){.name = b->name, .mass = b->mass, .position = b->position, .body = b};
+}
+
+/* w.I w, in space along the axes of the body, in which I is given. */
+static qdot_expr
+twice_rotation(qdot_scene *s, const qdot_body *b)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr w = qdot_scene_spin(s, b->name);
+
+    if (b->angle != QDOT_NIL)
+        return qdot_mul(pool, b->inertia, qdot_pow_int(pool, w, 2));
+    w = qdot_mech_tidy(s, qdot_value_mul(pool, qdot_transpose(pool, b->rotation), w));
+    return qdot_dot(pool, w, qdot_value_mul(pool, b->inertia, w));
+}
+
+bool
+qdot_mech_kinetic_part(qdot_scene *s, size_t k, qdot_energy_part *part)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr T;
+    massive m;
+
+    if (k >= s->particles.n + s->bodies.n)
+        return false;
+    m = massive_at(s, k);
+    T = qdot_mul(pool, m.mass, qdot_common_out(pool, qdot_mech_speed2(s, m.position)));
+    T = qdot_mul(pool, QDOT_HALF, T);
+    if (m.body)
+        T = qdot_add(pool, T, qdot_mul(pool, QDOT_HALF, twice_rotation(s, m.body)));
+    *part = (qdot_energy_part){.kind = "kinetic energy", .name = m.name, .value = T};
+    return true;
+}
+
+/* -m g.r, all fields together. */
+static qdot_expr
+weight(qdot_scene *s, const massive *m)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr height = QDOT_ZERO;
+
+    for (size_t g = 0; g < s->gravities.n; g++)
+        height = qdot_sub(pool, height,
+                          qdot_mech_dot(pool, s->gravities.at[g].e, m->position));
+    return qdot_mul(pool, m->mass, qdot_common_out(pool, qdot_mech_tidy(s, height)));
+}
+
+bool
+qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part)
+{
+    const size_t heavy = s->gravities.n > 0 ? s->particles.n + s->bodies.n : 0;
+
+    if (k < heavy) {
+        const massive m = massive_at(s, k);
+
+        *part = (qdot_energy_part){.kind = "gravity", .name = m.name, .value = weight(s, &m)};
+        return true;
+    }
+    k -= heavy;
+    if (k < s->potentials.n) {
+        const qdot_term *term = &s->potentials.at[k];
+
+        *part = (qdot_energy_part){.kind = "potential",
+                                   .name = term->name,
+                                   .value = qdot_mech_tidy(s, term->e)};
+        return true;
+    }
+    k -= s->potentials.n;
+    if (k >= s->springs.n)
+        return false;
+    *part = (qdot_energy_part){.kind = "spring",
+                               .name = s->springs.at[k].name,
+                               .value = qdot_mech_tidy(s, qdot_spring_potential(s, k))};
+    return true;
+}
