@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "series/lanes-writer.h"
-#include "series/recurrence.h"
+#include "series/recurrence-operations.h"
 #include "series/taylor-text.h"
 
 enum {

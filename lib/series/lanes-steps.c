@@ -1,6 +1,6 @@
 /* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
 #include "series/lanes-writer.h"
-#include "series/recurrence.h"
+#include "series/recurrence-operations.h"
 
 /* What a step is made of, by rows. */
 typedef struct {

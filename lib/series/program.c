@@ -50,6 +50,17 @@ last(builder *b)
     return b->status == QDOT_OK ? b->program->steps.at + b->program->steps.n - 1 : &b->nothing;
 }
 
+double
+qdot_recurrence_cost(int op)
+{
+    static const double cost[QDOT_T_COUNT] = {
+#define RECURRENCE(ID, cost, body) [QDOT_T_##ID] = cost,
+#include "series/recurrence.def"
+    };
+
+    return cost[op];
+}
+
 static row
 emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
 {

@@ -92,8 +92,10 @@ choose(qdot_generator *g, const use *uses, int *terms, int *depth)
 {
     const qdot_taylor *t = g->t;
 
-    for (size_t i = t->still; i < t->length; i++)
+    for (size_t i = t->still; i < t->length; i++) {
         terms[i] = own_terms(g, t->steps + i);
+        g->n_slots += qdot_code_recurrences[t->steps[i].op].factors;
+    }
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
         const uint32_t row = qdot_code_row(g, s->to);

@@ -7,27 +7,27 @@ inverse(const qdot_generator *g)
     return qdot_code_entry(QDOT_CODE_INVERSES, g->k);
 }
 
+/* x_i times c of a step, x_i twice: factors that no order changes. Those of order 1 are there from
+ * order 2 on. */
 static qdot_operand
-slot(const qdot_generator *g, const qdot_taylor_step *s, size_t i)
+by_c(qdot_generator *g, const qdot_taylor_step *s, const double *x, int i)
 {
-    return qdot_code_work(g->step_slots[s - g->t->steps] + i);
+    return qdot_code_composed(g, qdot_code_c(g, s), at(g, x, i));
 }
 
-/* slot <- a b */
-static void
-keep(qdot_generator *g, qdot_operand a, qdot_operand b, qdot_operand to)
+static qdot_operand
+twice(qdot_generator *g, qdot_operand a)
 {
-    const int reg = fresh(g);
-
-    do_one(g, QDOT_ASM_LOAD, reg, 0, a);
-    do_one(g, QDOT_ASM_MUL, reg, reg, b);
-    do_one(g, QDOT_ASM_STORE, reg, 0, to);
+    return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
 
+/* -+ x_1 y_{k-1} and y_1 x_{k-1} times c, as `lately`. */
 static void
-keep_twice(qdot_generator *g, qdot_operand a, qdot_operand to)
+lately_by_c(qdot_generator *g, sum *sum, bool minus, const qdot_taylor_step *s, const double *x,
+            const double *y)
 {
-    keep(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2), to);
+    if (g->lag > 1 && g->k > 1)
+        lately(g, sum, minus, by_c(g, s, x, 1), y, by_c(g, s, y, 1), x);
 }
 
 /* --- the recurrences ---------------------------------------------------------------- */
@@ -42,13 +42,13 @@ direct(qdot_generator *g, const qdot_taylor_step *s)
     finish_sum(g, &sum, s->to);
 }
 
-/* +- sum_{j=0..k} x_j x_{k-j}, of which `sum` is the rest. Slots: 2 x_0, 2 x_1 */
+/* +- sum_{j=0..k} x_j x_{k-j}, of which `sum` is the rest. */
 static void
-finish_square(qdot_generator *g, const qdot_taylor_step *s, sum *sum, bool minus,
-              const double *x, const double *to)
+finish_square(qdot_generator *g, sum *sum, bool minus, const double *x, const double *to)
 {
-    late(g, sum, minus, g->k == 2 ? at(g, x, 1) : slot(g, s, 1), x);
-    times(g, sum, minus, slot(g, s, 0), x, g->k);
+    if (g->lag > 1 && g->k > 1)
+        late(g, sum, minus, g->k == 2 ? at(g, x, 1) : twice(g, at(g, x, 1)), x);
+    times(g, sum, minus, twice(g, at(g, x, 0)), x, g->k);
     finish_sum(g, sum, to);
 }
 
@@ -58,22 +58,9 @@ square(qdot_generator *g, const qdot_taylor_step *s)
     sum sum = {.v = {.reg = -1}};
 
     add_past(g, &sum, false, NULL, s, 0);
-    finish_square(g, s, &sum, false, s->x, s->to);
+    finish_square(g, &sum, false, s->x, s->to);
 }
 
-static void
-square_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->x, 0), slot(g, s, 0));
-}
-
-static void
-square_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->x, 1), slot(g, s, 1));
-}
-
-/* Slots, over y_0: c_0, c_1, y_1 */
 static void
 quotient(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -81,26 +68,12 @@ quotient(qdot_generator *g, const qdot_taylor_step *s)
     sum sum = {.v = {.reg = -1}};
 
     add_past(g, &sum, true, &c, s, 0);
-    lately(g, &sum, true, slot(g, s, 1), s->y, slot(g, s, 2), s->to);
+    lately_by_c(g, &sum, true, s, s->to, s->y);
     add_scaled(g, &sum, false, &c, s->x);
-    times(g, &sum, true, slot(g, s, 0), s->y, g->k);
+    times(g, &sum, true, by_c(g, s, s->to, 0), s->y, g->k);
     finish_sum(g, &sum, s->to);
 }
 
-static void
-quotient_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 0), qdot_code_c(g, s), slot(g, s, 0));
-}
-
-static void
-quotient_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
-}
-
-/* Slots: c_1/(2 c_0), c_1/c_0 */
 static void
 root(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -108,16 +81,11 @@ root(qdot_generator *g, const qdot_taylor_step *s)
     sum sum = {.v = {.reg = -1}};
 
     add_past(g, &sum, true, &c, s, 0);
-    late(g, &sum, true, slot(g, s, g->k > 2), s->to);
+    if (g->lag > 1 && g->k > 1)
+        late(g, &sum, true,
+             g->k == 2 ? by_c(g, s, s->to, 1) : twice(g, by_c(g, s, s->to, 1)), s->to);
     add_scaled(g, &sum, false, &c, s->x);
     finish_sum(g, &sum, s->to);
-}
-
-static void
-root_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 0));
-    keep_twice(g, slot(g, s, 0), slot(g, s, 1));
 }
 
 /* k times coefficient k of x. */
@@ -185,42 +153,26 @@ along(qdot_generator *g, const qdot_taylor_step *s)
     integrated(g, s, 0, false, s->y, s->to);
 }
 
-/* Slots: (r + 1)/x_0, r p_0/x_0; p_1/x_0, x_1/x_0 */
+/* ((r + 1)/k sum d p - sum x p)/x_0 */
 static void
 power(qdot_generator *g, const qdot_taylor_step *s)
 {
+    const qdot_operand c = qdot_code_c(g, s), r = by_c(g, s, s->z, 0);
     sum sum = past(g, s, 0), other = past(g, s, 1);
+    int slopes;
 
     weighted(g, s->x, s->d);
     lately(g, &sum, false, at(g, s->d, 1), s->to, at(g, s->to, 1), s->d);
     scale_sum(g, &sum, inverse(g));
-    scale_sum(g, &sum, slot(g, s, 0));
+    slopes = sum.v.reg;
+    scale_sum(g, &sum, r);
+    if (slopes >= 0)
+        add_product(g, &sum.v, false, c, slopes);
     if (other.v.reg >= 0)
-        add_product(g, &sum.v, true, qdot_code_c(g, s), other.v.reg);
-    lately(g, &sum, true, slot(g, s, 3), s->to, slot(g, s, 2), s->x);
-    times(g, &sum, false, slot(g, s, 1), s->x, g->k);
+        add_product(g, &sum.v, true, c, other.v.reg);
+    lately_by_c(g, &sum, true, s, s->x, s->to);
+    times(g, &sum, false, qdot_code_composed(g, r, at(g, s->to, 0)), s->x, g->k);
     finish_sum(g, &sum, s->to);
-}
-
-static void
-power_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    const int a = fresh(g), b = fresh(g);
-
-    do_one(g, QDOT_ASM_LOAD, a, 0, at(g, s->z, 0));
-    do_one(g, QDOT_ASM_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
-    do_one(g, QDOT_ASM_MUL, b, b, qdot_code_c(g, s));
-    do_one(g, QDOT_ASM_STORE, b, 0, slot(g, s, 0));
-    do_one(g, QDOT_ASM_MUL, a, a, at(g, s->to, 0));
-    do_one(g, QDOT_ASM_MUL, a, a, qdot_code_c(g, s));
-    do_one(g, QDOT_ASM_STORE, a, 0, slot(g, s, 1));
-}
-
-static void
-power_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 2));
-    keep(g, at(g, s->x, 1), qdot_code_c(g, s), slot(g, s, 3));
 }
 
 /* d, then to = d/k */
@@ -234,29 +186,23 @@ finish_weighted(qdot_generator *g, value d, const qdot_taylor_step *s)
     finish(g, l, s->to, g->k);
 }
 
-/* Slots: k/y_0; d_1/y_0, y_1/y_0 */
 static void
 ratio(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const qdot_operand k = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
+    const qdot_operand over = qdot_code_work(QDOT_CODE_MOMENT); /* k/y_0 */
+    const int reg = fresh(g);
     sum d = past(g, s, 0);
 
     scale_sum(g, &d, qdot_code_c(g, s));
     negate(&d);
-    lately(g, &d, true, slot(g, s, 1), s->y, slot(g, s, 2), s->d);
-    keep(g, k, qdot_code_c(g, s), slot(g, s, 0));
-    times(g, &d, s->sign < 0, slot(g, s, 0), s->x, g->k);
+    lately_by_c(g, &d, true, s, s->d, s->y);
+    do_one(g, QDOT_ASM_LOAD, reg, 0, qdot_code_entry(QDOT_CODE_ORDERS, g->k));
+    do_one(g, QDOT_ASM_MUL, reg, reg, qdot_code_c(g, s));
+    do_one(g, QDOT_ASM_STORE, reg, 0, over);
+    times(g, &d, s->sign < 0, over, s->x, g->k);
     finish_weighted(g, total(g, &d), s);
 }
 
-static void
-ratio_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->d, 1), qdot_code_c(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
-}
-
-/* Slots: 2 to_0, 2 to_1 */
 static void
 hyperbolic_tangent(qdot_generator *g, const qdot_taylor_step *s)
 {
@@ -266,19 +212,7 @@ hyperbolic_tangent(qdot_generator *g, const qdot_taylor_step *s)
     integrated(g, s, 0, false, s->second, s->to);
     other = past(g, s, 1);
     negate(&other);
-    finish_square(g, s, &other, true, s->to, s->second);
-}
-
-static void
-tangent_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->to, 0), slot(g, s, 0));
-}
-
-static void
-tangent_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->to, 1), slot(g, s, 1));
+    finish_square(g, &other, true, s->to, s->second);
 }
 
 /* second, third, d: j x_j, j y_j, j to_j */
@@ -322,45 +256,28 @@ integral(qdot_generator *g, const qdot_taylor_step *s)
         finish(g, total(g, &twice), s->second, g->k + 2);
 }
 
-enum { TO, SECOND, THIRD, D, X, Y, Z };
-
 const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT] = {
-    [QDOT_T_NEG] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_ADD] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SUB] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALE] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALEADD] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALESUB] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALEOFF] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_MUL] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_SQUARE] = {1, {{X, X}}, square, square_zero, square_one, 2},
-    [QDOT_T_MADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_MSUB] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_NMADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_DIV] = {1, {{TO, Y}}, quotient, quotient_zero, quotient_one, 3},
-    [QDOT_T_SQRT] = {1, {{TO, TO}}, root, NULL, root_one, 2},
-    [QDOT_T_SINCOS] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
-    [QDOT_T_SINHCOSH] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
-    [QDOT_T_EXP] = {1, {{D, TO}}, exponential, NULL, NULL, 0},
-    [QDOT_T_ALONG] = {1, {{D, Y}}, along, NULL, NULL, 0},
-    [QDOT_T_POW] = {2, {{D, TO}, {X, TO}}, power, power_zero, power_one, 4},
-    [QDOT_T_RATIO] = {1, {{D, Y}}, ratio, NULL, ratio_one, 3},
-    [QDOT_T_TANH] = {2,
-                     {{D, SECOND}, {TO, TO}},
-                     hyperbolic_tangent,
-                     tangent_zero,
-                     tangent_one,
-                     2},
-    [QDOT_T_LINK] = {0, {{0}}, integral, NULL, NULL, 0},
-    [QDOT_T_ATAN2] = {3, {{SECOND, Y}, {THIRD, X}, {D, Z}}, arctangent, NULL, NULL, 0},
+    [QDOT_T_NEG] = {direct, 0},
+    [QDOT_T_ADD] = {direct, 0},
+    [QDOT_T_SUB] = {direct, 0},
+    [QDOT_T_SCALE] = {direct, 0},
+    [QDOT_T_SCALEADD] = {direct, 0},
+    [QDOT_T_SCALESUB] = {direct, 0},
+    [QDOT_T_SCALEOFF] = {direct, 0},
+    [QDOT_T_MUL] = {direct, 0},
+    [QDOT_T_SQUARE] = {square, 2},
+    [QDOT_T_MADD] = {direct, 0},
+    [QDOT_T_MSUB] = {direct, 0},
+    [QDOT_T_NMADD] = {direct, 0},
+    [QDOT_T_DIV] = {quotient, 3},
+    [QDOT_T_SQRT] = {root, 2},
+    [QDOT_T_SINCOS] = {wave, 0},
+    [QDOT_T_SINHCOSH] = {wave, 0},
+    [QDOT_T_EXP] = {exponential, 0},
+    [QDOT_T_ALONG] = {along, 0},
+    [QDOT_T_POW] = {power, 4},
+    [QDOT_T_RATIO] = {ratio, 2},
+    [QDOT_T_TANH] = {hyperbolic_tangent, 2},
+    [QDOT_T_LINK] = {integral, 0},
+    [QDOT_T_ATAN2] = {arctangent, 0},
 };
-
-const double *
-qdot_code_factor(const qdot_taylor_step *s, unsigned char name)
-{
-    const double *const rows[] = {[TO] = s->to, [SECOND] = s->second, [THIRD] = s->third,
-                                  [D] = s->d,   [X] = s->x,           [Y] = s->y,
-                                  [Z] = s->z};
-
-    return rows[name];
-}

@@ -1,16 +1,5 @@
-/* recurrence.c -- the rows of recurrence.def as data. */
-#include "series/recurrence.h"
-
-double
-qdot_recurrence_cost(int op)
-{
-    static const double cost[QDOT_T_COUNT] = {
-#define RECURRENCE(ID, cost, body) [QDOT_T_##ID] = cost,
-#include "series/recurrence.def"
-    };
-
-    return cost[op];
-}
+/* recurrence-operations.c -- the rows of recurrence.def as data. */
+#include "series/recurrence-operations.h"
 
 #define DO(verb_, ...) {.verb = QDOT_DO_##verb_, __VA_ARGS__},
 #define U1 QDOT_OF_U1

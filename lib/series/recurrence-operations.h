@@ -1,4 +1,4 @@
-/* recurrence.h -- the rows of recurrence.def as data, for those who write code.
+/* recurrence-operations.h -- the rows of recurrence.def as data, for those who write code.
  *
  * A row is a list of operations on numbers: U1, U2 and coefficients of order k of the rows of a
  * step, by the names that the table has. One of two sums of a PAIR is as any other but for
@@ -7,8 +7,8 @@
  * Tests  tests/series/test_lanes-code.c, test_lanes-motion.c: what is written from it against the
  *        kernels
  */
-#ifndef QDOT_SERIES_RECURRENCE_H
-#define QDOT_SERIES_RECURRENCE_H
+#ifndef QDOT_SERIES_RECURRENCE_OPERATIONS_H
+#define QDOT_SERIES_RECURRENCE_OPERATIONS_H
 
 #include "series/program.h"
 
