@@ -81,7 +81,7 @@ static int
 least_of_loop(const qdot_lanes_writer *w, int late)
 {
     for (size_t i = w->t->still; i < w->t->length; i++)
-        if (qdot_recurrence_squares(w->t->steps.at[i].op))
+        if (qdot_recurrence_find(w->t->steps.at[i].op, QDOT_DO_SQUARED))
             return 2 * w->block + late;
     return w->block + late;
 }

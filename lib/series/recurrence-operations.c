@@ -34,12 +34,12 @@ qdot_recurrence_operations(int op)
     return operations[op];
 }
 
-bool
-qdot_recurrence_squares(int op)
+const qdot_recurrence_operation *
+qdot_recurrence_find(int op, qdot_recurrence_verb verb)
 {
     const qdot_recurrence_operation *o = qdot_recurrence_operations(op);
 
-    while (o->verb != QDOT_DO_END && o->verb != QDOT_DO_SQUARED)
+    while (o->verb != QDOT_DO_END && o->verb != verb)
         o++;
-    return o->verb == QDOT_DO_SQUARED;
+    return o->verb == verb ? o : NULL;
 }

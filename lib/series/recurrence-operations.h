@@ -4,7 +4,7 @@
  * step, by the names that the table has. One of two sums of a PAIR is as any other but for
  * `paired`: the next one has the same factor a.
  *
- * Tests  tests/series/test_lanes-code.c, test_lanes-motion.c: what is written from it against the
+ * Tests  tests/series/test_lanes-code.c, test_lanes-motion.c, test_taylor-code.c: what is written from it against the
  *        kernels
  */
 #ifndef QDOT_SERIES_RECURRENCE_OPERATIONS_H
@@ -52,8 +52,8 @@ typedef struct {
 /* Up to QDOT_DO_END; LINK, RATE and what has order 0 only have none. */
 const qdot_recurrence_operation *qdot_recurrence_operations(int op);
 
-/* Whether one of them is SQUARED. */
-bool qdot_recurrence_squares(int op);
+/* The first of them that does so; NULL. */
+const qdot_recurrence_operation *qdot_recurrence_find(int op, qdot_recurrence_verb verb);
 
 /* The row of a step that has that name. */
 static inline qdot_program_row

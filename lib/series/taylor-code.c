@@ -183,14 +183,6 @@ add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
     return qdot_vec_push(&g->sums, sum);
 }
 
-static const double *
-row_of(const qdot_taylor_step *s, unsigned name)
-{
-    const double *const rows[] = {s->to, s->second, s->third, s->d, s->x, s->y, s->z};
-
-    return rows[name];
-}
-
 /* The sums of step i, as its recurrence has them. */
 static qdot_status
 find_sums_of(qdot_generator *g, size_t i)
@@ -204,8 +196,8 @@ find_sums_of(qdot_generator *g, size_t i)
 
         if (o->verb != QDOT_DO_SUM && o->verb != QDOT_DO_SQUARED)
             continue;
-        a = qdot_code_row(g, row_of(s, o->a));
-        b = qdot_code_row(g, row_of(s, o->b));
+        a = qdot_code_row(g, qdot_code_named(s, o->a));
+        b = qdot_code_row(g, qdot_code_named(s, o->b));
         if (g->moving[a] && g->moving[b]) {
             *sum = (uint32_t)g->sums.n;
             QDOT_TRY(add_sum(g, a, b, false));
@@ -310,11 +302,11 @@ emit_order(qdot_generator *g)
 
     for (size_t i = t->still; i < t->length; i++)
         if (!g->folded[qdot_code_row(g, t->steps[i].to)])
-            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+            qdot_code_order(g, t->steps + i);
     for (size_t i = 0; i < t->n_blocks; i++)
         qdot_code_solve(g, i);
     for (size_t i = t->length; i < t->length + t->n_links; i++)
-        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+        qdot_code_order(g, t->steps + i);
 }
 
 void

@@ -41,6 +41,8 @@ enum {
     QDOT_CODE_ANY = 1000,
     /* What is folded has factors of its own (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
+    /* Factors of a step that no order changes, at most (qdot_code_composed). */
+    QDOT_CODE_FACTORS = 8,
     /* No first loop goes further (it begins at twice the lag): links are exact that far. */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
@@ -137,14 +139,15 @@ void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p);
 void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
 void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
 
-/* A recurrence as code. */
-typedef struct {
-    void (*order)(qdot_generator *g, const qdot_taylor_step *s); /* order g->k of a step */
-    size_t factors; /* that no order changes (qdot_code_composed), at most */
-} qdot_code_recurrence;
+/* Order g->k of a step; the row of a step that recurrence.def calls so. */
+void qdot_code_order(qdot_generator *g, const qdot_taylor_step *s);
+static inline const double *
+qdot_code_named(const qdot_taylor_step *s, unsigned name)
+{
+    const double *const rows[] = {s->to, s->second, s->third, s->d, s->x, s->y, s->z};
 
-/* By qdot_recurrence. */
-extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
+    return rows[name];
+}
 
 /* No register is known to hold a coefficient. */
 void qdot_code_forget(qdot_generator *g);
