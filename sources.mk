@@ -287,6 +287,7 @@ library_sources = \
 	lib/ode/precise.c \
 	lib/ode/run.c \
 	lib/ode/stepper.c \
+	lib/ode/taylor-length.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory-apart.c \
@@ -304,6 +305,7 @@ library_sources = \
 	lib/series/near.c \
 	lib/series/precise.c \
 	lib/series/program.c \
+	lib/series/recurrence-operations.c \
 	lib/series/taylor-code-fold.c \
 	lib/series/taylor-code-order.c \
 	lib/series/taylor-code-solve.c \
@@ -694,6 +696,7 @@ library_headers = \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
+	lib/ode/taylor-run.h \
 	lib/ode/taylor.h \
 	lib/ode/trajectory.h \
 	lib/ode/whole.h \
@@ -709,6 +712,7 @@ library_headers = \
 	lib/series/precise.def \
 	lib/series/precise.h \
 	lib/series/program.h \
+	lib/series/recurrence-operations.h \
 	lib/series/recurrence.def \
 	lib/series/taylor-code-sum.h \
 	lib/series/taylor-code.h \
