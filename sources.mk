@@ -48,6 +48,7 @@ library_sources = \
 	lib/lang/ask/abbreviate.c \
 	lib/lang/ask/ask.c \
 	lib/lang/ask/check.c \
+	lib/lang/ask/components.c \
 	lib/lang/ask/derive.c \
 	lib/lang/ask/equilibria.c \
 	lib/lang/commands/loop.c \
@@ -492,6 +493,7 @@ library_headers = \
 	lib/lang/answer/sheet.h \
 	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
+	lib/lang/ask/components.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
@@ -997,6 +999,7 @@ script_tests = \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
+	tests/script/components.lag \
 	tests/script/conserved.lag \
 	tests/script/constraint-ends.sh \
 	tests/script/constraint-fades.sh \
@@ -1800,6 +1803,7 @@ test_files = \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \
+	tests/script/components.out \
 	tests/script/conserved.out \
 	tests/script/constraint-ends.out \
 	tests/script/constraint-fades.out \

@@ -294,7 +294,8 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
     bool whole = fmpz_is_one(fmpq_denref(x));
     bool wrap = (bracket > 0 && qdot_rational_sgn(x) < 0) || (bracket == 2 && !whole);
     struct decimal d;
-    fmpz_t top;
+    const bool minus = qdot_rational_sgn(x) < 0;
+    qdot_text top = {0};
 
     if (raised) { /* an integer */
         qdot_text digits = {0};
@@ -325,15 +326,13 @@ qdot_print_number(const fmpq_t x, qdot_style style, bool raised, int bracket,
             return;
         }
     }
-    if (style == QDOT_LATEX && !whole) {
-        qdot_text_add(out, qdot_rational_sgn(x) < 0 ? "-\\frac{" : "\\frac{");
-        fmpz_init(top);
-        fmpz_abs(top, fmpq_numref(x));
-        integer(top, out);
-        fmpz_clear(top);
-    } else {
-        integer(fmpq_numref(x), out);
-    }
+    if (minus)
+        qdot_text_add(out, style == QDOT_UNICODE ? "−" : "-");
+    qdot_text_add(out, style == QDOT_LATEX && !whole ? "\\frac{" : "");
+    integer(fmpq_numref(x), &top);
+    qdot_text_add(out, qdot_text_str(&top) + minus);
+    out->failed = out->failed || top.failed;
+    qdot_text_clear(&top);
     if (!whole) {
         qdot_text_add(out, style == QDOT_LATEX ? "}{" : "/");
         integer(fmpq_denref(x), out);

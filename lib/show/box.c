@@ -10,19 +10,25 @@ typedef enum {
     MI, MN, MO, MTEXT, MROW, MFRAC, MSQRT, MSUP, MSUB, MOVER, MTABLE, MTR, MTD, TAGS
 } tag;
 
-static const char *const tags[TAGS] = {"mi",   "mn",   "mo",    "mtext",  "mrow", "mfrac", "msqrt",
-                                       "msup", "msub", "mover", "mtable", "mtr",  "mtd"};
+static const struct {
+    const char *name;
+    size_t length;
+} tags[TAGS] = {{"mi", 2},    {"mn", 2},   {"mo", 2},   {"mtext", 5}, {"mrow", 4},
+                {"mfrac", 5}, {"msqrt", 5}, {"msup", 4}, {"msub", 4},  {"mover", 5},
+                {"mtable", 6}, {"mtr", 3},  {"mtd", 3}};
 
 typedef struct {
     tag tag;
     size_t children; /* where its own begin on the stack of finished boxes */
     uint32_t across; /* cells of the rows of a table */
+    bool label;      /* <mrow class="name"> */
 } element;
 
 typedef struct {
     qdot_boxes *to;
     qdot_vec(element) open;
     qdot_vec(uint32_t) done; /* finished, of elements that are open */
+    qdot_text spelled, copy; /* work space */
 } reader;
 
 static qdot_status
@@ -85,8 +91,11 @@ add_characters(qdot_text *to, const char *at)
                  {"&#x2062;", "\u202F"}, {"&#xA0;", " "}};
 
     while (*at != '\0' && *at != '<') {
+        const char *end = at;
         size_t i = 0;
 
+        while (*end != '\0' && *end != '<' && (end == at || *end != '&'))
+            end++;
         while (*at == '&' && i < sizeof known / sizeof *known &&
                strncmp(at, known[i].name, strlen(known[i].name)) != 0)
             i++;
@@ -94,7 +103,8 @@ add_characters(qdot_text *to, const char *at)
             qdot_text_add(to, known[i].text);
             at += strlen(known[i].name);
         } else {
-            qdot_text_char(to, *at++);
+            qdot_text_add_n(to, at, (size_t)(end - at));
+            at = end;
         }
     }
     return at;
@@ -138,7 +148,10 @@ finish_words(reader *r, size_t from)
 {
     const qdot_text *t = &r->to->text;
 
-    return finish_text(r, from, t->n > from && t->at[t->n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME);
+    QDOT_TRY(finish_text(
+        r, from, t->n > from && t->at[t->n - 1] == ' ' ? QDOT_BOX_WORD : QDOT_BOX_NAME));
+    r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -150,7 +163,7 @@ finish_operator(reader *r, size_t from)
     for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
         const char *sign = operators[i].sign;
 
-        if (t->n - from != strlen(sign) || strcmp(t->at + from, sign) != 0)
+        if (t->n == from || *sign != t->at[from] || strcmp(t->at + from, sign) != 0)
             continue;
         if (operators[i].role == QDOT_BOX_SIGN && begins(r))
             return finish_text(r, from, QDOT_BOX_NAME);
@@ -195,7 +208,8 @@ translate(qdot_text *to, const char *text, size_t bytes, const character *table,
         size_t k = 0;
 
         n = qdot_utf8_length(text + i);
-        while (k < count && (strlen(table[k].of) != n || memcmp(table[k].of, text + i, n) != 0))
+        while (k < count && (table[k].of[0] != text[i] || strlen(table[k].of) != n ||
+                             memcmp(table[k].of, text + i, n) != 0))
             k++;
         if (n == 0 || k == count) {
             qdot_text_truncate(to, from);
@@ -206,7 +220,8 @@ translate(qdot_text *to, const char *text, size_t bytes, const character *table,
     return bytes > 0;
 }
 
-/* The texts of a box, one behind the other, if it has nothing else: bytes into `copy`. */
+/* The texts of a box, one behind the other, if it has nothing else: appended to `copy`, which is not the
+ * text of the boxes. */
 static bool
 spell(const qdot_boxes *b, uint32_t i, qdot_text *copy)
 {
@@ -316,15 +331,14 @@ finish_fraction(reader *r, qdot_box x)
 
     if (is_text(b, of[0]) && is_text(b, of[1])) {
         const size_t from = b->text.n;
-        qdot_text spelled = {0};
 
-        spell(b, of[0], &spelled);
-        qdot_text_char(&spelled, '/');
-        spell(b, of[1], &spelled);
-        for (size_t k = 0; k < COUNT(fractions) && !spelled.failed; k++)
-            if (strcmp(qdot_text_str(&spelled), fractions[k].of) == 0)
+        qdot_text_truncate(&r->spelled, 0);
+        spell(b, of[0], &r->spelled);
+        qdot_text_char(&r->spelled, '/');
+        spell(b, of[1], &r->spelled);
+        for (size_t k = 0; k < COUNT(fractions) && !r->spelled.failed; k++)
+            if (strcmp(qdot_text_str(&r->spelled), fractions[k].of) == 0)
                 qdot_text_add(&b->text, fractions[k].is);
-        qdot_text_clear(&spelled);
         if (b->text.n > from)
             return finish_text(r, from, QDOT_BOX_NAME);
     }
@@ -343,20 +357,19 @@ append_script(reader *r, const qdot_box *x, bool super, bool *own)
     qdot_boxes *b = r->to;
     const uint32_t base = b->children.at[x->first], script = b->children.at[x->first + 1];
     const size_t from = b->text.n;
-    qdot_text spelled = {0}, plain = {0};
     qdot_box row = {.kind = QDOT_BOX_ROW};
 
-    *own = b->box.at[base].above + b->box.at[base].below == 0 && spell(b, script, &spelled);
+    qdot_text_truncate(&r->spelled, 0);
+    qdot_text_truncate(&r->copy, 0);
+    *own = b->box.at[base].above + b->box.at[base].below == 0 && spell(b, script, &r->spelled);
     if (*own && is_text(b, base)) {
-        spell(b, base, &plain);
-        qdot_text_add(&b->text, qdot_text_str(&plain));
+        spell(b, base, &r->copy);
+        qdot_text_add_n(&b->text, qdot_text_str(&r->copy), r->copy.n);
     }
-    *own = *own && translate(&b->text, qdot_text_str(&spelled), spelled.n,
+    *own = *own && translate(&b->text, qdot_text_str(&r->spelled), r->spelled.n,
                              super ? superscripts : subscripts,
                              super ? COUNT(superscripts) : COUNT(subscripts));
-    b->text.failed = b->text.failed || spelled.failed || plain.failed;
-    qdot_text_clear(&spelled);
-    qdot_text_clear(&plain);
+    b->text.failed = b->text.failed || r->spelled.failed || r->copy.failed;
     if (!*own) {
         qdot_text_truncate(&b->text, from);
         return QDOT_OK;
@@ -399,20 +412,20 @@ finish_marked(reader *r, const qdot_box *x)
     const uint32_t *of = b->children.at + x->first;
     const size_t from = b->text.n;
     const qdot_box *base = b->box.at + of[0];
-    qdot_text copy = {0};
+    const qdot_text *copy = &r->copy;
     size_t letter;
 
     if (!is_text(b, of[0]) || base->count == 0)
         return malformed();
-    spell(b, of[0], &copy);
-    letter = qdot_utf8_length(qdot_text_str(&copy));
-    qdot_text_add_n(&b->text, qdot_text_str(&copy), letter);
+    qdot_text_truncate(&r->copy, 0);
+    spell(b, of[0], &r->copy);
+    letter = qdot_utf8_length(qdot_text_str(copy));
+    qdot_text_add_n(&b->text, qdot_text_str(copy), letter);
     for (size_t k = 0; k < COUNT(marks); k++)
         if (says(b, of[1], marks[k].of))
             qdot_text_add(&b->text, marks[k].is);
-    qdot_text_add_n(&b->text, qdot_text_str(&copy) + letter, copy.n - letter);
-    b->text.failed = b->text.failed || copy.failed;
-    qdot_text_clear(&copy);
+    qdot_text_add_n(&b->text, qdot_text_str(copy) + letter, copy->n - letter);
+    b->text.failed = b->text.failed || copy->failed;
     return finish_text(r, from, QDOT_BOX_NAME);
 }
 
@@ -462,7 +475,10 @@ end_element(reader *r)
     case MTD:
         QDOT_TRY(take_children(r, &e, false, &x));
         x.kind = QDOT_BOX_ROW;
-        return finish_row(r, x);
+        QDOT_TRY(finish_row(r, x));
+        if (e.label)
+            r->to->box.at[r->done.at[r->done.n - 1]].label = 1;
+        return QDOT_OK;
     case MSQRT:
         QDOT_TRY(take_children(r, &e, true, &x));
         x.kind = QDOT_BOX_ROOT;
@@ -497,21 +513,22 @@ end_element(reader *r)
 static tag
 tag_at(const char *at)
 {
-    const size_t n = strcspn(at, " >");
     int i = 0;
 
-    while (i < TAGS && (strlen(tags[i]) != n || memcmp(tags[i], at, n) != 0))
+    while (i < TAGS && (strncmp(tags[i].name, at, tags[i].length) != 0 ||
+                        (at[tags[i].length] != '>' && at[tags[i].length] != ' ')))
         i++;
     return (tag)i;
 }
 
 static qdot_status
-begin_element(reader *r, tag t, const char **at)
+begin_element(reader *r, tag t, bool label, const char **at)
 {
     const size_t from = r->to->text.n;
     qdot_status status;
 
-    QDOT_TRY(qdot_vec_push(&r->open, ((element){.tag = t, .children = r->done.n})));
+    QDOT_TRY(qdot_vec_push(&r->open,
+                           ((element){.tag = t, .children = r->done.n, .label = label})));
     if (t > MTEXT)
         return QDOT_OK;
     *at = add_characters(&r->to->text, *at);
@@ -525,14 +542,14 @@ static qdot_status
 read_tag(reader *r, const char **at)
 {
     const bool ends = (*at)[1] == '/';
-    const char *name = *at + 1 + ends, *end = name + strcspn(name, ">");
+    const char *name = *at + 1 + ends, *end = strchr(name, '>');
     const tag t = tag_at(name);
 
-    if (*end == '\0' || t == TAGS || (ends && (r->open.n == 0 || r->open.at[r->open.n - 1].tag != t)))
+    if (end == NULL || t == TAGS || (ends && (r->open.n == 0 || r->open.at[r->open.n - 1].tag != t)))
         return malformed();
     *at = end + 1;
     if (!ends)
-        return begin_element(r, t, at);
+        return begin_element(r, t, t == MROW && (size_t)(end - name) > tags[t].length, at);
     if (t <= MTEXT) {
         r->open.n--;
         return QDOT_OK;
@@ -570,6 +587,8 @@ qdot_boxes_read(const char *mathml, qdot_boxes *boxes)
     status = read_all(&r, mathml);
     qdot_free(r.open.at);
     qdot_free(r.done.at);
+    qdot_text_clear(&r.spelled);
+    qdot_text_clear(&r.copy);
     return status;
 }
 

@@ -31,6 +31,7 @@ typedef enum {
     QDOT_BOX_SIGN, /* + - of two terms, and, or */
     QDOT_BOX_TIMES,
     QDOT_BOX_COMMA,
+    QDOT_BOX_END,  /* of a row of a matrix that is broken: a line ends */
     QDOT_BOX_WORD, /* of a text, with the blank behind it */
     QDOT_BOX_OPENING, /* brackets, as high as their row */
     QDOT_BOX_CLOSING
@@ -38,6 +39,7 @@ typedef enum {
 
 typedef struct {
     uint8_t kind, role;
+    uint8_t label; /* words, a name that an answer begins with */
     uint32_t first, count;         /* of the children; of a text its bytes */
     uint32_t columns, above, below;
     uint32_t across;               /* cells of a row of a table */

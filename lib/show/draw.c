@@ -209,40 +209,73 @@ add_character(qdot_text *out, uint32_t c)
     qdot_text_char(out, (char)(0x80 | (c & 0x3F)));
 }
 
-/* Lines without the spaces at their ends. */
+/* Lines without the spaces at their ends; on the baseline the first columns in colour. */
 static void
-write_grid(const canvas *c, qdot_text *out)
+write_grid(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
 {
     for (size_t y = 0; y < c->rows; y++) {
         const cell *row = c->grid + y * c->columns;
+        const size_t painted = y == baseline && colour->code ? colour->columns : 0;
+        bool inside = false;
         size_t n = c->columns;
 
         while (n > 0 && (row[n - 1].c == 0 || row[n - 1].c == ' '))
             n--;
         for (size_t x = 0; x < n; x++) {
+            const bool blank = row[x].c == 0 || row[x].c == ' ';
+
+            if (!inside && x < painted && !blank)
+                qdot_text_add(out, colour->code);
+            inside = inside || (x < painted && !blank);
             add_character(out, row[x].c);
             if (row[x].mark != 0)
                 add_character(out, row[x].mark);
+            if (inside && (x + 1 == painted || x + 1 == n)) {
+                qdot_text_add(out, colour->end);
+                inside = false;
+            }
         }
         qdot_text_char(out, '\n');
     }
 }
 
+/* Rows above and below the baseline of what stands beside each other. */
+static void
+measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
+        size_t *below)
+{
+    *above = *below = 0;
+    for (size_t i = 0; i < n; i++) {
+        const qdot_box *b = boxes->box.at + items[i].box;
+
+        *above = b->above > *above ? b->above : *above;
+        *below = b->below > *below ? b->below : *below;
+    }
+}
+
+size_t
+qdot_draw_height(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n)
+{
+    size_t above, below;
+
+    measure(boxes, items, n, &above, &below);
+    return above + 1 + below;
+}
+
 qdot_status
-qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, qdot_text *out,
-               size_t *lines)
+qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n,
+               const qdot_draw_colour *colour, qdot_text *out, size_t *lines)
 {
     canvas c = {.boxes = boxes};
-    size_t above = 0, below = 0;
+    size_t above, below;
     qdot_status status;
 
+    measure(boxes, items, n, &above, &below);
     for (size_t i = 0; i < n; i++) {
         const qdot_box *b = boxes->box.at + items[i].box;
 
         if (items[i].x + b->columns > c.columns)
             c.columns = items[i].x + b->columns;
-        above = b->above > above ? b->above : above;
-        below = b->below > below ? b->below : below;
     }
     c.rows = above + 1 + below;
     if (c.columns > SIZE_MAX / sizeof *c.grid / c.rows)
@@ -256,7 +289,7 @@ qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, q
             draw(&c, c.todo.at[--c.todo.n]);
     }
     if (c.status == QDOT_OK)
-        write_grid(&c, out);
+        write_grid(&c, above, colour, out);
     *lines += c.rows;
     status = c.status;
     qdot_free(c.grid);

@@ -13,9 +13,18 @@ typedef struct {
     size_t x;
 } qdot_draw_item;
 
+/* The first columns of the baseline stand between these codes; code NULL: none. */
+typedef struct {
+    size_t columns;
+    const char *code, *end;
+} qdot_draw_colour;
+
 /* Append boxes [n] beside each other on one baseline, as many lines as they are high; *lines grows
  * by these. Errors: QDOT_ENOMEM, QDOT_ELIMIT. */
 QDOT_MUST_CHECK qdot_status qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items,
-                                           size_t n, qdot_text *out, size_t *lines);
+                                           size_t n, const qdot_draw_colour *colour,
+                                           qdot_text *out, size_t *lines);
+/* As many lines as that would be. */
+size_t qdot_draw_height(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n);
 
 #endif

@@ -9,7 +9,7 @@
 
 /* A line is rather broken earlier, by these parts of its length, than one bracket deeper, between
  * factors, before a sign and not a relation, within a text; later behind `spring s1: `. */
-static const double deeper = 0.35, between_factors = 0.55, before_sign = 0.15, after_word = 0.3,
+static const double deeper = 0.35, between_factors = 0.75, before_sign = 0.15, after_word = 0.3,
                     after_label = -0.35;
 
 /* Of lines that follow, where no relation gives one; the least that is left for what stands there. */
@@ -22,7 +22,9 @@ typedef struct {
 
 typedef struct {
     qdot_boxes boxes;
+    const qdot_layout_request *request;
     size_t width, indent;
+    size_t labels; /* leading items that are names or words */
     qdot_vec(item) todo;  /* a stack */
     qdot_vec(item) items; /* in reading order */
     qdot_vec(qdot_draw_item) line;
@@ -103,7 +105,8 @@ push_table(layout *l, const qdot_box *table, uint32_t depth)
     for (uint32_t k = table->count; k-- > 0;) {
         push(l, l->boxes.children.at[table->first + k], depth);
         if (k > 0)
-            push_text(l, k % table->across > 0 ? ", " : "; ", QDOT_BOX_COMMA, depth);
+            push_text(l, k % table->across > 0 ? ", " : ";",
+                      k % table->across > 0 ? QDOT_BOX_COMMA : QDOT_BOX_END, depth);
     }
 }
 
@@ -245,6 +248,8 @@ end_of_line(const layout *l, size_t from, size_t x)
     double least = 0;
 
     for (; i < l->items.n; i++) {
+        if (i > from && role_of(l, i - 1) == QDOT_BOX_END)
+            return i;
         if (i > from && x + columns > l->indent && may_begin(l, i)) {
             const double lost = 1 - (double)columns / room + loss(l, i);
 
@@ -284,6 +289,37 @@ trim_first(layout *l, size_t i)
     return l->status;
 }
 
+static void
+count_labels(layout *l)
+{
+    while (l->labels < l->items.n && box_of(l, l->items.at[l->labels].box)->label)
+        l->labels++;
+}
+
+/* One line, items [from, end) from column x on; only counted if enough are drawn. */
+static qdot_status
+write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
+{
+    qdot_draw_colour colour = {.code = l->request->paint, .end = l->request->end};
+
+    l->line.n = 0;
+    for (size_t i = from; i < end; i++) {
+        const qdot_draw_item at = {l->items.at[i].box, x};
+
+        QDOT_TRY(qdot_vec_push(&l->line, at));
+        x += box_of(l, at.box)->columns;
+        if (i < l->labels)
+            colour.columns = x;
+    }
+    if (x > size->columns)
+        size->columns = x;
+    if (size->lines >= l->request->shown)
+        size->lines += qdot_draw_height(&l->boxes, l->line.at, l->line.n);
+    else
+        QDOT_TRY(qdot_draw_line(&l->boxes, l->line.at, l->line.n, &colour, out, &size->lines));
+    return qdot_interrupt_check();
+}
+
 static qdot_status
 write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
 {
@@ -293,35 +329,36 @@ write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
         if (from > 0)
             QDOT_TRY(trim_first(l, from));
         end = end_of_line(l, from, x);
-        l->line.n = 0;
-        for (size_t i = from; i < end; i++) {
-            const qdot_draw_item at = {l->items.at[i].box, x};
-
-            QDOT_TRY(qdot_vec_push(&l->line, at));
-            x += box_of(l, at.box)->columns;
-        }
-        if (x > size->columns)
-            size->columns = x;
-        QDOT_TRY(qdot_draw_line(&l->boxes, l->line.at, l->line.n, out, &size->lines));
-        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(write_line(l, from, end, x, out, size));
     }
     return QDOT_OK;
 }
 
 qdot_status
-qdot_layout(const char *mathml, size_t width, qdot_text *out, qdot_layout_size *size)
+qdot_layout_part(const char *mathml, const qdot_layout_request *request, qdot_text *out,
+                 qdot_layout_size *size)
 {
-    layout l = {.width = width < least_room ? least_room : width};
-    qdot_layout_size own = {0};
+    layout l = {.request = request,
+                .width = request->width < least_room ? least_room : request->width};
     qdot_status status = qdot_boxes_read(mathml, &l.boxes);
 
     if (status == QDOT_OK)
         status = take_apart(&l);
+    count_labels(&l);
     if (status == QDOT_OK)
-        status = write_lines(&l, out, size ? size : &own);
+        status = write_lines(&l, out, size);
     qdot_boxes_clear(&l.boxes);
     qdot_free(l.todo.at);
     qdot_free(l.items.at);
     qdot_free(l.line.at);
     return status;
+}
+
+qdot_status
+qdot_layout(const char *mathml, size_t width, qdot_text *out, qdot_layout_size *size)
+{
+    const qdot_layout_request request = {.width = width, .shown = SIZE_MAX};
+    qdot_layout_size own = {0};
+
+    return qdot_layout_part(mathml, &request, out, size ? size : &own);
 }

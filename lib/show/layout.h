@@ -21,8 +21,19 @@ typedef struct {
     size_t columns, lines; /* of what was drawn */
 } qdot_layout_size;
 
-/* Append the lines of a formula, each with its end; `mathml` what stands inside <math>. *size may
- * be NULL. Errors: QDOT_EINVAL (not what the printer writes), QDOT_ENOMEM, QDOT_EINTR. */
+typedef struct {
+    size_t width;
+    size_t shown;            /* lines that are drawn; those beyond are only counted */
+    const char *paint, *end; /* codes of colour round words that the formula begins with and round <mrow
+                                class="name">; NULL: none */
+} qdot_layout_request;
+
+/* Append the lines of a formula, each with its end; `mathml` what stands inside <math>. *size grows
+ * by what there is. Errors: QDOT_EINVAL (not what the printer writes), QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_layout_part(const char *mathml, const qdot_layout_request *request,
+                                             qdot_text *out, qdot_layout_size *size);
+
+/* The same, all of it without colour; size may be NULL. */
 QDOT_MUST_CHECK qdot_status qdot_layout(const char *mathml, size_t width, qdot_text *out,
                                         qdot_layout_size *size);
 

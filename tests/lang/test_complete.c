@@ -26,7 +26,8 @@ offers(talk *k, const char *line)
     char **words;
 
     while (length > 0 &&
-           strchr("abcdefghijklmnopqrstuvwxyz0123456789_", line[length - 1]) != NULL)
+           (strchr("abcdefghijklmnopqrstuvwxyz0123456789_", line[length - 1]) != NULL ||
+            (unsigned char)line[length - 1] >= 0x80))
         length--;
     assert_int_equal(qdot_complete(k->session, line, length, line + length, &words, &n),
                      QDOT_OK);
@@ -50,6 +51,9 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"print p[", "phi q[ theta"},
         {"check p[th", "theta"},
         {"eom[", "phi q[ theta"},
+        {"check p[θ", "θ"},
+        {"plot φ vs τ", ""},
+        {"print μ", "μ"},
         {"metric((theta, phi))[theta, p", "phi"},
         {"lambda[", "rod"},
         {"q[", "1 2 3"},

@@ -101,6 +101,19 @@ columns_of_matrices_are_aligned(void **state)
           "⎩2  otherwise\n");
 }
 
+/* Each row in lines of its own. */
+static void
+matrices_that_are_too_wide_are_broken_by_rows(void **state)
+{
+    (void)state;
+    draws(I("M") O("=") ROW(O("(") "<mtable><mtr>" CELL(I("aaaaaa")) CELL(I("bbb")) "</mtr><mtr>" CELL(
+              I("cccccc") O("+") I("dddddd")) CELL(I("e")) "</mtr></mtable>" O(")")),
+          20,
+          "M = [aaaaaa, bbb;\n"
+          "    cccccc + dddddd,\n"
+          "    e]\n");
+}
+
 /* At = first, then signs, then factors; outside of brackets first. */
 static void
 long_formulas_are_broken(void **state)
@@ -133,6 +146,59 @@ words_before_a_formula_are_labels(void **state)
     draws(WORD("the") WORD("sum") WORD("is") I("aaaaaaaa") O("+") I("b"), 17,
           "the sum is\n"
           "    aaaaaaaa + b\n");
+}
+
+/* Those that are not drawn are counted all the same. */
+static void
+lines_beyond_are_only_counted(void **state)
+{
+    const char *const formula = I("x") O("=") OVER(I("a"), I("b")) O("+") I("ccccccccc") O("+")
+        OVER(I("ddd"), I("e")) O("+") I("fffffffff");
+    qdot_layout_request request = {.width = 16, .shown = SIZE_MAX};
+    qdot_layout_size all = {0};
+    qdot_text whole = {0};
+
+    (void)state;
+    assert_int_equal(qdot_layout_part(formula, &request, &whole, &all), QDOT_OK);
+    assert_true(all.lines > 4);
+    for (request.shown = 0; request.shown <= all.lines + 1; request.shown++) {
+        qdot_layout_size size = {0};
+        qdot_text part = {0};
+
+        assert_int_equal(qdot_layout_part(formula, &request, &part, &size), QDOT_OK);
+        assert_int_equal(size.lines, all.lines);
+        assert_memory_equal(qdot_text_str(&part), whole.at, part.n);
+        assert_true(request.shown < all.lines || part.n == whole.n);
+        qdot_text_clear(&part);
+    }
+    qdot_text_clear(&whole);
+}
+
+/* Codes take no column, and stand round words and names on their own line only. */
+static void
+names_are_coloured(void **state)
+{
+    const qdot_layout_request request = {.width = 30, .shown = SIZE_MAX, .paint = "<", .end = ">"};
+    qdot_layout_size size = {0};
+    qdot_text out = {0};
+
+    (void)state;
+    assert_int_equal(qdot_layout_part(WORD("    of") WORD("a:") "<mtext>T</mtext>" O("=") OVER(I("a"), I("b")),
+                                      &request, &out, &size),
+                     QDOT_OK);
+    assert_int_equal(qdot_layout_part("<mrow class=\"name\">" SUB(I("p"), I("q")) "</mrow>" O("=") I("x"),
+                                      &request, &out, &size),
+                     QDOT_OK);
+    assert_int_equal(qdot_layout_part(I("x") O("=") "<mtext>y</mtext>", &request, &out, &size),
+                     QDOT_OK);
+    assert_string_equal(qdot_text_str(&out), "              a\n"
+                                             "    <of a: T> = ─\n"
+                                             "              b\n"
+                                             "<p > = x\n"
+                                             " q\n"
+                                             "x = y\n");
+    assert_int_equal(size.columns, 15);
+    qdot_text_clear(&out);
 }
 
 /* No line is longer than the terminal but by one name; what is drawn is as wide as is said. */
@@ -235,7 +301,10 @@ main(void)
         cmocka_unit_test(scripts_are_raised_and_lowered),
         cmocka_unit_test(columns_of_matrices_are_aligned),
         cmocka_unit_test(long_formulas_are_broken),
+        cmocka_unit_test(matrices_that_are_too_wide_are_broken_by_rows),
         cmocka_unit_test(words_before_a_formula_are_labels),
+        cmocka_unit_test(lines_beyond_are_only_counted),
+        cmocka_unit_test(names_are_coloured),
         cmocka_unit_test(every_width_is_kept),
         cmocka_unit_test(what_is_no_formula_is_refused),
         cmocka_unit_test(depth_is_no_matter),

@@ -21,10 +21,7 @@
 static const char *
 paint(const qdot_session *session, const char *code)
 {
-    const bool shown = (session->colours & QDOT_COLOURS_ANSWERS) != 0 &&
-                       (session->console == NULL || session->out == session->console);
-
-    return shown ? code : "";
+    return qdot_write_colours(session) ? code : "";
 }
 
 /* The end of an answer that went well or not: a line written, its text let go of. */
@@ -70,33 +67,58 @@ same_but_spaces(const char *a, const char *b)
     }
 }
 
+/* The name of an answer, in colour where it is not laid out (which colours it then). */
+static qdot_status
+add_name(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *line)
+{
+    qdot_text_add(line, s->laid_out ? "" : paint(session, QDOT_NAME_COLOUR));
+    QDOT_TRY(qdot_formula_name(session, name, line));
+    qdot_text_add(line, s->laid_out ? "" : paint(session, QDOT_COLOUR_END));
+    return QDOT_OK;
+}
+
+/* Whether a value is printed as its name is. One of more operations than the name has characters is not. */
+static qdot_status
+says_the_same(qdot_session *session, const char *name, qdot_expr value, bool *same)
+{
+    qdot_text plain = {0};
+    qdot_status status;
+
+    *same = false;
+    if (qdot_expr_size(session->pool, value) > strlen(name))
+        return QDOT_OK;
+    status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
+    if (status == QDOT_OK)
+        status = qdot_text_status(&plain);
+    *same = status == QDOT_OK && same_but_spaces(name, qdot_text_str(&plain));
+    qdot_text_clear(&plain);
+    return status;
+}
+
 static qdot_status
 expr_text(qdot_session *session, const char *name, qdot_expr value)
 {
-    qdot_text line = {0}, plain = {0}, shown = {0};
-    const qdot_sheet s = qdot_sheet_begin(session);
-    qdot_status status = qdot_formula_print(session, value, session->style, &shown);
-    bool bare = name == NULL || strlen(name) > 200;
-    bool relation = qdot_value_kind_is_equation(session->pool, value) ||
-                    holds_relations(session->pool, value);
+    qdot_sheet s = qdot_sheet_begin(session);
+    const bool relation = qdot_value_kind_is_equation(session->pool, value) ||
+                          holds_relations(session->pool, value);
+    bool bare = name == NULL || strlen(name) > 200 ||
+                (relation && strpbrk(name, "=<>") != NULL);
+    qdot_status status = QDOT_OK;
+    qdot_text line = {0};
 
+    s.operations = qdot_expr_size(session->pool, value);
+    if (!bare)
+        status = says_the_same(session, name, value, &bare);
     qdot_formula_bracket(session, true, &line);
-    if (status == QDOT_OK && !bare)
-        status = qdot_formula_print(session, value, QDOT_PLAIN, &plain);
-    if (!bare && relation)
-        bare = strpbrk(name, "=<>") != NULL;
-    if (status == QDOT_OK && !bare && !same_but_spaces(name, qdot_text_str(&plain))) {
-        status = qdot_formula_name(session, name, &line);
+    if (status == QDOT_OK && !bare) {
+        status = add_name(session, &s, name, &line);
         if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
             qdot_text_add(&line, qdot_formula_equals(session));
         else
             qdot_text_add(&line, session->style == QDOT_MATHML ? "<mo>:</mo>" : ": ");
     }
-    qdot_text_add(&line, qdot_text_str(&shown));
-    if (shown.failed || plain.failed)
-        line.failed = true;
-    qdot_text_clear(&shown);
-    qdot_text_clear(&plain);
+    if (status == QDOT_OK)
+        status = qdot_formula_print(session, value, session->style, &line);
     return end_formula(session, &s, status, &line);
 }
 
@@ -150,7 +172,9 @@ qdot_answer_solved(qdot_session *session, const char *name, qdot_expr symbol,
         return expr_json(session, name, value);
     s = qdot_sheet_begin(session);
     qdot_formula_bracket(session, true, &line);
+    qdot_text_add(&line, s.laid_out ? "<mrow class=\"name\">" : paint(session, QDOT_NAME_COLOUR));
     status = qdot_print(session->pool, symbol, session->style, &line);
+    qdot_text_add(&line, s.laid_out ? "</mrow>" : paint(session, QDOT_COLOUR_END));
     qdot_text_add(&line, qdot_formula_equals(session));
     if (status == QDOT_OK)
         status = qdot_formula_print(session, value, session->style, &line);
@@ -185,7 +209,7 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
     qdot_status status;
 
     qdot_formula_bracket(session, true, &line);
-    status = qdot_formula_name(session, name, &line);
+    status = add_name(session, &s, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
@@ -257,7 +281,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
         return numbers_json(session, name, several, values, errors);
     s = qdot_sheet_begin(session);
     qdot_formula_bracket(session, true, &line);
-    status = qdot_formula_name(session, name, &line);
+    status = add_name(session, &s, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
     qdot_text_add(&line, qdot_text_str(values));

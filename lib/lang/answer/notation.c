@@ -20,10 +20,10 @@ static const spelling words[] = {
 };
 
 static const spelling signs[] = {
-    {" = ", " = ", " = ", "<mo>=</mo>"}, {" + ", " + ", " + ", "<mo>+</mo>"},
-    {" - ", " − ", " - ", "<mo>−</mo>"}, {"-", "−", "-", "<mo>−</mo>"},
+    {" = ", " = ", " = ", "<mo>=</mo>"},  {" + ", " + ", " + ", "<mo>+</mo>"},
+    {" - ", " − ", " - ", "<mo>−</mo>"},  {"-", "−", "-", "<mo>−</mo>"},
     {".", "·", " \\cdot ", "<mo>·</mo>"}, {", ", ", ", ", ", "<mo>,</mo>"},
-    {"(", "(", "(", "<mo>(</mo>"},       {")", ")", ")", "<mo>)</mo>"},
+    {"(", "(", "(", "<mo>(</mo>"},        {")", ")", ")", "<mo>)</mo>"},
     {" ", " ", " ", "<mo>&#x2062;</mo>"}};
 
 static const char *
@@ -45,7 +45,8 @@ find(const spelling *table, size_t count, const char *at)
 static const char *
 add_base(const char *at, qdot_style style, qdot_text *out)
 {
-    static const char *const dots[][3] = {{"\u0307", "\\dot{", "˙"}, {"\u0308", "\\ddot{", "¨"}};
+    static const char *const dots[][3] = {{"\u0307", "\\dot{", "˙"},
+                                          {"\u0308", "\\ddot{", "¨"}};
     const spelling *word = find(words, sizeof words / sizeof *words, at);
     const char letter = *at;
     size_t primes;
@@ -58,7 +59,8 @@ add_base(const char *at, qdot_style style, qdot_text *out)
     if (primes == 0 || primes > 2) {
         qdot_text_format(out, style == QDOT_MATHML ? "<mi>%c</mi>" : "%c", letter);
     } else if (style == QDOT_MATHML) {
-        qdot_text_format(out, "<mover><mi>%c</mi><mo>%s</mo></mover>", letter, dots[primes - 1][2]);
+        qdot_text_format(out, "<mover><mi>%c</mi><mo>%s</mo></mover>", letter,
+                         dots[primes - 1][2]);
     } else if (style == QDOT_LATEX) {
         qdot_text_format(out, "%s%c}", dots[primes - 1][1], letter);
     } else {
@@ -94,7 +96,8 @@ void
 qdot_notation_over(const char *up, const char *down, qdot_style style, qdot_text *out)
 {
     qdot_text_format(out,
-                     style == QDOT_MATHML  ? "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
+                     style == QDOT_MATHML
+                         ? "<mfrac><mrow>%s</mrow><mrow>%s</mrow></mfrac>"
                      : style == QDOT_LATEX ? "\\frac{%s}{%s}"
                                            : "%s/%s",
                      up, down);
@@ -127,8 +130,9 @@ add_slope(const char *at, qdot_style style, qdot_text *out)
 static bool
 is_slope(const char *at)
 {
-    return at[0] == 'd' && (strncmp(at + 1, "/d", 2) == 0 ||
-                            (isalpha((unsigned char)at[1]) && strncmp(at + 2, "/d", 2) == 0));
+    return at[0] == 'd' &&
+           (strncmp(at + 1, "/d", 2) == 0 ||
+            (isalpha((unsigned char)at[1]) && strncmp(at + 2, "/d", 2) == 0));
 }
 
 void

@@ -16,6 +16,7 @@ void qdot_notation(const char *formula, qdot_style style, qdot_text *out);
 
 /* Append numerator over denominator, each written in the style already: as a fraction in LaTeX and
  * MathML, else with a slash. */
-void qdot_notation_over(const char *up, const char *down, qdot_style style, qdot_text *out);
+void qdot_notation_over(const char *up, const char *down, qdot_style style,
+                        qdot_text *out);
 
 #endif

@@ -1,6 +1,7 @@
 /* sheet.c -- answers in which formulas stand, for a terminal, a text, a page. */
 #include "lang/answer/sheet.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "base/terminal.h"
@@ -24,7 +25,7 @@ qdot_sheet_begin(qdot_session *session)
     qdot_sheet s = {.style = session->style, .marked = session->marked};
 
     s.laid_out = session->style == QDOT_UNICODE && !session->flat && !session->json &&
-                 qdot_terminal_size(session->out == session->pages ? session->screen : session->out,
+                 qdot_terminal_size(qdot_write_stream(session),
                                     &s.columns, &s.rows);
     session->marked = session->marked || makes_blocks(session);
     if (s.laid_out)
@@ -70,33 +71,60 @@ as_formula(const char *line, size_t n, qdot_text *out)
             return any;
         }
         add_words(line, (size_t)(open - line), out);
-        qdot_text_add_n(out, open + sizeof begin - 1, (size_t)(close - open) - (sizeof begin - 1));
+        qdot_text_add_n(out, open + sizeof begin - 1,
+                        (size_t)(close - open) - (sizeof begin - 1));
         line = close + sizeof end - 1;
         any = true;
     }
     return any;
 }
 
-static qdot_status
-lay_out(const qdot_sheet *s, const char *at, qdot_text *out, qdot_layout_size *size)
+/* The contents of a line that is one formula and no more, which is ended there; NULL: it is not. */
+static char *
+only_formula(char *line, size_t n)
 {
+    static const char begin[] = QDOT_PRINT_MATH, end[] = "</math>";
+    const size_t first = sizeof begin - 1, last = sizeof end - 1;
+    char *const inside = line + first;
+
+    if (n < first + last || memcmp(line, begin, first) != 0 ||
+        memmem(inside, n - first, end, last) != line + n - last)
+        return NULL;
+    line[n - last] = '\0';
+    return inside;
+}
+
+/* The lines, which are written over. */
+static qdot_status
+lay_out(const qdot_session *session, const qdot_sheet *s, char *at, qdot_text *out,
+        qdot_layout_size *size)
+{
+    const bool colours = qdot_write_colours(session);
+    const qdot_layout_request request = {.width = s->columns,
+                                         .shown = s->whole ? SIZE_MAX : s->rows,
+                                         .paint = colours ? QDOT_NAME_COLOUR : NULL,
+                                         .end = QDOT_COLOUR_END};
     qdot_text formula = {0};
     qdot_status status = QDOT_OK;
 
     while (*at != '\0' && status == QDOT_OK) {
         const size_t n = strcspn(at, "\n");
+        const bool more = at[n] == '\n';
+        const char *const only = only_formula(at, n);
 
         qdot_text_truncate(&formula, 0);
-        if (as_formula(at, n, &formula) || qdot_utf8_columns(at, n) > s->columns) {
+        if (only != NULL) {
+            status = qdot_layout_part(only, &request, out, size);
+        } else if (as_formula(at, n, &formula) || qdot_utf8_columns(at, n) > s->columns) {
             status = qdot_text_status(&formula);
             if (status == QDOT_OK)
-                status = qdot_layout(formula.at, s->columns, out, size);
+                status = qdot_layout_part(formula.at, &request, out, size);
         } else {
             qdot_text_add_n(out, at, n);
             qdot_text_char(out, '\n');
             size->lines++;
         }
-        at += n + (at[n] == '\n');
+        at += n + more;
     }
     qdot_text_clear(&formula);
     return status;
@@ -104,8 +132,7 @@ lay_out(const qdot_sheet *s, const char *at, qdot_text *out, qdot_layout_size *s
 
 /* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
 static void
-cut(const qdot_session *session, const qdot_sheet *s, const qdot_layout_size *size,
-    qdot_text *text)
+cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 {
     const size_t shown = s->rows / 2;
     size_t at = 0;
@@ -115,29 +142,30 @@ cut(const qdot_session *session, const qdot_sheet *s, const qdot_layout_size *si
     for (size_t i = 0; i < shown; i++)
         at += strcspn(text->at + at, "\n") + 1;
     qdot_text_truncate(text, at);
-    qdot_text_format(text,
-                     "... %zu of %zu lines; `%%%zu to \"all.txt\"` writes all of it, `style flat` "
-                     "shows it\n",
-                     shown, size->lines, session->history.n + 1);
+    qdot_text_format(text, "... %zu of %zu lines", shown, size->lines);
+    if (s->operations > 0)
+        qdot_text_format(text, ", %" PRIu64 " operations", s->operations);
+    qdot_text_add(text, "; `% to \"all.txt\"` writes all of it, `style flat` shows it\n");
 }
 
 /* --- the end --------------------------------------------------------------------------- */
 
 static qdot_status
-draw(qdot_session *session, const qdot_sheet *s, const char *name, const qdot_text *lines)
+draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *lines)
 {
     qdot_layout_size size = {0};
     qdot_text drawn = {0};
-    qdot_status status = lay_out(s, qdot_text_str(lines), &drawn, &size);
+    qdot_status status =
+        lines->n > 0 ? lay_out(session, s, lines->at, &drawn, &size) : QDOT_OK;
 
     if (status == QDOT_OK)
-        cut(session, s, &size, &drawn);
+        cut(s, &size, &drawn);
     return qdot_answer_written(session, name, status, &drawn);
 }
 
 qdot_status
-qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name, qdot_status status,
-               qdot_text *lines)
+qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name,
+               qdot_status status, qdot_text *lines)
 {
     const bool block = session->marked && !s->marked;
 
@@ -168,8 +196,9 @@ qdot_sheet_flush(qdot_session *session)
     if (lines.n == 0)
         return QDOT_OK;
     session->block = (qdot_text){0};
-    status = session->style == QDOT_LATEX ? qdot_page_latex(qdot_text_str(&lines), &page)
-                                          : qdot_page_mathml(qdot_text_str(&lines), &page);
+    status = session->style == QDOT_LATEX
+                 ? qdot_page_latex(qdot_text_str(&lines), &page)
+                 : qdot_page_mathml(qdot_text_str(&lines), &page);
     qdot_text_clear(&lines);
     return qdot_answer_written(session, "formulas", status, &page);
 }

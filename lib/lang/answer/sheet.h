@@ -18,6 +18,7 @@ typedef struct {
     size_t columns, rows; /* of the terminal */
     qdot_style style;     /* of the session before */
     bool whole;           /* never cut where it is higher than the terminal */
+    uint64_t operations;  /* of the one formula in it; 0: not said where it is cut */
 } qdot_sheet;
 
 /* From here to the end the session has the style and the marks that the lines are to be in. */
@@ -25,7 +26,8 @@ qdot_sheet qdot_sheet_begin(qdot_session *session);
 
 /* The lines are answered if the status is good; they are cleared. With --json as the text `name`. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_session *session, const qdot_sheet *sheet,
-                                           const char *name, qdot_status status, qdot_text *lines);
+                                           const char *name, qdot_status status,
+                                           qdot_text *lines);
 
 /* Equations of the present statement that are collected for one block are written. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_flush(qdot_session *session);

@@ -19,6 +19,19 @@ qdot_write(FILE *file, qdot_text *text)
     return status;
 }
 
+FILE *
+qdot_write_stream(const qdot_session *session)
+{
+    return session->out == session->pages ? session->screen : session->out;
+}
+
+bool
+qdot_write_colours(const qdot_session *session)
+{
+    return (session->colours & QDOT_COLOURS_ANSWERS) != 0 &&
+           (session->console == NULL || session->out == session->console);
+}
+
 void
 qdot_write_field(qdot_text *line, const char *before, const char *text)
 {

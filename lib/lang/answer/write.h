@@ -5,10 +5,18 @@
 #ifndef QDOT_LANG_WRITE_H
 #define QDOT_LANG_WRITE_H
 
+#include "base/terminal.h"
 #include "lang/session/session.h"
 
 /* Write a finished text and clear it. QDOT_EIO. */
 QDOT_MUST_CHECK qdot_status qdot_write(FILE *file, qdot_text *text);
+
+/* The stream that answers are for: the terminal, while they are collected for pages. */
+FILE *qdot_write_stream(const qdot_session *session);
+
+/* Whether answers show colours where they go now. */
+bool qdot_write_colours(const qdot_session *session);
+#define QDOT_NAME_COLOUR QDOT_CYAN /* of names and labels */
 
 /* Append `before`, then the text as a JSON string. */
 void qdot_write_field(qdot_text *line, const char *before, const char *text);

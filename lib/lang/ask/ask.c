@@ -10,7 +10,7 @@
 #include "lang/answer/formula.h"
 #include "lang/answer/number-text.h"
 #include "lang/answer/sheet.h"
-#include "lang/ask/ask.h"
+#include "lang/ask/components.h"
 #include "lang/declare/constraints.h"
 #include "lang/declare/scene-file.h"
 #include "lang/commands/statement.h"
@@ -54,18 +54,28 @@ answer_measured(qdot_session *session, const char *name, qdot_expr value)
     return status;
 }
 
-/* "eom[theta1]" for the member that goes with a coordinate, else "solve(...)[1]". */
+/* "eom[theta1]" for the member that goes with a coordinate, else (nil) "solve(...)[1]". */
 static void
-member_name(qdot_session *session, const char *name, bool by_coordinate, uint32_t i,
+member_name(qdot_session *session, const char *name, qdot_expr coordinate, uint32_t i,
             qdot_text *out)
 {
     qdot_text_add(out, name);
-    if (by_coordinate)
-        qdot_text_format(
-            out, "[%s]",
-            qdot_expr_symbol(session->pool, session->scene->coordinates.at[i])->name);
+    if (coordinate != QDOT_NIL)
+        qdot_text_format(out, "[%s]", qdot_expr_symbol(session->pool, coordinate)->name);
     else
         qdot_text_format(out, "[%u]", i + 1);
+}
+
+/* What member i goes by: a coordinate of the scene for a quantity, of `over` (a LIST, or nil) for others
+ * (with --json by its number); nil: by its number. */
+static qdot_expr
+coordinate_of(const qdot_session *session, bool quantity, qdot_expr over, uint32_t n, uint32_t i)
+{
+    if (quantity)
+        return session->scene->coordinates.at[i];
+    if (over == QDOT_NIL || session->json || qdot_expr_count(session->pool, over) != n)
+        return QDOT_NIL;
+    return qdot_expr_arg(session->pool, over, i);
 }
 
 /* `equilibria[1]`, whose equations belong together. */
@@ -79,6 +89,7 @@ is_one_equilibrium(const char *name)
 static qdot_status
 answer_joined(qdot_session *session, const char *name, qdot_expr list)
 {
+    const qdot_sheet sheet = qdot_sheet_begin(session);
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
@@ -87,11 +98,11 @@ answer_joined(qdot_session *session, const char *name, qdot_expr list)
         qdot_text_add(&text, i > 0 ? ", " : "");
         status = qdot_formula(session, qdot_expr_arg(session->pool, list, i), &text);
     }
-    return qdot_answer_written(session, name, status, &text);
+    return qdot_sheet_end(session, &sheet, name, status, &text);
 }
 
 static qdot_status
-answer_list(qdot_session *session, const char *name, qdot_expr list)
+answer_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr over)
 {
     uint32_t n = qdot_expr_count(session->pool, list);
     const qdot_quantity *row = qdot_quantity_find(name);
@@ -107,7 +118,7 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
         qdot_text member = {0};
         qdot_status status;
 
-        member_name(session, name, by_coordinate, i, &member);
+        member_name(session, name, coordinate_of(session, by_coordinate, over, n, i), i, &member);
         status = qdot_text_status(&member);
         if (status == QDOT_OK && by_coordinate && row->symbol != NULL) {
             qdot_expr q = session->scene->coordinates.at[i];
@@ -124,12 +135,14 @@ answer_list(qdot_session *session, const char *name, qdot_expr list)
 }
 
 qdot_status
-qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value)
+qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
     if (qdot_measured_occurs(session, value))
         return answer_measured(session, name, value);
+    if (qdot_components_are(session, name, value, over))
+        return qdot_components_answer(session, name, value, over);
     if (qdot_expr_kind(session->pool, value) == QDOT_LIST)
-        return answer_list(session, name, value);
+        return answer_list(session, name, value, over);
     return qdot_answer_expr(session, name, value);
 }
 
@@ -154,7 +167,7 @@ qdot_ask_expression(qdot_cursor *c)
     if (status == QDOT_OK)
         status = qdot_session_remember(session, value, over);
     if (status == QDOT_OK)
-        status = qdot_ask_answer(session, qdot_text_str(&name), value);
+        status = qdot_ask_answer(session, qdot_text_str(&name), value, over);
     qdot_text_clear(&name);
     return status;
 }
@@ -431,7 +444,7 @@ qdot_ask_forces(qdot_cursor *c)
                                    qdot_list(session->pool,
                                              (uint32_t)session->scene->coordinates.n,
                                              session->scene->coordinates.at)));
-    QDOT_TRY(answer_list(session, "forces", forces));
+    QDOT_TRY(answer_list(session, "forces", forces, QDOT_NIL));
     sheet = qdot_sheet_begin(session);
     return qdot_sheet_end(session, &sheet, "forces", print_sources(session, &text), &text);
 }
@@ -509,14 +522,15 @@ qdot_status
 qdot_ask_cyclic(qdot_cursor *c)
 {
     qdot_session *session = c->session;
-    qdot_status status;
+    qdot_status status = QDOT_OK;
     qdot_text text = {0};
     qdot_cyclic *list;
+    qdot_sheet sheet;
     size_t n;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
     QDOT_TRY(qdot_mech_cyclic(session->scene, &list, &n));
-    status = QDOT_OK;
+    sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_text_add(&text, i > 0 ? "\n" : "");
         status = print_cyclic(session, &list[i], &text);
@@ -526,5 +540,5 @@ qdot_ask_cyclic(qdot_cursor *c)
     if (n == 0)
         qdot_text_add(&text, "no coordinate is cyclic");
     qdot_free(list);
-    return qdot_answer_written(session, "cyclic", status, &text);
+    return qdot_sheet_end(session, &sheet, "cyclic", status, &text);
 }

@@ -4,9 +4,9 @@
 
 #include "lang/session/session.h"
 
-/* `name = value`; of a list each member, `eom[theta]`, `solve(...)[1]`; numbers of runs with their
- * errors. */
+/* `name = value`; of a list each member, `eom[theta]`, `solve(...)[1]`; a tensor by its components; numbers
+ * of runs with their errors. over: the LIST of coordinates its entries go by, or nil. */
 QDOT_MUST_CHECK qdot_status qdot_ask_answer(qdot_session *session, const char *name,
-                                            qdot_expr value);
+                                            qdot_expr value, qdot_expr over);
 
 #endif

@@ -5,6 +5,7 @@
 #include "expr/calculus.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
 #include "lang/answer/number-text.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/equilibria.h"
@@ -117,11 +118,13 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
     uint32_t n = qdot_expr_count(session->pool, e->equations);
+    qdot_sheet sheet;
 
     snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
     if (session->json)
         QDOT_TRY(qdot_answer_expr(session, name, e->equations));
-    else
+    sheet = qdot_sheet_begin(session);
+    if (!session->json)
         qdot_text_format(&text, "%s: ", name);
     for (uint32_t k = 0; k < n && !session->json && status == QDOT_OK; k++) {
         status = print_equation(session, e, k, &text);
@@ -131,7 +134,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         qdot_text_add(&text, "everywhere, ");
     if (status == QDOT_OK)
         status = print_stability(session, e, &text);
-    return qdot_answer_written(session, name, status, &text);
+    return qdot_sheet_end(session, &sheet, name, status, &text);
 }
 
 /* Tell that there is no equilibrium, or that the list may be incomplete. */

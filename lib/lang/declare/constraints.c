@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/formula.h"
+#include "lang/answer/sheet.h"
 #include "lang/commands/statement.h"
 #include "lang/language/hints.h"
 #include "lang/language/read.h"
@@ -79,6 +80,7 @@ qdot_ask_reactions(qdot_cursor *c)
     qdot_session *session = c->session;
     qdot_reaction *list = NULL;
     qdot_text text = {0};
+    qdot_sheet sheet;
     qdot_status status;
     qdot_expr value;
     size_t n = 0;
@@ -94,13 +96,14 @@ qdot_ask_reactions(qdot_cursor *c)
     if (session->json)
         QDOT_TRY(qdot_answer_expr(session, "reactions", value));
     status = qdot_mech_reactions(session->scene, &list, &n);
+    sheet = qdot_sheet_begin(session);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_text_add(&text, i > 0 ? "\n" : "");
         status = print_reaction(session, &list[i], &text);
     }
     if (n == 0)
         qdot_text_add(&text, "the constraints act on nothing");
-    status = qdot_answer_written(session, "reactions", status, &text);
+    status = qdot_sheet_end(session, &sheet, "reactions", status, &text);
     qdot_free(list);
     return status;
 }

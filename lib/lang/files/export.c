@@ -91,7 +91,7 @@ write_latex(qdot_session *session, const operand *o, const char *path)
 
     QDOT_TRY(qdot_redirect_begin(&redirect, session, path));
     return qdot_redirect_end(&redirect,
-                             qdot_ask_answer(session, qdot_text_str(&o->name), o->value));
+                             qdot_ask_answer(session, qdot_text_str(&o->name), o->value, QDOT_NIL));
 }
 
 qdot_status

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/utf8.h"
 #include "lang/files/redirect.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/usage.h"
@@ -424,16 +425,64 @@ finish(completion *c, char ***words, size_t *n)
     return c->status;
 }
 
+/* The spelled name of a prefix that holds Greek letters or lowered digits, θ₁ as theta1; false: it holds
+ * none. */
+static bool
+spell_prefix(const char *prefix, qdot_text *out)
+{
+    bool any = false;
+
+    for (size_t i = 0, bytes; prefix[i] != '\0'; i += bytes) {
+        const uint32_t code = qdot_utf8_decode(prefix + i, &bytes);
+        const char *name = code == 0 ? NULL : qdot_letters_greek(code);
+        const int digit = code < 0x80 ? -1 : qdot_letters_subscript(code);
+
+        any = any || name != NULL || digit >= 0;
+        bytes = bytes > 0 ? bytes : 1;
+        if (name != NULL)
+            qdot_text_add(out, name);
+        else if (digit >= 0)
+            qdot_text_char(out, (char)('0' + digit));
+        else
+            qdot_text_add_n(out, prefix + i, bytes);
+    }
+    return any;
+}
+
+/* The words of a spelled prefix [spelled] begin as it was typed. */
+static void
+respell(completion *c, size_t spelled, const char *typed)
+{
+    for (size_t i = 0; i < c->words.n && c->status == QDOT_OK; i++) {
+        qdot_text word = {0};
+
+        qdot_text_add(&word, typed);
+        qdot_text_add(&word, c->words.at[i] + spelled);
+        c->status = qdot_text_status(&word);
+        if (c->status == QDOT_OK) {
+            qdot_free(c->words.at[i]);
+            c->words.at[i] = word.at;
+        } else {
+            qdot_text_clear(&word);
+        }
+    }
+}
+
 qdot_status
 qdot_complete(qdot_session *session, const char *before, size_t length,
               const char *prefix, char ***words, size_t *n)
 {
-    completion c = {.session = session, .prefix = prefix};
+    qdot_text spelled = {0};
+    const bool greek = spell_prefix(prefix, &spelled);
+    completion c = {.session = session, .prefix = qdot_text_str(&spelled)};
     qdot_source *source;
     size_t at;
 
     /* a bracket left open is an error, all of whose tokens are there */
-    c.status = qdot_source_new("completion", before, length, &source, &at);
+    c.status = qdot_text_status(&spelled);
+    source = NULL;
+    if (c.status == QDOT_OK)
+        c.status = qdot_source_new("completion", before, length, &source, &at);
     if (source != NULL) {
         size_t tokens = source->tokens.n;
 
@@ -447,6 +496,9 @@ qdot_complete(qdot_session *session, const char *before, size_t length,
             complete_tokens(&c, source->tokens.at, tokens);
         qdot_source_free(source);
     }
+    if (greek)
+        respell(&c, spelled.n, prefix);
+    qdot_text_clear(&spelled);
     return finish(&c, words, n);
 }
 

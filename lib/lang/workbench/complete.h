@@ -11,7 +11,7 @@
 #include "lang/session/session.h"
 
 /* The words that may stand behind `before` [length], the text typed so far, and begin with
- * `prefix`; sorted, unique. Of a family `theta[1]`, `theta[2]`, ... there is one, `theta[`.
+ * `prefix`; sorted, unique. Of a prefix in Greek letters (θ1 for theta1) they begin as it does. Of a family `theta[1]`, `theta[2]`, ... there is one, `theta[`.
  * *words [*n] and each owned by the caller (qdot_free). */
 QDOT_MUST_CHECK qdot_status qdot_complete(qdot_session *session, const char *before,
                                           size_t length, const char *prefix,

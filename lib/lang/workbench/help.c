@@ -172,6 +172,7 @@ look_up(qdot_text *text, const char *word)
 static qdot_status
 find(qdot_cursor *c)
 {
+    size_t width = 0, rows;
     const qdot_token *start = c->at;
     qdot_text words = {0}, text = {0};
     qdot_status status;
@@ -182,7 +183,9 @@ find(qdot_cursor *c)
                             : qdot_cursor_expect_end(c);
     if (status == QDOT_OK)
         status = qdot_text_status(&words);
-    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
+    if (!c->session->json && !qdot_terminal_size(qdot_write_stream(c->session), &width, &rows))
+        width = 0;
+    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), width, &text) == 0) {
         c->error_at = start->start;
         (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
         status = qdot_hint("`help` lists every word");

@@ -23,7 +23,8 @@ massive_at(const qdot_scene *s, size_t k)
     }
     const qdot_body *b = &s->bodies.at[k - s->particles.n];
 
-    return (massive){.name = b->name, .mass = b->mass, .position = b->position, .body = b};
+    return (massive){
+        .name = b->name, .mass = b->mass, .position = b->position, .body = b};
 }
 
 /* w.I w, in space along the axes of the body, in which I is given. */
@@ -78,16 +79,16 @@ qdot_mech_potential_part(qdot_scene *s, size_t k, qdot_energy_part *part)
     if (k < heavy) {
         const massive m = massive_at(s, k);
 
-        *part = (qdot_energy_part){.kind = "gravity", .name = m.name, .value = weight(s, &m)};
+        *part =
+            (qdot_energy_part){.kind = "gravity", .name = m.name, .value = weight(s, &m)};
         return true;
     }
     k -= heavy;
     if (k < s->potentials.n) {
         const qdot_term *term = &s->potentials.at[k];
 
-        *part = (qdot_energy_part){.kind = "potential",
-                                   .name = term->name,
-                                   .value = qdot_mech_tidy(s, term->e)};
+        *part = (qdot_energy_part){
+            .kind = "potential", .name = term->name, .value = qdot_mech_tidy(s, term->e)};
         return true;
     }
     k -= s->potentials.n;
