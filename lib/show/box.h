@@ -30,6 +30,7 @@ typedef enum {
     QDOT_BOX_RELATION,
     QDOT_BOX_SIGN, /* + - of two terms, and, or */
     QDOT_BOX_TIMES,
+    QDOT_BOX_OVER, /* the / of a fraction in one line */
     QDOT_BOX_COMMA,
     QDOT_BOX_WORD, /* of a text, with the blank behind it */
     QDOT_BOX_OPENING, /* brackets, as high as their row */
