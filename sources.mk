@@ -347,6 +347,7 @@ library_sources = \
 	lib/show/layout.c \
 	lib/show/page.c \
 	lib/show/pdf.c \
+	lib/show/scripts.c \
 	lib/show/sink.c \
 	lib/show/sketch.c \
 	lib/show/table.c \
@@ -744,6 +745,7 @@ library_headers = \
 	lib/show/layout.h \
 	lib/show/page.h \
 	lib/show/pdf.h \
+	lib/show/scripts.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
