@@ -391,16 +391,16 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
-	lib/sim/form/motion-cost.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
-	lib/sim/form/residual-series.c \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/tree-series.c \
+	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
@@ -421,6 +421,8 @@ library_sources = \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/plan/cost.c \
+	lib/sim/plan/form.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -774,16 +776,16 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
-	lib/sim/form/motion-cost.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
-	lib/sim/form/residual-series.h \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/tree-series.h \
+	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
 	lib/sim/model/constrained-lanes.h \
 	lib/sim/model/constrained-parts.h \
@@ -800,6 +802,8 @@ library_headers = \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/plan/cost.h \
+	lib/sim/plan/form.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -945,6 +949,7 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
@@ -1088,6 +1093,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
+	tests/script/quit.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1397,18 +1403,23 @@ script_tests = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/race.lag \
+	examples/rattleback.lag \
+	examples/rolling-coin.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/tautochrone.lag \
+	examples/tippe-top.lag \
 	examples/toda-chain.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
@@ -1424,11 +1435,13 @@ meta_tests = \
 	tests/meta/embed.test \
 	tests/meta/exports.test \
 	tests/meta/floors.test \
+	tests/meta/gallery.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
 	tests/meta/sources.test \
-	tests/meta/symbols.test
+	tests/meta/symbols.test \
+	tests/meta/words.test
 
 test_files = \
 	tests/bad/acceleration-position.out \
@@ -1903,6 +1916,7 @@ test_files = \
 	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
+	tests/script/quit.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -2014,6 +2028,7 @@ example_files = \
 	examples/bead-on-helix.svg \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
+	examples/bicycle.svg \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
 	examples/bowling-ball.lag \
@@ -2026,6 +2041,7 @@ example_files = \
 	examples/chain.lag \
 	examples/chain.svg \
 	examples/chaplygin-sleigh.lag \
+	examples/chaplygin-sleigh.svg \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \
@@ -2079,6 +2095,7 @@ example_files = \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
+	examples/magnetic-field.svg \
 	examples/metrics.lag \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
@@ -2093,6 +2110,10 @@ example_files = \
 	examples/pumped-swing.svg \
 	examples/race.lag \
 	examples/race.svg \
+	examples/rattleback.lag \
+	examples/rattleback.svg \
+	examples/rolling-coin.lag \
+	examples/rolling-coin.svg \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
@@ -2101,14 +2122,21 @@ example_files = \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
+	examples/snakeboard.svg \
 	examples/spherical-pendulum.lag \
 	examples/spherical-pendulum.svg \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
+	examples/stated-lagrangian.svg \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
 	examples/swinging-atwood.svg \
+	examples/tautochrone.lag \
+	examples/tautochrone.svg \
+	examples/tippe-top.lag \
+	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
 	examples/torus-geodesic.lag \

@@ -409,7 +409,7 @@ qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *me
                         uint64_t steps)
 {
     const double n = (double)system->n, p = 20;
-    const double *c = system->series ? system->series->cost : NULL;
+    const double *c = system->series ? system->series->cost.kernels : NULL;
     const double cost = c ? c[0] + c[1] * p + c[2] * p * p : n * n * n;
 
     return (method->stiff ? patience_stiff : patience) * steps

@@ -7,13 +7,6 @@
 #include "num/series.h"
 #include "ode/taylor-numbers.h"
 
-bool
-qdot_ode_has_leading(const qdot_ode_system *system, const qdot_ode_method *method,
-                     double tol)
-{
-    return method->series && system->leading && tol <= QDOT_ODE_LEADING_TOL;
-}
-
 static bool
 is_following(const qdot_ode_system *system, size_t i)
 {

@@ -26,10 +26,6 @@
 /* Used for tolerances up to this one, for which a double is not enough. */
 #define QDOT_ODE_LEADING_TOL 1.0001e-14
 
-/* Whether first orders in two doubles are used, for a run under tol by a method with series. */
-bool qdot_ode_has_leading(const qdot_ode_system *system, const qdot_ode_method *method,
-                          double tol);
-
 /* A step from `at` by h + h_low, order p; its series x of system->series, in that unit, has been
  * computed. eps: the error that it aims at. */
 typedef struct {

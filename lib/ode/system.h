@@ -34,18 +34,24 @@ enum { QDOT_ODE_LEADING_MOST = 12 };
 /* `digits` of code, unless all that is solved for is a number. */
 enum { QDOT_ODE_DIGITS = 18 };
 
-/* Expansions as machine code. */
+/* What expansions cost, in nanoseconds, of which only the ratios matter: one to order p takes about
+ * c[0] + c[1] p + c[2] p^2. Orders are chosen by it (ode/taylor.h). */
 typedef struct {
-    double cost[3]; /* as that of the series, with it; zeros: there is none */
+    double kernels[3];
+    double code[3]; /* as machine code; zeros: there is none */
     double wider;   /* and of each `of_vector` orders begun beyond `narrow` */
     int narrow, of_vector;
-    /* Natural digits that an order is chosen for at least: an oscillation that is hardly there
-     * bounds the step, and as it has no singularity a higher order is worth more than its radius
-     * says (doc/methods.md). Whether it is chosen by the longest step that lets no oscillation grow
-     * as well (ode/taylor.h). */
+    /* Natural digits that an order is chosen for at least where there is code: an oscillation that
+     * is hardly there bounds the step, and as it has no singularity a higher order is worth more
+     * than its radius says (doc/methods.md). Whether it is chosen by the longest step that lets no
+     * oscillation grow as well (ode/taylor.h). */
     double digits;
     bool by_stability;
-    double worth; /* writing it takes as long as worth/p expansions save by it */
+    double worth; /* writing code takes as long as worth/p expansions save by it */
+} qdot_ode_cost;
+
+/* Expansions as machine code. */
+typedef struct {
     /* Write it for expansions to order p, before a `begin`, so that others of the same shape, to orders
      * up to `most`, can share it; NULL: none can be. */
     qdot_status (*write)(int p, int most, void *user);
@@ -68,9 +74,7 @@ typedef struct {
     size_t stride;
     size_t checked; /* dy_i/dt = y_{checked + i} for i below it: no check, and what the
                        state holds beyond y enters order 1 */
-    /* What an expansion to order p costs, about cost[0] + cost[1] p + cost[2] p^2
-     * nanoseconds. */
-    double cost[3];
+    qdot_ode_cost cost; /* of its expansions */
     /* Expansions to order p are going to be many; before them. May be NULL. */
     qdot_status (*prepare)(int p, void *user);
     qdot_ode_code code;

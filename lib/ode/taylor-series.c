@@ -23,31 +23,29 @@ qdot_ode_taylor_stable(int p)
 }
 
 static double
-cost_of(const qdot_ode_series *s, int p)
+cost_of(const qdot_ode_cost *cost, int p)
 {
-    const qdot_ode_code *code = &s->code;
-    const bool written = code->cost[0] > 0;
-    const double *c = written ? code->cost : s->cost;
-    const int more = written && p > code->narrow ? p - code->narrow : 0;
+    const bool written = cost->code[0] > 0;
+    const double *c = written ? cost->code : cost->kernels;
+    const int more = written && p > cost->narrow ? p - cost->narrow : 0;
 
     return c[0] + c[1] * p + c[2] * p * p +
-           (code->wider > 0 ? code->wider * ((more + code->of_vector - 1) / code->of_vector) : 0);
+           (cost->wider > 0 ? cost->wider * ((more + cost->of_vector - 1) / cost->of_vector) : 0);
 }
 
 /* The order with the least cost for a time as long as the radius of convergence. */
 static int
-best_order(const qdot_ode_series *series, double tol, bool leading)
+best_order(const qdot_ode_cost *model, int most, double tol, bool leading)
 {
     double L = -log(qdot_step_aim(tol, leading)), least = INFINITY;
-    const qdot_ode_code *code = &series->code;
-    const bool more_digits = code->cost[0] > 0 && L < code->digits;
-    const bool by_stability = more_digits && code->by_stability;
+    const bool more_digits = model->code[0] > 0 && L < model->digits;
+    const bool by_stability = more_digits && model->by_stability;
     int best = least_order;
 
     if (more_digits)
-        L = code->digits;
-    for (int p = least_order; p <= series->most - of_companions; p++) {
-        double cost = cost_of(series, p) * exp(L / p);
+        L = model->digits;
+    for (int p = least_order; p <= most - of_companions; p++) {
+        double cost = cost_of(model, p) * exp(L / p);
 
         if (by_stability)
             cost *= p / qdot_ode_taylor_stable(p);
@@ -62,7 +60,7 @@ best_order(const qdot_ode_series *series, double tol, bool leading)
 int
 qdot_ode_taylor_order(const qdot_ode_series *series, double tol, bool leading, int more)
 {
-    const int best = best_order(series, tol, leading) + more;
+    const int best = best_order(&series->cost, series->most, tol, leading) + more;
 
     return best < series->most ? best : series->most;
 }
@@ -81,11 +79,11 @@ qdot_ode_taylor_highest(const qdot_ode_system *system, double tol, bool leading,
 }
 
 double
-qdot_ode_taylor_cost(const qdot_ode_series *series, double tol)
+qdot_ode_taylor_cost(const qdot_ode_cost *cost, int most, double tol)
 {
-    const int p = best_order(series, tol, false);
+    const int p = best_order(cost, most, tol, false);
 
-    return cost_of(series, p) * exp(-log(qdot_step_aim(tol, false)) / p);
+    return cost_of(cost, p) * exp(-log(qdot_step_aim(tol, false)) / p);
 }
 
 double

@@ -9,8 +9,8 @@
  *     (cost_0 + cost_1 p + cost_2 p^2) e^(L/p)
  *
  * least. Where cost_2 dominates that is L/2 (Jorba & Zou); short tapes take more. Where
- * recurrences are machine code it is code.cost, with code.wider for each vector of orders beyond
- * the first, and L at least code.digits.
+ * recurrences are machine code it is cost.code, with cost.wider for each vector of orders beyond
+ * the first, and L at least cost.digits.
  *
  * The length of a step is
  *
@@ -58,9 +58,9 @@ QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *sys
                                                       double t0, double t1, double *y,
                                                       qdot_ode_result *result);
 
-/* What steps take under tol by that order, as machine code where there is to be some: nanoseconds
+/* What steps take under tol by the best order up to about `most`, as machine code where there is to be some: nanoseconds
  * for a way as long as the radius of convergence. */
-double qdot_ode_taylor_cost(const qdot_ode_series *series, double tol);
+double qdot_ode_taylor_cost(const qdot_ode_cost *cost, int most, double tol);
 
 /* The order of a run under tol, its first orders in two doubles or not; `more` orders on
  * top. */
@@ -73,8 +73,8 @@ int qdot_ode_taylor_highest(const qdot_ode_system *system, double tol, bool lead
 
 /* How long, in radians, steps of order p may be that let no oscillation grow: z to a tenth,
  * up to which |sum_{k=0..p} (iz)^k/k!| <= 1 + 1e-6. From p to p + 1 that may halve. Where an
- * order is for an oscillation that is hardly there (code.digits) what it costs may be weighed by
- * that too (code.by_stability). */
+ * order is for an oscillation that is hardly there (cost.digits) what it costs may be weighed by
+ * that too (cost.by_stability). */
 double qdot_ode_taylor_stable(int p);
 
 /* The least of the terms of order 5 ... p at s, two in a row, relative by scale [n], and the

@@ -14,14 +14,14 @@ static const double by_first = 1.5;
 static bool
 pays(const qdot_ode_written *w, double steps, double left)
 {
-    return left * w->p * fmin(1, (steps + 1) / few_steps) > w->code->worth;
+    return left * w->p * fmin(1, (steps + 1) / few_steps) > w->worth;
 }
 
 qdot_ode_written
 qdot_ode_written_begin(const qdot_ode_series *series, int p, int most)
 {
     const qdot_ode_code *code = &series->code;
-    qdot_ode_written w = {.code = code, .p = p, .most = most};
+    qdot_ode_written w = {.code = code, .worth = series->cost.worth, .p = p, .most = most};
 
     w.done = !code->write || code->there(p, code->user);
     w.first = !w.done;
@@ -40,7 +40,7 @@ qdot_status
 qdot_ode_written_first(qdot_ode_written *w, double left, bool *again)
 {
     const qdot_ode_code *c = w->code;
-    const bool wanted = by_first * left * w->p > c->worth, there = w->on_trial;
+    const bool wanted = by_first * left * w->p > w->worth, there = w->on_trial;
 
     w->first = w->on_trial = false;
     w->done = wanted;

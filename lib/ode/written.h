@@ -17,6 +17,7 @@
 
 typedef struct {
     const qdot_ode_code *code; /* borrowed */
+    double worth; /* of its costs (ode/system.h) */
     int p;
     int most;      /* the highest order among this run and its companions, which share code */
     bool done;     /* the decision is made */

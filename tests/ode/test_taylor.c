@@ -128,7 +128,7 @@ start(fixture *f, int kind)
                                   .x = f->m.x,
                                   .stride = STRIDE,
                                   .checked = 1,
-                                  .cost = {50, 5, 0.3},
+                                  .cost.kernels = {50, 5, 0.3},
                                   .begin = begin,
                                   .extend = extend,
                                   .user = &f->m};
@@ -387,7 +387,7 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
 {
     qdot_ode_series series = {
         .most = 40,
-        .code = {.cost = {600, 89, 1.2},
+        .cost = {.code = {600, 89, 1.2},
                  .narrow = 18,
                  .of_vector = 16,
                  .digits = QDOT_ODE_DIGITS}};
@@ -395,25 +395,25 @@ orders_stay_narrow_where_wider_ones_cost(void **state)
 
     (void)state;
     assert_true(smooth >= 19 && smooth <= 24);
-    series.code.wider = 300;
+    series.cost.wider = 300;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 18);
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 3), 21);
-    series.code.wider = 1;
+    series.cost.wider = 1;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), smooth);
-    series.code.wider = 300;
-    series.code.of_vector = 8;
-    series.code.digits = 27;
+    series.cost.wider = 300;
+    series.cost.of_vector = 8;
+    series.cost.digits = 27;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 26);
-    series.code.wider = 1;
-    series.code.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
+    series.cost.wider = 1;
+    series.cost.digits = 30; /* steps of orders beside it are by a sixth shorter, and more */
     assert_int_not_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
-    series.code.by_stability = true;
+    series.cost.by_stability = true;
     assert_int_equal(qdot_ode_taylor_order(&series, 1e-3, false, 0), 29);
-    series.code.cost[0] = 0; /* no code */
-    series.code.wider = 1e6;
-    series.cost[0] = 600;
-    series.cost[1] = 89;
-    series.cost[2] = 1.2;
+    series.cost.code[0] = 0; /* no code */
+    series.cost.wider = 1e6;
+    series.cost.kernels[0] = 600;
+    series.cost.kernels[1] = 89;
+    series.cost.kernels[2] = 1.2;
     assert_true(qdot_ode_taylor_order(&series, 1e-12, false, 0) > 18);
 }
 

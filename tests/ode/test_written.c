@@ -58,8 +58,8 @@ drop_it(void *user)
 static qdot_ode_series
 series_of(counts *c)
 {
-    return (qdot_ode_series){.code = {.worth = 300,
-                                      .write = write_it,
+    return (qdot_ode_series){.cost.worth = 300,
+                             .code = {.write = write_it,
                                       .take = take_it,
                                       .there = is_there,
                                       .drop = drop_it,
@@ -142,8 +142,8 @@ companions_share_it(void **state)
         bool again;
 
         series.most = 48 - most / 2;
-        series.cost[0] = most;
-        series.cost[1] = series.cost[2] = 1;
+        series.cost.kernels[0] = most;
+        series.cost.kernels[1] = series.cost.kernels[2] = 1;
         highest = qdot_ode_taylor_highest(&system, tol, false, 0);
         assert_true(highest >= qdot_ode_taylor_order(&series, tol, false, 0));
         for (int more = 1; more <= QDOT_COMPANION_ORDERS; more++) {

@@ -7,6 +7,7 @@
 #include "sim/form/canonical.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/leading.h"
+#include "sim/form/motion-of-residual.h"
 #include "sim/form/precise-bind.h"
 #include "sim/form/residual.h"
 #include "sim/plan/plan.h"
@@ -114,6 +115,7 @@ agree(fixture *f, const double *y, double t)
     at.plan->residual = NULL;
     must(qdot_residual_new(f->scene, at.plan, &at.residual));
     assert_non_null(at.residual);
+    must(qdot_motion_of_residual(at.plan, at.residual, &at.residual->motion));
     derived = expand_precise(&at);
     at.plan->residual = at.residual;
     shifted = expand_precise(&at);

@@ -11,7 +11,8 @@
 #include "sim/form/motion-series.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/leading.h"
-#include "sim/form/residual-series.h"
+#include "sim/form/residual.h"
+#include "sim/form/tree-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/momenta.h"
 #include "tape/derivative.h"
@@ -23,7 +24,7 @@ struct qdot_bind {
     qdot_blocks blocks;
     qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
     qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
-    qdot_residual_series *residual;
+    qdot_tree_series *tree;
     qdot_constrained_series *tied;            /* or, of a plan with constraints: */
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     qdot_bordered *bordered;       /* likewise */
@@ -31,7 +32,7 @@ struct qdot_bind {
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
-    qdot_residual_series *elsewhere;
+    qdot_tree_series *elsewhere;
     bool shaken;
     double *in;                 /* [3n + 1] q, q', t, q'' */
     double *out, *work;         /* of the tape */
@@ -70,8 +71,8 @@ qdot_bind_free(qdot_bind *b)
     qdot_blocks_clear(&b->blocks);
     qdot_constrained_free(b->held);
     qdot_motion_series_free(b->direct);
-    qdot_residual_series_free(b->residual);
-    qdot_residual_series_free(b->elsewhere);
+    qdot_tree_series_free(b->tree);
+    qdot_tree_series_free(b->elsewhere);
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
     qdot_leading_free(b->leading);
@@ -141,8 +142,8 @@ begin_elsewhere(qdot_bind *b, double *a)
     const qdot_ode_series *series;
 
     if (!b->elsewhere)
-        QDOT_TRY(qdot_residual_series_new(p, p->residual, b->shaken, &b->elsewhere));
-    series = qdot_residual_series_get(b->elsewhere);
+        QDOT_TRY(qdot_tree_series_new(p, p->residual, b->shaken, &b->elsewhere));
+    series = qdot_tree_series_get(b->elsewhere);
     QDOT_TRY(series->begin(b->in[2 * p->n], b->in, 1, series->user));
     for (size_t i = 0; i < p->n; i++)
         a[i] = series->x[(p->n + i) * series->stride + 1];
@@ -364,18 +365,16 @@ void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
-    bool path;
     const size_t bytes = b->direct       ? qdot_motion_series_code(b->direct, &why)
-                         : b->residual   ? qdot_residual_series_code(b->residual, &why)
                          : b->bordered   ? qdot_bordered_code(b->bordered, &why)
                          : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
                                          : 0;
 
-    if (b->residual && qdot_residual_series_tree_size(b->residual, &path) > 0)
+    if (b->tree)
         qdot_text_add(to, "kernels, like steps as vectors");
     else if (bytes > 0)
         qdot_text_format(to, "machine code for %s, %.1f kB",
-                         b->residual ? "AVX2" : qdot_taylor_code_kind(),
+                         b->plan->form == QDOT_FORM_RESIDUAL ? "AVX2" : qdot_taylor_code_kind(),
                          1e-3 * (double)bytes);
     else
         qdot_text_format(to, "kernels; %s", why);
@@ -392,7 +391,7 @@ qdot_bind_factored(const qdot_bind *b)
            (b->held ? qdot_constrained_factored(b->held) : 0) +
            (b->tied ? qdot_constrained_series_factored(b->tied) : 0) +
            (b->direct ? qdot_motion_series_factored(b->direct) : 0) +
-           (b->residual ? qdot_residual_series_factored(b->residual) : 0) +
+           (b->tree ? qdot_tree_series_eliminated(b->tree) : 0) +
            b->reduced_blocks.factored;
 }
 
@@ -405,11 +404,11 @@ make_held(qdot_bind *b, bool shaken)
         return QDOT_OK;
     QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
     b->series = qdot_constrained_series_get(b->tied);
-    if (b->plan->eliminated) {
+    if (b->plan->form == QDOT_FORM_ELIMINATED) {
         QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
         b->series = qdot_eliminated_series(b->eliminated);
     }
-    if (b->plan->bordered) {
+    if (b->plan->form == QDOT_FORM_BORDERED) {
         QDOT_TRY(qdot_bordered_new(b->plan, shaken, b->series, &b->bordered));
         b->series = qdot_bordered_series(b->bordered);
     }
@@ -524,13 +523,16 @@ make(qdot_bind *b, bool shaken)
         return make_reduced(b, shaken);
     if (!p->smooth)
         return QDOT_OK;
-    if (p->residual) {
-        QDOT_TRY(qdot_residual_series_new(p, p->residual, shaken, &b->residual));
-        b->series = qdot_residual_series_get(b->residual);
-    } else {
-        QDOT_TRY(qdot_motion_series_new(p, shaken, &b->direct));
-        b->series = qdot_motion_series_get(b->direct);
+    if (p->form == QDOT_FORM_TREE) {
+        QDOT_TRY(qdot_tree_series_new(p, p->residual, shaken, &b->tree));
+        b->series = qdot_tree_series_get(b->tree);
+        return make_leading(b, p);
     }
+    QDOT_TRY(p->form == QDOT_FORM_RESIDUAL
+                 ? qdot_motion_series_of_residual(p, &p->residual->motion, p->residual->masses,
+                                                  shaken, &b->direct)
+                 : qdot_motion_series_new(p, shaken, &b->direct));
+    b->series = qdot_motion_series_get(b->direct);
     return make_leading(b, p);
 }
 

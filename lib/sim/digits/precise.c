@@ -12,6 +12,7 @@
 #include "sim/digits/precise-hold.h"
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
+#include "sim/plan/cost.h"
 #include "tape/constant.h"
 
 #define RN MPFR_RNDN
@@ -203,7 +204,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
     if (!s->binds)
         return QDOT_ENOMEM;
     s->n_binds = modes;
-    qdot_precise_bind_cost(pair->plan, bits, cost);
+    qdot_cost_precise(pair->plan, bits, cost);
     s->order = qdot_precise_order_for(-digits * QDOT_LOG2_10, cost) + orders_more;
     QDOT_TRY(qdot_precise_bind_new(pair->plan, s->order, bits, &s->binds[0]));
     QDOT_TRY(qdot_reals_init(&s->start, 2 + 2 * n, bits));

@@ -1,7 +1,5 @@
-/* bordered.c -- when the bordered equations are taken, beside which other series. */
+/* bordered.c -- the bordered equations, and their series beside another one. */
 #include "sim/form/bordered.h"
-
-#include <string.h>
 
 #include "base/memory.h"
 #include "num/bordered.h"
@@ -34,7 +32,7 @@ qdot_bordered_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *oth
         return status;
     }
     qdot_guarded_init(&e->guarded, qdot_motion_series_get(e->own), other, true);
-    memcpy(e->guarded.series.cost, other->cost, sizeof other->cost);
+    e->guarded.series.cost = plan->expansions;
     *bordered = e;
     return QDOT_OK;
 }
@@ -60,7 +58,7 @@ qdot_bordered_code(const qdot_bordered *e, const char **why)
     return qdot_motion_series_code(e->own, why);
 }
 
-/* --- which is taken ------------------------------------------------------------------ */
+/* --- its equations ------------------------------------------------------------------- */
 
 /* f, M, A, gamma of a plan; NULL: no memory. */
 static qdot_expr *
@@ -83,20 +81,21 @@ equations(const qdot_plan *p, size_t *count)
 }
 
 qdot_status
-qdot_bordered_find(qdot_plan *p, double tol)
+qdot_bordered_make(const qdot_plan *p, double tol, qdot_tape **tape)
 {
     qdot_expr *out;
     size_t count;
     qdot_status status;
 
+    *tape = NULL;
     if (!(tol >= QDOT_ELIMINATED_TOL) || !p->smooth || !p->method->series || p->indefinite ||
-        p->eliminated || p->treatment == QDOT_RUN_BAUMGARTE ||
-        p->n + p->constraints->m > QDOT_BORDERED_MOST || !qdot_taylor_may_be_code())
+        p->treatment == QDOT_RUN_BAUMGARTE || p->n + p->constraints->m > QDOT_BORDERED_MOST ||
+        !qdot_taylor_may_be_code())
         return QDOT_OK;
     out = equations(p, &count);
     status = out ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, count, out, &p->bordered);
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, count, out, tape);
     qdot_free(out);
-    return status == QDOT_OK ? qdot_plan_make_motion(p) : status;
+    return status;
 }

@@ -24,9 +24,11 @@
 
 typedef struct qdot_bordered qdot_bordered;
 
-/* Where a plan with constraints, complete but for it, takes this form at a tolerance, its tape
- * plan->bordered and its program plan->motion; else NULL there. Errors: those of lowering. */
-QDOT_MUST_CHECK qdot_status qdot_bordered_find(qdot_plan *plan, double tol);
+/* The equations of this form, of a plan with constraints, complete but for what sim/plan decides: a
+ * tape for plan->bordered, of which plan->motion is to be made; NULL where the form is not for the
+ * plan, the tolerance or the processor. Errors: those of lowering. */
+QDOT_MUST_CHECK qdot_status qdot_bordered_make(const qdot_plan *plan, double tol,
+                                               qdot_tape **tape);
 
 /* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
 QDOT_MUST_CHECK qdot_status qdot_bordered_new(const qdot_plan *plan, bool shaken,

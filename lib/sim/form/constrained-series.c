@@ -478,26 +478,6 @@ has_exponentials(const qdot_constrained_series *e)
     return some;
 }
 
-/* Nanoseconds, as measured on a machine of 2023; only their ratios matter. */
-static void
-estimate_cost(qdot_constrained_series *e)
-{
-    const qdot_saddle *s = &e->saddle;
-    const double n = (double)e->plan->n, all = n + (double)e->c->m;
-    const double filled = s->patterned ? (double)s->sparse.filled : all * all;
-    const double solve = 30 + 6 * all + 2.5 * filled;
-    double *cost = e->series.cost, length = (double)qdot_taylor_length(e->x.taylor);
-
-    for (int kind = 0; kind < 3; kind++)
-        if (e->kinds[kind].taylor)
-            length += 2 * (double)qdot_taylor_length(e->kinds[kind].taylor);
-    cost[0] = 500 + qdot_constrained_cost(e->plan) + 15.0 * (double)qdot_tape_calls(e->plan->tape) + 4 * length + 5 * all +
-              3 * filled * filled / all + (s->inverse ? all * solve : 0);
-    cost[1] = 20 + 1.2 * length + 3.5 * qdot_constrained_series_convolutions(e) + 10 * n +
-              (s->inverse ? 0.5 * all * all : solve);
-    cost[2] = 0.12 * qdot_constrained_series_convolutions(e);
-}
-
 static qdot_status
 make(qdot_constrained_series *e, bool shaken)
 {
@@ -529,13 +509,13 @@ make(qdot_constrained_series *e, bool shaken)
                                   .x = e->x.q,
                                   .stride = e->x.stride,
                                   .checked = p->n,
+                                  .cost = p->expansions,
                                   .begin = begin,
                                   .extend = extend,
                                   .noise = noise,
                                   .ahead = ahead,
                                   .near = has_exponentials(e) ? near : NULL,
                                   .user = e};
-    estimate_cost(e);
     return QDOT_OK;
 }
 
@@ -602,6 +582,26 @@ qdot_constrained_series_convolutions(const qdot_constrained_series *e)
         if (e->kinds[kind].taylor)
             sum += qdot_taylor_convolutions(e->kinds[kind].taylor);
     return sum;
+}
+
+qdot_work
+qdot_constrained_series_work(const qdot_constrained_series *e)
+{
+    const qdot_saddle *s = &e->saddle;
+    const double all = (double)(e->plan->n + e->c->m);
+    qdot_work w = {.coordinates = (double)e->plan->n,
+                   .length = (double)qdot_taylor_length(e->x.taylor),
+                   .convolutions = qdot_constrained_series_convolutions(e),
+                   .calls = (double)qdot_tape_calls(e->plan->tape),
+                   .unknowns = all,
+                   .squares = all * all,
+                   .filled = s->patterned ? (double)s->sparse.filled : all * all,
+                   .inverted = s->inverse != NULL};
+
+    for (int kind = 0; kind < 3; kind++) /* evaluated, and corrected */
+        if (e->kinds[kind].taylor)
+            w.length += 2 * (double)qdot_taylor_length(e->kinds[kind].taylor);
+    return w;
 }
 
 size_t

@@ -23,6 +23,7 @@
 #define QDOT_SIM_CONSTRAINED_SERIES_H
 
 #include "ode/system.h"
+#include "sim/form/work.h"
 #include "sim/model/equations.h"
 
 typedef struct qdot_constrained_series qdot_constrained_series;
@@ -37,7 +38,8 @@ void qdot_constrained_series_free(qdot_constrained_series *series);
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_constrained_series_get(const qdot_constrained_series *series);
 
-/* Convolutions an order; how often a matrix was factored. */
+/* What its expansions consist of. Convolutions an order; how often a matrix was factored. */
+qdot_work qdot_constrained_series_work(const qdot_constrained_series *series);
 double qdot_constrained_series_convolutions(const qdot_constrained_series *series);
 size_t qdot_constrained_series_factored(const qdot_constrained_series *series);
 

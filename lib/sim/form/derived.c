@@ -1,15 +1,11 @@
-/* derived.c -- a plan's derived form, measured; plans freed. */
+/* derived.c -- the program of a plan's derived form; plans freed. */
 #include "sim/form/derived.h"
 
 #include "sim/form/canonical.h"
 #include "base/memory.h"
 #include "sim/form/motion-of-equations.h"
-#include "sim/form/motion-series.h"
 #include "sim/form/residual.h"
 #include "sim/model/constraints.h"
-
-/* Forms are compared at one tolerance: a plan is kept for runs under any. */
-static const double middle_tol = 1e-9;
 
 static void
 free_motion(qdot_plan *plan)
@@ -18,12 +14,6 @@ free_motion(qdot_plan *plan)
         qdot_motion_clear(plan->motion);
     qdot_free(plan->motion);
     plan->motion = NULL;
-}
-
-double
-qdot_plan_cost(const qdot_ode_series *series)
-{
-    return qdot_ode_taylor_cost(series, middle_tol);
 }
 
 qdot_status
@@ -35,20 +25,19 @@ qdot_plan_make_motion(qdot_plan *plan)
 }
 
 qdot_status
-qdot_plan_measure(qdot_plan *plan)
+qdot_plan_make_motion_of_members(qdot_plan *plan)
 {
-    qdot_ode_series series;
-    qdot_motion_series *derived;
+    free_motion(plan);
+    plan->motion = qdot_calloc(1, sizeof *plan->motion);
+    return plan->motion ? qdot_motion_of_members(plan, plan->motion) : QDOT_ENOMEM;
+}
 
-    QDOT_TRY(qdot_plan_make_motion(plan));
-    QDOT_TRY(qdot_motion_series_new(plan, false, &derived));
-    plan->convolutions_derived = qdot_motion_series_convolutions(derived);
-    series = *qdot_motion_series_get(derived);
-    plan->cost = qdot_plan_cost(&series);
-    series.code.cost[0] = 0;
-    plan->cost_of_kernels = qdot_plan_cost(&series);
-    qdot_motion_series_free(derived);
-    return QDOT_OK;
+void
+qdot_plan_drop_bordered(qdot_plan *plan)
+{
+    qdot_tape_free(plan->bordered);
+    plan->bordered = NULL;
+    free_motion(plan);
 }
 
 void

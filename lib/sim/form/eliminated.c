@@ -1,4 +1,4 @@
-/* eliminated.c -- L D L^T of A M^-1 A^T as expressions, and which of two series is taken. */
+/* eliminated.c -- L D L^T of A M^-1 A^T as expressions, and the series of what they leave. */
 #include "sim/form/eliminated.h"
 
 #include <math.h>
@@ -6,8 +6,6 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
-#include "ode/taylor.h"
-#include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/guarded.h"
@@ -203,8 +201,26 @@ fill(qdot_plan *r, const qdot_plan *p, bool *there)
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     QDOT_TRY(qdot_plan_structure(r, NULL));
-    QDOT_TRY(qdot_plan_lower(r, 2 * n + 1, 2 * m, pivots));
-    return qdot_plan_measure(r);
+    return qdot_plan_lower(r, 2 * n + 1, 2 * m, pivots);
+}
+
+qdot_status
+qdot_eliminated_make(const qdot_plan *p, double tol, qdot_plan **eliminated)
+{
+    bool there = false;
+    qdot_status status;
+
+    *eliminated = NULL;
+    if (!fits(p, tol))
+        return QDOT_OK;
+    status = qdot_plan_of_part(p, p->n, 0, eliminated);
+    if (status == QDOT_OK)
+        status = fill(*eliminated, p, &there);
+    if (status != QDOT_OK || !there) {
+        qdot_plan_free(*eliminated);
+        *eliminated = NULL;
+    }
+    return status;
 }
 
 /* --- the series --------------------------------------------------------------------- */
@@ -235,7 +251,6 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
                     qdot_eliminated **eliminated)
 {
     qdot_eliminated *e = qdot_calloc(1, sizeof *e);
-    qdot_ode_series *series;
     qdot_status status;
 
     *eliminated = NULL;
@@ -248,15 +263,10 @@ qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *o
         qdot_eliminated_free(e);
         return status;
     }
-    series = &e->guarded.series;
     qdot_guarded_init(&e->guarded, qdot_motion_series_get(e->direct), other, false);
     e->guarded.fits = independent;
     e->guarded.form = e;
-    memcpy(series->cost, e->guarded.own->cost, sizeof series->cost);
-    series->cost[0] += 200 + qdot_constrained_cost(plan);
-    series->code.worth = 500;
-    series->code.digits = QDOT_ODE_DIGITS;
-    series->code.by_stability = false;
+    e->guarded.series.cost = plan->expansions;
     *eliminated = e;
     return QDOT_OK;
 }
@@ -280,44 +290,4 @@ const qdot_ode_series *
 qdot_eliminated_series(const qdot_eliminated *e)
 {
     return &e->guarded.series;
-}
-
-/* --- which is taken ----------------------------------------------------------------- */
-
-/* Whether p->eliminated is cheaper than the other form. */
-static qdot_status
-compare(const qdot_plan *p, double tol, bool *cheaper)
-{
-    qdot_constrained_series *whole = NULL;
-    qdot_eliminated *e = NULL;
-    qdot_status status = qdot_constrained_series_new(p, false, &whole);
-
-    if (status == QDOT_OK)
-        status = qdot_eliminated_new(p, false, qdot_constrained_series_get(whole), &e);
-    if (status == QDOT_OK)
-        *cheaper = qdot_ode_taylor_cost(&e->guarded.series, tol) <
-                   qdot_ode_taylor_cost(e->guarded.other, tol);
-    qdot_eliminated_free(e);
-    qdot_constrained_series_free(whole);
-    return status;
-}
-
-qdot_status
-qdot_eliminated_find(qdot_plan *p, double tol)
-{
-    bool there = false, cheaper = false;
-    qdot_status status;
-
-    if (!fits(p, tol))
-        return QDOT_OK;
-    status = qdot_plan_of_part(p, p->n, 0, &p->eliminated);
-    if (status == QDOT_OK)
-        status = fill(p->eliminated, p, &there);
-    if (status == QDOT_OK && there)
-        status = compare(p, tol, &cheaper);
-    if (status != QDOT_OK || !cheaper) {
-        qdot_plan_free(p->eliminated);
-        p->eliminated = NULL;
-    }
-    return status;
 }

@@ -8,7 +8,7 @@
  * so that the motion has the series of an unconstrained one (sim/form/motion-series.h) and no
  * matrix is solved at any order. It takes more convolutions than constraints by their own
  * coefficients (sim/form/constrained-series.h) and its rounding is that of an elimination without
- * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, where it is cheaper.
+ * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on.
  *
  * Of a rod, a circle or a sphere S_kk = r f_k + c with numbers r and c. Where states are
  * projected f_k is 0, and S_kk = c: so a rod's division, its squares are gone. Left alone,
@@ -29,9 +29,11 @@
 
 typedef struct qdot_eliminated qdot_eliminated;
 
-/* Of a plan with constraints, complete but for it, the form that is cheaper at a tolerance:
- * plan->eliminated, or NULL there. Errors: those of lowering. */
-QDOT_MUST_CHECK qdot_status qdot_eliminated_find(qdot_plan *plan, double tol);
+/* The equations of this form, of a plan with constraints, complete but for what sim/plan decides:
+ * a plan of its own for plan->eliminated, without its motion; NULL where the form is not for the
+ * plan or the tolerance. Errors: those of lowering. */
+QDOT_MUST_CHECK qdot_status qdot_eliminated_make(const qdot_plan *plan, double tol,
+                                                 qdot_plan **eliminated);
 
 /* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
 QDOT_MUST_CHECK qdot_status qdot_eliminated_new(const qdot_plan *plan, bool shaken,

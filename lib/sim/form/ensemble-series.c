@@ -7,8 +7,7 @@
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "series/lanes-motion.h"
-#include "sim/form/motion-of-equations.h"
-#include "sim/form/motion-of-residual.h"
+#include "sim/form/residual.h"
 #include "sim/model/constrained-lanes.h"
 #include "tape/shake.h"
 
@@ -25,7 +24,7 @@ struct qdot_ensemble_series {
     const qdot_plan *plan;
     size_t n, numbers; /* coordinates that move; parameters of members */
     const qdot_batch_kernels *kernels;
-    qdot_motion motion;
+    const qdot_motion *motion; /* of the plan, or of its residual */
     qdot_lanes *lanes;
     qdot_constrained_lanes *held; /* NULL: without constraints */
     size_t stride;                /* groups */
@@ -90,7 +89,7 @@ evaluate_masses(const qdot_ensemble_series *e, const double *t, const double *y)
 static void
 factor(const qdot_ensemble_series *e, const solver *s)
 {
-    const qdot_motion *m = &e->motion;
+    const qdot_motion *m = e->motion;
 
     if (!e->out)
         memset(s->A, 0, s->n * s->n * L * sizeof *s->A);
@@ -112,7 +111,7 @@ factor(const qdot_ensemble_series *e, const solver *s)
 static void
 stage(qdot_ensemble_series *e, int k)
 {
-    const qdot_motion *m = &e->motion;
+    const qdot_motion *m = e->motion;
 
     qdot_lanes_stage(e->lanes, k);
     if (k < 0)
@@ -163,7 +162,7 @@ begin(const double *t, const double *y, const double *unit, void *user)
     qdot_lanes_draw(e->lanes, t);
     if (e->out)
         evaluate_masses(e, t, y);
-    for (int k = qdot_motion_first(&e->motion); k <= 0; k++)
+    for (int k = qdot_motion_first(e->motion); k <= 0; k++)
         stage(e, k);
 }
 
@@ -198,7 +197,7 @@ project(const double *t, double *y, double *carry, double *moved, void *user)
 static qdot_status
 make_solver(qdot_ensemble_series *e, size_t b)
 {
-    const qdot_motion *m = &e->motion;
+    const qdot_motion *m = e->motion;
     solver *s = e->solvers + b;
     const size_t first = m->blocks.at[b], n = m->blocks.at[b + 1] - first;
 
@@ -212,66 +211,14 @@ make_solver(qdot_ensemble_series *e, size_t b)
     return s->A && s->inverse && s->x ? QDOT_OK : QDOT_ENOMEM;
 }
 
-static double
-calls(const qdot_plan *p)
-{
-    return (double)qdot_tape_calls(
-        is_by_residual(p) ? p->residual->places : p->tape);
-}
-
-/* Nanoseconds for all lanes, as measured with AVX-512; only their ratios matter. */
-static void
-estimate(const qdot_plan *plan, const qdot_motion *motion, double *c)
-{
-    const double convolutions = motion->program.convolutions;
-    const double length = (double)(motion->program.length - motion->program.still);
-
-    c[0] = 300 + 100 * calls(plan) + 5 * length + 20 * (double)plan->n;
-    c[1] = 2 * length + 3 * convolutions + 10 * (double)plan->n;
-    c[2] = 0.1 * convolutions;
-    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
-        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
-
-        c[0] += m * m * m / 6;
-        c[1] += 5 * m + m * m;
-    }
-}
-
-/* The same of machine code: five scenes at orders 8 to 26, to 8 %. */
-static void
-estimate_written(const qdot_plan *plan, const qdot_motion *motion, double *c)
-{
-    const double n = (double)plan->n;
-
-    c[0] = 60 + 60 * n + 60 * calls(plan);
-    c[1] = 10 * n;
-    c[2] = 0.123 * motion->program.convolutions;
-    for (size_t b = 0; b + 1 < motion->blocks.n; b++) {
-        const double m = (double)(motion->blocks.at[b + 1] - motion->blocks.at[b]);
-
-        c[0] += m * m * m / 6;
-    }
-}
-
 static int
-best_order(const qdot_plan *plan, const qdot_motion *motion, double tol)
+best_order(const qdot_plan *plan, double tol)
 {
-    qdot_ode_series series = {.most = most_order - 4};
+    const qdot_ode_series series = {.most = most_order - 4, .cost = plan->expansions};
 
-    estimate(plan, motion, series.cost);
-    if (qdot_lanes_may_be_code())
-        estimate_written(plan, motion, series.code.cost);
     /* A few orders beyond the least cost hardly more, and where no pole is near, as of a stiff
      * spring, steps gain more by an order than its model has them gain. */
     return qdot_ode_taylor_order(&series, pow(tol, 1.15), false, 0);
-}
-
-static qdot_status
-make_motion(const qdot_plan *plan, qdot_motion *motion)
-{
-    return is_by_residual(plan)
-               ? qdot_motion_of_residual(plan, plan->residual, motion)
-               : qdot_motion_of_members(plan, motion);
 }
 
 static qdot_status
@@ -293,10 +240,10 @@ make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
     qdot_lanes_rows rows;
 
     e->shaken = shaken;
-    QDOT_TRY(make_motion(e->plan, &e->motion));
+    e->motion = is_by_residual(e->plan) ? &e->plan->residual->motion : e->plan->motion;
     if (*order == 0)
-        *order = best_order(e->plan, &e->motion, tol);
-    QDOT_TRY(qdot_lanes_of_motion(&e->motion, shaken, *order, &e->lanes));
+        *order = best_order(e->plan, tol);
+    QDOT_TRY(qdot_lanes_of_motion(e->motion, shaken, *order, &e->lanes));
     if (is_by_residual(e->plan))
         QDOT_TRY(make_masses(e));
     if (e->plan->constraints)
@@ -305,15 +252,15 @@ make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
     e->q = qdot_lanes_input(e->lanes, 0);
     e->v = qdot_lanes_input(e->lanes, e->n);
     e->t = qdot_lanes_input(e->lanes, 2 * e->n);
-    e->blocks = e->motion.blocks.n > 0 ? e->motion.blocks.n - 1 : 0;
+    e->blocks = e->motion->blocks.n > 0 ? e->motion->blocks.n - 1 : 0;
     e->solvers = qdot_calloc(e->blocks + 1, sizeof *e->solvers);
-    e->by = qdot_calloc(e->motion.solved.n * L + 1, sizeof *e->by);
+    e->by = qdot_calloc(e->motion->solved.n * L + 1, sizeof *e->by);
     if (!e->solvers || !e->by)
         return QDOT_ENOMEM;
     for (size_t b = 0; b < e->blocks; b++)
         QDOT_TRY(make_solver(e, b));
     rows = qdot_lanes_get_rows(e->lanes);
-    return qdot_lanes_motion_new(&rows, &e->motion, *order - 1, 0, &e->code);
+    return qdot_lanes_motion_new(&rows, e->motion, *order - 1, 0, &e->code);
 }
 
 qdot_status
@@ -352,7 +299,6 @@ qdot_ensemble_series_free(qdot_ensemble_series *e)
     qdot_lanes_motion_free(e->code);
     qdot_constrained_lanes_free(e->held);
     qdot_lanes_free(e->lanes);
-    qdot_motion_clear(&e->motion);
     qdot_free(e->solvers);
     qdot_free(e->by);
     qdot_tape_free(e->shaken_masses);

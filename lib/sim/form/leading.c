@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "series/two.h"
 #include "sim/form/blocks.h"
-#include "sim/form/motion-of-residual.h"
+#include "sim/form/residual.h"
 
 /* Corrections at most; one that is no larger than this leaves nothing for another. */
 enum { most_corrections = 4 };
@@ -18,8 +18,7 @@ _Static_assert((int)QDOT_ODE_LEADING_MOST <= (int)QDOT_TWO_MOST, "orders that ar
 struct qdot_leading {
     const qdot_plan *plan;
     const qdot_ode_series *series;
-    const qdot_motion *motion; /* of the plan, or: */
-    qdot_motion residual;
+    const qdot_motion *motion; /* of the plan, or of its residual */
     qdot_tape_two *two;
     qdot_ode_leading leading;
     qdot_blocks solvers;
@@ -201,8 +200,7 @@ make(qdot_leading *l)
     const size_t n = l->plan->n;
 
     if (l->plan->residual) {
-        QDOT_TRY(qdot_motion_of_residual(l->plan, l->plan->residual, &l->residual));
-        l->motion = &l->residual;
+        l->motion = &l->plan->residual->motion;
         QDOT_TRY(make_masses(l));
     } else {
         l->motion = l->plan->motion;
@@ -249,7 +247,6 @@ qdot_leading_free(qdot_leading *l)
         return;
     qdot_blocks_clear(&l->solvers);
     qdot_tape_two_free(l->two);
-    qdot_motion_clear(&l->residual);
     qdot_free(l->newest);
     qdot_free(l->by);
     qdot_free(l->in);

@@ -1,7 +1,7 @@
 /* leading.h -- the first orders of the Taylor series of a motion in sums of two doubles.
  *
  * The equations are the plan's, as the program of a motion: M q'' = f, or d'Alembert's residual
- * along its tree, where they are taken so in doubles too (motion-series.h, residual-series.h).
+ * along its tree, where they are taken so in doubles too (motion-series.h, tree-series.h).
  * Accelerations of an order begin as what doubles made of them; the equations' residual E, in
  * two doubles, is then as small as the rounding of doubles, and M_0^-1 E, in doubles, is what is
  * missing. Each correction gains what a double holds less the digits that M_0 eats.

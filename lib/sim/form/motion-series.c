@@ -9,7 +9,6 @@
 #include "sim/form/blocks.h"
 #include "sim/form/expansion.h"
 #include "sim/form/momentum-rows.h"
-#include "sim/form/motion-cost.h"
 #include "tape/shake.h"
 
 enum { most_order = 47, highest = most_order - 3 };
@@ -337,40 +336,39 @@ make_masses(qdot_motion_series *s, bool shaken)
 
 /* Whether blocks are definite and have up to `most` unknowns. */
 static bool
-may_be_code(const qdot_motion_series *s, size_t most)
+may_be_code(const qdot_plan *p, const qdot_motion *m, size_t most)
 {
-    for (size_t b = 0; b < s->blocks; b++)
-        if (s->solvers.at[s->block[b]].n > most)
+    for (size_t b = 0; b + 1 < m->blocks.n; b++)
+        if (m->blocks.at[b + 1] - m->blocks.at[b] > most)
             return false;
-    return s->blocks == 0 || !s->plan->indefinite;
+    return m->blocks.n < 2 || !p->indefinite;
+}
+
+static bool
+may_be_lanes(const qdot_plan *p, const qdot_motion *m)
+{
+    return qdot_lanes_may_be_code() && may_be_code(p, m, QDOT_LANES_SOLVED);
+}
+
+static bool
+may_be_whole(const qdot_plan *p, const qdot_motion *m)
+{
+    return p->constraints || may_be_code(p, m, most_coded);
 }
 
 static void
 choose_code(qdot_motion_series *s)
 {
-    const qdot_plan *p = s->plan;
-    const qdot_motion_work work = {s->at.taylor, &s->solvers,
-                                   s->masses     ? s->masses
-                                   : p->bordered ? p->bordered
-                                                 : p->tape};
-
+    s->why = "machine code is not asked for";
     if (s->masses) {
-        s->why = "machine code is not asked for";
         s->series.code = (qdot_ode_code){
             .take = take_lanes, .there = is_code_of_lanes, .drop = drop_lanes, .user = s};
-        if (qdot_lanes_may_be_code() && may_be_code(s, QDOT_LANES_SOLVED))
+        if (may_be_lanes(s->plan, s->motion))
             s->series.code.write = write_lanes;
-        qdot_motion_cost_implicit(&work, &s->series);
-    } else if (p->constraints) {
+    } else if (may_be_whole(s->plan, s->motion)) {
         s->series.code = qdot_expansion_code(s->at.taylor);
-        qdot_motion_cost_bordered(&work, &s->series);
     } else {
         s->why = "machine code solves for few unknowns, with M definite";
-        if (may_be_code(s, most_coded)) {
-            s->series.code = qdot_expansion_code(s->at.taylor);
-            s->why = "machine code is not asked for";
-        }
-        qdot_motion_cost_explicit(&work, &s->series);
     }
 }
 
@@ -394,6 +392,7 @@ make(qdot_motion_series *s, bool shaken)
         .x = s->at.q,
         .stride = s->at.stride,
         .checked = p->n,
+        .cost = p->expansions,
         .begin = begin,
         .extend = extend,
         .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
@@ -469,10 +468,23 @@ qdot_motion_series_output(const qdot_motion_series *s, size_t i)
     return qdot_taylor_output(s->at.taylor, i);
 }
 
-double
-qdot_motion_series_convolutions(const qdot_motion_series *s)
+qdot_work
+qdot_motion_series_work(const qdot_plan *p)
 {
-    return qdot_taylor_convolutions(s->at.taylor);
+    qdot_work w = qdot_work_of_motion(p, p->motion, p->bordered ? p->bordered : p->tape);
+
+    w.code = may_be_whole(p, p->motion);
+    return w;
+}
+
+qdot_work
+qdot_motion_series_work_of_residual(const qdot_plan *p, const qdot_motion *m,
+                                    const qdot_tape *masses)
+{
+    qdot_work w = qdot_work_of_motion(p, m, masses);
+
+    w.code = may_be_lanes(p, m);
+    return w;
 }
 
 size_t

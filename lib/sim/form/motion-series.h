@@ -14,6 +14,7 @@
 
 #include "ode/system.h"
 #include "series/motion.h"
+#include "sim/form/work.h"
 #include "sim/model/equations.h"
 
 typedef struct qdot_motion_series qdot_motion_series;
@@ -39,9 +40,14 @@ void qdot_motion_series_keep(qdot_motion_series *series, const double *hi, const
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_motion_series_get(const qdot_motion_series *series);
 
-/* Coefficients of output i of the program. Convolutions an order. */
+/* Coefficients of output i of the program. */
 const double *qdot_motion_series_output(const qdot_motion_series *series, size_t i);
-double qdot_motion_series_convolutions(const qdot_motion_series *series);
+
+/* What their expansions consist of. */
+qdot_work qdot_motion_series_work(const qdot_plan *plan);
+qdot_work qdot_motion_series_work_of_residual(const qdot_plan *plan, const qdot_motion *motion,
+                                              const qdot_tape *masses);
+
 /* How often K was factored; bytes of machine code, 0: there is none, *why says so. */
 size_t qdot_motion_series_factored(const qdot_motion_series *series);
 size_t qdot_motion_series_code(const qdot_motion_series *series, const char **why);

@@ -46,35 +46,6 @@ struct qdot_precise_bind {
     size_t factored;
 };
 
-void
-qdot_precise_bind_cost(const qdot_plan *p, mpfr_prec_t bits, double cost[3])
-{
-    const double limbs = ceil((double)bits / 64), term = 9 + 1.3 * limbs * limbs;
-    const double operation = 40 + 1.3 * limbs * limbs;
-    const qdot_residual *r = p->residual;
-    const qdot_canonical *h = p->canonical;
-    const qdot_tape *tape = h ? h->rates : r ? r->places : p->tape;
-    double length = (double)qdot_tape_operations(tape);
-    double convolutions = p->constraints ? length
-                          : h            ? h->motion.program.convolutions
-                          : r            ? p->convolutions_residual
-                                         : p->convolutions_derived;
-
-    if (r && !h)
-        length += 8 * (double)(r->functions + r->n_weights);
-    cost[0] = 60 * operation * (double)qdot_tape_calls(tape) + operation * length;
-    cost[1] = operation * (length + 4 * (double)p->n) + convolutions * 40;
-    cost[2] = 0.5 * convolutions * term;
-    for (size_t b = 0; b < p->structure.blocks && !h; b++) {
-        double n = (double)p->blocks[b].n;
-
-        if (n > 1) {
-            cost[1] += 2 * n * n * operation;
-            cost[0] += 2 * n * n * n / 3 * operation;
-        }
-    }
-}
-
 /* --- with constraints ---------------------------------------------------------------- */
 
 /* Slope k of the constraints, as the plan's tape has it. */
@@ -360,10 +331,13 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 
     QDOT_TRY(p->canonical
                  ? qdot_precise_new(p->pool, p->canonical->momenta, 0, bits, &e->momenta)
-             : p->residual ? qdot_motion_of_residual(p, p->residual, &e->own)
-                           : qdot_motion_of_equations(p, &e->own));
+             : p->residual || p->motion ? QDOT_OK
+                                        : qdot_motion_of_equations(p, &e->own));
     e->late = p->canonical != NULL;
-    e->motion = p->canonical ? &p->canonical->motion : &e->own;
+    e->motion = p->canonical ? &p->canonical->motion
+                : p->residual ? &p->residual->motion
+                : p->motion   ? p->motion
+                              : &e->own;
     if ((double)e->motion->program.rows.n * qdot_reals_size((size_t)most + 3, bits) > most_bytes)
         return qdot_fail(QDOT_ELIMIT,
                          "Taylor series of order %d with %ld bits do not fit into %g GB",

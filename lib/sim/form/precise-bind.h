@@ -33,10 +33,6 @@ mpfr_srcptr qdot_precise_bind_acceleration(const qdot_precise_bind *bind, size_t
 /* lambda of constraint k there. */
 void qdot_precise_bind_multiplier(const qdot_precise_bind *bind, size_t k, mpfr_ptr lambda);
 
-/* What an expansion costs in numbers of that precision, as qdot_precise_order_for wants
- * it. */
-void qdot_precise_bind_cost(const qdot_plan *plan, mpfr_prec_t bits, double cost[3]);
-
 /* How often M was factored. */
 size_t qdot_precise_bind_factored(const qdot_precise_bind *bind);
 

@@ -38,6 +38,7 @@ qdot_residual_free(qdot_residual *r)
     qdot_tape_free(r->forces);
     qdot_tape_free(r->masses);
     qdot_tape_free(r->energy);
+    qdot_motion_clear(&r->motion);
     qdot_free(r->absent);
     qdot_free(r);
 }

@@ -22,6 +22,7 @@
 #define QDOT_SIM_RESIDUAL_H
 
 #include "mech/scene/scene.h"
+#include "series/motion.h"
 #include "sim/model/equations.h"
 
 typedef struct {
@@ -52,6 +53,8 @@ struct qdot_residual {
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */
+    qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
+                           has masses */
 
     /* Once asked for: h as one expression, and from q, q', t (sim/form/residual-energy.h). */
     qdot_expr h;

@@ -321,23 +321,6 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
     return r;
 }
 
-double
-qdot_constrained_cost(const qdot_plan *p)
-{
-    const qdot_constraints *c = p->constraints;
-    const double often = (double)(qdot_tape_operations(c->positions) +
-                                  qdot_tape_operations(c->velocities));
-    const double calls = (double)(qdot_tape_calls(c->positions) +
-                                  qdot_tape_calls(c->velocities));
-
-    if (p->treatment != QDOT_RUN_PROJECT)
-        return 0;
-    /* three evaluations of either level, one of the metric, the small steps between */
-    return 150 + 3 * (often + 10 * calls) + (double)qdot_tape_operations(c->metric) +
-           10 * (double)qdot_tape_calls(c->metric) + 60.0 * (double)c->m +
-           15.0 * (double)c->n_slopes + 10.0 * (double)p->n;
-}
-
 size_t
 qdot_constrained_rows(const qdot_constrained *h)
 {

@@ -78,9 +78,6 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, 
                                                  double *y, const bool *q_set,
                                                  const bool *v_set, const char *who);
 
-/* Estimated nanoseconds to project the end of a step; 0 without projection. */
-double qdot_constrained_cost(const qdot_plan *plan);
-
 /* Residuals at y: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
  * velocity rows; the indices of these rows (SIZE_MAX: none). */
 typedef struct {

@@ -17,6 +17,7 @@
 
 #include "num/structure.h"
 #include "ode/method.h"
+#include "ode/system.h"
 #include "series/motion.h"
 #include "sim/model/request.h"
 #include "tape/tape.h"
@@ -34,6 +35,18 @@ typedef struct qdot_canonical qdot_canonical; /* sim/form/canonical.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/model/constraints.h */
 struct qdot_switches;                       /* sim/model/switch.h */
 
+/* What Taylor series are made from. */
+typedef enum {
+    QDOT_FORM_NONE,        /* no series: the equations switch */
+    QDOT_FORM_EXPLICIT,    /* M q'' = f, by the program plan->motion */
+    QDOT_FORM_RESIDUAL,    /* d'Alembert's residual, by the program of plan->residual */
+    QDOT_FORM_TREE,        /* the same along its tree (sim/form/tree-series.h) */
+    QDOT_FORM_CONSTRAINED, /* constraints by their own coefficients */
+    QDOT_FORM_ELIMINATED,  /* multipliers eliminated beforehand: plan->eliminated */
+    QDOT_FORM_BORDERED     /* multipliers solved for by machine code: plan->bordered */
+} qdot_form;
+
+/* All decisions about a run: made by sim/plan, const from then on, read by everybody else. */
 typedef struct qdot_plan qdot_plan;
 struct qdot_plan {
     unsigned uses;   /* users besides the first (sim/plan/kept.h) */
@@ -73,8 +86,8 @@ struct qdot_plan {
 
     bool leading; /* first orders in two doubles are wanted (sim/form/leading.h) */
     bool smooth; /* the equations have Taylor series: for the method or its companion */
-    /* For series: the equations as d'Alembert's residual if that is cheaper, else NULL;
-     * convolutions an order of either form, 0 if not counted. */
+    /* The equations as d'Alembert's residual if that form is taken, else NULL; convolutions an order
+     * of either form, 0 if not counted. */
     qdot_residual *residual;
     double convolutions_derived, convolutions_residual;
     qdot_canonical *canonical; /* with `digits`: Hamilton's equations if these are shorter; or
@@ -83,8 +96,12 @@ struct qdot_plan {
      * they are one path. */
     size_t tree_nodes;
     bool tree_is_path;
-    double cost; /* of steps by the form chosen: qdot_plan_cost */
-    double cost_of_kernels; /* of the derived form without machine code */
+
+    /* The form that is integrated, where parts and a reduced plan do not say otherwise: what its
+     * expansions cost, and a step at a middling tolerance (sim/plan/cost.h). */
+    qdot_form form;
+    qdot_ode_cost expansions;
+    double cost;
 
     /* Plans of decoupled groups of coordinates, two or more, for a run in which nothing watches
      * the steps (sim/plan/parts.h). */

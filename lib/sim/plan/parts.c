@@ -5,8 +5,8 @@
 
 #include "expr/walk.h"
 #include "sim/form/derived.h"
+#include "sim/plan/form.h"
 #include "sim/plan/routh.h"
-#include "series/taylor.h"
 
 /* Parts cannot use d'Alembert's form. If that form of the whole is cheaper than all parts by this
  * factor, the scene is not divided. */

@@ -5,20 +5,14 @@
 
 #include "base/spelling.h"
 #include "ode/leading.h"
-#include "sim/form/bordered.h"
-#include "sim/form/canonical.h"
-#include "sim/form/constrained-series.h"
-#include "sim/form/eliminated.h"
-#include "sim/form/residual.h"
-#include "sim/form/residual-series.h"
 #include "sim/model/constraints.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
+#include "sim/plan/form.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
 #include "sim/plan/tree-alone.h"
 #include "series/program.h"
-#include "series/taylor.h"
 
 /* The method that `auto` is, and where the equations switch and so have no series: see
  * ode/method.h for when each fits. */
@@ -151,84 +145,6 @@ derive(qdot_plan *p, qdot_scene *scene)
 
 /* --- Taylor series ------------------------------------------------------------------ */
 
-/* Whether d'Alembert's form is cheaper: numbers of many digits spend all on convolutions; eight
- * members at once take what kernels do, also as machine code, and know no forces that hold
- * velocities there. */
-static bool
-is_cheaper(const qdot_plan *p, const qdot_residual_series *series,
-           const qdot_run_request *request)
-{
-    const double cost = qdot_plan_cost(qdot_residual_series_get(series));
-
-    if (request->digits > 0)
-        return p->convolutions_residual < p->convolutions_derived;
-    if (request->lanes && p->indefinite)
-        return false;
-    return cost < (request->lanes ? p->cost_of_kernels : p->cost);
-}
-
-/* The cheaper of the two forms of the equations. Where M is diagonal or constant nothing
- * is cheaper than the derived one. */
-static qdot_status
-choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
-{
-    qdot_residual *residual = NULL;
-    qdot_residual_series *series = NULL;
-    bool coupled = false, cheaper = false;
-    qdot_status status;
-
-    QDOT_TRY(qdot_plan_measure(p));
-    for (size_t k = 0; k < p->structure.blocks; k++)
-        coupled |= p->blocks[k].n > 1 && !p->blocks[k].constant;
-    /* d'Alembert's form is made of the scene, which switches, and of constant masses */
-    if ((p->mode && p->mode->atoms.n > 0) || p->n_states > 0)
-        coupled = false;
-    status = coupled ? qdot_residual_new(scene, p, &residual) : QDOT_OK;
-    if (status == QDOT_OK && residual)
-        status = qdot_residual_series_new(p, residual, false, &series);
-    if (series) {
-        p->convolutions_residual = qdot_residual_series_convolutions(series);
-        cheaper = is_cheaper(p, series, request);
-    }
-    if (cheaper) {
-        p->cost = qdot_plan_cost(qdot_residual_series_get(series));
-        p->residual = residual;
-        p->tree_nodes = qdot_residual_series_tree_size(series, &p->tree_is_path);
-        residual = NULL;
-    }
-    qdot_residual_series_free(series);
-    qdot_residual_free(residual);
-    return status;
-}
-
-/* Hamilton's equations save this much of the others' convolutions where they are taken. */
-static const double canonical_saves = 0.85;
-
-static qdot_status
-find_canonical(qdot_plan *p, qdot_scene *scene)
-{
-    const double others = p->residual ? p->convolutions_residual : p->convolutions_derived;
-
-    QDOT_TRY(qdot_canonical_new(scene, p, &p->canonical));
-    if (p->canonical && p->canonical->motion.program.convolutions > canonical_saves * others) {
-        qdot_canonical_free(p->canonical);
-        p->canonical = NULL;
-    }
-    return QDOT_OK;
-}
-
-/* Convolutions an order, with constraints. */
-static qdot_status
-find_cost(qdot_plan *p)
-{
-    qdot_constrained_series *tied;
-
-    QDOT_TRY(qdot_constrained_series_new(p, false, &tied));
-    p->convolutions_derived = qdot_constrained_series_convolutions(tied);
-    qdot_constrained_series_free(tied);
-    return QDOT_OK;
-}
-
 /* Taylor series are for equations that do not switch. */
 static qdot_status
 check_series(qdot_plan *p, const char *hindrance)
@@ -260,15 +176,12 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (!hindrance)
         hindrance = qdot_program_hindrance(p->constraints->positions);
     QDOT_TRY(check_series(p, hindrance));
-    if (p->smooth && !request->lanes)
-        QDOT_TRY(find_cost(p));
     /* methods that keep the past have no use for a state moved off it */
     if (p->method->multistep && p->treatment == QDOT_RUN_PROJECT)
         p->treatment = QDOT_RUN_BAUMGARTE;
-    if (request->digits > 0 || request->lanes)
+    if (!p->smooth)
         return QDOT_OK;
-    QDOT_TRY(qdot_eliminated_find(p, request->tol));
-    return qdot_bordered_find(p, request->tol);
+    return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 
 /* --- ensembles ---------------------------------------------------------------------- */
@@ -292,16 +205,17 @@ choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request
     if (p->n_states == 0)
         QDOT_TRY(qdot_routh_reduce(p, scene, request));
     if (p->reduced && !p->reduced->subtracts && !is_indefinite(p->reduced))
-        return QDOT_OK;
+        return qdot_plan_make_lanes(p->reduced);
     qdot_plan_free(p->reduced);
     p->reduced = NULL;
     if (p->residual)
-        return QDOT_OK;
+        return qdot_plan_make_lanes(p);
     if (is_indefinite(p))
         return qdot_fail(QDOT_ENOTBUILT,
                          "not built yet: ensembles of a stated Lagrangian whose coordinates "
                          "couple");
-    return qdot_plan_lower_for_series(p);
+    QDOT_TRY(qdot_plan_lower_for_series(p));
+    return qdot_plan_make_lanes(p);
 }
 
 static qdot_status
@@ -321,9 +235,9 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(check_series(p, qdot_program_hindrance(p->tape)));
     p->leading = p->smooth && p->method->series && request->tol <= QDOT_ODE_LEADING_TOL;
     if (p->smooth)
-        QDOT_TRY(choose_form(p, scene, request));
+        QDOT_TRY(qdot_plan_choose_form(p, scene, request));
     if (request->digits > 0)
-        return find_canonical(p, scene);
+        return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)
         return choose_in_lanes(p, scene, request);
     if (qdot_plan_needs_jacobian(p))

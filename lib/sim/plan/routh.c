@@ -9,8 +9,9 @@
 #include "expr/walk.h"
 #include "normal/simplify/simplify.h"
 #include "sim/form/derived.h"
+#include "sim/plan/cost.h"
+#include "sim/plan/form.h"
 #include "series/program.h"
-#include "series/taylor.h"
 #include "tape/constant.h"
 
 /* Longer expressions than this many operations are not simplified. */
@@ -302,12 +303,6 @@ put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
     }
 }
 
-static double
-cost_of_evaluation(const qdot_tape *tape)
-{
-    return (double)(qdot_tape_operations(tape) + 15 * qdot_tape_calls(tape));
-}
-
 /* The cost of a step of r, or of an evaluation where there are no series. */
 static qdot_status
 find_cost(qdot_plan *r)
@@ -315,7 +310,7 @@ find_cost(qdot_plan *r)
     if (r->smooth)
         QDOT_TRY(qdot_plan_measure(r));
     if (!r->smooth || !r->method->series)
-        r->cost = cost_of_evaluation(r->tape);
+        r->cost = qdot_cost_evaluation(r->tape);
     return QDOT_OK;
 }
 
@@ -370,7 +365,7 @@ has_sum(const routh *e)
 static double
 cost_of_all(const qdot_plan *p)
 {
-    return p->method->series ? p->cost : cost_of_evaluation(p->tape);
+    return p->method->series ? p->cost : qdot_cost_evaluation(p->tape);
 }
 
 /* Find the cheapest way; the plan takes it if it is cheaper than the full equations. */

@@ -7,8 +7,9 @@
 #include "sim/form/derived.h"
 #include "sim/form/residual-energy.h"
 #include "sim/form/residual-tree.h"
+#include "sim/plan/cost.h"
 #include "sim/plan/routh.h"
-#include "sim/form/residual-series.h"
+#include "sim/form/tree-series.h"
 #include "sim/model/switch.h"
 #include "tape/disc.h"
 
@@ -44,18 +45,13 @@ find_pattern(const qdot_residual_tree *t, size_t n, bool *pattern)
         }
 }
 
-/* A lower bound of the cost of the series of M q'' = f if M has `entries` entries off the diagonal.
- * It follows qdot_motion_cost_explicit, but needs no tape. */
+/* A lower bound of what steps by M q'' = f cost if M has `entries` entries off the diagonal. */
 static double
 least_cost(size_t n, size_t entries)
 {
-    const double m = (double)n, convolutions = (double)entries;
-    const qdot_ode_series series = {.most = 40,
-                                    .cost = {0.2 * m * m * m,
-                                             0.5 * m * m + 3.5 * convolutions,
-                                             0.12 * convolutions}};
+    const qdot_ode_cost least = qdot_cost_least(n, (double)entries);
 
-    return qdot_plan_cost(&series);
+    return qdot_cost_steps(&least);
 }
 
 /* Whether M is constant: no partial derivative of a position depends on the motion. */
@@ -126,19 +122,27 @@ may_hide(const qdot_residual *r)
 static qdot_status
 decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
 {
-    qdot_residual_series *series;
+    qdot_tree_series *series;
+    qdot_work work;
     double least;
 
     *taken = false;
     QDOT_TRY(find_structure(p, tree, taken, &least));
     if (!*taken)
         return QDOT_OK;
-    QDOT_TRY(qdot_residual_series_new(p, p->residual, false, &series));
-    p->tree_nodes = qdot_residual_series_tree_size(series, &p->tree_is_path);
-    p->convolutions_residual = qdot_residual_series_convolutions(series);
-    p->cost = qdot_plan_cost(qdot_residual_series_get(series));
-    *taken = p->tree_nodes > 0 && p->cost < least;
-    qdot_residual_series_free(series);
+    QDOT_TRY(qdot_tree_series_new(p, p->residual, false, &series));
+    *taken = series != NULL;
+    if (!series)
+        return QDOT_OK;
+    work = qdot_tree_series_work(series);
+    p->form = QDOT_FORM_TREE;
+    p->tree_nodes = (size_t)work.nodes;
+    p->tree_is_path = qdot_tree_series_is_path(series);
+    p->convolutions_residual = qdot_tree_series_convolutions(series);
+    p->expansions = qdot_cost_tree(&work);
+    p->cost = qdot_cost_steps(&p->expansions);
+    *taken = p->cost < least;
+    qdot_tree_series_free(series);
     return QDOT_OK;
 }
 
@@ -169,6 +173,7 @@ qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *re
     qdot_structure_clear(&p->structure);
     qdot_free(p->blocks);
     p->blocks = NULL;
+    p->form = QDOT_FORM_NONE;
     p->tree_nodes = 0;
     p->convolutions_residual = 0;
     return status;

@@ -8,7 +8,6 @@
 
 #include "base/progress.h"
 #include "ode/companion.h"
-#include "ode/leading.h"
 #include "sim/course/multipliers.h"
 #include "sim/digits/digits.h"
 #include "sim/digits/precise.h"
@@ -570,11 +569,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     qdot_status status;
 
     *interrupted = false;
-    if (is_whole(run) && run->stage.events.n == 0) { /* these are found by doubles */
-        const qdot_ode_system system = qdot_bind_system(run->course.binds.at[0]);
-
-        run->leading = qdot_ode_has_leading(&system, run->plan->method, tol);
-    }
+    /* events are found by doubles */
+    run->leading = run->plan->leading && is_whole(run) && run->stage.events.n == 0;
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
     run->report.tol = tol;

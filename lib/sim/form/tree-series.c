@@ -1,19 +1,14 @@
-/* residual-series.c -- along the tree, an order a sweep up and one down; else the program of the
- * motion, stage by stage. */
-#include "sim/form/residual-series.h"
+/* tree-series.c -- an order is a sweep up the tree and one down. */
+#include "sim/form/tree-series.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "num/kinds.h"
 #include "num/cholesky.h"
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
-#include "sim/form/derived.h"
 #include "sim/form/expansion.h"
-#include "sim/form/motion-of-residual.h"
-#include "sim/form/motion-series.h"
 #include "sim/form/residual-sweeps.h"
 #include "tape/shake.h"
 
@@ -22,14 +17,12 @@ enum { most_order = 44, lanes = 8 };
 /* A pivot over the mass it is of from which on four digits are lost: M may be singular. */
 static const double least_pivot = 1e-4;
 
-struct qdot_residual_series {
+struct qdot_tree_series {
     const qdot_plan *plan;
     const qdot_residual *residual;
-    qdot_motion motion;
-    qdot_motion_series *stages; /* NULL: M is eliminated along the tree, or has no tape */
-    qdot_residual_sweeps *tree; /* that; NULL: it has none, or costs more */
+    qdot_residual_sweeps *tree;
     qdot_expansion places,
-        forces;     /* of the tree, as all that follows; forces may have none */
+        forces;     /* which may have none */
     double *weight; /* [n_weights] */
     qdot_ode_series series;
     double unit, force_scale; /* unit^2 */
@@ -45,7 +38,7 @@ struct qdot_residual_series {
 
 /* Order k of the forces that hold velocities. */
 static void
-evaluate_forces(qdot_residual_series *s, int k)
+evaluate_forces(qdot_tree_series *s, int k)
 {
     const qdot_expansion *from = &s->places, *to = &s->forces;
 
@@ -60,7 +53,7 @@ evaluate_forces(qdot_residual_series *s, int k)
 
 /* Coefficients to m of q, to m - 1 of v. */
 static void
-fill_rows(const qdot_residual_series *s, int m)
+fill_rows(const qdot_tree_series *s, int m)
 {
     qdot_residual_sweeps_rows(s->tree, m, 1 / s->unit, s->places.q, s->places.v,
                               s->places.stride);
@@ -68,7 +61,7 @@ fill_rows(const qdot_residual_series *s, int m)
 
 /* Coefficients m >= 2 of q. */
 static void
-order(qdot_residual_series *s, int m)
+order(qdot_tree_series *s, int m)
 {
     evaluate_forces(s, m - 2);
     qdot_residual_sweeps_order(s->tree, m, s->force_scale,
@@ -79,7 +72,7 @@ order(qdot_residual_series *s, int m)
 
 /* Whether M is singular, as Cholesky's method has it. */
 static qdot_status
-factor(qdot_residual_series *s)
+factor(qdot_tree_series *s)
 {
     const size_t n = s->plan->n;
     double *M = qdot_calloc(n * n, sizeof *M);
@@ -97,7 +90,7 @@ factor(qdot_residual_series *s)
 
 /* Orders 0 and 1, and M eliminated. */
 static qdot_status
-eliminate(qdot_residual_series *s, const double *y)
+eliminate(qdot_tree_series *s, const double *y)
 {
     double lost;
     bool good;
@@ -118,7 +111,7 @@ eliminate(qdot_residual_series *s, const double *y)
 static qdot_status
 begin(double t, const double *y, double unit, void *user)
 {
-    qdot_residual_series *s = user;
+    qdot_tree_series *s = user;
     size_t n = s->plan->n;
 
     s->unit = unit;
@@ -139,7 +132,7 @@ begin(double t, const double *y, double unit, void *user)
 static qdot_status
 extend(int p, void *user)
 {
-    qdot_residual_series *s = user;
+    qdot_tree_series *s = user;
 
     for (int m = 3; m <= p + 1; m++)
         order(s, m);
@@ -151,7 +144,7 @@ extend(int p, void *user)
 static double
 near(int p, double step, void *user)
 {
-    const qdot_residual_series *s = user;
+    const qdot_tree_series *s = user;
 
     step = qdot_taylor_near(s->places.taylor, p - 2, step);
     return s->forces.taylor ? qdot_taylor_near(s->forces.taylor, p - 2, step) : step;
@@ -159,31 +152,8 @@ near(int p, double step, void *user)
 
 /* --- building --------------------------------------------------------------------------- */
 
-/* Vectors take so much more than counts of their work say, beside the orders of kernels. */
-static const double vectors = 1.8;
-
-/* Nanoseconds, as measured on a machine of 2023; only their ratios matter. Applied forces with
- * velocities have a program of their own. */
-static void
-estimate_tree(const qdot_residual_series *s, double *c)
-{
-    const double n = (double)s->plan->n;
-    const qdot_taylor *forces = s->forces.taylor;
-    double convolutions, products, begun;
-
-    qdot_residual_sweeps_count(s->tree, &convolutions, &products, &begun);
-    c[0] = vectors * (400 + 20.0 * (double)qdot_tape_calls(s->residual->places) + 40 * n);
-    c[1] = vectors * (20 + begun + 0.4 * products + n);
-    c[2] = vectors * 0.3 * convolutions;
-    if (!forces)
-        return;
-    c[1] +=
-        1.2 * (double)qdot_taylor_length(forces) + 3.5 * qdot_taylor_convolutions(forces);
-    c[2] += 0.12 * qdot_taylor_convolutions(forces);
-}
-
 static qdot_status
-make_tapes(qdot_residual_series *s, bool shaken)
+make_tapes(qdot_tree_series *s, bool shaken)
 {
     const qdot_residual *r = s->residual;
     const size_t n = s->plan->n;
@@ -198,7 +168,7 @@ make_tapes(qdot_residual_series *s, bool shaken)
 }
 
 static qdot_status
-make_tree(qdot_residual_series *s, bool shaken)
+make(qdot_tree_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
@@ -228,19 +198,41 @@ make_tree(qdot_residual_series *s, bool shaken)
                                   .x = s->places.q,
                                   .stride = s->places.stride,
                                   .checked = p->n,
+                                  .cost = p->expansions,
                                   .begin = begin,
                                   .extend = extend,
                                   .user = s};
     if (qdot_taylor_has_exponentials(s->places.taylor) ||
         (s->forces.taylor && qdot_taylor_has_exponentials(s->forces.taylor)))
         s->series.near = near;
-    estimate_tree(s, s->series.cost);
     return QDOT_OK;
 }
 
-static void
-clear_tree(qdot_residual_series *s)
+qdot_status
+qdot_tree_series_new(const qdot_plan *plan, const qdot_residual *residual, bool shaken,
+                     qdot_tree_series **series)
 {
+    qdot_tree_series *s = qdot_calloc(1, sizeof *s);
+    qdot_status status;
+
+    *series = NULL;
+    if (!s)
+        return QDOT_ENOMEM;
+    s->plan = plan;
+    s->residual = residual;
+    status = make(s, shaken);
+    if (status == QDOT_OK && s->tree)
+        *series = s;
+    else
+        qdot_tree_series_free(s);
+    return status;
+}
+
+void
+qdot_tree_series_free(qdot_tree_series *s)
+{
+    if (!s)
+        return;
     qdot_taylor_free(s->places.taylor);
     qdot_taylor_free(s->forces.taylor);
     qdot_residual_sweeps_free(s->tree);
@@ -250,105 +242,47 @@ clear_tree(qdot_residual_series *s)
     qdot_free(s->x);
     qdot_free(s->F);
     qdot_free(s->R);
-}
-
-/* What the tree costs beside motion-series.c. With AVX2 its estimate is too low for all but a path
- * in a plane of one vector of eight: by 1.7 and more, of which some is left to runs that end before
- * code pays. */
-static double
-cost_of_tree(const qdot_residual_series *s)
-{
-    const size_t nodes = qdot_residual_sweeps_nodes(s->tree);
-    const bool one = nodes == s->plan->n && nodes <= lanes;
-
-    return qdot_plan_cost(&s->series) * (one || qdot_kind_is_here(2) ? 1 : 1.3);
-}
-
-/* Along the tree or stage by stage, whichever costs less. */
-static qdot_status
-make(qdot_residual_series *s, bool shaken)
-{
-    const qdot_tape *masses = s->residual->masses;
-    const qdot_ode_series *stages;
-
-    QDOT_TRY(make_tree(s, shaken));
-    if (!masses)
-        return QDOT_OK;
-    QDOT_TRY(qdot_motion_of_residual(s->plan, s->residual, &s->motion));
-    QDOT_TRY(qdot_motion_series_of_residual(s->plan, &s->motion, masses, shaken,
-                                            &s->stages));
-    stages = qdot_motion_series_get(s->stages);
-    if (!s->tree || qdot_plan_cost(stages) <= cost_of_tree(s)) {
-        s->series = *stages;
-        qdot_residual_sweeps_free(s->tree);
-        s->tree = NULL;
-    }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_residual_series_new(const qdot_plan *plan, const qdot_residual *residual,
-                         bool shaken, qdot_residual_series **series)
-{
-    qdot_residual_series *s = qdot_calloc(1, sizeof *s);
-    qdot_status status;
-
-    *series = NULL;
-    if (!s)
-        return QDOT_ENOMEM;
-    s->plan = plan;
-    s->residual = residual;
-    s->series.most = most_order - 4;
-    status = make(s, shaken);
-    if (status != QDOT_OK) {
-        qdot_residual_series_free(s);
-        return status;
-    }
-    *series = s;
-    return QDOT_OK;
-}
-
-void
-qdot_residual_series_free(qdot_residual_series *s)
-{
-    if (!s)
-        return;
-    clear_tree(s);
-    qdot_motion_series_free(s->stages);
-    qdot_motion_clear(&s->motion);
     qdot_free(s);
 }
 
 const qdot_ode_series *
-qdot_residual_series_get(const qdot_residual_series *s)
+qdot_tree_series_get(const qdot_tree_series *s)
 {
     return &s->series;
 }
 
+qdot_work
+qdot_tree_series_work(const qdot_tree_series *s)
+{
+    const qdot_taylor *forces = s->forces.taylor;
+    qdot_work w = {.coordinates = (double)s->plan->n,
+                   .calls = (double)qdot_tape_calls(s->residual->places),
+                   .nodes = (double)qdot_residual_sweeps_nodes(s->tree)};
+
+    qdot_residual_sweeps_count(s->tree, &w.vectors, &w.products, &w.begun);
+    if (forces) {
+        w.length = (double)qdot_taylor_length(forces);
+        w.convolutions = qdot_taylor_convolutions(forces);
+    }
+    return w;
+}
+
 double
-qdot_residual_series_convolutions(const qdot_residual_series *s)
+qdot_tree_series_convolutions(const qdot_tree_series *s)
 {
     return qdot_taylor_convolutions(s->places.taylor) +
            (s->forces.taylor ? qdot_taylor_convolutions(s->forces.taylor) : 0) +
            (double)s->residual->n_slopes;
 }
 
-size_t
-qdot_residual_series_tree_size(const qdot_residual_series *s, bool *path)
+bool
+qdot_tree_series_is_path(const qdot_tree_series *s)
 {
-    *path = s->tree && qdot_residual_sweeps_is_path(s->tree);
-    return s->tree ? qdot_residual_sweeps_nodes(s->tree) : 0;
+    return qdot_residual_sweeps_is_path(s->tree);
 }
 
 size_t
-qdot_residual_series_code(const qdot_residual_series *s, const char **why)
+qdot_tree_series_eliminated(const qdot_tree_series *s)
 {
-    *why = NULL;
-    return s->stages && !s->tree ? qdot_motion_series_code(s->stages, why) : 0;
-}
-
-size_t
-qdot_residual_series_factored(const qdot_residual_series *s)
-{
-    return s->eliminated + (s->stages ? qdot_motion_series_factored(s->stages) : 0);
+    return s->eliminated;
 }

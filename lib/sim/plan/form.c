@@ -1,0 +1,278 @@
+/* form.c -- candidates for the form of the equations, and the cheapest of them. */
+#include "sim/plan/form.h"
+
+#include "base/memory.h"
+#include "ode/taylor.h"
+#include "sim/form/blocks.h"
+#include "sim/form/bordered.h"
+#include "sim/form/canonical.h"
+#include "sim/form/constrained-series.h"
+#include "sim/form/derived.h"
+#include "sim/form/eliminated.h"
+#include "sim/form/motion-of-residual.h"
+#include "sim/form/motion-series.h"
+#include "sim/form/residual.h"
+#include "sim/form/tree-series.h"
+#include "sim/model/switch.h"
+#include "sim/plan/cost.h"
+
+/* Hamilton's equations save this much of the others' convolutions where they are taken. */
+static const double canonical_saves = 0.85;
+
+static void
+take(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
+{
+    p->form = form;
+    p->expansions = *cost;
+    p->cost = qdot_cost_steps(cost);
+}
+
+/* --- M q'' = f ------------------------------------------------------------------------ */
+
+/* Whether blocks that are numbers have an inverse. */
+static qdot_status
+check_blocks(const qdot_plan *p)
+{
+    qdot_blocks blocks;
+    const qdot_status status = qdot_blocks_init(&blocks, p, false);
+
+    qdot_blocks_clear(&blocks);
+    return status;
+}
+
+qdot_status
+qdot_plan_measure(qdot_plan *p)
+{
+    qdot_ode_cost cost;
+    qdot_work work;
+
+    QDOT_TRY(qdot_plan_make_motion(p));
+    QDOT_TRY(check_blocks(p));
+    work = qdot_motion_series_work(p);
+    p->convolutions_derived = work.convolutions;
+    cost = qdot_cost_explicit(&work);
+    take(p, QDOT_FORM_EXPLICIT, &cost);
+    return QDOT_OK;
+}
+
+/* --- d'Alembert's residual ------------------------------------------------------------ */
+
+typedef struct {
+    qdot_residual *residual;
+    qdot_form form;
+    qdot_ode_cost cost, lanes;
+    double convolutions;
+    size_t nodes; /* along a tree */
+    bool is_path;
+} candidate;
+
+/* By its program, or along its tree if that is cheaper and there may be one: lanes and numbers of many
+ * digits have programs only. */
+static qdot_status
+measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
+{
+    qdot_residual *r = c->residual;
+    qdot_tree_series *tree;
+    qdot_ode_cost along;
+    qdot_work work;
+
+    QDOT_TRY(qdot_motion_of_residual(p, r, &r->motion));
+    work = qdot_motion_series_work_of_residual(p, &r->motion, r->masses);
+    c->form = QDOT_FORM_RESIDUAL;
+    c->cost = qdot_cost_implicit(&work);
+    c->convolutions = r->motion.program.convolutions;
+    c->lanes = qdot_cost_lanes(&work);
+    if (!may_be_tree)
+        return QDOT_OK;
+    QDOT_TRY(qdot_tree_series_new(p, r, false, &tree));
+    if (!tree)
+        return QDOT_OK;
+    work = qdot_tree_series_work(tree);
+    along = qdot_cost_tree(&work);
+    if (qdot_cost_steps(&along) < qdot_cost_steps(&c->cost)) {
+        c->form = QDOT_FORM_TREE;
+        c->cost = along;
+        c->nodes = (size_t)work.nodes;
+        c->is_path = qdot_tree_series_is_path(tree);
+    }
+    qdot_tree_series_free(tree);
+    return QDOT_OK;
+}
+
+/* Whether the residual is cheaper: numbers of many digits spend all on convolutions; lanes know no
+ * forces that hold velocities there. */
+static bool
+is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *request)
+{
+    const qdot_work work = qdot_motion_series_work(p);
+    const qdot_ode_cost lanes = qdot_cost_lanes(&work);
+
+    if (request->digits > 0)
+        return c->convolutions < p->convolutions_derived;
+    if (request->lanes)
+        return !p->indefinite && qdot_cost_steps(&c->lanes) < qdot_cost_steps(&lanes);
+    return qdot_cost_steps(&c->cost) < p->cost;
+}
+
+/* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant. d'Alembert's is
+ * made of the scene, which switches, and of constant masses. */
+static bool
+has_others(const qdot_plan *p)
+{
+    if ((p->mode && p->mode->atoms.n > 0) || p->n_states > 0)
+        return false;
+    for (size_t k = 0; k < p->structure.blocks; k++)
+        if (p->blocks[k].n > 1 && !p->blocks[k].constant)
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_plan_choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+{
+    candidate c = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_plan_measure(p));
+    if (!has_others(p))
+        return QDOT_OK;
+    QDOT_TRY(qdot_residual_new(scene, p, &c.residual));
+    if (!c.residual)
+        return QDOT_OK;
+    status = measure_residual(p, request->digits == 0 && !request->lanes, &c);
+    if (status == QDOT_OK)
+        p->convolutions_residual = c.convolutions;
+    if (status == QDOT_OK && is_cheaper(p, &c, request)) {
+        take(p, c.form, &c.cost);
+        p->residual = c.residual;
+        p->tree_nodes = c.nodes;
+        p->tree_is_path = c.is_path;
+        return QDOT_OK;
+    }
+    qdot_residual_free(c.residual);
+    return status;
+}
+
+/* --- lanes ------------------------------------------------------------------------------ */
+
+qdot_status
+qdot_plan_make_lanes(qdot_plan *p)
+{
+    const qdot_motion *motion;
+    qdot_work work;
+
+    if (!p->residual)
+        QDOT_TRY(qdot_plan_make_motion_of_members(p));
+    motion = p->residual ? &p->residual->motion : p->motion;
+    work = qdot_work_of_motion(p, motion, p->residual ? p->residual->places : p->tape);
+    p->expansions = qdot_cost_lanes(&work);
+    return QDOT_OK;
+}
+
+/* --- constraints ---------------------------------------------------------------------- */
+
+/* By their own coefficients: what all other forms fall back to. */
+static qdot_status
+measure_constrained(qdot_plan *p)
+{
+    qdot_constrained_series *series;
+    qdot_ode_cost cost;
+    qdot_work work;
+
+    QDOT_TRY(qdot_constrained_series_new(p, false, &series));
+    work = qdot_constrained_series_work(series);
+    p->convolutions_derived = work.convolutions;
+    cost = qdot_cost_constrained(p, &work);
+    take(p, QDOT_FORM_CONSTRAINED, &cost);
+    qdot_constrained_series_free(series);
+    return QDOT_OK;
+}
+
+/* Multipliers eliminated beforehand, if that is cheaper than the form so far. */
+static qdot_status
+offer_eliminated(qdot_plan *p, double tol, double *least)
+{
+    qdot_plan *e;
+    qdot_ode_cost cost;
+    qdot_work work;
+    qdot_status status;
+    double steps;
+
+    QDOT_TRY(qdot_eliminated_make(p, tol, &e));
+    if (!e)
+        return QDOT_OK;
+    status = qdot_plan_measure(e);
+    if (status != QDOT_OK) {
+        qdot_plan_free(e);
+        return status;
+    }
+    work = qdot_motion_series_work(e);
+    cost = qdot_cost_eliminated(p, &work);
+    steps = qdot_cost_constrained_steps(p, &cost, tol);
+    if (!(steps < *least)) {
+        qdot_plan_free(e);
+        return QDOT_OK;
+    }
+    take(p, QDOT_FORM_ELIMINATED, &cost);
+    p->eliminated = e;
+    *least = steps;
+    return QDOT_OK;
+}
+
+/* The same of multipliers solved for by machine code; kernels: of what begins it. */
+static qdot_status
+offer_bordered(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *least)
+{
+    qdot_ode_cost cost;
+    qdot_work work;
+    double steps;
+
+    QDOT_TRY(qdot_bordered_make(p, tol, &p->bordered));
+    if (!p->bordered)
+        return QDOT_OK;
+    QDOT_TRY(qdot_plan_make_motion(p));
+    work = qdot_motion_series_work(p);
+    cost = qdot_cost_bordered(&work, kernels);
+    steps = qdot_cost_constrained_steps(p, &cost, tol);
+    if (!(steps < *least)) {
+        qdot_plan_drop_bordered(p);
+        return QDOT_OK;
+    }
+    take(p, QDOT_FORM_BORDERED, &cost);
+    qdot_plan_free(p->eliminated);
+    p->eliminated = NULL;
+    *least = steps;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_plan_choose_constrained(qdot_plan *p, const qdot_run_request *request)
+{
+    qdot_ode_cost own;
+    double least;
+
+    QDOT_TRY(measure_constrained(p));
+    if (request->digits > 0)
+        return QDOT_OK;
+    own = p->expansions;
+    least = qdot_cost_constrained_steps(p, &own, request->tol);
+    QDOT_TRY(offer_eliminated(p, request->tol, &least));
+    return offer_bordered(p, request->tol, &own, &least);
+}
+
+/* --- many digits ----------------------------------------------------------------------- */
+
+qdot_status
+qdot_plan_choose_canonical(qdot_plan *p, qdot_scene *scene)
+{
+    const double others =
+        p->residual ? p->convolutions_residual : p->convolutions_derived;
+
+    QDOT_TRY(qdot_canonical_new(scene, p, &p->canonical));
+    if (p->canonical &&
+        p->canonical->motion.program.convolutions > canonical_saves * others) {
+        qdot_canonical_free(p->canonical);
+        p->canonical = NULL;
+    }
+    return QDOT_OK;
+}
