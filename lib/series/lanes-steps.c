@@ -177,13 +177,14 @@ static const number nothing = {.sum = QDOT_LANES_NOTHING};
 static void
 add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
-    number *other = u + name - QDOT_OF_U1;
+    number *other;
 
     minus ^= v->minus;
     if (name < QDOT_OF_U1) {
         add_row(s, &v->sum, minus, row_of(s, name));
         return;
     }
+    other = u + (name - QDOT_OF_U1);
     qdot_writer_join(s->w, minus ^ other->minus ? QDOT_ASM_SUB : QDOT_ASM_ADD, &v->sum,
                      other->sum);
     *other = nothing;
