@@ -317,6 +317,7 @@ library_sources = \
 	lib/series/taylor-near.c \
 	lib/series/taylor-order-fma.c \
 	lib/series/taylor-order.c \
+	lib/series/taylor-products.c \
 	lib/series/taylor-text.c \
 	lib/series/taylor-unknowns.c \
 	lib/series/taylor-wide.c \
@@ -370,6 +371,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-hold.c \
 	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
@@ -384,7 +386,6 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/canonical.c \
-	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
@@ -392,6 +393,7 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -400,6 +402,7 @@ library_sources = \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/saddle-solver.c \
 	lib/sim/form/tree-series.c \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
@@ -717,6 +720,7 @@ library_headers = \
 	lib/series/taylor-motion.h \
 	lib/series/taylor-order.def \
 	lib/series/taylor-order.h \
+	lib/series/taylor-products.h \
 	lib/series/taylor-steps.h \
 	lib/series/taylor-text.h \
 	lib/series/taylor-wide.def \
@@ -757,6 +761,7 @@ library_headers = \
 	lib/sim/course/watch.h \
 	lib/sim/digits/digits.h \
 	lib/sim/digits/precise-course.h \
+	lib/sim/digits/precise-hold.h \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
@@ -770,7 +775,6 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/canonical.h \
-	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
@@ -778,6 +782,7 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -786,6 +791,7 @@ library_headers = \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/saddle-solver.h \
 	lib/sim/form/tree-series.h \
 	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
@@ -1002,6 +1008,7 @@ script_tests = \
 	tests/script/definitions.lag \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
+	tests/script/digits-constraint-events.lag \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
 	tests/script/digits-start.lag \
@@ -1094,6 +1101,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
+	tests/script/quit.lag \
 	tests/script/race.sh \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1403,18 +1411,23 @@ script_tests = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/race.lag \
+	examples/rattleback.lag \
+	examples/rolling-coin.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
 	examples/spherical-pendulum.lag \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
+	examples/tautochrone.lag \
+	examples/tippe-top.lag \
 	examples/toda-chain.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
@@ -1430,11 +1443,13 @@ meta_tests = \
 	tests/meta/embed.test \
 	tests/meta/exports.test \
 	tests/meta/floors.test \
+	tests/meta/gallery.test \
 	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
 	tests/meta/sources.test \
-	tests/meta/symbols.test
+	tests/meta/symbols.test \
+	tests/meta/words.test
 
 test_files = \
 	tests/bad/acceleration-position.out \
@@ -1796,6 +1811,7 @@ test_files = \
 	tests/script/definitions.out \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
+	tests/script/digits-constraint-events.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
 	tests/script/digits-start.out \
@@ -1908,6 +1924,7 @@ test_files = \
 	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \
+	tests/script/quit.out \
 	tests/script/race.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -2019,6 +2036,7 @@ example_files = \
 	examples/bead-on-helix.svg \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
+	examples/bicycle.svg \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
 	examples/bowling-ball.lag \
@@ -2031,6 +2049,7 @@ example_files = \
 	examples/chain.lag \
 	examples/chain.svg \
 	examples/chaplygin-sleigh.lag \
+	examples/chaplygin-sleigh.svg \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \
@@ -2084,6 +2103,7 @@ example_files = \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/magnetic-field.lag \
+	examples/magnetic-field.svg \
 	examples/metrics.lag \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
@@ -2098,6 +2118,10 @@ example_files = \
 	examples/pumped-swing.svg \
 	examples/race.lag \
 	examples/race.svg \
+	examples/rattleback.lag \
+	examples/rattleback.svg \
+	examples/rolling-coin.lag \
+	examples/rolling-coin.svg \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
 	examples/rotating-body.lag \
@@ -2106,14 +2130,21 @@ example_files = \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
 	examples/slider-crank.lag \
+	examples/snakeboard.lag \
+	examples/snakeboard.svg \
 	examples/spherical-pendulum.lag \
 	examples/spherical-pendulum.svg \
 	examples/spherical.lag \
 	examples/squeezer.lag \
 	examples/stated-lagrangian.lag \
+	examples/stated-lagrangian.svg \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
 	examples/swinging-atwood.svg \
+	examples/tautochrone.lag \
+	examples/tautochrone.svg \
+	examples/tippe-top.lag \
+	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
 	examples/torus-geodesic.lag \

@@ -1,12 +1,12 @@
 /* taylor.c -- a series program in doubles: its rows, and what it links. */
 #include "series/taylor.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "tape/shake.h"
 #include "series/taylor-code.h"
+#include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 #include "machine/asm.h"
 
@@ -77,7 +77,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
                                          .zero = s->zero,
                                          .sign = (signed char)s->sign,
                                          .lead = s->lead,
-                                         .newest = t->motion ? s->newest : UCHAR_MAX,
+                                         .newest = s->newest,
                                          .kept = s->kept,
                                          .to = qdot_taylor_place(t, s->to),
                                          .second = qdot_taylor_place(t, s->second),
@@ -94,6 +94,34 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
         t->constant[i] = p->rows.at[r].still;
     }
     t->kernels = qdot_series_kernels_get();
+    qdot_taylor_find_functions(t);
+    return QDOT_OK;
+}
+
+static qdot_status
+check_order(int most)
+{
+    return most < 0 || most > QDOT_SERIES_MOST
+               ? qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most)
+               : QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_of_program(const qdot_program *program, bool shaken, int most,
+                       qdot_taylor **taylor)
+{
+    qdot_taylor *t;
+    qdot_status status;
+
+    *taylor = NULL;
+    QDOT_TRY(check_order(most));
+    t = qdot_calloc(1, sizeof *t);
+    status = t ? qdot_taylor_settle(t, program, most, 0, 0, shaken) : QDOT_ENOMEM;
+    if (status != QDOT_OK) {
+        qdot_taylor_free(t);
+        return status;
+    }
+    *taylor = t;
     return QDOT_OK;
 }
 
@@ -101,22 +129,14 @@ static qdot_status
 make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
 {
     qdot_program program;
-    qdot_taylor *t;
     qdot_status status;
 
     *taylor = NULL;
-    if (most < 0 || most > QDOT_SERIES_MOST)
-        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
+    QDOT_TRY(check_order(most));
     QDOT_TRY(qdot_program_init(tape, moving, false, &program));
-    t = qdot_calloc(1, sizeof *t);
-    status = t ? qdot_taylor_settle(t, &program, most, 0, 0, false) : QDOT_ENOMEM;
+    status = qdot_taylor_of_program(&program, false, most, taylor);
     qdot_program_clear(&program);
-    if (status != QDOT_OK) {
-        qdot_taylor_free(t);
-        return status;
-    }
-    *taylor = t;
-    return QDOT_OK;
+    return status;
 }
 
 qdot_status
@@ -164,6 +184,10 @@ qdot_taylor_free(qdot_taylor *t)
     for (size_t b = 0; b < t->n_blocks; b++)
         free_block(t->blocks + b);
     qdot_free(t->blocks);
+    qdot_free(t->negated);
+    qdot_free(t->unknowns);
+    qdot_free(t->newest);
+    qdot_taylor_products_free(t->products);
     qdot_free(t->allocated);
     qdot_free(t->output);
     qdot_free(t->constant);

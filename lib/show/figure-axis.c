@@ -113,12 +113,29 @@ qdot_figure_axis_of(double least, double most, bool log, double steps, const int
 
 /* --- tics ----------------------------------------------------------------------------- */
 
+static double
+first_tic(const qdot_figure_axis *a)
+{
+    return ceil(a->least / a->step - 1e-9);
+}
+
+static double
+last_tic(const qdot_figure_axis *a)
+{
+    return floor(a->most / a->step + 1e-9);
+}
+
+int
+qdot_figure_count_tics(const qdot_figure_axis *a)
+{
+    return a->step > 0 ? (int)fmin(last_tic(a) - first_tic(a) + 1, MOST_TICS) : 0;
+}
+
 static void
 add_linear_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *width)
 {
     const int decimals = (int)fmax(0, -floor(log10(a->step) + 1e-9));
-    const double first = ceil(a->least / a->step - 1e-9);
-    const double last = floor(a->most / a->step + 1e-9);
+    const double first = first_tic(a), last = last_tic(a);
 
     for (double k = first; k <= last && k < first + MOST_TICS; k++) {
         char number[64];

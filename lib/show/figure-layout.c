@@ -104,21 +104,43 @@ pad(double *least, double *most, bool log, double part)
     }
 }
 
-/* Paths have one scale: an axis along which nothing moves is as wide as a tenth of the others. */
+/* Paths have one scale: an axis along which little moves is as wide as a part of the widest, so that
+ * it has room for its tics. */
 static void
 even_out(qdot_figure_view *view, const bool *fixed, int axes)
 {
+    const double part = axes == 2 ? 1.0 / 4 : 1.0 / 10;
     double span = 0;
 
     for (int i = 0; i < axes; i++)
         span = fmax(span, view->most[i] - view->least[i]);
     for (int i = 0; i < axes; i++)
-        if (!fixed[i] && view->most[i] - view->least[i] < span / 10) {
+        if (!fixed[i] && view->most[i] - view->least[i] < part * span) {
             double middle = view->least[i] + (view->most[i] - view->least[i]) / 2;
 
-            view->least[i] = middle - span / 20;
-            view->most[i] = middle + span / 20;
+            view->least[i] = middle - part * span / 2;
+            view->most[i] = middle + part * span / 2;
         }
+}
+
+/* gnuplot makes the longer of x and y as wide as a fixed part of the figure, and z follows however long
+ * it is: so the whole is scaled until the box, as it is seen, has the size of a cube. */
+void
+qdot_figure_see_box(const double *side, double *zoom, double *seen)
+{
+    const double degree = acos(-1) / 180, c = cos(QDOT_FIGURE_TURN * degree),
+                 s = sin(QDOT_FIGURE_TURN * degree), flat = cos(QDOT_FIGURE_TILT * degree),
+                 high = sin(QDOT_FIGURE_TILT * degree);
+    const double of_cube = 1.2, edge_of_cube = 0.436; /* measured: parts of the width */
+    const double unit = fmax(side[0], side[1]);
+    const double wide = (c * side[0] + s * side[1]) / unit;
+    const double tall = ((s * side[0] + c * side[1]) * flat + side[2] * high) / unit;
+    const double part = fmin((c + s) / wide, ((c + s) * flat + high) / tall);
+
+    *zoom = of_cube * part;
+    seen[0] = edge_of_cube * part * side[0] / unit * hypot(c, s * flat);
+    seen[1] = edge_of_cube * part * side[1] / unit * hypot(s, c * flat);
+    seen[2] = edge_of_cube * part * side[2] / unit * high;
 }
 
 /* --- panels that share ---------------------------------------------------------------- */
@@ -193,12 +215,17 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     return QDOT_OK;
 }
 
-/* How high a figure of one path is: as its shape asks for. */
+/* How high a figure of one panel of paths is: as their shape asks for, with a line for a title and
+ * one for a key. */
 static double
-height_of_path(const qdot_figure_view *view, double width)
+height_of_paths(const qdot_panel *panel, const qdot_figure_view *view, double width,
+                double points)
 {
+    const double line = 1.4 * points / 28.35;
+    const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
     double x = view->most[0] - view->least[0], y = view->most[1] - view->least[1];
-    double height = (width - left_room - right_room) * y / x + high_room + low_room;
+    double height = (width - left_room - right_room) * y / x + high_room + low_room +
+                    line * (titled + (panel->n > 1));
 
     return isfinite(height) ? fmin(fmax(height, 0.4 * width), width) : width;
 }
@@ -223,7 +250,7 @@ qdot_figure_size(const qdot_figure *figure, double *width, double *height, doubl
         qdot_figure_view view;
 
         QDOT_TRY(view_without_length(figure, 0, &view));
-        *height = height_of_path(&view, *width);
+        *height = height_of_paths(first, &view, *width, *points);
     }
     return QDOT_OK;
 }
@@ -242,9 +269,19 @@ qdot_figure_get_view(const qdot_figure *figure, size_t i, qdot_figure_view *view
     view->length[2] = 0;
     if (!panel->equal)
         return QDOT_OK;
+    if (qdot_figure_is_space(panel)) {
+        double side[3], zoom;
+
+        for (int k = 0; k < 3; k++)
+            side[k] = view->most[k] - view->least[k];
+        qdot_figure_see_box(side, &zoom, view->length);
+        for (int k = 0; k < 3; k++)
+            view->length[k] *= width / (figure->n > 1 ? 2 : 1);
+        return QDOT_OK;
+    }
     for (int k = 0; k < 2; k++)
         scale = fmin(scale, view->length[k] / (view->most[k] - view->least[k]));
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 2; k++)
         view->length[k] = scale * (view->most[k] - view->least[k]);
     return QDOT_OK;
 }

@@ -33,6 +33,8 @@ int qdot_figure_power(double least, double most);
 /* The axis that shows least..most with about `steps` tics. power NULL: its own. */
 qdot_figure_axis qdot_figure_axis_of(double least, double most, bool log, double steps,
                                      const int *power);
+/* How many tics a linear axis has; 0: gnuplot chooses them, or it is logarithmic. */
+int qdot_figure_count_tics(const qdot_figure_axis *axis);
 /* `set xrange`, `set xtics`; bare: tics without numbers. *width: characters of the widest. */
 void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *axis,
                           bool bare, size_t *width);
@@ -50,6 +52,11 @@ bool qdot_figure_shows(const qdot_panel *panel, const qdot_curve *curve, size_t 
 bool qdot_figure_is_space(const qdot_panel *panel);
 /* Whether panel i has the abscissa of panel i + 1. */
 bool qdot_figure_is_shared(const qdot_figure *figure, size_t i);
+/* From where a path in space is seen, in degrees, as gnuplot's `set view` takes them. */
+enum { QDOT_FIGURE_TILT = 62, QDOT_FIGURE_TURN = 32 };
+/* The box of a path in space with the sides side[3]: *zoom is what `set view` has to scale it by so that
+ * it fills the figure, seen[k] is how long its edges are then, as parts of the figure's width. */
+void qdot_figure_see_box(const double *side, double *zoom, double *seen);
 /* The size of the whole figure in cm, and its letters in points. */
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);

@@ -96,7 +96,53 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 
 /* --- one panel ---------------------------------------------------------------------- */
 
-/* The axes of a panel. Those with one scale have one power of ten and one step. */
+/* Letters of the widest number along an axis. */
+static size_t
+widest_number(const qdot_figure_axis *a)
+{
+    qdot_text unused = {0};
+    size_t width = 0;
+
+    qdot_figure_add_axis(&unused, 'x', a, false, &width);
+    qdot_text_clear(&unused);
+    return width;
+}
+
+/* Between two tics of axis k, in cm, so that their numbers do not touch: more beside each other than one
+ * above the other. */
+static double
+room_of_tic(const qdot_figure_drawing *d, const qdot_figure_view *v, int k,
+            const qdot_figure_axis *a)
+{
+    const double letter = d->points / 28.35;
+
+    if (v->length[2] > 0) /* along the edges of a box */
+        return (k == 2 ? 1.8 : 2.2) * letter;
+    return (k == 1 ? 1.4 : 0.6 + 0.64 * (double)widest_number(a)) * letter;
+}
+
+/* Axis k of a panel with about `steps` tics; more where these are fewer than three and there is room,
+ * fewer where their numbers would touch. */
+static qdot_figure_axis
+choose_axis(const qdot_figure_drawing *d, const qdot_figure_view *v, int k, double steps,
+            const int *power)
+{
+    const double length = v->length[k];
+    qdot_figure_axis a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], steps, power);
+
+    while (a.step > 0 && qdot_figure_count_tics(&a) < 3 &&
+           length > (steps + 1) * room_of_tic(d, v, k, &a))
+        a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], ++steps, power);
+    while (a.step > 0 && steps > 1 &&
+           length * a.step < room_of_tic(d, v, k, &a) * (a.most - a.least)) {
+        steps = fmax(steps - 1, 1);
+        a = qdot_figure_axis_of(v->least[k], v->most[k], v->log[k], steps, power);
+    }
+    return a;
+}
+
+/* The axes of a panel. Those with one scale have one power of ten and, unless one is short, one
+ * step. */
 static qdot_status
 choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
 {
@@ -108,7 +154,7 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
     int power = 0;
 
     QDOT_TRY(qdot_figure_get_view(d->figure, i, &v));
-    of_path = fmin(fmax(fmin(v.length[0], v.length[1]) / 2.4, 1.5), space ? 2.5 : 2.0);
+    of_path = space ? 1.5 : fmin(fmax(fmin(v.length[0], v.length[1]) / 2.4, 1.5), 2);
     for (int k = 0; k < 3; k++) {
         int own = qdot_figure_power(v.least[k], v.most[k]);
 
@@ -119,8 +165,7 @@ choose_axes(const qdot_figure_drawing *d, size_t i, qdot_figure_axis *axes)
         double steps = panel->equal ? v.length[k] / of_path
                                     : fmin(fmax(v.length[k] / apart[k], 2), 12);
 
-        axes[k] = qdot_figure_axis_of(v.least[k], v.most[k], v.log[k], steps,
-                                      panel->equal ? &power : NULL);
+        axes[k] = choose_axis(d, &v, k, steps, panel->equal ? &power : NULL);
     }
     return QDOT_OK;
 }
@@ -168,6 +213,8 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
     else if (has_key_beside(d, panel))
         qdot_text_add(d->script, "set key outside right top vertical Left reverse samplen "
                                  "2.5\n");
+    else if (qdot_figure_is_space(panel))
+        qdot_text_add(d->script, "set key inside right top vertical Left reverse samplen 2.5\n");
     else {
         qdot_text_add(d->script, "set key at graph 1, graph ");
         qdot_text_double(d->script, 1 + 0.15 / fmax(high, 0.1), 6);
@@ -209,6 +256,21 @@ add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
 }
 
 static void
+add_space_view(qdot_text *script, const qdot_figure_axis *axes)
+{
+    double side[3], seen[3], zoom;
+
+    for (int k = 0; k < 3; k++)
+        side[k] = axes[k].most - axes[k].least;
+    qdot_figure_see_box(side, &zoom, seen);
+    qdot_text_format(script, "set view %d,%d,", QDOT_FIGURE_TILT, QDOT_FIGURE_TURN);
+    qdot_text_double(script, zoom, 4);
+    qdot_text_add(script, "\nset view equal xyz\nset border 31\nset xyplane at ");
+    qdot_text_double(script, axes[2].least, EXACT);
+    qdot_text_char(script, '\n');
+}
+
+static void
 add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
 {
     const qdot_panel *panel = &d->figure->panels[i];
@@ -227,12 +289,8 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                                    k == 0 && shared ? &(qdot_figure_label){0}
                                                     : &panel->axis[k]);
     }
-    if (n == 3) {
-        qdot_text_add(d->script, "set view 62,32,1.2\nset view equal xyz\nset border 31\n"
-                                 "set xyplane at ");
-        qdot_text_double(d->script, axes[2].least, EXACT);
-        qdot_text_char(d->script, '\n');
-    }
+    if (n == 3)
+        add_space_view(d->script, axes);
 }
 
 /* The data of a curve and their columns; floor: of a path in space its shadow on the floor. */
@@ -328,13 +386,9 @@ letters_left(const qdot_figure_drawing *d, double *letters)
     *letters = 0;
     for (size_t i = 0; i < d->figure->n; i++) {
         qdot_figure_axis axes[3];
-        qdot_text unused = {0};
-        size_t width = 0;
 
         QDOT_TRY(choose_axes(d, i, axes));
-        qdot_figure_add_axis(&unused, 'y', &axes[1], false, &width);
-        qdot_text_clear(&unused);
-        *letters = fmax(*letters, 3.2 + 0.62 * (double)width);
+        *letters = fmax(*letters, 3.2 + 0.62 * (double)widest_number(&axes[1]));
     }
     return QDOT_OK;
 }
@@ -358,13 +412,17 @@ place(const qdot_figure_drawing *d, size_t i, double *high)
         if (k < i)
             top -= below;
     }
-    if (qdot_figure_is_space(&f->panels[i])) {
-        qdot_text_add(d->script, "unset lmargin\nunset rmargin\n");
-    } else {
-        QDOT_TRY(letters_left(d, &left));
-        add_at(d->script, "l", fmin(left * letter / d->width, 0.4));
-        add_at(d->script, "r", 1 - letter / d->width);
+    if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot fits what it shows into its part */
+        qdot_text_add(d->script, "unset margins\nset origin 0,");
+        qdot_text_double(d->script, (top - free - below) / d->height, 6);
+        qdot_text_add(d->script, "\nset size 1,");
+        qdot_text_double(d->script, (free + above + below) / d->height, 6);
+        qdot_text_char(d->script, '\n');
+        return QDOT_OK;
     }
+    QDOT_TRY(letters_left(d, &left));
+    add_at(d->script, "l", fmin(left * letter / d->width, 0.4));
+    add_at(d->script, "r", 1 - letter / d->width);
     add_at(d->script, "t", top / d->height);
     add_at(d->script, "b", (top - free) / d->height);
     return QDOT_OK;
@@ -386,6 +444,8 @@ add_panel(const qdot_figure_drawing *d, size_t i)
     if (!qdot_figure_is_space(panel))
         qdot_text_format(d->script, "set size %s\n", panel->equal ? "ratio -1" : "noratio");
     add_curves(d, i, axes);
+    if (d->figure->n > 1 && qdot_figure_is_space(panel))
+        qdot_text_add(d->script, "set origin 0,0\nset size 1,1\nset border 3\n");
     return qdot_text_status(d->script);
 }
 

@@ -97,6 +97,7 @@ write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bo
     enum { MARGIN = 11 };
     char left[32], right[32];
     qdot_text label = {0};
+    long free;
 
     for (size_t r = 0; r < g->rows; r++) {
         size_t n = g->columns;
@@ -122,9 +123,10 @@ write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bo
         qdot_figure_add_formula(&label, panel->axis[0].text, false);
     else
         qdot_text_add(&label, panel->axis[0].text != NULL ? panel->axis[0].text : "");
-    const long free = (long)g->columns - (long)strlen(left) - (long)strlen(right) -
-                      (long)qdot_utf8_columns(qdot_text_str(&label), label.n);
-
+    free = (long)g->columns - (long)strlen(left) - (long)strlen(right);
+    if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
+        qdot_text_truncate(&label, 0); /* the numbers say more */
+    free = (long)fmax((double)free - (double)qdot_utf8_columns(qdot_text_str(&label), label.n), 0);
     qdot_text_format(out, "%*s%s%*s%s%*s%s\n", MARGIN + 1, "", left, (int)(free / 2 + 1), "",
                      qdot_text_str(&label), (int)(free - free / 2), "", right);
     out->failed = out->failed || label.failed;

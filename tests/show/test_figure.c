@@ -463,6 +463,23 @@ a_sketch_shows_the_curve(void **state)
     qdot_text_clear(&text);
 }
 
+/* Where a label does not fit between the numbers these stand alone; no line is too long. */
+static void
+a_narrow_sketch_fits(void **state)
+{
+    const double at[] = {9.736e-5, 3.854e-4}, height[] = {0, 10};
+    const qdot_curve curve = {.rows = 2, .x = at, .y = height};
+    const qdot_panel panel = {
+        .curves = &curve, .n = 1, .axis = {{"CPU time in s", false}}};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 40, 7, true, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "\n            9.736e-05         0.0003854\n"));
+    qdot_text_clear(&text);
+}
+
 static void
 paths_have_equal_axes(void **state)
 {
@@ -483,6 +500,29 @@ paths_have_equal_axes(void **state)
     assert_non_null(strstr(text, "set size ratio -1"));
     assert_non_null(strstr(text, "set xtics ('0.0' 0, '0.5' 0.5, "));
     assert_non_null(strstr(text, "set ytics ('0.0' 0, '0.5' 0.5, '1.0' 1)")); /* the same step */
+    free(text);
+}
+
+/* A flat path, one that is tall in space: both axes have tics that tell the scale, numbers that do not
+ * touch, and the whole is seen. */
+static void
+paths_of_any_shape_have_tics(void **state)
+{
+    const double at[] = {0, 8, 4, 0}, little[] = {0, 0, 0.1, 0}, tall[] = {0, 4, 80, 0};
+    const size_t n = 4;
+    qdot_curve curve = {.rows = n, .x = at, .y = little};
+    const qdot_panel figure = {.curves = &curve, .n = 1, .equal = true};
+    char *text;
+
+    (void)state;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set xtics ('0' 0, '1' 1, "));
+    assert_non_null(strstr(text, "set ytics ('−1' -1, '0' 0, '1' 1)"));
+    free(text);
+    curve.z = tall;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set view 62,32,0.19"));
+    assert_non_null(strstr(text, "set ztics ('0' 0, '10' 10, '20' 20, "));
     free(text);
 }
 
@@ -671,6 +711,7 @@ main(void)
         cmocka_unit_test(flat_lone_and_logarithmic_curves_are_drawn),
         cmocka_unit_test(long_logarithmic_axes_have_even_marks),
         cmocka_unit_test(paths_have_equal_axes),
+        cmocka_unit_test(paths_of_any_shape_have_tics),
         cmocka_unit_test(values_that_differ_late_have_an_offset),
         cmocka_unit_test(formulas_are_set),
         cmocka_unit_test(more_than_four_curves_have_patterns),
@@ -678,6 +719,7 @@ main(void)
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),
         cmocka_unit_test(a_sketch_shows_the_curve),
+        cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),
         cmocka_unit_test(a_gnuplot_that_fails_is_told),

@@ -3,9 +3,13 @@
 #include "scenes.h"
 
 #include "sim/course/bind.h"
-#include "sim/form/constrained-series.h"
+#include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/plan.h"
+
+#include "sim/form/derived.h"
+#include "sim/form/eliminated.h"
+#include "sim/plan/form.h"
 
 #include <math.h>
 
@@ -431,21 +435,36 @@ tied_bob(fixture *f)
 typedef struct {
     qdot_plan *plan;
     qdot_bind *bind;
-    qdot_constrained_series *whole;
+    qdot_motion_series *whole;
     const qdot_ode_series *series[2]; /* with multipliers eliminated; solved for */
 } both;
+
+/* A plan at that tolerance by multipliers eliminated beforehand, whatever is cheaper. */
+static qdot_plan *
+plan_eliminated(fixture *f)
+{
+    qdot_plan *p;
+
+    f->request.tol = 1e-5;
+    must(qdot_plan_new(f->scene, &f->request, &p));
+    qdot_plan_drop_bordered(p);
+    qdot_plan_free(p->eliminated);
+    must(qdot_eliminated_make(p, f->request.tol, &p->eliminated));
+    assert_non_null(p->eliminated);
+    must(qdot_plan_measure(p->eliminated));
+    p->form = QDOT_FORM_ELIMINATED;
+    return p;
+}
 
 static void
 both_begin(both *b, fixture *f)
 {
     tied_bob(f);
-    f->request.tol = 1e-5;
-    must(qdot_plan_new(f->scene, &f->request, &b->plan));
-    assert_non_null(b->plan->eliminated);
+    b->plan = plan_eliminated(f);
     must(qdot_bind_new(b->plan, false, &b->bind));
-    must(qdot_constrained_series_new(b->plan, false, &b->whole));
+    must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
     b->series[0] = qdot_bind_system(b->bind).series;
-    b->series[1] = qdot_constrained_series_get(b->whole);
+    b->series[1] = qdot_motion_series_get(b->whole);
 }
 
 static void
@@ -460,7 +479,7 @@ both_expand(const both *b, double t, const double *y, double unit, int p)
 static void
 both_end(both *b)
 {
-    qdot_constrained_series_free(b->whole);
+    qdot_motion_series_free(b->whole);
     qdot_bind_free(b->bind);
     qdot_plan_free(b->plan);
 }
@@ -507,14 +526,11 @@ held_rods_are_not_measured(void **state)
 
     (void)state;
     cartesian_pendulum(&f);
-    f.request.tol = 1e-5;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_non_null(plan->eliminated);
+    plan = plan_eliminated(&f);
     held = qdot_tape_operations(plan->eliminated->tape);
     qdot_plan_free(plan);
     f.request.treatment = QDOT_RUN_NONE;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_non_null(plan->eliminated);
+    plan = plan_eliminated(&f);
     assert_true(held < qdot_tape_operations(plan->eliminated->tape));
     qdot_plan_free(plan);
     end(&f);

@@ -10,6 +10,7 @@
 
 #include <poll.h>
 #include <pty.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -619,6 +620,113 @@ formulas_are_drawn_to_the_width_of_the_terminal(void **state)
     setenv("LC_ALL", "C", 1);
 }
 
+/* --- README's session ------------------------------------------------------------------- */
+
+/* Numbers become N, since the last digits, the steps and the times depend on the machine, and so does
+ * whether an error is 0 and told; a line's trailing blanks go. */
+static void
+level(char *text)
+{
+    static const char velocities[] = ", of velocities ", steps[] = "steps";
+    char *to = text;
+
+    for (const char *c = text; *c != '\0';) {
+        const bool minus = *c == '-' && c[1] >= '0' && c[1] <= '9';
+
+        if (strncmp(c, velocities, strlen(velocities)) == 0) {
+            c += strcspn(c, ";\n");
+        } else if (strncmp(c, steps, strlen(steps)) == 0) {
+            to = stpcpy(to, "step");
+            c += strlen(steps);
+        } else if (minus || (*c >= '0' && *c <= '9')) {
+            c += minus ? 1 : 0;
+            c += strspn(c, "0123456789.");
+            if (c[0] == 'e' && c[1] == '-')
+                c += 2 + strspn(c + 2, "0123456789");
+            *to++ = 'N';
+        } else if (*c == '\r') {
+            c++;
+        } else {
+            if (*c == '\n')
+                while (to > text && to[-1] == ' ')
+                    to--;
+            *to++ = *c++;
+        }
+    }
+    *to = '\0';
+}
+
+/* The lines of README from *at on that are indented and no prompt, without the indent. */
+static void
+take_answer(const char **at, char *answer, size_t size)
+{
+    size_t n = 0;
+
+    while (strncmp(*at, "    ", 4) == 0 && strncmp(*at, "    qdot ", 9) != 0) {
+        const size_t length = strcspn(*at, "\n");
+
+        assert_true(n + length < size);
+        n += (size_t)sprintf(answer + n, "%.*s\n", (int)(length - 4), *at + 4);
+        *at += length + ((*at)[length] == '\n');
+    }
+    answer[n] = '\0';
+}
+
+/* Type what stands behind a prompt of README, and compare what comes with what README shows. */
+static void
+follow_readme(const char *at)
+{
+    static char answer[4096], said[MOST];
+    char prompt[32], statement[256];
+    int asked = 0;
+
+    while ((at = strstr(at, "\n    qdot ")) != NULL) {
+        at += 5;
+        assert_int_equal(sscanf(at, "%31[^>]> %255[^\n]", prompt, statement), 2);
+        strcat(prompt, "> ");
+        expect(prompt);
+        at += strcspn(at, "\n") + 1;
+        take_answer(&at, answer, sizeof answer);
+        at--;
+        type(statement);
+        type("\r");
+        expect(statement);
+        expect("\n");
+        const size_t begin = n_read;
+
+        expect("qdot ");
+        n_read -= strlen("qdot ");
+        snprintf(said, sizeof said, "%.*s", (int)(n_read - begin), seen + begin);
+        level(said);
+        level(answer);
+        assert_string_equal(said, answer);
+        asked++;
+    }
+    assert_true(asked > 20);
+}
+
+static void
+readme_shows_what_is_seen(void **state)
+{
+    const char *top = getenv("top_srcdir");
+    static char text[MOST], path[4200];
+    FILE *file;
+
+    (void)state;
+    if (top == NULL || system("gnuplot --version >/dev/null 2>&1") != 0)
+        skip();
+    snprintf(path, sizeof path, top[0] == '/' ? "%s/README.md" : "../%s/README.md", top);
+    file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    setenv("LC_ALL", "C.UTF-8", 1);
+    start("-q");
+    follow_readme(text);
+    leave_by_ctrl_d();
+    setenv("LC_ALL", "C", 1);
+}
+
 int
 main(void)
 {
@@ -642,6 +750,7 @@ main(void)
         cmocka_unit_test(long_work_says_how_far_it_is),
         cmocka_unit_test(interrupted_work_keeps_its_rows),
         cmocka_unit_test(formulas_are_drawn_to_the_width_of_the_terminal),
+        cmocka_unit_test(readme_shows_what_is_seen),
     };
 
     return cmocka_run_group_tests(tests, enter, leave);

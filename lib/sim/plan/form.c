@@ -6,7 +6,6 @@
 #include "sim/form/blocks.h"
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
-#include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/motion-of-residual.h"
@@ -66,8 +65,8 @@ typedef struct {
     bool is_path;
 } candidate;
 
-/* By its program, or along its tree if that is cheaper and there may be one: lanes and numbers of many
- * digits have programs only. */
+/* By its program, or along its tree if that is cheaper and there may be one: lanes and
+ * numbers of many digits have programs only. */
 static qdot_status
 measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
 {
@@ -84,6 +83,7 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     c->lanes = qdot_cost_lanes(&work);
     if (!may_be_tree)
         return QDOT_OK;
+    QDOT_TRY(qdot_residual_programs(r));
     QDOT_TRY(qdot_tree_series_new(p, r, false, &tree));
     if (!tree)
         return QDOT_OK;
@@ -99,8 +99,8 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     return QDOT_OK;
 }
 
-/* Whether the residual is cheaper: numbers of many digits spend all on convolutions; lanes know no
- * forces that hold velocities there. */
+/* Whether the residual is cheaper: numbers of many digits spend all on convolutions; lanes
+ * know no forces that hold velocities there. */
 static bool
 is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *request)
 {
@@ -114,8 +114,8 @@ is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *reque
     return qdot_cost_steps(&c->cost) < p->cost;
 }
 
-/* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant. d'Alembert's is
- * made of the scene, which switches, and of constant masses. */
+/* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant.
+ * d'Alembert's is made of the scene, which switches, and of constant masses. */
 static bool
 has_others(const qdot_plan *p)
 {
@@ -175,16 +175,16 @@ qdot_plan_make_lanes(qdot_plan *p)
 static qdot_status
 measure_constrained(qdot_plan *p)
 {
-    qdot_constrained_series *series;
+    qdot_motion_series *series;
     qdot_ode_cost cost;
     qdot_work work;
 
-    QDOT_TRY(qdot_constrained_series_new(p, false, &series));
-    work = qdot_constrained_series_work(series);
+    QDOT_TRY(qdot_motion_series_of_constraints(p, false, &series));
+    work = qdot_motion_series_work_of_constraints(series);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_constrained(p, &work);
     take(p, QDOT_FORM_CONSTRAINED, &cost);
-    qdot_constrained_series_free(series);
+    qdot_motion_series_free(series);
     return QDOT_OK;
 }
 
