@@ -215,10 +215,10 @@ is_folded(const step *s, unsigned name)
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    const qdot_lanes_at q = at(row_of(s, o->q), s->k);
+    const qdot_lanes_at z = at(s->s->z, s->k);
 
-    if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, q.row))
-        return (number){.sum = qdot_lanes_continue_last(s->w, q)};
+    if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, z.row))
+        return (number){.sum = qdot_lanes_continue_last(s->w, z)};
     return take(s, o->q, u);
 }
 
