@@ -177,13 +177,14 @@ static const number nothing = {.sum = QDOT_LANES_NOTHING};
 static void
 add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
-    number *other = u + name - QDOT_OF_U1;
+    number *other;
 
     minus ^= v->minus;
     if (name < QDOT_OF_U1) {
         add_row(s, &v->sum, minus, row_of(s, name));
         return;
     }
+    other = u + (name - QDOT_OF_U1);
     qdot_writer_join(s->w, minus ^ other->minus ? QDOT_ASM_SUB : QDOT_ASM_ADD, &v->sum,
                      other->sum);
     *other = nothing;
@@ -214,10 +215,10 @@ is_folded(const step *s, unsigned name)
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    const qdot_lanes_at q = at(row_of(s, o->q), s->k);
+    const qdot_lanes_at z = at(s->s->z, s->k);
 
-    if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, q.row))
-        return (number){.sum = qdot_lanes_continue_last(s->w, q)};
+    if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, z.row))
+        return (number){.sum = qdot_lanes_continue_last(s->w, z)};
     return take(s, o->q, u);
 }
 

@@ -161,12 +161,13 @@ static void
 add_number(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
            bool minus, unsigned name, sum *u)
 {
-    sum *other = u + name - QDOT_OF_U1;
+    sum *other;
 
     if (name < QDOT_OF_U1) {
         add_scaled(g, v, minus, factor, qdot_code_named(s, name));
         return;
     }
+    other = u + (name - QDOT_OF_U1);
     if (minus)
         negate(other);
     append(g, v, other);
