@@ -315,6 +315,7 @@ library_sources = \
 	lib/series/taylor-near.c \
 	lib/series/taylor-order-fma.c \
 	lib/series/taylor-order.c \
+	lib/series/taylor-products.c \
 	lib/series/taylor-text.c \
 	lib/series/taylor-unknowns.c \
 	lib/series/taylor-wide.c \
@@ -369,6 +370,7 @@ library_sources = \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
+	lib/sim/digits/precise-hold.c \
 	lib/sim/digits/precise-pair.c \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
@@ -383,7 +385,6 @@ library_sources = \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
 	lib/sim/form/canonical.c \
-	lib/sim/form/constrained-series.c \
 	lib/sim/form/derived.c \
 	lib/sim/form/eliminated.c \
 	lib/sim/form/ensemble-series.c \
@@ -391,6 +392,7 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
@@ -399,6 +401,7 @@ library_sources = \
 	lib/sim/form/residual-sweeps.c \
 	lib/sim/form/residual-tree.c \
 	lib/sim/form/residual.c \
+	lib/sim/form/saddle-solver.c \
 	lib/sim/form/tree-series.c \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
@@ -714,6 +717,7 @@ library_headers = \
 	lib/series/taylor-motion.h \
 	lib/series/taylor-order.def \
 	lib/series/taylor-order.h \
+	lib/series/taylor-products.h \
 	lib/series/taylor-steps.h \
 	lib/series/taylor-text.h \
 	lib/series/taylor-wide.def \
@@ -755,6 +759,7 @@ library_headers = \
 	lib/sim/course/watch.h \
 	lib/sim/digits/digits.h \
 	lib/sim/digits/precise-course.h \
+	lib/sim/digits/precise-hold.h \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
@@ -768,7 +773,6 @@ library_headers = \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
 	lib/sim/form/canonical.h \
-	lib/sim/form/constrained-series.h \
 	lib/sim/form/derived.h \
 	lib/sim/form/eliminated.h \
 	lib/sim/form/ensemble-series.h \
@@ -776,6 +780,7 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
@@ -784,6 +789,7 @@ library_headers = \
 	lib/sim/form/residual-sweeps.h \
 	lib/sim/form/residual-tree.h \
 	lib/sim/form/residual.h \
+	lib/sim/form/saddle-solver.h \
 	lib/sim/form/tree-series.h \
 	lib/sim/form/work.h \
 	lib/sim/model/absent.h \
@@ -1000,6 +1006,7 @@ script_tests = \
 	tests/script/definitions.lag \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
+	tests/script/digits-constraint-events.lag \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
 	tests/script/digits-start.lag \
@@ -1802,6 +1809,7 @@ test_files = \
 	tests/script/definitions.out \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
+	tests/script/digits-constraint-events.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
 	tests/script/digits-start.out \

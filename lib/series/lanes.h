@@ -39,7 +39,7 @@ bool qdot_lanes_is_constant(const qdot_lanes *lanes, size_t i);
 /* As qdot_taylor_draw; t is a group. */
 void qdot_lanes_draw(qdot_lanes *lanes, const double *t);
 
-/* As qdot_taylor_order, qdot_taylor_correct; newest [n groups]. */
+/* As qdot_taylor_order, qdot_taylor_change; newest [n groups]. */
 void qdot_lanes_order(qdot_lanes *lanes, int k);
 void qdot_lanes_correct(qdot_lanes *lanes, int k, size_t n, const double *newest);
 

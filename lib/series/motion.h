@@ -23,7 +23,8 @@
  *
  *     E_i = sum_j K_ij u_j - right_i
  *
- * with all orders of these rows: whoever wishes may sum that without the steps that write it. A form of the equations of motion is what fills this:
+ * with all orders of these rows: whoever wishes may sum that without the steps that write it. So may
+ * the first of them be alone. A form of the equations of motion is what fills this:
  * where accelerations stand in E themselves no step is `newest`; where they are rates of
  * rates of places (d'Alembert), or of constraints, these lead by 2.
  *
@@ -54,8 +55,8 @@ typedef struct {
     qdot_vec(uint32_t) blocks;            /* block: where each begins, and the end of the last */
     qdot_vec(qdot_motion_entry) entries;  /* K, its other entries 0; none: it follows from steps
                                              that are `newest` (_column of an executor) */
-    qdot_vec(qdot_program_row) right;     /* explicit equations, else none: */
-    size_t written;                       /* of steps the last, which write them */
+    qdot_vec(qdot_program_row) right;     /* of equations the first so many are explicit; */
+    size_t written;                       /* the last so many steps write these */
 } qdot_motion;
 
 /* Once the program has ended: the leads of steps and rows, which steps are `newest`, and which of

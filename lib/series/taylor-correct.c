@@ -25,7 +25,6 @@ struct qdot_taylor_scaled_change {
 };
 
 struct qdot_taylor_changes {
-    size_t n;     /* inputs that change */
     double *note; /* [rows] what is added to the newest coefficient */
     struct qdot_taylor_change *changes; /* in the order of the steps */
     struct qdot_taylor_scaled_change *scaled;
@@ -54,59 +53,6 @@ qdot_taylor_changes_stale(qdot_taylor *t, int k)
         t->changes->stale = true;
 }
 
-/* --- which rows change and are read again ------------------------------------------- */
-
-static size_t
-number(const qdot_taylor *t, const double *row)
-{
-    return (size_t)(row - t->coefficients) / t->stride;
-}
-
-/* Whether orders below the newest are read too. */
-static bool
-looks_back(const qdot_taylor_step *s)
-{
-    return s->op >= QDOT_T_MUL;
-}
-
-static bool
-operands_in(const qdot_taylor *t, const qdot_taylor_step *s, const bool *set)
-{
-    return set[number(t, s->x)] || set[number(t, s->y)] || set[number(t, s->z)];
-}
-
-/* changes: what depends on the inputs; read: what is asked for again after a correction. */
-static void
-mark(const qdot_taylor *t, size_t n, const bool *kept, bool *changes, bool *read)
-{
-    const qdot_taylor_step *s;
-
-    for (size_t i = 0; i < n; i++)
-        changes[i] = true;
-    for (s = t->steps; s->op != QDOT_T_END; s++)
-        if (operands_in(t, s, changes)) {
-            changes[number(t, s->to)] = true;
-            if (s->second)
-                changes[number(t, s->second)] = true;
-        }
-    for (size_t i = 0; i < t->outputs; i++)
-        if (!kept || kept[i])
-            read[number(t, t->output[i])] = true;
-    while (s != t->steps) {
-        const size_t to = number(t, (--s)->to);
-
-        if (looks_back(s)) {
-            /* a function's own rows are its history; a product's are not */
-            read[to] |= s->op > QDOT_T_NMADD;
-            read[number(t, s->x)] = read[number(t, s->y)] = true;
-            if (s->op > QDOT_T_NMADD || read[to])
-                read[number(t, s->z)] = true;
-        } else if (read[to]) {
-            read[number(t, s->x)] = read[number(t, s->y)] = read[number(t, s->z)] = true;
-        }
-    }
-}
-
 /* --- the list ----------------------------------------------------------------------- */
 
 static void
@@ -117,10 +63,10 @@ add_change(qdot_taylor *t, const qdot_taylor_step *s, bool second)
 
     c->changes[c->n_changes++] =
         (struct qdot_taylor_change){.row = row,
-                                    .to = (uint32_t)number(t, row),
-                                    .x = (uint32_t)number(t, s->x),
-                                    .y = (uint32_t)number(t, s->y),
-                                    .z = (uint32_t)number(t, s->z),
+                                    .to = qdot_taylor_row(t, row),
+                                    .x = qdot_taylor_row(t, s->x),
+                                    .y = qdot_taylor_row(t, s->y),
+                                    .z = qdot_taylor_row(t, s->z),
                                     .step = s,
                                     .second = second,
                                     .rate = s->op == QDOT_T_RATE,
@@ -134,7 +80,7 @@ add_scaled(qdot_taylor *t, const qdot_taylor_step *s, double *row, const double 
     struct qdot_taylor_changes *c = t->changes;
 
     c->scaled[c->n_scaled++] =
-        (struct qdot_taylor_scaled_change){row, (uint32_t)number(t, x), s->lead};
+        (struct qdot_taylor_scaled_change){row, qdot_taylor_row(t, x), s->lead};
 }
 
 /* What changes by one step, a second row after the first. */
@@ -157,15 +103,13 @@ list(qdot_taylor *t, const qdot_taylor_step *s)
 }
 
 static qdot_status
-make_changes(qdot_taylor *t, size_t n)
+make_changes(qdot_taylor *t)
 {
     struct qdot_taylor_changes *c = qdot_calloc(1, sizeof *c);
 
-    qdot_taylor_changes_free(t);
     t->changes = c;
     if (!c)
         return QDOT_ENOMEM;
-    c->n = n;
     c->stale = true;
     c->note = qdot_calloc(t->rows + 1, sizeof *c->note);
     c->changes = qdot_calloc(2 * t->length + 1, sizeof *c->changes);
@@ -176,37 +120,12 @@ make_changes(qdot_taylor *t, size_t n)
 qdot_status
 qdot_taylor_follow_motion(qdot_taylor *t)
 {
-    QDOT_TRY(make_changes(t, 0));
+    QDOT_TRY(make_changes(t));
     for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
         if (s->kept) {
             list(t, s);
-            t->changes->changes_zero |= s->lead == 0 && looks_back(s);
+            t->changes->changes_zero |= s->lead == 0 && qdot_recurrence_looks_back(s->op);
         }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_taylor_affine(qdot_taylor *t, size_t n, const bool *kept)
-{
-    bool *changes = qdot_calloc(t->rows + 1, sizeof *changes);
-    bool *read = qdot_calloc(t->rows + 1, sizeof *read);
-    const qdot_status status = make_changes(t, n);
-
-    if (!changes || !read || status != QDOT_OK) {
-        qdot_free(changes);
-        qdot_free(read);
-        return QDOT_ENOMEM;
-    }
-    mark(t, n, kept, changes, read);
-    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++) {
-        const bool twice = s->second && s->op != QDOT_T_ATAN2;
-
-        if (changes[number(t, s->to)] &&
-            (read[number(t, s->to)] || (twice && read[number(t, s->second)])))
-            list(t, s);
-    }
-    qdot_free(changes);
-    qdot_free(read);
     return QDOT_OK;
 }
 
@@ -239,11 +158,10 @@ differentiate(struct qdot_taylor_change *change)
     change->c = i->newest & QDOT_Z_NEWEST ? by[2] : 0;
 }
 
-void
-qdot_taylor_change_row(qdot_taylor *t, double *row, int k, double by)
+double *
+qdot_taylor_change_of(const qdot_taylor *t, const double *row)
 {
-    t->changes->note[number(t, row)] = by;
-    row[k] += by;
+    return t->changes->note + qdot_taylor_row(t, row);
 }
 
 void
@@ -273,12 +191,4 @@ qdot_taylor_follow(qdot_taylor *t, int k)
 
         all->scaled[i].row[order] += order * note[all->scaled[i].x];
     }
-}
-
-void
-qdot_taylor_correct(qdot_taylor *t, int k, const double *newest)
-{
-    for (size_t i = 0; i < t->changes->n; i++)
-        qdot_taylor_change_row(t, qdot_taylor_input(t, i), k, newest[i]);
-    qdot_taylor_follow(t, k);
 }

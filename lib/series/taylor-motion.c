@@ -1,20 +1,35 @@
 /* taylor-motion.c -- stages of a motion, and what follows when its unknowns are found. */
 #include "series/taylor-motion.h"
 
+#include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 
 /* --- building ------------------------------------------------------------------------ */
 
-/* Without the steps that write equations: products of K are summed apart. */
+/* Without the steps that write explicit equations: products of K are summed apart. */
 static qdot_status
-make_explicit(qdot_taylor *t, int solved)
+take_apart(qdot_taylor *t, int most, int solved)
 {
-    const qdot_motion *m = t->motion;
-    const size_t length = t->length - m->written;
+    const size_t length = t->length - t->motion->written;
 
     t->steps[length] = t->steps[t->length];
     t->length = length;
     QDOT_TRY(qdot_taylor_solve_motion(t, solved));
+    t->negated = qdot_calloc(t->rows + 1, sizeof *t->negated);
+    if (!t->negated)
+        return QDOT_ENOMEM;
+    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++)
+        if (s->op == QDOT_T_NEG)
+            t->negated[qdot_taylor_row(t, s->to)] = s->x;
+    return qdot_taylor_products_new(t, most + 1, &t->products);
+}
+
+/* Nothing follows the unknowns but what is integrated of them. */
+static qdot_status
+link_unknowns(qdot_taylor *t)
+{
+    const qdot_motion *m = t->motion;
+
     for (size_t i = 0; i < m->unknowns.n; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
         const qdot_program_row of = u->value == QDOT_NO_ROW ? u->row : u->value;
@@ -32,6 +47,7 @@ qdot_taylor_of_motion(const qdot_motion *motion, bool shaken, int most, int solv
                       qdot_taylor **taylor)
 {
     const bool is_explicit = qdot_motion_is_explicit(motion);
+    const bool apart = motion->right.n > 0;
     qdot_taylor *t = NULL;
     qdot_status status;
 
@@ -43,10 +59,18 @@ qdot_taylor_of_motion(const qdot_motion *motion, bool shaken, int most, int solv
         return QDOT_ENOMEM;
     t->motion = motion;
     status = qdot_taylor_settle(t, &motion->program, most + 1,
-                                is_explicit ? motion->solved.n : 0,
+                                apart ? motion->solved.n : 0,
                                 is_explicit ? 0 : motion->program.length, shaken);
+    if (status == QDOT_OK && apart)
+        status = take_apart(t, most, solved);
     if (status == QDOT_OK)
-        status = is_explicit ? make_explicit(t, solved) : qdot_taylor_follow_motion(t);
+        status = qdot_taylor_find_unknowns(t, is_explicit);
+    if (status == QDOT_OK && apart && !is_explicit)
+        status = qdot_taylor_shorten(t);
+    if (status == QDOT_OK)
+        status = is_explicit ? link_unknowns(t) : qdot_taylor_follow_motion(t);
+    if (status == QDOT_OK && !is_explicit)
+        status = qdot_taylor_find_newest(t);
     if (status != QDOT_OK) {
         qdot_taylor_free(t);
         return status;
@@ -68,6 +92,15 @@ const double *
 qdot_taylor_series(const qdot_taylor *t, qdot_program_row row)
 {
     return qdot_taylor_place(t, row);
+}
+
+const double *
+qdot_taylor_entry(const qdot_taylor *t, qdot_program_row row, double *sign)
+{
+    const double *positive = t->negated ? t->negated[row] : NULL;
+
+    *sign = positive ? -1 : 1;
+    return positive ? positive : qdot_taylor_place(t, row);
 }
 
 double *
@@ -92,31 +125,13 @@ part(const qdot_taylor *t, int k)
     return t->unit / k;
 }
 
+/* Order k of what is given by a row is there: what that integrates to. */
 static void
-clear(const qdot_taylor *t, qdot_program_row row, int k)
-{
-    if (row != QDOT_NO_ROW)
-        qdot_taylor_place(t, row)[k] = 0;
-}
-
-void
-qdot_taylor_stage(qdot_taylor *t, int k)
+integrate_given(const qdot_taylor *t, int k)
 {
     const qdot_motion *m = t->motion;
 
-    if (is_explicit(t)) {
-        qdot_taylor_order(t, k);
-        return;
-    }
-    for (size_t i = 0; i < m->solved.n && k >= 0; i++) {
-        const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[i];
-
-        clear(t, u->row, k);
-        clear(t, u->once, k + 1);
-        clear(t, u->twice, k + 2);
-    }
-    qdot_taylor_order_leading(t, k);
-    for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
+    for (size_t i = 0; i < m->unknowns.n; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
         double *once = qdot_taylor_place(t, u->once),
                *twice = qdot_taylor_place(t, u->twice);
@@ -129,57 +144,62 @@ qdot_taylor_stage(qdot_taylor *t, int k)
     }
 }
 
-/* f_k less what M of orders above 0 takes of it. */
-static void
-right_hand_side(const qdot_taylor *t, const qdot_taylor_block *b, int k, double *to)
-{
-    qdot_series_dot *dot = k > 0 ? t->kernels->dot[k] : NULL;
-
-    for (size_t i = 0; i < b->n; i++)
-        to[i] = b->f[i][k];
-    for (size_t c = 0; dot && c < b->n_couplings; c++) {
-        const qdot_taylor_coupling *m = b->couplings + c;
-
-        to[m->i] -= dot(m->M + 1, m->a + k - 1);
-    }
-}
-
 void
-qdot_taylor_missing(const qdot_taylor *t, int k, double *by)
+qdot_taylor_stage(qdot_taylor *t, int k)
 {
     const qdot_motion *m = t->motion;
 
-    for (size_t b = 0; b < t->n_blocks; b++) {
-        right_hand_side(t, t->blocks + b, k, by);
-        by += t->blocks[b].n;
+    if (is_explicit(t)) {
+        qdot_taylor_order(t, k);
+        return;
     }
-    for (size_t i = 0; !is_explicit(t) && i < m->solved.n; i++)
-        by[i] = -qdot_taylor_place(t, m->equations.at[i])[k];
+    for (size_t i = 0; i < t->n_newest && k >= 0; i++)
+        t->newest[i].row[k + t->newest[i].lead] = 0;
+    qdot_taylor_order_leading(t, k);
+    if (k >= 0 && m->unknowns.n > m->solved.n)
+        integrate_given(t, k);
+}
+
+void
+qdot_taylor_missing(qdot_taylor *t, int k, double *by)
+{
+    const size_t n = t->motion->solved.n;
+
+    const double rate = (k + 1) / t->unit, rates[] = {1, rate, rate * ((k + 2) / t->unit)};
+
+    for (size_t i = 0; i < n; i++) {
+        const struct qdot_taylor_unknown *u = t->unknowns + i;
+
+        by[i] = u->is_explicit ? u->right[k] : -rates[u->rates] * u->right[k + u->rates];
+    }
+    if (t->products)
+        qdot_taylor_products_take_off(t->products, t->kernels, k, by);
 }
 
 void
 qdot_taylor_change(qdot_taylor *t, int k, const double *by)
 {
-    const qdot_motion *m = t->motion;
+    const size_t n = t->motion->solved.n;
 
+    for (size_t i = 0; i < n; i++) {
+        const struct qdot_taylor_unknown *u = t->unknowns + i;
+        const double once = t->unit * by[i] / (k + 1);
+
+        if (u->row)
+            u->row[k] = by[i];
+        if (u->once)
+            u->once[k + 1] = once;
+        if (u->twice)
+            u->twice[k + 2] = t->unit * once / (k + 2);
+    }
+    if (t->products)
+        qdot_taylor_products_note(t->products, k);
     if (is_explicit(t)) {
-        for (size_t b = 0; b < t->n_blocks; b++)
-            for (size_t i = 0; i < t->blocks[b].n; i++)
-                t->blocks[b].a[i][k] = *by++;
         qdot_taylor_order_links(t, k);
         return;
     }
-    for (size_t i = 0; i < m->solved.n; i++) {
-        const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[i];
-        const double once = t->unit * by[i] / (k + 1), twice = t->unit * once / (k + 2);
-
-        if (u->row != QDOT_NO_ROW)
-            qdot_taylor_change_row(t, qdot_taylor_place(t, u->row), k, by[i]);
-        if (u->once != QDOT_NO_ROW)
-            qdot_taylor_change_row(t, qdot_taylor_place(t, u->once), k + 1, once);
-        if (u->twice != QDOT_NO_ROW)
-            qdot_taylor_change_row(t, qdot_taylor_place(t, u->twice), k + 2, twice);
-    }
+    for (size_t i = 0; i < t->n_newest; i++)
+        *t->newest[i].change = t->newest[i].row[k + t->newest[i].lead];
     qdot_taylor_follow(t, k);
 }
 

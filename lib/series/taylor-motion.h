@@ -19,11 +19,13 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_of_motion(const qdot_motion *motion, boo
                                                   int most, int solved, qdot_taylor **taylor);
 void qdot_taylor_set_unit(qdot_taylor *taylor, double unit);
 const double *qdot_taylor_series(const qdot_taylor *taylor, qdot_program_row row);
+/* The same for an entry of K, which is *sign times that. */
+const double *qdot_taylor_entry(const qdot_taylor *taylor, qdot_program_row row, double *sign);
 
 /* Stage k with u_k = 0, as qdot_lanes_stage; by [solved] = -E_k then; u_k becomes `by`, as
  * qdot_lanes_change. Explicit equations read nothing of order k of the unknowns before the last. */
 void qdot_taylor_stage(qdot_taylor *taylor, int k);
-void qdot_taylor_missing(const qdot_taylor *taylor, int k, double *by);
+void qdot_taylor_missing(qdot_taylor *taylor, int k, double *by);
 void qdot_taylor_change(qdot_taylor *taylor, int k, const double *by);
 
 /* Of explicit equations, before orders are run as code: [2 n x n] of a block, by rows, for the factor

@@ -74,13 +74,14 @@ qdot_taylor_value(qdot_taylor_step *i)
 #define TABLE static qdot_taylor_function *const portable
 #include "series/taylor-order.def"
 
-static qdot_taylor_function *const (*functions(void))[QDOT_T_COUNT]
+void
+qdot_taylor_find_functions(qdot_taylor *t)
 {
+    t->functions = portable;
 #ifdef QDOT_X86_KINDS
     if (qdot_kind_is_here(1))
-        return qdot_taylor_order_fma;
+        t->functions = qdot_taylor_order_fma;
 #endif
-    return portable;
 }
 
 static void
@@ -107,7 +108,7 @@ void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
     if (k > 0) {
-        order(t, t->length, functions()[k]);
+        order(t, t->length, t->functions[k]);
         return;
     }
     if (t->code && t->n_blocks > 0)
@@ -120,7 +121,7 @@ qdot_taylor_order(qdot_taylor *t, int k)
 void
 qdot_taylor_order_leading(qdot_taylor *t, int k)
 {
-    qdot_taylor_function *const(*const function)[QDOT_T_COUNT] = functions();
+    qdot_taylor_function *const(*const function)[QDOT_T_COUNT] = t->functions;
     qdot_taylor_step *s = t->steps, *const end = s + t->length;
 
     for (s += k > -t->motion->program.lead ? t->still : 0; s < end; s++) {
@@ -162,7 +163,7 @@ qdot_taylor_order_links(qdot_taylor *t, int k)
         qdot_taylor_begin_links(t, t->unit);
         return;
     }
-    function = functions()[k][QDOT_T_LINK];
+    function = t->functions[k][QDOT_T_LINK];
     for (size_t l = 0; l < t->n_links; l++)
         function(t->steps + t->length + l, t->kernels);
 }
@@ -184,7 +185,7 @@ qdot_taylor_begin(qdot_taylor *t, double unit)
 void
 qdot_taylor_extend(qdot_taylor *t, int from, int to)
 {
-    qdot_taylor_function *const (*const function)[QDOT_T_COUNT] = functions();
+    qdot_taylor_function *const (*const function)[QDOT_T_COUNT] = t->functions;
     const size_t n = t->length + t->n_links;
 
     if (from == 1 && qdot_taylor_is_code(t, to)) {

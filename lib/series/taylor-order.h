@@ -8,9 +8,6 @@
 #include "num/kinds.h"
 #include "series/taylor-steps.h"
 
-/* Coefficient k of a step's row, k being known to the compiler. */
-typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
-
 #ifdef QDOT_X86_KINDS
 /* [k][recurrence], for processors with FMA; k from 1. */
 extern qdot_taylor_function *const qdot_taylor_order_fma[QDOT_SERIES_MOST + 1][QDOT_T_COUNT];

@@ -35,7 +35,7 @@ typedef struct {
 typedef struct {
     size_t n;
     int solved;       /* orders up to this one by the factor */
-    const double **f; /* [n] */
+    const double **f; /* [n] NULL: not explicit */
     double **a;       /* [n] */
     double **r;       /* [n] what is left of f; work */
     qdot_taylor_coupling *couplings; /* by i */
@@ -43,10 +43,28 @@ typedef struct {
     double *matrices; /* [n x n] L; [n x n] M_0^-1 */
 } qdot_taylor_block;
 
+/* What is solved for: where it goes, and its integrals; NULL: not there, or by a link. */
+struct qdot_taylor_unknown {
+    double *row, *once, *twice;
+    const double *right; /* of its equation what is known: f; E, or that which E is a rate of; */
+    int rates;           /* so many times */
+    bool is_explicit;
+};
+
+/* Of that, a row whose newest coefficient steps read. */
+struct qdot_taylor_newest {
+    double *row, *change; /* where these look for its change */
+    int lead;
+};
+
+/* Coefficient k of a step's row, k being known to the compiler. */
+typedef void qdot_taylor_function(qdot_taylor_step *step, const qdot_series_kernels *kernels);
+
 struct qdot_taylor {
     const qdot_motion *motion; /* it is of, borrowed; NULL: of a tape */
     double unit;               /* of that */
     const qdot_series_kernels *kernels;
+    qdot_taylor_function *const (*functions)[QDOT_T_COUNT]; /* by order, recurrence */
     size_t stride, inputs, outputs, rows;
     size_t moving; /* of the inputs the first, which are no numbers */
     size_t spare;  /* the first row that is free for what is solved for */
@@ -61,8 +79,13 @@ struct qdot_taylor {
     size_t still; /* of the steps the first, which have order 0 only */
     qdot_taylor_block *blocks; /* [n_blocks] */
     size_t n_blocks;
+    const double **negated; /* [rows] of K: the row that a row is the negative of, or NULL */
+    struct qdot_taylor_products *products; /* of the blocks (taylor-products.h); NULL: none */
     struct qdot_taylor_drawn *drawn; /* [n_drawn] */
     size_t n_drawn;
+    struct qdot_taylor_unknown *unknowns; /* [of the motion, solved] */
+    struct qdot_taylor_newest *newest;    /* [n_newest] */
+    size_t n_newest;
     struct qdot_taylor_changes *changes; /* taylor-correct.c; NULL: none asked for */
     struct qdot_taylor_code *code; /* taylor-code.c; NULL: the kernels run, */
     const char *no_code;           /* for this reason; NULL: none was asked for */
@@ -76,6 +99,13 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_settle(qdot_taylor *t, const qdot_progra
                                                bool shaken);
 /* Blocks of the motion's explicit equations. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_solve_motion(qdot_taylor *t, int solved);
+/* What its unknowns are, `linked`: their integrals are links. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_find_unknowns(qdot_taylor *t, bool linked);
+/* Equations that are rates of a row become that row; steps go which only write explicit equations, such
+ * rates, or an entry of K that is another one negated. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_shorten(qdot_taylor *t);
+/* Of unknowns, which rows steps read at their newest order. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_find_newest(qdot_taylor *t);
 static inline double *
 qdot_taylor_place(const qdot_taylor *t, qdot_program_row r)
 {
@@ -98,10 +128,12 @@ void qdot_taylor_changes_stale(qdot_taylor *t, int k);
 void qdot_taylor_order_links(qdot_taylor *t, int k);
 /* All steps of a motion, each at order k + its lead. */
 void qdot_taylor_order_leading(qdot_taylor *t, int k);
-/* The steps of a motion that are kept are to follow changes. A row's order k becomes by so much
- * another; then what those steps make of all that. */
+/* For the orders of steps, by the processor at hand. */
+void qdot_taylor_find_functions(qdot_taylor *t);
+/* The steps of a motion that are kept are to follow changes. Where by how much the newest coefficient
+ * of a row changes is to be put; then what those steps make of all that. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_follow_motion(qdot_taylor *t);
-void qdot_taylor_change_row(qdot_taylor *t, double *row, int k, double by);
+double *qdot_taylor_change_of(const qdot_taylor *t, const double *row);
 void qdot_taylor_follow(qdot_taylor *t, int k);
 
 #endif

@@ -1,8 +1,9 @@
-/* taylor-unknowns.c -- unknowns of explicit equations: couplings of a motion, block by block. */
+/* taylor-unknowns.c -- unknowns of a motion: what they couple, what their equations read. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "series/taylor-motion.h"
+#include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 
 /* Empty, for n unknowns with up to `count` couplings. */
@@ -25,27 +26,28 @@ add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block 
     return QDOT_OK;
 }
 
-/* Entry (i, j) of K times unknown j, if it moves. */
+/* Entry (i, j) of K times unknown j, if it moves, of rows that are explicit. */
 static void
-count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t *rows)
+count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t is_explicit, size_t *rows)
 {
     if (m->program.rows.at[e->at].still)
         return;
-    rows[e->i]++;
-    if (e->i != e->j)
-        rows[e->j]++;
+    rows[e->i] += e->i < is_explicit;
+    rows[e->j] += e->i != e->j && e->j < is_explicit;
 }
 
 static void
-couple(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t *next)
+couple(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t is_explicit,
+       size_t *next)
 {
     const qdot_motion *m = t->motion;
     const double *M = qdot_taylor_place(t, e->at);
 
     if (m->program.rows.at[e->at].still)
         return;
-    b->couplings[next[e->i]++] = (qdot_taylor_coupling){e->i, M, b->a[e->j]};
-    if (e->i != e->j)
+    if (e->i < is_explicit)
+        b->couplings[next[e->i]++] = (qdot_taylor_coupling){e->i, M, b->a[e->j]};
+    if (e->i != e->j && e->j < is_explicit)
         b->couplings[next[e->j]++] = (qdot_taylor_coupling){e->j, M, b->a[e->i]};
 }
 
@@ -57,6 +59,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
     const size_t n = end - first, from = *entry;
+    const size_t is_explicit = m->right.n > first ? m->right.n - first : 0; /* so many rows */
     size_t count = 0;
     qdot_taylor_block *b;
 
@@ -66,7 +69,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
 
         e.i -= first;
         e.j -= first;
-        count_coupling(m, &e, rows);
+        count_coupling(m, &e, is_explicit, rows);
     }
     for (size_t i = 0; i < n; i++) { /* how many become where they begin */
         const size_t of_row = rows[i];
@@ -77,7 +80,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
     QDOT_TRY(add_block(t, n, count, solved, &b));
     b->n_couplings = count;
     for (size_t i = 0; i < n; i++) {
-        b->f[i] = qdot_taylor_place(t, m->right.at[first + i]);
+        b->f[i] = i < is_explicit ? qdot_taylor_place(t, m->right.at[first + i]) : NULL;
         b->a[i] = qdot_taylor_place(t, m->unknowns.at[m->solved.at[first + i]].row);
         b->r[i] = t->coefficients + t->spare++ * t->stride;
     }
@@ -86,7 +89,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
 
         e.i -= first;
         e.j -= first;
-        couple(t, b, &e, rows);
+        couple(t, b, &e, is_explicit, rows);
     }
     return QDOT_OK;
 }
@@ -102,4 +105,144 @@ qdot_taylor_solve_motion(qdot_taylor *t, int solved)
         status = solve_block(t, k, solved, &entry, rows);
     qdot_free(rows);
     return status;
+}
+
+/* --- what equations read -------------------------------------------------------------- */
+
+qdot_status
+qdot_taylor_find_unknowns(qdot_taylor *t, bool linked)
+{
+    const qdot_motion *m = t->motion;
+
+    t->unknowns = qdot_calloc(m->solved.n + 1, sizeof *t->unknowns);
+    if (!t->unknowns)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < m->solved.n; i++) {
+        const qdot_motion_unknown *of = m->unknowns.at + m->solved.at[i];
+        const bool is_explicit = i < m->right.n;
+
+        t->unknowns[i] = (struct qdot_taylor_unknown){
+            .row = qdot_taylor_place(t, of->row),
+            .once = linked ? NULL : qdot_taylor_place(t, of->once),
+            .twice = linked ? NULL : qdot_taylor_place(t, of->twice),
+            .right =
+                qdot_taylor_place(t, is_explicit ? m->right.at[i] : m->equations.at[i]),
+            .is_explicit = is_explicit};
+    }
+    return QDOT_OK;
+}
+
+/* Whether any step reads a row, by how many operands. */
+static void
+count_reads(const qdot_taylor *t, uint32_t *reads)
+{
+    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++) {
+        reads[qdot_taylor_row(t, s->x)]++;
+        reads[qdot_taylor_row(t, s->y)]++;
+        reads[qdot_taylor_row(t, s->z)]++;
+    }
+}
+
+/* From the last step on, so that a rate of a rate is seen before that. */
+static void
+resolve_rates(qdot_taylor *t, uint32_t *reads)
+{
+    for (const qdot_taylor_step *s = t->steps + t->length; s-- > t->steps;)
+        for (size_t i = 0; s->op == QDOT_T_RATE && i < t->motion->solved.n; i++) {
+            struct qdot_taylor_unknown *u = t->unknowns + i;
+
+            if (u->right != s->to || u->rates == 2 || reads[qdot_taylor_row(t, s->to)] > 0)
+                continue;
+            u->right = s->x;
+            u->rates++;
+            reads[qdot_taylor_row(t, s->x)] -= 3; /* x, y and z are one */
+        }
+}
+
+/* Steps whose rows nobody reads are left out. reads [rows] */
+static void
+drop_unread(qdot_taylor *t, const uint32_t *reads)
+{
+    size_t n = 0, still = 0;
+
+    for (size_t i = 0; i < t->length; i++) {
+        const qdot_taylor_step *s = t->steps + i;
+        const bool goes = (s->op == QDOT_T_RATE || s->op == QDOT_T_NEG) &&
+                          reads[qdot_taylor_row(t, s->to)] == 0;
+
+        if (goes)
+            continue;
+        still += i < t->still;
+        t->steps[n++] = *s;
+    }
+    t->steps[n] = t->steps[t->length];
+    t->length = n;
+    t->still = still;
+}
+
+qdot_status
+qdot_taylor_shorten(qdot_taylor *t)
+{
+    const qdot_motion *m = t->motion;
+    uint32_t *reads = qdot_calloc(t->rows + 1, sizeof *reads);
+
+    if (!reads)
+        return QDOT_ENOMEM;
+    count_reads(t, reads);
+    resolve_rates(t, reads);
+    for (size_t i = 0; i < m->solved.n; i++)
+        reads[qdot_taylor_row(t, t->unknowns[i].right)]++;
+    for (size_t i = 0; i < m->entries.n; i++) {
+        double sign;
+
+        reads[qdot_taylor_row(t, qdot_taylor_entry(t, m->entries.at[i].at, &sign))]++;
+    }
+    for (size_t i = 0; i < m->program.outputs.n; i++)
+        reads[m->program.outputs.at[i]]++;
+    drop_unread(t, reads);
+    qdot_free(reads);
+    t->convolutions = (double)qdot_taylor_products_count(t->products);
+    for (size_t i = t->still; i < t->length; i++)
+        t->convolutions += qdot_recurrence_cost(t->steps[i].op);
+    return QDOT_OK;
+}
+
+/* read [rows]: what steps read at its newest order. */
+static void
+find_read(const qdot_taylor *t, bool *read)
+{
+    for (const qdot_taylor_step *s = t->steps; s->op != QDOT_T_END; s++) {
+        read[qdot_taylor_row(t, s->x)] |= (s->newest & QDOT_X_NEWEST) != 0;
+        read[qdot_taylor_row(t, s->y)] |= (s->newest & QDOT_Y_NEWEST) != 0;
+        read[qdot_taylor_row(t, s->z)] |= (s->newest & QDOT_Z_NEWEST) != 0;
+    }
+}
+
+static void
+add_newest(qdot_taylor *t, const bool *read, double *row, int lead)
+{
+    if (row && read[qdot_taylor_row(t, row)])
+        t->newest[t->n_newest++] = (struct qdot_taylor_newest){
+            .row = row, .change = qdot_taylor_change_of(t, row), .lead = lead};
+}
+
+qdot_status
+qdot_taylor_find_newest(qdot_taylor *t)
+{
+    const size_t n = t->motion->solved.n;
+    bool *read = qdot_calloc(t->rows + 1, sizeof *read);
+
+    t->newest = qdot_calloc(3 * n + 1, sizeof *t->newest);
+    if (!t->newest || !read) {
+        qdot_free(read);
+        return QDOT_ENOMEM;
+    }
+    find_read(t, read);
+    for (size_t i = 0; i < n; i++) {
+        add_newest(t, read, t->unknowns[i].row, 0);
+        add_newest(t, read, t->unknowns[i].once, 1);
+        add_newest(t, read, t->unknowns[i].twice, 2);
+    }
+    qdot_free(read);
+    return QDOT_OK;
 }

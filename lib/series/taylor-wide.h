@@ -7,7 +7,7 @@
  *     c_k[lanes] = sum_{j=0..k} a_j[lanes] b_{k-j}[lanes].
  *
  * Operands that do not lie side by side as their group asks are copied there once an order.
- * The program is one whose first inputs are corrected (qdot_taylor_affine): an order is
+ * The program is one whose first inputs are corrected: an order is
  * evaluated with their newest coefficients at 0, and brought up to date when they are known.
  *
  * Tests  tests/series/test_taylor-wide.c

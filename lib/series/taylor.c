@@ -1,12 +1,12 @@
 /* taylor.c -- a series program in doubles: its rows, and what it links. */
 #include "series/taylor.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
 #include "tape/shake.h"
 #include "series/taylor-code.h"
+#include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 #include "machine/asm.h"
 
@@ -77,7 +77,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
                                          .zero = s->zero,
                                          .sign = (signed char)s->sign,
                                          .lead = s->lead,
-                                         .newest = t->motion ? s->newest : UCHAR_MAX,
+                                         .newest = s->newest,
                                          .kept = s->kept,
                                          .to = qdot_taylor_place(t, s->to),
                                          .second = qdot_taylor_place(t, s->second),
@@ -94,6 +94,7 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
         t->constant[i] = p->rows.at[r].still;
     }
     t->kernels = qdot_series_kernels_get();
+    qdot_taylor_find_functions(t);
     return QDOT_OK;
 }
 
@@ -164,6 +165,10 @@ qdot_taylor_free(qdot_taylor *t)
     for (size_t b = 0; b < t->n_blocks; b++)
         free_block(t->blocks + b);
     qdot_free(t->blocks);
+    qdot_free(t->negated);
+    qdot_free(t->unknowns);
+    qdot_free(t->newest);
+    qdot_taylor_products_free(t->products);
     qdot_free(t->allocated);
     qdot_free(t->output);
     qdot_free(t->constant);

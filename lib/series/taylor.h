@@ -93,17 +93,6 @@ const char *qdot_taylor_code_kind(void);
 /* How long the code is; 0: there is none, and *why says so, NULL if none was asked for. */
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 
-/* The first n inputs will have their newest coefficients corrected. kept [outputs]: whether
- * an output is read after that, NULL: all are; of the others only what further orders
- * need is brought up to date. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_affine(qdot_taylor *taylor, size_t n,
-                                               const bool *kept);
-
-/* Order k was evaluated with coefficient k of these inputs at 0 and is affine in it: now
- * it becomes newest [n]. Everything is brought up to date, by derivatives at order 0
- * alone. k > 0. */
-void qdot_taylor_correct(qdot_taylor *taylor, int k, const double *newest);
-
 /* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which
  * carries no argument of an exponential too far (near.h), in units of time. Whether there are
  * any. */

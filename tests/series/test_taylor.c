@@ -7,9 +7,34 @@
 #include "expr/calculus.h"
 #include "num/series.h"
 #include "series/program.h"
-#include "series/taylor.h"
+#include "series/taylor-motion.h"
 
 enum { ORDERS = 7 };
+
+/* The program of a tape of t as that of a motion: t is the integral of what is solved for. */
+static qdot_taylor *
+solved_for(const qdot_tape *tape, qdot_motion *motion)
+{
+    const qdot_program_row in = 0;
+    qdot_program_builder *b;
+    qdot_program_row out;
+    qdot_taylor *series;
+
+    *motion = (qdot_motion){0};
+    assert_int_equal(qdot_program_begin(1, 1, false, &motion->program, &b), QDOT_OK);
+    qdot_program_append(b, tape, &in, &out);
+    assert_int_equal(qdot_vec_push(&motion->program.outputs, out), QDOT_OK);
+    assert_int_equal(qdot_motion_solve(motion,
+                                       (qdot_motion_unknown){.row = QDOT_NO_ROW,
+                                                             .once = in,
+                                                             .twice = QDOT_NO_ROW},
+                                       qdot_program_rate(b, out)),
+                     QDOT_OK);
+    assert_int_equal(qdot_motion_complete(motion, b, qdot_motion_end_block(motion)), QDOT_OK);
+    assert_int_equal(qdot_taylor_of_motion(motion, false, ORDERS, 0, &series), QDOT_OK);
+    qdot_taylor_set_unit(series, 1);
+    return series;
+}
 
 /* The series of e about t = 0.25 against its derivatives; then again with the newest
  * coefficient of t brought in late, at every order. */
@@ -21,12 +46,12 @@ series_is_right(fixture *f, qdot_expr e, const char *what)
     qdot_expr input = QDOT_T, derivative = e;
     qdot_tape *tape;
     qdot_taylor *series, *late;
+    qdot_motion motion;
     long double factorial = 1;
 
     assert_int_equal(qdot_tape_new(f->pool, 1, &input, 1, &e, &tape), QDOT_OK);
     assert_int_equal(qdot_taylor_new(tape, ORDERS, &series), QDOT_OK);
-    assert_int_equal(qdot_taylor_new(tape, ORDERS, &late), QDOT_OK);
-    assert_int_equal(qdot_taylor_affine(late, 1, NULL), QDOT_OK);
+    late = solved_for(tape, &motion);
     for (int k = 0; k <= ORDERS; k++) {
         reference_value r = reference(f->pool, derivative, 1, &input, &at);
         long double expected = r.v / factorial;
@@ -37,10 +62,11 @@ series_is_right(fixture *f, qdot_expr e, const char *what)
         seen = qdot_taylor_output(series, 0)[k];
         if (!(fabsl(seen - expected) <= 1e-13L * (1 + fabsl(expected))))
             fail_msg("%s, order %d: %.17g, not %.17Lg", what, k, seen, expected);
-        qdot_taylor_input(late, 0)[k] = k == 0 ? t0 : 0;
-        qdot_taylor_order(late, k);
+        if (k == 0)
+            qdot_taylor_input(late, 0)[0] = t0;
+        qdot_taylor_stage(late, k - 1);
         if (k > 0)
-            qdot_taylor_correct(late, k, &one);
+            qdot_taylor_change(late, k - 1, &one);
         if (!(fabs(seen - qdot_taylor_output(late, 0)[k]) <= 1e-13 * (1 + fabs(seen))))
             fail_msg("%s, order %d corrected: %.17g, not %.17g", what, k,
                      qdot_taylor_output(late, 0)[k], seen);
@@ -49,6 +75,7 @@ series_is_right(fixture *f, qdot_expr e, const char *what)
     }
     qdot_taylor_free(series);
     qdot_taylor_free(late);
+    qdot_motion_clear(&motion);
     qdot_tape_free(tape);
 }
 

@@ -5,7 +5,7 @@
 #include "expr/calculus.h"
 #include "sim/course/bind.h"
 #include "sim/form/bordered.h"
-#include "sim/form/constrained-series.h"
+#include "sim/form/motion-series.h"
 #include "sim/form/derived.h"
 #include "sim/model/power-quotient.h"
 #include "sim/model/rates.h"
@@ -123,7 +123,7 @@ angles(fixture *f)
 
 typedef struct {
     qdot_plan *plan;
-    qdot_constrained_series *whole;
+    qdot_motion_series *whole;
     qdot_bordered *bordered;
     const qdot_ode_series *series[2]; /* by code; of the kernels */
 } both;
@@ -134,8 +134,8 @@ both_begin(both *b, fixture *f)
     must(qdot_plan_new(f->scene, &f->request, &b->plan));
     if (!b->plan->motion) /* another form is taken */
         must(qdot_plan_make_motion(b->plan));
-    must(qdot_constrained_series_new(b->plan, false, &b->whole));
-    b->series[1] = qdot_constrained_series_get(b->whole);
+    must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
+    b->series[1] = qdot_motion_series_get(b->whole);
     must(qdot_bordered_new(b->plan, false, b->series[1], &b->bordered));
     b->series[0] = qdot_bordered_series(b->bordered);
     must(b->series[0]->prepare(order, b->series[0]->user));
@@ -160,7 +160,7 @@ static void
 both_end(both *b)
 {
     qdot_bordered_free(b->bordered);
-    qdot_constrained_series_free(b->whole);
+    qdot_motion_series_free(b->whole);
     qdot_plan_free(b->plan);
 }
 

@@ -3,7 +3,7 @@
 #include "scenes.h"
 
 #include "sim/course/bind.h"
-#include "sim/form/constrained-series.h"
+#include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/plan.h"
 
@@ -431,7 +431,7 @@ tied_bob(fixture *f)
 typedef struct {
     qdot_plan *plan;
     qdot_bind *bind;
-    qdot_constrained_series *whole;
+    qdot_motion_series *whole;
     const qdot_ode_series *series[2]; /* with multipliers eliminated; solved for */
 } both;
 
@@ -443,9 +443,9 @@ both_begin(both *b, fixture *f)
     must(qdot_plan_new(f->scene, &f->request, &b->plan));
     assert_non_null(b->plan->eliminated);
     must(qdot_bind_new(b->plan, false, &b->bind));
-    must(qdot_constrained_series_new(b->plan, false, &b->whole));
+    must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
     b->series[0] = qdot_bind_system(b->bind).series;
-    b->series[1] = qdot_constrained_series_get(b->whole);
+    b->series[1] = qdot_motion_series_get(b->whole);
 }
 
 static void
@@ -460,7 +460,7 @@ both_expand(const both *b, double t, const double *y, double unit, int p)
 static void
 both_end(both *b)
 {
-    qdot_constrained_series_free(b->whole);
+    qdot_motion_series_free(b->whole);
     qdot_bind_free(b->bind);
     qdot_plan_free(b->plan);
 }

@@ -8,7 +8,13 @@
 #include "base/interrupt.h"
 #include "num/chebyshev.h"
 
-enum { MOST = QDOT_CHEBYSHEV_MOST, DEEPEST = 50, PROBES = 7, MOST_PARTS = 4096 };
+enum {
+    MOST = QDOT_CHEBYSHEV_MOST,
+    DEEPEST = 50,
+    PROBES = 7,
+    MOST_PARTS = 4096,
+    COARSE = 3
+};
 
 /* Size of the last coefficients, relative to the largest, of a polynomial that represents the
  * expression; and of the distance between its nodes. */
@@ -30,7 +36,6 @@ typedef struct {
     double high[2], low[2]; /* the largest of x - error, x + error; likewise the least */
     double first, first_error;  /* where the range begins */
     long double integral, blur; /* of the values, of their errors */
-    double noise;               /* errors of the values between these steps */
     size_t parts;               /* between these steps */
     double typical;             /* size of the values of the first parts */
     double length;              /* of the whole range */
@@ -41,6 +46,7 @@ typedef struct {
     double a, b;
     int n;              /* nodes */
     bool good;          /* c represents the expression */
+    double noise;       /* of the values; 0 while it is not known */
     double far;         /* the largest distance of c from the expression at the probes */
     double top, bottom; /* of the values at the nodes */
     double c[MOST];
@@ -70,9 +76,26 @@ need_finite(const double *values, const double *times, size_t n)
     return QDOT_OK;
 }
 
+/* What the values on a part are off by: smaller differences mean nothing. */
+static qdot_status
+find_noise(scan *s, part *p)
+{
+    double times[PROBES], values[PROBES], errors[PROBES];
+
+    for (int j = 0; j < PROBES; j++)
+        times[j] = place(p, probes[j]);
+    QDOT_TRY(
+        qdot_mixture_values(s->x, &(qdot_samples){PROBES, times, NULL, values, errors}));
+    p->noise = 0;
+    for (int j = 0; j < PROBES; j++)
+        if (isfinite(errors[j]))
+            p->noise = fmax(p->noise, errors[j]);
+    return QDOT_OK;
+}
+
 /* The polynomial by so many nodes, and whether it is good. */
 static qdot_status
-fit(scan *s, part *p, int nodes)
+fit(scan *s, part *p, int nodes, int depth)
 {
     double times[MOST + PROBES], values[MOST + PROBES], size, far = 0;
     const size_t all = (size_t)nodes + PROBES;
@@ -89,8 +112,10 @@ fit(scan *s, part *p, int nodes)
     for (int j = 0; j < PROBES; j++)
         far = fmax(far,
                    fabs(qdot_chebyshev_at(nodes, p->c, probes[j]) - values[nodes + j]));
-    p->good = qdot_chebyshev_tail(nodes, p->c) <= fmax(tight * size, s->noise) &&
-              far <= fmax((matching + 64 * blur(p)) * size, 8 * s->noise);
+    if (nodes == MOST || depth >= COARSE)
+        QDOT_TRY(find_noise(s, p));
+    p->good = qdot_chebyshev_tail(nodes, p->c) <= fmax(tight * size, p->noise) &&
+              far <= fmax((matching + 64 * blur(p)) * size, 8 * p->noise);
     p->top = -INFINITY;
     p->bottom = INFINITY;
     for (size_t j = 0; j < all; j++) {
@@ -174,15 +199,27 @@ take(scan *s, const part *p)
 static qdot_status
 leave(scan *s, const part *p)
 {
-    const double size = fmax(fabs(p->top), fabs(p->bottom));
-
-    if (size > unbounded * s->typical && p->top - p->bottom > 0.5 * size)
-        return qdot_fail(QDOT_EDOMAIN, "it grows beyond all bounds near t = %.9g", p->a);
     QDOT_TRY(take(s, p));
     s->begun = true;
     meet(s, p->top, p->top - p->bottom);
     meet(s, p->bottom, p->top - p->bottom);
     return QDOT_OK;
+}
+
+/* QDOT_EDOMAIN where a part without a good polynomial, or one of values that are hardly known, is
+ * far beyond the others. */
+static qdot_status
+need_bound(const scan *s, const part *p)
+{
+    const double size = fmax(fabs(p->top), fabs(p->bottom));
+
+    if (p->good && p->noise < 0.1 * size)
+        return QDOT_OK;
+    if (size <= unbounded * s->typical || p->top - p->bottom <= 0.5 * size ||
+        (s->kind == QDOT_RANGE_MAX && p->top < s->most) ||
+        (s->kind == QDOT_RANGE_MIN && p->bottom > s->least))
+        return QDOT_OK;
+    return qdot_fail(QDOT_EDOMAIN, "it grows beyond all bounds near t = %.9g", p->a);
 }
 
 static bool
@@ -197,25 +234,6 @@ is_shortest(const scan *s, const part *p, int depth)
            (p->top - p->bottom) * length <= negligible * s->typical * s->length;
 }
 
-/* What values between a and b are off by: smaller differences mean nothing. */
-static qdot_status
-find_noise(scan *s, double a, double b)
-{
-    const part p = {.a = a, .b = b};
-    double times[PROBES], values[PROBES], errors[PROBES];
-
-    for (int j = 0; j < PROBES; j++)
-        times[j] = place(&p, probes[j]);
-    QDOT_TRY(
-        qdot_mixture_values(s->x, &(qdot_samples){PROBES, times, NULL, values, errors}));
-    s->noise = 0;
-    for (int j = 0; j < PROBES; j++)
-        if (isfinite(errors[j]))
-            s->noise = fmax(s->noise, errors[j]);
-    s->parts = 0;
-    return QDOT_OK;
-}
-
 /* From a to b no run begins a step. */
 static qdot_status
 scan_between(scan *s, double a, double b)
@@ -224,14 +242,14 @@ scan_between(scan *s, double a, double b)
     int depth = 0;
 
     ends[0] = b;
-    QDOT_TRY(find_noise(s, a, b));
+    s->parts = 0;
     while (depth >= 0) {
         part p = {.a = a, .b = ends[depth]};
 
         s->parts++;
         QDOT_TRY(qdot_interrupt_check());
-        for (int nodes = 16; nodes <= (depth < 3 ? MOST : 16) && !p.good; nodes *= 2)
-            QDOT_TRY(fit(s, &p, nodes));
+        for (int nodes = 16; nodes <= (depth < COARSE ? MOST : 16) && !p.good; nodes *= 2)
+            QDOT_TRY(fit(s, &p, nodes, depth));
         if (s->typical == 0)
             s->typical = fmax(fabs(p.top), fabs(p.bottom));
         if (!p.good && !is_surpassed(s, &p) && !is_shortest(s, &p, depth)) {
@@ -239,6 +257,7 @@ scan_between(scan *s, double a, double b)
             depth++;
             continue;
         }
+        QDOT_TRY(need_bound(s, &p));
         if (!is_surpassed(s, &p))
             QDOT_TRY(p.good ? take(s, &p) : leave(s, &p));
         a = p.b;

@@ -28,7 +28,8 @@ static const struct {
     {"≈", "="},
     {"≡", "="},
     {"$", "the formula without `$`"},
-    {"~", "not (a = b)"},
+    {"∈", "coord 0 < x < 1"},
+    {"∫", "integral(e, x, a, b)"},
     {"`", "a text in double quotes: \"text\""},
 };
 
@@ -131,6 +132,12 @@ refuse_at(const char *text, size_t at)
     }
     for (name = at; name > 0 && is_of_name(text[name - 1]);)
         name--;
+    if (name == at) /* a handle, or a macro: @variables x y */
+        return strncmp(text + at, "@param", 6) == 0
+                   ? qdot_hint("parameters are declared by `param`, as in param m, g")
+               : strncmp(text + at, "@var", 4) == 0
+                   ? qdot_hint("coordinates are declared by `coord`, as in coord x, y")
+                   : qdot_hint("a function is given by its name; `run 0..20` integrates the scene");
     return qdot_hint("write value(%.*s, %.*s)", (int)(at - name), text + name,
                      (int)(to - at - 1), text + at + 1);
 }
@@ -268,6 +275,17 @@ qdot_refuse(const char *text, size_t at)
         return refuse_question(text, at);
     if (c == '@')
         return refuse_at(text, at);
+    if (c == '~') { /* a ~ b is an equation elsewhere, ~a not a */
+        size_t from, to, before;
+
+        line_of(text, at, &from, &to);
+        for (before = at; before > from && text[before - 1] == ' ';)
+            before--;
+        qdot_fail(QDOT_ESYNTAX, "`~` has no meaning here");
+        if (before > from && text[at + 1] != '=')
+            return qdot_hint("an equation is written a = b");
+        return qdot_hint("write not (a = b)");
+    }
     if (c == 0x2202)
         return refuse_partial(text, at);
     if (c == 0x221E) {

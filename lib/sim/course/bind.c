@@ -7,7 +7,6 @@
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
 #include "sim/form/bordered.h"
-#include "sim/form/constrained-series.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/leading.h"
@@ -25,7 +24,7 @@ struct qdot_bind {
     qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
     qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
     qdot_tree_series *tree;
-    qdot_constrained_series *tied;            /* or, of a plan with constraints: */
+    qdot_motion_series *tied;            /* or, of a plan with constraints: */
     qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
     qdot_bordered *bordered;       /* likewise */
     const qdot_ode_series *series; /* its callbacks; else NULL */
@@ -76,7 +75,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_eliminated_free(b->eliminated);
     qdot_bordered_free(b->bordered);
     qdot_leading_free(b->leading);
-    qdot_constrained_series_free(b->tied);
+    qdot_motion_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
         qdot_blocks_clear(&b->reduced_blocks);
@@ -389,7 +388,7 @@ qdot_bind_factored(const qdot_bind *b)
         parts += qdot_bind_factored(b->parts[k]);
     return parts + b->blocks.factored +
            (b->held ? qdot_constrained_factored(b->held) : 0) +
-           (b->tied ? qdot_constrained_series_factored(b->tied) : 0) +
+           (b->tied ? qdot_motion_series_factored(b->tied) : 0) +
            (b->direct ? qdot_motion_series_factored(b->direct) : 0) +
            (b->tree ? qdot_tree_series_eliminated(b->tree) : 0) +
            b->reduced_blocks.factored;
@@ -402,8 +401,8 @@ make_held(qdot_bind *b, bool shaken)
     QDOT_TRY(qdot_constrained_new(b->plan, shaken, &b->held));
     if (!b->plan->smooth)
         return QDOT_OK;
-    QDOT_TRY(qdot_constrained_series_new(b->plan, shaken, &b->tied));
-    b->series = qdot_constrained_series_get(b->tied);
+    QDOT_TRY(qdot_motion_series_of_constraints(b->plan, shaken, &b->tied));
+    b->series = qdot_motion_series_get(b->tied);
     if (b->plan->form == QDOT_FORM_ELIMINATED) {
         QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
         b->series = qdot_eliminated_series(b->eliminated);

@@ -116,20 +116,10 @@ keep_end(qdot_run *run)
 static qdot_status
 find_guide(qdot_run *run, const qdot_run_request *request)
 {
-    const qdot_stage *stage = &run->stage;
     qdot_ode_options options = {
         .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low};
     qdot_status status;
 
-    for (size_t i = 0; i < stage->events.n; i++)
-        if (run->plan->constraints
-            && (stage->events.at[i].positions || stage->events.at[i].velocities)) {
-            qdot_fail(QDOT_ENOTBUILT,
-                      "not built yet: `digits` with constraints and the event %.100s, which "
-                      "changes the state",
-                      stage->events.at[i].name);
-            return qdot_hint("a run in doubles: tol 1e-15");
-        }
     status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
                              run->start);
     return run->course.tr.count > 0 && (status == QDOT_EFAILED || status == QDOT_ESINGULAR

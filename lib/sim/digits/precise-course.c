@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "sim/digits/precise-hold.h"
 
 #define RN MPFR_RNDN
 
@@ -24,6 +25,8 @@ typedef struct {
 
 struct qdot_precise_course {
     qdot_vec(formula) formulas;
+    qdot_vec(qdot_precise_hold *) holds; /* [modes] with constraints and changes; else NULL */
+    bool *set;                           /* [2n] what an event has set */
     qdot_reals numbers; /* t, y [2n], old [2n], and the locator's */
     mpfr_t *y, *old, *at;
 };
@@ -40,6 +43,10 @@ qdot_precise_course_clear(qdot_precise_side *s)
     for (size_t i = 0; i < s->course->formulas.n; i++)
         qdot_precise_free(s->course->formulas.at[i].program);
     qdot_free(s->course->formulas.at);
+    for (size_t i = 0; i < s->course->holds.n; i++)
+        qdot_precise_hold_free(s->course->holds.at[i]);
+    qdot_free(s->course->holds.at);
+    qdot_free(s->course->set);
     qdot_reals_clear(&s->course->numbers);
     qdot_free(s->course);
     s->course = NULL;
@@ -94,6 +101,18 @@ add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
     return status;
 }
 
+/* What brings states of the mode onto its constraints after an event. */
+static qdot_status
+add_hold(qdot_precise_side *s, size_t mode)
+{
+    while (s->course->holds.n <= mode)
+        QDOT_TRY(qdot_vec_push(&s->course->holds, NULL));
+    return s->course->holds.at[mode] != NULL
+               ? QDOT_OK
+               : qdot_precise_hold_new(mode_of(s, mode)->plan, s->start.bits,
+                                       &s->course->holds.at[mode]);
+}
+
 static size_t
 piece_of(const qdot_course *g, double t)
 {
@@ -110,6 +129,9 @@ qdot_precise_course_init(qdot_precise_side *s)
     if (!s->course)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_reals_init(&s->course->numbers, 1 + 2 * n + NUMBERS, s->start.bits));
+    s->course->set = qdot_calloc(n + 1, sizeof *s->course->set);
+    if (!s->course->set)
+        return QDOT_ENOMEM;
     s->course->y = s->course->numbers.at + 1;
     s->course->old = s->course->y + n;
     s->course->at = s->course->old + n;
@@ -127,8 +149,10 @@ qdot_precise_course_init(qdot_precise_side *s)
 
         QDOT_TRY(add(s, mode, e->function, SIZE_MAX));
         if (e->what.kind == QDOT_WATCH_EVENT
-            && g->stage->events.at[e->what.index].then)
+            && g->stage->events.at[e->what.index].then) {
             QDOT_TRY(add(s, mode, SIZE_MAX, e->what.index));
+            QDOT_TRY(add_hold(s, mode));
+        }
     }
     for (size_t i = 0; i < g->occurrences.n; i++)
         QDOT_TRY(add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
@@ -271,9 +295,16 @@ change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t
             continue;
         f = find(s, mode, SIZE_MAX, ends[k].what.index);
         QDOT_TRY(evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
-        for (size_t i = 0; i < e->changes; i++)
+        memset(s->course->set, 0, size * sizeof *s->course->set);
+        for (size_t i = 0; i < e->changes; i++) {
             mpfr_set(s->course->y[e->targets[i]], qdot_precise_output(f->program, i)[0],
                      RN);
+            s->course->set[e->targets[i]] = true;
+        }
+        if (s->course->holds.at[mode])
+            QDOT_TRY(qdot_precise_hold_put(s->course->holds.at[mode], t, s->course->y,
+                                           e->positions ? s->course->set : NULL,
+                                           e->velocities ? s->course->set + size / 2 : NULL));
     }
     return QDOT_OK;
 }

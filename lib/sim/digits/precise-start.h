@@ -19,7 +19,8 @@
 
 /* start [2 + 2n]: t0, one unused number, q and q' as given; y [2n]: the state in doubles, on the
  * constraints. Values stay as they are if they break the constraints by less than 2^enough or if
- * the constraints do not determine them: the caller must check that the constraints hold. Errors:
+ * the constraints do not determine them: the caller must check that the constraints hold, and
+ * may find the nearest ones (precise-hold.h). Errors:
  * QDOT_ENOMEM, those of a constant, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_precise_start_solve(const qdot_plan *plan,
                                                      const qdot_run_request *request,

@@ -9,12 +9,16 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "sim/digits/precise-course.h"
+#include "sim/digits/precise-hold.h"
 #include "sim/digits/precise-start.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/cost.h"
 #include "tape/constant.h"
 
 #define RN MPFR_RNDN
+
+/* Relative to max(1, |x|): how far rounding of doubles moves a value that is kept. */
+static const double moved_by = 1e-13;
 
 enum {
     first_digits = 19,    /* of the pair that measures the amplification */
@@ -76,7 +80,7 @@ side_clear(qdot_precise_side *s)
     *s = (qdot_precise_side){.near = SIZE_MAX};
 }
 
-/* log2 of the largest residual of a tape at the start, in all digits. */
+/* *log2 at least that of the largest residual of a tape at the start, in all digits. */
 static qdot_status
 residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tape, double *log2)
 {
@@ -96,26 +100,88 @@ residual(const qdot_precise_side *s, const qdot_plan *plan, const qdot_tape *tap
     return QDOT_OK;
 }
 
-/* Solve for the values that the start does not name; if these are not determined, or named values
- * had to change, only the doubles are on the constraints. */
+/* Whether a named value of the level had to change in doubles. */
+static bool
+has_moved(const qdot_precise_side *s, const qdot_precise_pair *pair, bool velocities)
+{
+    const bool *named = velocities ? pair->request->v_named : pair->request->q_named;
+    const size_t first = velocities ? pair->plan->n : 0;
+
+    for (size_t i = 0; i < pair->plan->n; i++) {
+        const double given = mpfr_get_d(s->start.at[2 + first + i], RN);
+
+        if ((!named || named[i])
+            && !(fabs(pair->settled[first + i] - given) <= moved_by * fmax(1, fabs(given))))
+            return true;
+    }
+    return false;
+}
+
+/* The positions or velocities nearest to the given ones, as they were found in doubles. */
+static qdot_status
+find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_precise_hold *hold,
+             bool velocities)
+{
+    const qdot_plan *plan = pair->plan;
+    const bool *named = velocities ? pair->request->v_named : pair->request->q_named;
+    const double *near = pair->settled + (velocities ? plan->n : 0);
+    bool *free = qdot_calloc(plan->n + 1, sizeof *free);
+    bool any = false;
+    qdot_status status = free ? QDOT_EDOMAIN : QDOT_ENOMEM;
+
+    for (size_t i = 0; free && i < plan->n; i++)
+        any = (free[i] = named && !named[i]) || any;
+    if (free && any && !has_moved(s, pair, velocities))
+        status = qdot_precise_hold_nearest(hold, s->start.at[0], s->start.at + 2, velocities,
+                                           free, false, near);
+    for (size_t i = 0; free && i < plan->n; i++)
+        free[i] = true;
+    if (status == QDOT_EDOMAIN)
+        status = qdot_precise_hold_nearest(hold, s->start.at[0], s->start.at + 2, velocities,
+                                           free, true, near);
+    qdot_free(free);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status; /* the caller looks at the constraints */
+}
+
+/* Bring the start onto the constraints in all digits. Values that these determine are solved for;
+ * else the nearest start is found, as in doubles. */
 static qdot_status
 settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digits)
 {
     const qdot_plan *plan = pair->plan;
+    const double enough = -(digits + guard_digits) * QDOT_LOG2_10;
+    qdot_precise_hold *hold = NULL;
     double log2 = -INFINITY;
+    qdot_status status = QDOT_OK;
 
     if (!plan->constraints)
         return QDOT_OK;
-    QDOT_TRY(qdot_precise_start_solve(plan, pair->request, pair->settled,
-                                      -(digits + guard_digits) * QDOT_LOG2_10, s->start.bits,
+    QDOT_TRY(qdot_precise_start_solve(plan, pair->request, pair->settled, enough, s->start.bits,
                                       s->start.at));
-    QDOT_TRY(residual(s, plan, plan->constraints->positions, &log2));
-    QDOT_TRY(residual(s, plan, plan->constraints->velocities, &log2));
-    if (log2 <= -(digits + guard_digits) * QDOT_LOG2_10)
+    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
+        const qdot_tape *tape =
+            k == 0 ? plan->constraints->positions : plan->constraints->velocities;
+
+        log2 = -INFINITY;
+        status = residual(s, plan, tape, &log2);
+        if (status != QDOT_OK || log2 <= enough)
+            continue;
+        if (!hold)
+            status = qdot_precise_hold_new(plan, s->start.bits, &hold);
+        if (status == QDOT_OK)
+            status = find_nearest(s, pair, hold, k == 1);
+        log2 = -INFINITY;
+        if (status == QDOT_OK)
+            status = residual(s, plan, tape, &log2);
+        if (status == QDOT_OK && !(log2 <= enough))
+            break;
+    }
+    qdot_precise_hold_free(hold);
+    QDOT_TRY(status);
+    if (log2 <= enough)
         return QDOT_OK;
-    qdot_fail(QDOT_ENOTBUILT, "not built yet: `digits` from a start that breaks the "
-                              "constraints as given, where what is not named is not all "
-                              "determined by them");
+    qdot_fail(QDOT_EINVAL, "the start breaks constraints that depend on each other, which "
+                           "`digits` cannot mend");
     return qdot_hint("start with every value exact, as x = sin(2), y = -cos(2)");
 }
 

@@ -16,7 +16,9 @@
  *
  * States are not projected onto the constraints: drift is part of the error that is measured.
  * Values that the start does not name are solved for if the constraints determine them
- * (sim/digits/precise-start.h); any other start that breaks the constraints is QDOT_ENOTBUILT.
+ * (sim/digits/precise-start.h); any other start that breaks the constraints is moved to the nearest
+ * one that keeps them, as in doubles (sim/digits/precise-hold.h). After an event that sets values
+ * the others are brought onto the constraints likewise.
  *
  * A chaotic scene only needs more digits. Requests that a run in doubles refuses are refused with
  * the same message before. Values along the run come from the series of its steps; their error is

@@ -6,7 +6,7 @@
  *
  * is one more block of the program of M q'' = f (motion-of-equations.h), so that a whole expansion
  * is a single call (motion-series.h). Constraints are differentiated here, which takes more
- * convolutions than their own coefficients (sim/form/constrained-series.h), and the inverse is
+ * convolutions than their own coefficients (sim/form/motion-of-constraints.h), and the inverse is
  * found without a correction: it is for tolerances from QDOT_ELIMINATED_TOL on, as the form
  * of eliminated.h is, and for n + m up to QDOT_BORDERED_MOST.
  *

@@ -7,7 +7,7 @@
  *
  * so that the motion has the series of an unconstrained one (sim/form/motion-series.h) and no
  * matrix is solved at any order. It takes more convolutions than constraints by their own
- * coefficients (sim/form/constrained-series.h) and its rounding is that of an elimination without
+ * coefficients (sim/form/motion-of-constraints.h) and its rounding is that of an elimination without
  * a correction: it is for tolerances from QDOT_ELIMINATED_TOL on.
  *
  * Of a rod, a circle or a sphere S_kk = r f_k + c with numbers r and c. Where states are

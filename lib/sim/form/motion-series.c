@@ -9,6 +9,7 @@
 #include "sim/form/blocks.h"
 #include "sim/form/expansion.h"
 #include "sim/form/momentum-rows.h"
+#include "sim/form/saddle-solver.h"
 #include "tape/shake.h"
 
 enum { most_order = 47, highest = most_order - 3 };
@@ -26,6 +27,8 @@ struct qdot_motion_series {
     const qdot_plan *plan;
     const qdot_motion *motion;
     qdot_expansion at; /* its program */
+    qdot_saddle_solver *saddle; /* of constraints by their own coefficients, */
+    int refined;                /* and orders up to this one are; else NULL, and: */
     qdot_blocks solvers;
     size_t blocks;  /* of the motion, */
     size_t *block;  /* [blocks] by their number in `solvers` */
@@ -48,6 +51,8 @@ struct qdot_motion_series {
 static qdot_status
 factor(qdot_motion_series *s)
 {
+    if (s->saddle)
+        return qdot_saddle_solver_factor(s->saddle);
     for (size_t k = 0; k < s->blocks; k++) {
         const qdot_solver *at = s->solvers.at + s->block[k];
 
@@ -77,6 +82,10 @@ solve(qdot_motion_series *s, int k)
 {
     double *by = s->by;
 
+    if (s->saddle && k <= s->refined)
+        qdot_saddle_solve_refined(&s->saddle->matrix);
+    else if (s->saddle)
+        qdot_saddle_apply(&s->saddle->matrix);
     for (size_t b = 0; b < s->blocks; b++) {
         const qdot_solver *at = s->solvers.at + s->block[b];
 
@@ -136,6 +145,8 @@ expand_zero(qdot_motion_series *s, double t, const double *y)
             evaluate_masses(s, t, y);
             QDOT_TRY(factor(s));
         }
+        if (s->saddle)
+            QDOT_TRY(qdot_saddle_solver_look(s->saddle, t, y));
         for (int k = qdot_motion_first(s->motion); k <= 0; k++)
             QDOT_TRY(stage(s, k));
     }
@@ -151,6 +162,7 @@ begin(double t, const double *y, double unit, void *user)
     qdot_status status;
 
     s->unit = unit;
+    s->refined = QDOT_SADDLE_REFINED;
     qdot_taylor_set_unit(s->at.taylor, unit);
     qdot_expansion_begin(&s->at, t, y, unit);
     if (s->plan->n_kept > 0)
@@ -210,6 +222,10 @@ extend(int p, void *user)
     qdot_motion_series *s = user;
     const bool as_code = qdot_taylor_is_code(s->at.taylor, p - 1);
 
+    if (s->saddle) {
+        s->refined = p < QDOT_SADDLE_LEAST_REFINED ? 0 : QDOT_SADDLE_REFINED;
+        qdot_saddle_prepare(&s->saddle->matrix);
+    }
     for (size_t b = 0; b < s->blocks; b++) {
         const qdot_solver *at = s->solvers.at + s->block[b];
 
@@ -235,6 +251,20 @@ static double
 near(int p, double step, void *user)
 {
     return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step);
+}
+
+static double
+noise(void *user)
+{
+    return qdot_saddle_solver_noise(((const qdot_motion_series *)user)->saddle);
+}
+
+static double
+ahead(void *user)
+{
+    const qdot_motion_series *s = user;
+
+    return qdot_saddle_solver_ahead(s->saddle, s->unit);
 }
 
 /* --- machine code by lanes -------------------------------------------------------------- */
@@ -324,6 +354,17 @@ make_entries(qdot_motion_series *s)
 }
 
 static qdot_status
+make_saddle(qdot_motion_series *s)
+{
+    s->saddle = qdot_calloc(1, sizeof *s->saddle);
+    if (!s->saddle)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_saddle_solver_init(s->saddle, s->plan, s->at.taylor));
+    s->by = s->saddle->matrix.x;
+    return QDOT_OK;
+}
+
+static qdot_status
 make_masses(qdot_motion_series *s, bool shaken)
 {
     if (shaken)
@@ -359,6 +400,8 @@ may_be_whole(const qdot_plan *p, const qdot_motion *m)
 static void
 choose_code(qdot_motion_series *s)
 {
+    if (s->saddle)
+        return;
     s->why = "machine code is not asked for";
     if (s->masses) {
         s->series.code = (qdot_ode_code){
@@ -373,20 +416,27 @@ choose_code(qdot_motion_series *s)
 }
 
 static qdot_status
+make_blocks(qdot_motion_series *s, bool shaken)
+{
+    s->by = qdot_calloc(s->motion->solved.n + 1, sizeof *s->by);
+    if (!s->by)
+        return QDOT_ENOMEM;
+    QDOT_TRY(make_solvers(s, shaken));
+    return s->masses ? make_masses(s, shaken) : make_entries(s);
+}
+
+static qdot_status
 make(qdot_motion_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const bool has_factor = !p->constraints;
+    const bool constrained = p->constraints && s->motion == &p->constraints->motion;
 
     QDOT_TRY(qdot_taylor_of_motion(s->motion, shaken, most_order,
                                    has_factor ? QDOT_BLOCKS_SOLVED : 0, &s->at.taylor));
     s->at = qdot_expansion_of(s->at.taylor, p->n);
     QDOT_TRY(qdot_momentum_rows_init(&s->momenta, p, s->at, shaken));
-    s->by = qdot_calloc(s->motion->solved.n + 1, sizeof *s->by);
-    if (!s->by)
-        return QDOT_ENOMEM;
-    QDOT_TRY(make_solvers(s, shaken));
-    QDOT_TRY(s->masses ? make_masses(s, shaken) : make_entries(s));
+    QDOT_TRY(constrained ? make_saddle(s) : make_blocks(s, shaken));
     s->series = (qdot_ode_series){
         .most = highest,
         .x = s->at.q,
@@ -395,6 +445,8 @@ make(qdot_motion_series *s, bool shaken)
         .cost = p->expansions,
         .begin = begin,
         .extend = extend,
+        .noise = constrained ? noise : NULL,
+        .ahead = constrained ? ahead : NULL,
         .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
         .user = s};
     choose_code(s);
@@ -430,6 +482,12 @@ qdot_motion_series_new(const qdot_plan *plan, bool shaken, qdot_motion_series **
     return qdot_motion_series_of_residual(plan, plan->motion, NULL, shaken, series);
 }
 
+qdot_status
+qdot_motion_series_of_constraints(const qdot_plan *plan, bool shaken, qdot_motion_series **series)
+{
+    return qdot_motion_series_of_residual(plan, &plan->constraints->motion, NULL, shaken, series);
+}
+
 void
 qdot_motion_series_free(qdot_motion_series *s)
 {
@@ -442,7 +500,11 @@ qdot_motion_series_free(qdot_motion_series *s)
     qdot_blocks_clear(&s->solvers);
     qdot_free(s->block);
     qdot_free(s->entries);
-    qdot_free(s->by);
+    if (s->saddle)
+        qdot_saddle_solver_clear(s->saddle);
+    else
+        qdot_free(s->by);
+    qdot_free(s->saddle);
     qdot_free(s->in);
     qdot_free(s->out);
     qdot_free(s->work);
@@ -487,10 +549,26 @@ qdot_motion_series_work_of_residual(const qdot_plan *p, const qdot_motion *m,
     return w;
 }
 
+qdot_work
+qdot_motion_series_work_of_constraints(const qdot_motion_series *s)
+{
+    const qdot_saddle *matrix = &s->saddle->matrix;
+    const double all = (double)s->motion->solved.n;
+
+    return (qdot_work){.coordinates = (double)s->plan->n,
+                       .length = (double)qdot_taylor_length(s->at.taylor),
+                       .convolutions = qdot_taylor_convolutions(s->at.taylor),
+                       .calls = (double)qdot_tape_calls(s->plan->tape),
+                       .unknowns = all,
+                       .squares = all * all,
+                       .filled = matrix->patterned ? (double)matrix->sparse.filled : all * all,
+                       .inverted = matrix->inverse != NULL};
+}
+
 size_t
 qdot_motion_series_factored(const qdot_motion_series *s)
 {
-    return s->solvers.factored;
+    return s->saddle ? s->saddle->matrix.factored : s->solvers.factored;
 }
 
 size_t

@@ -3,6 +3,7 @@
  *
  *     explicit equations   M q'' = f, also bordered by constraints: K is of rows of the program
  *     d'Alembert's         K is M, from a tape of its own
+ *     of constraints       K is [M A^T; A 0], of rows of the program, of any rank (saddle-solver.h)
  *
  * K is factored where a series begins. Orders of the unknowns up to QDOT_BLOCKS_SOLVED are solved for
  * by that factor, those beyond by the inverse; with constraints all by the inverse (num/bordered.h).
@@ -31,6 +32,10 @@ QDOT_MUST_CHECK qdot_status qdot_motion_series_of_residual(const qdot_plan *plan
                                                            const qdot_motion *motion,
                                                            const qdot_tape *masses, bool shaken,
                                                            qdot_motion_series **series);
+/* Of a plan with constraints, by their own coefficients (motion-of-constraints.h). Errors: those of
+ * the plan's constraints, where an expansion begins; QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_motion_series_of_constraints(const qdot_plan *plan, bool shaken,
+                                                              qdot_motion_series **series);
 void qdot_motion_series_free(qdot_motion_series *series);
 
 /* Of a reduced plan (sim/plan/routh.h): the momenta hi + lo [n_kept], borrowed and read wherever
@@ -47,6 +52,8 @@ const double *qdot_motion_series_output(const qdot_motion_series *series, size_t
 qdot_work qdot_motion_series_work(const qdot_plan *plan);
 qdot_work qdot_motion_series_work_of_residual(const qdot_plan *plan, const qdot_motion *motion,
                                               const qdot_tape *masses);
+/* The same of a series of constraints. */
+qdot_work qdot_motion_series_work_of_constraints(const qdot_motion_series *series);
 
 /* How often K was factored; bytes of machine code, 0: there is none, *why says so. */
 size_t qdot_motion_series_factored(const qdot_motion_series *series);

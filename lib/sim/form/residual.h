@@ -12,7 +12,7 @@
  * a chain of N links takes work N in all that, and 4 N convolutions an order.
  *
  * Order k of R, with coefficient k + 2 of q taken as 0, gives M_0 a_k = -R_k; a_k is then
- * propagated (qdot_taylor_correct). The series of d'' is that of d, shifted.
+ * propagated (qdot_taylor_change). The series of d'' is that of d, shifted.
  *
  * Source  Nedialkov & Pryce, BIT 45 (2005) 561; shared sums as in recursive Newton-Euler
  *         schemes (Featherstone, Rigid Body Dynamics Algorithms, ch. 5).

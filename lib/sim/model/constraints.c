@@ -33,9 +33,8 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_tape_free(c->velocities);
     qdot_tape_free(c->metric);
     qdot_tape_free(c->equations);
-    qdot_tape_free(c->motion);
-    for (int kind = 0; kind < 3; kind++)
-        qdot_tape_free(c->series[kind]);
+    qdot_tape_free(c->series);
+    qdot_motion_clear(&c->motion);
     qdot_free(c);
 }
 
@@ -148,7 +147,7 @@ read_rows(builder *b, const qdot_scene *scene)
         row->name = qdot_strdup(from->name);
         row->kind = from->kind;
         row->multiplier = from->multiplier;
-        row->of_kind = c->count[row->kind]++;
+        c->count[row->kind]++;
         row->f = qdot_plan_substitute(p, from->f);
         if (!row->name)
             return QDOT_ENOMEM;
@@ -222,24 +221,6 @@ lower_index_1(builder *b)
     return status;
 }
 
-/* The inputs of a series, the newest first; returns their number. */
-static size_t
-series_inputs(const qdot_plan *p, qdot_constraint_kind kind, qdot_expr *inputs)
-{
-    const size_t n = p->n, bytes = n * sizeof *inputs;
-    const qdot_expr *q = p->inputs, *v = q + n, *a = q + 2 * n + 1;
-    size_t at = 0;
-
-    if (kind == QDOT_ACCELERATION) {
-        memcpy(inputs, a, bytes);
-        at += n;
-    }
-    memcpy(inputs + at, kind == QDOT_VELOCITY ? v : q, bytes);
-    memcpy(inputs + at + n, kind == QDOT_VELOCITY ? q : v, bytes);
-    inputs[at + 2 * n] = QDOT_T;
-    return at + 2 * n + 1;
-}
-
 /* A slope that is an earlier one of its row, negated, is that one: where both are
  * multiplied by the row's multiplier it is done once. */
 static qdot_status
@@ -263,30 +244,9 @@ find_signs(builder *b)
     return qdot_pool_check(b->plan->pool);
 }
 
+/* For series: find_signs has been here. */
 static qdot_status
-lower_series(builder *b, qdot_constraint_kind kind)
-{
-    const qdot_plan *p = b->plan;
-    expressions out = {0};
-    qdot_expr *inputs = qdot_calloc(3 * p->n + 1, sizeof *inputs);
-    qdot_status status = inputs ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t k = 0; k < b->c->m && status == QDOT_OK; k++)
-        if (b->c->rows[k].kind == kind)
-            status = qdot_vec_push(&out, b->c->rows[k].f);
-    for (size_t s = 0; s < b->c->n_slopes && status == QDOT_OK; s++)
-        if (b->c->rows[b->c->slopes[s].row].kind == kind)
-            status = qdot_vec_push(&out, b->slopes.at[s]);
-    if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, series_inputs(p, kind, inputs), inputs, out.n,
-                               out.at, &b->c->series[kind]);
-    qdot_free(out.at);
-    qdot_free(inputs);
-    return status;
-}
-
-static qdot_status
-lower_motion(builder *b)
+lower_series(builder *b)
 {
     expressions out = {0};
     qdot_status status = push_all(&out, b->plan->n, b->plan->f);
@@ -294,7 +254,13 @@ lower_motion(builder *b)
     if (status == QDOT_OK)
         status = push_all(&out, b->masses.n, b->masses.at);
     if (status == QDOT_OK)
-        status = lower(b->plan, &out, &b->c->motion);
+        status = push_all(&out, b->slopes.n, b->slopes.at);
+    for (size_t k = 0; k < b->c->m && status == QDOT_OK; k++)
+        status = qdot_vec_push(&out, b->c->rows[k].kind == QDOT_ACCELERATION
+                                         ? b->gamma.at[k]
+                                         : b->c->rows[k].f);
+    if (status == QDOT_OK)
+        status = lower(b->plan, &out, &b->c->series);
     qdot_free(out.at);
     return status;
 }
@@ -324,12 +290,8 @@ build(builder *b, const qdot_scene *scene)
     QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
     QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
     QDOT_TRY(lower_index_1(b));
-    QDOT_TRY(lower_motion(b));
     QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
-    for (int kind = 0; kind < 3; kind++)
-        if (b->c->count[kind] > 0)
-            QDOT_TRY(lower_series(b, (qdot_constraint_kind)kind));
-    return QDOT_OK;
+    return lower_series(b);
 }
 
 qdot_status

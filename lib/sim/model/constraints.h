@@ -26,7 +26,6 @@ typedef struct {
     qdot_constraint_kind kind;
     qdot_expr f;          /* with parameter values */
     qdot_expr multiplier; /* the symbol lambda[name] */
-    size_t of_kind;       /* index among the rows of its kind */
 } qdot_constraints_row;
 
 /* An entry that is not zero: of M (row >= column) or of A (a constraint, a coordinate).
@@ -41,7 +40,7 @@ struct qdot_constraints {
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
     size_t n_slopes;
-    signed char *sign; /* [n_slopes] A is this sign times the derivatives in `series` */
+    signed char *sign; /* [n_slopes] A is this sign times what `series` has */
     qdot_expr *A;      /* [n_slopes] the entries as expressions */
     qdot_expr *gamma;  /* [m] */
 
@@ -53,12 +52,11 @@ struct qdot_constraints {
     qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; moved to plan->tape,
                               then NULL */
 
-    /* For Taylor series: f [n], M [n_masses] from q, q', t; */
-    qdot_tape *motion;
-    /* and by kind, NULL without such rows: f of its rows, then their derivatives up to `sign`,
-     * from inputs with the newest coefficients first:
-     *     holonomic q, q', t   velocity q', q, t   acceleration q'', q, q', t */
-    qdot_tape *series[3];
+    /* For Taylor series: f [n], M [n_masses], A [n_slopes] up to `sign`, and of each row f, gamma of
+     * one on accelerations [m]; the program that is made of it (sim/form/motion-of-constraints.h), if
+     * it is smooth. */
+    qdot_tape *series;
+    qdot_motion motion;
 };
 
 /* For a scene whose plan has its values, M and f; *constraints is NULL for a scene without.

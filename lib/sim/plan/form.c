@@ -6,7 +6,6 @@
 #include "sim/form/blocks.h"
 #include "sim/form/bordered.h"
 #include "sim/form/canonical.h"
-#include "sim/form/constrained-series.h"
 #include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
 #include "sim/form/motion-of-residual.h"
@@ -175,16 +174,16 @@ qdot_plan_make_lanes(qdot_plan *p)
 static qdot_status
 measure_constrained(qdot_plan *p)
 {
-    qdot_constrained_series *series;
+    qdot_motion_series *series;
     qdot_ode_cost cost;
     qdot_work work;
 
-    QDOT_TRY(qdot_constrained_series_new(p, false, &series));
-    work = qdot_constrained_series_work(series);
+    QDOT_TRY(qdot_motion_series_of_constraints(p, false, &series));
+    work = qdot_motion_series_work_of_constraints(series);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_constrained(p, &work);
     take(p, QDOT_FORM_CONSTRAINED, &cost);
-    qdot_constrained_series_free(series);
+    qdot_motion_series_free(series);
     return QDOT_OK;
 }
 

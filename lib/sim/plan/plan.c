@@ -5,6 +5,7 @@
 
 #include "base/spelling.h"
 #include "ode/leading.h"
+#include "sim/form/motion-of-constraints.h"
 #include "sim/model/constraints.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
@@ -181,6 +182,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         p->treatment = QDOT_RUN_BAUMGARTE;
     if (!p->smooth)
         return QDOT_OK;
+    QDOT_TRY(qdot_motion_of_constraints(p));
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 

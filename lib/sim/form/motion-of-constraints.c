@@ -1,0 +1,181 @@
+/* motion-of-constraints.c -- rows of M q'' + A^T mu = f and of the constraints themselves. */
+#include "sim/form/motion-of-constraints.h"
+
+#include "base/memory.h"
+#include "sim/model/constrained.h"
+#include "sim/model/constraints.h"
+
+typedef struct {
+    const qdot_plan *plan;
+    const qdot_constraints *c;
+    qdot_motion *motion;
+    qdot_program_builder *program;
+    qdot_program_row *inputs;          /* [2n + 1] */
+    qdot_program_row *f, *M, *A, *row; /* outputs of the tape: [n], [n_masses], [n_slopes], [m] */
+    qdot_program_row *unknown;         /* [n + m] a, mu */
+    qdot_program_row *E;               /* [n + m] QDOT_NO_ROW: nothing is there yet */
+} builder;
+
+static qdot_program_row
+operation(const builder *b, qdot_op op, qdot_program_row x, qdot_program_row y,
+          qdot_program_row z)
+{
+    return qdot_program_operation(b->program, op, x, y, z);
+}
+
+/* E_i takes on K_ij u_j, at first with what stands on the right of it. */
+static void
+add_product(const builder *b, size_t i, size_t j, qdot_program_row K, qdot_program_row right)
+{
+    b->E[i] = b->E[i] == QDOT_NO_ROW
+                  ? operation(b, QDOT_OP_MSUB, K, b->unknown[j], right)
+                  : operation(b, QDOT_OP_MADD, K, b->unknown[j], b->E[i]);
+}
+
+/* sum + factor x */
+static qdot_program_row
+damp(const builder *b, double factor, qdot_program_row x, qdot_program_row sum)
+{
+    const qdot_program_constant c = {.value = factor, .exact = QDOT_NIL};
+
+    return operation(b, QDOT_OP_MADD, qdot_program_number(b->program, c), x, sum);
+}
+
+static void
+add_constraint(const builder *b, size_t k)
+{
+    const double r = b->plan->treatment == QDOT_RUN_BAUMGARTE ? QDOT_CONSTRAINED_RATE : 0;
+    qdot_program_row *E = b->E + b->plan->n + k;
+
+    if (b->c->rows[k].kind == QDOT_ACCELERATION) {
+        for (size_t s = 0; s < b->c->n_slopes; s++)
+            if (b->c->slopes[s].row == k)
+                add_product(b, b->plan->n + k, b->c->slopes[s].column, b->A[s], b->row[k]);
+        if (*E == QDOT_NO_ROW)
+            *E = operation(b, QDOT_OP_NEG, b->row[k], 0, 0);
+        return;
+    }
+    *E = qdot_program_rate(b->program, b->row[k]);
+    if (b->c->rows[k].kind == QDOT_VELOCITY) {
+        *E = r > 0 ? damp(b, r, b->row[k], *E) : *E;
+        return;
+    }
+    if (r > 0)
+        *E = damp(b, 2 * r, b->row[k], *E);
+    *E = qdot_program_rate(b->program, *E);
+    if (r > 0)
+        *E = damp(b, r * r, b->row[k], *E);
+}
+
+static qdot_status
+couple(const builder *b, size_t i, size_t j, qdot_program_row K)
+{
+    return qdot_vec_push(&b->motion->entries,
+                         ((qdot_motion_entry){(uint32_t)i, (uint32_t)j, K}));
+}
+
+/* The explicit equations, numbers last: there is nothing of them to add before the unknowns are
+ * known. */
+static void
+add_coordinates(const builder *b)
+{
+    const qdot_motion *m = b->motion;
+    const size_t n = b->plan->n;
+
+    for (int number = 0; number < 2; number++)
+        for (size_t k = 0; k < m->entries.n; k++) {
+            const qdot_motion_entry *x = m->entries.at + k;
+
+            if (m->program.rows.at[x->at].still != number)
+                continue;
+            if (x->i < n)
+                add_product(b, x->i, x->j, x->at, b->f[x->i]);
+            if (x->i != x->j)
+                add_product(b, x->j, x->i, x->at, b->f[x->j]);
+        }
+    for (size_t i = 0; i < n; i++)
+        if (b->E[i] == QDOT_NO_ROW)
+            b->E[i] = operation(b, QDOT_OP_NEG, b->f[i], 0, 0);
+}
+
+static qdot_status
+add_equations(builder *b)
+{
+    const qdot_constraints *c = b->c;
+    const size_t n = b->plan->n;
+    size_t steps;
+
+    for (size_t i = 0; i < n + c->m; i++) {
+        b->unknown[i] = qdot_program_unknown(b->program);
+        b->E[i] = QDOT_NO_ROW;
+    }
+    for (size_t k = 0; k < c->n_masses; k++)
+        QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, b->M[k]));
+    for (size_t k = 0; k < c->n_slopes; k++) {
+        if (c->sign[k] < 0)
+            b->A[k] = operation(b, QDOT_OP_NEG, b->A[k], 0, 0);
+        QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, b->A[k]));
+    }
+    for (size_t k = 0; k < c->m; k++)
+        add_constraint(b, k);
+    steps = b->motion->program.steps.n;
+    add_coordinates(b);
+    b->motion->written = b->motion->program.steps.n - steps;
+    return QDOT_OK;
+}
+
+static qdot_status
+add_unknowns(const builder *b)
+{
+    const size_t n = b->plan->n;
+
+    for (size_t i = 0; i < n + b->c->m; i++) {
+        qdot_motion_unknown u = {
+            .row = b->unknown[i], .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
+
+        if (i < n) {
+            u.once = (qdot_program_row)(n + i);
+            u.twice = (qdot_program_row)i;
+            QDOT_TRY(qdot_vec_push(&b->motion->right, b->f[i]));
+        }
+        QDOT_TRY(qdot_motion_solve(b->motion, u, b->E[i]));
+    }
+    return qdot_motion_end_block(b->motion);
+}
+
+static qdot_status
+build(builder *b)
+{
+    const size_t n = b->plan->n, m = b->c->m, inputs = 2 * n + 1;
+    const size_t outputs = n + b->c->n_masses + b->c->n_slopes + m;
+
+    b->inputs = qdot_calloc(inputs + outputs + 2 * (n + m), sizeof *b->inputs);
+    if (!b->inputs)
+        return QDOT_ENOMEM;
+    b->f = b->inputs + inputs;
+    b->M = b->f + n;
+    b->A = b->M + b->c->n_masses;
+    b->row = b->A + b->c->n_slopes;
+    b->unknown = b->row + m;
+    b->E = b->unknown + n + m;
+    for (size_t i = 0; i < inputs; i++)
+        b->inputs[i] = (qdot_program_row)i;
+    qdot_program_append(b->program, b->c->series, b->inputs, b->f);
+    QDOT_TRY(add_equations(b));
+    return add_unknowns(b);
+}
+
+qdot_status
+qdot_motion_of_constraints(qdot_plan *plan)
+{
+    qdot_motion *motion = &plan->constraints->motion;
+    const size_t inputs = 2 * plan->n + 1;
+    builder b = {.plan = plan, .c = plan->constraints, .motion = motion};
+    qdot_status status;
+
+    qdot_motion_clear(motion);
+    QDOT_TRY(qdot_program_begin(inputs, inputs, false, &motion->program, &b.program));
+    status = qdot_motion_complete(motion, b.program, build(&b));
+    qdot_free(b.inputs);
+    return status;
+}
