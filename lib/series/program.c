@@ -1,6 +1,7 @@
 /* program.c -- from a tape to the steps of a series program. */
 #include "series/program.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 typedef qdot_program_row row;
@@ -313,12 +314,21 @@ still_ones_first(qdot_program *p)
     return QDOT_OK;
 }
 
+static atomic_size_t made;
+
+size_t
+qdot_program_made(void)
+{
+    return made;
+}
+
 qdot_status
 qdot_program_begin(size_t inputs, size_t moving, bool values_only, qdot_program *program,
                    qdot_program_builder **out)
 {
     builder *b = qdot_calloc(1, sizeof *b);
 
+    made++;
     *program = (qdot_program){.inputs = inputs, .moving = moving};
     *out = b;
     if (!b)

@@ -99,25 +99,44 @@ qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare
 }
 
 static qdot_status
-make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
+check_order(int most)
 {
-    qdot_program program;
+    return most < 0 || most > QDOT_SERIES_MOST
+               ? qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most)
+               : QDOT_OK;
+}
+
+qdot_status
+qdot_taylor_of_program(const qdot_program *program, bool shaken, int most,
+                       qdot_taylor **taylor)
+{
     qdot_taylor *t;
     qdot_status status;
 
     *taylor = NULL;
-    if (most < 0 || most > QDOT_SERIES_MOST)
-        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
-    QDOT_TRY(qdot_program_init(tape, moving, false, &program));
+    QDOT_TRY(check_order(most));
     t = qdot_calloc(1, sizeof *t);
-    status = t ? qdot_taylor_settle(t, &program, most, 0, 0, false) : QDOT_ENOMEM;
-    qdot_program_clear(&program);
+    status = t ? qdot_taylor_settle(t, program, most, 0, 0, shaken) : QDOT_ENOMEM;
     if (status != QDOT_OK) {
         qdot_taylor_free(t);
         return status;
     }
     *taylor = t;
     return QDOT_OK;
+}
+
+static qdot_status
+make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
+{
+    qdot_program program;
+    qdot_status status;
+
+    *taylor = NULL;
+    QDOT_TRY(check_order(most));
+    QDOT_TRY(qdot_program_init(tape, moving, false, &program));
+    status = qdot_taylor_of_program(&program, false, most, taylor);
+    qdot_program_clear(&program);
+    return status;
 }
 
 qdot_status

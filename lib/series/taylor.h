@@ -26,6 +26,10 @@ QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
 /* The same of its shaken copy (shake.h) if `shaken`. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
                                                    int most, qdot_taylor **taylor);
+/* Of a program that is there, which is read, not kept; shaken or not. Errors: QDOT_EINVAL (most),
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_taylor_of_program(const qdot_program *program, bool shaken,
+                                                   int most, qdot_taylor **taylor);
 /* The same where the inputs from `moving` on are numbers: they have no coefficients but of
  * order 0, and what is made of them alone is computed there only. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,

@@ -494,7 +494,15 @@ release(evaluation *v)
     qdot_walk_end(&v->walk);
 }
 
-/* n/d of small integers, as most numbers of a scene are: the remainder n - value d is a double. */
+/* Whether an integer is small, and a double. */
+static bool
+is_double(const fmpz x)
+{
+    return !COEFF_IS_MPZ(x) && x <= (slong)1 << 53 && x >= -((slong)1 << 53);
+}
+
+/* n/d of integers that are doubles, as most numbers of a scene and all tolerances are: the remainder
+ * n - value d is a double. FLINT is not asked, which would load it (src/late.c). */
 static void
 split_small(double n, double d, double *value, int *side, double *low)
 {
@@ -514,13 +522,8 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
     *value = NAN;
     *side = 0;
     *low = 0;
-    if (rational && qdot_rational_is_small(rational)) {
+    if (rational && is_double(rational->num) && is_double(rational->den)) {
         split_small((double)rational->num, (double)rational->den, value, side, low);
-        return QDOT_OK;
-    }
-    if (rational && fmpz_is_one(fmpq_denref(rational))
-        && fmpz_bits(fmpq_numref(rational)) <= 53) {
-        *value = fmpz_get_d(fmpq_numref(rational));
         return QDOT_OK;
     }
     QDOT_TRY(prepare(&v, pool, e));

@@ -7,6 +7,10 @@
 #include "sim/model/constraints.h"
 #include "sim/plan/plan.h"
 
+#include "sim/form/derived.h"
+#include "sim/form/eliminated.h"
+#include "sim/plan/form.h"
+
 #include <math.h>
 
 static qdot_expr
@@ -435,13 +439,28 @@ typedef struct {
     const qdot_ode_series *series[2]; /* with multipliers eliminated; solved for */
 } both;
 
+/* A plan at that tolerance by multipliers eliminated beforehand, whatever is cheaper. */
+static qdot_plan *
+plan_eliminated(fixture *f)
+{
+    qdot_plan *p;
+
+    f->request.tol = 1e-5;
+    must(qdot_plan_new(f->scene, &f->request, &p));
+    qdot_plan_drop_bordered(p);
+    qdot_plan_free(p->eliminated);
+    must(qdot_eliminated_make(p, f->request.tol, &p->eliminated));
+    assert_non_null(p->eliminated);
+    must(qdot_plan_measure(p->eliminated));
+    p->form = QDOT_FORM_ELIMINATED;
+    return p;
+}
+
 static void
 both_begin(both *b, fixture *f)
 {
     tied_bob(f);
-    f->request.tol = 1e-5;
-    must(qdot_plan_new(f->scene, &f->request, &b->plan));
-    assert_non_null(b->plan->eliminated);
+    b->plan = plan_eliminated(f);
     must(qdot_bind_new(b->plan, false, &b->bind));
     must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
     b->series[0] = qdot_bind_system(b->bind).series;
@@ -507,14 +526,11 @@ held_rods_are_not_measured(void **state)
 
     (void)state;
     cartesian_pendulum(&f);
-    f.request.tol = 1e-5;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_non_null(plan->eliminated);
+    plan = plan_eliminated(&f);
     held = qdot_tape_operations(plan->eliminated->tape);
     qdot_plan_free(plan);
     f.request.treatment = QDOT_RUN_NONE;
-    must(qdot_plan_new(f.scene, &f.request, &plan));
-    assert_non_null(plan->eliminated);
+    plan = plan_eliminated(&f);
     assert_true(held < qdot_tape_operations(plan->eliminated->tape));
     qdot_plan_free(plan);
     end(&f);

@@ -124,14 +124,18 @@ static void
 series_take_the_costs_of_the_plan(void **state)
 {
     const double tols[] = {1e-4, 1e-12};
-    fixture f;
 
     (void)state;
-    rod(&f);
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < 4; k++) {
         qdot_plan *plan;
+        fixture f;
 
-        f.request.tol = tols[k];
+        if (k < 2)
+            rod(&f);
+        else
+            pendulum(&f);
+        f.request.method = "taylor";
+        f.request.tol = tols[k % 2];
         must(qdot_plan_new(f.scene, &f.request, &plan));
         for (int shaken = 0; shaken < 2; shaken++) {
             qdot_bind *bind;
@@ -144,8 +148,8 @@ series_take_the_costs_of_the_plan(void **state)
             qdot_bind_free(bind);
         }
         qdot_plan_free(plan);
+        end(&f);
     }
-    end(&f);
 }
 
 /* Of the forms that fit the one with the least cost at the tolerance of the run. */

@@ -117,6 +117,7 @@ forms_agree(fixture *f, const double *y, double t)
     must(qdot_motion_series_new(plan, false, &direct));
     must(qdot_residual_new(f->scene, plan, &residual));
     assert_non_null(residual);
+    must(qdot_residual_programs(residual));
     must(qdot_tree_series_new(plan, residual, false, &tree));
     a = qdot_motion_series_get(direct);
     must(a->begin(t, y, 0.125, a->user));

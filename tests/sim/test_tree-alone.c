@@ -258,6 +258,43 @@ a_second_run_takes_the_plan(void **state)
     }
 }
 
+/* Of chains by each of their forms: series of a run and of companions are made of the programs that
+ * the plan has, and a second run neither derives nor lowers nor translates anything. */
+static void
+nothing_is_made_twice(void **state)
+{
+    static const size_t lengths[] = {1, 2, 6, 40};
+    static const double tols[] = {1e-9, 1e-15};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
+        long_chain c;
+        qdot_run *first, *second;
+        qdot_bind *bind;
+        size_t made;
+        size_t nodes;
+
+        make_long(&c, lengths[k]);
+        c.f.request.tol = tols[k % 2];
+        first = run_long(&c);
+        made = qdot_program_made();
+        assert_true(made > 0);
+        for (int shaken = 0; shaken < 2; shaken++) {
+            must(qdot_bind_new(first->plan, shaken, &bind));
+            qdot_bind_free(bind);
+        }
+        assert_int_equal(qdot_program_made(), made);
+        nodes = qdot_pool_count(c.f.pool);
+        second = run_long(&c);
+        assert_int_equal(qdot_program_made(), made);
+        assert_int_equal(qdot_pool_count(c.f.pool), nodes);
+        assert_ptr_equal(first->plan, second->plan);
+        qdot_run_free(first);
+        qdot_run_free(second);
+        end(&c.f);
+    }
+}
+
 static void
 what_differs_is_planned_anew(void **state)
 {
@@ -299,6 +336,7 @@ main(void)
         cmocka_unit_test(what_reads_M_has_it),
         cmocka_unit_test(switches_are_found_without_M),
         cmocka_unit_test(a_second_run_takes_the_plan),
+        cmocka_unit_test(nothing_is_made_twice),
         cmocka_unit_test(what_differs_is_planned_anew),
     };
 

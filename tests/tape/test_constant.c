@@ -49,6 +49,22 @@ rationals_round_to_nearest(void **state)
             assert_true(constant(pool, qdot_expr_ratio(pool, p, q))
                         == mpfr_get_d(x, MPFR_RNDN));
         }
+    /* up to what a double holds and beyond, with what it leaves */
+    for (long k = 0; k < 200; k++) {
+        const long p = ((1L << 57) - 1) / (k + 1) - 7 * k, q = 1000000000000 + 13 * k;
+        double value, low;
+        int side;
+
+        assert_int_equal(
+            qdot_constant_split(pool, qdot_expr_ratio(pool, p, q), &value, &side, &low), QDOT_OK);
+        mpfr_set_prec(x, 300);
+        mpfr_set_si(x, p, MPFR_RNDN);
+        mpfr_div_si(x, x, q, MPFR_RNDN);
+        assert_true(value == mpfr_get_d(x, MPFR_RNDN));
+        mpfr_sub_d(x, x, value, MPFR_RNDN);
+        assert_true(low == mpfr_get_d(x, MPFR_RNDN));
+        assert_int_equal(side, mpfr_sgn(x));
+    }
     assert_true(constant(pool, qdot_expr_decimal(pool, "9.81", 4)) == 9.81);
     assert_true(constant(pool, qdot_expr_decimal(pool, "1e-310", 6)) == 1e-310);
     assert_true(constant(pool, qdot_expr_decimal(pool, "5e-324", 6)) == 5e-324);

@@ -39,6 +39,8 @@ qdot_residual_free(qdot_residual *r)
     qdot_tape_free(r->masses);
     qdot_tape_free(r->energy);
     qdot_motion_clear(&r->motion);
+    qdot_program_clear(&r->of_places);
+    qdot_program_clear(&r->of_forces);
     qdot_free(r->absent);
     qdot_free(r);
 }
@@ -370,6 +372,17 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
     }
     *residual = b.r;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_residual_programs(qdot_residual *r)
+{
+    if (r->of_places.rows.n > 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_program_init(r->places, qdot_tape_inputs(r->places), false, &r->of_places));
+    return r->forces ? qdot_program_init(r->forces, qdot_tape_inputs(r->forces), false,
+                                         &r->of_forces)
+                     : QDOT_OK;
 }
 
 /* --- in numbers ------------------------------------------------------------------------ */

@@ -53,6 +53,7 @@ struct qdot_residual {
     qdot_tape *forces; /* Q_i with velocities; NULL: none */
     qdot_tape *masses; /* lower triangles of the blocks that are not constant, by rows; NULL: of a
                           plan without M (sim/plan/tree-alone.h) */
+    qdot_program of_places, of_forces; /* of these tapes, once asked for (qdot_residual_programs) */
     qdot_motion motion; /* the program of the motion (motion-of-residual.h), filled by the plan, if it
                            has masses */
 
@@ -68,6 +69,8 @@ struct qdot_residual {
  * not apply. */
 QDOT_MUST_CHECK qdot_status qdot_residual_new(qdot_scene *scene, const qdot_plan *plan,
                                               qdot_residual **residual);
+/* Make the programs of its tapes, if they are not there. Errors: those of series. */
+QDOT_MUST_CHECK qdot_status qdot_residual_programs(qdot_residual *residual);
 void qdot_residual_free(qdot_residual *residual);
 
 /* F [functions] from the second derivatives of the differences, in x [functions], which become

@@ -158,11 +158,11 @@ make_tapes(qdot_tree_series *s, bool shaken)
     const qdot_residual *r = s->residual;
     const size_t n = s->plan->n;
 
-    QDOT_TRY(qdot_taylor_new_shaken(r->places, shaken, most_order, &s->places.taylor));
+    QDOT_TRY(qdot_taylor_of_program(&r->of_places, shaken, most_order, &s->places.taylor));
     s->places = qdot_expansion_of(s->places.taylor, n);
     if (!r->forces)
         return QDOT_OK;
-    QDOT_TRY(qdot_taylor_new_shaken(r->forces, shaken, most_order, &s->forces.taylor));
+    QDOT_TRY(qdot_taylor_of_program(&r->of_forces, shaken, most_order, &s->forces.taylor));
     s->forces = qdot_expansion_of(s->forces.taylor, n);
     return QDOT_OK;
 }

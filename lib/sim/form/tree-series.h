@@ -12,8 +12,9 @@
 
 typedef struct qdot_tree_series qdot_tree_series;
 
-/* Of plan and residual, both borrowed (plan->residual need not be it); *series NULL: it has no tree,
- * or its program no vectors. `shaken` as for qdot_bind_new. Errors: QDOT_ENOMEM. */
+/* Of plan and residual with its programs, both borrowed (plan->residual need not be it);
+ * *series NULL: it has no tree, or its program no vectors. `shaken` as for qdot_bind_new.
+ * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_tree_series_new(const qdot_plan *plan,
                                                  const qdot_residual *residual, bool shaken,
                                                  qdot_tree_series **series);
@@ -22,7 +23,8 @@ void qdot_tree_series_free(qdot_tree_series *series);
 /* Its callbacks; borrowed. */
 const qdot_ode_series *qdot_tree_series_get(const qdot_tree_series *series);
 
-/* Convolutions an order. What its expansions consist of; whether the tree is one path; how often M was eliminated. */
+/* Convolutions an order. What its expansions consist of; whether the tree is one path; how
+ * often M was eliminated. */
 qdot_work qdot_tree_series_work(const qdot_tree_series *series);
 double qdot_tree_series_convolutions(const qdot_tree_series *series);
 bool qdot_tree_series_is_path(const qdot_tree_series *series);

@@ -16,14 +16,16 @@ typedef struct {
     double convolutions; /* of these, an order */
     double calls;        /* of elementary functions, once an expansion */
     double operations;   /* of the tape of K */
-    /* Of blocks of n >= 2 unknowns that are solved for together: sums of n, n^2, n^3; of those that are
-     * factored in every expansion: sums of n, n^3. */
+    /* Of blocks of n >= 2 unknowns that are solved for together: sums of n, n^2, n^3; of
+     * those that are factored in every expansion: sums of n, n^3. */
     double unknowns, squares, cubes;
     double factored, factored_cubes;
-    /* Constraints by their own coefficients: numbers in the factor of [M A^T; A 0]; whether its inverse is made. */
+    /* Constraints by their own coefficients: numbers in the factor of [M A^T; A 0]; whether
+     * its inverse is made. */
     double filled;
     bool inverted;
-    /* Along a tree: nodes; convolutions of whole vectors; products of the sweeps, and of their beginning. */
+    /* Along a tree: nodes; convolutions of whole vectors; products of the sweeps, and of
+     * their beginning. */
     double nodes, vectors, products, begun;
     bool code; /* it may be machine code, if the processor has any */
 } qdot_work;

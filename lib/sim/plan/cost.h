@@ -1,9 +1,10 @@
 /* cost.h -- what steps cost, by form and by executor: one table of models for all decisions.
  *
- * An expansion to order p takes about c[0] + c[1] p + c[2] p^2 nanoseconds, as on a machine of 2023;
- * only their ratios matter. c is linear in what a form counts of itself (sim/form/work.h), with
- * coefficients fitted to scenes; the table in cost.c says to which. A qdot_ode_cost is the model that
- * the order of a run is chosen by, and it says when machine code pays (ode/system.h).
+ * An expansion to order p takes about c[0] + c[1] p + c[2] p^2 nanoseconds, as on a machine of
+ * 2023; only their ratios matter. c is linear in what a form counts of itself
+ * (sim/form/work.h), with coefficients fitted to scenes, as the table in cost.c says. A
+ * qdot_ode_cost is the model that the order of a run is chosen by, and it says when machine
+ * code pays (ode/system.h).
  *
  * Of a step more is known than of an expansion: states are projected behind it.
  *
@@ -27,7 +28,8 @@ qdot_ode_cost qdot_cost_constrained(const qdot_plan *plan, const qdot_work *work
  * machine code, which is begun by the kernels of `other`. */
 qdot_ode_cost qdot_cost_eliminated(const qdot_plan *plan, const qdot_work *work);
 qdot_ode_cost qdot_cost_bordered(const qdot_work *work, const qdot_ode_cost *other);
-/* At least, of M q'' = f with a full block of n coordinates and no more than so many convolutions. */
+/* At least, of M q'' = f with a full block of n coordinates and no more than so many
+ * convolutions. */
 qdot_ode_cost qdot_cost_least(size_t n, double convolutions);
 /* A motion in lanes: all of them at once. */
 qdot_ode_cost qdot_cost_lanes(const qdot_work *work);
@@ -39,8 +41,8 @@ double qdot_cost_projection(const qdot_plan *plan);
 
 /* The models of one executor: kernels alone. */
 qdot_ode_cost qdot_cost_of_kernels(const qdot_ode_cost *cost);
-/* Steps of a way as long as the radius of convergence, at a middling tolerance: forms are compared
- * at one, for a plan is kept for runs under any. */
+/* Steps of a way as long as the radius of convergence, at a middling tolerance: forms are
+ * compared at one, for a plan is kept for runs under any. */
 double qdot_cost_steps(const qdot_ode_cost *cost);
 /* The same with constraints, under a tolerance, and with what is done behind every step. */
 double qdot_cost_constrained_steps(const qdot_plan *plan, const qdot_ode_cost *cost, double tol);

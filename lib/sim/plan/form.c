@@ -65,8 +65,8 @@ typedef struct {
     bool is_path;
 } candidate;
 
-/* By its program, or along its tree if that is cheaper and there may be one: lanes and numbers of many
- * digits have programs only. */
+/* By its program, or along its tree if that is cheaper and there may be one: lanes and
+ * numbers of many digits have programs only. */
 static qdot_status
 measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
 {
@@ -83,6 +83,7 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     c->lanes = qdot_cost_lanes(&work);
     if (!may_be_tree)
         return QDOT_OK;
+    QDOT_TRY(qdot_residual_programs(r));
     QDOT_TRY(qdot_tree_series_new(p, r, false, &tree));
     if (!tree)
         return QDOT_OK;
@@ -98,8 +99,8 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     return QDOT_OK;
 }
 
-/* Whether the residual is cheaper: numbers of many digits spend all on convolutions; lanes know no
- * forces that hold velocities there. */
+/* Whether the residual is cheaper: numbers of many digits spend all on convolutions; lanes
+ * know no forces that hold velocities there. */
 static bool
 is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *request)
 {
@@ -113,8 +114,8 @@ is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *reque
     return qdot_cost_steps(&c->cost) < p->cost;
 }
 
-/* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant. d'Alembert's is
- * made of the scene, which switches, and of constant masses. */
+/* Whether there may be a cheaper form than M q'' = f: not where M is diagonal or constant.
+ * d'Alembert's is made of the scene, which switches, and of constant masses. */
 static bool
 has_others(const qdot_plan *p)
 {

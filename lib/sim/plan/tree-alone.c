@@ -130,6 +130,7 @@ decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
     QDOT_TRY(find_structure(p, tree, taken, &least));
     if (!*taken)
         return QDOT_OK;
+    QDOT_TRY(qdot_residual_programs(p->residual));
     QDOT_TRY(qdot_tree_series_new(p, p->residual, false, &series));
     *taken = series != NULL;
     if (!series)
