@@ -1103,6 +1103,7 @@ script_tests = \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
+	tests/script/plot-two-runs.sh \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
@@ -1926,6 +1927,7 @@ test_files = \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
+	tests/script/plot-two-runs.out \
 	tests/script/poisson.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
