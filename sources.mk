@@ -288,6 +288,7 @@ library_sources = \
 	lib/ode/precise.c \
 	lib/ode/run.c \
 	lib/ode/stepper.c \
+	lib/ode/taylor-length.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory-apart.c \
@@ -305,6 +306,7 @@ library_sources = \
 	lib/series/near.c \
 	lib/series/precise.c \
 	lib/series/program.c \
+	lib/series/recurrence-operations.c \
 	lib/series/taylor-code-fold.c \
 	lib/series/taylor-code-order.c \
 	lib/series/taylor-code-solve.c \
@@ -345,6 +347,7 @@ library_sources = \
 	lib/show/layout.c \
 	lib/show/page.c \
 	lib/show/pdf.c \
+	lib/show/scripts.c \
 	lib/show/sink.c \
 	lib/show/sketch.c \
 	lib/show/table.c \
@@ -696,6 +699,7 @@ library_headers = \
 	lib/ode/stepper.h \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
+	lib/ode/taylor-run.h \
 	lib/ode/taylor.h \
 	lib/ode/trajectory.h \
 	lib/ode/whole.h \
@@ -711,6 +715,7 @@ library_headers = \
 	lib/series/precise.def \
 	lib/series/precise.h \
 	lib/series/program.h \
+	lib/series/recurrence-operations.h \
 	lib/series/recurrence.def \
 	lib/series/taylor-code-sum.h \
 	lib/series/taylor-code.h \
@@ -740,6 +745,7 @@ library_headers = \
 	lib/show/layout.h \
 	lib/show/page.h \
 	lib/show/pdf.h \
+	lib/show/scripts.h \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
@@ -1097,6 +1103,7 @@ script_tests = \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
+	tests/script/plot-two-runs.sh \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
@@ -1920,6 +1927,7 @@ test_files = \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
+	tests/script/plot-two-runs.out \
 	tests/script/poisson.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \

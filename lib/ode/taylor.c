@@ -9,74 +9,22 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "num/series.h"
-#include "ode/crawl.h"
 #include "ode/leading.h"
 #include "ode/taylor-numbers.h"
-#include "ode/written.h"
+#include "ode/taylor-run.h"
 
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
 
 enum { ARRAYS = 9 };
 
-/* For a place that a step should not end upon: how far beyond it the step goes, and the noise
- * from which on it does so in any case. */
-static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
+typedef qdot_ode_taylor_run run;
 
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
 
-/* The defect is computed in doubles, in which a stiff force has few digits. */
-static const double least_held = 1e-14;
-
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
-
-typedef struct {
-    const qdot_ode_system *system;
-    const qdot_ode_series *series;
-    const qdot_series_kernels *kernels;
-    const qdot_ode_options *options;
-    qdot_ode_result *result;
-    size_t n;
-    double tol, t, t1, direction;
-    double place; /* that the step at hand goes over; NaN: none */
-    double held; /* tol, or what the coefficients are worth if that is more */
-    uint64_t max_steps;
-    int p;
-    int highest;   /* the highest order among the run and its companions */
-    int cut;       /* the order that the step at hand is summed to: p, or less */
-    double log_wanted, log_aim, log_term; /* log2 of what a step should err, of what it
-                                             may at the point at hand, of a term */
-    double unit;   /* of the series: t' = t + unit s; a power of two, signed */
-    double per_unit; /* its inverse */
-    bool extended; /* the series is there to order p */
-    qdot_ode_written written;
-    double t0, first_unit;
-
-    /* [n], with the room that qdot_series_step wants */
-    double *y, *carry;           /* the state now */
-    double *scale;               /* 1/max(1, |y|) */
-    double *next, *next_carry;   /* at the end of the step tried */
-    double *next_size, *next_scale;
-    double *slope, *terms;       /* of the polynomial there */
-    size_t *confirmed;           /* [n_confirmed] what the defect is looked at of */
-    size_t n_confirmed;
-    qdot_series_step step;       /* of those */
-    double peaks[QDOT_SERIES_MOST + 8]; /* [p + 1] and what fills a vector */
-    qdot_series_weights weights;
-    qdot_error undefined;      /* what f said last */
-    double undefined_at;       /* the end of the step that met it; NaN before any */
-    qdot_ode_crawl crawl;
-} run;
-
-static void
-set_unit(run *r, double unit)
-{
-    r->unit = unit;
-    r->per_unit = 1 / unit;
-}
 
 /* --- the state from the series ------------------------------------------------------ */
 
@@ -130,149 +78,11 @@ take_size(run *r, size_t i)
     r->next_scale[i] = 1 / r->next_size[i];
 }
 
-/* --- the length of a step ----------------------------------------------------------- */
-
-/* log2 of the step in units: that of the radius which the upper half of the coefficients
- * shows, and what order p leaves of it under tol; kept so short that the rounding of no
- * term counts. INFINITY where the upper half holds nothing; NaN where it is not finite. */
-static double
-log_step(run *r)
-{
-    qdot_series_reach reach;
-    double l;
-
-    reach = r->kernels->reach(r->n, r->series->x, r->series->stride, &r->weights,
-                              r->scale);
-    if (isinf(reach.upper))
-        return reach.upper > 0 ? INFINITY : NAN;
-    l = reach.upper + r->log_aim * r->weights.inverse[r->p];
-    return qdot_smaller(l, reach.lower);
-}
-
-/* The same from all coefficients: INFINITY if all are 0. */
-static double
-log_step_of_all(run *r)
-{
-    double least = INFINITY;
-
-    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->scale, r->peaks);
-    for (int k = 1; k <= r->p; k++)
-        if (r->peaks[k] > 0)
-            least = fmin(least, -log2(r->peaks[k]) / k);
-    return least + r->log_aim * r->weights.inverse[r->p];
-}
-
-static qdot_status
-expand(run *r)
-{
-    if (!r->extended) {
-        r->result->stats.evaluations++;
-        QDOT_TRY(r->series->extend(r->p, r->series->user));
-        r->extended = true;
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-begin(run *r, double t, const double *y)
-{
-    r->extended = false;
-    QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
-    r->cut = r->p;
-    r->held = r->options->leading ? qdot_larger(r->tol, least_held) : r->tol;
-    r->log_aim = r->log_wanted;
-    if (r->series->noise) {
-        r->held = qdot_smaller(1, qdot_larger(r->tol, r->series->noise(r->series->user)));
-        if (r->held > r->tol)
-            r->log_aim = fmax(r->log_aim, log2(r->held));
-    }
-    return QDOT_OK;
-}
-
-/* Across such a place the terms of a series first fall and then grow, because their rounding
- * errors do: it is summed up to its least term, as an asymptotic series, which is about its
- * error. */
-static void
-cut_series(run *r, double h)
-{
-    const double least = qdot_ode_taylor_least_term(r->series, r->n, r->p,
-                                                    h / fabs(r->unit), r->scale, &r->cut);
-
-    r->held = fmax(r->held, fmin(least_worth, 100 * least));
-}
-
-/* A step that would end just before or upon a place near which the coefficients are inaccurate
- * goes beyond it, if that is not far and was not rejected before, or stays well before it. */
-static void
-keep_off(run *r, double *h, double most)
-{
-    const qdot_ode_series *series = r->series;
-    const double noise = series->noise ? series->noise(series->user) : 0;
-    double ahead;
-
-    r->place = NAN;
-    if (!(noise > 0) || !series->ahead)
-        return;
-    ahead = series->ahead(series->user);
-    if (!(ahead > 0 && ahead < 4 * *h))
-        return;
-    if ((*h >= .8 * ahead || noise > near_noise) && over * ahead <= most) {
-        *h = qdot_smaller(most, fmax(*h, over * ahead));
-        r->place = r->t + r->direction * ahead;
-        cut_series(r, *h);
-    } else if (*h > 0.5 * ahead) {
-        *h = 0.5 * ahead;
-    }
-}
-
-/* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
- * the series is brought near the step where it is far from it. */
-static qdot_status
-length_of_step(run *r, double most, double *h)
-{
-    for (int tries = 0;; tries++) {
-        double l, far;
-
-        QDOT_TRY(expand(r));
-        l = log_step(r);
-        if (isnan(l)) { /* overflow, if the first orders exist */
-            far = -10 - 40 * tries;
-        } else {
-            *h = fabs(r->unit) * qdot_rough_exp2(l);
-            if (r->series->near)
-                *h = fabs(r->unit) * r->series->near(r->p, *h / fabs(r->unit), r->series->user);
-            keep_off(r, h, most);
-            /* too small for a double: judge by what is; or a polynomial, of any step */
-            far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
-            if (!(fabs(far) > 8) || isinf(far))
-                return QDOT_OK;
-        }
-        if (tries == 8) {
-            if (isnan(l))
-                return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
-            return QDOT_OK;
-        }
-        set_unit(r, ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far)))));
-        if (fabs(r->unit) < DBL_MIN || !isfinite(r->unit))
-            return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
-        QDOT_TRY(begin(r, r->t, r->y));
-    }
-}
-
-static qdot_status
-step_wanted(run *r, double most, double *h)
-{
-    if (!(r->options->h_fixed > 0))
-        return length_of_step(r, most, h);
-    *h = r->options->h_fixed;
-    return expand(r);
-}
-
 /* --- confirmation ------------------------------------------------------------------- */
 
-/* The same for components that are not integrated: their polynomials at the end, in r->next,
- * against their derived values there. These may be sensitive to rounding of the others, so this
- * only detects a wrong series. */
+/* Whether the polynomials of components that are not integrated, at the end, in r->next, agree with
+ * their derived values there. These may be sensitive to rounding of the others, so this only detects
+ * a wrong series. */
 static bool
 followers_agree(const run *r, double h, double share)
 {
@@ -319,13 +129,13 @@ confirms_inside(run *r, double h, bool *good)
 
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
         advance_state(r, r->p, places[k] * h / r->unit);
-        status = begin(r, r->t + places[k] * h, r->next);
+        status = qdot_ode_taylor_run_begin(r, r->t + places[k] * h, r->next);
         if (status == QDOT_OK) {
             *good = confirms(r, h, places[k], old_held);
-            status = begin(r, r->t, r->y);
+            status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
-            status = expand(r);
+            status = qdot_ode_taylor_run_expand(r);
     }
     return status;
 }
@@ -383,9 +193,9 @@ judge_first(run *r, double most, double *h)
     if (!again)
         return QDOT_OK;
     r->result->stats.evaluations = 0;
-    set_unit(r, r->first_unit);
-    QDOT_TRY(begin(r, r->t, r->y));
-    return step_wanted(r, most, h);
+    qdot_ode_taylor_run_set_unit(r, r->first_unit);
+    QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
+    return qdot_ode_taylor_run_length(r, most, h);
 }
 
 /* Replace that end by the one with the first orders in two doubles. */
@@ -436,9 +246,9 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
-    set_unit(r, qdot_step_unit(h));
+    qdot_ode_taylor_run_set_unit(r, qdot_step_unit(h));
     QDOT_TRY(write_code(r, t_end));
-    status = begin(r, t_end, r->next);
+    status = qdot_ode_taylor_run_begin(r, t_end, r->next);
     if (status == QDOT_OK)
         *good = fixed || confirms(r, h, 1, old_held);
     if (status == QDOT_OK && *good)
@@ -508,11 +318,11 @@ advance(run *r)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                              (unsigned long long)r->max_steps);
         if (tries > 0) { /* the series is another one's by now */
-            set_unit(r, r->direction * qdot_step_unit(most));
-            status = begin(r, r->t, r->y);
+            qdot_ode_taylor_run_set_unit(r, r->direction * qdot_step_unit(most));
+            status = qdot_ode_taylor_run_begin(r, r->t, r->y);
         }
         if (status == QDOT_OK)
-            status = step_wanted(r, most, &h);
+            status = qdot_ode_taylor_run_length(r, most, &h);
         if (status == QDOT_OK && r->written.first)
             status = judge_first(r, most, &h);
         if (status == QDOT_OK) {
@@ -554,8 +364,8 @@ loop(run *r)
         r->unit = qdot_step_unit(r->options->h_first);
     r->first_unit = r->direction * fabs(r->unit);
     r->written = qdot_ode_written_begin(r->series, r->p, r->highest);
-    set_unit(r, r->first_unit);
-    status = begin(r, r->t, r->y);
+    qdot_ode_taylor_run_set_unit(r, r->first_unit);
+    status = qdot_ode_taylor_run_begin(r, r->t, r->y);
     if (qdot_ode_may_be_undefined(status)) {
         r->undefined = *qdot_last_error();
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, r->undefined.message);
@@ -569,7 +379,7 @@ loop(run *r)
     return QDOT_OK;
 }
 
-/* Integrate with allocated arrays, which are freed in any case. */
+/* What a run allocates. */
 static void
 list_arrays(run *r, double ***arrays)
 {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "series/lanes-writer.h"
+#include "series/recurrence-operations.h"
 #include "series/taylor-text.h"
 
 enum {
@@ -79,12 +80,9 @@ write_one(qdot_lanes_writer *w, int k, int from, int first, qdot_lanes_write_ord
 static int
 least_of_loop(const qdot_lanes_writer *w, int late)
 {
-    for (size_t i = w->t->still; i < w->t->length; i++) {
-        const int op = w->t->steps.at[i].op;
-
-        if (op == QDOT_T_SQUARE || op == QDOT_T_SQRT || op == QDOT_T_TANH)
+    for (size_t i = w->t->still; i < w->t->length; i++)
+        if (qdot_recurrence_find(w->t->steps.at[i].op, QDOT_DO_SQUARED))
             return 2 * w->block + late;
-    }
     return w->block + late;
 }
 

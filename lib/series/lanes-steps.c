@@ -1,5 +1,6 @@
 /* lanes-steps.c -- the recurrences in lanes as code: an order of a step, in two parts. */
 #include "series/lanes-writer.h"
+#include "series/recurrence-operations.h"
 
 /* What a step is made of, by rows. */
 typedef struct {
@@ -31,12 +32,6 @@ static double
 itself(int k)
 {
     return k;
-}
-
-static qdot_lanes_at
-inverse_of_order(const step *s)
-{
-    return qdot_lanes_scalar_of(s->w, inverse, s->k);
 }
 
 /* While inputs are left out a coefficient may be absent for it. */
@@ -94,72 +89,40 @@ with_newest(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row x,
 
 /* --- what needs no coefficient k ---------------------------------------------------- */
 
-static qdot_lanes_sum
-dot(const step *s, qdot_program_row x, qdot_program_row y)
+static qdot_program_row
+row_of(const step *s, unsigned name)
 {
-    const qdot_lanes_pair pair = {x, y};
-
-    return qdot_lanes_dots(s->w, 1, &pair, s->k);
+    return qdot_program_step_row(s->s, name);
 }
 
-static qdot_lanes_sum
-square(const step *s, qdot_program_row x)
-{
-    return qdot_writer_square(s->w, x, s->k);
-}
-
-/* sums[0] of x and y, [1] of x and z */
-static void
-pair(const step *s, qdot_program_row x, qdot_program_row y, qdot_program_row z,
-     qdot_lanes_sum *sums)
-{
-    qdot_writer_pair(s->w, x, y,
-                     z, s->k, sums);
-}
-
+/* sums[0]: of lower orders what is summed into U1, or a row; [1]: into U2. */
 static void
 before(const step *s, qdot_lanes_sum *sums)
 {
-    const qdot_program_step *i = s->s;
+    const qdot_recurrence_operation *o = qdot_recurrence_operations(s->s->op);
+    qdot_lanes_pair pairs[QDOT_WRITER_RESTS][QDOT_WRITER_PAIRS];
+    size_t n[QDOT_WRITER_RESTS] = {0};
 
     sums[0] = sums[1] = QDOT_LANES_NOTHING;
-    switch (i->op) {
-    case QDOT_T_MUL:
-    case QDOT_T_MADD:
-    case QDOT_T_MSUB:
-    case QDOT_T_NMADD: {
-        qdot_lanes_pair pairs[QDOT_WRITER_PAIRS];
-        size_t n = 0;
+    for (; o->verb != QDOT_DO_END; o++) {
+        const int i = o->r == QDOT_OF_U2;
 
-        for (const qdot_program_step *p = i; p; p = qdot_writer_within(s->w, p))
-            pairs[n++] = (qdot_lanes_pair){p->x, p->y};
-        sums[0] = qdot_lanes_dots(s->w, n, pairs, s->k);
-        break;
+        if (o->verb == QDOT_DO_SQUARED) {
+            sums[i] = qdot_writer_square(s->w, row_of(s, o->a), s->k);
+        } else if (o->verb == QDOT_DO_SUM && o->paired) {
+            qdot_writer_pair(s->w, row_of(s, o->a), row_of(s, o->b), row_of(s, o[1].b), s->k,
+                             sums);
+            o++;
+        } else if (o->verb == QDOT_DO_SUM) {
+            pairs[i][n[i]++] = (qdot_lanes_pair){row_of(s, o->a), row_of(s, o->b)};
+        }
     }
-    case QDOT_T_SQUARE: sums[0] = square(s, i->x); break;
-    case QDOT_T_DIV: sums[0] = dot(s, i->y, i->to); break;
-    case QDOT_T_SQRT: sums[0] = square(s, i->to); break;
-    case QDOT_T_SINCOS:
-    case QDOT_T_SINHCOSH: pair(s, i->d, i->second, i->to, sums); break;
-    case QDOT_T_EXP: sums[0] = dot(s, i->d, i->to); break;
-    case QDOT_T_ALONG: sums[0] = dot(s, i->d, i->y); break;
-    case QDOT_T_POW: pair(s, i->to, i->d, i->x, sums); break;
-    case QDOT_T_RATIO: sums[0] = dot(s, i->d, i->y); break;
-    case QDOT_T_TANH:
-        sums[0] = dot(s, i->d, i->second);
-        sums[1] = square(s, i->to);
-        break;
-    case QDOT_T_ATAN2: {
-        const qdot_lanes_pair less[] = {
-            {i->third, i->x},
-            {i->d, i->z}};
-
-        sums[0] = dot(s, i->second, i->y);
-        sums[1] = qdot_lanes_dots(s->w, 2, less, s->k);
-        break;
-    }
-    default: break;
-    }
+    for (const qdot_program_step *p = qdot_writer_within(s->w, s->s); p;
+         p = qdot_writer_within(s->w, p))
+        pairs[0][n[0]++] = (qdot_lanes_pair){p->x, p->y};
+    for (int i = 0; i < QDOT_WRITER_RESTS; i++)
+        if (n[i] > 0)
+            sums[i] = qdot_lanes_dots(s->w, n[i], pairs[i], s->k);
 }
 
 /* --- with coefficient k of the operands --------------------------------------------- */
@@ -185,190 +148,187 @@ is_last_reader(const step *s, qdot_program_row row)
     return passes;
 }
 
+/* Products of which one adds the next; x is the newer factor (program.c). */
 static void
-linear(const step *s)
-{
-    const qdot_program_step *i = s->s;
-    qdot_lanes_writer *w = s->w;
-    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
-
-    switch (i->op) {
-    case QDOT_T_NEG: add_row(s, &sum, true, i->x); break;
-    case QDOT_T_ADD:
-    case QDOT_T_SUB:
-        add_row(s, &sum, false, i->x);
-        add_row(s, &sum, i->op == QDOT_T_SUB, i->y);
-        break;
-    default:
-        if (i->op == QDOT_T_SCALEADD && w->rows[i->y].absent && is_last_reader(s, i->z))
-            sum = qdot_lanes_continue_last(w, at(i->z, s->k));
-        else if (i->op != QDOT_T_SCALE)
-            add_row(s, &sum, i->op == QDOT_T_SCALESUB, i->z);
-        with_newest(s, &sum, i->op == QDOT_T_SCALEOFF, i->x, i->y);
-    }
-    store(s, sum, i->to);
-}
-
-/* x is the newer factor (taylor.c). */
-static void
-product(const step *s, qdot_lanes_sum sum)
+products(const step *s, qdot_lanes_sum sum)
 {
     const qdot_program_step *last = s->s;
-    const bool minus = s->s->op == QDOT_T_NMADD;
 
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
         last = p;
-    if (minus)
-        qdot_lanes_negate(s->w, &sum);
     if (last->op != QDOT_T_MUL)
         add_row(s, &sum, last->op == QDOT_T_MSUB, last->z);
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
-        with_newest(s, &sum, minus, p->x, p->y);
+        with_newest(s, &sum, false, p->x, p->y);
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
-        with_newest(s, &sum, minus, p->y, p->x);
+        with_newest(s, &sum, false, p->y, p->x);
     store(s, sum, s->s->to);
 }
 
-/* +-(sum + 2 x_0 x_k) */
+/* U1 or U2, or what becomes a row: +- a sum. */
+typedef struct {
+    qdot_lanes_sum sum;
+    bool minus;
+} number;
+
+static const number nothing = {.sum = QDOT_LANES_NOTHING};
+
+/* v +- a coefficient k, or U1 or U2, which is used up. */
 static void
-finish_square(const step *s, qdot_lanes_sum sum, bool minus, qdot_program_row x,
-              qdot_program_row to)
+add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
-    if (minus)
-        qdot_lanes_negate(s->w, &sum);
-    with_newest(s, &sum, minus, x, x);
-    with_newest(s, &sum, minus, x, x);
-    store(s, sum, to);
+    number *other;
+
+    minus ^= v->minus;
+    if (name < QDOT_OF_U1) {
+        add_row(s, &v->sum, minus, row_of(s, name));
+        return;
+    }
+    other = u + (name - QDOT_OF_U1);
+    qdot_writer_join(s->w, minus ^ other->minus ? QDOT_ASM_SUB : QDOT_ASM_ADD, &v->sum,
+                     other->sum);
+    *other = nothing;
 }
 
-/* (x_k - sum - y_k c_0) times the inverse; a root has no y. */
-static void
-quotient(const step *s, qdot_lanes_sum sum)
+/* What begins with it. */
+static number
+take(const step *s, unsigned name, number *u)
 {
-    const qdot_program_step *i = s->s;
+    number v = nothing;
 
-    qdot_lanes_take_from(s->w, &sum, at(i->x, s->k));
-    if (i->op == QDOT_T_DIV)
-        with_newest(s, &sum, true, i->to, i->y);
-    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
-    store(s, sum, i->to);
+    if (name < QDOT_OF_U1) {
+        add_number(s, &v, false, name, u);
+    } else {
+        v = u[name - QDOT_OF_U1];
+        u[name - QDOT_OF_U1] = nothing;
+    }
+    return v;
 }
 
-/* to_k = k x_k */
-static void
-weighted(const step *s, qdot_program_row x, qdot_program_row to)
+static bool
+is_folded(const step *s, unsigned name)
 {
-    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
-
-    qdot_lanes_add_product(s->w, &sum, false, qdot_lanes_scalar_of(s->w, itself, s->k),
-                           at(x, s->k));
-    store(s, sum, to);
+    return qdot_writer_expand(s->w, row_of(s, name)).row != row_of(s, name);
 }
 
-/* y of y' = +-x' u */
-static void
-integrated(const step *s, qdot_lanes_sum sum, bool minus, qdot_program_row u,
-           qdot_program_row to)
+/* q, which nothing reads behind a step whose y is left out. */
+static number
+take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    qdot_lanes_scale(s->w, &sum,
-                     qdot_lanes_scalar_of(s->w, minus ? minus_inverse : inverse, s->k));
-    with_newest(s, &sum, minus, u, s->s->x);
-    store(s, sum, to);
+    const qdot_lanes_at z = at(s->s->z, s->k);
+
+    if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, z.row))
+        return (number){.sum = qdot_lanes_continue_last(s->w, z)};
+    return take(s, o->q, u);
 }
 
-/* ((r + 1)/k sum d p - sum x p + r p_0 x_k)/x_0, the sums without their ends */
+/* p (1 + b_0) */
 static void
-power(const step *s, qdot_lanes_sum *sums)
+times_more(const step *s, number *p, qdot_lanes_at b)
 {
-    const qdot_program_step *i = s->s;
-    qdot_lanes_sum sum = sums[0], more = QDOT_LANES_NOTHING, end = QDOT_LANES_NOTHING;
+    qdot_lanes_sum more = QDOT_LANES_NOTHING;
 
-    weighted(s, i->x, i->d);
-    qdot_lanes_scale(s->w, &sum, inverse_of_order(s));
-    qdot_lanes_add(s->w, &more, false, at(i->z, 0));
+    qdot_lanes_add(s->w, &more, false, b);
     qdot_lanes_add(s->w, &more, false, qdot_lanes_scalar(s->w, 1));
-    qdot_writer_join(s->w, QDOT_ASM_MUL, &sum, more);
-    qdot_writer_join(s->w, QDOT_ASM_SUB, &sum, sums[1]);
-    qdot_lanes_add_product(s->w, &end, false, at(i->z, 0), at(i->to, 0));
-    qdot_lanes_scale(s->w, &end, at(i->x, s->k));
-    qdot_writer_join(s->w, QDOT_ASM_ADD, &sum, end);
-    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
-    store(s, sum, i->to);
+    qdot_writer_join(s->w, QDOT_ASM_MUL, &p->sum, more);
 }
 
-/* d, then to = d/k */
-static void
-finish_weighted(const step *s, qdot_lanes_sum sum)
+/* q +- p b_0 */
+static number
+with_product(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    qdot_lanes_sum to = QDOT_LANES_NOTHING;
+    const bool minus = o->verb == QDOT_DO_MINUS_TIMES;
+    const qdot_program_row b = row_of(s, o->b);
+    number v = o->verb == QDOT_DO_TIMES ? nothing : take_sum(s, o, u);
 
-    qdot_lanes_scale(s->w, &sum, qdot_writer_inverse(s->i));
-    store(s, sum, s->s->d);
-    qdot_lanes_add_product(s->w, &to, false, inverse_of_order(s), at(s->s->d, s->k));
-    store(s, to, s->s->to);
+    if (o->p < QDOT_OF_U1) {
+        with_newest(s, &v.sum, minus ^ v.minus, b, row_of(s, o->p));
+    } else if (o->verb == QDOT_DO_PLUS_TIMES && o->p == o->q) {
+        times_more(s, &v, at(b, 0));
+    } else {
+        qdot_lanes_scale(s->w, &u[o->p - QDOT_OF_U1].sum, at(b, 0));
+        add_number(s, &v, minus, o->p, u);
+    }
+    return v;
+}
+
+/* What an operation makes. */
+static number
+result(const step *s, const qdot_recurrence_operation *o, number *u)
+{
+    const qdot_program_row a = row_of(s, o->a), b = row_of(s, o->b);
+    number v;
+
+    switch (o->verb) {
+    case QDOT_DO_SUM:
+    case QDOT_DO_SQUARED:
+        v = take(s, o->r == QDOT_OF_U2 ? QDOT_OF_U2 : QDOT_OF_U1, u);
+        if (o->from == 0)
+            with_newest(s, &v.sum, false, a, b);
+        if (o->below == 0)
+            with_newest(s, &v.sum, false, b, a);
+        return v;
+    case QDOT_DO_TIMES:
+    case QDOT_DO_PLUS_TIMES:
+    case QDOT_DO_MINUS_TIMES: return with_product(s, o, u);
+    case QDOT_DO_SUB:
+        if (o->q >= QDOT_OF_U1 && o->p < QDOT_OF_U1 && !is_folded(s, o->p)) {
+            v = take(s, o->q, u);
+            qdot_lanes_take_from(s->w, &v.sum, at(row_of(s, o->p), s->k));
+            return v;
+        }
+        break;
+    case QDOT_DO_NEG:
+        if (o->p >= QDOT_OF_U1)
+            break;
+        v = nothing;
+        add_number(s, &v, true, o->p, u);
+        return v;
+    default: break;
+    }
+    v = take(s, o->p, u);
+    switch (o->verb) {
+    case QDOT_DO_ADD: add_number(s, &v, false, o->q, u); break;
+    case QDOT_DO_SUB: add_number(s, &v, true, o->q, u); break;
+    case QDOT_DO_NEG: v.minus ^= true; break;
+    case QDOT_DO_SIGNED: v.minus ^= s->s->sign < 0; break;
+    case QDOT_DO_ORDERS:
+        qdot_lanes_scale(s->w, &v.sum, qdot_lanes_scalar_of(s->w, itself, s->k));
+        break;
+    case QDOT_DO_PER_ORDER:
+        qdot_lanes_scale(s->w, &v.sum,
+                         qdot_lanes_scalar_of(s->w, v.minus ? minus_inverse : inverse, s->k));
+        v.minus = false;
+        break;
+    default: qdot_lanes_scale(s->w, &v.sum, qdot_writer_inverse(s->i)); /* OVER */
+    }
+    return v;
 }
 
 static void
-ratio(const step *s, qdot_lanes_sum sum)
+after(const step *s, const qdot_lanes_sum *sums)
 {
-    qdot_lanes_negate(s->w, &sum);
-    qdot_lanes_add_product(s->w, &sum, s->s->sign < 0,
-                           qdot_lanes_scalar_of(s->w, itself, s->k),
-                           at(s->s->x, s->k));
-    finish_weighted(s, sum);
-}
+    number u[] = {{.sum = sums[0]}, {.sum = sums[1]}};
 
-static void
-arctangent(const step *s, qdot_lanes_sum *sums)
-{
-    const qdot_program_step *i = s->s;
-    qdot_lanes_sum sum = sums[0];
+    if (s->s->op == QDOT_T_RATE) {
+        rate(s);
+        return;
+    }
+    if (qdot_writer_within(s->w, s->s)) {
+        products(s, sums[0]);
+        return;
+    }
+    for (const qdot_recurrence_operation *o = qdot_recurrence_operations(s->s->op);
+         o->verb != QDOT_DO_END; o++) {
+        number v = result(s, o, u);
 
-    qdot_writer_join(s->w, QDOT_ASM_SUB, &sum, sums[1]);
-    weighted(s, i->x, i->second);
-    weighted(s, i->y, i->third);
-    with_newest(s, &sum, false, i->y, i->second);
-    with_newest(s, &sum, true, i->x, i->third);
-    finish_weighted(s, sum);
-}
-
-static void
-after(const step *s, qdot_lanes_sum *sums)
-{
-    const qdot_program_step *i = s->s;
-
-    switch (i->op) {
-    case QDOT_T_MUL:
-    case QDOT_T_MADD:
-    case QDOT_T_MSUB:
-    case QDOT_T_NMADD: product(s, sums[0]); break;
-    case QDOT_T_SQUARE: finish_square(s, sums[0], false, i->x, i->to); break;
-    case QDOT_T_DIV:
-    case QDOT_T_SQRT: quotient(s, sums[0]); break;
-    case QDOT_T_SINCOS:
-    case QDOT_T_SINHCOSH:
-        weighted(s, i->x, i->d);
-        integrated(s, sums[0], false, i->second, i->to);
-        integrated(s, sums[1], i->op == QDOT_T_SINCOS, i->to, i->second);
-        break;
-    case QDOT_T_EXP:
-        weighted(s, i->x, i->d);
-        integrated(s, sums[0], false, i->to, i->to);
-        break;
-    case QDOT_T_ALONG:
-        weighted(s, i->x, i->d);
-        integrated(s, sums[0], false, i->y, i->to);
-        break;
-    case QDOT_T_POW: power(s, sums); break;
-    case QDOT_T_RATIO: ratio(s, sums[0]); break;
-    case QDOT_T_TANH:
-        weighted(s, i->x, i->d);
-        integrated(s, sums[0], false, i->second, i->to);
-        finish_square(s, sums[1], true, i->to, i->second);
-        break;
-    case QDOT_T_ATAN2: arctangent(s, sums); break;
-    case QDOT_T_RATE: rate(s); break;
-    default: linear(s); break;
+        if (o->r >= QDOT_OF_U1) {
+            u[o->r - QDOT_OF_U1] = v;
+            continue;
+        }
+        if (v.minus)
+            qdot_lanes_negate(s->w, &v.sum);
+        store(s, v.sum, row_of(s, o->r));
     }
 }
 
@@ -397,12 +357,23 @@ lacks_argument(const step *s)
            s->s->newest & QDOT_X_NEWEST && s->w->rows[s->s->x].absent;
 }
 
+/* to_k = k x_k */
+static void
+by_order(const step *s, qdot_program_row x, qdot_program_row to)
+{
+    qdot_lanes_sum sum = QDOT_LANES_NOTHING;
+
+    qdot_lanes_add_product(s->w, &sum, false, qdot_lanes_scalar_of(s->w, itself, s->k),
+                           at(x, s->k));
+    store(s, sum, to);
+}
+
 static void
 add_argument(const step *s)
 {
     const qdot_program_row to[] = {s->s->to, s->s->second};
 
-    weighted(s, s->s->x, s->s->d);
+    by_order(s, s->s->x, s->s->d);
     for (int i = 0; i < 2; i++) {
         qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 

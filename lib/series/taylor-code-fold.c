@@ -92,8 +92,10 @@ choose(qdot_generator *g, const use *uses, int *terms, int *depth)
 {
     const qdot_taylor *t = g->t;
 
-    for (size_t i = t->still; i < t->length; i++)
+    for (size_t i = t->still; i < t->length; i++) {
         terms[i] = own_terms(g, t->steps + i);
+        g->n_slots += qdot_recurrence_looks_back(t->steps[i].op) ? QDOT_CODE_FACTORS : 0;
+    }
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
         const uint32_t row = qdot_code_row(g, s->to);
@@ -131,7 +133,7 @@ qdot_code_fold(qdot_generator *g)
     return uses && terms ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* a b, for all orders from the first one that asks for it on. */
+/* a b, for all orders from the first one that asks for it on, which is none of a loop. */
 qdot_operand
 qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
 {
@@ -147,6 +149,8 @@ qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand b)
             return qdot_code_work(g->fold_slots + i);
     }
     to = qdot_code_work(g->fold_slots + g->compositions.n);
+    if (g->k >= QDOT_CODE_ANY) /* it would be written for one order of a loop */
+        g->m.status = qdot_fail(QDOT_EINVAL, "a factor is not known before a loop");
     if (qdot_vec_push(&g->compositions, new) != QDOT_OK) {
         g->m.status = QDOT_ENOMEM;
         return to;

@@ -1,4 +1,5 @@
 /* taylor-code-order.c -- the recurrences as code: an order of a step. */
+#include "series/recurrence-operations.h"
 #include "series/taylor-code-sum.h"
 
 static qdot_operand
@@ -7,127 +8,18 @@ inverse(const qdot_generator *g)
     return qdot_code_entry(QDOT_CODE_INVERSES, g->k);
 }
 
+/* x_i times c of a step, x_i twice: factors that no order changes. Those of order 1 are there from
+ * order 2 on. */
 static qdot_operand
-slot(const qdot_generator *g, const qdot_taylor_step *s, size_t i)
+by_c(qdot_generator *g, const qdot_taylor_step *s, const double *x, int i)
 {
-    return qdot_code_work(g->step_slots[s - g->t->steps] + i);
+    return qdot_code_composed(g, qdot_code_c(g, s), at(g, x, i));
 }
 
-/* slot <- a b */
-static void
-keep(qdot_generator *g, qdot_operand a, qdot_operand b, qdot_operand to)
+static qdot_operand
+twice(qdot_generator *g, qdot_operand a)
 {
-    const int reg = fresh(g);
-
-    do_one(g, QDOT_ASM_LOAD, reg, 0, a);
-    do_one(g, QDOT_ASM_MUL, reg, reg, b);
-    do_one(g, QDOT_ASM_STORE, reg, 0, to);
-}
-
-static void
-keep_twice(qdot_generator *g, qdot_operand a, qdot_operand to)
-{
-    keep(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2), to);
-}
-
-/* --- the recurrences ---------------------------------------------------------------- */
-
-/* A sum or a product. */
-static void
-direct(qdot_generator *g, const qdot_taylor_step *s)
-{
-    sum sum = {.v = {.reg = -1}};
-
-    add_terms(g, &sum, false, NULL, s);
-    finish_sum(g, &sum, s->to);
-}
-
-/* +- sum_{j=0..k} x_j x_{k-j}, of which `sum` is the rest. Slots: 2 x_0, 2 x_1 */
-static void
-finish_square(qdot_generator *g, const qdot_taylor_step *s, sum *sum, bool minus,
-              const double *x, const double *to)
-{
-    late(g, sum, minus, g->k == 2 ? at(g, x, 1) : slot(g, s, 1), x);
-    times(g, sum, minus, slot(g, s, 0), x, g->k);
-    finish_sum(g, sum, to);
-}
-
-static void
-square(qdot_generator *g, const qdot_taylor_step *s)
-{
-    sum sum = {.v = {.reg = -1}};
-
-    add_past(g, &sum, false, NULL, s, 0);
-    finish_square(g, s, &sum, false, s->x, s->to);
-}
-
-static void
-square_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->x, 0), slot(g, s, 0));
-}
-
-static void
-square_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->x, 1), slot(g, s, 1));
-}
-
-/* Slots, over y_0: c_0, c_1, y_1 */
-static void
-quotient(qdot_generator *g, const qdot_taylor_step *s)
-{
-    const qdot_operand c = qdot_code_c(g, s);
-    sum sum = {.v = {.reg = -1}};
-
-    add_past(g, &sum, true, &c, s, 0);
-    lately(g, &sum, true, slot(g, s, 1), s->y, slot(g, s, 2), s->to);
-    add_scaled(g, &sum, false, &c, s->x);
-    times(g, &sum, true, slot(g, s, 0), s->y, g->k);
-    finish_sum(g, &sum, s->to);
-}
-
-static void
-quotient_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 0), qdot_code_c(g, s), slot(g, s, 0));
-}
-
-static void
-quotient_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
-}
-
-/* Slots: c_1/(2 c_0), c_1/c_0 */
-static void
-root(qdot_generator *g, const qdot_taylor_step *s)
-{
-    const qdot_operand c = qdot_code_c(g, s);
-    sum sum = {.v = {.reg = -1}};
-
-    add_past(g, &sum, true, &c, s, 0);
-    late(g, &sum, true, slot(g, s, g->k > 2), s->to);
-    add_scaled(g, &sum, false, &c, s->x);
-    finish_sum(g, &sum, s->to);
-}
-
-static void
-root_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 0));
-    keep_twice(g, slot(g, s, 0), slot(g, s, 1));
-}
-
-/* k times coefficient k of x. */
-static void
-weighted(qdot_generator *g, const double *x, const double *to)
-{
-    sum d = {.v = {.reg = -1}};
-
-    times(g, &d, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k), x, g->k);
-    finish_sum(g, &d, to);
+    return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
 
 /* d_1/k, for a product with d over k; k > 1. */
@@ -141,169 +33,247 @@ first_over_order(qdot_generator *g, const qdot_taylor_step *s)
     return qdot_asm_in(reg);
 }
 
-/* y of y' = x' u: product i of a step is that of d and u. */
+/* --- by the table ------------------------------------------------------------------- */
+
+/* v + the sum of products number i of a step. */
 static void
-integrated(qdot_generator *g, const qdot_taylor_step *s, int i, bool minus,
-           const double *u, const double *to)
+add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
+             int i, sum *v)
 {
-    const qdot_operand over = inverse(g);
+    const double *a = qdot_code_named(s, o->a), *b = qdot_code_named(s, o->b);
+
+    add_past(g, v, false, NULL, s, i);
+    if (o->verb == QDOT_DO_SQUARED) {
+        if (g->lag > 1 && g->k > 1)
+            late(g, v, false, g->k == 2 ? at(g, a, 1) : twice(g, at(g, a, 1)), a);
+        if (o->from == 0)
+            times(g, v, false, twice(g, at(g, a, 0)), a, g->k);
+        return;
+    }
+    lately(g, v, false, at(g, a, 1), b, at(g, b, 1), a);
+    if (o->from == 0)
+        times(g, v, false, at(g, a, 0), b, g->k);
+    if (o->below == 0)
+        times(g, v, false, at(g, b, 0), a, g->k);
+}
+
+static void
+negate(sum *v)
+{
+    v->v.negative = !v->v.negative;
+    for (int i = 0; i < v->n; i++)
+        v->terms[i].minus = !v->terms[i].minus;
+}
+
+/* v + other */
+static void
+append(qdot_generator *g, sum *v, const sum *other)
+{
+    if (v->v.reg < 0)
+        v->v = other->v;
+    else if (other->v.reg >= 0)
+        add_value(g, &v->v, other->v.negative, other->v.reg);
+    for (int i = 0; i < other->n; i++)
+        v->terms[v->n++] = other->terms[i];
+}
+
+/* A factor of a term, times c. That of a row at order k by k is another one at each order. */
+static qdot_operand
+factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
+{
+    const qdot_operand c = qdot_code_c(g, s), order = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
+    int reg;
+
+    if (t->plain)
+        return c;
+    if (t->factor.reg != order.reg || t->factor.offset != order.offset)
+        return qdot_code_composed(g, c, t->factor);
+    reg = fresh(g);
+    do_one(g, QDOT_ASM_LOAD, reg, 0, order);
+    do_one(g, QDOT_ASM_MUL, reg, reg, c);
+    do_one(g, QDOT_ASM_STORE, reg, 0, qdot_code_work(QDOT_CODE_MOMENT));
+    return qdot_code_work(QDOT_CODE_MOMENT);
+}
+
+/* A sum of terms alone. */
+static void
+times_c(qdot_generator *g, const qdot_taylor_step *s, sum *v)
+{
+    for (int i = 0; i < v->n; i++) {
+        v->terms[i].factor = factor_by_c(g, s, v->terms + i);
+        v->terms[i].plain = false;
+    }
+}
+
+/* x if d is j x_j; else NULL. */
+static const double *
+argument_of_slope(const qdot_taylor_step *s)
+{
+    const qdot_recurrence_operation *o = qdot_recurrence_find(s->op, QDOT_DO_ORDERS);
+
+    return o && o->r == QDOT_OF_d ? qdot_code_named(s, o->p) : NULL;
+}
+
+/* v / k: of d_k = k x_k that is x_k, and the factor d_1 is divided, so that what is known last does
+ * not wait for a division of the whole. */
+static void
+per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
+{
+    const double *x = argument_of_slope(s);
+    const uint32_t d = x ? qdot_code_row(g, s->d) : QDOT_CODE_NONE;
+    sum early = {.v = v->v}, rest = {.v = {.reg = -1}};
+
+    for (int i = 0; i < v->n; i++) {
+        term t = v->terms[i];
+
+        if (x && t.row == d && t.k == g->k)
+            t.row = qdot_code_row(g, x);
+        else if (x && !t.plain && t.factor.offset == at(g, s->d, 1).offset
+                 && t.factor.reg == at(g, s->d, 1).reg)
+            t.factor = first_over_order(g, s);
+        else {
+            early.terms[early.n++] = t;
+            continue;
+        }
+        rest.terms[rest.n++] = t;
+    }
+    if (early.n == 1 && early.v.reg < 0 && early.terms->plain) {
+        early.terms->plain = false;
+        early.terms->factor = inverse(g);
+    } else {
+        scale_sum(g, &early, inverse(g));
+    }
+    append(g, &early, &rest);
+    *v = early;
+}
+
+/* Whether U1 and U2 are divided in the end. They are times c from the beginning: so all factors
+ * that no order changes are known at order 1. */
+static bool
+divides(const qdot_taylor_step *s)
+{
+    return qdot_recurrence_find(s->op, QDOT_DO_OVER) ||
+           qdot_recurrence_find(s->op, QDOT_DO_OVER_TWICE);
+}
+
+/* v +- coefficient k of a row, times a factor (NULL: none), or U1 or U2, which is used up. */
+static void
+add_number(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
+           bool minus, unsigned name, sum *u)
+{
+    sum *other;
+
+    if (name < QDOT_OF_U1) {
+        add_scaled(g, v, minus, factor, qdot_code_named(s, name));
+        return;
+    }
+    other = u + (name - QDOT_OF_U1);
+    if (minus)
+        negate(other);
+    append(g, v, other);
+    *other = (sum){.v = {.reg = -1}};
+}
+
+/* What an operation makes; `sums` counts those of the step. */
+static sum
+result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
+       int *sums, sum *u)
+{
+    const qdot_operand c = qdot_code_c(g, s);
+    const qdot_operand *const factor = o->r >= QDOT_OF_U1 && divides(s) ? &c : NULL;
+    sum v = {.v = {.reg = -1}};
+
+    switch (o->verb) {
+    case QDOT_DO_SUM:
+    case QDOT_DO_SQUARED:
+    case QDOT_DO_ORDERS:
+        if (o->verb == QDOT_DO_ORDERS)
+            times(g, &v, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k),
+                  qdot_code_named(s, o->p), g->k);
+        else
+            add_products(g, s, o, (*sums)++, &v);
+        if (factor)
+            times_c(g, s, &v);
+        return v;
+    default: add_number(g, s, factor, &v, false, o->p, u);
+    }
+    switch (o->verb) {
+    case QDOT_DO_ADD: add_number(g, s, factor, &v, false, o->q, u); break;
+    case QDOT_DO_SUB: add_number(g, s, factor, &v, true, o->q, u); break;
+    case QDOT_DO_NEG: negate(&v); break;
+    case QDOT_DO_SIGNED:
+        if (s->sign < 0)
+            negate(&v);
+        break;
+    case QDOT_DO_PER_ORDER: per_order(g, s, &v); break;
+    case QDOT_DO_OVER:
+    case QDOT_DO_OVER_TWICE: break; /* it is by now */
+    default: g->m.status = qdot_fail(QDOT_EINVAL, "a recurrence has no code");
+    }
+    return v;
+}
+
+/* As its row of recurrence.def says. */
+static void
+tabled(qdot_generator *g, const qdot_taylor_step *s)
+{
+    sum u[] = {{.v = {.reg = -1}}, {.v = {.reg = -1}}};
+    int sums = 0;
+
+    for (const qdot_recurrence_operation *o = qdot_recurrence_operations(s->op);
+         o->verb != QDOT_DO_END; o++) {
+        sum v = result(g, s, o, &sums, u);
+
+        if (o->r < QDOT_OF_U1)
+            finish_sum(g, &v, qdot_code_named(s, o->r));
+        else
+            u[o->r - QDOT_OF_U1] = v;
+    }
+}
+
+/* --- by hand ------------------------------------------------------------------------ */
+
+/* A sum or a product. */
+static void
+direct(qdot_generator *g, const qdot_taylor_step *s)
+{
     sum sum = {.v = {.reg = -1}};
 
-    if (g->lag > 1) {
-        add_past(g, &sum, minus, NULL, s, i);
-        if (g->k > 2)
-            late(g, &sum, minus, at(g, u, 1), s->d);
-        scale_sum(g, &sum, over);
-        if (g->k > 1)
-            late(g, &sum, minus, first_over_order(g, s), u);
-    } else {
-        add_past(g, &sum, minus, &over, s, i);
-    }
-    times(g, &sum, minus, at(g, u, 0), s->x, g->k);
-    finish_sum(g, &sum, to);
+    add_terms(g, &sum, false, NULL, s);
+    finish_sum(g, &sum, s->to);
 }
 
+/* k times coefficient k of x. */
 static void
-wave(qdot_generator *g, const qdot_taylor_step *s)
+weighted(qdot_generator *g, const double *x, const double *to)
 {
-    weighted(g, s->x, s->d);
-    integrated(g, s, 0, false, s->second, s->to);
-    integrated(g, s, 1, s->op == QDOT_T_SINCOS, s->to, s->second);
+    sum d = {.v = {.reg = -1}};
+
+    times(g, &d, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k), x, g->k);
+    finish_sum(g, &d, to);
 }
 
-static void
-exponential(qdot_generator *g, const qdot_taylor_step *s)
-{
-    weighted(g, s->x, s->d);
-    integrated(g, s, 0, false, s->to, s->to);
-}
-
-static void
-along(qdot_generator *g, const qdot_taylor_step *s)
-{
-    weighted(g, s->x, s->d);
-    integrated(g, s, 0, false, s->y, s->to);
-}
-
-/* Slots: (r + 1)/x_0, r p_0/x_0; p_1/x_0, x_1/x_0 */
+/* ((r + 1)/k sum d p - sum x p)/x_0 */
 static void
 power(qdot_generator *g, const qdot_taylor_step *s)
 {
+    const qdot_operand c = qdot_code_c(g, s), r = by_c(g, s, s->z, 0);
     sum sum = past(g, s, 0), other = past(g, s, 1);
+    int slopes;
 
     weighted(g, s->x, s->d);
     lately(g, &sum, false, at(g, s->d, 1), s->to, at(g, s->to, 1), s->d);
     scale_sum(g, &sum, inverse(g));
-    scale_sum(g, &sum, slot(g, s, 0));
+    slopes = sum.v.reg;
+    scale_sum(g, &sum, r);
+    if (slopes >= 0)
+        add_product(g, &sum.v, false, c, slopes);
     if (other.v.reg >= 0)
-        add_product(g, &sum.v, true, qdot_code_c(g, s), other.v.reg);
-    lately(g, &sum, true, slot(g, s, 3), s->to, slot(g, s, 2), s->x);
-    times(g, &sum, false, slot(g, s, 1), s->x, g->k);
+        add_product(g, &sum.v, true, c, other.v.reg);
+    if (g->lag > 1 && g->k > 1)
+        lately(g, &sum, true, by_c(g, s, s->x, 1), s->to, by_c(g, s, s->to, 1), s->x);
+    times(g, &sum, false, qdot_code_composed(g, r, at(g, s->to, 0)), s->x, g->k);
     finish_sum(g, &sum, s->to);
-}
-
-static void
-power_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    const int a = fresh(g), b = fresh(g);
-
-    do_one(g, QDOT_ASM_LOAD, a, 0, at(g, s->z, 0));
-    do_one(g, QDOT_ASM_ADD, b, a, qdot_code_work(QDOT_CODE_ORDERS + 1));
-    do_one(g, QDOT_ASM_MUL, b, b, qdot_code_c(g, s));
-    do_one(g, QDOT_ASM_STORE, b, 0, slot(g, s, 0));
-    do_one(g, QDOT_ASM_MUL, a, a, at(g, s->to, 0));
-    do_one(g, QDOT_ASM_MUL, a, a, qdot_code_c(g, s));
-    do_one(g, QDOT_ASM_STORE, a, 0, slot(g, s, 1));
-}
-
-static void
-power_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->to, 1), qdot_code_c(g, s), slot(g, s, 2));
-    keep(g, at(g, s->x, 1), qdot_code_c(g, s), slot(g, s, 3));
-}
-
-/* d, then to = d/k */
-static void
-finish_weighted(qdot_generator *g, value d, const qdot_taylor_step *s)
-{
-    value l = d;
-
-    finish(g, d, s->d, g->k);
-    scale(g, &l, inverse(g));
-    finish(g, l, s->to, g->k);
-}
-
-/* Slots: k/y_0; d_1/y_0, y_1/y_0 */
-static void
-ratio(qdot_generator *g, const qdot_taylor_step *s)
-{
-    const qdot_operand k = qdot_code_entry(QDOT_CODE_ORDERS, g->k);
-    sum d = past(g, s, 0);
-
-    scale_sum(g, &d, qdot_code_c(g, s));
-    negate(&d);
-    lately(g, &d, true, slot(g, s, 1), s->y, slot(g, s, 2), s->d);
-    keep(g, k, qdot_code_c(g, s), slot(g, s, 0));
-    times(g, &d, s->sign < 0, slot(g, s, 0), s->x, g->k);
-    finish_weighted(g, total(g, &d), s);
-}
-
-static void
-ratio_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep(g, at(g, s->d, 1), qdot_code_c(g, s), slot(g, s, 1));
-    keep(g, at(g, s->y, 1), qdot_code_c(g, s), slot(g, s, 2));
-}
-
-/* Slots: 2 to_0, 2 to_1 */
-static void
-hyperbolic_tangent(qdot_generator *g, const qdot_taylor_step *s)
-{
-    sum other;
-
-    weighted(g, s->x, s->d);
-    integrated(g, s, 0, false, s->second, s->to);
-    other = past(g, s, 1);
-    negate(&other);
-    finish_square(g, s, &other, true, s->to, s->second);
-}
-
-static void
-tangent_zero(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->to, 0), slot(g, s, 0));
-}
-
-static void
-tangent_one(qdot_generator *g, const qdot_taylor_step *s)
-{
-    keep_twice(g, at(g, s->to, 1), slot(g, s, 1));
-}
-
-/* second, third, d: j x_j, j y_j, j to_j */
-static void
-arctangent(qdot_generator *g, const qdot_taylor_step *s)
-{
-    sum d = past(g, s, 0);
-
-    weighted(g, s->x, s->second);
-    weighted(g, s->y, s->third);
-    for (int i = 1; i < 3; i++) {
-        const value v = past(g, s, i).v;
-
-        if (v.reg >= 0 && d.v.reg >= 0)
-            add_value(g, &d.v, true, v.reg);
-        else if (v.reg >= 0)
-            d.v = (value){.reg = v.reg, .negative = true};
-    }
-    lately(g, &d, false, at(g, s->second, 1), s->y, at(g, s->y, 1), s->second);
-    lately(g, &d, true, at(g, s->third, 1), s->x, at(g, s->x, 1), s->third);
-    lately(g, &d, true, at(g, s->d, 1), s->z, at(g, s->z, 1), s->d);
-    times(g, &d, false, at(g, s->y, 0), s->second, g->k);
-    times(g, &d, true, at(g, s->x, 0), s->third, g->k);
-    scale_sum(g, &d, qdot_code_c(g, s));
-    finish_weighted(g, d.v, s);
 }
 
 static void
@@ -322,45 +292,17 @@ integral(qdot_generator *g, const qdot_taylor_step *s)
         finish(g, total(g, &twice), s->second, g->k + 2);
 }
 
-enum { TO, SECOND, THIRD, D, X, Y, Z };
-
-const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT] = {
-    [QDOT_T_NEG] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_ADD] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SUB] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALE] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALEADD] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALESUB] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_SCALEOFF] = {0, {{0}}, direct, NULL, NULL, 0},
-    [QDOT_T_MUL] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_SQUARE] = {1, {{X, X}}, square, square_zero, square_one, 2},
-    [QDOT_T_MADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_MSUB] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_NMADD] = {1, {{X, Y}}, direct, NULL, NULL, 0},
-    [QDOT_T_DIV] = {1, {{TO, Y}}, quotient, quotient_zero, quotient_one, 3},
-    [QDOT_T_SQRT] = {1, {{TO, TO}}, root, NULL, root_one, 2},
-    [QDOT_T_SINCOS] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
-    [QDOT_T_SINHCOSH] = {2, {{D, SECOND}, {D, TO}}, wave, NULL, NULL, 0},
-    [QDOT_T_EXP] = {1, {{D, TO}}, exponential, NULL, NULL, 0},
-    [QDOT_T_ALONG] = {1, {{D, Y}}, along, NULL, NULL, 0},
-    [QDOT_T_POW] = {2, {{D, TO}, {X, TO}}, power, power_zero, power_one, 4},
-    [QDOT_T_RATIO] = {1, {{D, Y}}, ratio, NULL, ratio_one, 3},
-    [QDOT_T_TANH] = {2,
-                     {{D, SECOND}, {TO, TO}},
-                     hyperbolic_tangent,
-                     tangent_zero,
-                     tangent_one,
-                     2},
-    [QDOT_T_LINK] = {0, {{0}}, integral, NULL, NULL, 0},
-    [QDOT_T_ATAN2] = {3, {{SECOND, Y}, {THIRD, X}, {D, Z}}, arctangent, NULL, NULL, 0},
-};
-
-const double *
-qdot_code_factor(const qdot_taylor_step *s, unsigned char name)
+void
+qdot_code_order(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const double *const rows[] = {[TO] = s->to, [SECOND] = s->second, [THIRD] = s->third,
-                                  [D] = s->d,   [X] = s->x,           [Y] = s->y,
-                                  [Z] = s->z};
-
-    return rows[name];
+    switch (s->op) {
+    case QDOT_T_LINK: integral(g, s); break;
+    case QDOT_T_POW: power(g, s); break;
+    case QDOT_T_SQUARE: tabled(g, s); break;
+    default:
+        if (s->op <= QDOT_T_NMADD)
+            direct(g, s);
+        else
+            tabled(g, s);
+    }
 }

@@ -368,12 +368,6 @@ past(qdot_generator *g, const qdot_taylor_step *s, int i)
     return sum;
 }
 
-static inline void
-negate(sum *s)
-{
-    s->v.negative = !s->v.negative;
-}
-
 /* Of one with orders 1 and k - 1, where the vectors do not have it: x_1 and y. */
 static inline void
 late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "series/recurrence-operations.h"
 #include "series/taylor-generator.h"
 #include "series/taylor-text.h"
 
@@ -182,27 +183,37 @@ add_sum(qdot_generator *g, uint32_t x, uint32_t y, bool further)
     return qdot_vec_push(&g->sums, sum);
 }
 
+/* The sums of step i, as its recurrence has them. */
+static qdot_status
+find_sums_of(qdot_generator *g, size_t i)
+{
+    const qdot_taylor_step *s = g->t->steps + i;
+    uint32_t *sum = g->step_sums + 3 * i;
+
+    for (const qdot_recurrence_operation *o = qdot_recurrence_operations(s->op);
+         o->verb != QDOT_DO_END; o++) {
+        uint32_t a, b;
+
+        if (o->verb != QDOT_DO_SUM && o->verb != QDOT_DO_SQUARED)
+            continue;
+        a = qdot_code_row(g, qdot_code_named(s, o->a));
+        b = qdot_code_row(g, qdot_code_named(s, o->b));
+        if (g->moving[a] && g->moving[b]) {
+            *sum = (uint32_t)g->sums.n;
+            QDOT_TRY(add_sum(g, a, b, false));
+        }
+        sum++;
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 find_sums(qdot_generator *g)
 {
     const qdot_taylor *t = g->t;
 
-    for (size_t i = t->still; i < t->length; i++) {
-        const qdot_taylor_step *s = t->steps + i;
-        const qdot_code_recurrence *r = qdot_code_recurrences + s->op;
-
-        g->step_slots[i] = (uint32_t)(QDOT_CODE_SLOTS + g->n_slots);
-        g->n_slots += r->slots;
-        for (int k = 0; k < r->sums; k++) {
-            const uint32_t x = qdot_code_row(g, qdot_code_factor(s, r->factors[k][0]));
-            const uint32_t y = qdot_code_row(g, qdot_code_factor(s, r->factors[k][1]));
-
-            if (!g->moving[x] || !g->moving[y])
-                continue;
-            g->step_sums[3 * i + (size_t)k] = (uint32_t)g->sums.n;
-            QDOT_TRY(add_sum(g, x, y, false));
-        }
-    }
+    for (size_t i = t->still; i < t->length; i++)
+        QDOT_TRY(find_sums_of(g, i));
     return QDOT_OK;
 }
 
@@ -283,19 +294,6 @@ give_places(qdot_generator *g)
 
 /* --- code --------------------------------------------------------------------------- */
 
-static void
-emit_once(qdot_generator *g, bool after_one)
-{
-    const qdot_taylor *t = g->t;
-
-    for (size_t i = t->still; i < t->length; i++) {
-        const qdot_code_recurrence *r = qdot_code_recurrences + t->steps[i].op;
-
-        if (after_one ? r->after_one != NULL : r->after_zero != NULL)
-            (after_one ? r->after_one : r->after_zero)(g, t->steps + i);
-    }
-}
-
 /* An order of all recurrences, their vectors being up to date. */
 static void
 emit_order(qdot_generator *g)
@@ -304,11 +302,11 @@ emit_order(qdot_generator *g)
 
     for (size_t i = t->still; i < t->length; i++)
         if (!g->folded[qdot_code_row(g, t->steps[i].to)])
-            qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+            qdot_code_order(g, t->steps + i);
     for (size_t i = 0; i < t->n_blocks; i++)
         qdot_code_solve(g, i);
     for (size_t i = t->length; i < t->length + t->n_links; i++)
-        qdot_code_recurrences[t->steps[i].op].order(g, t->steps + i);
+        qdot_code_order(g, t->steps + i);
 }
 
 void
@@ -381,11 +379,8 @@ emit_all(qdot_generator *g)
     qdot_code_forget(g);
     g->exact = g->n >= QDOT_TAYLOR_EXACT_FROM;
     qdot_code_begin_vectors(g);
-    for (g->k = 1; g->k <= least(g->n, singly); g->k++) {
-        if (g->k <= 2)
-            emit_once(g, g->k == 2);
+    for (g->k = 1; g->k <= least(g->n, singly); g->k++)
         emit_order(g);
-    }
     qdot_asm_set(&g->m, QDOT_ASM_ROWS_NOW, QDOT_ASM_ROWS, 8 * (singly + 1));
     qdot_asm_set(&g->m, QDOT_ASM_WORK_NOW, QDOT_ASM_WORK, 8 * (singly + 1));
     count = find_phases(&loops, g->n, phases);
@@ -457,11 +452,10 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
     g->ready = qdot_calloc(4 * rows + 1, sizeof *g->ready);
     g->where = qdot_calloc(4 * rows + 1, sizeof *g->where);
     g->step_sums = qdot_calloc(3 * length + 1, sizeof *g->step_sums);
-    g->step_slots = qdot_calloc(length + 1, sizeof *g->step_slots);
     g->unknown_sums = qdot_calloc(rows + 1, sizeof *g->unknown_sums);
     g->block_slots = qdot_calloc(g->t->n_blocks + 1, sizeof *g->block_slots);
     if (!g->moving || !g->folded || !g->maker || !g->row_vector || !g->ready || !g->where
-        || !g->step_sums || !g->step_slots || !g->unknown_sums || !g->block_slots)
+        || !g->step_sums || !g->unknown_sums || !g->block_slots)
         return QDOT_ENOMEM;
     memset(g->row_vector, 0xff, rows * sizeof *g->row_vector);
     memset(g->maker, 0xff, rows * sizeof *g->maker);
@@ -508,7 +502,6 @@ write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why
     qdot_free(g.ready);
     qdot_free(g.where);
     qdot_free(g.step_sums);
-    qdot_free(g.step_slots);
     qdot_free(g.unknown_sums);
     qdot_free(g.rows.at);
     qdot_free(g.row_of.at);

@@ -21,7 +21,7 @@ enum {
     QDOT_CODE_BLOCKS = (QDOT_SERIES_MOST / 2 + 1) / 2,
     /* The work space, in doubles: tables by order k of 1/k (at 0: -1), k, the two factors of
      * a link, what these are beyond their doubles, 1/((k + 1)(k + 2)); a lane whose bits are
-     * all 1; counts of loops; then slots. */
+     * all 1; counts of loops; a number for a moment; then slots. */
     QDOT_CODE_TABLE = QDOT_SERIES_MOST + 8,
     QDOT_CODE_INVERSES = 0,
     QDOT_CODE_ORDERS = QDOT_CODE_TABLE,
@@ -34,12 +34,15 @@ enum {
     /* 32 bits in each double: how often a loop is run. */
     QDOT_CODE_COUNTS = QDOT_CODE_ONES + QDOT_CODE_LANES,
     QDOT_CODE_PHASES = (2 * QDOT_CODE_BLOCKS + 7) / 8 * 8,
-    QDOT_CODE_SLOTS = QDOT_CODE_COUNTS + QDOT_CODE_PHASES,
+    QDOT_CODE_MOMENT = QDOT_CODE_COUNTS + QDOT_CODE_PHASES, /* one number */
+    QDOT_CODE_SLOTS = QDOT_CODE_MOMENT + 8,
     /* What is written for several orders is written as of this one, and those beside it; a
      * multiple of 4. */
     QDOT_CODE_ANY = 1000,
     /* What is folded has factors of its own (taylor-code-fold.c). */
     QDOT_CODE_FOLDED_SLOTS = 4,
+    /* Factors of a step that no order changes, at most (qdot_code_composed). */
+    QDOT_CODE_FACTORS = 8,
     /* No first loop goes further (it begins at twice the lag): links are exact that far. */
     QDOT_CODE_EXACT = 3 + QDOT_CODE_LANES
 };
@@ -80,7 +83,6 @@ typedef struct {
     uint32_t *maker;        /* [rows] the step that it is `to` of; QDOT_CODE_NONE */
     uint32_t *row_vector;   /* [rows] number in `rows`; QDOT_CODE_NONE */
     uint32_t *step_sums;    /* [length x 3] number in `sums`; QDOT_CODE_NONE */
-    uint32_t *step_slots;   /* [length] the first, in doubles */
     uint32_t *unknown_sums; /* [rows] of what is solved for by row, likewise */
     uint32_t *block_slots;  /* [blocks] */
     int *ready;             /* [rows x 4] when coefficients are there, by order mod 4 */
@@ -137,21 +139,15 @@ void qdot_code_begin_phase(qdot_generator *g, const qdot_code_phase *p);
 void qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m);
 void qdot_code_next_lane(qdot_generator *g, const qdot_code_phase *p);
 
-/* A recurrence as code. */
-typedef struct {
-    /* The sums over lower orders are of these products. */
-    int sums;
-    unsigned char factors[3][2];
-    /* Order g->k of a step; and what is had once for all orders: as soon as order 0 is there,
-     * and order 1. */
-    void (*order)(qdot_generator *g, const qdot_taylor_step *s);
-    void (*after_zero)(qdot_generator *g, const qdot_taylor_step *s);
-    void (*after_one)(qdot_generator *g, const qdot_taylor_step *s);
-    size_t slots;
-} qdot_code_recurrence;
+/* Order g->k of a step; the row of a step that recurrence.def calls so. */
+void qdot_code_order(qdot_generator *g, const qdot_taylor_step *s);
+static inline const double *
+qdot_code_named(const qdot_taylor_step *s, unsigned name)
+{
+    const double *const rows[] = {s->to, s->second, s->third, s->d, s->x, s->y, s->z};
 
-/* By qdot_recurrence. */
-extern const qdot_code_recurrence qdot_code_recurrences[QDOT_T_COUNT];
+    return rows[name];
+}
 
 /* No register is known to hold a coefficient. */
 void qdot_code_forget(qdot_generator *g);
@@ -167,9 +163,6 @@ qdot_operand qdot_code_composed(qdot_generator *g, qdot_operand a, qdot_operand 
 
 /* Order g->k of unknowns. */
 void qdot_code_solve(qdot_generator *g, size_t block);
-
-/* A row of a step by its name in the table above. */
-const double *qdot_code_factor(const qdot_taylor_step *s, unsigned char name);
 
 /* When coefficient k of a row is there. */
 static inline int *

@@ -30,6 +30,7 @@ typedef enum {
     QDOT_BOX_RELATION,
     QDOT_BOX_SIGN, /* + - of two terms, and, or */
     QDOT_BOX_TIMES,
+    QDOT_BOX_OVER, /* the / of a fraction in one line */
     QDOT_BOX_COMMA,
     QDOT_BOX_END,  /* of a row of a matrix that is broken: a line ends */
     QDOT_BOX_WORD, /* of a text, with the blank behind it */

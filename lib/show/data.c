@@ -70,6 +70,15 @@ json_facts(qdot_text *text, size_t n, const qdot_data_fact *facts)
     }
 }
 
+static void
+json_cell(qdot_text *text, const qdot_data *data, size_t j, size_t i)
+{
+    if (qdot_data_has_texts(data, j))
+        qdot_text_json(text, data->texts[j][i]);
+    else
+        json_number(text, data->column[j].at[i]);
+}
+
 static qdot_status
 write_json(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text)
 {
@@ -88,7 +97,7 @@ write_json(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text)
         qdot_text_add(text, i > 0 ? ",\n[" : "\n[");
         for (size_t j = 0; j < data->columns; j++) {
             qdot_text_add(text, j > 0 ? "," : "");
-            json_number(text, data->column[j].at[i]);
+            json_cell(text, data, j, i);
         }
         qdot_text_char(text, ']');
         QDOT_TRY(pass_on(sink, text, CHUNK));
@@ -161,7 +170,10 @@ write_html(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text)
         qdot_text_add(text, "<tr>");
         for (size_t j = 0; j < data->columns; j++) {
             qdot_text_add(text, "<td>");
-            qdot_text_double(text, data->column[j].at[i], digits);
+            if (qdot_data_has_texts(data, j))
+                html_text(text, data->texts[j][i]);
+            else
+                qdot_text_double(text, data->column[j].at[i], digits);
             qdot_text_add(text, "</td>");
         }
         qdot_text_add(text, "</tr>\n");

@@ -6,7 +6,8 @@
  *     HDF5   a data set of doubles for each column, named by its label (/ as U+2215); the facts are
  *            attributes of the root, the parameters those of the group "parameters"
  *
- * Numbers that are not finite are null in JSON, words in HTML. Paths and errors as in sink.h.
+ * Columns of texts, numbers of many digits, are strings in JSON, and data sets of texts of one
+ * length in HDF5. Numbers that are not finite are null in JSON, words in HTML. Paths and errors as in sink.h.
  *
  * Tests  tests/show/test_data.c, tests/script/data-files.sh
  */
@@ -25,9 +26,16 @@ typedef struct {
     const char *title;
     size_t columns, rows;
     const qdot_column *column; /* [columns] */
+    char *const *const *texts; /* [columns] of [rows], in place of numbers; NULL, one NULL: numbers */
     size_t n_facts, n_parameters;
     const qdot_data_fact *facts, *parameters;
 } qdot_data;
+
+static inline bool
+qdot_data_has_texts(const qdot_data *data, size_t column)
+{
+    return data->texts != NULL && data->texts[column] != NULL;
+}
 
 QDOT_MUST_CHECK qdot_status qdot_data_json(const qdot_data *data, const char *path);
 /* Numbers with `digits` significant digits. */

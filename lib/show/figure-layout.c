@@ -203,6 +203,10 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     extent e;
 
     *view = (qdot_figure_view){.log = {panel->log[0], panel->log[1], false}};
+    for (int k = 0; k < 2; k++)
+        if (fixed[k] && panel->log[k] && !(panel->range[k].least > 0))
+            return qdot_fail(QDOT_EINVAL, "a logarithmic axis begins above 0, not at %.6g",
+                             panel->range[k].least);
     QDOT_TRY(measure_shared(figure, i, &e));
     for (int k = 0; k < axes; k++) {
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];

@@ -211,8 +211,8 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
     if (rows == 0)
         qdot_text_add(d->script, "unset key\n");
     else if (has_key_beside(d, panel))
-        qdot_text_add(d->script, "set key outside right top vertical Left reverse samplen "
-                                 "2.5\n");
+        qdot_text_add(d->script, "set key at graph 1.02, graph 1 left top vertical Left reverse "
+                                 "samplen 2.5\n");
     else if (qdot_figure_is_space(panel))
         qdot_text_add(d->script, "set key inside right top vertical Left reverse samplen 2.5\n");
     else {
@@ -373,10 +373,31 @@ rooms(const qdot_figure_drawing *d, size_t i, double *above, double *below)
     const double line = (d->kind != NULL ? d->kind->lead : 1.4) * d->points / 28.35;
     const bool titled = panel->title.text != NULL && panel->title.text[0] != '\0';
 
-    *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) + (double)key_rows(d, panel));
+    *above = line * (0.5 + 1.2 * titled + (panel->note != NULL) +
+                     (has_key_beside(d, panel) ? 0 : (double)key_rows(d, panel)));
     if (key_rows(d, panel) == 0 && panel->axis[1].text != NULL) /* a label that is moved, 10^3 */
         *above += line * 0.8;
     *below = line * (qdot_figure_is_shared(d->figure, i) ? 0.5 : 2.9);
+}
+
+/* Whether a label has something raised, which the edge of the figure would cut. */
+static bool
+has_power(const qdot_figure_label *label)
+{
+    qdot_text markup = {0};
+    bool found;
+
+    qdot_figure_add_markup(&markup, label);
+    found = strchr(qdot_text_str(&markup), '^') != NULL;
+    qdot_text_clear(&markup);
+    return found;
+}
+
+/* Letters right of the axes: half of the last number, or a key. */
+static double
+letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
+{
+    return has_key_beside(d, panel) ? 1 + 0.55 * (double)key_width(panel) : 1;
 }
 
 /* Letters left of the axes: numbers, tics, a label; the same for all panels. */
@@ -388,7 +409,8 @@ letters_left(const qdot_figure_drawing *d, double *letters)
         qdot_figure_axis axes[3];
 
         QDOT_TRY(choose_axes(d, i, axes));
-        *letters = fmax(*letters, 3.2 + 0.62 * (double)widest_number(&axes[1]));
+        *letters = fmax(*letters, 3.2 + 0.62 * (double)widest_number(&axes[1]) +
+                                      (has_power(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
     }
     return QDOT_OK;
 }
@@ -422,7 +444,7 @@ place(const qdot_figure_drawing *d, size_t i, double *high)
     }
     QDOT_TRY(letters_left(d, &left));
     add_at(d->script, "l", fmin(left * letter / d->width, 0.4));
-    add_at(d->script, "r", 1 - letter / d->width);
+    add_at(d->script, "r", 1 - letters_right(d, &f->panels[i]) * letter / d->width);
     add_at(d->script, "t", top / d->height);
     add_at(d->script, "b", (top - free) / d->height);
     return QDOT_OK;
@@ -436,7 +458,7 @@ add_panel(const qdot_figure_drawing *d, size_t i)
     double high = d->height;
 
     QDOT_TRY(choose_axes(d, i, axes));
-    if (d->figure->n > 1 || (!qdot_figure_is_space(panel) && !has_key_beside(d, panel)))
+    if (d->figure->n > 1 || !qdot_figure_is_space(panel))
         QDOT_TRY(place(d, i, &high));
     add_title(d, panel);
     add_axes(d, i, axes);

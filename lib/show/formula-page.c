@@ -1,5 +1,6 @@
 /* formula-page.c -- lines of answers as blocks of aligned equations and paragraphs. */
 #include "show/formula-page.h"
+#include "show/scripts.h"
 
 #include <ctype.h>
 #include <stdint.h>
@@ -243,7 +244,7 @@ mathml_row(page *p, const row *r)
         qdot_text_add(p->out, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" "
                               "display=\"block\"><mtable displaystyle=\"true\">\n");
     qdot_text_add(p->out, "<mtr><mtd class=\"left\">");
-    qdot_text_add_n(p->out, r->left, r->left_n);
+    qdot_page_add_mathml(p->out, r->left, r->left_n);
     qdot_text_format(p->out, "</mtd>%s", before);
     if (r->indented)
         qdot_text_add(p->out, "<mspace width=\"2em\"/>");
@@ -251,7 +252,7 @@ mathml_row(page *p, const row *r)
         qdot_text_add(p->out, "<mo form=\"infix\"");
         qdot_text_add_n(p->out, r->sign + 3, r->sign_n - 3);
     }
-    qdot_text_add_n(p->out, r->right, r->right_n);
+    qdot_page_add_mathml(p->out, r->right, r->right_n);
     qdot_text_add(p->out, "</mtd></mtr>\n");
 }
 

@@ -188,20 +188,42 @@ group(qdot_text *header)
     bytes(header, 0, 2);
 }
 
-static void
-data_set(qdot_text *header, size_t rows, uint64_t address)
+/* Bytes of one entry of the column: a double, or the longest text and its NUL. */
+static size_t
+entry_size(const qdot_data *data, size_t j)
 {
+    size_t size = 1;
+
+    if (!qdot_data_has_texts(data, j))
+        return sizeof(double);
+    for (size_t i = 0; i < data->rows; i++) {
+        const size_t n = strlen(data->texts[j][i]) + 1;
+
+        size = n > size ? n : size;
+    }
+    return size;
+}
+
+static void
+data_set(qdot_text *header, const qdot_data *data, size_t j, uint64_t address)
+{
+    const size_t rows = data->rows, size = entry_size(data, j);
+    const bool texts = qdot_data_has_texts(data, j);
+
     message(header, DATASPACE, 12);
     bytes(header, 0x01000102, 4); /* version 2, one dimension, fixed, simple */
     bytes(header, rows, 8);
-    message(header, DATATYPE, 20);
-    real_type(header);
+    message(header, DATATYPE, texts ? 8 : 20);
+    if (texts)
+        text_type(header, size);
+    else
+        real_type(header);
     message(header, FILL, 2);
     bytes(header, 0x0a03, 2);
     message(header, LAYOUT, 18);
     bytes(header, 0x0103, 2); /* version 3, one block */
     bytes(header, rows > 0 ? address : NOWHERE, 8);
-    bytes(header, rows * sizeof(double), 8);
+    bytes(header, rows * size, 8);
 }
 
 /* The messages as an object header. */
@@ -243,7 +265,8 @@ column_name(const qdot_data *data, size_t j, qdot_text *out)
 
 /* Where the headers and the numbers are. */
 typedef struct {
-    uint64_t parameters, columns, step, numbers, end; /* step: of one column's header */
+    uint64_t parameters, headers, numbers, end; /* headers: of the columns, the first */
+    const uint64_t *columns; /* of their headers; NULL: not known yet */
 } places;
 
 /* The messages of the root: facts, links to the parameters and to the columns. */
@@ -258,7 +281,7 @@ root(const qdot_data *data, const places *at, qdot_text *messages)
     link_to(messages, "parameters", at->parameters);
     for (size_t j = 0; j < data->columns; j++) {
         column_name(data, j, &name);
-        link_to(messages, qdot_text_str(&name), at->columns + j * at->step);
+        link_to(messages, qdot_text_str(&name), at->columns != NULL ? at->columns[j] : 0);
         qdot_text_truncate(&name, 0);
     }
     messages->failed |= name.failed;
@@ -278,42 +301,79 @@ superblock(uint64_t end, qdot_text *out)
         bytes(out, checksum(out->at, out->n), 4);
 }
 
+/* The header of each column in turn: where it is, and the numbers that it has; out: NULL: only
+ * find where. */
+static bool
+column_headers(const qdot_data *data, places *at, uint64_t *where, qdot_text *out)
+{
+    qdot_text messages = {0};
+    uint64_t header = at->headers, numbers = at->numbers;
+    bool failed = false;
+
+    for (size_t j = 0; j < data->columns; j++) {
+        qdot_text_truncate(&messages, 0);
+        data_set(&messages, data, j, numbers);
+        if (out != NULL)
+            object(out, &messages);
+        where[j] = header;
+        header += OBJECT + messages.n;
+        numbers += data->rows * entry_size(data, j);
+        failed |= messages.failed;
+    }
+    at->end = at->numbers == 0 ? header : numbers;
+    qdot_text_clear(&messages);
+    return failed;
+}
+
 /* All headers; the size of each does not depend on the addresses in it. */
 static qdot_status
 headers(const qdot_data *data, qdot_text *out)
 {
-    const uint64_t column = data->rows * sizeof(double);
     qdot_text messages = {0}, parameters = {0};
     places at = {0};
-    bool failed;
+    uint64_t *columns = qdot_calloc(data->columns + 1, sizeof *columns);
+    bool failed = false;
 
+    if (columns == NULL)
+        return QDOT_ENOMEM;
     group(&parameters);
     for (size_t i = 0; i < data->n_parameters; i++)
         attribute(&parameters, &data->parameters[i]);
-    data_set(&messages, data->rows, 0);
-    at.step = OBJECT + messages.n;
-    qdot_text_truncate(&messages, 0);
     root(data, &at, &messages);
     at.parameters = SUPERBLOCK + OBJECT + messages.n;
-    at.columns = at.parameters + OBJECT + parameters.n;
-    at.numbers = at.columns + data->columns * at.step;
-    at.end = at.numbers + data->columns * column;
+    at.headers = at.parameters + OBJECT + parameters.n;
+    failed |= column_headers(data, &at, columns, NULL);
+    at.numbers = at.end;
+    failed |= column_headers(data, &at, columns, NULL);
+    at.columns = columns;
     qdot_text_truncate(&messages, 0);
     superblock(at.end, out);
     root(data, &at, &messages);
     object(out, &messages);
     object(out, &parameters);
-    failed = messages.failed || parameters.failed;
-    for (size_t j = 0; j < data->columns; j++) {
-        qdot_text_truncate(&messages, 0);
-        data_set(&messages, data->rows, at.numbers + j * column);
-        object(out, &messages);
-        failed |= messages.failed;
-    }
+    failed |= messages.failed || parameters.failed;
+    failed |= column_headers(data, &at, columns, out);
     out->failed |= failed;
     qdot_text_clear(&messages);
     qdot_text_clear(&parameters);
+    qdot_free(columns);
     return qdot_text_status(out);
+}
+
+/* One entry, a text filled up with NUL to its size. */
+static void
+put_entry(const qdot_data *data, size_t j, size_t i, size_t size, qdot_text *out)
+{
+    size_t n;
+
+    if (!qdot_data_has_texts(data, j)) {
+        real(out, data->column[j].at[i]);
+        return;
+    }
+    n = strlen(data->texts[j][i]);
+    qdot_text_add_n(out, data->texts[j][i], n);
+    for (; n < size; n++)
+        qdot_text_char(out, '\0');
 }
 
 static qdot_status
@@ -321,9 +381,11 @@ put_numbers(const qdot_data *data, qdot_sink *sink, qdot_text *text)
 {
     enum { CHUNK = 8192 };
 
-    for (size_t j = 0; j < data->columns; j++)
+    for (size_t j = 0; j < data->columns; j++) {
+        const size_t size = entry_size(data, j);
+
         for (size_t i = 0; i < data->rows; i++) {
-            real(text, data->column[j].at[i]);
+            put_entry(data, j, i, size, text);
             if (i % CHUNK != CHUNK - 1 && i + 1 < data->rows)
                 continue;
             QDOT_TRY(qdot_text_status(text));
@@ -331,6 +393,7 @@ put_numbers(const qdot_data *data, qdot_sink *sink, qdot_text *text)
             QDOT_TRY(qdot_sink_put(sink, text->at, text->n));
             qdot_text_truncate(text, 0);
         }
+    }
     return QDOT_OK;
 }
 

@@ -125,7 +125,7 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
     default:
         push_bracketed(l, of[1], depth);
         push_text(l, x.kind == QDOT_BOX_FRACTION ? "/" : x.kind == QDOT_BOX_SUB ? "_" : "^",
-                  QDOT_BOX_NAME, depth);
+                  x.kind == QDOT_BOX_FRACTION ? QDOT_BOX_OVER : QDOT_BOX_NAME, depth);
         push_bracketed(l, of[0], depth);
     }
 }
@@ -210,7 +210,8 @@ may_begin(const layout *l, size_t i)
     switch (role_of(l, i)) {
     case QDOT_BOX_RELATION:
     case QDOT_BOX_SIGN:
-    case QDOT_BOX_TIMES: return true;
+    case QDOT_BOX_TIMES:
+    case QDOT_BOX_OVER: return true;
     default:
         return i > 0 && (role_of(l, i - 1) == QDOT_BOX_COMMA || role_of(l, i - 1) == QDOT_BOX_WORD);
     }

@@ -1,5 +1,6 @@
 /* page.c -- answers as parts of a page: headings, formulas, curves. */
 #include "show/page.h"
+#include "show/scripts.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -72,10 +73,14 @@ divides(const char *at)
 static void
 add_formula(qdot_text *out, const char *at, size_t n)
 {
-    const char *end = at + n;
+    qdot_text formula = {0};
+    const char *end;
     bool operand = false; /* something stands before that an operator may follow */
     int depth = 0;
 
+    qdot_page_add_mathml(&formula, at, n);
+    at = qdot_text_str(&formula);
+    end = at + formula.n;
     qdot_text_add(out, "<math>");
     while (at < end) {
         const char *close = memchr(at, '>', (size_t)(end - at));
@@ -98,6 +103,8 @@ add_formula(qdot_text *out, const char *at, size_t n)
         at = close + 1;
     }
     qdot_text_add(out, "</math>");
+    out->failed = out->failed || formula.failed;
+    qdot_text_clear(&formula);
 }
 
 /* A text in which MathML may stand. */

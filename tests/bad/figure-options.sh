@@ -1,6 +1,7 @@
 # Options of figures that cannot be: each says what is wrong and where.
 for text in 'range 3..1' 'from 2 to 2' 'from 0 5' 'log z' 'size 1, 5' 'size 8' 'title x' \
-    'labels "a", "b", "c"' 'keep keep' 'to "a.svg" to "b.svg"' 'rnage 0..1' '| x' 'vs y'; do
+    'labels "a", "b", "c"' 'keep keep' 'to "a.svg" to "b.svg"' 'rnage 0..1' '| x' 'vs y' 'from 0 to 1 log x' \
+    'range -1..1 log y'; do
     qdot -q -e "coord x; plot x^2 vs x = 0..1 $text"
     echo "exit $?"
 done

@@ -35,4 +35,17 @@ else
 fi
 qdot -q scene.lag -e 'save a to "x.svg"' | tail -n 3
 qdot -q scene.lag -e 'table x every 1 to "x.xml"' | tail -n 3
-qdot -q -e 'coord x; particle a mass 1 at x; start x = 1; run 0..1 digits 20; table x every 1 to "x.json"' | tail -n 3
+# Many digits are texts.
+qdot -q -e 'coord x; particle a mass 1 at x; potential x^2/2; start x = 1; run 0..1 digits 30 as a' \
+    -e 'save a to "d.json"; save a to "d.h5"; save a to "d.csv"; table x, x'"'"' every 1/2 to "t.json"; table x every 1 to "t.html"' |
+    grep wrote
+sed -n '3,$p' t.json
+tail -n 1 d.json
+tail -n 1 d.csv
+grep '<td>' t.html
+if command -v h5dump >/dev/null; then
+    h5dump -d x d.h5 | grep -oE 'STRSIZE [0-9]+|"0\.54[0-9]*"'
+    h5dump -d t d.h5 | grep -o 'H5T_IEEE_F64LE'
+else
+    printf 'STRSIZE 33\n"0.540302305868139717400936607443"\nH5T_IEEE_F64LE\n'
+fi

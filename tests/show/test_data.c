@@ -18,7 +18,7 @@ static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
 static const qdot_column columns[3] = {{"t", t}, {"a/b < c", x}, {"t", x}};
 static const qdot_data_fact facts[2] = {{"program", "q & \"p\"", 0}, {"tol", NULL, 0.25}},
                             parameters[1] = {{"m[1]", NULL, 2.5}};
-static const qdot_data data = {"a table", 3, 3, columns, 2, 1, facts, parameters};
+static const qdot_data data = {"a table", 3, 3, columns, NULL, 2, 1, facts, parameters};
 
 static const char path[] = "test_data.out"; /* in the folder of the run */
 

@@ -379,6 +379,27 @@ more_than_four_curves_have_patterns(void **state)
     free(text);
 }
 
+/* Where many curves have short names these stand beside the axes, which end before them. */
+static void
+a_long_key_stands_beside_the_axes(void **state)
+{
+    qdot_curve many[6];
+    qdot_panel figure = two_curves();
+    char *text;
+
+    (void)state;
+    for (int i = 0; i < 6; i++) {
+        many[i] = both[i % 2];
+        many[i].label = (qdot_figure_label){"fourteen signs", false};
+    }
+    figure.curves = many;
+    figure.n = 6;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "set key at graph 1.02, graph 1 left top"));
+    assert_non_null(strstr(text, "set rmargin at screen 0.6"));
+    free(text);
+}
+
 static void
 panels_share_their_abscissa(void **state)
 {
@@ -715,6 +736,7 @@ main(void)
         cmocka_unit_test(values_that_differ_late_have_an_offset),
         cmocka_unit_test(formulas_are_set),
         cmocka_unit_test(more_than_four_curves_have_patterns),
+        cmocka_unit_test(a_long_key_stands_beside_the_axes),
         cmocka_unit_test(panels_share_their_abscissa),
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),

@@ -50,6 +50,26 @@ formula_is_divided(void **state)
             "<p class=\"formula\"><math><mo>\u2212</mo><mi>b</mi></math></p>\n");
 }
 
+/* An index and a power are set at one place, also where the power holds another. */
+static void
+index_and_power_are_one_above_the_other(void **state)
+{
+    (void)state;
+    becomes("  <math><msup><mrow><msub><mi>L</mi><mn>1</mn></msub></mrow><mrow><mn>2</mn></mrow></msup>"
+            "<mo>+</mo><mi>a</mi></math>\n",
+            "<p class=\"formula\"><math><msubsup><mi>L</mi><mn>1</mn><mrow><mn>2</mn></mrow></msubsup>"
+            "</math> <math><mo form=\"infix\">+</mo><mi>a</mi></math></p>\n");
+    becomes("  <math><msup><mrow><msub><mi>a</mi><mn>1</mn></msub></mrow><mrow><msup><mrow><mi>b</mi>"
+            "</mrow><mrow><mn>2</mn></mrow></msup></mrow></msup></math>\n",
+            "<p class=\"formula\"><math><msubsup><mi>a</mi><mn>1</mn><mrow><msup><mrow><mi>b</mi>"
+            "</mrow><mrow><mn>2</mn></mrow></msup></mrow></msubsup></math></p>\n");
+    becomes("  <math><msup><msub><mi>v</mi><mi>a</mi></msub><mn>2</mn></msup></math>\n",
+            "<p class=\"formula\"><math><msubsup><mi>v</mi><mi>a</mi><mn>2</mn></msubsup></math></p>\n");
+    becomes("  <math><msup><mrow><mi>b</mi></mrow><mrow><mn>2</mn></mrow></msup></math>\n",
+            "<p class=\"formula\"><math><msup><mrow><mi>b</mi></mrow><mrow><mn>2</mn></mrow></msup>"
+            "</math></p>\n");
+}
+
 /* MathML that does not end, or ends on another line, is text. */
 static void
 broken_formula_is_text(void **state)
@@ -92,6 +112,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_by_their_kind),
         cmocka_unit_test(formula_is_divided),
+        cmocka_unit_test(index_and_power_are_one_above_the_other),
         cmocka_unit_test(broken_formula_is_text),
         cmocka_unit_test(curve_has_its_ends),
     };

@@ -17,12 +17,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
+
 enum { MOST = 1 << 16, PATIENCE = 20000 /* ms */ };
 
 #define CTRL_C "\x03"
 #define CTRL_D "\x04"
 
 static char folder[] = "qdot-prompt-XXXXXX", home[4200], config[4200];
+static unsigned short columns = 120;
 static int terminal;
 static pid_t child;
 static char seen[MOST];       /* what the program has written since it was started */
@@ -65,7 +68,7 @@ leave(void **state)
 static void
 start(const char *option)
 {
-    struct winsize size = {.ws_row = 40, .ws_col = 120};
+    struct winsize size = {.ws_row = 40, .ws_col = columns};
 
     n_seen = n_read = 0;
     seen[0] = '\0';
@@ -620,6 +623,63 @@ formulas_are_drawn_to_the_width_of_the_terminal(void **state)
     setenv("LC_ALL", "C", 1);
 }
 
+/* --- a narrow terminal ------------------------------------------------------------------ */
+
+/* No line of what was said between two places is wider than the terminal; formulas and sketches. */
+static void
+is_within(size_t begin, size_t end, unsigned short most)
+{
+    for (const char *at = seen + begin; at < seen + end;) {
+        const size_t n = strcspn(at, "\r\n");
+
+        if (qdot_utf8_columns(at, n) > most)
+            fail_msg("wider than %d: %.*s", most, (int)n, at);
+        at += n + strspn(at + n, "\r\n");
+    }
+}
+
+static void
+what_is_shown_fits_a_narrow_terminal(void **state)
+{
+    static const char *const statements[] = {
+        "T", "eom", "accel[a]", "inverse(mass_matrix)", "derive", "plot a", "plot p"};
+    size_t begin;
+
+    (void)state;
+    if (system("gnuplot --version >/dev/null 2>&1") != 0)
+        skip();
+    setenv("LC_ALL", "C.UTF-8", 1);
+    columns = 40;
+    start("-q");
+    columns = 120;
+    ready();
+    type("coord a, b; r = (sin(a), -cos(a))\r");
+    ready();
+    type("particle p mass 1 at r\r");
+    ready();
+    type("s = (sin(b), -cos(b))\r");
+    ready();
+    type("particle q mass 2 at r + s\r");
+    ready();
+    type("gravity (0, -9.81); start a = 2\r");
+    ready();
+    type("run 0..2\r");
+    ready();
+    for (size_t i = 0; i < sizeof statements / sizeof *statements; i++) {
+        type(statements[i]);
+        type("\r");
+        expect(statements[i]);
+        expect("\n");
+        begin = n_read;
+        ready();
+        is_within(begin, n_read, 40);
+    }
+    assert_int_equal(access("qdot-2.svg", R_OK), 0);
+    type(CTRL_D);
+    finish();
+    setenv("LC_ALL", "C", 1);
+}
+
 /* --- README's session ------------------------------------------------------------------- */
 
 /* Numbers become N, since the last digits, the steps and the times depend on the machine, and so does
@@ -750,6 +810,7 @@ main(void)
         cmocka_unit_test(long_work_says_how_far_it_is),
         cmocka_unit_test(interrupted_work_keeps_its_rows),
         cmocka_unit_test(formulas_are_drawn_to_the_width_of_the_terminal),
+        cmocka_unit_test(what_is_shown_fits_a_narrow_terminal),
         cmocka_unit_test(readme_shows_what_is_seen),
     };
 

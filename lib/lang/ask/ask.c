@@ -344,6 +344,18 @@ print_label(qdot_session *session, const char *label, qdot_text *out)
     return status;
 }
 
+/* The statement of the run of that name; whether there is one. */
+static bool
+print_run(const qdot_session *session, const char *name, qdot_text *out)
+{
+    for (size_t i = 0; i < session->runs.n; i++)
+        if (strcmp(session->runs.at[i].name, name) == 0) {
+            qdot_text_format(out, "run %s as %s", session->runs.at[i].text, name);
+            return true;
+        }
+    return false;
+}
+
 qdot_status
 qdot_ask_show(qdot_cursor *c)
 {
@@ -368,6 +380,8 @@ qdot_ask_show(qdot_cursor *c)
             qdot_text_format(&text, "    # %s:%u", known->file, known->line);
     } else if (qdot_scene_has_label(session->scene, name)) {
         status = print_label(session, name, &text);
+    } else if (print_run(session, name, &text)) {
+        status = qdot_text_status(&text);
     } else if (quantity != NULL) {
         qdot_text_format(&text, "%s: %s", quantity->usage, quantity->summary);
     } else if (strcmp(name, "pi") == 0 || strcmp(name, "t") == 0) {

@@ -120,6 +120,14 @@ write_facts(qdot_session *session, qdot_run *run, type type, qdot_data *data, co
     return status;
 }
 
+static const char *
+title_of(const char *path)
+{
+    const char *base = strrchr(path, '/');
+
+    return base == NULL ? path : base + 1;
+}
+
 static qdot_status
 write_text(size_t n, const qdot_column *columns, size_t rows, const char *path,
            qdot_session *session)
@@ -138,8 +146,7 @@ qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n, const qdot_
                      size_t rows, const char *path)
 {
     const type type = type_of(path);
-    const char *base = strrchr(path, '/');
-    qdot_data data = {.title = base == NULL ? path : base + 1,
+    qdot_data data = {.title = title_of(path),
                       .columns = n,
                       .rows = rows,
                       .column = columns};
@@ -149,5 +156,15 @@ qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n, const qdot_
         return write_text(n, columns, rows, path, session);
     QDOT_TRY(type == CSV ? qdot_table_csv(n, columns, rows, path)
                          : write_facts(session, run, type, &data, path));
+    return qdot_answer_file(session, path);
+}
+
+qdot_status
+qdot_data_file_write_texts(qdot_session *session, qdot_run *run, qdot_data *data,
+                           const char *path)
+{
+    QDOT_TRY(qdot_data_file_check(path));
+    data->title = title_of(path);
+    QDOT_TRY(write_facts(session, run, type_of(path), data, path));
     return qdot_answer_file(session, path);
 }

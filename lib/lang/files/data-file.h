@@ -3,7 +3,7 @@
 #define QDOT_LANG_DATA_FILE_H
 
 #include "lang/session/runs.h"
-#include "show/show.h"
+#include "show/data.h"
 
 /* Whether columns can be written to a file of that ending: QDOT_EINVAL names those that can. */
 QDOT_MUST_CHECK qdot_status qdot_data_file_check(const char *path);
@@ -15,5 +15,8 @@ QDOT_MUST_CHECK qdot_status qdot_data_file_check(const char *path);
 QDOT_MUST_CHECK qdot_status qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n,
                                                  const qdot_column *columns, size_t rows,
                                                  const char *path);
+/* The same of columns that are texts where texts[j] [rows] is not NULL; .json, .html, .h5 only. */
+QDOT_MUST_CHECK qdot_status qdot_data_file_write_texts(qdot_session *session, qdot_run *run,
+                                                       qdot_data *data, const char *path);
 
 #endif

@@ -1,12 +1,14 @@
 /* digits-table.c -- rows of many digits. */
 #include "lang/files/digits-table.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/number-text.h"
+#include "lang/files/data-file.h"
 #include "lang/session/bind.h"
 
 /* All cells, row by row, the labels first. */
@@ -99,8 +101,8 @@ add_row(qdot_session *session, cells *t, const qdot_operands *list, qdot_expr ti
         int digits)
 {
     qdot_text text = {0};
-    double x;
-    qdot_status status = qdot_session_number(session, time, &x, NULL);
+    double x = qdot_run_get_report(list->at[0].run)->t1;
+    qdot_status status = time != QDOT_NIL ? qdot_session_number(session, time, &x, NULL) : QDOT_OK;
 
     if (status == QDOT_OK) {
         qdot_number_text(&text, x, 0);
@@ -166,19 +168,45 @@ answer_json(qdot_session *session, const cells *t)
     return QDOT_OK;
 }
 
+/* As columns of texts, the time as numbers. */
 static qdot_status
-tell(qdot_session *session, const cells *t, const char *path)
+write_file(qdot_session *session, qdot_run *run, const cells *t, const char *path)
+{
+    const size_t rows = t->cells.n / t->columns - 1;
+    qdot_column *columns = qdot_calloc(t->columns, sizeof *columns);
+    char **texts = qdot_calloc(t->columns * rows + 1, sizeof *texts);
+    char *const **of = qdot_calloc(t->columns, sizeof *of);
+    double *times = qdot_calloc(rows + 1, sizeof *times);
+    qdot_data data = {.columns = t->columns, .rows = rows, .column = columns, .texts = of};
+    qdot_status status = columns && texts && of && times ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t j = 0; j < t->columns && status == QDOT_OK; j++) {
+        for (size_t i = 0; i < rows; i++)
+            texts[j * rows + i] = t->cells.at[(i + 1) * t->columns + j];
+        columns[j] = (qdot_column){t->cells.at[j], times};
+        of[j] = j > 0 ? texts + j * rows : NULL;
+    }
+    for (size_t i = 0; i < rows && status == QDOT_OK; i++)
+        times[i] = strtod(texts[i], NULL);
+    if (status == QDOT_OK)
+        status = qdot_data_file_write_texts(session, run, &data, path);
+    qdot_free(columns);
+    qdot_free(texts);
+    qdot_free(of);
+    qdot_free(times);
+    return status;
+}
+
+static qdot_status
+tell(qdot_session *session, qdot_run *run, const cells *t, const char *path)
 {
     const char *dot = path != NULL ? strrchr(path, '.') : NULL;
     const bool csv = dot != NULL && strcmp(dot, ".csv") == 0;
     qdot_text text = {0};
     qdot_status status;
 
-    if (path != NULL && !csv && (dot == NULL || strcmp(dot, ".txt") != 0)) {
-        (void)qdot_fail(QDOT_EINVAL, "numbers of a run with `digits` are written as text: .csv or "
-                                     ".txt, not `%.200s`", path);
-        return qdot_hint("as in \"run.csv\"");
-    }
+    if (path != NULL && !csv && (dot == NULL || strcmp(dot, ".txt") != 0))
+        return write_file(session, run, t, path);
     if (path == NULL && session->json)
         return answer_json(session, t);
     (csv ? write_csv : write_text)(t, &text);
@@ -191,27 +219,21 @@ tell(qdot_session *session, const cells *t, const char *path)
 }
 
 qdot_status
-qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_expr from,
-                  qdot_expr step, size_t rows, const char *path)
+qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
+                  const qdot_expr *times, const char *path)
 {
-    qdot_pool *pool = session->pool;
     const int digits = qdot_digits_table_of(list);
     cells t = {0};
     qdot_status status = add_labels(&t, list);
 
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
-        qdot_expr time =
-            qdot_add(pool, from, qdot_mul(pool, qdot_expr_int(pool, (long)k), step));
-
-        status = qdot_pool_check(pool);
+        status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = qdot_interrupt_check();
-        if (status == QDOT_OK)
-            status = add_row(session, &t, list, time, digits);
+            status = add_row(session, &t, list, times[k], digits);
     }
     t.width = qdot_calloc(t.columns + 1, sizeof *t.width);
     if (status == QDOT_OK)
-        status = t.width == NULL ? QDOT_ENOMEM : tell(session, &t, path);
+        status = t.width == NULL ? QDOT_ENOMEM : tell(session, run, &t, path);
     for (size_t i = 0; i < t.cells.n; i++)
         qdot_free(t.cells.at[i]);
     qdot_free(t.cells.at);

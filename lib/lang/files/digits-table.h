@@ -10,11 +10,11 @@
 /* The fewest digits of the operands' runs, where all of them have `digits`; else 0. */
 int qdot_digits_table_of(const qdot_operands *list);
 
-/* A table of `rows` times from + k step, exact: text, rows of JSON (the time a number, the
- * others strings) or, with a path, a file of text or of comma-separated values. */
+/* A table at exact times [rows], nil: the end of the run. Text, rows of JSON (the time a number, the
+ * others strings) or, with a path, a file by its ending (data-file.h); run as there. */
 QDOT_MUST_CHECK qdot_status qdot_digits_table(qdot_session *session,
-                                              const qdot_operands *list,
-                                              qdot_expr from, qdot_expr step, size_t rows,
+                                              const qdot_operands *list, qdot_run *run,
+                                              size_t rows, const qdot_expr *times,
                                               const char *path);
 
 #endif

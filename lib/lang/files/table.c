@@ -204,13 +204,22 @@ static qdot_status
 exact_table(qdot_session *session, const qdot_operands *list, const double *times,
             qdot_expr step, size_t rows, const char *path)
 {
-    qdot_expr from = qdot_measured_rational(session->pool, times[0]);
+    qdot_pool *pool = session->pool;
+    const qdot_expr from = qdot_measured_rational(pool, times[0]);
+    qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
+    qdot_status status = at != NULL ? QDOT_OK : QDOT_ENOMEM;
 
     step = qdot_session_bind(session, qdot_measured_as_rationals(session, step));
     if (rows > 1 && times[1] < times[0])
-        step = qdot_neg(session->pool, step);
-    QDOT_TRY(qdot_pool_check(session->pool));
-    return qdot_digits_table(session, list, from, step, rows, path);
+        step = qdot_neg(pool, step);
+    for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
+        at[k] = qdot_add(pool, from, qdot_mul(pool, qdot_expr_int(pool, (long)k), step));
+        status = qdot_pool_check(pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_digits_table(session, list, only_run(list), rows, at, path);
+    qdot_free(at);
+    return status;
 }
 
 qdot_status
@@ -285,6 +294,24 @@ whole_state(qdot_session *session, qdot_run *run, qdot_operands *list)
     return QDOT_OK;
 }
 
+/* A run with `digits`: its steps, the last the end as the run has it. */
+static qdot_status
+exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
+           const double *times, const char *path)
+{
+    qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
+    qdot_status status = at != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k + 1 < rows && status == QDOT_OK; k++) {
+        at[k] = qdot_measured_rational(session->pool, times[k]);
+        status = qdot_pool_check(session->pool);
+    }
+    if (status == QDOT_OK)
+        status = qdot_digits_table(session, list, run, rows, at, path);
+    qdot_free(at);
+    return status;
+}
+
 qdot_status
 qdot_table_save(qdot_cursor *c)
 {
@@ -314,6 +341,11 @@ qdot_table_save(qdot_cursor *c)
     QDOT_TRY(qdot_runs_find(c->session, name, &named));
     times = qdot_run_times(named->run, &rows);
     status = whole_state(c->session, named->run, &list);
+    if (status == QDOT_OK && qdot_digits_table_of(&list) > 0) {
+        status = exact_save(c->session, &list, named->run, rows, times, path);
+        qdot_operands_free(&list);
+        return status;
+    }
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
     if (status == QDOT_OK)

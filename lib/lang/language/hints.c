@@ -114,6 +114,8 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
     nearest = qdot_hints_nearest(c->session, member != NULL ? member : name);
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
+    if (member == NULL && name[0] == 'd' && name[1] != '\0' && qdot_token_is(token + 1, "^"))
+        return qdot_hint("`coord %s` declares %s and its differential %s", name + 1, name + 1, name);
     return QDOT_ENAME;
 }
 

@@ -1,0 +1,155 @@
+/* taylor-length.c -- the series at a point, and how long a step it allows. */
+#include "ode/taylor.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "ode/taylor-numbers.h"
+#include "ode/taylor-run.h"
+
+typedef qdot_ode_taylor_run run;
+
+/* For a place that a step should not end upon: how far beyond it the step goes, and the noise
+ * from which on it does so in any case. */
+static const double over = 1.3, near_noise = 2e-12, least_worth = 1e-7;
+
+/* The defect is computed in doubles, in which a stiff force has few digits. */
+static const double least_held = 1e-14;
+
+/* log2 of the step in units: that of the radius which the upper half of the coefficients
+ * shows, and what order p leaves of it under tol; kept so short that the rounding of no
+ * term counts. INFINITY where the upper half holds nothing; NaN where it is not finite. */
+static double
+log_step(run *r)
+{
+    qdot_series_reach reach;
+    double l;
+
+    reach = r->kernels->reach(r->n, r->series->x, r->series->stride, &r->weights,
+                              r->scale);
+    if (isinf(reach.upper))
+        return reach.upper > 0 ? INFINITY : NAN;
+    l = reach.upper + r->log_aim * r->weights.inverse[r->p];
+    return qdot_smaller(l, reach.lower);
+}
+
+/* The same from all coefficients: INFINITY if all are 0. */
+static double
+log_step_of_all(run *r)
+{
+    double least = INFINITY;
+
+    r->kernels->peaks(r->n, r->series->x, r->series->stride, r->p, r->scale, r->peaks);
+    for (int k = 1; k <= r->p; k++)
+        if (r->peaks[k] > 0)
+            least = fmin(least, -log2(r->peaks[k]) / k);
+    return least + r->log_aim * r->weights.inverse[r->p];
+}
+
+qdot_status
+qdot_ode_taylor_run_expand(run *r)
+{
+    if (!r->extended) {
+        r->result->stats.evaluations++;
+        QDOT_TRY(r->series->extend(r->p, r->series->user));
+        r->extended = true;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ode_taylor_run_begin(run *r, double t, const double *y)
+{
+    r->extended = false;
+    QDOT_TRY(r->series->begin(t, y, r->unit, r->series->user));
+    r->cut = r->p;
+    r->held = r->options->leading ? qdot_larger(r->tol, least_held) : r->tol;
+    r->log_aim = r->log_wanted;
+    if (r->series->noise) {
+        r->held = qdot_smaller(1, qdot_larger(r->tol, r->series->noise(r->series->user)));
+        if (r->held > r->tol)
+            r->log_aim = fmax(r->log_aim, log2(r->held));
+    }
+    return QDOT_OK;
+}
+
+/* Across such a place the terms of a series first fall and then grow, because their rounding
+ * errors do: it is summed up to its least term, as an asymptotic series, which is about its
+ * error. */
+static void
+cut_series(run *r, double h)
+{
+    const double least = qdot_ode_taylor_least_term(r->series, r->n, r->p,
+                                                    h / fabs(r->unit), r->scale, &r->cut);
+
+    r->held = fmax(r->held, fmin(least_worth, 100 * least));
+}
+
+/* A step that would end just before or upon a place near which the coefficients are inaccurate
+ * goes beyond it, if that is not far and was not rejected before, or stays well before it. */
+static void
+keep_off(run *r, double *h, double most)
+{
+    const qdot_ode_series *series = r->series;
+    const double noise = series->noise ? series->noise(series->user) : 0;
+    double ahead;
+
+    r->place = NAN;
+    if (!(noise > 0) || !series->ahead)
+        return;
+    ahead = series->ahead(series->user);
+    if (!(ahead > 0 && ahead < 4 * *h))
+        return;
+    if ((*h >= .8 * ahead || noise > near_noise) && over * ahead <= most) {
+        *h = qdot_smaller(most, fmax(*h, over * ahead));
+        r->place = r->t + r->direction * ahead;
+        cut_series(r, *h);
+    } else if (*h > 0.5 * ahead) {
+        *h = 0.5 * ahead;
+    }
+}
+
+/* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
+ * the series is brought near the step where it is far from it. */
+static qdot_status
+length_of_step(run *r, double most, double *h)
+{
+    for (int tries = 0;; tries++) {
+        double l, far;
+
+        QDOT_TRY(qdot_ode_taylor_run_expand(r));
+        l = log_step(r);
+        if (isnan(l)) { /* overflow, if the first orders exist */
+            far = -10 - 40 * tries;
+        } else {
+            *h = fabs(r->unit) * qdot_rough_exp2(l);
+            if (r->series->near)
+                *h = fabs(r->unit) *
+                     r->series->near(r->p, *h / fabs(r->unit), r->series->user);
+            keep_off(r, h, most);
+            /* too small for a double: judge by what is; or a polynomial, of any step */
+            far = l < INFINITY ? l : fmax(0, log_step_of_all(r));
+            if (!(fabs(far) > 8) || isinf(far))
+                return QDOT_OK;
+        }
+        if (tries == 8) {
+            if (isnan(l))
+                return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
+            return QDOT_OK;
+        }
+        qdot_ode_taylor_run_set_unit(
+            r, ldexp(r->unit, (int)fmax(-300, fmin(300, floor(far)))));
+        if (fabs(r->unit) < DBL_MIN || !isfinite(r->unit))
+            return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
+        QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
+    }
+}
+
+qdot_status
+qdot_ode_taylor_run_length(run *r, double most, double *h)
+{
+    if (!(r->options->h_fixed > 0))
+        return length_of_step(r, most, h);
+    *h = r->options->h_fixed;
+    return qdot_ode_taylor_run_expand(r);
+}
