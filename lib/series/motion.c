@@ -204,6 +204,38 @@ qdot_motion_end_block(qdot_motion *m)
     return qdot_vec_push(&m->blocks, (uint32_t)m->solved.n);
 }
 
+static void
+add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u, qdot_motion_line *to)
+{
+    if (to->right == QDOT_NO_ROW)
+        return;
+    to->E = to->E == QDOT_NO_ROW ? qdot_program_operation(b, QDOT_OP_MSUB, K, u, to->right)
+                                 : qdot_program_operation(b, QDOT_OP_MADD, K, u, to->E);
+}
+
+/* Numbers last, as there is nothing of them to add before the unknowns are known. */
+void
+qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
+                  qdot_motion_line *lines, size_t first, size_t end)
+{
+    for (size_t i = first; i < end; i++)
+        if (lines[i].right != QDOT_NO_ROW)
+            lines[i].E = QDOT_NO_ROW;
+    for (int number = 0; number < 2; number++)
+        for (size_t k = from; k < m->entries.n; k++) {
+            const qdot_motion_entry *x = m->entries.at + k;
+
+            if (m->program.rows.at[x->at].still != number)
+                continue;
+            add_product(b, x->at, lines[x->j].u, lines + x->i);
+            if (x->i != x->j)
+                add_product(b, x->at, lines[x->i].u, lines + x->j);
+        }
+    for (size_t i = first; i < end; i++)
+        if (lines[i].right != QDOT_NO_ROW && lines[i].E == QDOT_NO_ROW)
+            lines[i].E = qdot_program_operation(b, QDOT_OP_NEG, lines[i].right, 0, 0);
+}
+
 void
 qdot_motion_clear(qdot_motion *m)
 {

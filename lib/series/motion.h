@@ -77,6 +77,16 @@ QDOT_MUST_CHECK qdot_status qdot_motion_solve(qdot_motion *motion, qdot_motion_u
                                               qdot_program_row equation);
 QDOT_MUST_CHECK qdot_status qdot_motion_end_block(qdot_motion *motion);
 
+/* An unknown that is solved for; `right` of its equation, QDOT_NO_ROW: it is not made here; E. */
+typedef struct {
+    qdot_program_row u, right, E;
+} qdot_motion_line;
+
+/* Write E_i = sum_j K_ij u_j - right_i of unknowns `first` to `end` - 1 with the entries from number
+ * `from` on; lines by number of the unknown. */
+void qdot_motion_write(const qdot_motion *motion, qdot_program_builder *b, size_t from,
+                       qdot_motion_line *lines, size_t first, size_t end);
+
 /* Whether all of its equations are explicit; also if there are none. */
 static inline bool
 qdot_motion_is_explicit(const qdot_motion *m)

@@ -11,6 +11,7 @@
 #include "num/kinds.h"
 #include "series/lanes.h"
 #include "series/precise.h"
+#include "series/taylor-motion.h"
 #include "series/two.h"
 
 enum { THETA, OMEGA, INPUTS, ORDERS = 10 };
@@ -294,6 +295,156 @@ forms_and_executors_agree(void **state)
     qdot_pool_free(pool);
 }
 
+/* --- equations of which only the first are explicit ---------------------------------- */
+
+enum { X, Y, VX, VY, PLACES };
+
+/* A pendulum in Cartesian coordinates: x'' + A_x mu = 0, y'' + A_y mu = -1, (x^2 + y^2)'' = 0, where
+ * A_x is written as the negative of another row. */
+static void
+by_constraint(qdot_motion *m)
+{
+    qdot_program_row one, zero, right[2], A[2], u[3], f, E;
+    qdot_program_builder *b;
+
+    *m = (qdot_motion){0};
+    assert_int_equal(qdot_program_begin(PLACES, PLACES, false, &m->program, &b), QDOT_OK);
+    one = qdot_program_number(b, (qdot_program_constant){1, 0, 0, QDOT_ONE});
+    zero = qdot_program_number(b, (qdot_program_constant){0, 0, 0, QDOT_ZERO});
+    right[0] = zero;
+    right[1] = qdot_program_operation(b, QDOT_OP_NEG, one, 0, 0);
+    A[1] = qdot_program_operation(b, QDOT_OP_ADD, Y, Y, 0);
+    A[0] = qdot_program_operation(b, QDOT_OP_ADD, X, X, 0);
+    A[0] = qdot_program_operation(b, QDOT_OP_NEG, A[0], 0, 0);
+    A[0] = qdot_program_operation(b, QDOT_OP_NEG, A[0], 0, 0);
+    f = qdot_program_operation(b, QDOT_OP_MUL, Y, Y, 0);
+    f = qdot_program_operation(b, QDOT_OP_MADD, X, X, f);
+    for (int i = 0; i < 3; i++)
+        u[i] = qdot_program_unknown(b);
+    f = qdot_program_rate(b, qdot_program_rate(b, f));
+    for (uint32_t i = 0; i < 2; i++) {
+        const qdot_motion_unknown a = {.row = u[i], .once = VX + i, .twice = X + i};
+
+        E = qdot_program_operation(b, QDOT_OP_MSUB, A[i], u[2], right[i]);
+        E = qdot_program_operation(b, QDOT_OP_ADD, E, u[i], 0);
+        assert_int_equal(qdot_vec_push(&m->entries, ((qdot_motion_entry){i, i, one})), QDOT_OK);
+        assert_int_equal(qdot_vec_push(&m->right, right[i]), QDOT_OK);
+        assert_int_equal(qdot_motion_solve(m, a, E), QDOT_OK);
+        m->written += 2;
+    }
+    for (uint32_t i = 0; i < 2; i++)
+        assert_int_equal(qdot_vec_push(&m->entries, ((qdot_motion_entry){2, i, A[i]})), QDOT_OK);
+    assert_int_equal(
+        qdot_motion_solve(
+            m, (qdot_motion_unknown){.row = u[2], .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW}, f),
+        QDOT_OK);
+    assert_int_equal(qdot_motion_end_block(m), QDOT_OK);
+    finish(m, b);
+}
+
+/* x: what is missing, then what is to be added. */
+static void
+solve_for_rod(const double A[2], double x[3])
+{
+    const double mu = (A[0] * x[0] + A[1] * x[1] - x[2]) / (A[0] * A[0] + A[1] * A[1]);
+
+    x[0] -= A[0] * mu;
+    x[1] -= A[1] * mu;
+    x[2] = mu;
+}
+
+static const double start[PLACES] = {0.6, -0.8, 0.4, 0.3};
+
+/* All steps, and what E are then. */
+static void
+constraint_in_lanes(const qdot_motion *m, double unit, double x[2][ORDERS + 1])
+{
+    const double A[2] = {2 * start[X], 2 * start[Y]};
+    double units[QDOT_LANES], by[3 * QDOT_LANES];
+    qdot_lanes *t;
+
+    assert_int_equal(qdot_lanes_of_motion(m, false, ORDERS - 1, &t), QDOT_OK);
+    for (size_t l = 0; l < QDOT_LANES; l++) {
+        units[l] = unit;
+        for (size_t i = 0; i < PLACES; i++)
+            qdot_lanes_input(t, i)[l] = start[i];
+        for (size_t i = 0; i < 2; i++)
+            qdot_lanes_input(t, i)[QDOT_LANES + l] = unit * start[VX + i];
+    }
+    qdot_lanes_set_unit(t, units);
+    for (int k = qdot_motion_first(m); k < ORDERS - 1; k++) {
+        qdot_lanes_stage(t, k);
+        for (size_t l = 0; l < QDOT_LANES && k >= 0; l++) {
+            double d[3];
+
+            for (size_t i = 0; i < 3; i++)
+                d[i] = -qdot_lanes_series(t, m->equations.at[i])[(size_t)k * QDOT_LANES + l];
+            solve_for_rod(A, d);
+            for (size_t i = 0; i < 3; i++)
+                by[i * QDOT_LANES + l] = d[i];
+        }
+        if (k >= 0)
+            qdot_lanes_change(t, k, by);
+    }
+    for (size_t i = 0; i < 2; i++)
+        for (size_t k = 0; k <= ORDERS; k++)
+            x[i][k] = qdot_lanes_input(t, i)[k * QDOT_LANES];
+    qdot_lanes_free(t);
+}
+
+/* Into the rows of t. */
+static void
+constraint_in_doubles(qdot_taylor *t, const qdot_motion *m, double unit, const double *from)
+{
+    double A[2], by[3], sign;
+
+    for (size_t i = 0; i < PLACES; i++)
+        qdot_taylor_input(t, i)[0] = from[i];
+    for (size_t i = 0; i < 2; i++)
+        qdot_taylor_input(t, i)[1] = unit * from[VX + i];
+    for (int k = qdot_motion_first(m); k < ORDERS - 1; k++) {
+        qdot_taylor_stage(t, k);
+        if (k < 0)
+            continue;
+        for (size_t i = 0; i < 2 && k == 0; i++) {
+            A[i] = qdot_taylor_entry(t, m->entries.at[2 + i].at, &sign)[0] * sign;
+            assert_true(A[i] == 2 * from[i]);
+            assert_true(sign == (i == 0 ? -1 : 1));
+        }
+        qdot_taylor_missing(t, k, by);
+        solve_for_rod(A, by);
+        qdot_taylor_change(t, k, by);
+    }
+}
+
+/* Doubles of one system leave out steps that are only rates of an equation, that write explicit ones or
+ * that negate an entry of K; the motion is the same. */
+static void
+explicit_equations_beside_others(void **state)
+{
+    const double unit = 0.5;
+    qdot_motion m;
+    qdot_taylor *t;
+    double lanes[2][ORDERS + 1];
+
+    (void)state;
+    by_constraint(&m);
+    assert_false(qdot_motion_is_explicit(&m));
+    constraint_in_lanes(&m, unit, lanes);
+    assert_int_equal(qdot_taylor_of_motion(&m, false, ORDERS, 0, &t), QDOT_OK);
+    assert_int_equal(qdot_taylor_length(t), 6); /* 2x, -2x, 2y, x^2, y^2, their sum */
+    qdot_taylor_set_unit(t, unit);
+    constraint_in_doubles(t, &m, unit, (const double[]){0.8, 0.6, -0.3, 0.4});
+    constraint_in_doubles(t, &m, unit, start); /* nothing is left of that */
+    for (size_t i = 0; i < 2; i++)
+        for (size_t k = 0; k <= ORDERS; k++)
+            if (!(fabs(qdot_taylor_input(t, i)[k] - lanes[i][k]) <= 1e-15))
+                fail_msg("coordinate %zu, order %zu: %.17g for %.17g", i, k,
+                         qdot_taylor_input(t, i)[k], lanes[i][k]);
+    qdot_taylor_free(t);
+    qdot_motion_clear(&m);
+}
+
 int
 main(void)
 {
@@ -301,6 +452,7 @@ main(void)
         cmocka_unit_test(places_lead),
         cmocka_unit_test(what_is_not_known_yet_is_refused),
         cmocka_unit_test(forms_and_executors_agree),
+        cmocka_unit_test(explicit_equations_beside_others),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

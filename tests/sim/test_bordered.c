@@ -4,7 +4,7 @@
 
 #include "expr/calculus.h"
 #include "sim/course/bind.h"
-#include "sim/form/bordered.h"
+#include "sim/form/guarded.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/derived.h"
 #include "sim/model/power-quotient.h"
@@ -124,7 +124,7 @@ angles(fixture *f)
 typedef struct {
     qdot_plan *plan;
     qdot_motion_series *whole;
-    qdot_bordered *bordered;
+    qdot_guarded *bordered;
     const qdot_ode_series *series[2]; /* by code; of the kernels */
 } both;
 
@@ -136,8 +136,8 @@ both_begin(both *b, fixture *f)
         must(qdot_plan_make_motion(b->plan));
     must(qdot_motion_series_of_constraints(b->plan, false, &b->whole));
     b->series[1] = qdot_motion_series_get(b->whole);
-    must(qdot_bordered_new(b->plan, false, b->series[1], &b->bordered));
-    b->series[0] = qdot_bordered_series(b->bordered);
+    must(qdot_guarded_new(b->plan, b->plan, false, b->series[1], &b->bordered));
+    b->series[0] = qdot_guarded_series(b->bordered);
     must(b->series[0]->prepare(order, b->series[0]->user));
 }
 
@@ -159,7 +159,7 @@ write_code(const both *b)
 static void
 both_end(both *b)
 {
-    qdot_bordered_free(b->bordered);
+    qdot_guarded_free(b->bordered);
     qdot_motion_series_free(b->whole);
     qdot_plan_free(b->plan);
 }
@@ -245,7 +245,7 @@ dependent_rows_are_left_to_the_other(void **state)
     both_begin(&b, &f);
     expand(b.series[0], 0, (const double[]){0.6, -0.8, 1.2, -1.6, 0.8, 0.6, 0.1, 1.125});
     must(write_code(&b));
-    assert_int_equal(qdot_bordered_code(b.bordered, &why), 0);
+    assert_int_equal(qdot_guarded_code(b.bordered, &why), 0);
     both_end(&b);
     end(&f);
 }

@@ -6,9 +6,8 @@
 
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
-#include "sim/form/bordered.h"
 #include "sim/form/motion-series.h"
-#include "sim/form/eliminated.h"
+#include "sim/form/guarded.h"
 #include "sim/form/leading.h"
 #include "sim/form/residual.h"
 #include "sim/form/tree-series.h"
@@ -25,8 +24,7 @@ struct qdot_bind {
     qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
     qdot_tree_series *tree;
     qdot_motion_series *tied;            /* or, of a plan with constraints: */
-    qdot_eliminated *eliminated;   /* NULL, or takes it in turns with `tied` */
-    qdot_bordered *bordered;       /* likewise */
+    qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
@@ -72,8 +70,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_motion_series_free(b->direct);
     qdot_tree_series_free(b->tree);
     qdot_tree_series_free(b->elsewhere);
-    qdot_eliminated_free(b->eliminated);
-    qdot_bordered_free(b->bordered);
+    qdot_guarded_free(b->guarded);
     qdot_leading_free(b->leading);
     qdot_motion_series_free(b->tied);
     qdot_tape_free(b->tape);
@@ -364,10 +361,9 @@ void
 qdot_bind_tell_code(const qdot_bind *b, qdot_text *to)
 {
     const char *why = "machine code is made where equations are taken as M q'' = f";
-    const size_t bytes = b->direct       ? qdot_motion_series_code(b->direct, &why)
-                         : b->bordered   ? qdot_bordered_code(b->bordered, &why)
-                         : b->eliminated ? qdot_eliminated_code(b->eliminated, &why)
-                                         : 0;
+    const size_t bytes = b->direct    ? qdot_motion_series_code(b->direct, &why)
+                         : b->guarded ? qdot_guarded_code(b->guarded, &why)
+                                      : 0;
 
     if (b->tree)
         qdot_text_add(to, "kernels, like steps as vectors");
@@ -398,19 +394,17 @@ qdot_bind_factored(const qdot_bind *b)
 static qdot_status
 make_held(qdot_bind *b, bool shaken)
 {
-    QDOT_TRY(qdot_constrained_new(b->plan, shaken, &b->held));
-    if (!b->plan->smooth)
+    const qdot_plan *p = b->plan;
+
+    QDOT_TRY(qdot_constrained_new(p, shaken, &b->held));
+    if (!p->smooth)
         return QDOT_OK;
-    QDOT_TRY(qdot_motion_series_of_constraints(b->plan, shaken, &b->tied));
+    QDOT_TRY(qdot_motion_series_of_constraints(p, shaken, &b->tied));
     b->series = qdot_motion_series_get(b->tied);
-    if (b->plan->form == QDOT_FORM_ELIMINATED) {
-        QDOT_TRY(qdot_eliminated_new(b->plan, shaken, b->series, &b->eliminated));
-        b->series = qdot_eliminated_series(b->eliminated);
-    }
-    if (b->plan->form == QDOT_FORM_BORDERED) {
-        QDOT_TRY(qdot_bordered_new(b->plan, shaken, b->series, &b->bordered));
-        b->series = qdot_bordered_series(b->bordered);
-    }
+    if (p->form != QDOT_FORM_ELIMINATED && p->form != QDOT_FORM_BORDERED)
+        return QDOT_OK;
+    QDOT_TRY(qdot_guarded_new(p, p->eliminated ? p->eliminated : p, shaken, b->series, &b->guarded));
+    b->series = qdot_guarded_series(b->guarded);
     return QDOT_OK;
 }
 

@@ -1,64 +1,12 @@
-/* bordered.c -- the bordered equations, and their series beside another one. */
+/* bordered.c -- the bordered equations. */
 #include "sim/form/bordered.h"
 
 #include "base/memory.h"
 #include "num/bordered.h"
 #include "series/taylor.h"
-#include "sim/form/derived.h"
 #include "sim/form/eliminated.h"
-#include "sim/form/guarded.h"
-#include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 #include "sim/model/power-quotient.h"
-
-struct qdot_bordered {
-    qdot_motion_series *own;
-    qdot_guarded guarded; /* that, where it fits */
-};
-
-qdot_status
-qdot_bordered_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
-                  qdot_bordered **bordered)
-{
-    qdot_bordered *e = qdot_calloc(1, sizeof *e);
-    qdot_status status;
-
-    *bordered = NULL;
-    if (!e)
-        return QDOT_ENOMEM;
-    status = qdot_motion_series_new(plan, shaken, &e->own);
-    if (status != QDOT_OK) {
-        qdot_bordered_free(e);
-        return status;
-    }
-    qdot_guarded_init(&e->guarded, qdot_motion_series_get(e->own), other, true);
-    e->guarded.series.cost = plan->expansions;
-    *bordered = e;
-    return QDOT_OK;
-}
-
-void
-qdot_bordered_free(qdot_bordered *e)
-{
-    if (!e)
-        return;
-    qdot_motion_series_free(e->own);
-    qdot_free(e);
-}
-
-const qdot_ode_series *
-qdot_bordered_series(const qdot_bordered *e)
-{
-    return &e->guarded.series;
-}
-
-size_t
-qdot_bordered_code(const qdot_bordered *e, const char **why)
-{
-    return qdot_motion_series_code(e->own, why);
-}
-
-/* --- its equations ------------------------------------------------------------------- */
 
 /* f, M, A, gamma of a plan; NULL: no memory. */
 static qdot_expr *

@@ -19,27 +19,12 @@
 #ifndef QDOT_SIM_BORDERED_H
 #define QDOT_SIM_BORDERED_H
 
-#include "ode/system.h"
 #include "sim/model/equations.h"
-
-typedef struct qdot_bordered qdot_bordered;
 
 /* The equations of this form, of a plan with constraints, complete but for what sim/plan decides: a
  * tape for plan->bordered, of which plan->motion is to be made; NULL where the form is not for the
  * plan, the tolerance or the processor. Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_bordered_make(const qdot_plan *plan, double tol,
                                                qdot_tape **tape);
-
-/* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
-QDOT_MUST_CHECK qdot_status qdot_bordered_new(const qdot_plan *plan, bool shaken,
-                                              const qdot_ode_series *other,
-                                              qdot_bordered **bordered);
-void qdot_bordered_free(qdot_bordered *bordered);
-
-/* Its callbacks; borrowed. */
-const qdot_ode_series *qdot_bordered_series(const qdot_bordered *bordered);
-
-/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
-size_t qdot_bordered_code(const qdot_bordered *bordered, const char **why);
 
 #endif

@@ -1,23 +1,17 @@
 /* eliminated.c -- L D L^T of A M^-1 A^T as expressions, and the series of what they leave. */
 #include "sim/form/eliminated.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "sim/form/derived.h"
-#include "sim/form/motion-series.h"
-#include "sim/form/guarded.h"
 #include "sim/model/constrained.h"
 #include "sim/model/constraints.h"
 #include "sim/model/quotient.h"
 
 /* Beyond it an elimination in symbols takes more than one in numbers. */
 enum { most_rows = 3 };
-
-/* Squared sine below which the rows are not left to an elimination without pivots. */
-static const double least_sine = 0.1;
 
 /* --- the expressions ---------------------------------------------------------------- */
 
@@ -221,73 +215,4 @@ qdot_eliminated_make(const qdot_plan *p, double tol, qdot_plan **eliminated)
         *eliminated = NULL;
     }
     return status;
-}
-
-/* --- the series --------------------------------------------------------------------- */
-
-struct qdot_eliminated {
-    size_t n, m;
-    qdot_motion_series *direct;
-    qdot_guarded guarded;
-};
-
-static bool
-independent(const void *user)
-{
-    const qdot_eliminated *e = user;
-
-    for (size_t k = 0; k < e->m; k++) {
-        const double d = qdot_motion_series_output(e->direct, e->n + k)[0];
-        const double S = qdot_motion_series_output(e->direct, e->n + e->m + k)[0];
-
-        if (!(d > least_sine * S))
-            return false;
-    }
-    return true;
-}
-
-qdot_status
-qdot_eliminated_new(const qdot_plan *plan, bool shaken, const qdot_ode_series *other,
-                    qdot_eliminated **eliminated)
-{
-    qdot_eliminated *e = qdot_calloc(1, sizeof *e);
-    qdot_status status;
-
-    *eliminated = NULL;
-    if (!e)
-        return QDOT_ENOMEM;
-    e->n = plan->n;
-    e->m = plan->constraints->m;
-    status = qdot_motion_series_new(plan->eliminated, shaken, &e->direct);
-    if (status != QDOT_OK) {
-        qdot_eliminated_free(e);
-        return status;
-    }
-    qdot_guarded_init(&e->guarded, qdot_motion_series_get(e->direct), other, false);
-    e->guarded.fits = independent;
-    e->guarded.form = e;
-    e->guarded.series.cost = plan->expansions;
-    *eliminated = e;
-    return QDOT_OK;
-}
-
-void
-qdot_eliminated_free(qdot_eliminated *e)
-{
-    if (!e)
-        return;
-    qdot_motion_series_free(e->direct);
-    qdot_free(e);
-}
-
-size_t
-qdot_eliminated_code(const qdot_eliminated *e, const char **why)
-{
-    return qdot_motion_series_code(e->direct, why);
-}
-
-const qdot_ode_series *
-qdot_eliminated_series(const qdot_eliminated *e)
-{
-    return &e->guarded.series;
 }

@@ -22,29 +22,14 @@
 #ifndef QDOT_SIM_ELIMINATED_H
 #define QDOT_SIM_ELIMINATED_H
 
-#include "ode/system.h"
 #include "sim/model/equations.h"
 
 #define QDOT_ELIMINATED_TOL 1e-9
-
-typedef struct qdot_eliminated qdot_eliminated;
 
 /* The equations of this form, of a plan with constraints, complete but for what sim/plan decides:
  * a plan of its own for plan->eliminated, without its motion; NULL where the form is not for the
  * plan or the tolerance. Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_eliminated_make(const qdot_plan *plan, double tol,
                                                  qdot_plan **eliminated);
-
-/* Of such a plan and its other series, both borrowed. `shaken` as for qdot_bind_new. */
-QDOT_MUST_CHECK qdot_status qdot_eliminated_new(const qdot_plan *plan, bool shaken,
-                                                const qdot_ode_series *other,
-                                                qdot_eliminated **eliminated);
-void qdot_eliminated_free(qdot_eliminated *eliminated);
-
-/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
-size_t qdot_eliminated_code(const qdot_eliminated *eliminated, const char **why);
-
-/* Its callbacks; borrowed. */
-const qdot_ode_series *qdot_eliminated_series(const qdot_eliminated *eliminated);
 
 #endif

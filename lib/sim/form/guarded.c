@@ -1,6 +1,37 @@
 /* guarded.c -- callbacks that go to one of two series. */
 #include "sim/form/guarded.h"
 
+#include "base/memory.h"
+#include "sim/form/motion-series.h"
+#include "sim/model/constraints.h"
+
+/* Squared sine below which the rows are not left to an elimination without pivots. */
+static const double least_sine = 0.1;
+
+struct qdot_guarded {
+    qdot_motion_series *fast;
+    const qdot_ode_series *own, *other, *now; /* `own` of `fast`; `now`: the one begun last */
+    size_t n, m;
+    bool as_code; /* `own` is worth its time as machine code only: */
+    int p;        /* before there is some, of order p, the other is taken */
+    bool looked;  /* at the first state, by `own` */
+    qdot_ode_series series;
+};
+
+/* Of eliminated multipliers, whose pivots and then diagonal entries are the last outputs. */
+static bool
+is_independent(const qdot_guarded *g)
+{
+    for (size_t k = 0; k < g->m; k++) {
+        const double pivot = qdot_motion_series_output(g->fast, g->n + k)[0];
+        const double diagonal = qdot_motion_series_output(g->fast, g->n + g->m + k)[0];
+
+        if (!(pivot > least_sine * diagonal))
+            return false;
+    }
+    return true;
+}
+
 static qdot_status
 prepare(int p, void *user)
 {
@@ -26,7 +57,7 @@ begin(double t, const double *y, double unit, void *user)
     if (status != QDOT_OK && status != QDOT_EDOMAIN)
         return status;
     g->looked = true;
-    g->now = ready && status == QDOT_OK && (!g->fits || g->fits(g->form)) ? g->own : g->other;
+    g->now = ready && status == QDOT_OK && (g->as_code || is_independent(g)) ? g->own : g->other;
     g->series.x = g->now->x;
     g->series.stride = g->now->stride;
     return g->now == g->own ? QDOT_OK : g->other->begin(t, y, unit, g->other->user);
@@ -64,15 +95,16 @@ near(int p, double s, void *user)
     return g->now->near ? g->now->near(p, s, g->now->user) : s;
 }
 
-void
-qdot_guarded_init(qdot_guarded *g, const qdot_ode_series *own, const qdot_ode_series *other,
-                  bool as_code)
+static void
+make(qdot_guarded *g, const qdot_ode_cost *cost)
 {
-    *g = (qdot_guarded){.own = own, .other = other, .now = own, .as_code = as_code};
+    const qdot_ode_series *own = g->own, *other = g->other;
+
     g->series = (qdot_ode_series){.most = own->most < other->most ? own->most : other->most,
                                   .x = own->x,
                                   .stride = own->stride,
                                   .checked = own->checked,
+                                  .cost = *cost,
                                   .prepare = prepare,
                                   .code = own->code,
                                   .begin = begin,
@@ -81,4 +113,50 @@ qdot_guarded_init(qdot_guarded *g, const qdot_ode_series *own, const qdot_ode_se
                                   .ahead = other->ahead ? ahead : NULL,
                                   .near = own->near || other->near ? near : NULL,
                                   .user = g};
+}
+
+qdot_status
+qdot_guarded_new(const qdot_plan *plan, const qdot_plan *fast, bool shaken,
+                 const qdot_ode_series *other, qdot_guarded **guarded)
+{
+    qdot_guarded *g = qdot_calloc(1, sizeof *g);
+    qdot_status status;
+
+    *guarded = NULL;
+    if (!g)
+        return QDOT_ENOMEM;
+    status = qdot_motion_series_new(fast, shaken, &g->fast);
+    if (status != QDOT_OK) {
+        qdot_guarded_free(g);
+        return status;
+    }
+    g->own = g->now = qdot_motion_series_get(g->fast);
+    g->other = other;
+    g->as_code = fast == plan;
+    g->n = plan->n;
+    g->m = plan->constraints->m;
+    make(g, &plan->expansions);
+    *guarded = g;
+    return QDOT_OK;
+}
+
+void
+qdot_guarded_free(qdot_guarded *g)
+{
+    if (!g)
+        return;
+    qdot_motion_series_free(g->fast);
+    qdot_free(g);
+}
+
+const qdot_ode_series *
+qdot_guarded_series(const qdot_guarded *g)
+{
+    return &g->series;
+}
+
+size_t
+qdot_guarded_code(const qdot_guarded *g, const char **why)
+{
+    return qdot_motion_series_code(g->fast, why);
 }

@@ -1,8 +1,8 @@
 /* guarded.h -- a fast series where its equations are well conditioned, another one elsewhere.
  *
  * Under constraints the fast forms (bordered.h, eliminated.h) solve without pivots or corrections.
- * Their `begin` fails with QDOT_EDOMAIN at a state that is not for them: the other series is begun
- * there instead.
+ * At a state that is not for them the other series is begun instead: of the bordered one where its
+ * `begin` fails with QDOT_EDOMAIN, of the eliminated one where a pivot is small beside the diagonal.
  *
  * Tests  tests/sim/test_bordered.c, tests/sim/test_constraints.c
  */
@@ -10,19 +10,22 @@
 #define QDOT_SIM_GUARDED_H
 
 #include "ode/system.h"
+#include "sim/model/equations.h"
 
-typedef struct {
-    const qdot_ode_series *own, *other, *now; /* `now`: the one begun last */
-    bool as_code; /* `own` is worth its time as machine code only: */
-    int p;        /* before there is some, of order p, the other is taken */
-    bool looked;  /* at the first state, by `own` */
-    bool (*fits)(const void *form); /* whether what `own` began will do; NULL: it does */
-    const void *form;               /* borrowed */
-    qdot_ode_series series;
-} qdot_guarded;
+typedef struct qdot_guarded qdot_guarded;
 
-/* Both borrowed. Costs and `fits` are the caller's to fill in. */
-void qdot_guarded_init(qdot_guarded *guarded, const qdot_ode_series *own,
-                       const qdot_ode_series *other, bool as_code);
+/* Of a plan with constraints: `fast` is plan->eliminated, or the plan itself, which is bordered; and the
+ * series of its constraints; all borrowed. `shaken` as for qdot_bind_new. Errors: those of
+ * qdot_motion_series_new. */
+QDOT_MUST_CHECK qdot_status qdot_guarded_new(const qdot_plan *plan, const qdot_plan *fast,
+                                             bool shaken, const qdot_ode_series *other,
+                                             qdot_guarded **guarded);
+void qdot_guarded_free(qdot_guarded *guarded);
+
+/* Its callbacks; borrowed. */
+const qdot_ode_series *qdot_guarded_series(const qdot_guarded *guarded);
+
+/* How long the code is, in bytes; 0: there is none, *why says for what reason. */
+size_t qdot_guarded_code(const qdot_guarded *guarded, const char **why);
 
 #endif

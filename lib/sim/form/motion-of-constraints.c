@@ -12,8 +12,7 @@ typedef struct {
     qdot_program_builder *program;
     qdot_program_row *inputs;          /* [2n + 1] */
     qdot_program_row *f, *M, *A, *row; /* outputs of the tape: [n], [n_masses], [n_slopes], [m] */
-    qdot_program_row *unknown;         /* [n + m] a, mu */
-    qdot_program_row *E;               /* [n + m] QDOT_NO_ROW: nothing is there yet */
+    qdot_motion_line *lines;           /* [n + m] a, mu */
 } builder;
 
 static qdot_program_row
@@ -21,15 +20,6 @@ operation(const builder *b, qdot_op op, qdot_program_row x, qdot_program_row y,
           qdot_program_row z)
 {
     return qdot_program_operation(b->program, op, x, y, z);
-}
-
-/* E_i takes on K_ij u_j, at first with what stands on the right of it. */
-static void
-add_product(const builder *b, size_t i, size_t j, qdot_program_row K, qdot_program_row right)
-{
-    b->E[i] = b->E[i] == QDOT_NO_ROW
-                  ? operation(b, QDOT_OP_MSUB, K, b->unknown[j], right)
-                  : operation(b, QDOT_OP_MADD, K, b->unknown[j], b->E[i]);
 }
 
 /* sum + factor x */
@@ -45,14 +35,10 @@ static void
 add_constraint(const builder *b, size_t k)
 {
     const double r = b->plan->treatment == QDOT_RUN_BAUMGARTE ? QDOT_CONSTRAINED_RATE : 0;
-    qdot_program_row *E = b->E + b->plan->n + k;
+    qdot_program_row *E = &b->lines[b->plan->n + k].E;
 
     if (b->c->rows[k].kind == QDOT_ACCELERATION) {
-        for (size_t s = 0; s < b->c->n_slopes; s++)
-            if (b->c->slopes[s].row == k)
-                add_product(b, b->plan->n + k, b->c->slopes[s].column, b->A[s], b->row[k]);
-        if (*E == QDOT_NO_ROW)
-            *E = operation(b, QDOT_OP_NEG, b->row[k], 0, 0);
+        b->lines[b->plan->n + k].right = b->row[k];
         return;
     }
     *E = qdot_program_rate(b->program, b->row[k]);
@@ -74,30 +60,6 @@ couple(const builder *b, size_t i, size_t j, qdot_program_row K)
                          ((qdot_motion_entry){(uint32_t)i, (uint32_t)j, K}));
 }
 
-/* The explicit equations, numbers last: there is nothing of them to add before the unknowns are
- * known. */
-static void
-add_coordinates(const builder *b)
-{
-    const qdot_motion *m = b->motion;
-    const size_t n = b->plan->n;
-
-    for (int number = 0; number < 2; number++)
-        for (size_t k = 0; k < m->entries.n; k++) {
-            const qdot_motion_entry *x = m->entries.at + k;
-
-            if (m->program.rows.at[x->at].still != number)
-                continue;
-            if (x->i < n)
-                add_product(b, x->i, x->j, x->at, b->f[x->i]);
-            if (x->i != x->j)
-                add_product(b, x->j, x->i, x->at, b->f[x->j]);
-        }
-    for (size_t i = 0; i < n; i++)
-        if (b->E[i] == QDOT_NO_ROW)
-            b->E[i] = operation(b, QDOT_OP_NEG, b->f[i], 0, 0);
-}
-
 static qdot_status
 add_equations(builder *b)
 {
@@ -105,10 +67,9 @@ add_equations(builder *b)
     const size_t n = b->plan->n;
     size_t steps;
 
-    for (size_t i = 0; i < n + c->m; i++) {
-        b->unknown[i] = qdot_program_unknown(b->program);
-        b->E[i] = QDOT_NO_ROW;
-    }
+    for (size_t i = 0; i < n + c->m; i++)
+        b->lines[i] =
+            (qdot_motion_line){qdot_program_unknown(b->program), QDOT_NO_ROW, QDOT_NO_ROW};
     for (size_t k = 0; k < c->n_masses; k++)
         QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, b->M[k]));
     for (size_t k = 0; k < c->n_slopes; k++) {
@@ -118,8 +79,11 @@ add_equations(builder *b)
     }
     for (size_t k = 0; k < c->m; k++)
         add_constraint(b, k);
+    qdot_motion_write(b->motion, b->program, 0, b->lines, n, n + c->m);
+    for (size_t i = 0; i < n + c->m; i++)
+        b->lines[i].right = i < n ? b->f[i] : QDOT_NO_ROW;
     steps = b->motion->program.steps.n;
-    add_coordinates(b);
+    qdot_motion_write(b->motion, b->program, 0, b->lines, 0, n);
     b->motion->written = b->motion->program.steps.n - steps;
     return QDOT_OK;
 }
@@ -131,14 +95,14 @@ add_unknowns(const builder *b)
 
     for (size_t i = 0; i < n + b->c->m; i++) {
         qdot_motion_unknown u = {
-            .row = b->unknown[i], .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
+            .row = b->lines[i].u, .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
 
         if (i < n) {
             u.once = (qdot_program_row)(n + i);
             u.twice = (qdot_program_row)i;
             QDOT_TRY(qdot_vec_push(&b->motion->right, b->f[i]));
         }
-        QDOT_TRY(qdot_motion_solve(b->motion, u, b->E[i]));
+        QDOT_TRY(qdot_motion_solve(b->motion, u, b->lines[i].E));
     }
     return qdot_motion_end_block(b->motion);
 }
@@ -149,15 +113,14 @@ build(builder *b)
     const size_t n = b->plan->n, m = b->c->m, inputs = 2 * n + 1;
     const size_t outputs = n + b->c->n_masses + b->c->n_slopes + m;
 
-    b->inputs = qdot_calloc(inputs + outputs + 2 * (n + m), sizeof *b->inputs);
-    if (!b->inputs)
+    b->inputs = qdot_calloc(inputs + outputs, sizeof *b->inputs);
+    b->lines = qdot_calloc(n + m, sizeof *b->lines);
+    if (!b->inputs || !b->lines)
         return QDOT_ENOMEM;
     b->f = b->inputs + inputs;
     b->M = b->f + n;
     b->A = b->M + b->c->n_masses;
     b->row = b->A + b->c->n_slopes;
-    b->unknown = b->row + m;
-    b->E = b->unknown + n + m;
     for (size_t i = 0; i < inputs; i++)
         b->inputs[i] = (qdot_program_row)i;
     qdot_program_append(b->program, b->c->series, b->inputs, b->f);
@@ -177,5 +140,6 @@ qdot_motion_of_constraints(qdot_plan *plan)
     QDOT_TRY(qdot_program_begin(inputs, inputs, false, &motion->program, &b.program));
     status = qdot_motion_complete(motion, b.program, build(&b));
     qdot_free(b.inputs);
+    qdot_free(b.lines);
     return status;
 }

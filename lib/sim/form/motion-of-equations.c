@@ -13,46 +13,14 @@ typedef struct {
     qdot_motion *motion;
     qdot_program_builder *program;
     qdot_program_row *outputs; /* of the plan's tape */
-    qdot_program_row *unknown; /* [n + m] */
-    qdot_program_row *right;   /* [n + m] f, gamma */
-    qdot_program_row *E;       /* [n + m] what there is of the equation; QDOT_NO_ROW: nothing */
-    uint32_t *place;           /* [n + m] which of the motion's it is, */
-    size_t *unknown_at;        /* [n + m] and back */
+    qdot_motion_line *lines;   /* [n + m] by number in the motion; right: f, gamma */
+    uint32_t *place;           /* [n + m] which of these it is */
 } builder;
 
 static bool
 is_number(const builder *b, size_t i)
 {
     return i >= b->n && i < b->plan->n;
-}
-
-static void
-add_product(builder *b, size_t i, size_t j, qdot_program_row at)
-{
-    if (b->E[i] == QDOT_NO_ROW)
-        b->E[i] = qdot_program_operation(b->program, QDOT_OP_MSUB, at, b->unknown[j], b->right[i]);
-    else
-        b->E[i] = qdot_program_operation(b->program, QDOT_OP_MADD, at, b->unknown[j], b->E[i]);
-}
-
-/* Those of the entries from number `from` on; numbers last, as there is nothing of them to add
- * before the unknowns are known. */
-static void
-add_products(builder *b, size_t from)
-{
-    const qdot_motion *m = b->motion;
-
-    for (int number = 0; number < 2; number++)
-        for (size_t k = from; k < m->entries.n; k++) {
-            const qdot_motion_entry *x = m->entries.at + k;
-            const size_t i = b->unknown_at[x->i], j = b->unknown_at[x->j];
-
-            if (m->program.rows.at[x->at].still != number)
-                continue;
-            add_product(b, i, j, x->at);
-            if (i != j)
-                add_product(b, j, i, x->at);
-        }
 }
 
 /* K_ij = K_ji = at */
@@ -66,26 +34,23 @@ couple(builder *b, size_t i, size_t j, qdot_program_row at)
 static void
 expect(builder *b, size_t i, size_t k, qdot_program_row right)
 {
-    b->unknown[i] = qdot_program_unknown(b->program);
-    b->right[i] = right;
-    b->E[i] = QDOT_NO_ROW;
     b->place[i] = (uint32_t)(b->motion->solved.n + k);
-    b->unknown_at[b->place[i]] = i;
+    b->lines[b->place[i]] =
+        (qdot_motion_line){qdot_program_unknown(b->program), right, QDOT_NO_ROW};
 }
 
 static qdot_status
 solve_for(builder *b, size_t i)
 {
-    qdot_motion_unknown u = {.row = b->unknown[i], .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
+    const qdot_motion_line *line = b->lines + b->place[i];
+    qdot_motion_unknown u = {.row = line->u, .once = QDOT_NO_ROW, .twice = QDOT_NO_ROW};
 
     if (i < b->n) {
         u.once = (qdot_program_row)(b->n + i);
         u.twice = (qdot_program_row)i;
     }
-    if (b->E[i] == QDOT_NO_ROW)
-        b->E[i] = qdot_program_operation(b->program, QDOT_OP_NEG, b->right[i], 0, 0);
-    QDOT_TRY(qdot_vec_push(&b->motion->right, b->right[i]));
-    return qdot_motion_solve(b->motion, u, b->E[i]);
+    QDOT_TRY(qdot_vec_push(&b->motion->right, line->right));
+    return qdot_motion_solve(b->motion, u, line->E);
 }
 
 /* A constant entry of M; *row QDOT_NO_ROW: 0. */
@@ -106,7 +71,7 @@ static qdot_status
 add_block(builder *b, const qdot_plan_block *block, size_t *at)
 {
     const qdot_plan *p = b->plan;
-    const size_t n = block->n, entries = b->motion->entries.n;
+    const size_t n = block->n, entries = b->motion->entries.n, first = b->motion->solved.n;
 
     for (size_t i = 0; i < n; i++)
         expect(b, block->index[i], i, b->outputs[(*at)++]);
@@ -122,7 +87,7 @@ add_block(builder *b, const qdot_plan_block *block, size_t *at)
             if (M != QDOT_NO_ROW)
                 QDOT_TRY(couple(b, row, column, M));
         }
-    add_products(b, entries);
+    qdot_motion_write(b->motion, b->program, entries, b->lines, first, first + n);
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(solve_for(b, block->index[i]));
     return qdot_motion_end_block(b->motion);
@@ -159,15 +124,17 @@ add_constrained(builder *b)
     const size_t n = b->plan->n;
     const qdot_program_row *M = b->outputs + n, *A = M + c->n_masses, *gamma = A + c->n_slopes;
 
-    for (size_t i = 0, k = 0; i < n + c->m; i++)
+    size_t count = 0;
+
+    for (size_t i = 0; i < n + c->m; i++)
         if (!is_number(b, i))
-            expect(b, i, k++, i < n ? b->outputs[i] : gamma[i - n]);
+            expect(b, i, count++, i < n ? b->outputs[i] : gamma[i - n]);
     for (size_t k = 0; k < c->n_masses; k++)
         if (!is_number(b, c->masses[k].row))
             QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, M[k]));
     for (size_t k = 0; k < c->n_slopes; k++)
         QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, A[k]));
-    add_products(b, 0);
+    qdot_motion_write(b->motion, b->program, 0, b->lines, 0, count);
     for (size_t i = 0; i < n + c->m; i++)
         if (!is_number(b, i))
             QDOT_TRY(solve_for(b, i));
@@ -197,13 +164,10 @@ build(builder *b)
     size_t steps;
 
     b->outputs = qdot_calloc(inputs + outputs + 1, sizeof *b->outputs);
-    b->unknown = qdot_calloc(3 * size + 1, sizeof *b->unknown);
+    b->lines = qdot_calloc(size + 1, sizeof *b->lines);
     b->place = qdot_calloc(size + 1, sizeof *b->place);
-    b->unknown_at = qdot_calloc(size + 1, sizeof *b->unknown_at);
-    if (!b->outputs || !b->unknown || !b->place || !b->unknown_at)
+    if (!b->outputs || !b->lines || !b->place)
         return QDOT_ENOMEM;
-    b->right = b->unknown + size;
-    b->E = b->right + size;
     for (size_t i = 0; i < inputs; i++)
         b->outputs[outputs + i] = input(b, i);
     qdot_program_append(b->program, tape, b->outputs + outputs, b->outputs);
@@ -227,9 +191,8 @@ make(const qdot_plan *plan, size_t n, qdot_motion *motion)
     QDOT_TRY(qdot_program_begin(inputs, 2 * n + 1, false, &motion->program, &b.program));
     status = qdot_motion_complete(motion, b.program, build(&b));
     qdot_free(b.outputs);
-    qdot_free(b.unknown);
+    qdot_free(b.lines);
     qdot_free(b.place);
-    qdot_free(b.unknown_at);
     return status;
 }
 
