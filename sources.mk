@@ -1180,7 +1180,6 @@ script_tests = \
 	tests/bad/digits-constraint.lag \
 	tests/bad/digits-cusp.lag \
 	tests/bad/digits-domain.lag \
-	tests/bad/digits-event-constraint.lag \
 	tests/bad/digits-half.lag \
 	tests/bad/digits-many.lag \
 	tests/bad/digits-method.lag \
@@ -1495,7 +1494,6 @@ test_files = \
 	tests/bad/digits-constraint.out \
 	tests/bad/digits-cusp.out \
 	tests/bad/digits-domain.out \
-	tests/bad/digits-event-constraint.out \
 	tests/bad/digits-half.out \
 	tests/bad/digits-many.out \
 	tests/bad/digits-method.out \
