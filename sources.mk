@@ -1788,6 +1788,7 @@ test_files = \
 	tests/normal/text.h \
 	tests/num/kit.h \
 	tests/ode/problems.h \
+	tests/sanitized.h \
 	tests/script/abbreviate.out \
 	tests/script/accel-large-coefficients.out \
 	tests/script/accel-long.out \

@@ -4,6 +4,7 @@
 
 #include "kit.h"
 #include "mech/dynamics/quantity.h"
+#include "sanitized.h"
 
 static void
 refused(kit *k, qdot_status got, qdot_status want, const char *words)
@@ -370,7 +371,7 @@ running_out_of_memory_anywhere_is_an_error(void **state)
     }
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef SANITIZED
 static const double PATIENCE = 5; /* s */
 #else
 static const double PATIENCE = 1;

@@ -23,6 +23,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
+#include "sanitized.h"
 #include "text.h"
 
 /* --- the scope -------------------------------------------------------------------------- */
@@ -390,7 +391,7 @@ nothing_is_left_behind(void **state)
     double before = resident(), once, often;
 
     (void)state;
-#ifdef __SANITIZE_ADDRESS__ /* it keeps what is freed for a while, and looks for leaks itself */
+#ifdef SANITIZED /* it keeps what is freed for a while, and looks for leaks itself */
     before = -1;
 #endif
     if (getenv("EMULATOR") && *getenv("EMULATOR")) /* whose memory it would be */
