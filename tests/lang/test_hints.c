@@ -1,5 +1,7 @@
 /* test_hints.c -- forms of other systems and slips of the pen: the hint that each gets, and that
  * the line which it shows works. */
+#include <unistd.h>
+
 #include "talk.h"
 
 #define NOTHING ""
@@ -98,6 +100,23 @@ nineteen_of_twenty_name_a_line(void **state)
     assert_true(run >= 120);
 }
 
+/* Lines that are carried out write figures and tables. */
+static char folder[] = "qdot-hints-XXXXXX";
+
+static int
+enter(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int
+leave(void **state)
+{
+    (void)state;
+    return chdir("..") == 0 && system("rm -r qdot-hints-??????") == 0 ? 0 : -1;
+}
+
 int
 main(void)
 {
@@ -107,5 +126,5 @@ main(void)
         cmocka_unit_test(nineteen_of_twenty_name_a_line),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter, leave);
 }
