@@ -31,6 +31,14 @@ qdot_text_add(qdot_text *s, const char *text)
     qdot_text_add_n(s, text, strlen(text));
 }
 
+bool
+qdot_ends_in(const char *text, const char *ending)
+{
+    const size_t n = strlen(text), k = strlen(ending);
+
+    return n > k && strcmp(text + n - k, ending) == 0;
+}
+
 void
 qdot_text_char(qdot_text *s, char c)
 {

@@ -29,6 +29,9 @@ QDOT_MUST_CHECK qdot_status qdot_text_status(const qdot_text *s);
 /* A double as the C locale writes it, `digits` significant ones; inf and nan in words. */
 void qdot_text_double(qdot_text *s, double x, int digits);
 
+/* Whether text ends in `ending`, with something before it: "a.csv" in ".csv". */
+bool qdot_ends_in(const char *text, const char *ending);
+
 /* `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void qdot_text_json(qdot_text *s, const char *text);
 

@@ -208,6 +208,16 @@ a_failed_append_marks_the_string_for_good(void **state)
     }
 }
 
+static void
+an_ending_has_something_before_it(void **state)
+{
+    (void)state;
+    assert_true(qdot_ends_in("a.csv", ".csv"));
+    assert_false(qdot_ends_in(".csv", ".csv"));
+    assert_false(qdot_ends_in("csv", ".csv"));
+    assert_false(qdot_ends_in("a.csv.txt", ".csv"));
+}
+
 int
 main(void)
 {
@@ -221,6 +231,7 @@ main(void)
         cmocka_unit_test(doubles_are_written_short_and_in_words),
         cmocka_unit_test(json_escapes_what_it_must),
         cmocka_unit_test(a_failed_append_marks_the_string_for_good),
+        cmocka_unit_test(an_ending_has_something_before_it),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

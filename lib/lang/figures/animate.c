@@ -55,15 +55,6 @@ read_length(qdot_cursor *c, const char *word, bool zero, double *value)
 }
 
 static qdot_status
-read_title(qdot_cursor *c, const char **title)
-{
-    if (c->at->kind == QDOT_TOKEN_STRING)
-        return qdot_read_string(c, title);
-    c->error_at = c->at->start;
-    return qdot_fail(QDOT_ESYNTAX, "`title` needs a text in quotes");
-}
-
-static qdot_status
 read_options(qdot_cursor *c, options *o)
 {
     if (c->at->kind == QDOT_TOKEN_NAME && !is_option(c))
@@ -79,7 +70,7 @@ read_options(qdot_cursor *c, options *o)
             QDOT_TRY(qdot_figure_file_read(c, &o->path));
         } else if (qdot_cursor_accept_word(c, "title")) {
             QDOT_TRY(qdot_cursor_once(c, "title", o->drawn.title != NULL));
-            QDOT_TRY(read_title(c, &o->drawn.title));
+            QDOT_TRY(qdot_figure_title_read(c, &o->drawn.title));
         } else if (qdot_cursor_accept_word(c, "trail")) {
             QDOT_TRY(read_length(c, "trail", true, &o->drawn.trail));
         } else if (qdot_cursor_accept_word(c, "speed")) {
@@ -94,21 +85,13 @@ read_options(qdot_cursor *c, options *o)
                : qdot_cursor_expected(c, "`to` and the name of a file in quotes");
 }
 
-static bool
-ends_in(const char *path, const char *ending)
-{
-    size_t n = strlen(path), k = strlen(ending);
-
-    return n > k && strcmp(path + n - k, ending) == 0;
-}
-
 static qdot_status
 write_picture(qdot_session *session, const qdot_animation *a, const char *path)
 {
     qdot_text page = {0};
     qdot_status status;
 
-    if (ends_in(path, ".gif")) {
+    if (qdot_ends_in(path, ".gif")) {
         QDOT_TRY(qdot_animation_gif(a, path));
         return qdot_answer_file(session, path);
     }
@@ -130,7 +113,7 @@ qdot_animate_statement(qdot_cursor *c)
 
     QDOT_TRY(read_options(c, &o));
     c->error_at = start->start;
-    if (!ends_in(o.path, ".html") && !ends_in(o.path, ".gif")) {
+    if (!qdot_ends_in(o.path, ".html") && !qdot_ends_in(o.path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,
                         "`%.200s` does not say what moving picture it is to be", o.path);
         return qdot_hint("end its name in .html or .gif");

@@ -23,7 +23,7 @@ add_stem(const qdot_session *session, qdot_text *path)
 
     if (strcmp(script, "-") == 0)
         qdot_text_add(path, "qdot");
-    else if (n > 4 && strcmp(script + n - 4, ".lag") == 0)
+    else if (qdot_ends_in(script, ".lag"))
         qdot_text_add_n(path, script, n - 4);
     else
         qdot_text_add(path, script);
@@ -129,4 +129,13 @@ qdot_figure_file_read(qdot_cursor *c, const char **path)
     if (c->at->kind != QDOT_TOKEN_STRING)
         return qdot_cursor_expected(c, "the name of a file in quotes");
     return qdot_read_string(c, path);
+}
+
+qdot_status
+qdot_figure_title_read(qdot_cursor *c, const char **title)
+{
+    if (c->at->kind == QDOT_TOKEN_STRING)
+        return qdot_read_string(c, title);
+    c->error_at = c->at->start;
+    return qdot_fail(QDOT_ESYNTAX, "`title` needs a text in quotes");
 }

@@ -13,5 +13,7 @@ QDOT_MUST_CHECK qdot_status qdot_figure_file_show(qdot_session *session,
                                                   const char *path);
 /* The quoted name behind `to`. */
 QDOT_MUST_CHECK qdot_status qdot_figure_file_read(qdot_cursor *c, const char **path);
+/* The quoted text behind `title`. */
+QDOT_MUST_CHECK qdot_status qdot_figure_title_read(qdot_cursor *c, const char **title);
 
 #endif

@@ -73,7 +73,7 @@ read_file(qdot_cursor *c, const struct language *l, const char **path, qdot_text
     c->error_at = at->start;
     base = strrchr(*path, '/') == NULL ? *path : strrchr(*path, '/') + 1;
     n = strlen(base);
-    if (n <= ending || strcmp(base + n - ending, l->ending) != 0) {
+    if (!qdot_ends_in(base, l->ending)) {
         (void)qdot_fail(QDOT_EINVAL, "`%.200s`: source text in %s is a `%s` file", *path, l->word,
                         l->ending);
         return qdot_hint("export %s ... to \"%.*s%s\"", l->word,

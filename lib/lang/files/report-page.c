@@ -299,11 +299,7 @@ read_options(qdot_cursor *c, options *o)
             o->work = true;
         } else if (qdot_cursor_accept_word(c, "title")) {
             QDOT_TRY(qdot_cursor_once(c, "title", o->title != NULL));
-            if (c->at->kind != QDOT_TOKEN_STRING) {
-                c->error_at = c->at->start;
-                return qdot_fail(QDOT_ESYNTAX, "`title` needs a text in quotes");
-            }
-            QDOT_TRY(qdot_read_string(c, &o->title));
+            QDOT_TRY(qdot_figure_title_read(c, &o->title));
         } else {
             return qdot_cursor_expected(
                 c, "`title`, `workprecision`, `to` or the end of the statement");
@@ -312,14 +308,6 @@ read_options(qdot_cursor *c, options *o)
     return o->path != NULL
                ? QDOT_OK
                : qdot_cursor_expected(c, "`to` and the name of a file in quotes");
-}
-
-static bool
-ends_in(const char *path, const char *ending)
-{
-    size_t n = strlen(path), k = strlen(ending);
-
-    return n > k && strcmp(path + n - k, ending) == 0;
 }
 
 /* The name of the script without its folder and ending. */
@@ -333,7 +321,7 @@ add_title(const qdot_session *s, qdot_text *title)
     if (strcmp(name, "-") == 0)
         qdot_text_add(title, "Report");
     else
-        qdot_text_add_n(title, name, ends_in(name, ".lag") ? n - 4 : n);
+        qdot_text_add_n(title, name, qdot_ends_in(name, ".lag") ? n - 4 : n);
 }
 
 /* The latest run or the one named; none without a name is no failure. */
@@ -379,8 +367,8 @@ qdot_report_page(qdot_cursor *c)
 
     QDOT_TRY(read_options(c, &o));
     c->error_at = start->start;
-    pdf = ends_in(o.path, ".pdf");
-    if (!pdf && !ends_in(o.path, ".html")) {
+    pdf = qdot_ends_in(o.path, ".pdf");
+    if (!pdf && !qdot_ends_in(o.path, ".html")) {
         (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what page it is to be",
                         o.path);
         return qdot_hint("end its name in .html or .pdf");

@@ -72,8 +72,7 @@ hint_dot(qdot_cursor *c, const char *name)
         size_t m = strlen(endings[i].ending);
         const qdot_name *found;
 
-        if (n <= m || n - m >= sizeof base ||
-            strcmp(name + n - m, endings[i].ending) != 0)
+        if (!qdot_ends_in(name, endings[i].ending) || n - m >= sizeof base)
             continue;
         snprintf(base, sizeof base, "%.*s", (int)(n - m), name);
         found = qdot_names_find(c->session->names, base);

@@ -235,14 +235,6 @@ figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen
 /* --- the statement ------------------------------------------------------------------- */
 
 static bool
-ends_in(const char *path, const char *ending)
-{
-    size_t n = strlen(path), m = strlen(ending);
-
-    return n > m && strcmp(path + n - m, ending) == 0;
-}
-
-static bool
 any_done(const qdot_workprecision *w)
 {
     for (size_t i = 0; i < w->n; i++)
@@ -261,14 +253,14 @@ tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
     for (size_t i = 0; i < w->n_unfit; i++)
         QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s",
                                     w->unfit[i].method, w->unfit[i].reason));
-    if (path == NULL || (!ends_in(path, ".csv") && !ends_in(path, ".txt"))) {
+    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
         QDOT_TRY(answer_table(session, w));
         if (w->interrupted && path == NULL)
             return QDOT_OK; /* who stopped it does not wait for a figure */
         return any_done(w) ? figure(session, w, chosen)
                            : qdot_fail(QDOT_EFAILED, "no method came to the end");
     }
-    (ends_in(path, ".csv") ? csv : table)(w, &text);
+    (qdot_ends_in(path, ".csv") ? csv : table)(w, &text);
     status = qdot_answer_in_file(session, path, &text);
     qdot_text_clear(&text);
     return status;
@@ -285,7 +277,7 @@ read_options(qdot_cursor *c, choices *chosen)
     if (!qdot_cursor_is_end(c))
         return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
     for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
-        good = good || ends_in(chosen->figure.path, known[i]);
+        good = good || qdot_ends_in(chosen->figure.path, known[i]);
     if (good || chosen->figure.path == NULL)
         return QDOT_OK;
     c->error_at = start->start;
