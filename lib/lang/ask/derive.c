@@ -131,13 +131,20 @@ add_symbol(derivation *d, const symbol *x, qdot_text *out)
     return QDOT_OK;
 }
 
-/* `symbol = value`, behind a label or four blanks. */
+/* What is not behind a label stands behind four blanks. */
+static void
+indent(derivation *d)
+{
+    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
+        qdot_text_add(&d->text, "    ");
+}
+
+/* `symbol = value`. */
 static qdot_status
 is(derivation *d, symbol x, qdot_expr value)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
-        qdot_text_add(&d->text, "    ");
+    indent(d);
     qdot_formula_bracket(d->session, true, &d->text);
     QDOT_TRY(add_symbol(d, &x, &d->text));
     return equals(d, value);
@@ -181,22 +188,15 @@ slope_is(derivation *d, char F, bool total, bool fast, size_t i, qdot_expr value
     return equals(d, value);
 }
 
-/* The relation as it stands, behind a label or four blanks. */
+/* The relation as it stands. */
 static qdot_status
 relation(derivation *d, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    if (d->text.n == 0 || d->text.at[d->text.n - 1] == '\n')
-        qdot_text_add(&d->text, "    ");
+    indent(d);
     QDOT_TRY(qdot_formula(d->session, e, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
-}
-
-static const char *
-name_of(const derivation *d, size_t i)
-{
-    return qdot_expr_symbol(d->session->pool, d->session->scene->coordinates.at[i])->name;
 }
 
 /* In the form for people, unless it is larger than a page. */
@@ -344,12 +344,12 @@ energies(derivation *d)
 }
 
 static symbol
-of_coordinate(const derivation *d, const char *letter, size_t i)
+of_coordinate(const derivation *d, const char *letter, qdot_expr q)
 {
     return (symbol){.plain = letter,
                     .letter = letter,
-                    .of = name_of(d, i),
-                    .coordinate = d->session->scene->coordinates.at[i]};
+                    .of = qdot_expr_symbol(d->session->pool, q)->name,
+                    .coordinate = q};
 }
 
 /* p = dL/dq', then what stands on the left: F = T, or L where it is stated. */
@@ -363,8 +363,11 @@ left_sides(derivation *d)
     char letter = stated ? 'L' : 'T';
 
     heading(d, "Momenta", "p = dL/dq'");
-    for (size_t i = 0; i < s->coordinates.n; i++)
-        QDOT_TRY(is(d, of_coordinate(d, "p", i), qdot_mech_momentum(s, s->coordinates.at[i])));
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr q = s->coordinates.at[i];
+
+        QDOT_TRY(is(d, of_coordinate(d, "p", q), qdot_mech_momentum(s, q)));
+    }
     heading(d, stated ? "Derivatives of L" : "Derivatives of T", NULL);
     for (size_t i = 0; i < s->coordinates.n; i++) {
         qdot_expr q = s->coordinates.at[i];
@@ -512,20 +515,29 @@ forces_heading(derivation *d)
     return status;
 }
 
+/* Whether Q stands on the right: a stated L has it only beside itself. */
+static bool
+has_forces(const qdot_scene *s)
+{
+    return s->lagrangian == QDOT_NIL ||
+           s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
+}
+
 static qdot_status
 right_sides(derivation *d)
 {
     qdot_scene *s = d->session->scene;
-    bool stated = s->lagrangian != QDOT_NIL;
-    bool applied = s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
 
-    if (!stated || applied) {
+    if (has_forces(s)) {
         QDOT_TRY(virtual_work(d));
         QDOT_TRY(forces_heading(d));
         if (no_forces(s))
             qdot_text_add(&d->text, "    none\n");
-        for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++)
-            QDOT_TRY(is(d, of_coordinate(d, "Q", i), qdot_mech_force(s, s->coordinates.at[i])));
+        for (size_t i = 0; i < s->coordinates.n && !no_forces(s); i++) {
+            qdot_expr q = s->coordinates.at[i];
+
+            QDOT_TRY(is(d, of_coordinate(d, "Q", q), qdot_mech_force(s, q)));
+        }
     }
     if (s->constraints.n == 0)
         return QDOT_OK;
@@ -545,9 +557,7 @@ static qdot_status
 equations(derivation *d)
 {
     qdot_scene *s = d->session->scene;
-    bool stated = s->lagrangian != QDOT_NIL;
-    bool right =
-        !stated || s->forces.n + s->torques.n + s->dampers.n + s->dissipations.n > 0;
+    const bool stated = s->lagrangian != QDOT_NIL, right = has_forces(s);
     qdot_text formula = {0};
     qdot_status status;
 
@@ -587,16 +597,8 @@ conserved_momenta(derivation *d)
             list[kept++] = list[i];
     if (kept > 0)
         heading(d, "Momenta of cyclic coordinates are conserved", "dL/dq = 0");
-    for (size_t i = 0; i < kept && status == QDOT_OK; i++) {
-        const qdot_symbol *q = qdot_expr_symbol(d->session->pool, list[i].coordinate);
-
-        status = is(d,
-                    (symbol){.plain = "p",
-                             .letter = "p",
-                             .of = q->name,
-                             .coordinate = list[i].coordinate},
-                    list[i].momentum);
-    }
+    for (size_t i = 0; i < kept && status == QDOT_OK; i++)
+        status = is(d, of_coordinate(d, "p", list[i].coordinate), list[i].momentum);
     qdot_free(list);
     return status;
 }

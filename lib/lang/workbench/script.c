@@ -134,9 +134,9 @@ unknown_word(qdot_cursor *c)
 {
     const qdot_statement *near = nearest_statement(c->session, c->at->text);
 
-    if (near != NULL && strcmp(near->word, c->at->text) == 0) { /* it stands alone */
+    if (qdot_statement_find(c->at->text) != NULL) { /* it stands alone */
         c->error_at = c->at[1].start;
-        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", near->word,
+        return qdot_fail(QDOT_ESYNTAX, "nothing follows `%s`, found `%s`", c->at->text,
                          c->at[1].text);
     }
     c->error_at = c->at->start;

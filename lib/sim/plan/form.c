@@ -59,7 +59,8 @@ qdot_plan_measure(qdot_plan *p)
 typedef struct {
     qdot_residual *residual;
     qdot_form form;
-    qdot_ode_cost cost, lanes;
+    qdot_ode_cost cost;
+    qdot_work work;
     double convolutions;
     size_t nodes; /* along a tree */
     bool is_path;
@@ -76,11 +77,10 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
     qdot_work work;
 
     QDOT_TRY(qdot_motion_of_residual(p, r, &r->motion));
-    work = qdot_motion_series_work_of_residual(p, &r->motion, r->masses);
+    c->work = qdot_motion_series_work_of_residual(p, &r->motion, r->masses);
     c->form = QDOT_FORM_RESIDUAL;
-    c->cost = qdot_cost_implicit(&work);
+    c->cost = qdot_cost_implicit(&c->work);
     c->convolutions = r->motion.program.convolutions;
-    c->lanes = qdot_cost_lanes(&work);
     if (!may_be_tree)
         return QDOT_OK;
     QDOT_TRY(qdot_residual_programs(r));
@@ -104,13 +104,14 @@ measure_residual(const qdot_plan *p, bool may_be_tree, candidate *c)
 static bool
 is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *request)
 {
-    const qdot_work work = qdot_motion_series_work(p);
-    const qdot_ode_cost lanes = qdot_cost_lanes(&work);
-
     if (request->digits > 0)
         return c->convolutions < p->convolutions_derived;
-    if (request->lanes)
-        return !p->indefinite && qdot_cost_steps(&c->lanes) < qdot_cost_steps(&lanes);
+    if (request->lanes) {
+        const qdot_work work = qdot_motion_series_work(p);
+        const qdot_ode_cost own = qdot_cost_lanes(&c->work), other = qdot_cost_lanes(&work);
+
+        return !p->indefinite && qdot_cost_steps(&own) < qdot_cost_steps(&other);
+    }
     return qdot_cost_steps(&c->cost) < p->cost;
 }
 
