@@ -284,6 +284,7 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
+	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
 	lib/ode/run.c \
@@ -693,6 +694,7 @@ library_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
+	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
@@ -933,6 +935,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
+	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -1025,6 +1028,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1833,6 +1837,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
