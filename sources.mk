@@ -122,7 +122,6 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
-	lib/lang/session/mixture-range.c \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
@@ -434,10 +433,13 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
+	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run.c \
@@ -551,7 +553,6 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
-	lib/lang/session/mixture-range.h \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
@@ -821,7 +822,9 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/stretches.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
