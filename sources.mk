@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
@@ -473,6 +474,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
@@ -872,6 +874,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
 	tests/expr/test_expand \
@@ -981,6 +984,7 @@ unit_tests = \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
+	tests/src/test_screen \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
@@ -1969,6 +1973,7 @@ test_files = \
 	tests/script/workprecision.out \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
+	tests/src/terminal.h \
 	tests/tape/lone.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \
