@@ -738,6 +738,7 @@ library_headers = \
 	lib/show/data.h \
 	lib/show/draw.h \
 	lib/show/export-language.h \
+	lib/show/export-operation.def \
 	lib/show/export-parts.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
@@ -847,6 +848,10 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/export-c.template \
+	lib/show/export-julia.template \
+	lib/show/export-matlab.template \
+	lib/show/export-python.template \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
