@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
@@ -477,6 +478,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
@@ -743,6 +745,7 @@ library_headers = \
 	lib/show/data.h \
 	lib/show/draw.h \
 	lib/show/export-language.h \
+	lib/show/export-operation.def \
 	lib/show/export-parts.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
@@ -853,6 +856,10 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/export-c.template \
+	lib/show/export-julia.template \
+	lib/show/export-matlab.template \
+	lib/show/export-python.template \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
@@ -880,6 +887,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
 	tests/expr/test_expand \
@@ -991,6 +999,7 @@ unit_tests = \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
+	tests/src/test_screen \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
@@ -1981,6 +1990,7 @@ test_files = \
 	tests/script/workprecision.out \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
+	tests/src/terminal.h \
 	tests/tape/lone.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \

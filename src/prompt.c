@@ -16,6 +16,7 @@
 #include <readline/readline.h>
 
 #include "base/terminal.h"
+#include "base/wrap.h"
 #include "completion.h"
 #include "history.h"
 #include "pager.h"
@@ -188,6 +189,20 @@ carry_out(qdot_session *session, qdot_text *text)
         qdot_text_clear(text);
 }
 
+static void
+greet(void)
+{
+    size_t columns = 0, rows;
+    qdot_text lines = {0};
+
+    (void)qdot_terminal_size(rl_outstream, &columns, &rows);
+    qdot_wrap("qdot " PACKAGE_VERSION
+              ". Write r(q), get the mechanics. `help` helps, Ctrl-D leaves.\n",
+              columns, &lines);
+    fputs(qdot_text_str(&lines), rl_outstream);
+    qdot_text_clear(&lines);
+}
+
 void
 qdot_prompt_run(qdot_session *session, bool banner, bool startup)
 {
@@ -197,8 +212,7 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     prepare(session);
     qdot_history_begin();
     if (banner)
-        fprintf(rl_outstream, "qdot " PACKAGE_VERSION ". Write r(q), get the mechanics. "
-                              "`help` helps, Ctrl-D leaves.\n");
+        greet();
     session->interactive = true;
     qdot_signals_patient(true);
     if (startup)

@@ -7,7 +7,7 @@
 
 /* Its size in characters; one that does not tell its size has 80 x 24. false: the stream goes
  * elsewhere. */
-bool qdot_terminal_size(FILE *stream, size_t *columns, size_t *rows);
+bool qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows);
 
 /* Whether colours may be shown on the stream: it is a terminal, TERM is not `dumb`, and NO_COLOR is
  * not set, or empty. */

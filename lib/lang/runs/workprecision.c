@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/figures/figure-file.h"
@@ -99,7 +100,7 @@ cell(qdot_text *out, int width, const char *format, double x)
 
     if (!isnan(x))
         snprintf(text, sizeof text, format, x);
-    qdot_text_format(out, "%*s", width, text);
+    qdot_text_format(out, QDOT_WRAP_CELL "%*s", width, text);
 }
 
 static void
@@ -118,8 +119,8 @@ table(const qdot_workprecision *w, qdot_text *out)
     qdot_text_format(out, "%-8s", "method");
     for (size_t i = 0; i < n; i++)
         if (has_column(w, (size_t)shown[i].column + 1))
-            qdot_text_format(out, "%*s", shown[i].width, shown[i].head);
-    qdot_text_add(out, "  status\n");
+            qdot_text_format(out, QDOT_WRAP_CELL "%*s", shown[i].width, shown[i].head);
+    qdot_text_add(out, QDOT_WRAP_CELL "  status\n");
     for (size_t k = 0; k < w->n; k++) {
         double x[COLUMNS - 2];
 
@@ -128,7 +129,7 @@ table(const qdot_workprecision *w, qdot_text *out)
         for (size_t i = 0; i < n; i++)
             if (has_column(w, (size_t)shown[i].column + 1))
                 cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
-        qdot_text_format(out, "  %s\n", w->rows[k].status);
+        qdot_text_format(out, QDOT_WRAP_CELL "  %s\n", w->rows[k].status);
     }
     qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
                        "|value|), against a reference whose own is ");
