@@ -182,6 +182,7 @@ library_sources = \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
 	lib/mech/scene/scene.c \
+	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-numeric.c \
@@ -201,6 +202,7 @@ library_sources = \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
+	lib/mech/study/terms.c \
 	lib/normal/field/factor.c \
 	lib/normal/field/field.c \
 	lib/normal/field/flint.c \
@@ -601,6 +603,7 @@ library_headers = \
 	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
+	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
@@ -615,6 +618,7 @@ library_headers = \
 	lib/mech/study/rest.h \
 	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
+	lib/mech/study/terms.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
 	lib/normal/field/field.h \
