@@ -81,7 +81,9 @@ library_sources = \
 	lib/lang/files/digits-table.c \
 	lib/lang/files/export.c \
 	lib/lang/files/redirect.c \
+	lib/lang/files/report-answer.c \
 	lib/lang/files/report-page.c \
+	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
@@ -118,6 +120,7 @@ library_sources = \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
+	lib/lang/session/conditions.c \
 	lib/lang/session/event-time.c \
 	lib/lang/session/function-body.c \
 	lib/lang/session/labels.c \
@@ -347,6 +350,7 @@ library_sources = \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
+	lib/show/page-curves.c \
 	lib/show/page.c \
 	lib/show/pdf.c \
 	lib/show/scripts.c \
@@ -520,6 +524,8 @@ library_headers = \
 	lib/lang/files/data-file.h \
 	lib/lang/files/digits-table.h \
 	lib/lang/files/redirect.h \
+	lib/lang/files/report-answer.h \
+	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
@@ -549,6 +555,7 @@ library_headers = \
 	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
+	lib/lang/session/conditions.h \
 	lib/lang/session/event-time.h \
 	lib/lang/session/function-body.h \
 	lib/lang/session/labels.h \
@@ -748,6 +755,7 @@ library_headers = \
 	lib/show/formula-page.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
+	lib/show/page-curves.h \
 	lib/show/page.h \
 	lib/show/pdf.h \
 	lib/show/scripts.h \
@@ -897,6 +905,7 @@ unit_tests = \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \
 	tests/lang/test_complete \
+	tests/lang/test_conditions \
 	tests/lang/test_evaluate \
 	tests/lang/test_highlight \
 	tests/lang/test_hints \
@@ -969,6 +978,7 @@ unit_tests = \
 	tests/show/test_figure \
 	tests/show/test_formula_page \
 	tests/show/test_layout \
+	tests/show/test_page-curves \
 	tests/show/test_page \
 	tests/show/test_table \
 	tests/show/test_trace \
@@ -1127,6 +1137,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
@@ -1951,6 +1962,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/rests.out \

@@ -287,6 +287,19 @@ read_options(qdot_cursor *c, choices *chosen)
     return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
 }
 
+/* A whole study is kept for reports (lang/files/report-work.h). */
+static qdot_status
+keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
+{
+    qdot_conditions conditions = {0};
+    qdot_status status = qdot_conditions_take(session->scene, request, &conditions);
+
+    if (status == QDOT_OK)
+        status = qdot_studies_keep(&session->studies, &conditions, w);
+    qdot_conditions_clear(&conditions);
+    return status;
+}
+
 qdot_status
 qdot_workprecision_statement(qdot_cursor *c)
 {
@@ -317,6 +330,8 @@ qdot_workprecision_statement(qdot_cursor *c)
         status = tell(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
+    if (status == QDOT_OK)
+        status = keep(session, &order.request, &w);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
     return status;
