@@ -143,6 +143,7 @@ library_sources = \
 	lib/lang/source/source.c \
 	lib/lang/workbench/complete.c \
 	lib/lang/workbench/help.c \
+	lib/lang/workbench/highlight.c \
 	lib/lang/workbench/reset.c \
 	lib/lang/workbench/script-file.c \
 	lib/lang/workbench/script.c \
@@ -579,6 +580,7 @@ library_headers = \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
 	lib/lang/workbench/complete.h \
+	lib/lang/workbench/highlight.h \
 	lib/lang/workbench/script.h \
 	lib/lang/workbench/search.h \
 	lib/machine/asm.h \
@@ -873,6 +875,8 @@ program_sources = \
 	src/completion.h \
 	src/history.c \
 	src/history.h \
+	src/input-colours.c \
+	src/input-colours.h \
 	src/main.c \
 	src/pager.c \
 	src/pager.h \
@@ -907,6 +911,7 @@ unit_tests = \
 	tests/lang/test_complete \
 	tests/lang/test_conditions \
 	tests/lang/test_evaluate \
+	tests/lang/test_highlight \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \

@@ -19,6 +19,7 @@
 #include "base/wrap.h"
 #include "completion.h"
 #include "history.h"
+#include "input-colours.h"
 #include "pager.h"
 #include "signals.h"
 #include "startup.h"
@@ -98,6 +99,7 @@ prepare(qdot_session *session)
     rl_outstream = session->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
+    qdot_input_colours_install(session);
 }
 
 /* `qdot 3> `, where %3 is the next value; what continues a line stands below it. */
@@ -135,6 +137,7 @@ read_statement(const qdot_session *session, qdot_text *text)
         if (text->n > 0)
             qdot_text_char(text, '\n');
         qdot_completion_continue(qdot_text_str(text));
+        qdot_input_colours_continue(qdot_text_str(text));
         write_prompt(session, text->n == 0, &prompt);
         kind = read_line(qdot_text_str(&prompt), &line);
         if (kind != LINE)
@@ -143,6 +146,7 @@ read_statement(const qdot_session *session, qdot_text *text)
         free(line);
     } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
     qdot_completion_continue("");
+    qdot_input_colours_continue("");
     qdot_text_clear(&prompt);
     if (text->n > 0 && text->at[text->n - 1] == '\n')
         qdot_text_truncate(text, text->n - 1); /* no line came behind it */

@@ -17,7 +17,9 @@ bool qdot_terminal_has_colours(FILE *stream);
 #define QDOT_GREEN "\033[32m"
 #define QDOT_YELLOW "\033[33m"
 #define QDOT_BLUE "\033[34m"
+#define QDOT_MAGENTA "\033[35m"
 #define QDOT_CYAN "\033[36m"
+#define QDOT_GREY "\033[90m"
 #define QDOT_BOLD "\033[1m"
 #define QDOT_COLOUR_END "\033[0m"
 

@@ -29,6 +29,40 @@ colours_are_shown_where_they_may(void **state)
     unsetenv("NO_COLOR");
 }
 
+/* What is typed is shown in its colours, which end before anything is answered. */
+static void
+input_is_coloured_while_it_is_typed(void **state)
+{
+    static const char *const terms[] = {"xterm", "xterm", "dumb"}, *const no[] = {"", "1", ""};
+
+    (void)state;
+    setenv("LC_ALL", "C.UTF-8", 1);
+    for (int i = 0; i < 3; i++) {
+        setenv("TERM", terms[i], 1);
+        setenv("NO_COLOR", no[i], 1);
+        start("-q");
+        ready();
+        type("print 40 + 2 # why");
+        if (i == 0)
+            expect("\033[1mprint\033[0m \033[35m40\033[0m + \033[35m2\033[0m "
+                   "\033[90m# why\033[0m\0338");
+        else
+            expect("print 40 + 2 # why");
+        type("\r");
+        expect("\n42\r\n");
+        ready();
+        type("print (\"θ\" +\r");
+        expect("...> ");
+        type(CTRL_C);
+        leave_by_ctrl_d();
+        assert_true((strstr(seen, "\033[32m\"θ\"\033[0m") != NULL) == (i == 0));
+        assert_true((strstr(seen, "\0338") != NULL) == (i == 0));
+    }
+    setenv("TERM", "dumb", 1);
+    setenv("LC_ALL", "C", 1);
+    unsetenv("NO_COLOR");
+}
+
 /* Line ends are those of the terminal. */
 static void
 formulas_are_drawn_to_the_width_of_the_terminal(void **state)
@@ -285,6 +319,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_are_shown_where_they_may),
+        cmocka_unit_test(input_is_coloured_while_it_is_typed),
         cmocka_unit_test(formulas_are_drawn_to_the_width_of_the_terminal),
         cmocka_unit_test(what_is_shown_fits_a_narrow_terminal),
         cmocka_unit_test(texts_are_broken_at_blanks),
