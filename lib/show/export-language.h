@@ -1,7 +1,8 @@
 /* export-language.h -- what the writer of exports knows of a language. Internal to show/.
  *
- * A template is the source text of an export with $words$ to be replaced. A line that begins with
- * `?x ` is left out unless the system has x, one that begins with `!x ` if it has:
+ * A template (export-LANGUAGE.template for a motion) is the source text of an export with $words$
+ * to be replaced. A line that begins with `?x ` is left out unless the system has x, one that begins
+ * with `!x ` if it has:
  *
  *     c constraints   p constraints without accelerations   e events, d events that set something
  *     k parameters   h conditions (if)   f erf or erfc   g operations that may be undefined
@@ -38,8 +39,8 @@ typedef struct {
     /* What stands before (printf: index) and after the statements of an event that sets something. */
     const char *effect_begin, *effect_end;
 
-    /* Operations as text that stands for itself within others: &a &b &c are operands inside
-     * brackets, #a #b #c any operands. NULL: + - * / and what is made of them. */
+    /* Operations as text that stands for itself within others (export-operation.def).
+     * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 
     const char *system, *value, *values; /* templates: a motion, an expression, several */

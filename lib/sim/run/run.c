@@ -203,6 +203,8 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
         return QDOT_OK;
     QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
                                run->start_low, &run->notice));
+    if (request->digits > 0)
+        QDOT_TRY(qdot_digits_say_start(run, request));
     if (run->notice.n > 0)
         run->report.notice = qdot_text_str(&run->notice);
     QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
