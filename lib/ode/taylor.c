@@ -430,7 +430,13 @@ count_work(run *r)
 static qdot_status
 look_for_stiffness(run *r)
 {
-    const qdot_ode_stiff_step at = {r->n, r->t, r->t1, r->y, r->tol, r->work};
+    const qdot_ode_stiff_step at = {.n = r->n,
+                                    .t = r->t,
+                                    .t1 = r->t1,
+                                    .y = r->y,
+                                    .noise = 4 * exp2(r->log_wanted) + 8 * DBL_EPSILON,
+                                    .work = r->work,
+                                    .most = r->max_steps};
 
     return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
 }

@@ -298,7 +298,14 @@ look_for_stiffness(run *r)
     const uint64_t steps = r->result->stats.steps;
     const double work = qdot_ode_work(r->s->system, &stats) / (double)(steps ? steps : 1);
 
-    const qdot_ode_stiff_step at = {r->s->system->n, r->t, r->t1, r->s->y, r->s->tol, work};
+    const qdot_ode_stiff_step at = {.n = r->s->system->n,
+                                    .t = r->t,
+                                    .t1 = r->t1,
+                                    .y = r->s->y,
+                                    .noise = r->s->tol,
+                                    .work = work,
+                                    .most = r->max_steps,
+                                    .implicit = r->s->method->stiff};
 
     return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
 }
@@ -329,8 +336,7 @@ loop(run *r)
         QDOT_TRY(advance(r, &stop));
         if (r->options->meter)
             QDOT_TRY(count_work(r));
-        if (!r->s->method->stiff)
-            QDOT_TRY(look_for_stiffness(r));
+        QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;

@@ -20,7 +20,8 @@ told_after(double (*x)(double), double (*v)(double), double h, double t1, double
 
     for (; k < 20000 && !stiff; k++) {
         const double t = k * h, y[] = {x(t), v(t)};
-        const qdot_ode_stiff_step at = {2, t, t1, y, 1e-9, work};
+        const qdot_ode_stiff_step at = {
+            .n = 2, .t = t, .t1 = t1, .y = y, .noise = 1e-9, .work = work, .most = 50000000};
 
         const qdot_status status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
 
@@ -90,6 +91,28 @@ nor_one_that_ends_soon(void **state)
     assert_int_equal(told_after(sinks, speed, 2e-3, 1e3, 100), 0);
 }
 
+/* Steps that turn, more than there may be: a million of them are awaited. */
+static void
+too_many_steps_are_told(void **state)
+{
+    qdot_ode_stiffness s = {0};
+    const qdot_ode_options options = {.tol = 1e-9};
+    bool stiff = false;
+    qdot_status status = QDOT_OK;
+    int k = 0;
+
+    (void)state;
+    for (; k < 2000000 && status == QDOT_OK; k++) {
+        const double y = sin(k);
+        const qdot_ode_stiff_step at = {.n = 1, .t = k, .t1 = 1e9, .y = &y, .noise = 1e-9,
+                                        .work = 100, .most = 50000000, .implicit = true};
+
+        status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+    }
+    assert_true(status == QDOT_ELIMIT && !stiff && k > 990000 && k < 1010000);
+    qdot_ode_stiffness_clear(&s);
+}
+
 int
 main(void)
 {
@@ -97,6 +120,7 @@ main(void)
         cmocka_unit_test(a_motion_on_a_line_is_told),
         cmocka_unit_test(one_that_turns_is_not),
         cmocka_unit_test(nor_one_that_ends_soon),
+        cmocka_unit_test(too_many_steps_are_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
