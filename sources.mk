@@ -1069,6 +1069,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-storm.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events.lag \
 	tests/script/export.sh \
@@ -1881,6 +1882,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-storm.out \
 	tests/script/event-time-errors.out \
 	tests/script/events.out \
 	tests/script/export.out \
