@@ -158,7 +158,7 @@ say_storm(qdot_piece *x, const qdot_watched *w, double t, double left)
 
     say_who(x, w, &text);
     snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.10g: %.200s comes every %.2g there, %.1g times more before the end",
+             "stopped at t = %.6g: %.200s comes every %.2g there, %.1g times more before the end",
              t, qdot_text_str(&text), fabs((x->t1 - t) / left), left);
     qdot_text_clear(&text);
 }
