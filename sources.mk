@@ -64,6 +64,7 @@ library_sources = \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
 	lib/lang/declare/export-scene.c \
+	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
@@ -334,6 +335,7 @@ library_sources = \
 	lib/show/export-code.c \
 	lib/show/export-julia.c \
 	lib/show/export-matlab.c \
+	lib/show/export-motion.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
 	lib/show/figure-axis.c \
@@ -738,6 +740,7 @@ library_headers = \
 	lib/show/export-language.h \
 	lib/show/export-operation.def \
 	lib/show/export-parts.h \
+	lib/show/export-writer.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
