@@ -65,6 +65,7 @@ library_sources = \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
 	lib/lang/declare/export-scene.c \
+	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
@@ -126,7 +127,6 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
-	lib/lang/session/mixture-range.c \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
@@ -183,6 +183,7 @@ library_sources = \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
 	lib/mech/scene/scene.c \
+	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-numeric.c \
@@ -202,6 +203,7 @@ library_sources = \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
+	lib/mech/study/terms.c \
 	lib/normal/field/factor.c \
 	lib/normal/field/field.c \
 	lib/normal/field/flint.c \
@@ -289,6 +291,7 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
+	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
 	lib/ode/run.c \
@@ -339,6 +342,7 @@ library_sources = \
 	lib/show/export-code.c \
 	lib/show/export-julia.c \
 	lib/show/export-matlab.c \
+	lib/show/export-motion.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
 	lib/show/figure-axis.c \
@@ -440,10 +444,13 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
+	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run.c \
@@ -561,7 +568,6 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
-	lib/lang/session/mixture-range.h \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
@@ -603,6 +609,7 @@ library_headers = \
 	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
+	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
@@ -617,6 +624,7 @@ library_headers = \
 	lib/mech/study/rest.h \
 	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
+	lib/mech/study/terms.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
 	lib/normal/field/field.h \
@@ -704,6 +712,7 @@ library_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
+	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
@@ -749,6 +758,7 @@ library_headers = \
 	lib/show/export-language.h \
 	lib/show/export-operation.def \
 	lib/show/export-parts.h \
+	lib/show/export-writer.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
@@ -834,7 +844,9 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/stretches.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -955,6 +967,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
+	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -1049,6 +1062,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1864,6 +1878,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
