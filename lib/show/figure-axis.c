@@ -186,7 +186,7 @@ is_large(int times, int k, double decades)
 
     if (times == 1)
         return k % stride == 0;
-    return decades < 0.6 || (decades < 1.5 && (times == 2 || times == 5));
+    return decades < 0.6 || (decades < 1.9 && (times == 2 || times == 5));
 }
 
 static void

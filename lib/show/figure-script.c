@@ -22,15 +22,14 @@ static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"
                                       "#56b4e9", "#e69f00", "#000000", "#8a6d00",
                                       "#7f7f7f", "#332288", "#882255", "#6b8e23"};
 
-/* Where there are more than four curves each has a pattern, too. */
+/* Of several curves each has a pattern, too: they differ on grey paper. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
 static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2};
 
 enum {
     COLOURS = sizeof colours / sizeof *colours,
     DASHES = sizeof dashes / sizeof *dashes,
-    MARKS = sizeof marks / sizeof *marks,
-    FEW = 4
+    MARKS = sizeof marks / sizeof *marks
 };
 
 /* --- the data ----------------------------------------------------------------------- */
@@ -347,7 +346,7 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         else
             qdot_text_add(d->script, " with lines");
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
-        if (panel->n > FEW && !point)
+        if (panel->n > 1 && !panel->marks && !point)
             qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);
         qdot_text_add(d->script, " title ");
         qdot_figure_add_label(d->script, &panel->curves[k].label);
