@@ -65,6 +65,7 @@ library_sources = \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
 	lib/lang/declare/export-scene.c \
+	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
@@ -126,7 +127,6 @@ library_sources = \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
-	lib/lang/session/mixture-range.c \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
@@ -291,6 +291,7 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
+	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
 	lib/ode/run.c \
@@ -341,6 +342,7 @@ library_sources = \
 	lib/show/export-code.c \
 	lib/show/export-julia.c \
 	lib/show/export-matlab.c \
+	lib/show/export-motion.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
 	lib/show/figure-axis.c \
@@ -443,10 +445,13 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
+	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run.c \
@@ -564,7 +569,6 @@ library_headers = \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
-	lib/lang/session/mixture-range.h \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
@@ -709,6 +713,7 @@ library_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
+	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
@@ -754,6 +759,7 @@ library_headers = \
 	lib/show/export-language.h \
 	lib/show/export-operation.def \
 	lib/show/export-parts.h \
+	lib/show/export-writer.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
@@ -840,7 +846,9 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/stretches.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -962,6 +970,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
+	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -1056,6 +1065,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1865,6 +1875,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \

@@ -244,6 +244,22 @@ say_crossings(qdot_run *run, bool *interrupted)
     return qdot_text_status(&run->notice);
 }
 
+/* Add to the notice that the tolerance is below the rounding of the equations. */
+static qdot_status
+say_raised(qdot_run *run, double tol)
+{
+    const double raised = run->course.tr.result.stats.raised;
+
+    if (!(raised > tol))
+        return QDOT_OK;
+    qdot_text_format(&run->notice,
+                     "%stol %.3g is below what rounding leaves of the equations: where that is "
+                     "least, steps were held to %.2g",
+                     run->notice.n > 0 ? "\n" : "", tol, raised);
+    run->report.notice = qdot_text_str(&run->notice);
+    return qdot_text_status(&run->notice);
+}
+
 static const double *
 last_state(const qdot_run *run)
 {
@@ -301,12 +317,14 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .carry = run->start_low,
                                 .t0_low = run->t0_low,
                                 .t1_low = run->t1_low,
-                                .leading = run->leading};
+                                .leading = run->leading,
+                                .meter = &run->meter};
     qdot_status status;
 
     qdot_progress_begin(run->t0, run->t1, "run");
     status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
                              run->start);
+    qdot_ode_meter_end(&run->meter);
     *interrupted = status == QDOT_EINTR;
     run->factored = 0; /* reading the run factors, too */
     for (size_t i = 0; i < run->course.binds.n; i++)
@@ -449,6 +467,7 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .y0 = run->start,
                                       .carry = run->start_low,
                                       .leading = run->leading,
+                                      .meter = &run->meter,
                                       .threaded = true};
 
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
@@ -480,6 +499,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     beside b = {0};
     qdot_status status = QDOT_OK;
 
+    qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
         estimate.error = NAN;
@@ -510,6 +530,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
             status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
         qdot_free(difference);
+        run->way = estimate.known ? estimate.way : QDOT_COMPANION_SERIES;
         if (status == QDOT_OK && !estimate.known)
             status = say_lost(run, estimate.result.reason);
         if (status != QDOT_OK || *interrupted)
@@ -528,6 +549,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     double *difference;
     qdot_status status;
 
+    qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     QDOT_TRY(integrate(run, tol, interrupted));
     run->report.error = NAN;
     run->report.tol = tol;
@@ -576,6 +598,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
     run->report.tol = tol;
+    if (status == QDOT_OK)
+        status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = find_hidden(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
