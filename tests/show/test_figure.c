@@ -462,7 +462,7 @@ paths_in_space_have_three_axes(void **state)
     assert_non_null(strstr(text, "splot "));
     assert_non_null(strstr(text, "using 1:2:3"));
     assert_non_null(strstr(text, "set view equal xyz"));
-    assert_non_null(strstr(text, "set zlabel 'z'"));
+    assert_non_null(strstr(text, "set label 4 'z'"));
     free(text);
 }
 
