@@ -491,6 +491,28 @@ a_sketch_shows_the_curve(void **state)
 }
 
 /* Where a label does not fit between the numbers these stand alone; no line is too long. */
+/* Two curves differ, and a line above says which is which; one alone has none. */
+static void
+curves_of_a_sketch_differ(void **state)
+{
+    const double at[] = {0, 1}, up[] = {0, 10}, down[] = {10, 0};
+    const qdot_curve curves[] = {{.label = {"theta", true}, .rows = 2, .x = at, .y = up},
+                                 {.label = {"<b>", false}, .rows = 2, .x = at, .y = down}};
+    const qdot_panel panel = {.curves = curves, .n = 2};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, true, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "           * theta   + <b>\n"));
+    assert_non_null(strstr(text.at, "|++"));
+    assert_non_null(strstr(text.at, "|**"));
+    qdot_text_clear(&text);
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, " θ   ⠒⠒⠂ ⠒⠒⠂ <b>\n"));
+    qdot_text_clear(&text);
+}
+
 static void
 a_narrow_sketch_fits(void **state)
 {
@@ -747,6 +769,7 @@ main(void)
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),
         cmocka_unit_test(a_sketch_shows_the_curve),
+        cmocka_unit_test(curves_of_a_sketch_differ),
         cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),
