@@ -14,6 +14,7 @@ typedef struct {
     unsigned char *cells; /* the dots of braille, U+2800 + cell */
     unsigned char *looks; /* of each cell: 1 + the look of the curve drawn there last */
     size_t look;          /* of the present curve */
+    bool solid;           /* without gaps: marks differ */
     long last[2], along;  /* its last dot, and how many there were before */
 } grid;
 
@@ -35,7 +36,7 @@ put(grid *g, double x, double y)
     g->last[0] = i;
     g->last[1] = j;
     if (i < 0 || j < 0 || i >= (long)(ACROSS * g->columns) || j >= (long)(DOWN * g->rows) ||
-        dashes[g->look][g->along % DASHES] == ' ')
+        (!g->solid && dashes[g->look][g->along % DASHES] == ' '))
         return;
     g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |= bits[j % DOWN][i % ACROSS];
     g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look + 1);
@@ -175,7 +176,8 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
                    bool ascii, qdot_text *out)
 {
     const qdot_panel *panel = &figure->panels[i];
-    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3};
+    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3,
+              .solid = ascii};
     qdot_figure_view view;
 
     QDOT_TRY(qdot_figure_get_view(figure, i, &view));
