@@ -417,7 +417,7 @@ letters_left(const qdot_figure_drawing *d, double *letters)
         qdot_figure_axis axes[3];
 
         QDOT_TRY(choose_axes(d, i, axes));
-        *letters = fmax(*letters, 3.2 + 0.62 * (double)widest_number(&axes[1]) +
+        *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
                                       (has_power(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
     }
     return QDOT_OK;
