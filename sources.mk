@@ -384,6 +384,7 @@ library_sources = \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
 	lib/sim/error/singular-places.c \
+	lib/sim/error/touches.c \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
@@ -775,6 +776,7 @@ library_headers = \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
 	lib/sim/error/singular-places.h \
+	lib/sim/error/touches.h \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
@@ -1048,6 +1050,7 @@ script_tests = \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
+	tests/script/grazing.lag \
 	tests/script/hamilton.lag \
 	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
@@ -1091,6 +1094,7 @@ script_tests = \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
 	tests/script/narrow-events.lag \
+	tests/script/narrow-forces.lag \
 	tests/script/narrow.lag \
 	tests/script/notices.lag \
 	tests/script/numeric.lag \
@@ -1197,6 +1201,7 @@ script_tests = \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
+	tests/bad/event-storm.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
@@ -1322,6 +1327,7 @@ script_tests = \
 	tests/bad/start-no-direction.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
+	tests/bad/start-rests-on-event.lag \
 	tests/bad/start-touching.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
@@ -1511,6 +1517,7 @@ test_files = \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
+	tests/bad/event-storm.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
@@ -1636,6 +1643,7 @@ test_files = \
 	tests/bad/start-no-direction.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
+	tests/bad/start-rests-on-event.out \
 	tests/bad/start-touching.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
@@ -1856,6 +1864,7 @@ test_files = \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \
+	tests/script/grazing.out \
 	tests/script/hamilton.out \
 	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
@@ -1913,6 +1922,7 @@ test_files = \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \
 	tests/script/narrow-events.out \
+	tests/script/narrow-forces.out \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/notices.out \

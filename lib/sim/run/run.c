@@ -15,6 +15,7 @@
 #include "sim/error/failure.h"
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
+#include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 #include "sim/model/parameter-states.h"
 #include "sim/start/start.h"
@@ -556,9 +557,9 @@ find_hidden(qdot_run *run)
         return QDOT_OK;
     run->report.error = NAN;
     snprintf(text, sizeof text,
-             "a force acts about t = %.6g for less than a step, which went over it: end a run "
-             "just before, and go on from there",
-             t);
+             "a force acts about t = %.6g for less than a step, which went over it: %s", t,
+             run->plan->method->series ? "end a run just before, and go on from there"
+                                       : "method taylor looks for such places");
     return qdot_run_say_doubt(run, text);
 }
 
@@ -587,8 +588,9 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
+/* touch_tol: of the course. */
 static qdot_status
-make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **out)
+make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_run **out)
 {
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
@@ -603,7 +605,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **
     run->report.horizon = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
-    run->course.touch_tol = request->tol;
+    run->course.touch_tol = touch_tol;
     if (status == QDOT_OK) {
         run->plan = run->stage.modes.at[0]->plan;
         status = read_start(run, request);
@@ -636,9 +638,39 @@ make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **
     if (request->digits)
         qdot_digits_fill_report(run);
     run->report.interrupted = interrupted;
-    run->report.cpu_total = process_clock() - clock;
     *out = run;
     return interrupted ? QDOT_EINTR : QDOT_OK;
+}
+
+/* Lower *tol, if the run is so exact that a touch of an event is seen to be none. */
+static qdot_status
+decide_touches(qdot_run *run, double *tol)
+{
+    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
+    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
+        status = qdot_touches_look(run, i, widths, tol);
+    qdot_free(widths);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Make the run, anew while a touch of an event is none. */
+static qdot_status
+make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+{
+    for (double touch_tol = asked->tol;;) {
+        const double before = touch_tol;
+
+        QDOT_TRY(make(scene, asked, touch_tol, out));
+        if (asked->digits)
+            return QDOT_OK;
+        QDOT_TRY(decide_touches(*out, &touch_tol));
+        if (touch_tol == before)
+            return QDOT_OK;
+        qdot_run_free(*out);
+        *out = NULL;
+    }
 }
 
 qdot_status
@@ -650,7 +682,9 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 
     *out = NULL;
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
-    status = make(scene, &states.request, clock, out);
+    status = make_decided(scene, &states.request, out);
+    if (*out)
+        (*out)->report.cpu_total = process_clock() - clock;
     qdot_parameter_states_clear(&states);
     return status;
 }
