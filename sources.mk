@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
 	lib/expr/calculus.c \
@@ -64,6 +65,7 @@ library_sources = \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
 	lib/lang/declare/export-scene.c \
+	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
@@ -80,7 +82,9 @@ library_sources = \
 	lib/lang/files/digits-table.c \
 	lib/lang/files/export.c \
 	lib/lang/files/redirect.c \
+	lib/lang/files/report-answer.c \
 	lib/lang/files/report-page.c \
+	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
@@ -117,12 +121,12 @@ library_sources = \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
+	lib/lang/session/conditions.c \
 	lib/lang/session/event-time.c \
 	lib/lang/session/function-body.c \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
-	lib/lang/session/mixture-range.c \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
@@ -139,6 +143,7 @@ library_sources = \
 	lib/lang/source/source.c \
 	lib/lang/workbench/complete.c \
 	lib/lang/workbench/help.c \
+	lib/lang/workbench/highlight.c \
 	lib/lang/workbench/reset.c \
 	lib/lang/workbench/script-file.c \
 	lib/lang/workbench/script.c \
@@ -178,6 +183,7 @@ library_sources = \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
 	lib/mech/scene/scene.c \
+	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-numeric.c \
@@ -197,6 +203,7 @@ library_sources = \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability.c \
+	lib/mech/study/terms.c \
 	lib/normal/field/factor.c \
 	lib/normal/field/field.c \
 	lib/normal/field/flint.c \
@@ -284,6 +291,7 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
+	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
 	lib/ode/run.c \
@@ -334,6 +342,7 @@ library_sources = \
 	lib/show/export-code.c \
 	lib/show/export-julia.c \
 	lib/show/export-matlab.c \
+	lib/show/export-motion.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
 	lib/show/figure-axis.c \
@@ -345,6 +354,7 @@ library_sources = \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
+	lib/show/page-curves.c \
 	lib/show/page.c \
 	lib/show/pdf.c \
 	lib/show/scripts.c \
@@ -435,10 +445,13 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
+	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run.c \
@@ -474,6 +487,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
@@ -518,6 +532,8 @@ library_headers = \
 	lib/lang/files/data-file.h \
 	lib/lang/files/digits-table.h \
 	lib/lang/files/redirect.h \
+	lib/lang/files/report-answer.h \
+	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
@@ -547,12 +563,12 @@ library_headers = \
 	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
+	lib/lang/session/conditions.h \
 	lib/lang/session/event-time.h \
 	lib/lang/session/function-body.h \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
-	lib/lang/session/mixture-range.h \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
@@ -569,6 +585,7 @@ library_headers = \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
 	lib/lang/workbench/complete.h \
+	lib/lang/workbench/highlight.h \
 	lib/lang/workbench/script.h \
 	lib/lang/workbench/search.h \
 	lib/machine/asm.h \
@@ -593,6 +610,7 @@ library_headers = \
 	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
+	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
@@ -607,6 +625,7 @@ library_headers = \
 	lib/mech/study/rest.h \
 	lib/mech/study/rods.h \
 	lib/mech/study/stability.h \
+	lib/mech/study/terms.h \
 	lib/normal/field/factor.h \
 	lib/normal/field/facts.h \
 	lib/normal/field/field.h \
@@ -694,6 +713,7 @@ library_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
+	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
@@ -737,13 +757,16 @@ library_headers = \
 	lib/show/data.h \
 	lib/show/draw.h \
 	lib/show/export-language.h \
+	lib/show/export-operation.def \
 	lib/show/export-parts.h \
+	lib/show/export-writer.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
 	lib/show/formula-page.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
+	lib/show/page-curves.h \
 	lib/show/page.h \
 	lib/show/pdf.h \
 	lib/show/scripts.h \
@@ -823,7 +846,9 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/stretches.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -847,6 +872,10 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/export-c.template \
+	lib/show/export-julia.template \
+	lib/show/export-matlab.template \
+	lib/show/export-python.template \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
@@ -856,6 +885,8 @@ program_sources = \
 	src/completion.h \
 	src/history.c \
 	src/history.h \
+	src/input-colours.c \
+	src/input-colours.h \
 	src/main.c \
 	src/pager.c \
 	src/pager.h \
@@ -874,6 +905,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
 	tests/expr/test_expand \
@@ -887,7 +919,9 @@ unit_tests = \
 	tests/expr/test_tensor \
 	tests/expr/test_walk \
 	tests/lang/test_complete \
+	tests/lang/test_conditions \
 	tests/lang/test_evaluate \
+	tests/lang/test_highlight \
 	tests/lang/test_hints \
 	tests/lang/test_lex \
 	tests/lang/test_names \
@@ -935,6 +969,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
+	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -958,6 +993,7 @@ unit_tests = \
 	tests/show/test_figure \
 	tests/show/test_formula_page \
 	tests/show/test_layout \
+	tests/show/test_page-curves \
 	tests/show/test_page \
 	tests/show/test_table \
 	tests/show/test_trace \
@@ -983,6 +1019,7 @@ unit_tests = \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
+	tests/src/test_screen \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
@@ -1027,6 +1064,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1117,6 +1155,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/rests.lag \
@@ -1841,6 +1880,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
@@ -1947,6 +1987,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/rests.out \
@@ -1979,6 +2020,7 @@ test_files = \
 	tests/script/workprecision.out \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
+	tests/src/terminal.h \
 	tests/tape/lone.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \

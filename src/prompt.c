@@ -16,8 +16,10 @@
 #include <readline/readline.h>
 
 #include "base/terminal.h"
+#include "base/wrap.h"
 #include "completion.h"
 #include "history.h"
+#include "input-colours.h"
 #include "pager.h"
 #include "signals.h"
 #include "startup.h"
@@ -97,6 +99,7 @@ prepare(qdot_session *session)
     rl_outstream = session->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
+    qdot_input_colours_install(session);
 }
 
 /* `qdot 3> `, where %3 is the next value; what continues a line stands below it. */
@@ -134,6 +137,7 @@ read_statement(const qdot_session *session, qdot_text *text)
         if (text->n > 0)
             qdot_text_char(text, '\n');
         qdot_completion_continue(qdot_text_str(text));
+        qdot_input_colours_continue(qdot_text_str(text));
         write_prompt(session, text->n == 0, &prompt);
         kind = read_line(qdot_text_str(&prompt), &line);
         if (kind != LINE)
@@ -142,6 +146,7 @@ read_statement(const qdot_session *session, qdot_text *text)
         free(line);
     } while (!text->failed && qdot_script_is_incomplete(text->at, text->n));
     qdot_completion_continue("");
+    qdot_input_colours_continue("");
     qdot_text_clear(&prompt);
     if (text->n > 0 && text->at[text->n - 1] == '\n')
         qdot_text_truncate(text, text->n - 1); /* no line came behind it */
@@ -188,6 +193,20 @@ carry_out(qdot_session *session, qdot_text *text)
         qdot_text_clear(text);
 }
 
+static void
+greet(void)
+{
+    size_t columns = 0, rows;
+    qdot_text lines = {0};
+
+    (void)qdot_terminal_size(rl_outstream, &columns, &rows);
+    qdot_wrap("qdot " PACKAGE_VERSION
+              ". Write r(q), get the mechanics. `help` helps, Ctrl-D leaves.\n",
+              columns, &lines);
+    fputs(qdot_text_str(&lines), rl_outstream);
+    qdot_text_clear(&lines);
+}
+
 void
 qdot_prompt_run(qdot_session *session, bool banner, bool startup)
 {
@@ -197,8 +216,7 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     prepare(session);
     qdot_history_begin();
     if (banner)
-        fprintf(rl_outstream, "qdot " PACKAGE_VERSION ". Write r(q), get the mechanics. "
-                              "`help` helps, Ctrl-D leaves.\n");
+        greet();
     session->interactive = true;
     qdot_signals_patient(true);
     if (startup)

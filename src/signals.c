@@ -14,7 +14,7 @@ static void
 on_interrupt(int signal_number)
 {
     if (computing && qdot_interrupt_flag && patient) {
-        static const char text[] = "stopping as soon as it can (Ctrl-\\ ends qdot)\n";
+        static const char text[] = "stopping soon (Ctrl-\\ ends qdot)\n";
 
         if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
             return; /* nobody reads it */

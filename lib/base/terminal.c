@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 bool
-qdot_terminal_size(FILE *stream, size_t *columns, size_t *rows)
+qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows)
 {
-    const int file = fileno(stream);
+    const int file = fileno((FILE *)stream);
     struct winsize size = {0};
 
     if (file < 0 || !isatty(file))

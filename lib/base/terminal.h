@@ -7,7 +7,7 @@
 
 /* Its size in characters; one that does not tell its size has 80 x 24. false: the stream goes
  * elsewhere. */
-bool qdot_terminal_size(FILE *stream, size_t *columns, size_t *rows);
+bool qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows);
 
 /* Whether colours may be shown on the stream: it is a terminal, TERM is not `dumb`, and NO_COLOR is
  * not set, or empty. */
@@ -17,7 +17,9 @@ bool qdot_terminal_has_colours(FILE *stream);
 #define QDOT_GREEN "\033[32m"
 #define QDOT_YELLOW "\033[33m"
 #define QDOT_BLUE "\033[34m"
+#define QDOT_MAGENTA "\033[35m"
 #define QDOT_CYAN "\033[36m"
+#define QDOT_GREY "\033[90m"
 #define QDOT_BOLD "\033[1m"
 #define QDOT_COLOUR_END "\033[0m"
 

@@ -210,17 +210,6 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     return status;
 }
 
-static void
-add_stats(qdot_ode_stats *sum, const qdot_ode_stats *more)
-{
-    sum->steps += more->steps;
-    sum->rejected += more->rejected;
-    sum->evaluations += more->evaluations;
-    sum->jacobians += more->jacobians;
-    sum->factorisations += more->factorisations;
-    sum->cpu += more->cpu;
-}
-
 qdot_status
 qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_t mode,
                        bool jumped, const qdot_ode_options *options, double t1,
@@ -257,7 +246,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
         status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
     else
         memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
-    add_stats(&tr->result.stats, &before);
+    qdot_ode_stats_add(&tr->result.stats, &before);
     qdot_free(y);
     return status;
 }

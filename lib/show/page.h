@@ -1,4 +1,4 @@
-/* page.h -- answers as parts of a page: headings, formulas, curves.
+/* page.h -- answers as parts of a page: headings and formulas.
  *
  * Tests  tests/show/test_page.c, tests/script/report.sh
  */
@@ -18,21 +18,5 @@ void qdot_page_lines(qdot_text *out, const char *lines);
 
 /* Append text as it stands, in equally wide letters. */
 void qdot_page_verbatim(qdot_text *out, const char *text);
-
-/* Append a figure of y [n] against t0 .. t1 in equal steps, as SVG. */
-void qdot_page_curve(qdot_text *out, const char *name, double t0, double t1,
-                     const double *y, size_t n);
-
-/* A curve of a figure: points x [n], y [n]. */
-typedef struct {
-    const char *label;
-    size_t n;
-    const double *x, *y; /* borrowed */
-} qdot_page_points;
-
-/* Append a figure of curves [n] with logarithmic axes, a mark at every point; a point that is not above 0 is
- * left out. */
-void qdot_page_log_log(qdot_text *out, const char *caption, size_t n,
-                       const qdot_page_points *list);
 
 #endif

@@ -14,9 +14,10 @@ typedef struct {
     const double *at;  /* [rows] borrowed */
 } qdot_column;
 
-/* Rows as text, aligned columns, header first; `digits` significant. */
-QDOT_MUST_CHECK qdot_status qdot_table_text(size_t columns, const qdot_column *column,
-                                            size_t rows, int digits, qdot_text *out);
+/* Rows as text, aligned columns, header first; `digits` significant. `mark` stands before each cell
+ * but the first of a row: "" or QDOT_WRAP_CELL of base/wrap.h. */
+QDOT_MUST_CHECK qdot_status qdot_table_text(size_t columns, const qdot_column *column, size_t rows,
+                                            int digits, const char *mark, qdot_text *out);
 /* Comma-separated values, header quoted by RFC 4180 where needed, 17 digits. path "-": stdout. */
 QDOT_MUST_CHECK qdot_status qdot_table_csv(size_t columns, const qdot_column *column,
                                            size_t rows, const char *path);

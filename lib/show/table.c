@@ -29,11 +29,13 @@ add_blanks(qdot_text *out, size_t n)
     qdot_text_add_n(out, blanks, n);
 }
 
-/* Everything right-aligned: numbers of one column then stand under each other. */
+/* Everything right-aligned: numbers of one column then stand under each other. mark NULL: the first
+ * of a row. */
 static void
-add_cell(qdot_text *out, const char *text, size_t taken, size_t width, bool first)
+add_cell(qdot_text *out, const char *text, size_t taken, size_t width, const char *mark)
 {
-    add_blanks(out, width - taken + (first ? 0 : GAP));
+    qdot_text_add(out, mark != NULL ? mark : "");
+    add_blanks(out, width - taken + (mark == NULL ? 0 : GAP));
     qdot_text_add(out, text);
 }
 
@@ -55,18 +57,18 @@ measure(size_t columns, const qdot_column *column, size_t rows, int digits,
 
 static qdot_status
 add_rows(size_t columns, const qdot_column *column, size_t rows, int digits,
-         const size_t *width, qdot_text *cell, qdot_text *out)
+         const char *mark, const size_t *width, qdot_text *cell, qdot_text *out)
 {
     for (size_t j = 0; j < columns; j++)
         add_cell(out, column[j].label,
                  qdot_utf8_columns(column[j].label, strlen(column[j].label)), width[j],
-                 j == 0);
+                 j == 0 ? NULL : mark);
     qdot_text_char(out, '\n');
     for (size_t i = 0; i < rows; i++) {
         for (size_t j = 0; j < columns; j++) {
             size_t n = write_cell(cell, column[j].at[i], digits);
 
-            add_cell(out, qdot_text_str(cell), n, width[j], j == 0);
+            add_cell(out, qdot_text_str(cell), n, width[j], j == 0 ? NULL : mark);
         }
         qdot_text_char(out, '\n');
         if (i % 1024 == 1023)
@@ -78,7 +80,7 @@ add_rows(size_t columns, const qdot_column *column, size_t rows, int digits,
 
 qdot_status
 qdot_table_text(size_t columns, const qdot_column *column, size_t rows, int digits,
-                qdot_text *out)
+                const char *mark, qdot_text *out)
 {
     qdot_text cell = {0};
     size_t *width;
@@ -90,7 +92,7 @@ qdot_table_text(size_t columns, const qdot_column *column, size_t rows, int digi
         return QDOT_ENOMEM;
     status = measure(columns, column, rows, digits, &cell, width);
     if (status == QDOT_OK)
-        status = add_rows(columns, column, rows, digits, width, &cell, out);
+        status = add_rows(columns, column, rows, digits, mark, width, &cell, out);
     qdot_text_clear(&cell);
     qdot_free(width);
     return status;

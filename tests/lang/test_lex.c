@@ -165,7 +165,7 @@ report_shows_line_and_caret(void **state)
 
     (void)state;
     assert_int_equal(qdot_source_new("a.lag", text, strlen(text), &source, &at), QDOT_OK);
-    qdot_source_report(source, 11, &error, false, &out);
+    qdot_source_report(source, 11, &error, false, 0, &out);
     assert_string_equal(out.at, "a.lag:2:5: error: unknown name `zz`\n"
                                 "  θ + zz\n"
                                 "      ^\n"
@@ -191,7 +191,7 @@ report_cuts_long_lines(void **state)
     text[PLACE] = 'Z';
     text[LENGTH] = '\0';
     assert_int_equal(qdot_source_new("a.lag", text, LENGTH, &source, &at), QDOT_OK);
-    qdot_source_report(source, PLACE, &error, false, &out);
+    qdot_source_report(source, PLACE, &error, false, 0, &out);
     assert_true(out.n < 400);
     line = strchr(out.at, '\n') + 1;
     caret = strchr(line, '\n') + 1;

@@ -155,15 +155,143 @@ arms_body(kit *k)
                       E(k, "(2*a*sin(u) + b*sin(v), 0 - 2*a*cos(u) - b*cos(v))"),
                       E(k, "v"), QDOT_NIL));
     joint = E(k, "(2*a*sin(u), 0 - 2*a*cos(u))");
-    must(qdot_mech_arms(k->scene, 0, &arms));
+    must(qdot_mech_arms(k->scene, 0, &(qdot_rods){0}, &arms));
     assert_int_equal(arms.n, 1);
     assert_int_equal(arms.at[0], E(k, "(0, 0)"));
-    must(qdot_mech_arms(k->scene, 1, &arms));
+    must(qdot_mech_arms(k->scene, 1, &(qdot_rods){0}, &arms));
     assert_int_equal(arms.n, 2);
     assert_int_equal(arms.at[1], joint);
     qdot_free(arms.at);
 }
 TEST(arms)
+
+/* The body NAME, free in the plane at (xNAME, yNAME), turned by uNAME. */
+static void
+free_body(kit *k, char name)
+{
+    char text[40], label[2] = {name, '\0'}, angle[3] = {'u', name, '\0'};
+
+    snprintf(text, sizeof text, "(x%c, y%c)", name, name);
+    must(declare_body(k->scene, label, E(k, "m"), E(k, "J"), QDOT_NIL, E(k, text),
+                      E(k, angle), QDOT_NIL));
+}
+
+/* Of two free bodies: one rod written by its square, one by its length; one to a place in space;
+ * one to a particle. The ends are arms of their bodies. */
+static void
+rods_between_bodies_body(kit *k)
+{
+    qdot_rods rods;
+    qdot_arms arms = {0};
+
+    coords(k, "xa ya ua xb yb ub xp yp");
+    free_body(k, 'a');
+    free_body(k, 'b');
+    particle(k, "p", "m", "(xp, yp)");
+    constraint(k, "ab",
+               "(xa + cos(ua) - xb + 2*sin(ub))^2 + (ya + sin(ua) - yb - 2*cos(ub))^2",
+               "L^2");
+    constraint(k, "ba",
+               "sqrt((xb + cos(ub)/2 - xa + sin(ua))^2 + (yb + sin(ub)/2 - ya - cos(ua))^2)",
+               "3");
+    constraint(k, "fixed", "(xa - l*cos(ua) - 5)^2 + (ya - l*sin(ua) + h)^2", "1");
+    constraint(k, "hung", "(xp - xb - cos(ub))^2 + (yp - yb - sin(ub))^2 - 4", "0");
+    rods = rods_of(k);
+    assert_int_equal(rods.n, 4);
+    assert_true(joined(&rods, E(k, "(xa + cos(ua), ya + sin(ua))"),
+                       E(k, "(xb - 2*sin(ub), yb + 2*cos(ub))"), "ab"));
+    assert_true(joined(&rods, E(k, "(xb + cos(ub)/2, yb + sin(ub)/2)"),
+                       E(k, "(xa - sin(ua), ya + cos(ua))"), "ba"));
+    assert_true(joined(&rods, E(k, "(xa - l*cos(ua), ya - l*sin(ua))"),
+                       E(k, "(5, 0 - h)"), "fixed"));
+    assert_true(joined(&rods, E(k, "(xb + cos(ub), yb + sin(ub))"), E(k, "(xp, yp)"), "hung"));
+    must(qdot_mech_arms(k->scene, 0, &rods, &arms));
+    assert_int_equal(arms.n, 3);
+    assert_int_equal(arms.at[0], E(k, "(xa + cos(ua), ya + sin(ua))"));
+    qdot_free(rods.at);
+    qdot_free(arms.at);
+}
+TEST(rods_between_bodies)
+
+/* The second body hangs on the first: they share a coordinate, but a rod holds their ends. */
+static void
+rod_in_a_chain_body(kit *k)
+{
+    qdot_rods rods;
+
+    coords(k, "u v w");
+    must(declare_body(k->scene, "A", E(k, "m"), E(k, "J"), QDOT_NIL,
+                      E(k, "(cos(u), sin(u))"), E(k, "u"), QDOT_NIL));
+    must(declare_body(k->scene, "B", E(k, "m"), E(k, "J"), QDOT_NIL,
+                      E(k, "(2*cos(u) + cos(v), 2*sin(u) + sin(v))"), E(k, "v"), QDOT_NIL));
+    must(declare_body(k->scene, "C", E(k, "m"), E(k, "J"), QDOT_NIL,
+                      E(k, "(7 + cos(w), sin(w))"), E(k, "w"), QDOT_NIL));
+    constraint(k, "rod",
+               "(2*cos(u) + 2*cos(v) - 7 - 2*cos(w))^2 + (2*sin(u) + 2*sin(v) - 2*sin(w))^2",
+               "L^2");
+    rods = rods_of(k);
+    assert_int_equal(rods.n, 1);
+    assert_true(joined(&rods, E(k, "(2*cos(u) + 2*cos(v), 2*sin(u) + 2*sin(v))"),
+                       E(k, "(7 + 2*cos(w), 2*sin(w))"), "rod"));
+    qdot_free(rods.at);
+}
+TEST(rod_in_a_chain)
+
+/* A weight on one square, a point that slides on its body: no rod. */
+static void
+no_rod_between_bodies_body(kit *k)
+{
+    qdot_rods rods;
+
+    coords(k, "xa ya ua xb yb ub s");
+    free_body(k, 'a');
+    free_body(k, 'b');
+    constraint(k, "oval",
+               "(xa + cos(ua) - xb + 2*sin(ub))^2 + 2*(ya + sin(ua) - yb - 2*cos(ub))^2",
+               "L^2");
+    constraint(k, "slide", "(xa + s*cos(ua) - xb)^2 + (ya + s*sin(ua) - yb)^2", "L^2");
+    constraint(k, "hoist", "(xa + cos(ua) - xb)^2 + (ya + sin(ua) - yb)^2", "(2 + s)^2");
+    rods = rods_of(k);
+    assert_int_equal(rods.n, 0);
+    qdot_free(rods.at);
+}
+TEST(no_rod_between_bodies)
+
+/* In space, both turned about the z axis and tilted. */
+static void
+rod_in_space_body(kit *k)
+{
+    qdot_rods rods;
+    const qdot_expr one = E(k, "1");
+    qdot_expr entries[9];
+
+    coords(k, "x y z a b p q r");
+    entries[0] = E(k, "cos(a)");
+    entries[1] = E(k, "0 - sin(a)*cos(b)");
+    entries[2] = E(k, "sin(a)*sin(b)");
+    entries[3] = E(k, "sin(a)");
+    entries[4] = E(k, "cos(a)*cos(b)");
+    entries[5] = E(k, "0 - cos(a)*sin(b)");
+    entries[6] = E(k, "0");
+    entries[7] = E(k, "sin(b)");
+    entries[8] = E(k, "cos(b)");
+    must(declare_body(k->scene, "top", E(k, "m"),
+                      qdot_matrix(k->pool, 3, 3,
+                                  (qdot_expr[]){one, QDOT_ZERO, QDOT_ZERO, QDOT_ZERO, one, QDOT_ZERO,
+                                               QDOT_ZERO, QDOT_ZERO, one}),
+                      QDOT_NIL, E(k, "(x, y, z)"), QDOT_NIL,
+                      qdot_matrix(k->pool, 3, 3, entries)));
+    particle(k, "bob", "m", "(p, q, r)");
+    constraint(k, "rod",
+               "(p - x - sin(a)*sin(b))^2 + (q - y + cos(a)*sin(b))^2 + (r - z - cos(b))^2",
+               "L^2");
+    rods = rods_of(k);
+    assert_int_equal(rods.n, 1);
+    assert_true(joined(&rods, E(k, "(p, q, r)"),
+                       E(k, "(x + sin(a)*sin(b), y - cos(a)*sin(b), z + cos(b))"), "rod"));
+    qdot_free(rods.at);
+}
+TEST(rod_in_space)
 
 int
 main(void)
@@ -176,6 +304,10 @@ main(void)
         cmocka_unit_test(near_misses),
         cmocka_unit_test(spherical),
         cmocka_unit_test(arms),
+        cmocka_unit_test(rods_between_bodies),
+        cmocka_unit_test(rod_in_a_chain),
+        cmocka_unit_test(no_rod_between_bodies),
+        cmocka_unit_test(rod_in_space),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

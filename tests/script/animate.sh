@@ -73,3 +73,22 @@ echo '--- plank'
 data plank.html | sed -n '1,5p'
 echo '--- top'
 data top.html | sed -n '1,5p'
+
+# Rods, a spring and a damper between points of two bodies, and from one to the ceiling.
+qdot -q - <<'END'
+param m, J, k, c, g > 0
+coord x[i], y[i], u[i] for i = 1..2
+body A mass m inertia J at (x[1], y[1]) angle u[1]
+body B mass m inertia J at (x[2], y[2]) angle u[2]
+gravity (0, -g)
+constraint hang: norm(point(A, (0, 1/2)) - (0, 3)) = 2
+constraint rod: norm(point(A, (1/2, -1/2)) - point(B, (-1/2, 1/2)))^2 = 9/4
+spring s between point(A, (-1/2, -1/2)), point(B, (-1/2, -1/4)) stiffness k rest 1
+damper d between point(A, (1/2, 0)), point(B, (1/2, 1/2)) coefficient c
+set m = 1, J = 0.2, k = 20, c = 1, g = 9.81
+start y[1] = 0.5, x[1] = 0, u[1] = 0, x[2] = 1.2, u[2] = 0.2
+run 0..1
+animate to "linked.html"
+END
+echo '--- linked'
+data linked.html | sed -n '2,5p' | sed 's/,"half[^}]*"arms"/ "arms"/g'

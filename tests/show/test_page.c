@@ -1,11 +1,10 @@
-/* test_page.c -- answers as parts of a page: formulas divided, texts escaped, curves drawn. */
+/* test_page.c -- answers as parts of a page: formulas divided, texts escaped. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
 #include <cmocka.h>
 
-#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -79,33 +78,6 @@ broken_formula_is_text(void **state)
             "<p>a &lt;math&gt;&lt;mi&gt;b</p>\n<p>c&lt;/math&gt;</p>\n");
 }
 
-/* The ends of the curve are where its axes say; what is not finite breaks it. */
-static void
-curve_has_its_ends(void **state)
-{
-    static double y[5001];
-    qdot_text out = {0};
-    const char *curve, *last = NULL;
-
-    (void)state;
-    for (int k = 0; k < 5001; k++)
-        y[k] = k;
-    y[0] = 0;
-    qdot_page_curve(&out, "a<b", 0, 10, y, 5001);
-    assert_non_null(strstr(out.at, "a&lt;b against t"));
-    curve = strstr(out.at, "class=\"curve\" d=\"M64.0 ");
-    assert_non_null(curve);
-    for (const char *at = curve; (at = strchr(at, 'L')) != NULL; at++)
-        last = at;
-    assert_true(strncmp(last, "L628.0 ", 7) == 0);
-    qdot_text_clear(&out);
-    for (int k = 0; k < 5001; k++)
-        y[k] = NAN;
-    qdot_page_curve(&out, "none", 0, 10, y, 5001);
-    assert_int_equal(out.n, 0);
-    qdot_text_clear(&out);
-}
-
 int
 main(void)
 {
@@ -114,7 +86,6 @@ main(void)
         cmocka_unit_test(formula_is_divided),
         cmocka_unit_test(index_and_power_are_one_above_the_other),
         cmocka_unit_test(broken_formula_is_text),
-        cmocka_unit_test(curve_has_its_ends),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,7 +21,7 @@ columns_are_right_aligned_under_their_labels(void **state)
     qdot_text out = {0};
 
     (void)state;
-    assert_int_equal(qdot_table_text(2, columns, 3, 6, &out), QDOT_OK);
+    assert_int_equal(qdot_table_text(2, columns, 3, 6, "", &out), QDOT_OK);
     assert_string_equal(qdot_text_str(&out), "  t    theta\n"
                                              "  0        2\n"
                                              "0.1    -1.25\n"
@@ -40,7 +40,7 @@ every_line_is_equally_wide(void **state)
     size_t width = 0, lines = 0;
 
     (void)state;
-    assert_int_equal(qdot_table_text(3, columns, 6, 17, &out), QDOT_OK);
+    assert_int_equal(qdot_table_text(3, columns, 6, 17, "", &out), QDOT_OK);
     for (const char *at = out.at; *at != '\0'; lines++) {
         const char *end = strchr(at, '\n');
         size_t here;
@@ -63,7 +63,7 @@ digits_are_those_asked_for(void **state)
     qdot_text out = {0};
 
     (void)state;
-    assert_int_equal(qdot_table_text(1, &column, 1, 3, &out), QDOT_OK);
+    assert_int_equal(qdot_table_text(1, &column, 1, 3, "", &out), QDOT_OK);
     assert_string_equal(qdot_text_str(&out), "    x\n0.667\n");
     qdot_text_clear(&out);
 }
@@ -75,10 +75,10 @@ a_table_without_rows_is_its_header(void **state)
     qdot_text out = {0};
 
     (void)state;
-    assert_int_equal(qdot_table_text(1, &column, 0, 6, &out), QDOT_OK);
+    assert_int_equal(qdot_table_text(1, &column, 0, 6, "", &out), QDOT_OK);
     assert_string_equal(qdot_text_str(&out), "energy\n");
     qdot_text_clear(&out);
-    assert_int_equal(qdot_table_text(0, &column, 0, 6, &out), QDOT_EINVAL);
+    assert_int_equal(qdot_table_text(0, &column, 0, 6, "", &out), QDOT_EINVAL);
 }
 
 static void
@@ -90,7 +90,7 @@ ctrl_c_stops_a_table(void **state)
 
     (void)state;
     qdot_interrupt_set();
-    assert_int_equal(qdot_table_text(1, &column, 1, 6, &out), QDOT_EINTR);
+    assert_int_equal(qdot_table_text(1, &column, 1, 6, "", &out), QDOT_EINTR);
     qdot_interrupt_clear();
     qdot_text_clear(&out);
 }
@@ -107,7 +107,7 @@ no_memory_is_an_error(void **state)
         qdot_text out = {0};
 
         qdot_memory_fail_at(n);
-        status = qdot_table_text(1, &column, 2, 6, &out);
+        status = qdot_table_text(1, &column, 2, 6, "", &out);
         qdot_memory_fail_at(-1);
         assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
         qdot_text_clear(&out);

@@ -29,7 +29,7 @@ static qdot_status
 end_line(qdot_session *session, qdot_status status, qdot_text *line)
 {
     if (status == QDOT_OK)
-        status = qdot_write(session->out, line);
+        status = qdot_write(session, session->out, line);
     qdot_text_clear(line);
     return status;
 }
@@ -234,7 +234,7 @@ numbers_json(qdot_session *session, const char *name, bool several,
     qdot_text_add(&line, qdot_text_str(errors));
     qdot_text_add(&line, several ? "]}\n" : "}\n");
     line.failed = line.failed || values->failed || errors->failed;
-    return qdot_write(session->out, &line);
+    return qdot_write(session, session->out, &line);
 }
 
 static qdot_status
@@ -437,7 +437,7 @@ qdot_answer_cells(qdot_session *session, const qdot_text *values)
     qdot_text_add(&line, "{\"kind\":\"row\",\"values\":[");
     qdot_text_add(&line, qdot_text_str(values));
     qdot_text_add(&line, "]}\n");
-    return qdot_write(session->out, &line);
+    return qdot_write(session, session->out, &line);
 }
 
 qdot_status
@@ -470,7 +470,7 @@ qdot_answer_file(qdot_session *session, const char *path)
         qdot_text_add(&line, path);
         qdot_text_char(&line, '\n');
     }
-    return qdot_write(session->out, &line);
+    return qdot_write(session, session->out, &line);
 }
 
 qdot_status
@@ -495,7 +495,8 @@ put_notice(qdot_session *session, const char *message)
         qdot_text_format(&line, "%snotice:%s %s\n", paint(session, QDOT_YELLOW),
                          paint(session, QDOT_COLOUR_END), message);
     }
-    return qdot_write(session->console != NULL ? session->console : session->out, &line);
+    return qdot_write(session, session->console != NULL ? session->console : session->out,
+                      &line);
 }
 
 qdot_status
@@ -554,21 +555,20 @@ error_json(qdot_session *session, const qdot_source *source, size_t at,
     else
         qdot_text_add(&line, "null");
     qdot_text_add(&line, "}\n");
-    (void)!qdot_write(session->out, &line);
+    (void)!qdot_write(session, session->out, &line);
 }
 
 void
 qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
 {
     qdot_error error = *qdot_last_error(); /* what follows may fail in its turn */
+    const bool colours = (session->colours & QDOT_COLOURS_ERRORS) != 0;
     qdot_text text = {0};
 
     if (source != NULL) {
-        qdot_source_report(source, at, &error, (session->colours & QDOT_COLOURS_ERRORS) != 0,
+        qdot_source_report(source, at, &error, colours, qdot_write_width(session, session->err),
                            &text);
     } else {
-        const bool colours = (session->colours & QDOT_COLOURS_ERRORS) != 0;
-
         qdot_text_format(&text, "%serror:%s %s\n", colours ? QDOT_RED : "",
                          colours ? QDOT_COLOUR_END : "", error.message);
         if (error.hint[0] != '\0')
@@ -576,7 +576,7 @@ qdot_answer_error(qdot_session *session, const qdot_source *source, size_t at)
                              colours ? QDOT_COLOUR_END : "", error.hint);
     }
     fflush(session->out);
-    if (qdot_write(session->err, &text) != QDOT_OK)
+    if (qdot_write(session, session->err, &text) != QDOT_OK)
         fprintf(session->err, "error: %s\n", error.message); /* no memory for more */
     if (session->json)
         error_json(session, source, at, &error);

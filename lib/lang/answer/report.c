@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/progress.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/number-text.h"
+#include "lang/answer/write.h"
 
 static const char *
 status_word(qdot_run_status status)
@@ -376,12 +376,7 @@ qdot_report_run(qdot_session *session, const char *name, const qdot_run_report *
                                        : run_text(session, name, report, &line);
 
     if (status == QDOT_OK)
-        status = qdot_text_status(&line);
-    qdot_progress_clear();
-    if (status == QDOT_OK &&
-        (fwrite(qdot_text_str(&line), 1, line.n, session->out) != line.n ||
-         fflush(session->out) != 0))
-        status = qdot_fail(QDOT_EIO, "standard output cannot be written");
+        return qdot_write(session, session->out, &line);
     qdot_text_clear(&line);
     return status;
 }

@@ -160,7 +160,7 @@ draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *li
 
     if (status == QDOT_OK)
         cut(s, &size, &drawn);
-    return qdot_answer_written(session, name, status, &drawn);
+    return qdot_answer_drawn(session, name, status, &drawn);
 }
 
 qdot_status
@@ -181,7 +181,8 @@ qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name,
     } else if (status == QDOT_OK && s->laid_out) {
         status = draw(session, s, name, lines);
     } else {
-        return qdot_answer_written(session, name, status, lines);
+        return (session->flat ? qdot_answer_drawn : qdot_answer_written)(session, name, status,
+                                                                         lines);
     }
     qdot_text_clear(lines);
     return status;
@@ -200,5 +201,5 @@ qdot_sheet_flush(qdot_session *session)
                  ? qdot_page_latex(qdot_text_str(&lines), &page)
                  : qdot_page_mathml(qdot_text_str(&lines), &page);
     qdot_text_clear(&lines);
-    return qdot_answer_written(session, "formulas", status, &page);
+    return qdot_answer_drawn(session, "formulas", status, &page);
 }

@@ -4,9 +4,11 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "base/wrap.h"
 
-qdot_status
-qdot_write(FILE *file, qdot_text *text)
+/* Write a finished text as it is and clear it. */
+static qdot_status
+put(FILE *file, qdot_text *text)
 {
     qdot_status status = qdot_text_status(text);
 
@@ -17,6 +19,33 @@ qdot_write(FILE *file, qdot_text *text)
         status = qdot_fail(QDOT_EIO, "standard output cannot be written");
     qdot_text_clear(text);
     return status;
+}
+
+size_t
+qdot_write_width(const qdot_session *session, const FILE *file)
+{
+    size_t columns, rows;
+
+    if (file != session->err && (file == session->console ? session->console_json : session->json))
+        return 0;
+    if (file == session->pages)
+        file = session->screen;
+    return qdot_terminal_size(file, &columns, &rows) ? columns : 0;
+}
+
+qdot_status
+qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
+{
+    const size_t width = qdot_write_width(session, file);
+    qdot_text wrapped = {0};
+
+    if (qdot_text_status(text) == QDOT_OK &&
+        (width > 0 || strchr(qdot_text_str(text), QDOT_WRAP_CELL[0]) != NULL)) {
+        qdot_wrap(qdot_text_str(text), width, &wrapped);
+        qdot_text_clear(text);
+        *text = wrapped;
+    }
+    return put(file, text);
 }
 
 FILE *
@@ -39,32 +68,54 @@ qdot_write_field(qdot_text *line, const char *before, const char *text)
     qdot_text_json(line, text);
 }
 
-qdot_status
-qdot_answer_text(qdot_session *session, const char *name, const char *text)
+static qdot_status
+answer(qdot_session *session, const char *name, const char *text, bool drawn)
 {
-    qdot_text line = {0};
+    qdot_text line = {0}, plain = {0};
     size_t n = strlen(text);
 
     if (session->json) {
+        qdot_wrap(text, 0, &plain);
         qdot_write_field(&line, "{\"kind\":\"text\",\"name\":", name);
-        qdot_write_field(&line, ",\"text\":", text);
+        qdot_write_field(&line, ",\"text\":", qdot_text_str(&plain));
         qdot_text_add(&line, "}\n");
+        line.failed = line.failed || plain.failed;
+        qdot_text_clear(&plain);
     } else {
         qdot_text_add_n(&line, text, n);
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
-    return qdot_write(session->out, &line);
+    return drawn ? put(session->out, &line) : qdot_write(session, session->out, &line);
+}
+
+qdot_status
+qdot_answer_text(qdot_session *session, const char *name, const char *text)
+{
+    return answer(session, name, text, false);
+}
+
+/* Of a text written with that status. */
+static qdot_status
+end(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = answer(session, name, qdot_text_str(text), drawn);
+    qdot_text_clear(text);
+    return status;
 }
 
 qdot_status
 qdot_answer_written(qdot_session *session, const char *name, qdot_status status,
                     qdot_text *text)
 {
-    if (status == QDOT_OK)
-        status = qdot_text_status(text);
-    if (status == QDOT_OK)
-        status = qdot_answer_text(session, name, qdot_text_str(text));
-    qdot_text_clear(text);
-    return status;
+    return end(session, name, status, text, false);
+}
+
+qdot_status
+qdot_answer_drawn(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
+{
+    return end(session, name, status, text, true);
 }

@@ -8,8 +8,12 @@
 #include "base/terminal.h"
 #include "lang/session/session.h"
 
-/* Write a finished text and clear it. QDOT_EIO. */
-QDOT_MUST_CHECK qdot_status qdot_write(FILE *file, qdot_text *text);
+/* Write a finished text to session->out, err or console, and clear it: on a terminal as wide as that
+ * (base/wrap.h), else as it is. QDOT_EIO. */
+QDOT_MUST_CHECK qdot_status qdot_write(const qdot_session *session, FILE *file, qdot_text *text);
+
+/* Columns of the terminal that one of these files is; 0: it goes elsewhere, or holds JSON. */
+size_t qdot_write_width(const qdot_session *session, const FILE *file);
 
 /* The stream that answers are for: the terminal, while they are collected for pages. */
 FILE *qdot_write_stream(const qdot_session *session);
@@ -28,5 +32,8 @@ QDOT_MUST_CHECK qdot_status qdot_answer_text(qdot_session *session, const char *
  * is cleared. */
 QDOT_MUST_CHECK qdot_status qdot_answer_written(qdot_session *session, const char *name,
                                                 qdot_status status, qdot_text *text);
+/* The same of lines that are never broken: drawings, formulas in one line. */
+QDOT_MUST_CHECK qdot_status qdot_answer_drawn(qdot_session *session, const char *name,
+                                              qdot_status status, qdot_text *text);
 
 #endif

@@ -484,6 +484,17 @@ qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to)
 }
 
 bool
+qdot_usage_takes(const qdot_usage *u, const char *word)
+{
+    const qdot_token token = {.kind = QDOT_TOKEN_NAME, .text = word};
+
+    for (int i = 0; i < u->states; i++)
+        if (u->node[u->state[i].node].kind == QDOT_USAGE_WORD && is_next(u, &u->state[i], &token))
+            return true;
+    return false;
+}
+
+bool
 qdot_usage_is_whole(const qdot_usage *u)
 {
     for (int i = 0; i < u->states; i++)

@@ -65,6 +65,9 @@ bool qdot_usage_begin(qdot_usage *u, const char *word, const char *usage, bool a
 /* Go on by the tokens [from, to) of the statement, the first its word. Those within brackets that are closed go with the opening one. */
 void qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to);
 
+/* Whether that word of the usage may come next. */
+bool qdot_usage_takes(const qdot_usage *u, const char *word);
+
 /* Whether what was read is a whole statement. */
 bool qdot_usage_is_whole(const qdot_usage *u);
 

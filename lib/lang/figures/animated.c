@@ -24,6 +24,7 @@ typedef struct {
     qdot_scene *scene;
     qdot_run *run;
     qdot_animation *a;
+    qdot_rods rods;
     bool upright; /* in one dimension: drawn upwards, as there is gravity */
     qdot_vec(qdot_expr) columns; /* of the animation */
     qdot_vec(qdot_expr) places;  /* of its points, expanded */
@@ -120,16 +121,14 @@ static qdot_status
 add_links(builder *b)
 {
     const qdot_scene *s = b->scene;
-    qdot_rods rods = {0};
-    qdot_status status = qdot_mech_rods(b->scene, &rods);
+    qdot_status status = qdot_mech_rods(b->scene, &b->rods);
 
-    for (size_t i = 0; i < rods.n && status == QDOT_OK; i++)
-        status = add_link(b, QDOT_ANIMATION_ROD, rods.at[i].ends);
+    for (size_t i = 0; i < b->rods.n && status == QDOT_OK; i++)
+        status = add_link(b, QDOT_ANIMATION_ROD, b->rods.at[i].ends);
     for (size_t i = 0; i < s->springs.n && status == QDOT_OK; i++)
         status = add_link(b, QDOT_ANIMATION_SPRING, s->springs.at[i].at);
     for (size_t i = 0; i < s->dampers.n && status == QDOT_OK; i++)
         status = add_link(b, QDOT_ANIMATION_DAMPER, s->dampers.at[i].at);
-    qdot_free(rods.at);
     return status;
 }
 
@@ -140,7 +139,7 @@ add_arms(builder *b, size_t i, qdot_animation_body *one)
     qdot_scene *s = b->scene;
     const qdot_body *body = &s->bodies.at[i];
     qdot_arms arms = {0};
-    qdot_status status = qdot_mech_arms(s, i, &arms);
+    qdot_status status = qdot_mech_arms(s, i, &b->rods, &arms);
 
     for (size_t k = 0; k < arms.n && k < QDOT_ANIMATION_ARMS && status == QDOT_OK; k++) {
         qdot_expr own =
@@ -508,6 +507,7 @@ qdot_animated_make(qdot_session *session, const qdot_named_run *run,
     status = build(&b, options);
     if (status == QDOT_OK)
         status = qdot_animated_facts(session, run, a);
+    qdot_free(b.rods.at);
     qdot_free(b.columns.at);
     qdot_free(b.places.at);
     qdot_free(b.once.at);

@@ -133,7 +133,7 @@ write_text(size_t n, const qdot_column *columns, size_t rows, const char *path,
            qdot_session *session)
 {
     qdot_text text = {0};
-    qdot_status status = qdot_table_text(n, columns, rows, TEXT_DIGITS, &text);
+    qdot_status status = qdot_table_text(n, columns, rows, TEXT_DIGITS, "", &text);
 
     if (status == QDOT_OK)
         status = qdot_answer_in_file(session, path, &text);

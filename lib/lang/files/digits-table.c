@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/digits.h"
 #include "lang/answer/number-text.h"
@@ -117,7 +118,7 @@ add_row(qdot_session *session, cells *t, const qdot_operands *list, qdot_expr ti
 /* --- forms --------------------------------------------------------------------------- */
 
 static void
-write_text(const cells *t, qdot_text *out)
+write_text(const cells *t, const char *mark, qdot_text *out)
 {
     for (size_t i = 0; i < t->cells.n; i++) {
         size_t n = strlen(t->cells.at[i]), j = i % t->columns;
@@ -127,8 +128,8 @@ write_text(const cells *t, qdot_text *out)
     for (size_t i = 0; i < t->cells.n; i++) {
         size_t j = i % t->columns;
 
-        qdot_text_format(out, "%s%*s", j > 0 ? "  " : "", (int)t->width[j],
-                         t->cells.at[i]);
+        qdot_text_format(out, "%s%s%*s", j > 0 ? mark : "", j > 0 ? "  " : "",
+                         (int)t->width[j], t->cells.at[i]);
         if (j + 1 == t->columns)
             qdot_text_char(out, '\n');
     }
@@ -209,7 +210,10 @@ tell(qdot_session *session, qdot_run *run, const cells *t, const char *path)
         return write_file(session, run, t, path);
     if (path == NULL && session->json)
         return answer_json(session, t);
-    (csv ? write_csv : write_text)(t, &text);
+    if (csv)
+        write_csv(t, &text);
+    else
+        write_text(t, path == NULL ? QDOT_WRAP_CELL : "", &text);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
         status = path != NULL ? qdot_answer_in_file(session, path, &text)

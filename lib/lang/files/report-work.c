@@ -5,18 +5,18 @@
 #include <string.h>
 
 #include "lang/answer/number-text.h"
-#include "lang/runs/request.h"
+#include "lang/files/report-answer.h"
+#include "lang/session/conditions.h"
 #include "lang/session/measured.h"
 #include "show/animation.h"
-#include "show/page.h"
-#include "sim/study/workprecision.h"
+#include "show/page-curves.h"
 
 static void
 add_cell(qdot_text *page, double x)
 {
     qdot_text_add(page, "<td>");
     if (isfinite(x))
-        qdot_text_double(page, x, 3);
+        qdot_number_text(page, x, 0.005 * fabs(x));
     else
         qdot_text_add(page, "\xe2\x80\x93");
     qdot_text_add(page, "</td>");
@@ -43,7 +43,13 @@ add_table(const qdot_workprecision *w, qdot_text *page)
     }
     qdot_text_add(page, "</table>\n<p>Errors against a reference whose own error is ");
     qdot_number_text_bound(page, w->ref_err);
-    qdot_text_add(page, ".</p>\n");
+    qdot_text_add(page, ".");
+    for (size_t i = 0; i < w->n_unfit; i++) {
+        qdot_text_format(page, " Method %s is left out: ", w->unfit[i].method);
+        qdot_animation_escape(page, w->unfit[i].reason);
+        qdot_text_char(page, '.');
+    }
+    qdot_text_add(page, "</p>\n");
 }
 
 /* A curve for each method; its rows are together. */
@@ -64,33 +70,99 @@ add_figure(const qdot_workprecision *w, qdot_text *page)
             list.at[list.n - 1].n++;
     }
     if (status == QDOT_OK)
-        qdot_page_log_log(page, "error against CPU time in s, both by powers of ten",
-                          list.n, list.at);
+        qdot_page_log_log(page, "error at the end against the time of the integration",
+                          "CPU time in s", "error", list.n, list.at);
     qdot_free(list.at);
     qdot_free(x);
     qdot_free(y);
     return status;
 }
 
-qdot_status
-qdot_report_work(qdot_session *session, const qdot_run_report *report, qdot_text *page)
+/* Of a run that came to no end of its own: up to where it came. */
+static qdot_status
+take_conditions(qdot_session *session, const qdot_named_run *run, qdot_conditions *c)
 {
-    qdot_request order = {0};
-    qdot_workprecision w = {0};
-    qdot_status status = qdot_request_fill(session, &order);
+    const qdot_run_report *r = qdot_run_get_report(run->run);
+    const qdot_run_request request = qdot_conditions_request(run->conditions);
 
+    QDOT_TRY(qdot_conditions_take(session->scene, &request, c));
+    if (r->status != QDOT_RUN_FAILED && !r->interrupted)
+        return QDOT_OK;
+    c->t1 = qdot_measured_rational(session->pool, r->t1);
+    return qdot_pool_check(session->pool);
+}
+
+/* The study under the conditions, which it takes over; *known: it was there. Borrowed. */
+static qdot_status
+find_study(qdot_session *session, qdot_conditions *c, bool *known,
+           const qdot_workprecision **study)
+{
+    const qdot_run_request request = qdot_conditions_request(c);
+    qdot_workprecision w = {0};
+    qdot_status status;
+
+    *study = qdot_studies_find(&session->studies, c);
+    *known = *study != NULL;
+    if (*known)
+        return QDOT_OK;
+    status = qdot_workprecision_measure(session->scene, &request, &w);
+    if (status == QDOT_OK && w.interrupted)
+        status = qdot_fail(QDOT_EINTR, "interrupted: no report is written");
     if (status == QDOT_OK) {
-        order.request.t0 = qdot_measured_rational(session->pool, report->t0);
-        order.request.t1 = qdot_measured_rational(session->pool, report->t1);
-        status = qdot_pool_check(session->pool);
+        status = qdot_studies_keep(&session->studies, c, &w);
+        if (status == QDOT_OK)
+            *study = &session->studies.at[session->studies.n - 1].measured;
     }
-    if (status == QDOT_OK)
-        status = qdot_workprecision_measure(session->scene, &order.request, &w);
-    if (status == QDOT_OK)
-        status = add_figure(&w, page);
-    if (status == QDOT_OK)
-        add_table(&w, page);
     qdot_workprecision_clear(&w);
-    qdot_request_free(&order);
     return status;
+}
+
+static qdot_status
+add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_text *page)
+{
+    qdot_conditions c = {0};
+    const qdot_workprecision *study = NULL;
+    bool known = false;
+    qdot_status status = take_conditions(session, run, &c);
+
+    if (status == QDOT_OK)
+        status = find_study(session, &c, &known, &study);
+    qdot_conditions_clear(&c);
+    QDOT_TRY(status);
+    if (named) {
+        qdot_text_add(page, "<h3>As ");
+        qdot_animation_escape(page, run->name);
+        qdot_text_add(page, "</h3>\n");
+    }
+    QDOT_TRY(add_figure(study, page));
+    add_table(study, page);
+    if (known)
+        qdot_text_add(page, "<p>Measured earlier in this session, with the same values, start "
+                            "and limits.</p>\n");
+    return QDOT_OK;
+}
+
+/* Whether a run before run i has its conditions. */
+static bool
+is_told(size_t i, const qdot_named_run *const *runs)
+{
+    for (size_t k = 0; k < i; k++)
+        if (qdot_conditions_same(runs[k]->conditions, runs[i]->conditions))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_report_work(qdot_session *session, size_t n, const qdot_named_run *const *runs,
+                 qdot_text *page)
+{
+    bool differ = false;
+
+    qdot_report_heading(page, "Work and precision");
+    for (size_t i = 1; i < n; i++)
+        differ = differ || !is_told(i, runs);
+    for (size_t i = 0; i < n; i++)
+        if (!is_told(i, runs))
+            QDOT_TRY(add_study(session, runs[i], differ, page));
+    return QDOT_OK;
 }

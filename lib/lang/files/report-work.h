@@ -4,11 +4,12 @@
 
 #include "lang/session/session.h"
 
-/* Measure every method over a ladder of tolerances, with the session's present values and start over the
- * time of a run; append a figure of error against time and a table. Errors: those of
- * qdot_request_fill and qdot_workprecision_measure. */
-QDOT_MUST_CHECK qdot_status qdot_report_work(qdot_session *session,
-                                             const qdot_run_report *report,
+/* Append, for runs [n], a figure of error against time and a table: every method over a ladder of
+ * tolerances, with the values, the start and the limits of the run. A study that was made of these is
+ * taken again, and runs that differ in method and tolerance only share one. Errors: those of
+ * qdot_workprecision_measure. */
+QDOT_MUST_CHECK qdot_status qdot_report_work(qdot_session *session, size_t n,
+                                             const qdot_named_run *const *runs,
                                              qdot_text *page);
 
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/wrap.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/files/data-file.h"
@@ -109,7 +110,7 @@ write_grid(qdot_session *session, const grid *g, qdot_run *run, const char *path
     if (path != NULL)
         return qdot_data_file_write(session, run, g->n, g->columns, g->rows, path);
     if (!session->json) {
-        status = qdot_table_text(g->n, g->columns, g->rows, 10, &text);
+        status = qdot_table_text(g->n, g->columns, g->rows, 10, QDOT_WRAP_CELL, &text);
         return qdot_answer_written(session, "table", status, &text);
     }
     for (size_t k = 0; k < g->rows && status == QDOT_OK; k++) {

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/figures/figure-file.h"
@@ -13,6 +14,8 @@
 #include "lang/session/measured.h"
 #include "show/figure.h"
 #include "sim/study/race.h"
+
+#define CELL QDOT_WRAP_CELL
 
 /* An error of 0 has no logarithm: it is drawn where rounding is. */
 static const double least_error = 1e-17;
@@ -27,7 +30,7 @@ print_bound(double value, int width, qdot_text *out)
         qdot_text_add(&one, "-");
     else
         qdot_text_format(&one, value == 0 ? "0" : "%.1e", value);
-    qdot_text_format(out, "%*s", width, qdot_text_str(&one));
+    qdot_text_format(out, CELL "%*s", width, qdot_text_str(&one));
     qdot_text_clear(&one);
 }
 
@@ -39,11 +42,12 @@ print_lane(const qdot_race_lane *lane, qdot_text *out)
 
         if (e->method == NULL)
             continue;
-        qdot_text_format(out, "\n%-20s  %-7s  %5.0e", lane->name, e->method, e->tol);
+        qdot_text_format(out, "\n%-20s" CELL "  %-7s" CELL "  %5.0e", lane->name, e->method,
+                         e->tol);
         print_bound(e->error, 9, out);
         print_bound(e->energy, 9, out);
         print_bound(e->constraint, 12, out);
-        qdot_text_format(out, "  %10.3g", 1e3 * e->cpu);
+        qdot_text_format(out, CELL "  %10.3g", 1e3 * e->cpu);
     }
 }
 
@@ -58,8 +62,10 @@ print_race(const qdot_race *race, qdot_text *out)
     if (race->minimal > 0)
         qdot_text_format(out, "\n%zu coordinates as given, %zu in minimal coordinates",
                          race->coordinates, race->minimal);
-    qdot_text_format(out, "\n%-20s  %-7s  %5s%9s%9s%12s  %10s", "formulation", "method",
-                     "tol", "error", "energy", "constraints", "cpu ms");
+    qdot_text_format(out,
+                     "\n%-20s" CELL "  %-7s" CELL "  %5s" CELL "%9s" CELL "%9s" CELL "%12s" CELL
+                     "  %10s",
+                     "formulation", "method", "tol", "error", "energy", "constraints", "cpu ms");
     for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
         if (race->lane[i].name != NULL)
             print_lane(&race->lane[i], out);

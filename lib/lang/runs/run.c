@@ -212,7 +212,7 @@ carry_out(qdot_cursor *c, const options *o, qdot_request *request)
     if (o->name == NULL)
         qdot_runs_next_name(session, name, sizeof name);
     QDOT_TRY(qdot_runs_keep(session, o->name != NULL ? o->name : name,
-                            qdot_text_str(&o->text), run));
+                            qdot_text_str(&o->text), &request->request, run));
     report = qdot_run_get_report(run);
     if (!names_start(session, &o->with))
         QDOT_TRY(qdot_warnings_start(session));

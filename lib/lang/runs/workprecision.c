@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
 #include "lang/figures/figure-file.h"
@@ -99,7 +100,7 @@ cell(qdot_text *out, int width, const char *format, double x)
 
     if (!isnan(x))
         snprintf(text, sizeof text, format, x);
-    qdot_text_format(out, "%*s", width, text);
+    qdot_text_format(out, QDOT_WRAP_CELL "%*s", width, text);
 }
 
 static void
@@ -118,8 +119,8 @@ table(const qdot_workprecision *w, qdot_text *out)
     qdot_text_format(out, "%-8s", "method");
     for (size_t i = 0; i < n; i++)
         if (has_column(w, (size_t)shown[i].column + 1))
-            qdot_text_format(out, "%*s", shown[i].width, shown[i].head);
-    qdot_text_add(out, "  status\n");
+            qdot_text_format(out, QDOT_WRAP_CELL "%*s", shown[i].width, shown[i].head);
+    qdot_text_add(out, QDOT_WRAP_CELL "  status\n");
     for (size_t k = 0; k < w->n; k++) {
         double x[COLUMNS - 2];
 
@@ -128,7 +129,7 @@ table(const qdot_workprecision *w, qdot_text *out)
         for (size_t i = 0; i < n; i++)
             if (has_column(w, (size_t)shown[i].column + 1))
                 cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
-        qdot_text_format(out, "  %s\n", w->rows[k].status);
+        qdot_text_format(out, QDOT_WRAP_CELL "  %s\n", w->rows[k].status);
     }
     qdot_text_add(out, "err: the largest error at the end, each relative to max(1, "
                        "|value|), against a reference whose own is ");
@@ -286,6 +287,19 @@ read_options(qdot_cursor *c, choices *chosen)
     return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
 }
 
+/* A whole study is kept for reports (lang/files/report-work.h). */
+static qdot_status
+keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
+{
+    qdot_conditions conditions = {0};
+    qdot_status status = qdot_conditions_take(session->scene, request, &conditions);
+
+    if (status == QDOT_OK)
+        status = qdot_studies_keep(&session->studies, &conditions, w);
+    qdot_conditions_clear(&conditions);
+    return status;
+}
+
 qdot_status
 qdot_workprecision_statement(qdot_cursor *c)
 {
@@ -316,6 +330,8 @@ qdot_workprecision_statement(qdot_cursor *c)
         status = tell(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
+    if (status == QDOT_OK)
+        status = keep(session, &order.request, &w);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
     return status;

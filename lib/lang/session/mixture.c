@@ -11,16 +11,12 @@
 #include "lang/session/runs.h"
 #include "tape/tape.h"
 
-/* A symbol: what it stands for, and where. */
-typedef struct {
-    qdot_expr e;
-    qdot_run *run;
-} source;
-
 struct qdot_mixture {
-    qdot_vec(qdot_expr) symbols; /* members, and what moves beside them */
-    qdot_vec(source) sources;    /* of each symbol */
-    qdot_tape *tape;             /* from the symbols */
+    qdot_expr e;                       /* with the values of `set` */
+    qdot_vec(qdot_run *) runs;         /* each once */
+    qdot_vec(qdot_run_member) members; /* also what moves beside those of named runs */
+    qdot_vec(qdot_expr) symbols;       /* of the members */
+    qdot_tape *tape;                   /* from the symbols */
     size_t room;                 /* in values and errors */
     double *values, *errors;     /* [symbols x times] */
     double *in;                  /* [symbols], work space of the tape */
@@ -31,13 +27,24 @@ qdot_mixture_free(qdot_mixture *x)
 {
     if (x == NULL)
         return;
+    qdot_free(x->runs.at);
+    qdot_free(x->members.at);
     qdot_free(x->symbols.at);
-    qdot_free(x->sources.at);
     qdot_tape_free(x->tape);
     qdot_free(x->values);
     qdot_free(x->errors);
     qdot_free(x->in);
     qdot_free(x);
+}
+
+/* The index of a run, a new one if need be. */
+static qdot_status
+add_run(qdot_mixture *x, qdot_run *run, size_t *k)
+{
+    for (*k = 0; *k < x->runs.n; ++*k)
+        if (x->runs.at[*k] == run)
+            return QDOT_OK;
+    return qdot_vec_push(&x->runs, run);
 }
 
 static qdot_status
@@ -49,15 +56,16 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
     for (uint32_t i = 0; i < qdot_expr_count(session->pool, atoms); i++) {
         const qdot_expr atom = qdot_expr_arg(session->pool, atoms, i);
         const qdot_member *m = qdot_member_find(session, atom);
+        qdot_run_member own = {.symbol = atom, .value = m != NULL ? m->value : atom};
         qdot_named_run *named;
 
         if (m == NULL &&
             !(qdot_expr_node(session->pool, atom)->holds & QDOT_MEMBER_MOTION))
             continue;
         QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
+        QDOT_TRY(add_run(x, named->run, &own.run));
         QDOT_TRY(qdot_vec_push(&x->symbols, atom));
-        QDOT_TRY(qdot_vec_push(&x->sources,
-                               ((source){m != NULL ? m->value : atom, named->run})));
+        QDOT_TRY(qdot_vec_push(&x->members, own));
     }
     return QDOT_OK;
 }
@@ -66,7 +74,7 @@ static qdot_status
 prepare(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
 {
     QDOT_TRY(find_symbols(session, run, e, x));
-    e = qdot_session_bind(session, e);
+    x->e = e = qdot_session_bind(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_tape_new(session->pool, x->symbols.n, x->symbols.at, 1, &e, &x->tape));
     x->in = qdot_calloc(x->symbols.n + qdot_tape_work(x->tape) + 1, sizeof *x->in);
@@ -132,63 +140,22 @@ qdot_mixture_values(qdot_mixture *x, const qdot_samples *at)
     QDOT_TRY(make_room(x, at->n));
     for (size_t i = 0; i < x->symbols.n; i++)
         QDOT_TRY(qdot_run_values_beyond(
-            x->sources.at[i].run, 1, &x->sources.at[i].e, &times, x->values + i * at->n,
+            x->runs.at[x->members.at[i].run], 1, &x->members.at[i].value, &times,
+            x->values + i * at->n,
             at->errors != NULL ? x->errors + i * at->n : NULL));
     for (size_t j = 0; j < at->n; j++)
         combine(x, at, j);
     return QDOT_OK;
 }
 
-/* Whether the run of symbol i is that of an earlier one. */
-static bool
-is_again(const qdot_mixture *x, size_t i)
-{
-    for (size_t k = 0; k < i; k++)
-        if (x->sources.at[k].run == x->sources.at[i].run)
-            return true;
-    return false;
-}
-
 qdot_status
-qdot_mixture_steps(const qdot_mixture *x, qdot_mixture_times *times)
+qdot_mixture_range(const qdot_mixture *x, qdot_range_kind kind, const double *range,
+                   double *value, double *error)
 {
-    for (size_t i = 0; i < x->sources.n; i++) {
-        size_t n;
-        const double *at = qdot_run_times(x->sources.at[i].run, &n);
+    const qdot_run_expression along = {
+        x->e, x->runs.n, x->members.n, x->runs.at, x->members.at};
 
-        if (is_again(x, i))
-            continue;
-        for (size_t k = 0; k < n; k++)
-            QDOT_TRY(qdot_vec_push(times, at[k]));
-    }
-    return QDOT_OK;
-}
-
-void
-qdot_mixture_span(const qdot_mixture *x, double *from, double *to)
-{
-    *from = -INFINITY;
-    *to = INFINITY;
-    for (size_t i = 0; i < x->sources.n; i++) {
-        size_t n;
-        const double *t = qdot_run_times(x->sources.at[i].run, &n);
-
-        *from = fmax(*from, fmin(t[0], t[n - 1]));
-        *to = fmin(*to, fmax(t[0], t[n - 1]));
-    }
-}
-
-bool
-qdot_mixture_is_backward(const qdot_mixture *x)
-{
-    for (size_t i = 0; i < x->sources.n; i++) {
-        size_t n;
-        const double *t = qdot_run_times(x->sources.at[i].run, &n);
-
-        if (t[n - 1] >= t[0])
-            return false;
-    }
-    return x->sources.n > 0;
+    return qdot_run_range_along(&along, kind, range, value, error);
 }
 
 /* --- at once ------------------------------------------------------------------------- */
@@ -215,15 +182,15 @@ qdot_member_exactly(qdot_session *session, const char *run, qdot_expr e, qdot_ex
     qdot_status status = qdot_mixture_new(session, run, e, &x);
 
     *value = QDOT_NIL;
-    for (size_t i = 0; status == QDOT_OK && i < x->sources.n; i++)
-        exact = exact && qdot_run_get_report(x->sources.at[i].run)->digits > 0;
+    for (size_t k = 0; status == QDOT_OK && k < x->runs.n; k++)
+        exact = exact && qdot_run_get_report(x->runs.at[k])->digits > 0;
     for (size_t i = 0; status == QDOT_OK && exact && i < x->symbols.n; i++) {
         const qdot_member *m = qdot_member_find(session, x->symbols.at[i]);
         qdot_measured number;
         qdot_expr by;
 
         status = qdot_runs_measure_one(session, m != NULL ? m->run : run,
-                                       x->sources.at[i].e, time, &number);
+                                       x->members.at[i].value, time, &number);
         if (status != QDOT_OK)
             break;
         by = qdot_measured_add(session, number);

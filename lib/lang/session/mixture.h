@@ -22,14 +22,10 @@ void qdot_mixture_free(qdot_mixture *x);
 /* Its values at times. QDOT_EDOMAIN: outside one of the runs. */
 QDOT_MUST_CHECK qdot_status qdot_mixture_values(qdot_mixture *x, const qdot_samples *at);
 
-/* Appends the times of the steps of all its runs to *times. */
-typedef qdot_vec(double) qdot_mixture_times;
-QDOT_MUST_CHECK qdot_status qdot_mixture_steps(const qdot_mixture *x,
-                                               qdot_mixture_times *times);
-
-/* The times [*from, *to], ascending, that all its runs cover. */
-void qdot_mixture_span(const qdot_mixture *x, double *from, double *to);
-/* Whether all its runs go back in time. */
-bool qdot_mixture_is_backward(const qdot_mixture *x);
+/* Its extremum, mean or drift over range [2] (NULL: all times that its runs have in common), and
+ * the error. QDOT_EDOMAIN: outside a run, or undefined in it. */
+QDOT_MUST_CHECK qdot_status qdot_mixture_range(const qdot_mixture *x, qdot_range_kind kind,
+                                               const double *range, double *value,
+                                               double *error);
 
 #endif

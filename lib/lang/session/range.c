@@ -6,7 +6,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
-#include "lang/session/mixture-range.h"
+#include "lang/session/mixture.h"
 #include "lang/session/runs.h"
 
 static const struct {

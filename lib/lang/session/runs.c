@@ -10,22 +10,30 @@
 #include "tape/tape.h"
 
 qdot_status
-qdot_runs_keep(qdot_session *session, const char *name, const char *text, qdot_run *run)
+qdot_runs_keep(qdot_session *session, const char *name, const char *text,
+               const qdot_run_request *request, qdot_run *run)
 {
     qdot_named_run named = {.name = qdot_strdup(name),
                             .text = qdot_strdup(text),
                             .run = run,
+                            .conditions = qdot_calloc(1, sizeof *named.conditions),
                             .uses = qdot_malloc(sizeof *named.uses)};
-    qdot_status status = QDOT_OK;
+    qdot_status status = QDOT_ENOMEM;
 
-    if (named.name == NULL || named.text == NULL || named.uses == NULL) {
+    if (named.uses == NULL) {
         qdot_free(named.name);
         qdot_free(named.text);
-        qdot_free(named.uses);
+        qdot_free(named.conditions);
         qdot_run_free(run);
         return QDOT_ENOMEM;
     }
     *named.uses = 1;
+    if (named.name != NULL && named.text != NULL && named.conditions != NULL)
+        status = qdot_conditions_take(session->scene, request, named.conditions);
+    if (status != QDOT_OK) {
+        qdot_named_run_release(&named);
+        return status;
+    }
 
     for (size_t i = 0; i < session->runs.n; i++) {
         if (strcmp(session->runs.at[i].name, name) != 0)

@@ -9,9 +9,11 @@ QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *na
                                            qdot_named_run **run);
 /* Whether a run NAME[...] is kept. */
 bool qdot_runs_is_family(const qdot_session *session, const char *name);
-/* Keep the run under its name; an older one of that name goes. Takes ownership in any case. */
+/* Keep the run, made as `request` asked, under its name; an older one of that name goes. Takes
+ * ownership of the run in any case. */
 QDOT_MUST_CHECK qdot_status qdot_runs_keep(qdot_session *session, const char *name,
-                                           const char *text, qdot_run *run);
+                                           const char *text,
+                                           const qdot_run_request *request, qdot_run *run);
 /* run1, run2, ...: the first that is free, from the number of runs on. */
 void qdot_runs_next_name(const qdot_session *session, char *name, size_t size);
 

@@ -33,6 +33,9 @@ qdot_named_run_release(qdot_named_run *run)
     qdot_free(run->name);
     qdot_free(run->text);
     qdot_run_free(run->run);
+    if (run->conditions != NULL)
+        qdot_conditions_clear(run->conditions);
+    qdot_free(run->conditions);
     qdot_free(run->uses);
 }
 
@@ -46,6 +49,7 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->runs.n; i++)
         qdot_named_run_release(&session->runs.at[i]);
     qdot_free(session->runs.at);
+    qdot_studies_clear(&session->studies);
     qdot_free(session->partial_sums.at);
     qdot_free(session->history.at);
     qdot_free(session->history_over.at);

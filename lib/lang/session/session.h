@@ -10,6 +10,7 @@
 #include <stdio.h>
 
 #include "expr/print.h"
+#include "lang/session/conditions.h"
 #include "lang/session/names.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
@@ -34,6 +35,7 @@ typedef struct {
     char *name; /* "a", "run1" */
     char *text; /* the statement without its name: "run 0..20 tol 1e-9" */
     qdot_run *run;
+    qdot_conditions *conditions; /* that it was made under; NULL: nobody told */
     unsigned *uses;
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
@@ -74,6 +76,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
+    qdot_kept_studies studies; /* of work and precision, so that a report need not repeat them */
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */
     bool quit;             /* after `quit` */

@@ -7,8 +7,9 @@
 #include "base/utf8.h"
 #include "lang/source/lex.h"
 
-/* Columns of a line that an error shows. */
-enum { SHOWN = 90 };
+/* Columns of a line that an error shows; on a terminal what is left beside the indent and two
+ * "...". */
+enum { SHOWN = 90, LEAST_SHOWN = 10, BESIDE = 8 };
 
 qdot_status
 qdot_source_new(const char *name, const char *text, size_t length, qdot_source **source,
@@ -139,10 +140,19 @@ add_clean(qdot_text *out, const char *text, size_t from, size_t to)
     }
 }
 
-/* The line with its caret, cut on both sides to SHOWN columns. */
-static void
-add_line(const qdot_source *source, size_t at, bool colours, qdot_text *out)
+static int
+columns_shown(size_t width)
 {
+    if (width == 0 || width >= SHOWN + BESIDE)
+        return SHOWN;
+    return width > LEAST_SHOWN + BESIDE ? (int)width - BESIDE : LEAST_SHOWN;
+}
+
+/* The line with its caret, cut on both sides to the columns shown. */
+static void
+add_line(const qdot_source *source, size_t at, bool colours, size_t width, qdot_text *out)
+{
+    const int shown = columns_shown(width);
     size_t start = line_start(source, at), end = at, from = at, to = at;
     int columns = 0, before = 0;
 
@@ -150,13 +160,13 @@ add_line(const qdot_source *source, size_t at, bool colours, qdot_text *out)
         end++;
     if (end > at && source->text[end - 1] == '\r')
         end--;
-    while (from > start && before < SHOWN * 2 / 3) {
+    while (from > start && before < shown * 2 / 3) {
         from = step_back(source->text, from, start);
         before++;
     }
-    for (columns = before; to < end && columns < SHOWN; columns++)
+    for (columns = before; to < end && columns < shown; columns++)
         to = step_on(source->text, to, end);
-    while (from > start && columns < SHOWN) {
+    while (from > start && columns < shown) {
         from = step_back(source->text, from, start);
         before++;
         columns++;
@@ -170,7 +180,7 @@ add_line(const qdot_source *source, size_t at, bool colours, qdot_text *out)
 
 void
 qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error,
-                   bool colours, qdot_text *out)
+                   bool colours, size_t width, qdot_text *out)
 {
     uint32_t line, column;
 
@@ -182,7 +192,7 @@ qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error
                      colours ? QDOT_COLOUR_END : "");
     qdot_text_add(out, error->message);
     qdot_text_char(out, '\n');
-    add_line(source, at, colours, out);
+    add_line(source, at, colours, width, out);
     if (error->hint[0] != '\0') {
         qdot_text_format(out, "  %shint:%s ", colours ? QDOT_CYAN : "",
                          colours ? QDOT_COLOUR_END : "");

@@ -24,8 +24,8 @@ void qdot_source_free(qdot_source *source);               /* one use less */
 void qdot_source_locate(const qdot_source *source, size_t at, uint32_t *line,
                         uint32_t *column);
 /* "file:line:column: error: message", the line, the caret, "hint: ...". A very long line is cut
- * round the caret. colours: with codes for a terminal. */
+ * round the caret. colours: with codes for a terminal; width: its columns, 0: there is none. */
 void qdot_source_report(const qdot_source *source, size_t at, const qdot_error *error,
-                        bool colours, qdot_text *out);
+                        bool colours, size_t width, qdot_text *out);
 
 #endif

@@ -11,6 +11,8 @@
 #include "lang/language/read.h"
 #include "ode/method.h"
 
+enum { OFF_TERMINAL = 86 }; /* columns of running lines there */
+
 /* A word and what follows it, in two columns. */
 static void
 entry(qdot_text *text, const char *word, const char *summary)
@@ -18,18 +20,22 @@ entry(qdot_text *text, const char *word, const char *summary)
     qdot_text_format(text, "  %-14s %s\n", word, summary);
 }
 
-/* Words in running lines. */
+/* Running lines of words. */
+typedef struct {
+    size_t width, column;
+} running;
+
 static void
-flow(qdot_text *text, const char *word, size_t *column)
+flow(qdot_text *text, const char *word, running *line)
 {
     size_t n = strlen(word) + 1;
 
-    if (*column + n > 86) {
+    if (line->column + n > line->width) {
         qdot_text_add(text, "\n ");
-        *column = 1;
+        line->column = 1;
     }
     qdot_text_format(text, " %s", word);
-    *column += n;
+    line->column += n;
 }
 
 /* What is not built yet has no example. */
@@ -40,11 +46,11 @@ is_built(const qdot_quantity *row)
 }
 
 static void
-overview(qdot_text *text)
+overview(qdot_text *text, size_t width)
 {
     const qdot_statement *row;
     const char *group = "";
-    size_t column = 1;
+    running values = {.width = width, .column = 1}, functions = values;
 
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++) {
         if (row->run == NULL)
@@ -57,12 +63,11 @@ overview(qdot_text *text)
     qdot_text_add(text, "\nvalues\n ");
     for (size_t i = 0; qdot_quantity_at(i) != NULL; i++)
         if (is_built(qdot_quantity_at(i)))
-            flow(text, qdot_quantity_at(i)->name, &column);
+            flow(text, qdot_quantity_at(i)->name, &values);
     qdot_text_add(text, "\n\nfunctions\n ");
-    column = 1;
     for (size_t i = 0; qdot_builtin_at(i) != NULL; i++)
         if (!(qdot_builtin_at(i)->flags & QDOT_BUILTIN_UNBUILT))
-            flow(text, qdot_builtin_at(i)->name, &column);
+            flow(text, qdot_builtin_at(i)->name, &functions);
     qdot_text_add(text, "\n\nhelp WORD says more of each, help search WORD finds it; any "
                         "statement may end in `for k = a..b`\n");
 }
@@ -172,7 +177,6 @@ look_up(qdot_text *text, const char *word)
 static qdot_status
 find(qdot_cursor *c)
 {
-    size_t width = 0, rows;
     const qdot_token *start = c->at;
     qdot_text words = {0}, text = {0};
     qdot_status status;
@@ -183,9 +187,7 @@ find(qdot_cursor *c)
                             : qdot_cursor_expect_end(c);
     if (status == QDOT_OK)
         status = qdot_text_status(&words);
-    if (!c->session->json && !qdot_terminal_size(qdot_write_stream(c->session), &width, &rows))
-        width = 0;
-    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), width, &text) == 0) {
+    if (status == QDOT_OK && qdot_search(qdot_text_str(&words), &text) == 0) {
         c->error_at = start->start;
         (void)qdot_fail(QDOT_ENAME, "no help holds `%.100s`", qdot_text_str(&words));
         status = qdot_hint("`help` lists every word");
@@ -214,6 +216,7 @@ qdot_help(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
     const char *word = "help", *near;
+    const size_t width = qdot_write_width(c->session, c->session->out);
     qdot_text text = {0};
 
     if (qdot_token_is_word(c->at, "search") && c->at[1].kind != QDOT_TOKEN_END) {
@@ -229,7 +232,7 @@ qdot_help(qdot_cursor *c)
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     if (c->at == start) {
-        overview(&text);
+        overview(&text, width > 0 ? width : OFF_TERMINAL);
     } else if (!look_up(&text, word)) {
         (void)qdot_fail(QDOT_ENAME, "there is no help on `%.100s`", word);
         near = nearest_word(c->session, word);

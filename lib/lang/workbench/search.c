@@ -5,7 +5,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/utf8.h"
 #include "lang/commands/statement.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
@@ -15,10 +14,8 @@ typedef struct {
     const char *text;
     bool by_name; /* this time round: those whose name holds it; else the others */
     qdot_text *out;
-    size_t width, n;
+    size_t n;
 } search;
-
-enum { NAME_COLUMNS = 21, LEAST_ROOM = 16 }; /* of the first column; what is left for the second */
 
 static bool
 is_letter(char c)
@@ -57,31 +54,6 @@ holds(size_t n, const char *const *where, const char *text)
     return true;
 }
 
-/* The summary, in the column behind the names. */
-static void
-add_words(search *s, const char *summary)
-{
-    const size_t room = s->width == 0                          ? SIZE_MAX
-                        : s->width > NAME_COLUMNS + LEAST_ROOM ? s->width - NAME_COLUMNS
-                                                               : LEAST_ROOM;
-    size_t used = 0;
-
-    while (*summary != '\0') {
-        const size_t n = strcspn(summary, " "), columns = qdot_utf8_columns(summary, n);
-
-        if (used > 0 && used + 1 + columns > room) {
-            qdot_text_format(s->out, "\n%*s", NAME_COLUMNS, "");
-            used = 0;
-        }
-        qdot_text_add(s->out, used > 0 ? " " : "");
-        qdot_text_add_n(s->out, summary, n);
-        used += columns + (used > 0);
-        summary += n;
-        summary += strspn(summary, " ");
-    }
-    qdot_text_char(s->out, '\n');
-}
-
 static void
 look(search *s, const char *name, const char *usage, const char *summary,
      const char *example)
@@ -90,8 +62,7 @@ look(search *s, const char *name, const char *usage, const char *summary,
 
     if (holds(1, all, s->text) != s->by_name || (!s->by_name && !holds(4, all, s->text)))
         return;
-    qdot_text_format(s->out, "  %-18s ", name);
-    add_words(s, summary);
+    qdot_text_format(s->out, "  %-18s %s\n", name, summary);
     s->n++;
 }
 
@@ -118,9 +89,9 @@ look_at_all(search *s)
 }
 
 size_t
-qdot_search(const char *text, size_t width, qdot_text *out)
+qdot_search(const char *text, qdot_text *out)
 {
-    search s = {.text = text, .by_name = true, .width = width, .out = out};
+    search s = {.text = text, .by_name = true, .out = out};
 
     look_at_all(&s);
     s.by_name = false;

@@ -8,8 +8,8 @@
 #include "base/text.h"
 
 /* Append a line for each statement, value, function and method that holds every word of `text`,
- * whatever the case of letters: first those whose name does, then the others. Summaries are broken
- * between words to lines of `width` columns; 0: they are not. Returns their number. */
-size_t qdot_search(const char *text, size_t width, qdot_text *out);
+ * whatever the case of letters: first those whose name does, then the others. Returns their
+ * number. */
+size_t qdot_search(const char *text, qdot_text *out);
 
 #endif

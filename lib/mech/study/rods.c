@@ -6,6 +6,8 @@
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
+#include "mech/study/distance-ends.h"
+#include "mech/study/terms.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -73,33 +75,13 @@ has_rod(const search *w, qdot_expr a)
     return false;
 }
 
-/* e without its terms that hold q. */
-static qdot_expr
-without(qdot_pool *pool, qdot_expr e, void *q)
-{
-    const qdot_expr x = *(qdot_expr *)q;
-    qdot_expr rest;
-
-    if (!qdot_expr_contains(pool, e, x))
-        return e;
-    if (qdot_expr_kind(pool, e) != QDOT_SUM)
-        return QDOT_ZERO;
-    rest = qdot_expr_arg(pool, e, 0);
-    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
-        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, e, i), x))
-            rest = qdot_add(
-                pool, rest,
-                qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), qdot_expr_arg(pool, e, i)));
-    return rest;
-}
-
 /* The position that remains without the terms that hold coordinate i; nil: it is not in it. */
 static qdot_expr
 hinge(qdot_scene *s, qdot_expr r, size_t i)
 {
     qdot_expr q = s->coordinates.at[i];
 
-    return qdot_expr_contains(s->pool, r, q) ? qdot_value_map(s->pool, r, without, &q)
+    return qdot_expr_contains(s->pool, r, q) ? qdot_mech_terms_of(s->pool, r, 1, &q, false)
                                              : QDOT_NIL;
 }
 
@@ -254,6 +236,16 @@ centre_of(const search *w, qdot_expr g, qdot_expr r)
     return qdot_vector(pool, n, c);
 }
 
+/* The rod between points of bodies that constraint c is, if it is one. */
+static qdot_status
+of_bodies(search *w, const qdot_constraint *c)
+{
+    qdot_expr ends[2];
+
+    QDOT_TRY(qdot_mech_distance_ends(w->s, c, ends));
+    return ends[0] == QDOT_NIL ? QDOT_OK : add_rod(w, ends[0], ends[1], c->label);
+}
+
 /* The rod that constraint c is, if it is one. */
 static qdot_status
 of_constraint(search *w, const qdot_constraint *c)
@@ -280,7 +272,8 @@ of_constraint(search *w, const qdot_constraint *c)
         if (centre != QDOT_NIL && keeps(w, c->f, r, centre))
             return add_rod(w, r, centre, c->label);
     }
-    return qdot_pool_check(pool);
+    QDOT_TRY(qdot_pool_check(pool));
+    return of_bodies(w, c);
 }
 
 qdot_status
@@ -290,7 +283,7 @@ qdot_mech_rods(qdot_scene *s, qdot_rods *rods)
     uint32_t dimension = qdot_scene_dimension(s);
     qdot_status status;
 
-    if (dimension < 2 || s->particles.n == 0)
+    if (dimension < 2)
         return QDOT_OK;
     status = find_points(&w, dimension);
     if (status == QDOT_OK)
@@ -359,7 +352,7 @@ try_constraints(qdot_scene *s, const qdot_body *b, qdot_arms *arms)
 }
 
 qdot_status
-qdot_mech_arms(qdot_scene *s, size_t i, qdot_arms *arms)
+qdot_mech_arms(qdot_scene *s, size_t i, const qdot_rods *rods, qdot_arms *arms)
 {
     const qdot_body *b = &s->bodies.at[i];
     qdot_expr r = qdot_expand(s->pool, b->position);
@@ -384,5 +377,7 @@ qdot_mech_arms(qdot_scene *s, size_t i, qdot_arms *arms)
 
         QDOT_TRY(try_arm(s, b, link->at[k % 2], arms));
     }
+    for (size_t k = 0; k < 2 * rods->n; k++)
+        QDOT_TRY(try_arm(s, b, rods->at[k / 2].ends[k % 2], arms));
     return try_constraints(s, b, arms);
 }

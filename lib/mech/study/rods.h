@@ -9,11 +9,12 @@
  * remains of the position if the terms that hold q are left out: for
  * r2 = r1 + (L*sin(theta2), -L*cos(theta2)) and theta2 that is r1, a hinge even where nothing is
  * declared to be. Of a constraint on one particle alone that is a circle or sphere the centre is
- * found from its gradient.
+ * found from its gradient; of one between points of bodies both are found from its squares
+ * (distance-ends.h).
  *
  * An arm is a point that is fixed in a body, R^T (P - r) without a coordinate, where something
- * is fastened to the body: a hinge of r(q), an end of a spring or damper, a force, a constraint
- * between points, a particle.
+ * is fastened to the body: a hinge of r(q), an end of a spring, damper or rod, a force, a
+ * constraint between points, a particle.
  *
  * What is not proved is left out.
  *
@@ -39,7 +40,9 @@ typedef qdot_vec(qdot_expr) qdot_arms;
  * the caller's. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_mech_rods(qdot_scene *s, qdot_rods *rods);
 
-/* Append the arms of body i: positions, expanded. The array is the caller's. Errors: the pool's. */
-QDOT_MUST_CHECK qdot_status qdot_mech_arms(qdot_scene *s, size_t i, qdot_arms *arms);
+/* Append the arms of body i: positions, expanded; rods: those of the scene. The array is the caller's.
+ * Errors: the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_mech_arms(qdot_scene *s, size_t i, const qdot_rods *rods,
+                                           qdot_arms *arms);
 
 #endif

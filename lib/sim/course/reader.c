@@ -1,76 +1,123 @@
 /* reader.c -- reads a state, its accelerations if needed, and evaluates the tape. */
 #include "sim/course/reader.h"
 
-#include <string.h>
-
 #include "ode/companion.h"
 
 void
 qdot_reader_clear(qdot_reader *r)
 {
-    qdot_trajectory_close(r->cursor);
+    for (size_t k = 0; k < r->n_courses; k++)
+        qdot_trajectory_close(r->courses[k].cursor);
+    qdot_free(r->courses);
     qdot_free(r->in);
     qdot_free(r->work);
+}
+
+static const qdot_plan *
+plan_of(const qdot_reading *of, size_t k)
+{
+    return k == 0 ? of->plan : of->more[k - 1];
+}
+
+qdot_status
+qdot_reader_init_along(qdot_reader *r, const qdot_reading *of, const qdot_course *const *courses)
+{
+    *r = (qdot_reader){.of = *of};
+    r->in = qdot_calloc(qdot_tape_inputs(of->tape), sizeof *r->in);
+    r->work = qdot_calloc(qdot_tape_work(of->tape) + 1, sizeof *r->work);
+    r->courses = qdot_calloc(1 + of->n_more, sizeof *r->courses);
+    if (!r->in || !r->work || !r->courses)
+        return QDOT_ENOMEM;
+    for (size_t begin = 0; r->n_courses <= of->n_more; r->n_courses++) {
+        const size_t k = r->n_courses;
+
+        r->courses[k] = (qdot_reader_course){
+            .course = courses[k], .n = plan_of(of, k)->n, .in = r->in + begin};
+        QDOT_TRY(qdot_trajectory_open(&courses[k]->tr, qdot_course_systems(courses[k]),
+                                      &r->courses[k].cursor));
+        begin += qdot_plan_inputs(plan_of(of, k));
+    }
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_reader_init(qdot_reader *r, const qdot_reading *of, const qdot_course *course)
 {
-    *r = (qdot_reader){.of = *of, .course = course};
-    r->in = qdot_calloc(qdot_tape_inputs(of->tape), sizeof *r->in);
-    r->work = qdot_calloc(qdot_tape_work(of->tape) + 1, sizeof *r->work);
-    if (!r->in || !r->work)
-        return QDOT_ENOMEM;
-    return qdot_trajectory_open(&course->tr, qdot_course_systems(course), &r->cursor);
+    return qdot_reader_init_along(r, of, &course);
 }
 
 static qdot_status
-read_accelerations(qdot_reader *r, double t)
+read_accelerations(const qdot_reader_course *c, double t)
 {
-    size_t mode = qdot_trajectory_mode_read(r->cursor);
+    const size_t mode = qdot_trajectory_mode_read(c->cursor);
 
-    return qdot_bind_accelerations(qdot_course_systems(r->course) + mode, t, r->in,
-                                   r->in + 2 * r->of.plan->n + 1);
+    return qdot_bind_accelerations(qdot_course_systems(c->course) + mode, t, c->in,
+                                   c->in + 2 * c->n + 1);
 }
 
 qdot_status
 qdot_reader_evaluate(qdot_reader *r, double t, double *out)
 {
-    r->in[2 * r->of.plan->n] = t;
-    if (r->of.accelerations)
-        QDOT_TRY(read_accelerations(r, t));
+    for (size_t k = 0; k < r->n_courses; k++) {
+        r->courses[k].in[2 * r->courses[k].n] = t;
+        if (r->of.accelerations)
+            QDOT_TRY(read_accelerations(r->courses + k, t));
+    }
     qdot_tape_eval(r->of.tape, r->in, out, r->work);
     return QDOT_OK;
 }
 
 qdot_status
-qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
+qdot_reader_read(qdot_reader *r, const size_t *pieces, double t, double *out)
 {
-    QDOT_TRY(piece == SIZE_MAX
-                 ? qdot_trajectory_read(r->cursor, t, r->in)
-                 : qdot_trajectory_read_piece(r->cursor, piece, t, r->in));
-    for (size_t i = 0; i < 2 * r->of.plan->n && r->moved > 0; i++)
-        r->in[i] = qdot_companion_moved(r->in[i], i, (size_t)r->moved - 1, 1);
+    for (size_t k = 0; k < r->n_courses; k++) {
+        const qdot_reader_course *c = r->courses + k;
+
+        QDOT_TRY(pieces == NULL ? qdot_trajectory_read(c->cursor, t, c->in)
+                                : qdot_trajectory_read_piece(c->cursor, pieces[k], t, c->in));
+        for (size_t i = 0; i < 2 * c->n && r->moved > 0; i++)
+            c->in[i] = qdot_companion_moved(c->in[i], i, (size_t)r->moved - 1, 1);
+    }
     return qdot_reader_evaluate(r, t, out);
 }
 
 qdot_status
-qdot_reader_lower(const qdot_plan *p, size_t m, const qdot_expr *exprs, qdot_reading *of)
+qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
 {
+    return qdot_reader_read(r, piece == SIZE_MAX ? NULL : &piece, t, out);
+}
+
+qdot_status
+qdot_reader_lower_beside(const qdot_reading *other, size_t m, const qdot_expr *exprs,
+                         qdot_reading *of)
+{
+    const qdot_plan *p = other->plan;
+    size_t inputs = 0;
     qdot_expr *e = qdot_malloc((m + 1) * sizeof *e);
     qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
 
-    *of = (qdot_reading){.plan = p, .m = m, .exprs = exprs};
+    *of = *other;
+    of->m = m;
+    of->exprs = exprs;
+    of->tape = NULL;
+    for (size_t k = 0; k <= of->n_more; k++)
+        inputs += qdot_plan_inputs(plan_of(of, k));
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-        e[j] = qdot_plan_substitute(p, exprs[j]);
+        e[j] = of->n_more == 0 ? qdot_plan_substitute(p, exprs[j]) : exprs[j];
         status = qdot_pool_check(p->pool);
-        if (status == QDOT_OK
-            && qdot_expr_node(p->pool, e[j])->holds
-                   & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+        if (status == QDOT_OK && qdot_reading_of_accelerations(p->pool, e[j]))
             of->accelerations = true;
     }
     if (status == QDOT_OK)
-        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, m, e, &of->tape);
+        status = qdot_tape_new(p->pool, inputs, of->inputs, m, e, &of->tape);
     qdot_free(e);
     return status;
+}
+
+qdot_status
+qdot_reader_lower(const qdot_plan *plan, size_t m, const qdot_expr *exprs, qdot_reading *of)
+{
+    const qdot_reading one = {.plan = plan, .inputs = plan->inputs};
+
+    return qdot_reader_lower_beside(&one, m, exprs, of);
 }

@@ -1,4 +1,9 @@
-/* reader.h -- expressions read along a course. */
+/* reader.h -- expressions read along a course, or along several courses at once.
+ *
+ * Several courses have the time in common. The inputs of their tape are those of each plan, course
+ * by course; the expressions hold symbols of their own for each course, with parameter values in
+ * place already (sim/read/joint.h).
+ */
 #ifndef QDOT_SIM_READER_H
 #define QDOT_SIM_READER_H
 
@@ -6,33 +11,60 @@
 
 /* Expressions of a plan, lowered. */
 typedef struct {
-    const qdot_plan *plan; /* borrowed, as everything except the tape */
+    const qdot_plan *plan; /* of the first course; borrowed, as everything except the tape */
     size_t m;
     const qdot_expr *exprs; /* [m] as given */
-    qdot_tape *tape;        /* of these with the parameter values of the plan */
-    bool accelerations;     /* it reads q'' or multipliers */
+    qdot_tape *tape;        /* of these, along one course with its parameter values */
+    bool accelerations;     /* it reads q'' or multipliers, of any course */
+    size_t n_more;          /* of several courses: how many come after the first, */
+    const qdot_plan *const *more; /* [n_more] their plans, */
+    const qdot_expr *inputs;      /* and the inputs of all */
 } qdot_reading;
 
-/* Reads such expressions along a course. */
+/* Whether e holds q'' or a multiplier. */
+static inline bool
+qdot_reading_of_accelerations(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_node(pool, e)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
+}
+
+/* Where the state of one course comes from and goes to. */
+typedef struct {
+    const qdot_course *course;
+    qdot_trajectory_cursor *cursor;
+    size_t n;   /* coordinates */
+    double *in; /* [3n + 1 + m] q, q', t, q'', lambda, within those of the reader */
+} qdot_reader_course;
+
+/* Reads such expressions. */
 typedef struct {
     qdot_reading of;
-    qdot_trajectory_cursor *cursor;
-    const qdot_course *course;
+    size_t n_courses;
+    qdot_reader_course *courses; /* [n_courses] */
     int moved;  /* 1, 2: states are moved by one double, as the start of companion 0, 1; 0: not */
-    double *in; /* [3n + 1 + m] */
+    double *in; /* [inputs of the tape] */
     double *work;
 } qdot_reader;
 
 /* Lower exprs [m]; the tape is the caller's to free, NULL on errors. */
 QDOT_MUST_CHECK qdot_status qdot_reader_lower(const qdot_plan *plan, size_t m,
                                               const qdot_expr *exprs, qdot_reading *of);
+/* The same along the courses of another reading, which may have no tape. */
+QDOT_MUST_CHECK qdot_status qdot_reader_lower_beside(const qdot_reading *other, size_t m,
+                                                     const qdot_expr *exprs, qdot_reading *of);
 
-/* The tape and the course are borrowed; clear it in any case. */
+/* The tape and the courses [1 + of->n_more] are borrowed; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_reader_init_along(qdot_reader *r, const qdot_reading *of,
+                                                   const qdot_course *const *courses);
+/* The same for one course. */
 QDOT_MUST_CHECK qdot_status qdot_reader_init(qdot_reader *r, const qdot_reading *of,
                                              const qdot_course *course);
 void qdot_reader_clear(qdot_reader *r);
 
-/* out [outputs of the tape] at t in the given piece of the run; SIZE_MAX: any piece. */
+/* out [outputs of the tape] at t, each course in the piece that is given for it; NULL: in any. */
+QDOT_MUST_CHECK qdot_status qdot_reader_read(qdot_reader *r, const size_t *pieces, double t,
+                                             double *out);
+/* The same along one course; SIZE_MAX: any piece. */
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
@@ -44,7 +76,7 @@ qdot_reader_has_nothing(qdot_status status)
     return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
 }
 
-/* out for the state in r->in [2n], with the equations of the piece that was read last. */
+/* out for the states in r->in, with the equations of the pieces that were read last. */
 QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
 
 #endif

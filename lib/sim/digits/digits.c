@@ -7,6 +7,8 @@
 #include "sim/digits/precise.h"
 #include "sim/error/failure.h"
 
+enum { MOST_NAMES = 8 };
+
 /* As in doubles, with the end state rounded to them. */
 static qdot_status
 say_failure(qdot_run *run, const qdot_ode_result *result)
@@ -126,6 +128,32 @@ find_guide(qdot_run *run, const qdot_run_request *request)
                                         || status == QDOT_EDOMAIN)
                ? QDOT_OK
                : status;
+}
+
+qdot_status
+qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
+{
+    const size_t n = run->plan->n - run->plan->n_states;
+    const char *before = run->notice.n > 0 ? "\n" : "";
+    size_t found = 0;
+
+    for (size_t i = 0; i < 2 * n; i++) {
+        const size_t k = i % n;
+        const bool *named = i < n ? request->q_named : request->v_named;
+
+        if (!named || named[k] || run->start[i < n ? k : run->plan->n + k] == 0)
+            continue;
+        if (found++ < MOST_NAMES)
+            qdot_text_format(&run->notice, "%s%s%s", found == 1 ? before : ", ",
+                             run->plan->names[k], i < n ? "" : "'");
+    }
+    if (found > MOST_NAMES)
+        qdot_text_format(&run->notice, " and %zu more", found - MOST_NAMES);
+    if (found > 0)
+        qdot_text_format(&run->notice,
+                         " at the start: solved for in doubles, then refined to %d digits",
+                         request->digits);
+    return qdot_text_status(&run->notice);
 }
 
 qdot_status

@@ -8,6 +8,11 @@
 #include "sim/course/run-state.h"
 #include "sim/model/domain.h"
 
+/* Add to the notice which values of the start were solved for: run->start, in doubles, not 0 where
+ * the request does not name them. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_digits_say_start(qdot_run *run,
+                                                  const qdot_run_request *request);
+
 /* Carry out both runs; then make the trajectory in doubles for figures, the drifts and the
  * rational end state. QDOT_OK whenever there is a run to keep. */
 QDOT_MUST_CHECK qdot_status qdot_digits_carry_out(qdot_run *run, qdot_scene *scene,

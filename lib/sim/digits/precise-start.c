@@ -101,6 +101,8 @@ iterate(level *l, mpfr_prec_t bits)
         for (size_t i = 0; i < l->plan->n; i++) {
             mpfr_t step;
 
+            if (l->named[i]) /* its part of dx is rounding */
+                continue;
             mpfr_init2(step, 64);
             mpfr_set_d(step, l->dx[i], RN);
             mpfr_mul_2si(step, step, scale, RN);

@@ -311,33 +311,37 @@ static qdot_status
 compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
 {
     for (int which = 0; which < 2; which++)
-        QDOT_TRY(qdot_reader_at(readers + which, SIZE_MAX, t, values + (size_t)which * m));
+        QDOT_TRY(qdot_reader_read(readers + which, NULL, t, values + (size_t)which * m));
     for (size_t j = 0; j < m; j++)
         spread[j] += fabs(values[j] - values[m + j]);
     return QDOT_OK;
 }
 
 qdot_status
-qdot_horizon_spread(const qdot_run *run, const qdot_reading *of, double *spread)
+qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
+                    const qdot_course *const *own, size_t which, double *spread)
 {
     const size_t m = of->m;
-    const qdot_course *courses[] = {&run->course, &run->companion};
     const double from = run->report.horizon;
     const double end = run->course.tr.t[run->course.tr.count - 1];
     qdot_reader readers[2] = {0};
     double *values;
+    const qdot_course **other;
     int count = 0;
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     for (size_t j = 0; j < m; j++)
         spread[j] = 0;
     if (isnan(from) || !run->has_companion)
         return QDOT_OK;
     values = qdot_calloc(2 * m, sizeof *values);
-    if (!values)
-        return QDOT_ENOMEM;
-    for (int which = 0; which < 2 && status == QDOT_OK; which++)
-        status = qdot_reader_init(readers + which, of, courses[which]);
+    other = qdot_calloc(1 + of->n_more, sizeof *other);
+    status = values && other ? qdot_reader_init_along(readers, of, own) : QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        for (size_t k = 0; k < 1 + of->n_more; k++)
+            other[k] = k == which ? &run->companion : own[k];
+        status = qdot_reader_init_along(readers + 1, of, other);
+    }
     for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
         status =
             compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
@@ -349,8 +353,9 @@ qdot_horizon_spread(const qdot_run *run, const qdot_reading *of, double *spread)
     }
     for (size_t j = 0; j < m && count > 0; j++)
         spread[j] /= count;
-    for (int which = 0; which < 2; which++)
-        qdot_reader_clear(readers + which);
+    qdot_reader_clear(readers);
+    qdot_reader_clear(readers + 1);
+    qdot_free(other);
     qdot_free(values);
     return status;
 }

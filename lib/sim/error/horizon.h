@@ -37,8 +37,9 @@ double qdot_horizon_variation(const qdot_trajectory *tr);
 bool qdot_horizon_passed(const qdot_run *run, double t);
 
 /* The mean distance of expressions [m] in the two runs beyond the horizon, into spread [m]; 0
- * without a horizon. */
+ * without a horizon. Of expressions along several courses, run->course is own[which]. */
 QDOT_MUST_CHECK qdot_status qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
+                                                const qdot_course *const *own, size_t which,
                                                 double *spread);
 
 #endif

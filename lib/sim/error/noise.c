@@ -40,18 +40,32 @@ level(const double *g, size_t m)
     return sqrt(factor * sum / (POINTS - ORDER));
 }
 
-qdot_status
-qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
+/* Move each state from y, the inputs that were read, to point s of the line. */
+static void
+move_along(qdot_reader *r, const double *y, int s)
 {
-    const size_t n = 2 * r->of.plan->n, m = r->of.m;
+    size_t count = 0;
+
+    for (size_t k = 0; k < r->n_courses; k++) {
+        double *in = r->courses[k].in;
+        const double *from = y + (in - r->in);
+
+        for (size_t i = 0; i < 2 * r->courses[k].n; i++, count++)
+            in[i] = from[i] + s * spacing * side(count) * from[i];
+    }
+}
+
+qdot_status
+qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
+{
+    const size_t n = qdot_tape_inputs(r->of.tape), m = r->of.m;
     double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
-    qdot_status status = y ? qdot_reader_at(r, piece, t, g) : QDOT_ENOMEM;
+    qdot_status status = y ? qdot_reader_read(r, pieces, t, g) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         memcpy(y, r->in, n * sizeof *y);
     for (int s = 1; s < POINTS && status == QDOT_OK; s++) {
-        for (size_t i = 0; i < n; i++)
-            r->in[i] = y[i] + s * spacing * side(i) * y[i];
+        move_along(r, y, s);
         status = qdot_reader_evaluate(r, t, g + (size_t)s * m);
     }
     for (size_t j = 0; j < m && status == QDOT_OK; j++)
@@ -63,7 +77,7 @@ qdot_noise_at(qdot_reader *r, size_t piece, double t, double *noise)
 /* The magnitudes [k x m] of the terms of expressions at times [k], row by row; NaN where one
  * has none. */
 static qdot_status
-magnitudes_along(const qdot_reading *of, const qdot_course *course, size_t k,
+magnitudes_along(const qdot_reading *of, const qdot_course *const *courses, size_t k,
                  const double *times, double *magnitudes)
 {
     qdot_pool *pool = of->plan->pool;
@@ -77,13 +91,13 @@ magnitudes_along(const qdot_reading *of, const qdot_course *course, size_t k,
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = qdot_reader_lower(of->plan, of->m, e, &sums);
+        status = qdot_reader_lower_beside(of, of->m, e, &sums);
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, &sums, course);
+        status = qdot_reader_init_along(&r, &sums, courses);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = qdot_reader_at(&r, SIZE_MAX, times[i], magnitudes + i * of->m);
+            status = qdot_reader_read(&r, NULL, times[i], magnitudes + i * of->m);
     }
     qdot_reader_clear(&r);
     qdot_tape_free(sums.tape);
@@ -95,7 +109,7 @@ magnitudes_along(const qdot_reading *of, const qdot_course *course, size_t k,
 static qdot_status
 add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
 {
-    qdot_status status = qdot_noise_at(r, SIZE_MAX, t, noise);
+    qdot_status status = qdot_noise_at(r, NULL, t, noise);
 
     for (size_t j = 0; j < r->of.m; j++) {
         roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));
@@ -106,7 +120,7 @@ add(qdot_reader *r, double t, const double *values, double *noise, double *round
 }
 
 qdot_status
-qdot_noise_roundings(const qdot_reading *of, const qdot_course *course, size_t k,
+qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, size_t k,
                      const double *times, const double *values, double *roundings)
 {
     size_t m = of->m;
@@ -115,9 +129,9 @@ qdot_noise_roundings(const qdot_reading *of, const qdot_course *course, size_t k
     qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = magnitudes_along(of, course, k, times, roundings);
+        status = magnitudes_along(of, courses, k, times, roundings);
     if (status == QDOT_OK)
-        status = qdot_reader_init(&r, of, course);
+        status = qdot_reader_init_along(&r, of, courses);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
         status = add(&r, times[i], values + i * m, noise, roundings + i * m);
     qdot_reader_clear(&r);

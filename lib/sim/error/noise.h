@@ -15,19 +15,19 @@
 
 #include "sim/course/reader.h"
 
-/* The noise [m] of the reader's expressions at t in a piece. Errors: as qdot_reader_at. */
-QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, size_t piece, double t,
+/* The noise [m] of the reader's expressions at t in pieces. Errors: as qdot_reader_read. */
+QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, const size_t *pieces, double t,
                                           double *noise);
 
-/* Bounds for the rounding of expressions [m] along a course at times [k]: roundings [k x m],
+/* Bounds for the rounding of expressions [m] along their courses at times [k]: roundings [k x m],
  *
  *     max(4 noise, DBL_EPSILON max(magnitude, |g|))
  *
  * magnitude: of the terms of g (sim/model/term-magnitude.h); values [k x m]: g.
- * Errors: as qdot_reader_at. */
+ * Errors: as qdot_reader_read. */
 QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_reading *of,
-                                                 const qdot_course *course, size_t k,
-                                                 const double *times,
+                                                 const qdot_course *const *courses,
+                                                 size_t k, const double *times,
                                                  const double *values,
                                                  double *roundings);
 

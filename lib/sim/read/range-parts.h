@@ -1,7 +1,7 @@
-/* range-parts.h -- data of a scan over a range of a run for extrema or a mean.
+/* range-parts.h -- data of a scan over a range of runs for extrema or a mean.
  *
- * For range.c only, which goes over the steps part by part; range-poles.c treats parts too short
- * to be halved, range-seek.c searches for the largest values by intervals.
+ * range.c goes over the steps, range-step.c over the parts of one; range-poles.c treats parts too
+ * short to be halved, range-seek.c searches for the largest values by intervals.
  *
  * Tests  tests/script/narrow.lag
  */
@@ -24,7 +24,7 @@ typedef struct {
     qdot_reader reader;
     qdot_polynomial_bounds bounds;
     qdot_range_kind kind;
-    size_t piece;
+    const size_t *pieces;     /* of the courses, in this step */
     int nodes;
     double first;             /* the value where the range begins */
     double largest, smallest; /* so far */
@@ -86,6 +86,13 @@ qdot_range_is_beside_switch(const qdot_range_scan *s, const qdot_range_part *p)
     return (s->odd[0] && p->a == s->ends[0]) || (s->odd[1] && p->b == s->ends[1]);
 }
 
+/* How far the polynomial of a part may be from the values, whose nodes are in s->bounds. */
+static inline double
+qdot_range_miss(const qdot_range_scan *s, const qdot_range_part *p)
+{
+    return 4 * p->tail + (isnan(s->bounds.miss[0]) ? 0 : s->bounds.miss[0]);
+}
+
 /* Count a value of the expression. */
 static inline void
 qdot_range_meet(qdot_range_scan *s, double x)
@@ -95,6 +102,15 @@ qdot_range_meet(qdot_range_scan *s, double x)
     s->sure[0] = fmax(s->sure[0], x);
     s->sure[1] = fmin(s->sure[1], x);
 }
+
+/* --- a step (range-step.c) ------------------------------------------------------------ */
+
+/* The value at t; QDOT_EDOMAIN where it is undefined. */
+QDOT_MUST_CHECK qdot_status qdot_range_at(qdot_range_scan *s, double t, double *x);
+
+/* All that lies between a and b, where no course begins another step. s->most_parts limits the
+ * number of its parts. */
+QDOT_MUST_CHECK qdot_status qdot_range_step(qdot_range_scan *s, double a, double b);
 
 /* --- poles (range-poles.c) ----------------------------------------------------------- */
 

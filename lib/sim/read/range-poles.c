@@ -31,7 +31,7 @@ bounded(qdot_range_scan *s, const qdot_range_part *p)
         double t = p->a + side * far_beside * (p->b - p->a), v;
 
         if (fmin(s->ends[0], s->ends[1]) <= t && t <= fmax(s->ends[0], s->ends[1])
-            && qdot_reader_at(&s->reader, s->piece, t, &v) == QDOT_OK && isfinite(v))
+            && qdot_reader_read(&s->reader, s->pieces, t, &v) == QDOT_OK && isfinite(v))
             most = fmax(most, grown * fabs(v));
     }
     return most;
@@ -71,7 +71,7 @@ increments_beside(qdot_range_scan *s, const qdot_range_part *p, int side, double
         double t = middle + side * ldexp(w, NEAREST + 2 * n), v;
 
         if (t < fmin(s->ends[0], s->ends[1]) || t > fmax(s->ends[0], s->ends[1])
-            || qdot_reader_at(&s->reader, s->piece, t, &v) != QDOT_OK || !isfinite(v))
+            || qdot_reader_read(&s->reader, s->pieces, t, &v) != QDOT_OK || !isfinite(v))
             break;
         if (n == 0)
             *nearest = v;

@@ -51,7 +51,7 @@ look(qdot_range_scan *s, double sign, stretch *x)
         const double t = qdot_range_time(&p, qdot_chebyshev_node(NODES, j));
         double v;
 
-        QDOT_TRY(qdot_reader_at(&s->reader, s->piece, t, &v));
+        QDOT_TRY(qdot_reader_read(&s->reader, s->pieces, t, &v));
         qdot_polynomial_bounds_sample(&s->bounds, j, s->reader.in);
         if (isfinite(v) && t != s->ends[0] && t != s->ends[1])
             best = fmax(best, sign * v);
@@ -145,8 +145,7 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
 void
 qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double low, double high)
 {
-    const double miss = s->bounds.miss[0];
-    const double off = 4 * p->tail + (isnan(miss) ? 0 : miss);
+    const double off = qdot_range_miss(s, p);
 
     enclose(s, p->a, p->b, p->n);
     s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));

@@ -35,6 +35,7 @@ static qdot_status
 read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
             const double *values, double *errors)
 {
+    const qdot_course *const course = &run->course;
     size_t m = of->m;
     bool whole;
     qdot_distance *distance = NULL;
@@ -51,9 +52,9 @@ read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times
     if (!spread)
         return QDOT_ENOMEM;
     roundings = spread + m;
-    status = qdot_horizon_spread(run, of, spread);
+    status = qdot_horizon_spread(run, of, &course, 0, spread);
     if (status == QDOT_OK)
-        status = qdot_noise_roundings(of, &run->course, k, times, values, roundings);
+        status = qdot_noise_roundings(of, &course, k, times, values, roundings);
     if (status == QDOT_OK)
         status = qdot_distance_new(run, of, &distance);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {

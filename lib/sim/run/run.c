@@ -204,6 +204,8 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
         return QDOT_OK;
     QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
                                run->start_low, &run->notice));
+    if (request->digits > 0)
+        QDOT_TRY(qdot_digits_say_start(run, request));
     if (run->notice.n > 0)
         run->report.notice = qdot_text_str(&run->notice);
     QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
@@ -240,6 +242,22 @@ say_crossings(qdot_run *run, bool *interrupted)
     if (status == QDOT_ENOMEM)
         return status;
     qdot_fail_again(&before);
+    return qdot_text_status(&run->notice);
+}
+
+/* Add to the notice that the tolerance is below the rounding of the equations. */
+static qdot_status
+say_raised(qdot_run *run, double tol)
+{
+    const double raised = run->course.tr.result.stats.raised;
+
+    if (!(raised > tol))
+        return QDOT_OK;
+    qdot_text_format(&run->notice,
+                     "%stol %.3g is below what rounding leaves of the equations: where that is "
+                     "least, steps were held to %.2g",
+                     run->notice.n > 0 ? "\n" : "", tol, raised);
+    run->report.notice = qdot_text_str(&run->notice);
     return qdot_text_status(&run->notice);
 }
 
@@ -300,12 +318,14 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .carry = run->start_low,
                                 .t0_low = run->t0_low,
                                 .t1_low = run->t1_low,
-                                .leading = run->leading};
+                                .leading = run->leading,
+                                .meter = &run->meter};
     qdot_status status;
 
     qdot_progress_begin(run->t0, run->t1, "run");
     status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
                              run->start);
+    qdot_ode_meter_end(&run->meter);
     *interrupted = status == QDOT_EINTR;
     run->factored = 0; /* reading the run factors, too */
     for (size_t i = 0; i < run->course.binds.n; i++)
@@ -448,6 +468,7 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .y0 = run->start,
                                       .carry = run->start_low,
                                       .leading = run->leading,
+                                      .meter = &run->meter,
                                       .threaded = true};
 
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
@@ -479,6 +500,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     beside b = {0};
     qdot_status status = QDOT_OK;
 
+    qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
         estimate.error = NAN;
@@ -509,6 +531,7 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
             status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
         qdot_free(difference);
+        run->way = estimate.known ? estimate.way : QDOT_COMPANION_SERIES;
         if (status == QDOT_OK && !estimate.known)
             status = say_lost(run, estimate.result.reason);
         if (status != QDOT_OK || *interrupted)
@@ -527,6 +550,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     double *difference;
     qdot_status status;
 
+    qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     QDOT_TRY(integrate(run, tol, interrupted));
     run->report.error = NAN;
     run->report.tol = tol;
@@ -575,6 +599,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
     run->report.tol = tol;
+    if (status == QDOT_OK)
+        status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = find_hidden(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)

@@ -65,6 +65,25 @@ typedef enum { QDOT_RANGE_MAX, QDOT_RANGE_MIN, QDOT_RANGE_MEAN, QDOT_RANGE_DRIFT
 QDOT_MUST_CHECK qdot_status qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e,
                                            double from, double to, double *value, double *error);
 
+/* An expression of several runs: where `symbol` stands in it, it is `value` along runs[run]. */
+typedef struct {
+    qdot_expr symbol, value;
+    size_t run;
+} qdot_run_member;
+
+typedef struct {
+    qdot_expr e; /* without members: all of it is along runs[0] */
+    size_t n, m;
+    qdot_run *const *runs;          /* [n], all different */
+    const qdot_run_member *members; /* [m], with what moves beside those of named runs */
+} qdot_run_expression;
+
+/* As qdot_run_range, for an expression of several runs; range [2], NULL: all times that the runs
+ * have in common. The error is the sum of those that each run makes. */
+QDOT_MUST_CHECK qdot_status qdot_run_range_along(const qdot_run_expression *x,
+                                                 qdot_range_kind kind, const double *range,
+                                                 double *value, double *error);
+
 /* The occurrences of events [*n], in the order of the run, with the errors of their times from
  * the companion; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,

@@ -1,0 +1,416 @@
+/* wrap.c -- lines broken at blanks, tables folded. */
+#include "base/wrap.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/utf8.h"
+
+/* A piece of the text. */
+typedef struct {
+    const char *at;
+    size_t n;
+} piece;
+
+/* The columns it takes; codes for colours and marks of cells take none. */
+static size_t
+columns_of(piece p)
+{
+    size_t columns = 0, from = 0, i = 0;
+
+    while (i < p.n) {
+        const bool code = p.at[i] == '\033';
+
+        if (!code && p.at[i] != QDOT_WRAP_CELL[0]) {
+            i++;
+            continue;
+        }
+        columns += qdot_utf8_columns(p.at + from, i - from);
+        while (code && i < p.n && p.at[i] != 'm')
+            i++;
+        from = ++i;
+    }
+    return from < p.n ? columns + qdot_utf8_columns(p.at + from, p.n - from) : columns;
+}
+
+static size_t
+blanks_at(piece p, size_t i)
+{
+    size_t n = 0;
+
+    while (i + n < p.n && p.at[i + n] == ' ')
+        n++;
+    return n;
+}
+
+static size_t
+letters_at(piece p, size_t i)
+{
+    size_t n = 0;
+
+    while (i + n < p.n && p.at[i + n] != ' ')
+        n++;
+    return n;
+}
+
+static void
+add_blanks(qdot_text *out, size_t n)
+{
+    qdot_text_format(out, "%*s", (int)n, "");
+}
+
+/* Without its marks. */
+static void
+add_plain(qdot_text *out, piece p)
+{
+    for (size_t i = 0, from = 0; i <= p.n; i++)
+        if (i == p.n || p.at[i] == QDOT_WRAP_CELL[0]) {
+            qdot_text_add_n(out, p.at + from, i - from);
+            from = i + 1;
+        }
+}
+
+/* --- lines ---------------------------------------------------------------------------- */
+
+enum { USUAL_INDENT = 2, LEAST_ROOM = 16 };
+
+/* Columns of blanks before a line that goes on. */
+static size_t
+indent_of(piece line, size_t width)
+{
+    const size_t left = blanks_at(line, 0);
+
+    for (size_t i = left; i < line.n;) {
+        const size_t letters = letters_at(line, i), blanks = blanks_at(line, i + letters);
+        const size_t columns = columns_of((piece){line.at, i + letters + blanks});
+
+        if (blanks >= 2 && i + letters + blanks < line.n)
+            return columns + LEAST_ROOM <= width ? columns : left + USUAL_INDENT;
+        i += letters + blanks;
+    }
+    return left + USUAL_INDENT;
+}
+
+static bool
+is_one_of(piece word, const char *const *words)
+{
+    for (; *words != NULL; words++)
+        if (strlen(*words) == word.n && memcmp(*words, word.at, word.n) == 0)
+            return true;
+    return false;
+}
+
+/* Whether two words stay in one line. */
+static bool
+belong_together(piece before, piece behind)
+{
+    static const char *const both[] = {"=", "±", "<", ">", "<=", ">=", "==", NULL};
+    static const char *const first[] = {"+", "-", "−", "*", "/", NULL};
+
+    return is_one_of(before, both) || is_one_of(behind, both) || is_one_of(before, first);
+}
+
+/* The end of what begins with the word at i and stays in one line: in any case that word; more
+ * only while it is not wider than `room`. */
+static size_t
+end_of_chunk(piece line, size_t i, size_t room)
+{
+    size_t end = i + letters_at(line, i);
+
+    for (size_t start = i;;) {
+        const size_t blanks = blanks_at(line, end), next = end + blanks;
+        const size_t letters = letters_at(line, next);
+
+        if (blanks == 0 || letters == 0 ||
+            !belong_together((piece){line.at + start, end - start},
+                             (piece){line.at + next, letters}) ||
+            columns_of((piece){line.at + i, next + letters - i}) > room)
+            return end;
+        start = next;
+        end = next + letters;
+    }
+}
+
+/* One line, the first column of which is `column`, broken; those that follow indented. */
+static void
+add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t width)
+{
+    const size_t room = width > indent ? width - indent : 1;
+    size_t i = 0;
+    bool any = false; /* whether the present line holds a word */
+
+    while (i < line.n) {
+        const size_t blanks = blanks_at(line, i),
+                     end = end_of_chunk(line, i + blanks, room);
+        const piece chunk = {line.at + i + blanks, end - i - blanks};
+        const size_t columns = columns_of(chunk);
+
+        if (chunk.n == 0) /* blanks at the end */
+            break;
+        if (any && column + blanks + columns > width) {
+            qdot_text_char(out, '\n');
+            add_blanks(out, indent);
+            column = indent;
+        } else {
+            add_blanks(out, blanks);
+            column += blanks;
+        }
+        qdot_text_add_n(out, chunk.at, chunk.n);
+        column += columns;
+        any = true;
+        i = end;
+    }
+}
+
+static void
+add_line(qdot_text *out, piece line, size_t width)
+{
+    if (columns_of(line) <= width)
+        qdot_text_add_n(out, line.at, line.n);
+    else
+        add_broken(out, line, 0, indent_of(line, width), width);
+}
+
+/* --- tables --------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_vec(piece) cells; /* row by row; the first is the head */
+    size_t rows, n;        /* n cells a row */
+    size_t keys;           /* the first of them, which tell one row from the next */
+    size_t key_columns;    /* their widths together */
+    size_t *width;         /* [n] */
+} table;
+
+/* Cell k of a line, empty where it has none. */
+static piece
+cell_of(piece line, size_t k)
+{
+    for (;; k--) {
+        const char *mark = memchr(line.at, QDOT_WRAP_CELL[0], line.n);
+        const size_t n = mark != NULL ? (size_t)(mark - line.at) : line.n;
+
+        if (k == 0)
+            return (piece){line.at, n};
+        if (mark == NULL)
+            return (piece){line.at, 0};
+        line.at += n + 1;
+        line.n -= n + 1;
+    }
+}
+
+static size_t
+count_cells(piece line)
+{
+    size_t n = 1;
+
+    for (size_t i = 0; i < line.n; i++)
+        n += line.at[i] == QDOT_WRAP_CELL[0];
+    return n;
+}
+
+/* Without the blanks at both ends. */
+static piece
+trimmed(piece p)
+{
+    while (p.n > 0 && p.at[p.n - 1] == ' ')
+        p.n--;
+    while (p.n > 0 && p.at[0] == ' ') {
+        p.at++;
+        p.n--;
+    }
+    return p;
+}
+
+/* The next line of *text, whose end is stepped over. */
+static piece
+take_line(const char **text)
+{
+    const piece line = {*text, strcspn(*text, "\n")};
+
+    *text += line.n + ((*text)[line.n] == '\n');
+    return line;
+}
+
+/* Take the lines of a table; false: no memory. */
+static bool
+read_table(const char **text, table *t)
+{
+    const piece head = {*text, strcspn(*text, "\n")};
+
+    t->n = count_cells(head);
+    t->width = qdot_calloc(t->n, sizeof *t->width);
+    if (t->width == NULL)
+        return false;
+    while (**text != '\0') {
+        const char *at = *text;
+        const piece line = take_line(&at);
+
+        if (count_cells(line) < 2)
+            break;
+        for (size_t k = 0; k < t->n; k++) {
+            const piece cell = cell_of(line, k);
+            const size_t columns = columns_of(cell);
+
+            if (qdot_vec_push(&t->cells, cell) != QDOT_OK)
+                return false;
+            t->width[k] = columns > t->width[k] ? columns : t->width[k];
+        }
+        t->rows++;
+        *text = at;
+    }
+    return true;
+}
+
+static piece
+cell_at(const table *t, size_t row, size_t k)
+{
+    return t->cells.at[row * t->n + k];
+}
+
+static bool
+is_same(piece a, piece b)
+{
+    return a.n == b.n && memcmp(a.at, b.at, a.n) == 0;
+}
+
+static void
+find_keys(table *t)
+{
+    size_t alike;
+
+    do {
+        t->key_columns += t->width[t->keys++];
+        alike = 0;
+        for (size_t i = 2; i < t->rows && alike < t->keys; i++)
+            for (alike = 0; alike < t->keys; alike++)
+                if (!is_same(cell_at(t, i, alike), cell_at(t, i - 1, alike)))
+                    break;
+    } while (alike == t->keys && t->keys + 1 < t->n);
+}
+
+static void
+add_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
+{
+    const piece cell = cell_at(t, row, k);
+
+    qdot_text_add_n(out, cell.at, cell.n);
+    add_blanks(out, last ? 0 : t->width[k] - columns_of(cell));
+}
+
+/* The first columns and columns [from, to) of all rows. */
+static void
+add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
+{
+    for (size_t i = 0; i < t->rows; i++) {
+        size_t last = to, column = t->key_columns;
+
+        while (last > from && trimmed(cell_at(t, i, last - 1)).n == 0)
+            last--; /* nothing but blanks from there on */
+        for (size_t k = 0; k < t->keys; k++)
+            add_cell(out, t, i, k, last == from && k + 1 == t->keys);
+        for (size_t k = from; k < last; column += t->width[k++]) {
+            if (k + 1 < t->n)
+                add_cell(out, t, i, k, k + 1 == last);
+            else /* the last of all may be text that is too wide */
+                add_broken(out, cell_at(t, i, k), column, t->key_columns + USUAL_INDENT,
+                           width);
+        }
+        qdot_text_char(out, '\n');
+    }
+}
+
+static void
+add_blocks(qdot_text *out, const table *t, size_t width)
+{
+    for (size_t from = t->keys, to; from < t->n; from = to) {
+        size_t columns = t->key_columns + t->width[from];
+
+        for (to = from + 1; to < t->n && columns + t->width[to] <= width; to++)
+            columns += t->width[to];
+        if (from > t->keys)
+            qdot_text_char(out, '\n');
+        add_block(out, t, from, to, width);
+    }
+}
+
+/* Each row as lines "name value". */
+static void
+add_records(qdot_text *out, const table *t, size_t width)
+{
+    size_t names = 0;
+
+    for (size_t k = 0; k < t->n; k++) {
+        const size_t columns = columns_of(trimmed(cell_at(t, 0, k)));
+
+        names = columns > names ? columns : names;
+    }
+    for (size_t i = 1; i < t->rows; i++)
+        for (size_t k = 0; k < t->n; k++) {
+            const piece name = trimmed(cell_at(t, 0, k)),
+                        cell = trimmed(cell_at(t, i, k));
+            const size_t indent = k > 0 ? USUAL_INDENT : 0,
+                         column = names + 2 * USUAL_INDENT;
+
+            add_blanks(out, indent);
+            qdot_text_add_n(out, name.at, name.n);
+            add_blanks(out, column - indent - columns_of(name));
+            add_broken(out, cell, column, column, width);
+            qdot_text_char(out, '\n');
+        }
+}
+
+/* Whether each column fits beside the keys; the last may be broken. */
+static bool
+fits_in_blocks(const table *t, size_t width)
+{
+    for (size_t k = t->keys; k < t->n; k++)
+        if (t->key_columns + (k + 1 < t->n ? t->width[k] : LEAST_ROOM / 2) > width)
+            return false;
+    return true;
+}
+
+static void
+add_table(qdot_text *out, const char **text, size_t width)
+{
+    const char *const start = *text;
+    table t = {0};
+    size_t columns = 0;
+
+    if (!read_table(text, &t)) {
+        out->failed = true;
+        *text = start + strlen(start);
+    } else {
+        find_keys(&t);
+        for (size_t k = 0; k < t.n; k++)
+            columns += t.width[k];
+        if (columns <= width)
+            add_plain(out, (piece){start, (size_t)(*text - start)});
+        else if (fits_in_blocks(&t, width))
+            add_blocks(out, &t, width);
+        else
+            add_records(out, &t, width);
+    }
+    qdot_free(t.cells.at);
+    qdot_free(t.width);
+}
+
+void
+qdot_wrap(const char *text, size_t width, qdot_text *out)
+{
+    if (width == 0) {
+        add_plain(out, (piece){text, strlen(text)});
+        return;
+    }
+    while (*text != '\0') {
+        const piece line = {text, strcspn(text, "\n")};
+
+        if (memchr(line.at, QDOT_WRAP_CELL[0], line.n) != NULL) {
+            add_table(out, &text, width);
+            continue;
+        }
+        add_line(out, line, width);
+        qdot_text_add_n(out, line.at + line.n, line.at[line.n] == '\n');
+        text += line.n + (line.at[line.n] == '\n');
+    }
+}

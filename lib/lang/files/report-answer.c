@@ -1,0 +1,79 @@
+/* report-answer.c -- what statements answer, taken down for the page of a report. */
+#include "lang/files/report-answer.h"
+
+#include <stdlib.h>
+
+#include "show/animation.h"
+
+qdot_status
+qdot_report_answer_begin(qdot_session *s, qdot_style style, qdot_report_answer *k)
+{
+    *k = (qdot_report_answer){.out = s->out,
+                .console = s->console,
+                .json = s->json,
+                .marked = s->marked,
+                .console_json = s->console_json,
+                .style = s->style,
+                .history = s->history.n,
+                .history_over = s->history_over.n};
+    k->file = open_memstream(&k->text, &k->length);
+    if (k->file == NULL)
+        return qdot_fail(QDOT_ENOMEM, "no memory for the report");
+    if (s->console == NULL) {
+        s->console = s->out;
+        s->console_json = s->json;
+    }
+    s->out = k->file;
+    s->json = false;
+    s->style = style;
+    s->marked = true;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_report_answer_end(qdot_session *s, qdot_report_answer *k, qdot_status status,
+                       qdot_text *text)
+{
+    bool whole = fclose(k->file) == 0;
+
+    s->out = k->out;
+    s->console = k->console;
+    s->json = k->json;
+    s->console_json = k->console_json;
+    s->style = k->style;
+    s->marked = k->marked;
+    s->history.n = k->history;
+    if (s->history_over.n > k->history_over)
+        s->history_over.n = k->history_over;
+    if (status == QDOT_OK && !whole)
+        status = qdot_fail(QDOT_ENOMEM, "no memory for the report");
+    if (status == QDOT_OK) {
+        qdot_text_add_n(text, k->text, k->length);
+    } else if (qdot_grave(status) == QDOT_OK) {
+        qdot_text_format(text, "Not found: %s\n", qdot_last_error()->message);
+        status = QDOT_OK;
+    }
+    free(k->text); /* from open_memstream */
+    return status;
+}
+
+qdot_status
+qdot_report_answer_of(const qdot_cursor *cursor, qdot_status (*statement)(qdot_cursor *),
+                      qdot_text *text)
+{
+    qdot_cursor c = *cursor;
+    qdot_report_answer k;
+
+    while (c.at->kind != QDOT_TOKEN_END)
+        c.at++;
+    QDOT_TRY(qdot_report_answer_begin(c.session, QDOT_MATHML, &k));
+    return qdot_report_answer_end(c.session, &k, statement(&c), text);
+}
+
+void
+qdot_report_heading(qdot_text *page, const char *title)
+{
+    qdot_text_add(page, "<h2>");
+    qdot_animation_escape(page, title);
+    qdot_text_add(page, "</h2>\n");
+}

@@ -1,0 +1,33 @@
+/* report-answer.h -- what statements answer, taken down for the page of a report. */
+#ifndef QDOT_LANG_REPORT_ANSWER_H
+#define QDOT_LANG_REPORT_ANSWER_H
+
+#include "lang/language/cursor.h"
+
+/* What stays of a session while an answer is taken down. */
+typedef struct {
+    FILE *out, *console, *file;
+    bool json, console_json, marked;
+    qdot_style style;
+    size_t history, history_over;
+    char *text;
+    size_t length;
+} qdot_report_answer;
+
+/* From here on what the session answers is taken down, in this style. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_report_answer_begin(qdot_session *s, qdot_style style,
+                                                     qdot_report_answer *a);
+/* The session answers as before; append to `text` what was taken down. A failure, status, other than
+ * a grave one is the answer itself: `Not found: ...`. */
+QDOT_MUST_CHECK qdot_status qdot_report_answer_end(qdot_session *s, qdot_report_answer *a,
+                                                   qdot_status status, qdot_text *text);
+
+/* Append what a statement without operands answers, in MathML. */
+QDOT_MUST_CHECK qdot_status qdot_report_answer_of(const qdot_cursor *c,
+                                                  qdot_status (*statement)(qdot_cursor *),
+                                                  qdot_text *text);
+
+/* Append a heading of the page. */
+void qdot_report_heading(qdot_text *page, const char *title);
+
+#endif

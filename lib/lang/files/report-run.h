@@ -1,0 +1,16 @@
+/* report-run.h -- runs on the page of a report: how they went, their curves and moving pictures. */
+#ifndef QDOT_LANG_REPORT_RUN_H
+#define QDOT_LANG_REPORT_RUN_H
+
+#include "lang/session/session.h"
+
+enum { QDOT_REPORT_RUNS = 8 }; /* runs that one page compares: as many looks has a figure */
+
+/* Append the sections of runs [n], 1 <= n <= QDOT_REPORT_RUNS: for each its facts and its report, of
+ * several also a table; the course of every coordinate, all runs in one figure; a moving picture of each,
+ * where things have places. Errors: those of qdot_animated_make. */
+QDOT_MUST_CHECK qdot_status qdot_report_runs(qdot_session *session, size_t n,
+                                             const qdot_named_run *const *runs,
+                                             qdot_text *page);
+
+#endif

@@ -1,0 +1,172 @@
+/* highlight.c -- what each byte of a text that is being typed is. */
+#include "lang/workbench/highlight.h"
+
+#include <string.h>
+
+#include "base/utf8.h"
+#include "lang/commands/statement.h"
+#include "lang/commands/usage.h"
+#include "lang/files/redirect.h"
+#include "lang/functions/quantity.h"
+#include "lang/source/source.h"
+
+/* --- names ---------------------------------------------------------------------------- */
+
+/* Whether the statement's word is used as a name: `run*2`, `gravity = 9.81`. */
+static bool
+is_operand(const qdot_token *name)
+{
+    static const char *const binary[] = {
+        "=", "*", "/", "^", "'", "==", "<", ">", "<=", ">=", "."};
+
+    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
+        if (qdot_token_is(name + 1, binary[i]))
+            return true;
+    return qdot_quantity_find(name->text) != NULL;
+}
+
+/* The row of the statement that begins there; NULL: an expression or a definition. */
+static const qdot_statement *
+row_of(const qdot_token *first)
+{
+    return first->kind == QDOT_TOKEN_NAME && !is_operand(first)
+               ? qdot_statement_find(first->text)
+               : NULL;
+}
+
+/* Whether the name stands where the statement has such a word: an option. */
+static bool
+is_option(const qdot_statement *row, const qdot_token *first, const qdot_token *name)
+{
+    qdot_usage u;
+
+    if (row == NULL || strstr(row->usage, name->text) == NULL ||
+        !qdot_usage_begin(&u, row->word, row->usage, qdot_redirect_answers(row)))
+        return false;
+    qdot_usage_read(&u, first, name);
+    return qdot_usage_takes(&u, name->text);
+}
+
+/* `for k = ...`, `to "FILE"`, which may end any statement. */
+static bool
+ends_statement(const qdot_token *name)
+{
+    return (qdot_token_is_word(name, "for") && name[1].kind == QDOT_TOKEN_NAME) ||
+           (qdot_token_is_word(name, "to") && name[1].kind == QDOT_TOKEN_STRING);
+}
+
+static qdot_highlight
+kind_of_name(const qdot_session *session, const qdot_token *first, const qdot_token *name,
+             bool in_brackets)
+{
+    const qdot_statement *row = row_of(first);
+
+    if (name == first && row != NULL)
+        return QDOT_HIGHLIGHT_WORD;
+    if (!in_brackets && name > first &&
+        (ends_statement(name) || is_option(row, first, name)))
+        return QDOT_HIGHLIGHT_WORD;
+    return qdot_cursor_knows(session, name->text) ? QDOT_HIGHLIGHT_NAME
+                                                  : QDOT_HIGHLIGHT_PLAIN;
+}
+
+/* --- the text ------------------------------------------------------------------------- */
+
+static qdot_highlight
+kind_of(const qdot_session *session, const qdot_token *first, const qdot_token *token,
+        bool in_brackets)
+{
+    switch (token->kind) {
+    case QDOT_TOKEN_NAME: return kind_of_name(session, first, token, in_brackets);
+    case QDOT_TOKEN_NUMBER: return QDOT_HIGHLIGHT_NUMBER;
+    case QDOT_TOKEN_STRING: return QDOT_HIGHLIGHT_STRING;
+    default: return QDOT_HIGHLIGHT_PLAIN;
+    }
+}
+
+/* Between tokens a # begins a comment. */
+static void
+mark_comments(const char *text, size_t from, size_t to, uint8_t *kinds)
+{
+    for (size_t i = from; i < to; i++)
+        if (text[i] == '#')
+            for (; i < to && text[i] != '\n'; i++)
+                kinds[i] = QDOT_HIGHLIGHT_COMMENT;
+}
+
+/* The tokens of `text` [length]; *end: how far they reach. */
+static void
+mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kinds,
+            size_t *end)
+{
+    const qdot_token *first = source->tokens.at;
+    long depth = 0; /* of brackets within the statement */
+
+    for (size_t i = 0; i < source->tokens.n; i++) {
+        const qdot_token *token = source->tokens.at + i;
+
+        mark_comments(source->text, *end, token->start, kinds);
+        if (token->kind == QDOT_TOKEN_END || qdot_token_is(token, "{")) {
+            first = token + 1;
+            depth = 0;
+        } else {
+            const uint8_t kind = (uint8_t)kind_of(session, first, token, depth > 0);
+
+            if (token->start >= *end) /* else it is a dot over the name before it */
+                memset(kinds + token->start, kind, token->length);
+            depth += qdot_token_bracket(token);
+        }
+        if (token->start + token->length > *end)
+            *end = token->start + token->length;
+    }
+}
+
+/* The byte that is no token: a text without its quote, or what means nothing. Returns how far
+ * that reaches. */
+static size_t
+mark_unread(const char *text, size_t length, size_t at, uint8_t *kinds)
+{
+    const bool quoted = text[at] == '"', goes_on = text[at] == '\\';
+    const size_t n = qdot_utf8_length(text + at);
+    size_t end = at + (n > 0 ? n : 1);
+
+    while (quoted && end < length && text[end] != '\n')
+        end++;
+    memset(kinds + at,
+           quoted    ? QDOT_HIGHLIGHT_STRING
+           : goes_on ? QDOT_HIGHLIGHT_PLAIN /* it may go on, as \theta does */
+                     : QDOT_HIGHLIGHT_WRONG,
+           end - at);
+    return end;
+}
+
+qdot_status
+qdot_highlight_text(const qdot_session *session, const char *text, size_t length,
+                    uint8_t *kinds)
+{
+    size_t from = 0;
+
+    memset(kinds, QDOT_HIGHLIGHT_PLAIN, length);
+    while (from < length) {
+        qdot_source *source;
+        size_t at, end = 0;
+        qdot_status status =
+            qdot_source_new("", text + from, length - from, &source, &at);
+
+        if (source == NULL)
+            return status;
+        /* the lexer ends a list of tokens with an END, but not one that it gave up */
+        if (status != QDOT_OK)
+            status = qdot_vec_push(&source->tokens,
+                                   ((qdot_token){.text = "", .start = (uint32_t)at}));
+        if (status == QDOT_OK)
+            mark_tokens(session, source, kinds + from, &end);
+        end = status != QDOT_OK || at >= length - from || at < end
+                  ? length - from /* all was read, but for the end of a bracket */
+                  : mark_unread(text + from, length - from, at, kinds + from);
+        qdot_source_free(source);
+        QDOT_TRY(status);
+        from += end;
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,26 @@
+/* highlight.h -- what each byte of a text that is being typed is, for colours at the prompt.
+ *
+ * Tests  tests/lang/test_highlight.c, tests/src/test_screen.c
+ */
+#ifndef QDOT_LANG_HIGHLIGHT_H
+#define QDOT_LANG_HIGHLIGHT_H
+
+#include "lang/session/session.h"
+
+typedef enum {
+    QDOT_HIGHLIGHT_PLAIN,
+    QDOT_HIGHLIGHT_WORD, /* a statement's word, and its options' where they stand as such */
+    QDOT_HIGHLIGHT_NAME, /* a declared name or label, a value or function of the language */
+    QDOT_HIGHLIGHT_NUMBER,
+    QDOT_HIGHLIGHT_STRING,
+    QDOT_HIGHLIGHT_COMMENT,
+    QDOT_HIGHLIGHT_WRONG /* a bracket that closes none, what the language has no use for */
+} qdot_highlight;
+
+/* kinds [length], one a byte, of `text` [length] as far as it is typed. Errors: QDOT_ENOMEM; the
+ * kinds are those found till then. */
+QDOT_MUST_CHECK qdot_status qdot_highlight_text(const qdot_session *session,
+                                                const char *text, size_t length,
+                                                uint8_t *kinds);
+
+#endif

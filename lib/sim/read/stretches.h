@@ -1,0 +1,33 @@
+/* stretches.h -- divides a range of several courses at the points of all.
+ *
+ * Within a stretch each course is on one step of one piece. Where not all courses are known, the
+ * range is cut. A range of no length is one stretch for each piece that begins or ends there.
+ *
+ * Tests  tests/script/several-ranges.lag
+ */
+#ifndef QDOT_SIM_STRETCHES_H
+#define QDOT_SIM_STRETCHES_H
+
+#include "sim/course/course.h"
+
+typedef struct {
+    size_t n;
+    const qdot_course *const *courses; /* [n] borrowed */
+    double from, to;
+    qdot_vec(double) times; /* where stretches begin and end, ascending */
+    size_t next;
+    double a, b;    /* the stretch, in the direction of the range */
+    bool odd[2];    /* the equations of a course switch at a, b, its state does not jump */
+    size_t *pieces; /* [n] of each course in it */
+} qdot_stretches;
+
+/* Before the first stretch of from ... to. QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_stretches_init(qdot_stretches *s, size_t n,
+                                                const qdot_course *const *courses,
+                                                double from, double to);
+void qdot_stretches_clear(qdot_stretches *s);
+
+/* Go to the first, or the next; false: none is left. */
+bool qdot_stretches_next(qdot_stretches *s);
+
+#endif

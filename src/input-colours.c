@@ -1,0 +1,247 @@
+/* input-colours.c -- colours for what is typed at the prompt, while it is typed.
+ *
+ * Readline shows the line as it always does. Then the same characters are written over it in their
+ * colours, and the cursor goes back: readline needs to know nothing of it, and what it shifts or
+ * leaves in place keeps its colour.
+ */
+#define _XOPEN_SOURCE 700 /* wcwidth */
+#include "input-colours.h"
+
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <wchar.h>
+
+#include <readline/readline.h>
+
+#include "base/memory.h"
+#include "base/terminal.h"
+#include "base/text.h"
+#include "lang/workbench/highlight.h"
+
+static const qdot_session *session; /* readline's callbacks have no argument of ours */
+static const char *lines = "";
+
+enum { LONG_LINE = 200 }; /* bytes */
+
+static const char *const colours[] = {
+    [QDOT_HIGHLIGHT_PLAIN] = "",          [QDOT_HIGHLIGHT_WORD] = QDOT_BOLD,
+    [QDOT_HIGHLIGHT_NAME] = QDOT_CYAN,    [QDOT_HIGHLIGHT_NUMBER] = QDOT_MAGENTA,
+    [QDOT_HIGHLIGHT_STRING] = QDOT_GREEN, [QDOT_HIGHLIGHT_COMMENT] = QDOT_GREY,
+    [QDOT_HIGHLIGHT_WRONG] = QDOT_RED,
+};
+
+/* --- where characters stand ------------------------------------------------------------- */
+
+typedef struct {
+    int columns, rows; /* of the terminal */
+    int x, row;        /* of the next character, from the row that the prompt begins in */
+} place;
+
+/* Columns of the character at `text`, *bytes its length; negative: that cannot be known. */
+static int
+columns_of(const char *text, size_t *bytes)
+{
+    mbstate_t state = {0};
+    wchar_t c;
+    const size_t n = mbrtowc(&c, text, MB_CUR_MAX, &state);
+
+    *bytes = n;
+    return n == 0 || n == (size_t)-1 || n == (size_t)-2 ? -1 : wcwidth(c);
+}
+
+/* Where a character as wide as that is put: one that has no room in its row is in the next. */
+static place
+place_of(place p, int columns)
+{
+    if (p.x + columns > p.columns) {
+        p.x = 0;
+        p.row++;
+    }
+    return p;
+}
+
+/* The place behind it. */
+static place
+behind(place p, int columns)
+{
+    p = place_of(p, columns);
+    p.x += columns;
+    if (p.x == p.columns) {
+        p.x = 0;
+        p.row++;
+    }
+    return p;
+}
+
+static place
+below(place p)
+{
+    p.x = 0;
+    p.row++;
+    return p;
+}
+
+/* Step over text; false: it holds a character of unknown width. */
+static bool
+step_over(place *p, const char *text, size_t n)
+{
+    for (size_t i = 0, bytes; i < n; i += bytes) {
+        int columns;
+
+        if (text[i] == '\n') {
+            *p = below(*p);
+            bytes = 1;
+            continue;
+        }
+        columns = columns_of(text + i, &bytes);
+        if (columns < 0)
+            return false;
+        *p = behind(*p, columns);
+    }
+    return true;
+}
+
+/* The prompt that is shown, also that of a search, without what readline is told to skip. */
+static bool
+step_over_prompt(place *p)
+{
+    const char *at = rl_display_prompt != NULL ? rl_display_prompt : "";
+
+    while (*at != '\0') {
+        const size_t n = strcspn(at, "\001");
+
+        if (!step_over(p, at, n))
+            return false;
+        at += n + strcspn(at + n, "\002");
+        at += *at == '\002';
+    }
+    return true;
+}
+
+/* --- writing ---------------------------------------------------------------------------- */
+
+static void
+move(int rows, int x)
+{
+    if (rows != 0)
+        fprintf(rl_outstream, rows < 0 ? "\033[%dA" : "\033[%dB", abs(rows));
+    fputc('\r', rl_outstream);
+    if (x > 0)
+        fprintf(rl_outstream, "\033[%dC", x);
+}
+
+/* The line in its colours, from place p on, where the cursor is. All its characters have a width. */
+static void
+write_line(place p, const uint8_t *kinds)
+{
+    const char *text = rl_line_buffer;
+    uint8_t now = QDOT_HIGHLIGHT_PLAIN;
+    int row = p.row; /* of the cursor, which stays behind the last column of a full row */
+
+    for (size_t i = 0, bytes; text[i] != '\0'; i += bytes) {
+        int columns;
+
+        if (text[i] == '\n') {
+            p = below(p);
+            bytes = 1;
+            continue;
+        }
+        columns = columns_of(text + i, &bytes);
+        if (columns > 0 && place_of(p, columns).row > row) {
+            p = place_of(p, columns);
+            move(p.row - row, p.x);
+            row = p.row;
+        }
+        if (kinds[i] != now) {
+            fprintf(rl_outstream, "%s%s",
+                    now != QDOT_HIGHLIGHT_PLAIN ? QDOT_COLOUR_END : "",
+                    colours[kinds[i]]);
+            now = kinds[i];
+        }
+        fwrite(text + i, 1, bytes, rl_outstream);
+        p = behind(p, columns);
+    }
+    fputs(now != QDOT_HIGHLIGHT_PLAIN ? QDOT_COLOUR_END : "", rl_outstream);
+}
+
+/* The kinds of the bytes of the line, which may go on others; NULL: no memory. */
+static uint8_t *
+kinds_of_line(size_t *before)
+{
+    qdot_text text = {0};
+    uint8_t *kinds;
+
+    qdot_text_add(&text, lines);
+    *before = text.n;
+    qdot_text_add(&text, rl_line_buffer);
+    kinds = qdot_text_status(&text) == QDOT_OK ? qdot_malloc(text.n + 1) : NULL;
+    if (kinds != NULL &&
+        qdot_highlight_text(session, qdot_text_str(&text), text.n, kinds) != QDOT_OK) {
+        qdot_free(kinds);
+        kinds = NULL;
+    }
+    qdot_text_clear(&text);
+    return kinds;
+}
+
+/* Whether more is to be read: the next time is soon enough for a long line that is pasted. */
+static bool
+waits(void)
+{
+    struct pollfd input = {.fd = fileno(rl_instream), .events = POLLIN};
+
+    return rl_end > LONG_LINE && poll(&input, 1, 0) > 0;
+}
+
+/* Paint over what readline has shown. */
+static void
+paint(void)
+{
+    place start = {0}, cursor, end;
+    uint8_t *kinds;
+    size_t before;
+
+    rl_get_screen_size(&start.rows, &start.columns);
+    if (rl_end == 0 || start.columns < 2 || !step_over_prompt(&start))
+        return;
+    cursor = end = start;
+    if (!step_over(&cursor, rl_line_buffer, (size_t)rl_point) ||
+        !step_over(&end, rl_line_buffer, (size_t)rl_end) || end.row >= end.rows ||
+        waits())
+        return; /* of what has left the screen nothing is known */
+    kinds = kinds_of_line(&before);
+    if (kinds == NULL)
+        return;
+    fputs("\0337", rl_outstream); /* keep where the cursor is */
+    move(start.row - cursor.row, start.x);
+    write_line(start, kinds + before);
+    fputs("\0338", rl_outstream);
+    fflush(rl_outstream);
+    qdot_free(kinds);
+}
+
+static void
+redisplay(void)
+{
+    rl_redisplay();
+    paint();
+}
+
+void
+qdot_input_colours_install(const qdot_session *s)
+{
+    session = s;
+    if (!qdot_terminal_has_colours(rl_outstream))
+        return;
+    rl_initialize(); /* with a function of ours it would not ask what the terminal can do */
+    rl_redisplay_function = redisplay;
+}
+
+void
+qdot_input_colours_continue(const char *before)
+{
+    lines = before;
+}

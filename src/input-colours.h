@@ -1,0 +1,15 @@
+/* input-colours.h -- colours for what is typed at the prompt, while it is typed.
+ *
+ * Tests  tests/src/test_screen.c
+ */
+#ifndef QDOT_SRC_INPUT_COLOURS_H
+#define QDOT_SRC_INPUT_COLOURS_H
+
+#include "lang/session/session.h"
+
+/* From now on, if rl_outstream shows colours. */
+void qdot_input_colours_install(const qdot_session *session);
+/* For a statement of several lines: the lines before the one that is typed. */
+void qdot_input_colours_continue(const char *before);
+
+#endif
