@@ -1279,6 +1279,9 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/mass-negative-inertia.lag \
+	tests/bad/mass-negative-with.lag \
+	tests/bad/mass-negative.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1595,6 +1598,9 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/mass-negative-inertia.out \
+	tests/bad/mass-negative-with.out \
+	tests/bad/mass-negative.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
