@@ -351,6 +351,7 @@ library_sources = \
 	lib/show/figure-layout.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
+	lib/show/formulas.c \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
@@ -765,6 +766,7 @@ library_headers = \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
 	lib/show/formula-page.h \
+	lib/show/formulas.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
@@ -878,6 +880,7 @@ library_texts = \
 	lib/show/export-julia.template \
 	lib/show/export-matlab.template \
 	lib/show/export-python.template \
+	lib/show/formulas.js \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
