@@ -41,7 +41,7 @@ static bool
 holds(const qdot_match *m, extent extent, size_t at)
 {
     if (extent == PART && m->to == m->from + 1)
-        return at == m->from->start && qdot_last_error()->status == QDOT_ENAME;
+        return at == m->from->start && strncmp(qdot_last_error()->message, "unknown ", 8) == 0;
     return m->to > m->from && at >= m->from->start &&
            at <= m->to[-1].start + m->to[-1].length;
 }
@@ -108,6 +108,20 @@ tell(qdot_cursor *c, const form *f, const qdot_match *m)
     return fits;
 }
 
+/* Whether what was taken for a name is a word of our line: `between` of `spring between a, b`. */
+static bool
+holds_word(const form *f, const qdot_match *m)
+{
+    for (size_t i = 0; i < m->n && !f->say; i++) {
+        const qdot_token *name = m->held[i].from;
+
+        if (strchr("nue", m->held[i].kind) != NULL && m->held[i].to == name + 1 &&
+            name->kind == QDOT_TOKEN_NAME && name->length > 1 && qdot_has_word(f->line, name->text))
+            return true;
+    }
+    return false;
+}
+
 qdot_status
 qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
 {
@@ -120,7 +134,7 @@ qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
     if (to - from > LONGEST)
         to = from + LONGEST;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) &&
+        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) && !holds_word(&forms[i], &m) &&
             tell(c, &forms[i], &m))
             break;
     return status;

@@ -13,10 +13,6 @@ enum { MOST_REPEATS = 4 };
 #define NEAR 1e-6
 #define SAME_RATIO 1e-3
 
-/* What comes so often that there would be this many more by the end is given up. */
-enum { WINDOW = 10000 };
-static const double most_occurrences = 2e6;
-
 void
 qdot_piece_stop(qdot_piece *x, bool failed)
 {
@@ -108,7 +104,7 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
             r = &x->repeats.at[i];
     if (!r) {
         qdot_piece_repeat new = {
-            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t, .window_since = t};
+            .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t};
 
         return qdot_vec_push(&x->repeats, new);
     }
@@ -122,80 +118,23 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     return QDOT_OK;
 }
 
-/* How often it would occur until the end, if after a window of occurrences that is known: two in
- * a row show too many. 0: not too many. */
-static double
-storms(qdot_piece *x, const qdot_watched *w, double t)
-{
-    qdot_piece_repeat *r = x->repeats.at;
-    double left;
-
-    while (r->kind != w->kind || r->index != w->index)
-        r++;
-    if (++r->window < WINDOW)
-        return 0;
-    left = WINDOW * fabs((x->t1 - t) / (t - r->window_since));
-    r->windows = left > most_occurrences ? r->windows + 1 : 0;
-    r->window = 0;
-    r->window_since = t;
-    return r->windows >= 2 ? left : 0;
-}
-
-static void
-say_who(qdot_piece *x, const qdot_watched *w, qdot_text *text)
-{
-    if (w->kind == QDOT_WATCH_EVENT)
-        qdot_text_format(text, "the event %.100s", x->c->stage->events.at[w->index].name);
-    else if (qdot_stage_describe(x->c->stage, w->index, qdot_piece_mode(x)->side[w->index], text)
-             != QDOT_OK)
-        qdot_text_add(text, "a switch of the equations");
-}
-
-static void
-say_storm(qdot_piece *x, const qdot_watched *w, double t, double left)
-{
-    qdot_text text = {0};
-
-    say_who(x, w, &text);
-    snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.6g: %.200s comes every %.2g there, %.1g times more before the end",
-             t, qdot_text_str(&text), fabs((x->t1 - t) / left), left);
-    qdot_text_clear(&text);
-}
-
 static void
 say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
 {
     qdot_text text = {0};
 
-    say_who(x, w, &text);
+    if (w->kind == QDOT_WATCH_EVENT)
+        qdot_text_format(&text, "the event %.100s",
+                         x->c->stage->events.at[w->index].name);
+    else if (qdot_stage_describe(x->c->stage, w->index,
+                                 qdot_piece_mode(x)->side[w->index], &text) != QDOT_OK)
+        qdot_text_add(&text, "a switch of the equations");
     snprintf(
         x->c->reason, sizeof x->c->reason,
         "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "
         "%.10g",
         t, qdot_text_str(&text), t + copysign(left, x->direction));
     qdot_text_clear(&text);
-}
-
-/* End the run, *over, at what comes too often. */
-static qdot_status
-judge_repeats(qdot_piece *x, const qdot_watched *w, double t, bool *over)
-{
-    double left;
-    bool fast;
-
-    QDOT_TRY(accumulates(x, w, t, &fast, &left));
-    if (*over)
-        return QDOT_OK;
-    if (fast)
-        say_accumulated(x, w, t, left);
-    else if ((left = storms(x, w, t)) > 0)
-        say_storm(x, w, t, left);
-    else
-        return QDOT_OK;
-    *over = true;
-    qdot_piece_stop(x, true);
-    return QDOT_OK;
 }
 
 /* A root that is not a double lies between the doubles around it. */
@@ -224,6 +163,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
+        double left = 0;
+        bool fast = false;
 
         if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
             x->c->stage->events.at[w->index].then)
@@ -259,7 +200,12 @@ qdot_piece_act(qdot_piece *x, bool *over)
                 continue;
         }
         if (status == QDOT_OK)
-            status = judge_repeats(x, w, t, over);
+            status = accumulates(x, w, t, &fast, &left);
+        if (fast && !*over) {
+            say_accumulated(x, w, t, left);
+            *over = true;
+            qdot_piece_stop(x, true);
+        }
     }
     if (x->start.jumped)
         x->crossed.n = 0;

@@ -26,8 +26,6 @@ typedef struct {
     double last, interval, ratio; /* time of the last one; the interval before it; that over the
                                      interval before */
     size_t steady;                /* how often in a row the ratio was the same */
-    int window, windows; /* of occurrences; how many in a row showed that there are too many */
-    double window_since;
 } qdot_piece_repeat;
 
 /* A surface for which another side has to be tried. */
