@@ -455,6 +455,7 @@ library_sources = \
 	lib/sim/read/range.c \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
+	lib/sim/run/change-over.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
@@ -854,6 +855,7 @@ library_headers = \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/change-over.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \

@@ -1,0 +1,24 @@
+/* change-over.h -- what `auto` does where a scene is stiff (ode/stiffness.h).
+ *
+ * A run whose steps stability bounded, and whose method was the choice of `auto`, is made once more
+ * by a method for stiff scenes under a tighter tolerance. If that is far off, it is made by series
+ * after all, unless that would take long. If both fail the first run stays.
+ *
+ * Tests  tests/script/stiff-auto.lag
+ */
+#ifndef QDOT_SIM_CHANGE_OVER_H
+#define QDOT_SIM_CHANGE_OVER_H
+
+#include "sim/course/report.h"
+#include "sim/model/request.h"
+
+/* Make a run, as qdot_run_new. */
+typedef qdot_status qdot_run_make(qdot_scene *scene, const qdot_run_request *request,
+                                  qdot_run **run);
+
+/* Replace *run by the other one, with a notice, where it is stiff. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_run_change_over(qdot_scene *scene,
+                                                 const qdot_run_request *request,
+                                                 qdot_run_make *make, qdot_run **run);
+
+#endif
