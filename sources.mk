@@ -695,6 +695,7 @@ library_headers = \
 	lib/num/series-dot.def \
 	lib/num/series.def \
 	lib/num/series.h \
+	lib/num/sort.h \
 	lib/num/sparse.h \
 	lib/num/structure.h \
 	lib/num/sum.h \

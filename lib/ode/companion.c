@@ -144,17 +144,6 @@ look(double t, const double *y, bool *stop, void *user)
 }
 
 static void
-add_stats(qdot_ode_stats *sum, const qdot_ode_stats *stats)
-{
-    sum->steps += stats->steps;
-    sum->rejected += stats->rejected;
-    sum->evaluations += stats->evaluations;
-    sum->jacobians += stats->jacobians;
-    sum->factorisations += stats->factorisations;
-    sum->cpu += stats->cpu;
-}
-
-static void
 run_by(follower *f, const qdot_ode_method *method, double t1)
 {
     const qdot_companion *c = f->of;
@@ -182,7 +171,7 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
         if (qdot_ode_integrate(&f->system, method, &options, t, to, f->y, &f->result)
             != QDOT_OK)
             f->result.outcome = QDOT_ODE_FAILED;
-        add_stats(&spent, &f->result.stats);
+        qdot_ode_stats_add(&spent, &f->result.stats);
         if (last || f->result.outcome != QDOT_ODE_DONE)
             break;
         memcpy(f->own + f->reached++ * c->n, f->y, c->n * sizeof *f->y);

@@ -21,6 +21,18 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
+/* Add what a further part of a run did. */
+static inline void
+qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
+{
+    sum->steps += more->steps;
+    sum->rejected += more->rejected;
+    sum->evaluations += more->evaluations;
+    sum->jacobians += more->jacobians;
+    sum->factorisations += more->factorisations;
+    sum->cpu += more->cpu;
+}
+
 /* A step that Taylor series will try, from (t, y [n]) to t_end; the solution at t + unit s is
  * sum_k x_ik s^k, k <= order, of system->series. */
 typedef struct {

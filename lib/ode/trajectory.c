@@ -210,17 +210,6 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     return status;
 }
 
-static void
-add_stats(qdot_ode_stats *sum, const qdot_ode_stats *more)
-{
-    sum->steps += more->steps;
-    sum->rejected += more->rejected;
-    sum->evaluations += more->evaluations;
-    sum->jacobians += more->jacobians;
-    sum->factorisations += more->factorisations;
-    sum->cpu += more->cpu;
-}
-
 qdot_status
 qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_t mode,
                        bool jumped, const qdot_ode_options *options, double t1,
@@ -257,7 +246,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
         status = qdot_ode_integrate(system, tr->method, &own, t0, t1, y, &tr->result);
     else
         memcpy(tr->result.reason, qdot_last_error()->message, sizeof tr->result.reason);
-    add_stats(&tr->result.stats, &before);
+    qdot_ode_stats_add(&tr->result.stats, &before);
     qdot_free(y);
     return status;
 }
@@ -584,8 +573,7 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
 {
     const qdot_trajectory *tr = c->tr;
     size_t low = tr->pieces.at[piece].first;
-    size_t last = (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count)
-                  - 1;
+    const size_t last = qdot_trajectory_last_of(tr, piece);
 
     if (!c->tracks)
         QDOT_TRY(enter(c, piece));
@@ -649,4 +637,17 @@ qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k)
             high = middle;
     }
     return low;
+}
+
+size_t
+qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece)
+{
+    return (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count) - 1;
+}
+
+void
+qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high)
+{
+    *low = fmax(*low, fmin(tr->t[0], tr->t[tr->count - 1]));
+    *high = fmin(*high, fmax(tr->t[0], tr->t[tr->count - 1]));
 }

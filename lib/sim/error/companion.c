@@ -178,7 +178,7 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
         qdot_progress_begin(t0, goal(run), "error of the run");
         status = qdot_course_run(c, qdot_companion_method(&system, method), &options, t0,
                                  goal(run), y);
-        if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
         if (!*has || met_the_same(run, c))
@@ -188,7 +188,7 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
-    return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Beside a stiff method series may get stuck: then by its partner. */
@@ -301,7 +301,7 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
         status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, *t, y);
     qdot_trajectory_close(cursor);
     *known = status == QDOT_OK;
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 qdot_status

@@ -265,7 +265,7 @@ find_noise(scan *s, double a, double b)
         s->noise = 0;
     if (status != QDOT_OK || !isfinite(s->blur))
         s->blur = 0;
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* The mean of the sizes of the values but for the largest. */
