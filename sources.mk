@@ -2001,6 +2001,7 @@ test_files = \
 	tests/script/values.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
+	tests/series/kit.h \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \

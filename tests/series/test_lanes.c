@@ -1,6 +1,7 @@
 /* test_lanes.c -- eight at once against one at a time: every operation, every recurrence,
  * every kind of processor that is here. */
 #include "tape/reference.h"
+#include "series/kit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +10,6 @@
 #include "num/kinds.h"
 #include "num/series.h"
 #include "series/lanes.h"
-#include "series/taylor.h"
 
 enum { L = QDOT_LANES, ORDERS = 14, MOST_OUT = 64 };
 
@@ -144,12 +144,13 @@ coefficient(const double *one, size_t i, int k)
 
 /* The same with the newest coefficients of the inputs brought in late. */
 static void
-late_coefficients_come_in(const fixture *f, const qdot_tape *tape, const qdot_lanes *seen)
+late_coefficients_come_in(const fixture *f, const qdot_program *program,
+                          const qdot_lanes *seen)
 {
     qdot_lanes *late;
     double one[3], newest[3 * L];
 
-    assert_int_equal(qdot_lanes_new(tape, ORDERS, &late), QDOT_OK);
+    assert_int_equal(qdot_lanes_of_program(program, false, ORDERS, &late), QDOT_OK);
     for (int k = 0; k <= ORDERS; k++) {
         for (size_t i = 0; i < 3; i++)
             for (size_t l = 0; l < L; l++) {
@@ -183,18 +184,20 @@ series_are_those_of_one_at_a_time(void **state)
 {
     fixture f;
     qdot_tape *tape;
+    qdot_program program;
 
     (void)state;
     smooth(&f);
     assert_int_equal(qdot_tape_new(f.pool, 3, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_program_init(tape, 3, false, &program), QDOT_OK);
     for (size_t kind = 0; kind < 3; kind++) {
         qdot_taylor *single;
         qdot_lanes *lanes;
         double one[3], t[L];
 
         qdot_kind_limit(kind);
-        assert_int_equal(qdot_taylor_new(tape, ORDERS, &single), QDOT_OK);
-        assert_int_equal(qdot_lanes_new(tape, ORDERS, &lanes), QDOT_OK);
+        assert_int_equal(taylor_of_tape(tape, ORDERS, &single), QDOT_OK);
+        assert_int_equal(qdot_lanes_of_program(&program, false, ORDERS, &lanes), QDOT_OK);
         for (size_t l = 0; l < L; l++)
             t[l] = 0.25;
         qdot_lanes_draw(lanes, t);
@@ -230,11 +233,12 @@ series_are_those_of_one_at_a_time(void **state)
                 }
             }
         }
-        late_coefficients_come_in(&f, tape, lanes);
+        late_coefficients_come_in(&f, &program, lanes);
         qdot_lanes_free(lanes);
         qdot_taylor_free(single);
     }
     qdot_kind_limit(2);
+    qdot_program_clear(&program);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }
@@ -244,14 +248,16 @@ what_switches_and_orders_out_of_range_are_refused(void **state)
 {
     fixture f;
     qdot_tape *tape;
+    qdot_program program;
     qdot_lanes *lanes;
 
     (void)state;
     with_switches(&f);
     assert_int_equal(qdot_tape_new(f.pool, 3, f.in, f.n, f.out, &tape), QDOT_OK);
-    assert_int_equal(qdot_lanes_new(tape, 5, &lanes), QDOT_ENOTBUILT);
+    assert_int_equal(qdot_program_init(tape, 3, false, &program), QDOT_ENOTBUILT);
+    assert_int_equal(qdot_lanes_of_program(&program, false, QDOT_SERIES_MOST + 1, &lanes),
+                     QDOT_EINVAL);
     assert_null(lanes);
-    assert_int_equal(qdot_lanes_new(tape, QDOT_SERIES_MOST + 1, &lanes), QDOT_EINVAL);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }
