@@ -113,6 +113,7 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
@@ -556,6 +557,7 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
