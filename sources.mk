@@ -403,6 +403,7 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-matrix.c \
 	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
@@ -807,6 +808,7 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-matrix.h \
 	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
