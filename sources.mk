@@ -1824,6 +1824,7 @@ test_files = \
 	tests/normal/pairs.h \
 	tests/normal/text.h \
 	tests/num/kit.h \
+	tests/ode/failing.h \
 	tests/ode/problems.h \
 	tests/sanitized.h \
 	tests/script/abbreviate.out \
@@ -2006,6 +2007,7 @@ test_files = \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \
+	tests/series/operations.h \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \
