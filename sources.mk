@@ -65,6 +65,7 @@ library_sources = \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
 	lib/lang/declare/export-scene.c \
+	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
@@ -291,6 +292,7 @@ library_sources = \
 	lib/ode/dop853.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
+	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
 	lib/ode/run.c \
@@ -341,6 +343,7 @@ library_sources = \
 	lib/show/export-code.c \
 	lib/show/export-julia.c \
 	lib/show/export-matlab.c \
+	lib/show/export-motion.c \
 	lib/show/export-python.c \
 	lib/show/export.c \
 	lib/show/figure-axis.c \
@@ -349,6 +352,7 @@ library_sources = \
 	lib/show/figure-layout.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
+	lib/show/formulas.c \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
@@ -392,6 +396,7 @@ library_sources = \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
 	lib/sim/error/singular-places.c \
+	lib/sim/error/touches.c \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
@@ -452,6 +457,7 @@ library_sources = \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
@@ -713,6 +719,7 @@ library_headers = \
 	lib/ode/dop853.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
+	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
@@ -758,10 +765,12 @@ library_headers = \
 	lib/show/export-language.h \
 	lib/show/export-operation.def \
 	lib/show/export-parts.h \
+	lib/show/export-writer.h \
 	lib/show/export.h \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
 	lib/show/formula-page.h \
+	lib/show/formulas.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
@@ -797,6 +806,7 @@ library_headers = \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
 	lib/sim/error/singular-places.h \
+	lib/sim/error/touches.h \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
@@ -847,6 +857,7 @@ library_headers = \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -874,6 +885,7 @@ library_texts = \
 	lib/show/export-julia.template \
 	lib/show/export-matlab.template \
 	lib/show/export-python.template \
+	lib/show/formulas.js \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
@@ -967,6 +979,7 @@ unit_tests = \
 	tests/ode/test_dop853 \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
+	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
 	tests/ode/test_taylor \
@@ -1061,6 +1074,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
 	tests/script/event-ends.sh \
@@ -1084,6 +1098,7 @@ script_tests = \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
+	tests/script/grazing.lag \
 	tests/script/hamilton.lag \
 	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
@@ -1127,6 +1142,7 @@ script_tests = \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
 	tests/script/narrow-events.lag \
+	tests/script/narrow-forces.lag \
 	tests/script/narrow.lag \
 	tests/script/notices.lag \
 	tests/script/numeric.lag \
@@ -1234,6 +1250,7 @@ script_tests = \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
+	tests/bad/event-storm.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
@@ -1272,6 +1289,9 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/mass-negative-inertia.lag \
+	tests/bad/mass-negative-with.lag \
+	tests/bad/mass-negative.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1359,6 +1379,7 @@ script_tests = \
 	tests/bad/start-no-direction.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
+	tests/bad/start-rests-on-event.lag \
 	tests/bad/start-touching.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
@@ -1548,6 +1569,7 @@ test_files = \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
+	tests/bad/event-storm.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
@@ -1586,6 +1608,9 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/mass-negative-inertia.out \
+	tests/bad/mass-negative-with.out \
+	tests/bad/mass-negative.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -1673,6 +1698,7 @@ test_files = \
 	tests/bad/start-no-direction.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
+	tests/bad/start-rests-on-event.out \
 	tests/bad/start-touching.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
@@ -1871,6 +1897,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
 	tests/script/event-ends.out \
@@ -1894,6 +1921,7 @@ test_files = \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \
+	tests/script/grazing.out \
 	tests/script/hamilton.out \
 	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
@@ -1951,6 +1979,7 @@ test_files = \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \
 	tests/script/narrow-events.out \
+	tests/script/narrow-forces.out \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/notices.out \

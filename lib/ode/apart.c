@@ -42,16 +42,7 @@ qdot_ode_part_options(const qdot_ode_part *part, const qdot_ode_options *whole, 
 void
 qdot_ode_part_add(qdot_ode_result *whole, const qdot_ode_result *part)
 {
-    const qdot_ode_stats *more = &part->stats;
-    qdot_ode_stats *sum = &whole->stats;
-
-    sum->steps += more->steps;
-    sum->rejected += more->rejected;
-    sum->evaluations += more->evaluations;
-    sum->jacobians += more->jacobians;
-    sum->factorisations += more->factorisations;
-    sum->projections += more->projections;
-    sum->cpu += more->cpu;
+    qdot_ode_stats_add(&whole->stats, &part->stats);
 }
 
 void

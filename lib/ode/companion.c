@@ -22,10 +22,8 @@ static const double derived = 4;
 /* A companion's own error, as a part of its distance from the run, where the companions agree. */
 static const double most_share = 0.25;
 
-/* A companion gives up after this many times the steps of the run (the second: if the run is by a
- * method for stiff equations), and this much more, in steps and in nanoseconds. */
-static const uint64_t patience = 20, patience_stiff = 100, most_beyond = 200000;
-static const double most_time = 2e9;
+/* How much coarser or finer than the run these ways are. */
+static const double coarser = 4, finer[] = {4, 8};
 
 /* Differences before the end raise the error to at most this many times the one at the end. */
 static const double most_between = 30;
@@ -48,8 +46,11 @@ typedef struct {
     double *y;     /* [n] the state it has reached */
     double *own;   /* [PLACES x n] its states at the times between */
     size_t reached; /* the first `reached` of these times are done */
+    qdot_companion_way way;
+    double tol;           /* of that way */
+    double spent;         /* work on the ways before */
+    qdot_ode_meter meter; /* on this one */
     qdot_ode_result result;
-    uint64_t steps; /* so far */
     bool running;  /* on `thread` */
     bool finished; /* result is valid */
     pthread_t thread;
@@ -57,16 +58,15 @@ typedef struct {
 
 struct qdot_companion {
     size_t n;
-    const qdot_ode_method *run, *method; /* the run's method, the companions' method */
-    double tol, t1, t1_low, t0_low;
+    const qdot_ode_method *run; /* its method */
+    const qdot_ode_meter *meter;
+    double tol, t1, t1_low, t0_low; /* of the run */
     bool leading;
     size_t samples; /* 0 or PLACES */
     double times[PLACES];
     double *shown; /* [PLACES x n] states of the run at `times` */
     size_t n_shown;
     atomic_bool leave; /* companions are to stop: the run ended at another time */
-    atomic_uint_fast64_t most_steps;
-    uint64_t run_steps; /* steps of the run, set together with most_steps */
     double share; /* factor by which the second companion's distance counts */
     double floor; /* the smallest error that is stated */
     follower at[2];
@@ -92,6 +92,48 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
     if (same && method->companion_tol > tol / 4)
         return 10 * fmax(tol, method->companion_tol);
     return fmax(method->companion_ratio * tol, method->companion_tol);
+}
+
+qdot_companion_way
+qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_system *system,
+                        const qdot_ode_method *method, double tol, qdot_companion_plan *plan)
+{
+    qdot_ode_system plain = *system;
+
+    plain.series = NULL;
+    *plan = (qdot_companion_plan){0};
+    if (way == QDOT_COMPANION_SERIES && !system->series)
+        way = QDOT_COMPANION_PARTNER;
+    if (way == QDOT_COMPANION_PARTNER && system->series && !method->stiff)
+        way = QDOT_COMPANION_FINER;
+    if (way == QDOT_COMPANION_FINER && (!method->stiff || tol / finer[1] < method->companion_tol))
+        way = QDOT_COMPANION_COARSE;
+    if (way == QDOT_COMPANION_SERIES) {
+        plan->method = qdot_companion_method(system, method);
+        plan->tol = qdot_companion_tolerance(system, method, tol);
+    } else if (way == QDOT_COMPANION_PARTNER) {
+        plan->method = qdot_companion_method(&plain, method);
+        plan->tol = qdot_companion_tolerance(&plain, method, tol);
+    } else if (way == QDOT_COMPANION_FINER) {
+        plan->method = method;
+        plan->tol = tol / finer[number];
+    } else if (way == QDOT_COMPANION_COARSE) {
+        plan->method = method;
+        plan->tol = fmin(1, coarser * fmax(tol, method->companion_tol));
+    }
+    return way;
+}
+
+void
+qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run, const qdot_ode_method *method,
+                     const qdot_ode_system *system, qdot_companion_way way, double spent)
+{
+    m->beside = run;
+    m->factor = QDOT_COMPANION_WORTH;
+    m->allowance = method->stiff ? QDOT_COMPANION_ALLOWANCE_STIFF : QDOT_COMPANION_ALLOWANCE;
+    if (way == QDOT_COMPANION_COARSE)
+        m->allowance = 3 * m->allowance - spent;
+    m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
 }
 
 /* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
@@ -134,30 +176,32 @@ qdot_companion_floor(uint64_t steps)
 static qdot_status
 look(double t, const double *y, bool *stop, void *user)
 {
-    follower *f = user;
+    const follower *f = user;
 
     (void)t;
     (void)y;
-    *stop = atomic_load_explicit(&f->of->leave, memory_order_relaxed)
-            || ++f->steps > atomic_load_explicit(&f->of->most_steps, memory_order_relaxed);
+    *stop = atomic_load_explicit(&f->of->leave, memory_order_relaxed);
     return QDOT_OK;
 }
 
+/* To t1 by one way. */
 static void
-run_by(follower *f, const qdot_ode_method *method, double t1)
+run_by(follower *f, const qdot_companion_plan *by, double t1)
 {
     const qdot_companion *c = f->of;
-    qdot_ode_options options = {.tol = c->tol,
+    qdot_ode_options options = {.tol = by->tol,
                                 .accepted = look,
                                 .user = f,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number,
                                 .leading = c->leading,
-                                .end_low = c->leading ? f->now : NULL};
+                                .end_low = c->leading ? f->now : NULL,
+                                .meter = c->meter ? &f->meter : NULL,
+                                .apart = true};
     double t = f->t0;
     qdot_ode_stats spent = f->result.stats;
 
-    if (method->series && c->run->stiff)
-        options.max_steps = QDOT_COMPANION_EXPLICIT;
+    qdot_companion_meter(&f->meter, c->meter, c->run, &f->system, f->way, f->spent);
+    qdot_ode_meter_begin(&f->meter, f->t0, c->t1);
     memcpy(f->y, f->start, c->n * sizeof *f->y);
     for (f->reached = 0;;) {
         bool last = t1 != c->t1 || f->reached == c->samples;
@@ -167,8 +211,7 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
         options.carry = t == f->t0 ? f->low : c->leading ? f->now : NULL;
         options.t0_low = t == f->t0 ? c->t0_low : 0;
         options.goes_on = t != f->t0;
-        options.apart = true;
-        if (qdot_ode_integrate(&f->system, method, &options, t, to, f->y, &f->result)
+        if (qdot_ode_integrate(&f->system, by->method, &options, t, to, f->y, &f->result)
             != QDOT_OK)
             f->result.outcome = QDOT_ODE_FAILED;
         qdot_ode_stats_add(&spent, &f->result.stats);
@@ -180,20 +223,44 @@ run_by(follower *f, const qdot_ode_method *method, double t1)
     f->result.stats = spent;
 }
 
+bool
+qdot_companion_leads_nowhere(const qdot_ode_method *method, qdot_companion_way way, bool failed,
+                             const qdot_ode_meter *meter)
+{
+    if (method->stiff && way == QDOT_COMPANION_SERIES)
+        return failed || meter->over;
+    return meter->over && !qdot_ode_meter_is_stuck(meter);
+}
+
+/* To t1 by the first way from f->way on that leads there. */
+static void
+run_ways(follower *f, double t1)
+{
+    const qdot_companion *c = f->of;
+    qdot_companion_plan by;
+    double work;
+
+    for (;; f->way++) {
+        f->way = qdot_companion_way_from(f->way, f->number, &f->system, c->run, c->tol, &by);
+        if (f->way == QDOT_COMPANION_WAYS)
+            return;
+        f->tol = by.tol;
+        run_by(f, &by, t1);
+        if (f->result.outcome != QDOT_ODE_FAILED
+            || !qdot_companion_leads_nowhere(c->run, f->way, true, &f->meter))
+            return;
+        (void)qdot_ode_meter_exceeds(&f->meter, &work);
+        f->spent += work;
+    }
+}
+
 static void
 run_to(follower *f, double t1)
 {
-    const qdot_companion *c = f->of;
-
     f->result = (qdot_ode_result){0};
-    f->steps = 0;
-    run_by(f, c->method, t1);
-    if (f->result.outcome == QDOT_ODE_FAILED && c->method->series && c->run->stiff)
-        run_by(f, qdot_ode_method_find(c->run->partner), t1);
-    if (f->steps > atomic_load(&c->most_steps) && f->result.reason[0] == '\0')
-        snprintf(f->result.reason, sizeof f->result.reason,
-                 "it would take more than %llu steps where this one took %llu",
-                 (unsigned long long)f->steps - 1, (unsigned long long)c->run_steps);
+    f->way = QDOT_COMPANION_SERIES;
+    f->spent = 0;
+    run_ways(f, t1);
     f->finished = true;
 }
 
@@ -352,8 +419,8 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
         return QDOT_ENOMEM;
     c->n = request->system->n;
     c->run = request->method;
-    c->method = qdot_companion_method(request->system, request->method);
-    c->tol = qdot_companion_tolerance(request->system, request->method, request->tol);
+    c->tol = request->tol;
+    c->meter = request->meter;
     c->t1 = request->t1;
     c->t1_low = request->t1_low;
     c->t0_low = request->t0_low;
@@ -361,10 +428,9 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->share = 1;
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
-    if (c->method->series)
+    if (request->system->series)
         choose_times(c, request->t0);
     atomic_init(&c->leave, false);
-    atomic_init(&c->most_steps, UINT64_MAX);
     status = c->shown ? prepare(c, request, 0) : QDOT_ENOMEM;
     if (status == QDOT_OK && request->twin)
         status = prepare(c, request, 1);
@@ -379,37 +445,46 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     return QDOT_OK;
 }
 
+/* It arrived, before the run had, at a price that is too high beside that of the whole run: the
+ * other ways. */
+static void
+judge(follower *f, double t1)
+{
+    double work;
+
+    while (f->of->meter && f->way != QDOT_COMPANION_WAYS
+           && f->result.outcome == QDOT_ODE_DONE && qdot_ode_meter_exceeds(&f->meter, &work)) {
+        f->spent += work;
+        f->way++;
+        f->result.outcome = QDOT_ODE_FAILED;
+        snprintf(f->result.reason, sizeof f->result.reason,
+                 "it would take more than %.2g times the work of this one", f->meter.factor);
+        run_ways(f, t1);
+    }
+}
+
 /* Its end, and whether it shows the states between, too. */
 static bool
 arrive(follower *f, bool whole, double t_end, qdot_companion_estimate *out)
 {
     const qdot_companion *c = f->of;
+    const double t1 = whole ? c->t1 : t_end;
 
     if (!whole || !f->finished)
-        run_to(f, whole ? c->t1 : t_end);
+        run_to(f, t1);
+    judge(f, t1);
     if (f->number == 0)
         out->result = f->result;
+    out->tol = fmax(out->tol, f->tol);
+    if (f->way > out->way)
+        out->way = f->way;
     out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
     return whole && c->n_shown == PLACES && f->reached == PLACES;
-}
-
-uint64_t
-qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *method,
-                        uint64_t steps)
-{
-    const double n = (double)system->n, p = 20;
-    const double *c = system->series ? system->series->cost.kernels : NULL;
-    const double cost = c ? c[0] + c[1] * p + c[2] * p * p : n * n * n;
-
-    return (method->stiff ? patience_stiff : patience) * steps
-           + (uint64_t)fmin((double)most_beyond, most_time / fmax(1, cost));
 }
 
 void
 qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
-    c->run_steps = steps;
-    atomic_store(&c->most_steps, qdot_companion_patience(&c->at[0].system, c->run, steps));
     c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit
@@ -429,7 +504,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         if (c->at[k].running)
             pthread_join(c->at[k].thread, NULL);
     atomic_store(&c->leave, false);
-    *out = (qdot_companion_estimate){.known = true, .error = c->floor, .tol = c->tol};
+    *out = (qdot_companion_estimate){.known = true, .error = c->floor};
     for (size_t k = 0; k < c->count; k++)
         between = arrive(c->at + k, whole, t_end, out) && between;
     if (out->known)

@@ -41,7 +41,18 @@
  * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
  *
- * A companion that does not arrive gives no number: known is false, the error a NaN.
+ * Ways. A companion must not have cost more than QDOT_COMPANION_WORTH times what the run had cost
+ * by the same time, and QDOT_COMPANION_ALLOWANCE (meter.h). One that has, or that a method for
+ * stiff equations was chosen to spare, is given up, and another way is tried by what is left:
+ *
+ *     SERIES   Taylor series under tol*
+ *     PARTNER  the partner of the method under its tol*: beside a stiff method, or without series
+ *     FINER    a stiff method itself, the first under tol/4, the second under tol/8: it errs by a
+ *              few times less, and the distance of the two shows by how much
+ *     COARSE   the run's own method under 4 tol: it errs more than the run, on the safe side, and
+ *              costs less
+ *
+ * A companion that arrives by none gives no number: known is false, the error a NaN.
  *
  * The caller moves the numbers in f (parameters), in the companion's own system. If a limit is
  * not a double exactly and the method has no t1_low, the caller passes its neighbour as the
@@ -57,11 +68,22 @@
 
 #include "base/status.h"
 #include "ode/integrate.h"
+#include "ode/meter.h"
+
+/* How a companion is integrated. */
+typedef enum {
+    QDOT_COMPANION_SERIES,
+    QDOT_COMPANION_PARTNER,
+    QDOT_COMPANION_FINER,
+    QDOT_COMPANION_COARSE,
+    QDOT_COMPANION_WAYS /* no way is left */
+} qdot_companion_way;
 
 typedef struct {
     bool known;
     double error;           /* as above; NaN where unknown */
     double tol;             /* tol* */
+    qdot_companion_way way; /* the last one that was needed */
     qdot_ode_result result; /* of the companion: its cost, why it did not arrive */
 } qdot_companion_estimate;
 
@@ -90,6 +112,8 @@ typedef struct {
     const double *carry;            /* [n] the exact start less y0; NULL: 0; likewise */
     bool leading;                   /* of the run (integrate.h) */
     double t0_low;                  /* likewise */
+    const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what
+                                       they like; likewise */
     bool threaded; /* run them on threads of their own; if there are none, or false, they run
                       within _finish */
 } qdot_companion_request;
@@ -112,18 +136,38 @@ const double *qdot_companion_times(const qdot_companion *c, size_t *count);
 /* Show the state y [n] of the run at time k of these; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
-/* The most steps that a companion may take beside a run of so many by that method,
- *
- *     r steps + min(200000, 2 s/c),   r = 20; beside a stiff method 100, whose steps no fast motion
- *                                     bounds,
- *
- * c being the cost of a step (by the series' model, else n^3 ns). One that needs more is given
- * up: it has met something that the run has stepped over. The second term is for a scene at rest:
- * the run may need one step, while a companion moved by a rounding oscillates all the time. */
-uint64_t qdot_companion_patience(const qdot_ode_system *system, const qdot_ode_method *method,
-                                 uint64_t steps);
+typedef struct {
+    const qdot_ode_method *method;
+    double tol;
+} qdot_companion_plan;
 
-/* Tell the companions the number of steps of the run, which limits theirs (_patience). */
+/* The first way, from `way` on, that there is for companion `number` of a run of that system by
+ * that method, and *plan, its method and tolerance. */
+qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number,
+                                           const qdot_ode_system *system,
+                                           const qdot_ode_method *method, double tol,
+                                           qdot_companion_plan *plan);
+
+/* A companion's work, in that of the run and in about nanoseconds. The second is for a scene at
+ * rest: the run may need one step, while a companion moved by a rounding oscillates all the time. */
+#define QDOT_COMPANION_WORTH 1.5
+#define QDOT_COMPANION_ALLOWANCE 1e7
+#define QDOT_COMPANION_ALLOWANCE_STIFF 2e6 /* beside a stiff method */
+
+/* The meter of a companion by that way beside that of a run by `method`, after `spent` on the ways
+ * before. The last way may use what is left of the whole, wherever; and parts of a system each
+ * begin anew, so only their wholes are compared. */
+void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
+                          const qdot_ode_method *method, const qdot_ode_system *system,
+                          qdot_companion_way way, double spent);
+
+/* Whether another way is worth trying, after one that `failed` or was found to cost too much: a
+ * stiff method may spare what stops series; else not where the companion came to stand still, for
+ * it may have met what the run has stepped over. */
+bool qdot_companion_leads_nowhere(const qdot_ode_method *method, qdot_companion_way way, bool failed,
+                                  const qdot_ode_meter *meter);
+
+/* Tell the companions the number of steps of the run. */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
 
 /* The distance, in doubles, at which the second companion starts: that of a random walk of so
@@ -140,10 +184,6 @@ double qdot_companion_floor(uint64_t steps);
  * Never fails: after a failure the error is unknown and result.reason says why. */
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
-
-/* The most steps of a companion by Taylor series for a stiff method, which steps over fast
- * motions: beyond that the method's partner takes over. */
-#define QDOT_COMPANION_EXPLICIT 100000
 
 /* Additional orders of a companion by Taylor series (qdot_ode_options.order_more). */
 #define QDOT_COMPANION_ORDERS 3

@@ -18,6 +18,8 @@ typedef struct {
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
     uint64_t projections;    /* steps whose end was moved by system->project */
+    double raised;           /* by Taylor series: the tolerance that rounding of the equations left,
+                                where it is more than that asked for; else 0 */
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
@@ -30,6 +32,8 @@ qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
     sum->evaluations += more->evaluations;
     sum->jacobians += more->jacobians;
     sum->factorisations += more->factorisations;
+    sum->projections += more->projections;
+    sum->raised = more->raised > sum->raised ? more->raised : sum->raised;
     sum->cpu += more->cpu;
 }
 
@@ -41,12 +45,16 @@ typedef struct {
     const double *y;
 } qdot_ode_expanded;
 
+typedef struct qdot_ode_meter qdot_ode_meter;
+
 /* All fields may be 0 / NULL for their defaults. */
 typedef struct {
     double tol;         /* 1e-16 .. 1; default 1e-12 */
     double h_fixed;     /* > 0: steps of (at most) this size, whatever their error */
     double h_first;     /* > 0: the size to try first */
     uint64_t max_steps; /* tried; default 50 million */
+    qdot_ode_meter *meter; /* to which each step adds its work, and which may end the run (meter.h);
+                              borrowed */
     /* Called after every accepted step, not for the initial state. Set *stop to end the run
      * here. QDOT_EDOMAIN: the step is rejected and smaller ones are tried, as if f were
      * undefined; any other failure rejects the step and ends the run. */

@@ -18,8 +18,12 @@ typedef struct {
     size_t n;
     double tol, t, t1, direction;
     double place; /* that the step at hand goes over; NaN: none */
+    double noise; /* of the slopes, over sizes and a unit of time: what the defect is at least */
+    double defect; /* of the step tried, likewise; 0: it was not looked at */
     double held; /* tol, or what the coefficients are worth if that is more */
     uint64_t max_steps;
+    double work;      /* of an expansion (meter.h) */
+    uint64_t counted; /* expansions whose work has been counted */
     int p;
     int highest;   /* the highest order among the run and its companions */
     int cut;       /* the order that the step at hand is summed to: p, or less */

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "ode/leading.h"
+#include "ode/meter.h"
 #include "ode/taylor-numbers.h"
 #include "ode/taylor-run.h"
 
@@ -22,6 +23,10 @@ typedef qdot_ode_taylor_run run;
 
 /* A projection moves by its own rounding, whatever the tolerance. */
 static const double rounding_of_projection = 1e-13;
+
+/* A defect that falls by less than this when the step is divided by 4 is noise, if it is less than
+ * this of the state over the step. */
+static const double falls = 0.125, most_noise = 1e-5;
 
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
@@ -106,7 +111,8 @@ confirms(const run *r, double h, double part, double old_held)
 {
     const qdot_ode_series *series = r->series;
     const double now = part * h * r->per_unit, rounding = 64 * DBL_EPSILON;
-    const double share = part * 10 * (r->p + 1) * qdot_larger(r->held, old_held);
+    const double share = part * (10 * (r->p + 1) * qdot_larger(r->held, old_held)
+                                 + r->noise * fabs(h));
 
     for (size_t k = 0; k < r->n_confirmed; k++) {
         const size_t i = r->confirmed[k];
@@ -116,6 +122,22 @@ confirms(const run *r, double h, double part, double old_held)
             return false;
     }
     return followers_agree(r, part * h, share);
+}
+
+/* That of the whole step, over its length. */
+static double
+defect_of(const run *r, double h)
+{
+    const double now = h * r->per_unit;
+    double most = 0;
+
+    for (size_t k = 0; k < r->n_confirmed; k++) {
+        const size_t i = r->confirmed[k];
+        const double f = r->series->x[i * r->series->stride + 1] * now;
+
+        most = fmax(most, fabs(r->slope[i] - f) / r->next_size[i]);
+    }
+    return most / fabs(h);
 }
 
 /* Whether it also is inside the step, at places without a pattern. The series is
@@ -192,7 +214,7 @@ judge_first(run *r, double most, double *h)
     QDOT_TRY(qdot_ode_written_first(&r->written, fabs(r->t1 - r->t) / *h - 1, &again));
     if (!again)
         return QDOT_OK;
-    r->result->stats.evaluations = 0;
+    r->result->stats.evaluations = r->counted = 0;
     qdot_ode_taylor_run_set_unit(r, r->first_unit);
     QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
     return qdot_ode_taylor_run_length(r, most, h);
@@ -213,6 +235,38 @@ advance_in_two(run *r, double t_end)
     step.h = qdot_two_rounded_sum(t_end, -r->t, &step.h_low);
     step.h_low += (t_end == r->t1 ? r->options->t1_low : 0) - step.at.t_low;
     return qdot_ode_leading_advance(&step, r->next, r->next_carry);
+}
+
+/* Noise that a step did not meet any more is forgotten, little by little; with that which it met,
+ * it was held to no more than `raised`. */
+static void
+judge_noise(run *r, double h, double old_held)
+{
+    const double defect = defect_of(r, h);
+    const double raised = defect * fabs(h) / (10 * (r->p + 1));
+
+    if (raised > qdot_larger(r->held, old_held)) {
+        qdot_ode_stats *stats = &r->result->stats;
+
+        stats->raised = qdot_larger(stats->raised, raised);
+    }
+    if (defect < r->noise / 8)
+        r->noise /= 2;
+}
+
+/* A step whose defect, over its length, hardly falls when it is divided by 4, as truncation would
+ * by 4^p, meets the rounding of the equations: shorter ones err as much. *most: the length that it
+ * then may have again. */
+static bool
+is_noise(run *r, double before, double h, double *most)
+{
+    const double noise = 2 * qdot_larger(r->defect, before);
+
+    if (!(before > 0 && r->defect > falls * before && noise * 4 * h < most_noise))
+        return false;
+    r->noise = qdot_larger(r->noise, noise);
+    *most = 4 * h;
+    return true;
 }
 
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been accepted, and the
@@ -251,6 +305,10 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     status = qdot_ode_taylor_run_begin(r, t_end, r->next);
     if (status == QDOT_OK)
         *good = fixed || confirms(r, h, 1, old_held);
+    if (status == QDOT_OK && !*good)
+        r->defect = defect_of(r, h);
+    if (status == QDOT_OK && *good && r->noise > 0)
+        judge_noise(r, h, old_held);
     if (status == QDOT_OK && *good)
         take_followers(r);
     if (status == QDOT_OK && *good && r->options->accepted) {
@@ -306,7 +364,7 @@ end_of_step(const run *r, double h)
 static qdot_status
 advance(run *r)
 {
-    double h = 0, most = INFINITY;
+    double h = 0, most = INFINITY, before = 0;
 
     for (int tries = 0;; tries++) {
         double end;
@@ -326,6 +384,7 @@ advance(run *r)
         if (status == QDOT_OK && r->written.first)
             status = judge_first(r, most, &h);
         if (status == QDOT_OK) {
+            r->defect = 0;
             unsure = isinf(h);
             h = qdot_smaller(h, most);
             end = end_of_step(r, h);
@@ -346,11 +405,26 @@ advance(run *r)
             r->undefined = *qdot_last_error();
             r->undefined_at = r->t + r->direction * h;
         }
+        if (status == QDOT_OK && is_noise(r, before, h, &most))
+            continue;
+        before = status == QDOT_OK ? r->defect : 0;
         most = 0.25 * h;
         if (tries == max_undefined || most < qdot_step_floor(r->t) ||
             r->options->h_fixed > 0)
             return too_small(r);
     }
+}
+
+/* The work since it was counted last. */
+static qdot_status
+count_work(run *r)
+{
+    /* what is rejected was begun once more */
+    const uint64_t now = r->result->stats.evaluations + r->result->stats.rejected;
+    const double work = (double)(now - r->counted) * r->work;
+
+    r->counted = now;
+    return qdot_ode_meter_add(r->options->meter, r->t, work);
 }
 
 static qdot_status
@@ -373,6 +447,8 @@ loop(run *r)
     QDOT_TRY(status);
     while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
         QDOT_TRY(advance(r));
+        if (r->options->meter)
+            QDOT_TRY(count_work(r));
         qdot_progress_at(r->t);
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
     }
@@ -449,6 +525,7 @@ prepare(run *r, double t0, double t1, const double *y)
                                  r->options->order_more);
     r->highest = qdot_ode_taylor_highest(r->system, r->tol, r->options->leading,
                                          r->options->order_more);
+    r->work = qdot_ode_expansion_work(r->series, r->p);
     qdot_series_weights_set(&r->weights, r->p, r->log_term,
                             qdot_step_fall(r->log_wanted, r->p));
     return r->series->prepare ? r->series->prepare(r->p, r->series->user) : QDOT_OK;

@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "num/sum.h"
+#include "ode/meter.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
@@ -39,6 +40,7 @@ typedef struct {
     double margin, margin_at;  /* system->margin where a step was taken back, and that t */
     double best;               /* the largest margin met */
     double longest;            /* step taken */
+    double work;               /* that has been counted (meter.h) */
     int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
 
@@ -274,6 +276,19 @@ advance(run *r, bool *stop)
     return r->h < floor_of_step(r) || crawls(r) ? too_small(r) : QDOT_OK;
 }
 
+/* The work since it was counted last. */
+static qdot_status
+count_work(run *r)
+{
+    const qdot_ode_stats stats = {.evaluations = r->s->evaluations,
+                                  .jacobians = r->s->jacobians,
+                                  .factorisations = r->s->factorisations};
+    const double now = qdot_ode_work(r->s->system, &stats), more = now - r->work;
+
+    r->work = now;
+    return qdot_ode_meter_add(r->options->meter, r->t, more);
+}
+
 static qdot_status
 loop(run *r)
 {
@@ -298,6 +313,8 @@ loop(run *r)
     }
     while (r->t != r->t1) {
         QDOT_TRY(advance(r, &stop));
+        if (r->options->meter)
+            QDOT_TRY(count_work(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;

@@ -46,7 +46,8 @@ const qdot_export_syntax qdot_export_c = {
         "M_PI M_E t state p M f A gamma acc lambda R K solved occurs df J out unused solve step system_of "
         "sin cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log sqrt pow erf erfc fabs "
         "floor fmin fmax abs tan log2 log10 log1p expm1 cbrt hypot round trunc ceil fmod j0 j1 jn y0 y1 "
-        "yn tgamma lgamma ldexp frexp modf nan fma linux unix ",
+        "yn tgamma lgamma ldexp frexp modf nan fma linux unix "
+        "side own u level motion ",
     .nan = "NAN",
     .number = "const double %s = %s;",
     .truth = "const int %s = %s;",
@@ -54,6 +55,11 @@ const qdot_export_syntax qdot_export_c = {
     .acceleration = "acc[%zu]",
     .multiplier = "lambda[%zu]",
     .parameter = "p->%s",
+    .side = "side[%zu]",
+    .check = "if (isnan(p->%s))\n        return \"the parameter %s has no value\";",
+    .row_begin = "{ ",
+    .row_end = " },",
+    .line_end = "",
     .element = "%s[%zu]",
     .entry = NULL,
     .vector_shape = "%zu",

@@ -21,7 +21,8 @@ static const char value_text[] =
     "$origin$\n"
     "#\n"
     "# Written by qdot.\n"
-    "?f using SpecialFunctions: erf, erfc\n"
+    "?f erf(x) = ccall((:erf, Base.Math.libm), Float64, (Float64,), x)\n"
+    "?f erfc(x) = ccall((:erfc, Base.Math.libm), Float64, (Float64,), x)\n"
     REAL_FUNCTIONS
     "\n"
     "function $name$($arguments$)\n"
@@ -32,7 +33,8 @@ static const char values_text[] =
     "$origin$\n"
     "#\n"
     "# Written by qdot.\n"
-    "?f using SpecialFunctions: erf, erfc\n"
+    "?f erf(x) = ccall((:erf, Base.Math.libm), Float64, (Float64,), x)\n"
+    "?f erfc(x) = ccall((:erfc, Base.Math.libm), Float64, (Float64,), x)\n"
     REAL_FUNCTIONS
     "\n"
     "function $name$($arguments$)\n"
@@ -49,9 +51,10 @@ const qdot_export_syntax qdot_export_julia = {
         "type using where while mutable Base I T NaN pi im sin cos asin acos atan sinh cosh tanh asinh "
         "acosh atanh exp log sqrt erf erfc abs sign min max floor float zeros eltype oftype typeof "
         "promote_type isinteger real_sqrt real_log real_pow real_asin real_acos real_acosh real_atanh "
-        "Parameters START SPAN TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations "
+        "ORDERS SETS EFFECTS STEPS STAYS MOVES NODES STAGES FIFTH THIRD CURVE stage step within watch place lowest choose decide cross signs check Parameters START SPAN TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations "
         "accelerations derivative jacobian energy residuals events effect bordered t state p M f A gamma acc "
-        "lambda R J occurs df out event ",
+        "lambda R J occurs df out event "
+        "side u level switches sides project ",
     .nan = "NaN",
     .number = "%s = %s",
     .truth = "%s = %s",
@@ -59,6 +62,11 @@ const qdot_export_syntax qdot_export_julia = {
     .acceleration = "acc[%zu]",
     .multiplier = "lambda[%zu]",
     .parameter = "p.%s",
+    .side = "side[%zu]",
+    .check = "isnan(p.%s) && return \"the parameter %s has no value\"",
+    .row_begin = "[",
+    .row_end = "],",
+    .line_end = "",
     .element = "%s[%zu]",
     .entry = "%s[%zu, %zu]",
     .first = 1,

@@ -6,6 +6,8 @@
  *
  *     c constraints   p constraints without accelerations   e events, d events that set something
  *     k parameters   h conditions (if)   f erf or erfc   g operations that may be undefined
+ *     s surfaces at which the equations switch, l T - V among what does   w events or surfaces
+ *     a events, b what events set depend on accelerations or multipliers   j a Jacobian
  */
 #ifndef QDOT_SHOW_EXPORT_LANGUAGE_H
 #define QDOT_SHOW_EXPORT_LANGUAGE_H
@@ -22,8 +24,8 @@ typedef struct {
 
     /* printf: a named number, a named truth value (name, value). */
     const char *number, *truth;
-    /* printf: element %zu of y, q'', lambda; a parameter by its name. */
-    const char *state, *acceleration, *multiplier, *parameter;
+    /* printf: element %zu of y, q'', lambda, of the sides; a parameter by its name. */
+    const char *state, *acceleration, *multiplier, *parameter, *side;
     /* printf: an element of an array (array, index), (array, row, column); entry NULL: rows are one
      * behind the other. */
     const char *element, *entry;
@@ -36,6 +38,10 @@ typedef struct {
     const char *declared;
     /* printf: an argument of an expression (name), with a value (name, value). */
     const char *argument, *argument_value, *no_argument;
+    /* printf: a statement that refuses a parameter without a value (name, plain name). */
+    const char *check;
+    /* Around a row of a matrix; at the end of a line that goes on. */
+    const char *row_begin, *row_end, *line_end;
     /* What stands before (printf: index) and after the statements of an event that sets something. */
     const char *effect_begin, *effect_end;
 

@@ -8,7 +8,7 @@ static const char system_text[] = {
 /* What a function that holds a choice has behind it. */
 #define CHOOSE \
     "?h \n" \
-    "?h function x = choose(condition, a, b)\n" \
+    "?h function x = pick(condition, a, b)\n" \
     "?h     if condition\n" \
     "?h         x = a;\n" \
     "?h     else\n" \
@@ -42,9 +42,10 @@ const qdot_export_syntax qdot_export_matlab = {
         " break case catch classdef continue else elseif end endfunction endif endfor endwhile do until "
         "unwind_protect for function global if otherwise parfor persistent return spmd switch try while "
         "i j pi Inf NaN inf nan eps ans sin cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh "
-        "exp log sqrt power erf erfc abs sign min max floor zeros eye isreal error choose struct s "
+        "exp log sqrt power erf erfc abs sign min max floor zeros eye isreal error pick choose struct s steps step method watch first place lowest value decide cross signs check integrate within interpolate  "
         "equations accelerations derivative jacobian energy residuals events effect bordered t state p M f "
-        "A gamma acc lambda R J df h out event condition parameters ",
+        "A gamma acc lambda R J df h out event condition parameters "
+        "side u level switches sides project residuals ",
     .nan = "NaN",
     .number = "%s = %s;",
     .truth = "%s = %s;",
@@ -52,6 +53,11 @@ const qdot_export_syntax qdot_export_matlab = {
     .acceleration = "acc(%zu)",
     .multiplier = "lambda(%zu)",
     .parameter = "p.%s",
+    .side = "side(%zu)",
+    .check = "if isnan(p.%s), error('the parameter %s has no value'); end",
+    .row_begin = "",
+    .row_end = "; ...",
+    .line_end = " ...",
     .element = "%s(%zu)",
     .entry = "%s(%zu, %zu)",
     .first = 1,

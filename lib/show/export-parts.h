@@ -2,7 +2,10 @@
  *
  * Every tape of a motion has the same inputs, in this order:
  *
- *     t, q [n], q' [n], q'' [n], lambda [m], parameters [k]
+ *     t, q [n], q' [n], q'' [n], lambda [m], parameters [k], sides [s]
+ *
+ * Where equations switch they are written for one side of every surface (sim/model/switch.h): a side
+ * is -1, 0 or 1, or the integer of a floor.
  */
 #ifndef QDOT_SHOW_EXPORT_PARTS_H
 #define QDOT_SHOW_EXPORT_PARTS_H
@@ -34,6 +37,13 @@ typedef struct {
     qdot_export_block block[4];
 } qdot_export_function;
 
+/* A surface at which the equations switch. */
+typedef struct {
+    const char *text; /* where they do: "x' = 0" */
+    bool steps;       /* the side is floor(u), else the sign of u */
+    bool moves;       /* u does not depend on time alone */
+} qdot_export_surface;
+
 /* What an event does: its targets are y [0 ... 2n - 1], then parameters [2n ...]; one output of the
  * tape for each. */
 typedef struct {
@@ -48,7 +58,7 @@ typedef struct {
 typedef struct {
     const char *file;   /* the name of the file without folder and ending */
     const char *origin; /* the scene in words: lines of a comment */
-    size_t n, m, k;     /* coordinates, rows of constraints, parameters */
+    size_t n, m, k, s;  /* coordinates, rows of constraints, parameters, surfaces */
     const qdot_export_name *q, *lambda, *parameters;
     const double *start; /* [2n] */
     double t0, t1, tol;
@@ -56,8 +66,12 @@ typedef struct {
     qdot_export_function slopes;    /* d(residuals)/dy [(n + m) x 2n]; residuals: f + A^T lambda - M q'',
                                        gamma - A q'' */
     qdot_export_function energy;    /* one number */
-    qdot_export_function positions; /* constraints that hold no derivative: f, and df/dt */
+    qdot_export_function positions; /* f [m] of constraints without derivatives, df/dt and f of those
+                                       on velocities [m], else 0 */
     qdot_export_function events;    /* left - right of each */
+    qdot_export_function switches;  /* u [s]; level: what switches of T - V [0 or 1] */
+    const int *orders;              /* [m] derivatives until q'' occurs: 2, 1, 0 */
+    const qdot_export_surface *surface;
     size_t n_events;
     const qdot_export_event *event;
 } qdot_export_system;

@@ -34,10 +34,12 @@ const qdot_export_syntax qdot_export_python = {
     .reserved =
         " and as assert async await break class continue def del elif else except finally for from "
         "global if import in is lambda nonlocal not or pass raise return try while with yield None "
-        "True False np erf erfc abs min max float range len print repr copy Parameters START SPAN "
-        "TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative "
+        "True False np erf erfc abs min max float range len print repr copy fields Parameters START "
+        "SPAN ORDERS SETS EFFECTS STEPS STAYS MOVES look march watch place lowest first choose decide "
+        "cross signs check TOLERANCE COORDINATES MULTIPLIERS EVENTS WAYS STOPS equations accelerations derivative "
         "jacobian energy residuals events effect integrate bordered dataclass t state p M f A gamma acc "
-        "lambda_ R J occurs df out event ",
+        "lambda_ R J occurs df out event "
+        "side u level residuals project switches sides ",
     .nan = "np.nan",
     .number = "%s = %s",
     .truth = "%s = %s",
@@ -45,6 +47,11 @@ const qdot_export_syntax qdot_export_python = {
     .acceleration = "acc[%zu]",
     .multiplier = "lambda_[%zu]",
     .parameter = "p.%s",
+    .side = "side[%zu]",
+    .check = "    if np.isnan(p.%s): raise...",
+    .row_begin = "[",
+    .row_end = "],",
+    .line_end = "",
     .element = "%s[%zu]",
     .entry = "%s[%zu, %zu]",
     .vector_shape = "%zu",

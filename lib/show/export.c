@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "show/export-language.h"
+#include "show/export-writer.h"
 
 static const qdot_export_syntax *const languages[] = {
     [QDOT_EXPORT_C] = &qdot_export_c,
@@ -16,17 +16,7 @@ static const qdot_export_syntax *const languages[] = {
     [QDOT_EXPORT_MATLAB] = &qdot_export_matlab,
 };
 
-typedef struct {
-    const qdot_export_syntax *syntax;
-    const qdot_export_system *system;    /* or */
-    const qdot_export_expression *value; /* the other is NULL */
-    size_t inputs;
-    char **words;   /* [inputs] names in the language */
-    char **sources; /* [inputs] where they come from; NULL: arguments */
-    char *name;     /* of the function or the group of functions */
-    char temporary[16];
-    qdot_text *out;
-} writer;
+typedef qdot_export_writer writer;
 
 /* --- names ------------------------------------------------------------------------------ */
 
@@ -123,7 +113,7 @@ add_parameter(writer *w, size_t i, const char *name)
 }
 #pragma GCC diagnostic pop
 
-/* The words of a system's inputs: t, q, q', q'', lambda, parameters. */
+/* The words of a system's inputs: t, q, q', q'', lambda, parameters, sides. */
 static qdot_status
 name_system(writer *w)
 {
@@ -141,7 +131,10 @@ name_system(writer *w)
     for (size_t i = 0; i < x->m; i++)
         QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->syntax->multiplier, i));
     for (size_t i = 0; i < x->k; i++)
-        QDOT_TRY(add_parameter(w, 1 + 3 * n + x->m + i, x->parameters[i].name));
+        QDOT_TRY(add_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
+    for (size_t i = 0; i < x->s; i++)
+        QDOT_TRY(add_element(w, qdot_export_first_parameter(x) + x->k + i, "side", "",
+                             w->syntax->side, i));
     return QDOT_OK;
 }
 
@@ -207,8 +200,9 @@ choose_name(writer *w, const char *file)
 
 /* --- parts of a template ------------------------------------------------------------------ */
 
-static qdot_status
-code(writer *w, const qdot_export_function *f, const char *indent, const char *const *targets)
+qdot_status
+qdot_export_write_code(writer *w, const qdot_export_function *f, const char *indent,
+                       const char *const *targets)
 {
     const qdot_export_frame frame = {.syntax = w->syntax,
                                      .words = (const char *const *)w->words,
@@ -220,8 +214,8 @@ code(writer *w, const qdot_export_function *f, const char *indent, const char *c
     return f->tape == NULL ? QDOT_OK : qdot_export_code(&frame, f, w->out);
 }
 
-static void
-number(const writer *w, double x)
+void
+qdot_export_write_number(const writer *w, double x)
 {
     if (isnan(x))
         qdot_text_add(w->out, w->syntax->nan);
@@ -231,84 +225,6 @@ number(const writer *w, double x)
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
-static qdot_status
-declare_parameters(writer *w, const char *indent)
-{
-    const size_t at = w->inputs - w->system->k;
-
-    for (size_t i = 0; i < w->system->k; i++) {
-        qdot_text value = {0}, *out = w->out;
-
-        w->out = &value;
-        number(w, w->system->parameters[i].value);
-        w->out = out;
-        qdot_text_add(out, indent);
-        qdot_text_format(out, w->syntax->declared, w->words[at + i], qdot_text_str(&value),
-                         w->system->parameters[i].name);
-        qdot_text_char(out, '\n');
-        out->failed |= value.failed;
-        qdot_text_clear(&value);
-    }
-    return QDOT_OK;
-}
-
-/* "double a, b;", the members of a struct. */
-static qdot_status
-fields(writer *w, const char *indent)
-{
-    for (size_t i = w->inputs - w->system->k; i < w->inputs; i++)
-        qdot_text_format(w->out, "%sdouble %s;\n", indent, w->words[i]);
-    return QDOT_OK;
-}
-
-/* `target = %s` for each target of an event. */
-static qdot_status
-event_effect(writer *w, size_t k, const char *indent)
-{
-    const qdot_export_event *e = &w->system->event[k];
-    const size_t n = w->system->n, own = w->inputs - w->system->k;
-    const qdot_export_function f = {.tape = e->effect};
-    char **targets;
-    qdot_text deep = {0};
-    qdot_status status = QDOT_OK;
-
-    if (e->effect == NULL)
-        return QDOT_OK;
-    qdot_text_add(w->out, indent);
-    qdot_text_format(w->out, w->syntax->effect_begin, k + w->syntax->first);
-    qdot_text_format(&deep, "%s    ", indent);
-    if ((targets = qdot_calloc(e->n_targets, sizeof *targets)) == NULL)
-        status = QDOT_ENOMEM;
-    for (size_t i = 0; i < e->n_targets && status == QDOT_OK; i++) {
-        size_t to = e->targets[i];
-        qdot_text line = {0};
-
-        qdot_text_format(&line, "%s = %%s%s", w->sources[to < 2 * n ? 1 + to : own + to - 2 * n],
-                         strchr(w->syntax->number, ';') != NULL ? ";" : "");
-        status = qdot_text_status(&line);
-        targets[i] = line.at;
-    }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&deep);
-    if (status == QDOT_OK)
-        status = code(w, &f, deep.at, (const char *const *)targets);
-    if (*w->syntax->effect_end != '\0')
-        qdot_text_format(w->out, "%s%s", indent, w->syntax->effect_end);
-    for (size_t i = 0; targets != NULL && i < e->n_targets; i++)
-        qdot_text_clear(&(qdot_text){.at = targets[i]});
-    qdot_free(targets);
-    qdot_text_clear(&deep);
-    return status;
-}
-
-static qdot_status
-effects(writer *w, const char *indent)
-{
-    for (size_t k = 0; k < w->system->n_events; k++)
-        QDOT_TRY(event_effect(w, k, indent));
-    return QDOT_OK;
-}
-
 static qdot_status
 arguments(writer *w, bool more)
 {
@@ -365,40 +281,6 @@ comments(writer *w, const char *text)
     return QDOT_OK;
 }
 
-/* "theta", "x" between quotes, separated. */
-static qdot_status
-names(writer *w, size_t n, const qdot_export_name *list)
-{
-    for (size_t i = 0; i < n; i++)
-        qdot_text_format(w->out, "%s\"%s\"", i > 0 ? w->syntax->separator : "", list[i].name);
-    return QDOT_OK;
-}
-
-static qdot_status
-start(writer *w)
-{
-    for (size_t i = 0; i < 2 * w->system->n; i++) {
-        qdot_text_add(w->out, i > 0 ? w->syntax->separator : "");
-        number(w, w->system->start[i]);
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-events(writer *w, char what)
-{
-    for (size_t i = 0; i < w->system->n_events; i++) {
-        const qdot_export_event *e = &w->system->event[i];
-
-        qdot_text_add(w->out, i > 0 ? w->syntax->separator : "");
-        if (what == 'n')
-            qdot_text_format(w->out, "\"%s\"", e->name);
-        else
-            qdot_text_format(w->out, "%d", what == 'w' ? e->way : e->stop);
-    }
-    return QDOT_OK;
-}
-
 /* A word of a template that both kinds of files have; *known: it is one. */
 static qdot_status
 common_word(writer *w, const char *word, const char *indent, bool *known)
@@ -413,7 +295,7 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
     else if (w->system == NULL && strncmp(word, "arguments", 9) == 0)
         return arguments(w, word[9] == ',');
     else if (w->system == NULL && strcmp(word, "code") == 0)
-        return code(w, &w->value->value, indent, NULL);
+        return qdot_export_write_code(w, &w->value->value, indent, NULL);
     else if (w->system == NULL && strcmp(word, "shape") == 0)
         shape(w);
     else if (w->system == NULL && strcmp(word, "size") == 0)
@@ -423,100 +305,25 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
     return QDOT_OK;
 }
 
-static qdot_status
-system_word(writer *w, const char *word, const char *indent)
-{
-    const qdot_export_system *x = w->system;
-    const struct {
-        const char *word;
-        const qdot_export_function *function;
-    } functions[] = {{"equations", &x->equations}, {"slopes", &x->slopes},
-                     {"energy", &x->energy}, {"constraints", &x->positions},
-                     {"events", &x->events}};
-    const struct {
-        const char *word;
-        size_t count;
-    } counts[] = {{"n", x->n}, {"2n", 2 * x->n}, {"m", x->m}, {"r", x->n + x->m},
-                  {"e", x->n_events}, {"f", x->positions.block[0].rows},
-                  {"g", x->positions.block[1].rows}};
-
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (strcmp(functions[i].word, word) == 0)
-            return code(w, functions[i].function, indent, NULL);
-    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
-        if (strcmp(counts[i].word, word) == 0) {
-            qdot_text_format(w->out, "%zu", counts[i].count);
-            return QDOT_OK;
-        }
-    if (strcmp(word, "t0") == 0 || strcmp(word, "t1") == 0 || strcmp(word, "tol") == 0) {
-        number(w, strcmp(word, "tol") == 0 ? x->tol : word[1] == '0' ? x->t0 : x->t1);
-        return QDOT_OK;
-    }
-    return strcmp(word, "fields") == 0        ? fields(w, indent)
-           : strcmp(word, "parameters") == 0  ? declare_parameters(w, indent)
-           : strcmp(word, "start") == 0       ? start(w)
-           : strcmp(word, "coordinates") == 0 ? names(w, x->n, x->q)
-           : strcmp(word, "multipliers") == 0 ? names(w, x->m, x->lambda)
-           : strcmp(word, "effects") == 0     ? effects(w, indent)
-           : strcmp(word, "event names") == 0 ? events(w, 'n')
-           : strcmp(word, "event ways") == 0  ? events(w, 'w')
-                                              : events(w, 's');
-}
-
-/* --- templates ---------------------------------------------------------------------------- */
-
-static bool
-uses(const qdot_tape *tape, qdot_op first, qdot_op last)
-{
-    for (size_t i = 0; tape != NULL && i < tape->length; i++)
-        if (tape->code[i].op >= first && tape->code[i].op <= last)
-            return true;
-    return false;
-}
-
-static bool
-any_uses(const writer *w, qdot_op first, qdot_op last)
-{
-    const qdot_export_system *x = w->system;
-
-    if (x == NULL)
-        return uses(w->value->value.tape, first, last);
-    for (size_t i = 0; i < x->n_events; i++)
-        if (uses(x->event[i].effect, first, last))
-            return true;
-    return uses(x->equations.tape, first, last) || uses(x->slopes.tape, first, last) ||
-           uses(x->energy.tape, first, last) || uses(x->positions.tape, first, last) ||
-           uses(x->events.tape, first, last);
-}
-
-static bool
-has_effects(const qdot_export_system *x)
-{
-    for (size_t i = 0; i < x->n_events; i++)
-        if (x->event[i].effect != NULL)
-            return true;
-    return false;
-}
-
 static bool
 has(const writer *w, char what)
 {
-    const qdot_export_system *x = w->system;
+    const qdot_tape *tape = w->system == NULL ? w->value->value.tape : NULL;
 
+    if (w->system != NULL)
+        return qdot_export_motion_has(w->system, what);
     switch (what) {
-    case 'c': return x->m > 0;
-    case 'p': return x->positions.tape != NULL;
-    case 'e': return x->n_events > 0;
-    case 'd': return has_effects(x);
-    case 'k': return x->k > 0;
-    case 'j': return x->slopes.tape != NULL;
-    case 'h': return any_uses(w, QDOT_OP_SELECT, QDOT_OP_SELECT);
-    case 'f': return any_uses(w, QDOT_OP_ERF, QDOT_OP_ERFC);
+    case 'h': return qdot_export_tape_uses(tape, QDOT_OP_SELECT, QDOT_OP_SELECT);
+    case 'f': return qdot_export_tape_uses(tape, QDOT_OP_ERF, QDOT_OP_ERFC);
     default:
-        return any_uses(w, QDOT_OP_SQRT, QDOT_OP_POW) || any_uses(w, QDOT_OP_ASIN, QDOT_OP_ACOS) ||
-               any_uses(w, QDOT_OP_ACOSH, QDOT_OP_ATANH) || any_uses(w, QDOT_OP_LOG, QDOT_OP_LOG);
+        return qdot_export_tape_uses(tape, QDOT_OP_SQRT, QDOT_OP_POW) ||
+               qdot_export_tape_uses(tape, QDOT_OP_ASIN, QDOT_OP_ACOS) ||
+               qdot_export_tape_uses(tape, QDOT_OP_ACOSH, QDOT_OP_ATANH) ||
+               qdot_export_tape_uses(tape, QDOT_OP_LOG, QDOT_OP_LOG);
     }
 }
+
+/* --- templates ---------------------------------------------------------------------------- */
 
 /* One line; a word alone in its line writes lines of its own, with its indent. */
 static qdot_status
@@ -544,7 +351,7 @@ write_line(writer *w, const char *line, size_t n)
         snprintf(word, sizeof word, "%.*s", (int)(close - at - 1), at + 1);
         QDOT_TRY(common_word(w, word, indent, &known));
         if (!known)
-            QDOT_TRY(system_word(w, word, indent));
+            QDOT_TRY(qdot_export_motion_word(w, word, indent));
         line = close + 1;
     }
     qdot_text_add(w->out, lines ? "" : "\n");
@@ -602,7 +409,7 @@ qdot_export_system_write(const qdot_export_system *system, qdot_export_language 
 {
     writer w = {.syntax = languages[language],
                 .system = system,
-                .inputs = 1 + 3 * system->n + system->m + system->k,
+                .inputs = qdot_export_first_parameter(system) + system->k + system->s,
                 .out = out};
 
     return write_file(&w, system->file, w.syntax->system);

@@ -28,3 +28,7 @@ qdot -q scene.lag -e 'function F(s); export c F(theta) to "x.c"'
 qdot -q scene.lag -e 'export python "text" to "x.py"'
 qdot -q -e 'export c eom to "x.c"'
 qdot -q scene.lag -e 'export c eom to "nowhere/x.c"'
+qdot -q -e 'coord x, y; particle a mass 1 at (x, y); constraint one: x = t; constraint two: 2*x = 2*t; export c eom to "x.c"'
+# the ends of a domain are events; the run's values, tolerance and time
+qdot -q -e 'param k; coord r > 1; lagrangian r'"'"'^2/2 - k*r; start r = 2; run 0..1 tol 1e-10 with k = 0.5; export c eom to "end.c"'
+grep -E 'event_names|_span.2. =|\.k = ' end.c

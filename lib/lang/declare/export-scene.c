@@ -5,17 +5,21 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/print.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
-#include "lang/session/measured.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
+#include "sim/model/switch.h"
 
 enum {
+    LONGEST = 80, /* letters of a surface's text */
     MOST_OPERATIONS = 200000,
     MOST_SLOPES = 24 /* coordinates up to which the Jacobian is written */
 };
+
+#define LEAST_TOL 1e-13 /* what a method in doubles reaches in many steps */
 
 typedef qdot_vec(qdot_expr) expressions;
 typedef qdot_vec(qdot_export_name) names;
@@ -26,8 +30,14 @@ typedef struct {
     qdot_scene *scene;
     qdot_export_system x;
     expressions inputs, parameters;
-    expressions equations, slopes, energy, positions, events;
+    qdot_switches switches;
+    expressions heads, bodies; /* functions and their values */
+    expressions held;          /* [m] left - right of the constraints, on the sides of the switches */
+    expressions equations, slopes, energy, positions, events, u;
     qdot_vec(expressions) effects; /* of each event */
+    qdot_vec(int) orders;
+    qdot_vec(qdot_export_surface) surface;
+    qdot_vec(char *) texts; /* of the surfaces, of the ends of domains */
     names q, lambda, values;
     qdot_vec(double) start;
     qdot_vec(qdot_export_event) event;
@@ -36,17 +46,25 @@ typedef struct {
 
 /* --- expressions ------------------------------------------------------------------------ */
 
-/* e with the functions that have a value replaced by it; parameters stay. */
-static qdot_expr
-bound(qdot_session *s, qdot_expr e)
+/* Functions that have a value. */
+static qdot_status
+find_functions(qdot_session *s, expressions *heads, expressions *bodies)
+{
+    for (size_t i = 0; i < s->set_symbols.n; i++)
+        if (qdot_expr_kind(s->pool, s->set_symbols.at[i]) == QDOT_UFUN) {
+            QDOT_TRY(qdot_vec_push(heads, s->set_symbols.at[i]));
+            QDOT_TRY(qdot_vec_push(bodies, s->set_values.at[i]));
+        }
+    return QDOT_OK;
+}
+
+qdot_expr
+qdot_export_bound(qdot_session *s, qdot_expr e)
 {
     expressions heads = {0}, bodies = {0};
 
-    for (size_t i = 0; i < s->set_symbols.n && e != QDOT_NIL; i++)
-        if (qdot_expr_kind(s->pool, s->set_symbols.at[i]) == QDOT_UFUN &&
-            (qdot_vec_push(&heads, s->set_symbols.at[i]) != QDOT_OK ||
-             qdot_vec_push(&bodies, s->set_values.at[i]) != QDOT_OK))
-            e = qdot_pool_fail(s->pool);
+    if (find_functions(s, &heads, &bodies) != QDOT_OK)
+        e = qdot_pool_fail(s->pool);
     if (heads.n > 0 && e != QDOT_NIL)
         e = qdot_substitute(s->pool, e, heads.n, heads.at, bodies.at);
     qdot_free(heads.at);
@@ -57,9 +75,27 @@ bound(qdot_session *s, qdot_expr e)
 static qdot_status
 push(description *d, expressions *to, qdot_expr e)
 {
-    e = bound(d->session, e);
+    e = qdot_export_bound(d->session, e);
     QDOT_TRY(qdot_pool_check(d->session->pool));
     return qdot_vec_push(to, e);
+}
+
+/* The same on the sides of the switches, which are symbols. */
+static qdot_status
+push_frozen(description *d, expressions *to, qdot_expr e)
+{
+    qdot_expr frozen;
+
+    e = qdot_export_bound(d->session, e);
+    QDOT_TRY(qdot_pool_check(d->session->pool));
+    QDOT_TRY(qdot_switches_freeze(&d->switches, NULL, 1, &e, &frozen));
+    return qdot_vec_push(to, frozen);
+}
+
+static const char *
+name_of(const qdot_session *s, qdot_expr symbol)
+{
+    return qdot_expr_symbol(s->pool, symbol)->name;
 }
 
 static qdot_expr
@@ -68,16 +104,77 @@ jet(const description *d, size_t i, unsigned order)
     return qdot_symbol_jet(d->session->pool, d->scene->coordinates.at[i], order);
 }
 
+/* u of each surface, then what switches of T - V. */
+static qdot_status
+switches(description *d)
+{
+    const qdot_run_request request = {
+        .n_values = d->heads.n, .symbols = d->heads.at, .values = d->bodies.at};
+    qdot_pool *pool = d->session->pool;
+
+    QDOT_TRY(qdot_switches_find(d->scene, &request, &d->switches));
+    d->x.s = d->switches.surfaces.n;
+    for (size_t i = 0; i < d->x.s; i++) {
+        const qdot_surface *from = &d->switches.surfaces.at[i];
+        const unsigned holds = qdot_expr_node(pool, from->u)->holds;
+        qdot_text text = {0};
+
+        if (holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+            return qdot_fail(QDOT_EINVAL, "the equations switch by an acceleration or a multiplier, "
+                                          "which cannot be exported");
+        QDOT_TRY(push_frozen(d, &d->u, from->u));
+        QDOT_TRY(qdot_print(pool, from->u, QDOT_PLAIN, &text));
+        qdot_text_truncate(&text, text.n < LONGEST ? text.n : LONGEST);
+        qdot_text_add(&text, from->steps ? " is an integer" : " = 0");
+        QDOT_TRY(qdot_text_status(&text));
+        QDOT_TRY(qdot_vec_push(&d->texts, text.at));
+        QDOT_TRY(qdot_vec_push(
+            &d->surface,
+            ((qdot_export_surface){text.at, from->steps,
+                                   (holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) != 0})));
+    }
+    if (d->switches.level != QDOT_NIL)
+        QDOT_TRY(push_frozen(d, &d->u, d->switches.level));
+    d->x.surface = d->surface.at;
+    d->x.switches.blocks = 2;
+    d->x.switches.block[0] = (qdot_export_block){"u", d->x.s, 0};
+    d->x.switches.block[1] = (qdot_export_block){"level", d->u.n - d->x.s, 0};
+    return QDOT_OK;
+}
+
+/* What the constraints should be, 0, and by how many derivatives they hold q''. */
+static qdot_status
+constraints(description *d)
+{
+    static const int orders[] = {
+        [QDOT_HOLONOMIC] = 2, [QDOT_VELOCITY] = 1, [QDOT_ACCELERATION] = 0};
+    qdot_dof dof;
+
+    for (size_t k = 0; k < d->x.m; k++) {
+        QDOT_TRY(push_frozen(d, &d->held, d->scene->constraints.at[k].f));
+        QDOT_TRY(qdot_vec_push(&d->orders, orders[d->scene->constraints.at[k].kind]));
+    }
+    d->x.orders = d->orders.at;
+    if (d->x.m == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_mech_dof(d->scene, &dof));
+    for (size_t k = 0; k < dof.constraints; k++)
+        if (!dof.is_independent[k]) {
+            (void)qdot_fail(QDOT_EINVAL,
+                            "constraint %.100s is not independent of those before it, as those of "
+                            "an exported scene have to be", d->scene->constraints.at[k].name);
+            return qdot_hint("dof tells which constraints follow from others: remove them");
+        }
+    return QDOT_OK;
+}
+
 /* The k-th constraint differentiated until it is linear in q''. */
 static qdot_expr
 accelerated(const description *d, size_t k)
 {
-    static const unsigned orders[] = {
-        [QDOT_HOLONOMIC] = 2, [QDOT_VELOCITY] = 1, [QDOT_ACCELERATION] = 0};
-    const qdot_constraint *c = &d->scene->constraints.at[k];
-    qdot_expr f = c->f;
+    qdot_expr f = d->held.at[k];
 
-    for (unsigned i = 0; i < orders[c->kind]; i++)
+    for (int i = 0; i < d->orders.at[k]; i++)
         f = qdot_ddt(d->session->pool, f);
     return f;
 }
@@ -94,9 +191,9 @@ equations(description *d)
 
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t i = 0; i < n * n; i++)
-        QDOT_TRY(push(d, &d->equations, qdot_expr_arg(pool, M, (uint32_t)i)));
+        QDOT_TRY(push_frozen(d, &d->equations, qdot_expr_arg(pool, M, (uint32_t)i)));
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(push(d, &d->equations, qdot_expr_arg(pool, f, (uint32_t)i)));
+        QDOT_TRY(push_frozen(d, &d->equations, qdot_expr_arg(pool, f, (uint32_t)i)));
     for (size_t k = 0; k < m; k++) {
         qdot_expr linear = accelerated(d, k);
 
@@ -171,30 +268,56 @@ energy(description *d)
     return push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
 }
 
-/* f of the constraints on positions, then df/dt, and f of those on velocities. */
+/* f of the constraints on positions, then df/dt and f of those on velocities; 0 of the others. */
 static qdot_status
 positions(description *d)
 {
-    const qdot_scene *s = d->scene;
-    size_t first = 0, second = 0;
+    const size_t m = d->x.m;
+    bool some = false;
 
-    for (size_t k = 0; k < s->constraints.n; k++)
-        if (s->constraints.at[k].kind == QDOT_HOLONOMIC) {
-            QDOT_TRY(push(d, &d->positions, s->constraints.at[k].f));
-            first++;
+    for (size_t k = 0; k < m; k++)
+        some = some || d->orders.at[k] > 0;
+    for (int order = 2; order >= 1 && some; order--)
+        for (size_t k = 0; k < m; k++) {
+            qdot_expr f = d->orders.at[k] < order ? QDOT_ZERO : d->held.at[k];
+
+            QDOT_TRY(push(d, &d->positions,
+                          d->orders.at[k] > order ? qdot_ddt(d->session->pool, f) : f));
         }
-    for (size_t k = 0; k < s->constraints.n; k++) {
-        const qdot_constraint *c = &s->constraints.at[k];
-
-        if (c->kind == QDOT_ACCELERATION)
-            continue;
-        QDOT_TRY(push(d, &d->positions,
-                      c->kind == QDOT_HOLONOMIC ? qdot_ddt(d->session->pool, c->f) : c->f));
-        second++;
-    }
     d->x.positions.blocks = 2;
-    d->x.positions.block[0] = (qdot_export_block){"f", first, 0};
-    d->x.positions.block[1] = (qdot_export_block){"df", second, 0};
+    d->x.positions.block[0] = (qdot_export_block){"f", m, 0};
+    d->x.positions.block[1] = (qdot_export_block){"df", m, 0};
+    return QDOT_OK;
+}
+
+/* The end of a coordinate's domain is an event that stops. */
+static qdot_status
+add_end(description *d, const char *name, qdot_expr distance)
+{
+    qdot_text text = {0};
+
+    QDOT_TRY(push(d, &d->events, distance));
+    qdot_text_format(&text, "%s leaves its domain", name);
+    QDOT_TRY(qdot_text_status(&text));
+    QDOT_TRY(qdot_vec_push(&d->texts, text.at));
+    return qdot_vec_push(&d->event,
+                         ((qdot_export_event){
+                             .name = text.at, .way = d->x.t1 < d->x.t0 ? 1 : -1, .stop = true}));
+}
+
+static qdot_status
+ends_of_domains(description *d)
+{
+    qdot_pool *pool = d->session->pool;
+
+    for (size_t i = 0; i < d->x.n; i++) {
+        const qdot_symbol q = *qdot_expr_symbol(pool, d->scene->coordinates.at[i]);
+
+        if (q.lo != QDOT_NIL)
+            QDOT_TRY(add_end(d, q.name, qdot_sub(pool, jet(d, i, 0), q.lo)));
+        if (q.hi != QDOT_NIL)
+            QDOT_TRY(add_end(d, q.name, qdot_sub(pool, q.hi, jet(d, i, 0))));
+    }
     return QDOT_OK;
 }
 
@@ -217,23 +340,13 @@ events(description *d)
             return status;
         }
     }
-    d->x.n_events = s->events.n;
-    d->x.events.blocks = 1;
-    d->x.events.block[0] = (qdot_export_block){"occurs", s->events.n, 0};
     return QDOT_OK;
 }
 
 /* --- names and numbers -------------------------------------------------------------------- */
 
-static const char *
-name_of(const qdot_session *s, qdot_expr symbol)
-{
-    return qdot_expr_symbol(s->pool, symbol)->name;
-}
-
-/* The number that `set` gives a parameter; NaN: none. */
-static qdot_status
-value_of(qdot_session *s, qdot_expr parameter, double *value)
+qdot_status
+qdot_export_value_of(qdot_session *s, qdot_expr parameter, double *value)
 {
     *value = NAN;
     for (size_t i = 0; i < s->set_symbols.n; i++)
@@ -250,7 +363,7 @@ add_parameter(description *d, qdot_expr symbol)
     for (size_t i = 0; i < d->parameters.n; i++)
         if (d->parameters.at[i] == symbol)
             return QDOT_OK;
-    QDOT_TRY(value_of(d->session, symbol, &value));
+    QDOT_TRY(qdot_export_value_of(d->session, symbol, &value));
     QDOT_TRY(qdot_vec_push(&d->parameters, symbol));
     return qdot_vec_push(&d->values, ((qdot_export_name){name_of(d->session, symbol), value}));
 }
@@ -282,6 +395,7 @@ all_parameters(description *d)
     QDOT_TRY(find_parameters(d, &d->energy));
     QDOT_TRY(find_parameters(d, &d->positions));
     QDOT_TRY(find_parameters(d, &d->events));
+    QDOT_TRY(find_parameters(d, &d->u));
     for (size_t i = 0; i < d->effects.n; i++)
         QDOT_TRY(find_parameters(d, &d->effects.at[i]));
     for (size_t i = 0; i < s->events.n; i++)
@@ -293,7 +407,7 @@ all_parameters(description *d)
     return QDOT_OK;
 }
 
-/* t, q, q', q'', lambda, parameters. */
+/* t, q, q', q'', lambda, parameters, sides. */
 static qdot_status
 all_inputs(description *d)
 {
@@ -305,6 +419,8 @@ all_inputs(description *d)
         QDOT_TRY(qdot_vec_push(&d->inputs, d->scene->constraints.at[k].multiplier));
     for (size_t i = 0; i < d->parameters.n; i++)
         QDOT_TRY(qdot_vec_push(&d->inputs, d->parameters.at[i]));
+    for (size_t i = 0; i < d->x.s; i++)
+        QDOT_TRY(qdot_vec_push(&d->inputs, d->switches.surfaces.at[i].side));
     return qdot_pool_check(d->session->pool);
 }
 
@@ -347,9 +463,15 @@ start_of_run(description *d, qdot_run *run)
     if (status == QDOT_OK)
         status = qdot_run_values(run, y.n, y.at, 1, &r->t0, d->start.at, NULL);
     qdot_free(y.at);
+    for (size_t i = 0; i < d->parameters.n && status == QDOT_OK; i++) { /* also `run ... with` */
+        double value;
+
+        if (qdot_run_values(run, 1, &d->parameters.at[i], 1, &r->t0, &value, NULL) == QDOT_OK)
+            d->values.at[i].value = value;
+    }
     d->x.t0 = r->t0;
     d->x.t1 = r->t1;
-    d->x.tol = r->digits > 0 ? 1e-13 : r->tol;
+    d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* of a lower order */
     return status;
 }
 
@@ -384,7 +506,7 @@ starts(description *d)
             return start_of_run(d, run);
     }
     d->x.t1 = 10;
-    d->x.tol = 1e-12;
+    d->x.tol = LEAST_TOL;
     for (size_t i = 0; i < 2 * d->x.n; i++)
         QDOT_TRY(start_value(s, jet(d, i % d->x.n, i >= d->x.n), &d->start.at[i]));
     return QDOT_OK;
@@ -441,7 +563,6 @@ lower_events(description *d)
         QDOT_TRY(qdot_vec_push(&d->event, e));
         QDOT_TRY(lower(d, &d->effects.at[i], &d->event.at[i].effect));
     }
-    d->x.event = d->event.at;
     return QDOT_OK;
 }
 
@@ -452,15 +573,22 @@ lower_all(description *d)
     QDOT_TRY(lower(d, &d->slopes, &d->x.slopes.tape));
     QDOT_TRY(lower(d, &d->energy, &d->x.energy.tape));
     QDOT_TRY(lower(d, &d->positions, &d->x.positions.tape));
-    QDOT_TRY(lower(d, &d->events, &d->x.events.tape));
-    return lower_events(d);
+    QDOT_TRY(lower(d, &d->u, &d->x.switches.tape));
+    QDOT_TRY(lower_events(d));
+    QDOT_TRY(ends_of_domains(d));
+    d->x.event = d->event.at;
+    d->x.n_events = d->event.n;
+    d->x.events.blocks = 1;
+    d->x.events.block[0] = (qdot_export_block){"occurs", d->event.n, 0};
+    return lower(d, &d->events, &d->x.events.tape);
 }
 
 static void
 clear(description *d)
 {
     expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes,
-                                  &d->energy, &d->positions, &d->events};
+                                  &d->energy, &d->positions, &d->events, &d->u, &d->heads,
+                                  &d->bodies, &d->held};
     const qdot_export_function *const functions[] = {&d->x.equations, &d->x.slopes, &d->x.energy,
                                                      &d->x.positions, &d->x.events};
 
@@ -472,6 +600,12 @@ clear(description *d)
         qdot_free(d->effects.at[i].at);
     for (size_t i = 0; i < d->event.n; i++)
         qdot_tape_free((qdot_tape *)d->event.at[i].effect);
+    for (size_t i = 0; i < d->texts.n; i++)
+        qdot_free(d->texts.at[i]);
+    qdot_switches_clear(&d->switches);
+    qdot_free(d->texts.at);
+    qdot_free(d->orders.at);
+    qdot_free(d->surface.at);
     qdot_free(d->effects.at);
     qdot_free(d->event.at);
     qdot_free(d->targets.at);
@@ -484,16 +618,19 @@ clear(description *d)
 static qdot_status
 describe(description *d)
 {
+    QDOT_TRY(find_functions(d->session, &d->heads, &d->bodies));
+    QDOT_TRY(switches(d));
+    QDOT_TRY(constraints(d));
     QDOT_TRY(equations(d));
     QDOT_TRY(slopes(d));
     QDOT_TRY(energy(d));
-    if (d->x.m > 0)
-        QDOT_TRY(positions(d));
+    QDOT_TRY(positions(d));
     QDOT_TRY(events(d));
     QDOT_TRY(all_parameters(d));
     QDOT_TRY(all_inputs(d));
     QDOT_TRY(all_names(d));
     QDOT_TRY(starts(d));
+    d->x.parameters = d->values.at;
     return lower_all(d);
 }
 
@@ -523,100 +660,5 @@ qdot_export_scene(qdot_session *session, const char *file, qdot_export_language 
         status = qdot_export_system_write(&d.x, language, out);
     clear(&d);
     qdot_text_clear(&origin);
-    return status;
-}
-
-/* --- expressions -------------------------------------------------------------------------- */
-
-/* Its scalars; of equations left - right. */
-static qdot_status
-scalars(qdot_session *s, qdot_expr e, expressions *to)
-{
-    qdot_pool *pool = s->pool;
-    qdot_kind kind = qdot_expr_kind(pool, e);
-
-    if (kind == QDOT_REL && qdot_expr_node(pool, e)->op == QDOT_EQ)
-        e = qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
-    else if (!qdot_expr_is_scalar(pool, e))
-        return qdot_fail(QDOT_ETYPE, "numbers, equations, and vectors, matrices, lists of these can be "
-                                     "exported");
-    e = bound(s, e);
-    QDOT_TRY(qdot_pool_check(pool));
-    return qdot_vec_push(to, e);
-}
-
-/* Symbols in `list`, those without a value first. */
-static qdot_status
-find_arguments(qdot_session *s, const expressions *list, expressions *inputs, names *to)
-{
-    qdot_expr all = qdot_list(s->pool, (uint32_t)list->n, list->at);
-    qdot_expr atoms = all == QDOT_NIL ? QDOT_NIL : qdot_expr_atoms(s->pool, all, false);
-
-    QDOT_TRY(qdot_pool_check(s->pool));
-    for (int with_value = 0; with_value < 2; with_value++)
-        for (uint32_t i = 0; i < qdot_expr_count(s->pool, atoms); i++) {
-            qdot_expr atom = qdot_expr_arg(s->pool, atoms, i);
-            double value;
-
-            if (qdot_expr_is_class(s->pool, atom, QDOT_CONST))
-                continue;
-            QDOT_TRY(value_of(s, atom, &value));
-            if (isnan(value) != !with_value)
-                continue;
-            QDOT_TRY(qdot_vec_push(inputs, atom));
-            QDOT_TRY(qdot_vec_push(to, ((qdot_export_name){name_of(s, atom), value})));
-        }
-    return QDOT_OK;
-}
-
-static qdot_export_block
-shape_of(const qdot_pool *pool, qdot_expr e)
-{
-    qdot_kind kind = qdot_expr_kind(pool, e);
-    size_t n = qdot_expr_count(pool, e);
-
-    if (kind == QDOT_MAT)
-        return (qdot_export_block){"out", n / qdot_expr_node(pool, e)->op,
-                                   qdot_expr_node(pool, e)->op};
-    if (kind == QDOT_VEC || kind == QDOT_LIST)
-        return (qdot_export_block){"out", n, 0};
-    return (qdot_export_block){NULL, 0, 0};
-}
-
-qdot_status
-qdot_export_value(qdot_session *session, const char *name, qdot_expr e, const char *file,
-                  qdot_export_language language, qdot_text *out)
-{
-    qdot_pool *pool = session->pool;
-    qdot_export_expression x = {.file = file, .origin = name};
-    expressions inputs = {0}, outputs = {0};
-    names arguments = {0};
-    qdot_tape *tape = NULL;
-    qdot_status status = QDOT_OK;
-
-    e = qdot_measured_as_rationals(session, e);
-    QDOT_TRY(qdot_pool_check(pool));
-    x.value.blocks = 1;
-    x.value.block[0] = shape_of(pool, e);
-    if (x.value.block[0].array == NULL)
-        status = scalars(session, e, &outputs);
-    for (uint32_t i = 0;
-         x.value.block[0].array != NULL && i < qdot_expr_count(pool, e) && status == QDOT_OK; i++)
-        status = scalars(session, qdot_expr_arg(pool, e, i), &outputs);
-    if (status == QDOT_OK && outputs.n == 0)
-        status = qdot_fail(QDOT_EINVAL, "an empty list: there is nothing to export");
-    if (status == QDOT_OK)
-        status = find_arguments(session, &outputs, &inputs, &arguments);
-    if (status == QDOT_OK)
-        status = qdot_tape_new(pool, inputs.n, inputs.at, outputs.n, outputs.at, &tape);
-    x.k = inputs.n;
-    x.arguments = arguments.at;
-    x.value.tape = tape;
-    if (status == QDOT_OK)
-        status = qdot_export_expression_write(&x, language, out);
-    qdot_tape_free(tape);
-    qdot_free(inputs.at);
-    qdot_free(outputs.at);
-    qdot_free(arguments.at);
     return status;
 }

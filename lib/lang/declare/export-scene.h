@@ -17,4 +17,10 @@ QDOT_MUST_CHECK qdot_status qdot_export_value(qdot_session *session, const char 
                                               const char *file, qdot_export_language language,
                                               qdot_text *out);
 
+/* Of both: e with the functions that have a value replaced by it, parameters stay. */
+qdot_expr qdot_export_bound(qdot_session *session, qdot_expr e);
+/* The number that `set` gives a parameter; NaN: none. */
+QDOT_MUST_CHECK qdot_status qdot_export_value_of(qdot_session *session, qdot_expr parameter,
+                                                 double *value);
+
 #endif

@@ -2,6 +2,7 @@
 #ifndef QDOT_SIM_RUN_STATE_H
 #define QDOT_SIM_RUN_STATE_H
 
+#include "ode/companion.h"
 #include "sim/course/course.h"
 #include "sim/course/drift.h"
 #include "sim/course/multipliers.h"
@@ -31,6 +32,8 @@ struct qdot_run {
 
     /* The run whose distance from this one is the error along the way: made together with it if
      * the run has pieces, else when errors are first needed. */
+    qdot_ode_meter meter; /* of the work of this one, which theirs is compared with */
+    qdot_companion_way way; /* by which a companion has arrived before */
     bool has_companion;
     qdot_course companion;
     bool has_twin; /* a second companion, for times at which the first is near by chance */

@@ -137,13 +137,14 @@ begin_anew(qdot_course *c)
     *c = empty;
 }
 
-/* Companion 0 or 1 into c, by Taylor series if the system has them and c->no_series is not set;
- * *has: there is one. */
+/* Companion 0 or 1 into c by that way; *has: there is one. */
 static qdot_status
-follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
+follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_meter *meter,
+          qdot_course *c, bool *has)
 {
-    const qdot_ode_method *method = run->plan->method;
-    qdot_ode_options options = {.order_more = QDOT_COMPANION_ORDERS - 2 * (int)number};
+    qdot_ode_options options = {.tol = by->tol,
+                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
+                                .meter = meter};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
     qdot_ode_system system;
@@ -151,13 +152,6 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
     qdot_status status;
 
     system = qdot_bind_system(run->course.binds.at[0]);
-    if (c->no_series)
-        system.series = NULL;
-    options.tol = qdot_companion_tolerance(&system, method, run->report.tol);
-    options.max_steps =
-        qdot_companion_patience(&system, method, run->course.tr.result.stats.steps);
-    if (method->stiff && system.series && options.max_steps > QDOT_COMPANION_EXPLICIT)
-        options.max_steps = QDOT_COMPANION_EXPLICIT;
     y = qdot_malloc(2 * n * sizeof *y);
     if (!y)
         return QDOT_ENOMEM;
@@ -176,8 +170,8 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
      * it stays on it */
     for (int tries = 0; tries < 2; tries++) {
         qdot_progress_begin(t0, goal(run), "error of the run");
-        status = qdot_course_run(c, qdot_companion_method(&system, method), &options, t0,
-                                 goal(run), y);
+        qdot_ode_meter_begin(meter, t0, goal(run));
+        status = qdot_course_run(c, by->method, &options, t0, goal(run), y);
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
@@ -191,23 +185,38 @@ follow_so(qdot_run *run, size_t number, qdot_course *c, bool *has)
     return qdot_grave(status);
 }
 
-/* Beside a stiff method series may get stuck: then by its partner. */
 static qdot_status
 follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
+    const qdot_ode_method *method = run->plan->method;
+    const qdot_ode_system system = qdot_bind_system(run->course.binds.at[0]);
+    qdot_ode_meter *meter = qdot_calloc(1, sizeof *meter);
+    qdot_companion_way way = run->way;
+    qdot_companion_plan by;
+    double spent = 0;
+    qdot_status status = meter ? QDOT_OK : QDOT_ENOMEM;
+
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
-    c->touch_tol = run->report.tol;
+    c->touch_tol = run->course.touch_tol;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
-    c->no_series = false;
-    QDOT_TRY(follow_so(run, number, c, has));
-    if (!run->plan->method->stiff || (*has && c->tr.result.outcome != QDOT_ODE_FAILED))
-        return QDOT_OK;
-    c->no_series = true;
-    begin_anew(c);
-    *has = false;
-    return follow_so(run, number, c, has);
+    for (; status == QDOT_OK; way++) {
+        way = qdot_companion_way_from(way, number, &system, method, run->report.tol, &by);
+        if (way == QDOT_COMPANION_WAYS)
+            break;
+        qdot_companion_meter(meter, &run->meter, method, &system, way, spent);
+        c->no_series = way == QDOT_COMPANION_PARTNER;
+        begin_anew(c);
+        *has = false;
+        status = follow_so(run, number, &by, meter, c, has);
+        if (!qdot_companion_leads_nowhere(method, way,
+                                          !*has || c->tr.result.outcome == QDOT_ODE_FAILED, meter))
+            break;
+        spent += meter->work;
+    }
+    qdot_free(meter);
+    return status;
 }
 
 /* The companion's trajectory over all that the run covers. */

@@ -249,7 +249,7 @@ make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
         .extend = extend,
         .noise = s->K.saddle ? noise : NULL,
         .ahead = s->K.saddle ? ahead : NULL,
-        .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
+        .near = qdot_taylor_may_hide(s->at.taylor) ? near : NULL,
         .user = s};
     choose_code(s);
     return QDOT_OK;

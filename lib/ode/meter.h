@@ -1,0 +1,75 @@
+/* meter.h -- counts the work of an integration, and ends one that costs too much beside another.
+ *
+ * Work is counted, not timed, so that a run says the same on every machine and under any load:
+ * expansions to the order of the run by the model of their cost (qdot_ode_cost.kernels), else
+ * evaluations of f, Jacobians and factorisations. The unit is about a nanosecond.
+ *
+ * A meter keeps marks: the work W(t) when the integration had come to t, one whenever W has grown
+ * by an eighth. Let w be the run's. A companion has cost too much if at some mark of its own
+ *
+ *     W(t) > factor w(t) + allowance,
+ *
+ * w(t) taken at the run's first mark at or beyond t. So one that goes nowhere is given up early;
+ * near the end the same holds for the whole. It is looked for while the companion runs, as far as
+ * the run has come, and in any case afterwards (qdot_ode_meter_exceeds): the answer does not
+ * depend on which of the two threads was faster.
+ *
+ * Tests  tests/ode/test_meter.c
+ */
+#ifndef QDOT_ODE_METER_H
+#define QDOT_ODE_METER_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+#include "ode/run.h"
+
+enum { QDOT_ODE_MARKS = 256 };
+
+typedef struct {
+    double t, work;
+} qdot_ode_mark;
+
+struct qdot_ode_meter {
+    const qdot_ode_meter *beside; /* of the run; NULL: no bound; borrowed */
+    double factor, allowance;
+    double direction;  /* of time */
+    double t0;
+    bool whole_only;   /* parts that each begin at t0 anew: only the whole can be compared */
+    double work;       /* so far */
+    double far;        /* the farthest t so far */
+    double next;       /* work at which the next mark is set */
+    size_t judged;     /* of the own marks */
+    bool over;         /* it was found to cost too much */
+    atomic_size_t count;
+    atomic_bool ended;
+    qdot_ode_mark marks[QDOT_ODE_MARKS];
+};
+
+/* Begin to count an integration from t0 towards t1; beside, factor and allowance are kept. */
+void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);
+
+/* It has come to t, for `work` more. QDOT_ELIMIT: it costs too much. */
+QDOT_MUST_CHECK qdot_status qdot_ode_meter_add(qdot_ode_meter *m, double t, double work);
+
+/* It has ended: w(t) of any t that it has not come to is its whole work. */
+void qdot_ode_meter_end(qdot_ode_meter *m);
+
+/* Whether it has cost too much beside the run, which has ended. *work: what it had cost when that
+ * could first be seen; else its whole work. */
+bool qdot_ode_meter_exceeds(const qdot_ode_meter *m, double *work);
+
+/* Whether it came to stand still: the later half of its work brought it on by less than a fiftieth
+ * of what the first half did. */
+bool qdot_ode_meter_is_stuck(const qdot_ode_meter *m);
+
+/* The work of what is counted in these, by a method without series. */
+double qdot_ode_work(const qdot_ode_system *system, const qdot_ode_stats *stats);
+
+/* The work of an expansion to order p. */
+double qdot_ode_expansion_work(const qdot_ode_series *series, int p);
+
+#endif

@@ -1,0 +1,45 @@
+/* export-writer.h -- a file of source text while it is written. Internal to show/.
+ *
+ * export.c names what a tape reads and follows the template; export-motion.c writes what the words of
+ * a motion's template stand for.
+ */
+#ifndef QDOT_SHOW_EXPORT_WRITER_H
+#define QDOT_SHOW_EXPORT_WRITER_H
+
+#include "show/export-language.h"
+
+typedef struct {
+    const qdot_export_syntax *syntax;
+    const qdot_export_system *system;    /* or */
+    const qdot_export_expression *value; /* the other is NULL */
+    size_t inputs;
+    char **words;   /* [inputs] names in the language */
+    char **sources; /* [inputs] where they come from; NULL: arguments */
+    char *name;     /* of the function or the group of functions */
+    char temporary[16];
+    qdot_text *out;
+} qdot_export_writer;
+
+/* Where the parameters begin among the inputs of a motion. */
+static inline size_t
+qdot_export_first_parameter(const qdot_export_system *x)
+{
+    return 1 + 3 * x->n + x->m;
+}
+
+/* The statements of a function, each line behind `indent`; targets as in qdot_export_frame. */
+QDOT_MUST_CHECK qdot_status qdot_export_write_code(qdot_export_writer *w,
+                                                   const qdot_export_function *f,
+                                                   const char *indent, const char *const *targets);
+/* A number; NaN as the language has it. */
+void qdot_export_write_number(const qdot_export_writer *w, double x);
+
+/* What a word of a motion's template stands for. */
+QDOT_MUST_CHECK qdot_status qdot_export_motion_word(qdot_export_writer *w, const char *word,
+                                                    const char *indent);
+/* Whether a motion has what a letter of a template's line asks for (export-language.h). */
+bool qdot_export_motion_has(const qdot_export_system *x, char what);
+/* Whether one of the operations first ... last stands in a tape (NULL: no). */
+bool qdot_export_tape_uses(const qdot_tape *tape, qdot_op first, qdot_op last);
+
+#endif
