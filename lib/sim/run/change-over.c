@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "sim/course/run-state.h"
-#include "sim/run/run.h"
 
 /* Its method for stiff scenes: steps keep its tolerance, but ends are off by a thousand times as
  * much. */
@@ -23,22 +22,23 @@ is_accurate(const qdot_run *run, double tol)
 
 /* *run's place is taken by `other`, which may be NULL. */
 static void
-take(qdot_run **run, qdot_run *other)
+take(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 {
     if (!other)
         return;
-    qdot_run_free(*run);
+    by->free(*run);
     *run = other;
 }
 
 static qdot_status
 say_changed(qdot_run *run, const char *before, double t)
 {
-    qdot_text_format(&run->notice,
-                     "%sthe scene is stiff: from t = %.4g on stability would bound the steps of %s, "
-                     "so the run is by %s, tol %.3g",
-                     run->notice.n > 0 ? "\n" : "", t, before, run->plan->method->name,
-                     run->report.tol);
+    qdot_text_format(
+        &run->notice,
+        "%sthe scene is stiff: from t = %.4g on stability would bound the steps of %s, "
+        "so the run is by %s, tol %.3g",
+        run->notice.n > 0 ? "\n" : "", t, before, run->plan->method->name,
+        run->report.tol);
     run->report.notice = qdot_text_str(&run->notice);
     return qdot_text_status(&run->notice);
 }
@@ -50,8 +50,8 @@ has_arrived(qdot_status status, const qdot_run *run)
 }
 
 qdot_status
-qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request, qdot_run_make *make,
-                     qdot_run **run)
+qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
+                     const qdot_run_maker *by, qdot_run **run)
 {
     const double t = (*run)->course.tr.result.t;
     const char *before = (*run)->plan->method->name;
@@ -63,28 +63,28 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request, qdot_ru
         return QDOT_OK;
     stiff.method = stiff_method;
     stiff.tol = fmax(request->tol / tighter, tightest);
-    status = make(scene, &stiff, &other);
+    status = by->make(scene, &stiff, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
-        take(run, other);
+        take(by, run, other);
         return status;
     }
     if (has_arrived(status, other) && is_accurate(other, request->tol)) {
-        take(run, other);
+        take(by, run, other);
         return say_changed(*run, before, t);
     }
     stiff = *request;
     stiff.method = before;
-    status = make(scene, &stiff, &patient);
+    status = by->make(scene, &stiff, &patient);
     if (has_arrived(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
-        qdot_run_free(other);
-        take(run, patient);
+        by->free(other);
+        take(by, run, patient);
         return status;
     }
-    qdot_run_free(patient);
+    by->free(patient);
     if (!other || other->course.tr.result.outcome == QDOT_ODE_FAILED) {
-        qdot_run_free(other);
+        by->free(other);
         return QDOT_OK;
     }
-    take(run, other);
+    take(by, run, other);
     return say_changed(*run, before, t);
 }

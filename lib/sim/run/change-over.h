@@ -12,13 +12,17 @@
 #include "sim/course/report.h"
 #include "sim/model/request.h"
 
-/* Make a run, as qdot_run_new. */
-typedef qdot_status qdot_run_make(qdot_scene *scene, const qdot_run_request *request,
-                                  qdot_run **run);
+/* How runs are made, as by qdot_run_new, and freed. */
+typedef struct {
+    qdot_status (*make)(qdot_scene *scene, const qdot_run_request *request,
+                        qdot_run **run);
+    void (*free)(qdot_run *run);
+} qdot_run_maker;
 
 /* Replace *run by the other one, with a notice, where it is stiff. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_run_change_over(qdot_scene *scene,
                                                  const qdot_run_request *request,
-                                                 qdot_run_make *make, qdot_run **run);
+                                                 const qdot_run_maker *by,
+                                                 qdot_run **run);
 
 #endif

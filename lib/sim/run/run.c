@@ -594,6 +594,7 @@ qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     const double clock = process_clock();
+    const qdot_run_maker by = {make_decided, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
@@ -601,7 +602,7 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
     status = make_decided(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
-        status = qdot_run_change_over(scene, &states.request, make_decided, out);
+        status = qdot_run_change_over(scene, &states.request, &by, out);
     if (*out)
         (*out)->report.cpu_total = process_clock() - clock;
     qdot_parameter_states_clear(&states);
