@@ -390,6 +390,7 @@ library_sources = \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
 	lib/sim/error/companion.c \
+	lib/sim/error/constraint-corners.c \
 	lib/sim/error/distance.c \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
@@ -797,6 +798,7 @@ library_headers = \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
 	lib/sim/error/companion.h \
+	lib/sim/error/constraint-corners.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -1145,6 +1147,7 @@ script_tests = \
 	tests/script/order.lag \
 	tests/script/partial-sums.lag \
 	tests/script/parts.lag \
+	tests/script/passed-over.lag \
 	tests/script/pasted.lag \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
@@ -1982,6 +1985,7 @@ test_files = \
 	tests/script/order.out \
 	tests/script/partial-sums.out \
 	tests/script/parts.out \
+	tests/script/passed-over.out \
 	tests/script/pasted.out \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \

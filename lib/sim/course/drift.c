@@ -8,6 +8,7 @@
 #include "series/lanes.h"
 #include "sim/form/residual.h"
 #include "sim/model/absent.h"
+#include "sim/model/term-magnitude.h"
 
 void
 qdot_drifts_clear(qdot_drifts *d)
@@ -120,6 +121,23 @@ lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
     return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, tape);
 }
 
+/* The largest sum of the sizes of the energy's terms. */
+static qdot_status
+measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr h, qdot_drifts *d)
+{
+    const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, h));
+    qdot_tape *tape = NULL;
+    qdot_drift of = {.quantity = terms};
+    qdot_status status = fatal(lower(p, terms, &tape));
+
+    if (status == QDOT_OK && tape)
+        status = follow(tape, tr, &of);
+    if (tape)
+        d->terms = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
+    qdot_tape_free(tape);
+    return status;
+}
+
 /* absent [n]: coordinates that the conserved energy does not seem to depend on; only these can be
  * cyclic. */
 static qdot_status
@@ -143,6 +161,8 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
         return fatal(status);
     status = note(tape, tr, h, "energy", d);
     d->energy = d->n == 1;
+    if (status == QDOT_OK && d->energy && p->M)
+        status = measure_terms(p, tr, h, d);
     if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
     else if (status == QDOT_OK)
@@ -196,6 +216,17 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
         d->at[d->n - 1].drift = 0;
     }
     return status;
+}
+
+/* A step errs by about a tolerance of what it moves, and errors of steps add up. */
+bool
+qdot_drifts_contradict(const qdot_drifts *d, double tol, uint64_t steps)
+{
+    static const double most = 100;
+
+    return d->energy && d->terms > 0
+           && d->at[0].drift * fmax(1, fabs(d->at[0].start))
+                  > most * tol * (double)steps * fmax(1, d->terms);
 }
 
 qdot_status

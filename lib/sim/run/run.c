@@ -13,6 +13,7 @@
 #include "sim/digits/digits.h"
 #include "sim/digits/precise.h"
 #include "sim/error/companion.h"
+#include "sim/error/constraint-corners.h"
 #include "sim/error/failure.h"
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
@@ -479,6 +480,45 @@ find_hidden(qdot_run *run)
     return qdot_run_say_doubt(run, text);
 }
 
+/* If the motion turned round in a constraint's cusp, nothing is known of it from there on. */
+static qdot_status
+find_corner(qdot_run *run)
+{
+    bool found;
+    char text[300];
+    size_t row;
+    double t;
+
+    if (run->hidden)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constraint_corners_find(&run->course, &found, &t, &row));
+    if (!found)
+        return QDOT_OK;
+    run->hidden = true;
+    run->report.error = NAN;
+    snprintf(text, sizeof text,
+             "constraint %.100s has no direction about t = %.6g, a cusp of it, and what the motion is "
+             "from there is not determined",
+             run->plan->constraints->rows[row].name, t);
+    return qdot_run_say_doubt(run, text);
+}
+
+/* If the energy is not kept as the tolerance would keep it, the error is unknown, whatever the
+ * companions agree on. */
+static qdot_status
+check_energy(qdot_run *run, double tol)
+{
+    const double held = fmax(tol, run->course.tr.result.stats.raised);
+
+    if (run->hidden || isnan(run->report.error)
+        || !qdot_drifts_contradict(&run->drifts, held, run->course.tr.result.stats.steps))
+        return QDOT_OK;
+    run->hidden = true;
+    run->report.error = run->report.horizon = NAN;
+    return qdot_run_say_doubt(run, "the energy, which is conserved, has not been kept: a step went "
+                                   "over a place where the equations are singular");
+}
+
 /* Integrate, then find the error and the drift of conserved quantities. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
@@ -495,10 +535,14 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = find_hidden(run);
+    if (status == QDOT_OK && !*interrupted)
+        status = find_corner(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = check_energy(run, tol);
     if (status == QDOT_EINTR) {
         *interrupted = true;
         status = QDOT_OK;
