@@ -351,6 +351,7 @@ library_sources = \
 	lib/show/figure-layout.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
+	lib/show/formulas.c \
 	lib/show/gnuplot.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
@@ -394,6 +395,7 @@ library_sources = \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
 	lib/sim/error/singular-places.c \
+	lib/sim/error/touches.c \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
 	lib/sim/form/bordered.c \
@@ -453,6 +455,7 @@ library_sources = \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
@@ -763,6 +766,7 @@ library_headers = \
 	lib/show/figure-parts.h \
 	lib/show/figure.h \
 	lib/show/formula-page.h \
+	lib/show/formulas.h \
 	lib/show/gnuplot.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
@@ -798,6 +802,7 @@ library_headers = \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
 	lib/sim/error/singular-places.h \
+	lib/sim/error/touches.h \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
 	lib/sim/form/bordered.h \
@@ -847,6 +852,7 @@ library_headers = \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -875,6 +881,7 @@ library_texts = \
 	lib/show/export-julia.template \
 	lib/show/export-matlab.template \
 	lib/show/export-python.template \
+	lib/show/formulas.js \
 	lib/show/page.css \
 	lib/show/player.css \
 	lib/show/player.js
@@ -1087,6 +1094,7 @@ script_tests = \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
+	tests/script/grazing.lag \
 	tests/script/hamilton.lag \
 	tests/script/hanging-chain.lag \
 	tests/script/help-examples.lag \
@@ -1130,6 +1138,7 @@ script_tests = \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
 	tests/script/narrow-events.lag \
+	tests/script/narrow-forces.lag \
 	tests/script/narrow.lag \
 	tests/script/notices.lag \
 	tests/script/numeric.lag \
@@ -1237,6 +1246,7 @@ script_tests = \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
+	tests/bad/event-storm.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
@@ -1275,6 +1285,9 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/mass-negative-inertia.lag \
+	tests/bad/mass-negative-with.lag \
+	tests/bad/mass-negative.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1362,6 +1375,7 @@ script_tests = \
 	tests/bad/start-no-direction.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
+	tests/bad/start-rests-on-event.lag \
 	tests/bad/start-touching.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
@@ -1551,6 +1565,7 @@ test_files = \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
+	tests/bad/event-storm.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \
@@ -1589,6 +1604,9 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/mass-negative-inertia.out \
+	tests/bad/mass-negative-with.out \
+	tests/bad/mass-negative.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -1676,6 +1694,7 @@ test_files = \
 	tests/bad/start-no-direction.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
+	tests/bad/start-rests-on-event.out \
 	tests/bad/start-touching.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
@@ -1897,6 +1916,7 @@ test_files = \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \
+	tests/script/grazing.out \
 	tests/script/hamilton.out \
 	tests/script/hanging-chain.out \
 	tests/script/help-examples.out \
@@ -1954,6 +1974,7 @@ test_files = \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \
 	tests/script/narrow-events.out \
+	tests/script/narrow-forces.out \
 	tests/script/narrow.out \
 	tests/script/normalise.sed \
 	tests/script/notices.out \

@@ -118,6 +118,20 @@ qdot_text_double(qdot_text *s, double x, int digits)
     qdot_text_add(s, buffer);
 }
 
+bool
+qdot_has_word(const char *text, const char *word)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    const size_t n = strlen(word);
+
+    for (const char *at = strstr(text, word); at != NULL; at = strstr(at + 1, word))
+        if ((at == text || strchr(letters, at[-1]) == NULL) &&
+            (at[n] == '\0' || strchr(letters, at[n]) == NULL))
+            return true;
+    return false;
+}
+
+
 void
 qdot_text_json(qdot_text *s, const char *text)
 {

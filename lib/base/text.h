@@ -32,6 +32,9 @@ void qdot_text_double(qdot_text *s, double x, int digits);
 /* Whether text ends in `ending`, with something before it: "a.csv" in ".csv". */
 bool qdot_ends_in(const char *text, const char *ending);
 
+/* Whether text holds the word by itself, with no letter or _ beside it. */
+bool qdot_has_word(const char *text, const char *word);
+
 /* `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void qdot_text_json(qdot_text *s, const char *text);
 

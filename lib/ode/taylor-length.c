@@ -109,6 +109,19 @@ keep_off(run *r, double *h, double most)
     }
 }
 
+/* As much of a step as no part of f is stepped over in; but what would be narrower than so many
+ * parts of t is none, and a divisor that comes down to 0 there divides 0: a pole that nothing turns
+ * about. */
+static double
+near_length(const run *r, double h)
+{
+    static const double narrowest = 0x1p-26;
+    const double near =
+        fabs(r->unit) * r->series->near(r->p, h / fabs(r->unit), r->series->user);
+
+    return near < narrowest * fabs(r->t) ? h : near;
+}
+
 /* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of
  * the series is brought near the step where it is far from it. */
 static qdot_status
@@ -124,8 +137,7 @@ length_of_step(run *r, double most, double *h)
         } else {
             *h = fabs(r->unit) * qdot_rough_exp2(l);
             if (r->series->near)
-                *h = fabs(r->unit) *
-                     r->series->near(r->p, *h / fabs(r->unit), r->series->user);
+                *h = near_length(r, *h);
             keep_off(r, h, most);
             /* too small for a double: judge by what is; or a polynomial, of any step */
             far = l < INFINITY ? l : fmax(0, log_step_of_all(r));

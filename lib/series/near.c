@@ -1,4 +1,4 @@
-/* near.c -- the sum grows with the step: halving finds it. */
+/* near.c -- sums that grow with the step, which halving finds; and a polynomial at a few places. */
 #include "series/near.h"
 
 #include <math.h>
@@ -44,4 +44,96 @@ qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
             high = middle;
     }
     return low;
+}
+
+/* --- what is divided by ---------------------------------------------------------------- */
+
+/* A zero of b lies at half of a step at least whose sum is below `well_before`, if it is double; it
+ * is looked for in quarters. */
+static const double cannot_fall = 1 - QDOT_NEAR_LEFT, well_before = 8;
+enum { quarters = 4, shorter = 40 };
+
+/* sum_{k>=1} |b_k| s^k, in two chains that do not wait for each other */
+static double
+change(int p, const double *b, double s)
+{
+    const double s2 = s * s;
+    double odd = 0, even = 0;
+    int k = p;
+
+    if (k % 2 == 1)
+        odd = fabs(b[k--]);
+    for (; k >= 2; k -= 2) {
+        even = (even + fabs(b[k])) * s2;
+        odd = odd * s2 + fabs(b[k - 1]);
+    }
+    return even + odd * s;
+}
+
+static double
+value(int p, const double *b, double s)
+{
+    double sum = b[p];
+
+    for (int k = p - 1; k >= 0; k--)
+        sum = sum * s + b[k];
+    return sum;
+}
+
+/* The first quarter of the step at which little of b_0 is left; 0: none. */
+static int
+falls_in(int p, const double *b, double s)
+{
+    for (int j = 1; j <= quarters; j++)
+        if (!(value(p, b, s * j / quarters) / b[0] >= QDOT_NEAR_LEFT))
+            return j;
+    return 0;
+}
+
+bool
+qdot_near_may_fall(int p, const double *b, double s)
+{
+    const double size = fabs(b[0]);
+
+    return size > 0 && !(change(p, b, s) <= cannot_fall * size);
+}
+
+double
+qdot_near_divisor(int p, const double *b, bool root, double s)
+{
+    const double size = fabs(b[0]), whole = s;
+
+    if (isinf(s)) { /* one term alone is too much there */
+        double least = 0;
+
+        for (int k = 1; k <= p; k++)
+            if (b[k] != 0)
+                least = fmax(least, pow(fabs(b[k]) / size, 1.0 / k));
+        if (least == 0)
+            return s;
+        s = well_before / least;
+    }
+    for (int i = 0; i < shorter && !(change(p, b, s) <= well_before * size); i++)
+        s *= 0.5;
+    for (int i = 0; i < shorter; i++) {
+        const int j = falls_in(p, b, s);
+
+        if (j == 0)
+            return s;
+        if (root && value(p, b, s * j / quarters) / b[0] <= 0)
+            return whole;
+        s *= j > 1 ? (double)(j - 1) / quarters : 0.5 / quarters;
+    }
+    return s;
+}
+
+bool
+qdot_near_diverges(int p, const double *quotient, double s)
+{
+    const double first = fmax(fabs(quotient[0]), fabs(quotient[1]) * s);
+
+    for (int k = p; k >= p - 1 && k > 1; k--)
+        if (log2(fabs(quotient[k])) + k * log2(s) > log2(first))
+            return true;
+    return false;
 }

@@ -1,4 +1,4 @@
-/* near.h -- how far a step may carry the argument of an exponential.
+/* near.h -- how far a step may carry the argument of an exponential, or a denominator.
  *
  * e^u, tanh u and their like may be nothing where a step begins and all there is where it ends:
  * a Gaussian barrier, friction tanh(1000 v). Of e^-400 no coefficient is seen, so no series
@@ -11,10 +11,19 @@
  * From far away it comes to where coefficients begin to be seen; there, by no more than what order
  * p follows e^u over. Of tanh, which is e^-2u off its limits, 2u is looked at.
  *
- * Tests  tests/series/test_near.c, tests/script/far-away.lag
+ * A quotient, too, may be nothing where a step begins and all there is where its denominator
+ * comes near 0: w/(t^2 + w^2) of w = 1e-12 from t = -1. The series b(s) of what is divided by, or
+ * of which a root, a power or a logarithm is taken, does show it: it is a parabola. A step ends
+ * where b has fallen to QDOT_NEAR_LEFT of b_0, and again behind; the last steps are as short as the
+ * quotient's own coefficients, seen by then, say. A quotient whose series converges at the end of
+ * the step hides nothing, and a step that an order is chosen for ends before b falls so far.
+ *
+ * Tests  tests/series/test_near.c, tests/script/far-away.lag, tests/script/narrow-forces.lag
  */
 #ifndef QDOT_SERIES_NEAR_H
 #define QDOT_SERIES_NEAR_H
+
+#include <stdbool.h>
 
 /* E beyond the digits of the numbers. */
 #define QDOT_NEAR_BEYOND 20.0
@@ -25,5 +34,17 @@ double qdot_near_limit(int p, double u0, double digits);
 /* log2 of the longest step, at most log2_h (INFINITY: any), whose sum over the sizes, log2 |u_k|
  * at [1 ... p], is within the limit. */
 double qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h);
+
+#define QDOT_NEAR_LEFT 0.125
+
+/* Whether b [p + 1] may fall so far in a step of s, by the sizes of its terms alone. */
+bool qdot_near_may_fall(int p, const double *b, double s);
+
+/* Then as much of the step (INFINITY: any) as it does not fall so far in. Of a `root` of b all, if
+ * b is negative there: what is undefined needs no search. */
+double qdot_near_divisor(int p, const double *b, bool root, double s);
+
+/* Whether the series [p + 1] of a quotient has terms at s that are no smaller than its first. */
+bool qdot_near_diverges(int p, const double *quotient, double s);
 
 #endif

@@ -334,11 +334,64 @@ qdot_precise_column(qdot_precise *p, size_t first, size_t n, size_t j, mpfr_t *c
         mpfr_set(column[i * n], p->notes.at[m->equations.at[first + i]], RN);
 }
 
+/* So that the argument of an exponential, so many times, is not carried too far. */
+static double
+near_argument(const mpfr_t *u, int k, double times, double digits, double log2_h)
+{
+    double sizes[QDOT_PRECISE_NEAR + 1];
+    const double limit = qdot_near_limit(k, times * mpfr_get_d(u[0], RN), digits) / times;
+
+    for (int j = 1; j <= k; j++)
+        sizes[j] = qdot_real_log2(u[j]);
+    return qdot_near_log2(k, sizes, limit, log2_h);
+}
+
+/* The terms of a series at 2^log2_h, as parts of the first one. */
+static void
+in_parts(const mpfr_t *x, int k, double log2_h, double *out)
+{
+    const double first = qdot_real_log2(x[0]);
+
+    for (int j = 0; j <= k; j++)
+        out[j] = mpfr_zero_p(x[j]) ? 0
+                                   : mpfr_sgn(x[j]) * mpfr_sgn(x[0])
+                                         * exp2(qdot_real_log2(x[j]) - first + j * log2_h);
+}
+
+static double
+near_divisor(const qdot_precise *p, const qdot_program_step *i, int k, double log2_h)
+{
+    const char which = qdot_recurrence_divisor(i->op);
+    const mpfr_t *x = place(p, which == 'x' ? i->x : which == 'y' ? i->y : i->z);
+    double terms[QDOT_PRECISE_NEAR + 1], most = INFINITY, part;
+
+    if (mpfr_zero_p(x[0]))
+        return log2_h;
+    for (int j = 1; j <= k; j++) /* to where one term is eight times the first */
+        if (!mpfr_zero_p(x[j]))
+            most = fmin(most, (3 + qdot_real_log2(x[0]) - qdot_real_log2(x[j])) / j);
+    if (isinf(most))
+        return log2_h;
+    if (log2_h <= most) {
+        in_parts(x, k, log2_h, terms);
+        if (!qdot_near_may_fall(k, terms, 1))
+            return log2_h;
+    }
+    if (i->op == QDOT_T_DIV && !isinf(log2_h) && !mpfr_zero_p(place(p, i->to)[0])) {
+        in_parts(place(p, i->to), k, log2_h, terms);
+        if (!qdot_near_diverges(k, terms, 1))
+            return log2_h;
+    }
+    most = fmin(log2_h, most);
+    in_parts(x, k, most, terms);
+    part = qdot_near_divisor(k, terms, i->op == QDOT_T_SQRT, 1);
+    return part == 1 ? log2_h : most + log2(part);
+}
+
 double
 qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 {
     const double digits = (double)mpfr_get_prec(p->w[0]) * M_LN2;
-    double sizes[QDOT_PRECISE_NEAR + 1];
 
     if (k > QDOT_PRECISE_NEAR)
         k = QDOT_PRECISE_NEAR;
@@ -346,13 +399,10 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
          i->op != QDOT_T_END; i++) {
         const double times = qdot_recurrence_exponential(i->op);
 
-        if (!(times > 0))
-            continue;
-        for (int j = 1; j <= k; j++)
-            sizes[j] = qdot_real_log2(place(p, i->x)[j]);
-        log2_h = qdot_near_log2(
-            k, sizes, qdot_near_limit(k, times * mpfr_get_d(place(p, i->x)[0], RN), digits) / times,
-            log2_h);
+        if (times > 0)
+            log2_h = near_argument(place(p, i->x), k, times, digits, log2_h);
+        else if (qdot_recurrence_divisor(i->op))
+            log2_h = near_divisor(p, i, k, log2_h);
     }
     return log2_h;
 }

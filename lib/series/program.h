@@ -153,4 +153,19 @@ qdot_recurrence_exponential(int op)
     }
 }
 
+/* Which operand a recurrence divides by, or takes a root, a power or a logarithm of: 'x', 'y', 'z';
+ * 0: none. */
+static inline char
+qdot_recurrence_divisor(int op)
+{
+    switch (op) {
+    case QDOT_T_SQRT:
+    case QDOT_T_POW: return 'x';
+    case QDOT_T_DIV:
+    case QDOT_T_RATIO: return 'y';
+    case QDOT_T_ATAN2: return 'z';
+    default: return 0;
+    }
+}
+
 #endif

@@ -178,15 +178,18 @@ add_power_of_ten(qdot_text *script, int times, int power, bool plain, size_t *wi
 }
 
 /* Whether times * 10^k has a number on an axis of so many powers of ten: at most nine powers; on
- * a short axis 2 and 5 times them too, on a very short one all. */
+ * a short axis 2 and 5 times them too, on a very short one all, or those that are apart if they are
+ * no plain numbers. */
 static bool
-is_large(int times, int k, double decades)
+is_large(int times, int k, double decades, bool plain)
 {
     const int stride = (int)ceil(decades / 8);
 
     if (times == 1)
         return k % stride == 0;
-    return decades < 0.6 || (decades < 1.5 && (times == 2 || times == 5));
+    if (decades < 0.6)
+        return plain || times < 4 || times % 2 == 0;
+    return decades < 1.9 && (times == 2 || times == 5);
 }
 
 static void
@@ -199,7 +202,7 @@ add_log_tics(qdot_text *script, const qdot_figure_axis *a, bool bare, size_t *wi
     for (int k = (int)floor(low); k <= (int)ceil(high); k++)
         for (int times = 1; times < (decades > 8 ? 2 : 10); times++) {
             const double at = times * pow(10, k);
-            const bool large = is_large(times, k, decades);
+            const bool large = is_large(times, k, decades, plain);
 
             if (at < a->least * (1 - 1e-12) || at > a->most * (1 + 1e-12))
                 continue;
@@ -269,45 +272,87 @@ is_compound(const char *text)
     return strpbrk(text, " ,+-*/") != NULL;
 }
 
+/* The label with the offset and the power of ten of its axis; name: what stands where there is none. */
+static void
+add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
+          const qdot_figure_label *label)
+{
+    const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
+    qdot_figure_label own = *label;
+    char letter[2] = {name, '\0'};
+
+    if (own.text == NULL || own.text[0] == '\0')
+        own = (qdot_figure_label){letter, false};
+    qdot_text_add(markup, moved && scaled ? "(" : "");
+    qdot_text_add(markup, is_compound(own.text) ? "(" : "");
+    qdot_figure_add_markup(markup, &own);
+    qdot_text_add(markup, is_compound(own.text) ? ")" : "");
+    if (moved)
+        qdot_text_format(markup, a->offset > 0 ? " − %s" : " + %s", a->offset_text);
+    qdot_text_add(markup, moved && scaled ? ")" : "");
+    if (scaled)
+        qdot_text_format(markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
+}
+
+/* The label in quotes and how it is read. */
+static void
+add_text(qdot_text *script, char name, const qdot_figure_axis *a,
+         const qdot_figure_label *label)
+{
+    qdot_text markup = {0};
+
+    if (a->offset_text[0] == '\0' && a->power == 0) {
+        qdot_figure_add_label(script, label);
+        return;
+    }
+    add_moved(&markup, name, a, label);
+    qdot_figure_add_quoted(script, qdot_text_str(&markup));
+    qdot_text_add(script, " enhanced");
+    script->failed = script->failed || markup.failed;
+    qdot_text_clear(&markup);
+}
+
 void
 qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *a,
                            const qdot_figure_label *label)
 {
-    const bool moved = a->offset_text[0] != '\0', scaled = a->power != 0;
-    qdot_figure_label own = *label;
-    qdot_text markup = {0};
-    char letter[2] = {name, '\0'};
+    const bool above = name == 'y' && a->offset_text[0] != '\0'; /* it is long */
 
     if (name == 'y')
         qdot_text_add(script, "unset label 1\n");
-    if (!moved && !scaled) {
-        qdot_text_format(script, "set %clabel ", name);
-        qdot_figure_add_label(script, label);
-        qdot_text_add(script, name == 'x' ? " offset 0,0.5\n" : "\n");
-        return;
-    }
-    if (own.text == NULL || own.text[0] == '\0')
-        own = (qdot_figure_label){letter, false};
-    qdot_text_add(&markup, moved && scaled ? "(" : "");
-    qdot_text_add(&markup, is_compound(own.text) ? "(" : "");
-    qdot_figure_add_markup(&markup, &own);
-    qdot_text_add(&markup, is_compound(own.text) ? ")" : "");
-    if (moved)
-        qdot_text_format(&markup, a->offset > 0 ? " − %s" : " + %s", a->offset_text);
-    qdot_text_add(&markup, moved && scaled ? ")" : "");
-    if (scaled)
-        qdot_text_format(&markup, " / 10^{%s%d}", a->power < 0 ? "−" : "", abs(a->power));
-    if (name == 'y' && moved) /* long: above the axis */
+    if (above)
         qdot_text_add(script, "unset ylabel\nset label 1 ");
     else
         qdot_text_format(script, "set %clabel ", name);
-    qdot_figure_add_quoted(script, qdot_text_str(&markup));
-    qdot_text_add(script, name == 'x'  ? " enhanced offset 0,0.5\n"
-                          : name == 'y' && moved
-                              ? " at graph 0, graph 1 offset -4,0.9 left enhanced\n"
-                          : " enhanced\n");
-    script->failed = script->failed || markup.failed;
-    qdot_text_clear(&markup);
+    add_text(script, name, a, label);
+    qdot_text_add(script, above         ? " at graph 0, graph 1 offset -4,0.9 left\n"
+                          : name == 'x' ? " offset 0,0.5\n"
+                                        : "\n");
+}
+
+void
+qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
+                           const qdot_figure_label *label, size_t width)
+{
+    /* the middle of the front edges, the upper end of the left one */
+    const double at[3][3] = {
+        {(axes[0].least + axes[0].most) / 2, axes[1].least, axes[2].least},
+        {axes[0].most, (axes[1].least + axes[1].most) / 2, axes[2].least},
+        {axes[0].least, axes[1].least, axes[2].most}};
+
+    qdot_text_format(script, "set label %d ", k + 2);
+    add_text(script, "xyz"[k], &axes[k], label);
+    qdot_text_add(script, " at first ");
+    for (int i = 0; i < 3; i++) { /* to a thousandth of the axis */
+        const double part = pow(10, floor(log10(axes[i].most - axes[i].least)) - 3);
+
+        qdot_text_add(script, i > 0 ? ", first " : "");
+        qdot_text_double(script, part * round(at[k][i] / part), 6);
+    }
+    if (k == 1) /* behind the numbers */
+        qdot_text_format(script, " offset %.1f,-1.7 left\n", 2.4 + 0.8 * (double)width);
+    else
+        qdot_text_add(script, k == 0 ? " offset -3,-2.6 right\n" : " offset 0,1.2 center\n");
 }
 
 void

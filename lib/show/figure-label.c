@@ -77,72 +77,6 @@ closing(const char *open)
     return NULL;
 }
 
-/* name in unicode style, its `[...]` and `_...` as subscripts where there is markup. */
-static void
-add_subscripted(qdot_text *out, const char *text, bool markup)
-{
-    const char *below = strpbrk(text + (text[0] != '\0'), "_[");
-    size_t n;
-
-    if (!markup || below == NULL) {
-        qdot_text_add(out, text);
-        return;
-    }
-    qdot_text_add_n(out, text, (size_t)(below - text));
-    qdot_text_add(out, "_{");
-    n = strlen(++below);
-    for (size_t i = 0; i < n; i++)
-        if (below[i] == '[' || below[i] == '_')
-            qdot_text_char(out, ',');
-        else if (below[i] != ']')
-            qdot_text_char(out, below[i]);
-    qdot_text_char(out, '}');
-}
-
-/* The name at `c` with its index and primes; where it ends. One or two primes stand as dots over
- * a single letter. */
-static const char *
-add_name(qdot_text *out, const char *c, bool markup)
-{
-    qdot_text name = {0}, shown = {0}, letters = {0};
-    const char *start = c;
-    size_t primes = 0, first;
-
-    while (continues_name(c))
-        c++;
-    qdot_text_add_n(&name, start, (size_t)(c - start));
-    if (*c == '[' && closing(c) != NULL) {
-        const char *end = closing(c) + 1;
-
-        qdot_text_add_n(&name, c, (size_t)(end - c));
-        c = end;
-    }
-    for (; *c == '\''; c++)
-        primes++;
-    qdot_print_name(NULL, qdot_text_str(&name), QDOT_UNICODE, &shown);
-    /* the letters before digits, `_` and brackets */
-    for (first = 0; qdot_text_str(&name)[first] != '\0' && is_letter(name.at + first); first++)
-        ;
-    qdot_text_add_n(&letters, qdot_text_str(&name), first);
-    qdot_text_truncate(&name, 0);
-    if (first > 0)
-        qdot_print_name(NULL, qdot_text_str(&letters), QDOT_UNICODE, &name);
-    if (primes > 0 && primes < 3 && qdot_utf8_columns(qdot_text_str(&name), name.n) == 1) {
-        qdot_text_add(out, qdot_text_str(&name));
-        qdot_text_add(out, primes == 1 ? "\u0307" : "\u0308");
-        add_subscripted(out, qdot_text_str(&shown) + name.n, markup);
-    } else {
-        add_subscripted(out, qdot_text_str(&shown), markup);
-        for (; primes > 0; primes--)
-            qdot_text_add(out, "′");
-    }
-    out->failed = out->failed || name.failed || shown.failed || letters.failed;
-    qdot_text_clear(&name);
-    qdot_text_clear(&shown);
-    qdot_text_clear(&letters);
-    return c;
-}
-
 /* The exponent behind `^`; where it ends. */
 static const char *
 add_power(qdot_text *out, const char *c, bool markup)
@@ -173,6 +107,80 @@ add_power(qdot_text *out, const char *c, bool markup)
     return end;
 }
 
+/* name in unicode style, its `[...]` and `_...` as subscripts where there is markup; letters: whether
+ * its first letter stands here, which is no subscript. *after: a power there, digits, is set above the
+ * index, and it moves on. */
+static void
+add_subscripted(qdot_text *out, const char *text, bool letters, const char **after, bool markup)
+{
+    const char *below = strpbrk(text + (letters && text[0] != '\0'), "_[");
+    const bool raised = **after == '^' && isdigit((unsigned char)(*after)[1]);
+    size_t n;
+
+    if (!markup || below == NULL) {
+        qdot_text_add(out, text);
+        return;
+    }
+    qdot_text_add_n(out, text, (size_t)(below - text));
+    if (raised) { /* above the index, which takes the room */
+        qdot_text_char(out, '@');
+        *after = add_power(out, *after + 1, markup);
+    }
+    /* of another size: gnuplot's SVG leaves out the size where it is that of the power */
+    qdot_text_add(out, raised ? "_{/*0.97 " : "_{");
+    n = strlen(++below);
+    for (size_t i = 0; i < n; i++)
+        if (below[i] == '[' || below[i] == '_')
+            qdot_text_char(out, ',');
+        else if (below[i] != ']')
+            qdot_text_char(out, below[i]);
+    qdot_text_char(out, '}');
+}
+
+/* The name at `c` with its index and primes; where it ends. One or two primes stand as dots over
+ * a single letter. */
+static const char *
+add_name(qdot_text *out, const char *c, bool markup)
+{
+    qdot_text name = {0}, shown = {0}, letters = {0};
+    const char *start = c, *none = "";
+    size_t primes = 0, first;
+
+    while (continues_name(c))
+        c++;
+    qdot_text_add_n(&name, start, (size_t)(c - start));
+    if (*c == '[' && closing(c) != NULL) {
+        const char *end = closing(c) + 1;
+
+        qdot_text_add_n(&name, c, (size_t)(end - c));
+        c = end;
+    }
+    for (; *c == '\''; c++)
+        primes++;
+    qdot_print_name(NULL, qdot_text_str(&name), QDOT_UNICODE, &shown);
+    /* the letters before digits, `_` and brackets */
+    for (first = 0; qdot_text_str(&name)[first] != '\0' && is_letter(name.at + first); first++)
+        ;
+    qdot_text_add_n(&letters, qdot_text_str(&name), first);
+    qdot_text_truncate(&name, 0);
+    if (first > 0)
+        qdot_print_name(NULL, qdot_text_str(&letters), QDOT_UNICODE, &name);
+    if (primes > 0 && primes < 3 && qdot_utf8_columns(qdot_text_str(&name), name.n) == 1) {
+        qdot_text_add(out, qdot_text_str(&name));
+        qdot_text_add(out, primes == 1 ? "\u0307" : "\u0308");
+        add_subscripted(out, qdot_text_str(&shown) + name.n, false, &c, markup);
+    } else {
+        add_subscripted(out, qdot_text_str(&shown), true, primes > 0 ? &none : &c, markup);
+        for (; primes > 0; primes--)
+            qdot_text_add(out, "′");
+    }
+    out->failed = out->failed || name.failed || shown.failed || letters.failed;
+    qdot_text_clear(&name);
+    qdot_text_clear(&shown);
+    qdot_text_clear(&letters);
+    return c;
+}
+
 /* 9.81, 1e-9 as 10^-9; where it ends. */
 static const char *
 add_number(qdot_text *out, const char *c, bool markup)
@@ -198,6 +206,15 @@ add_number(qdot_text *out, const char *c, bool markup)
     return end;
 }
 
+/* A blank; behind an index nothing wide comes first, or readers of SVG swallow it. */
+static void
+add_blank(qdot_text *out, bool markup)
+{
+    const bool lowered = markup && out->n > 0 && out->at[out->n - 1] == '}';
+
+    qdot_text_add(out, lowered ? "\u200b " : " ");
+}
+
 void
 qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup)
 {
@@ -216,6 +233,8 @@ qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup)
         }
         if (*c == '*')
             qdot_text_add(out, "·");
+        else if (*c == ' ')
+            add_blank(out, markup);
         else if (*c == '-')
             qdot_text_add(out, "−");
         else if (*c == '\'')

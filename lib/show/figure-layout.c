@@ -123,24 +123,33 @@ even_out(qdot_figure_view *view, const bool *fixed, int axes)
         }
 }
 
-/* gnuplot makes the longer of x and y as wide as a fixed part of the figure, and z follows however long
- * it is: so the whole is scaled until the box, as it is seen, has the size of a cube. */
+/* gnuplot makes the longer of x and y as wide as a part of what its margins leave of the lesser of
+ * width and height, and z follows however long it is. So the whole is scaled until the box, as it is
+ * seen, leaves room for numbers and labels around it, of so many letters. */
 void
-qdot_figure_see_box(const double *side, double *zoom, double *seen)
+qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zoom,
+                    double *seen)
 {
     const double degree = acos(-1) / 180, c = cos(QDOT_FIGURE_TURN * degree),
                  s = sin(QDOT_FIGURE_TURN * degree), flat = cos(QDOT_FIGURE_TILT * degree),
                  high = sin(QDOT_FIGURE_TILT * degree);
-    const double of_cube = 1.2, edge_of_cube = 0.436; /* measured: parts of the width */
-    const double unit = fmax(side[0], side[1]);
-    const double wide = (c * side[0] + s * side[1]) / unit;
-    const double tall = ((s * side[0] + c * side[1]) * flat + side[2] * high) / unit;
-    const double part = fmin((c + s) / wide, ((c + s) * flat + high) / tall);
+    const double part = 4.0 / 7, margins = 6.7, above = 6;
+    const double name = (double)qdot_figure_label_width(&room->panel->axis[1]);
+    const double beside = 12 + 1.1 * fmax(name - 2, 0); /* a label right of it, on both sides */
+    const double letter = room->points / 28.35;
+    const double longest = fmax(side[0], side[1]);
+    const double wide = (c * side[0] + s * side[1]) / longest;
+    const double tall = ((s * side[0] + c * side[1]) * flat + side[2] * high) / longest;
+    const double least = fmin(room->width, room->height);
+    const double unit = part * fmax(least - margins * letter, least / 4);
+    const double box =
+        fmin(fmax(room->width - beside * letter, room->width / 3) / wide,
+             fmax(room->height - above * letter, room->height / 3) / tall);
 
-    *zoom = of_cube * part;
-    seen[0] = edge_of_cube * part * side[0] / unit * hypot(c, s * flat);
-    seen[1] = edge_of_cube * part * side[1] / unit * hypot(s, c * flat);
-    seen[2] = edge_of_cube * part * side[2] / unit * high;
+    *zoom = box / unit;
+    seen[0] = box * side[0] / longest * hypot(c, s * flat);
+    seen[1] = box * side[1] / longest * hypot(s, c * flat);
+    seen[2] = box * side[2] / longest * high;
 }
 
 /* --- panels that share ---------------------------------------------------------------- */
@@ -278,9 +287,10 @@ qdot_figure_get_view(const qdot_figure *figure, size_t i, qdot_figure_view *view
 
         for (int k = 0; k < 3; k++)
             side[k] = view->most[k] - view->least[k];
-        qdot_figure_see_box(side, &zoom, view->length);
-        for (int k = 0; k < 3; k++)
-            view->length[k] *= width / (figure->n > 1 ? 2 : 1);
+        qdot_figure_see_box(
+            side,
+            &(qdot_figure_room){width, height / (double)figure->n, points, panel}, &zoom,
+            view->length);
         return QDOT_OK;
     }
     for (int k = 0; k < 2; k++)

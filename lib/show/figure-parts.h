@@ -41,6 +41,10 @@ void qdot_figure_add_axis(qdot_text *script, char name, const qdot_figure_axis *
 /* `set xlabel`: the label, with offset and power of ten if there are any: (E - 9.81) / 10^-12. */
 void qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis *axis,
                                 const qdot_figure_label *label);
+/* The same at the edge k of the box of a path in space, all three axes given; width: letters of the
+ * widest number there. */
+void qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axes,
+                                const qdot_figure_label *label, size_t width);
 /* What `using` has to say of a column. */
 void qdot_figure_add_column(qdot_text *script, int column, const qdot_figure_axis *axis);
 
@@ -54,9 +58,15 @@ bool qdot_figure_is_space(const qdot_panel *panel);
 bool qdot_figure_is_shared(const qdot_figure *figure, size_t i);
 /* From where a path in space is seen, in degrees, as gnuplot's `set view` takes them. */
 enum { QDOT_FIGURE_TILT = 62, QDOT_FIGURE_TURN = 32 };
-/* The box of a path in space with the sides side[3]: *zoom is what `set view` has to scale it by so that
- * it fills the figure, seen[k] is how long its edges are then, as parts of the figure's width. */
-void qdot_figure_see_box(const double *side, double *zoom, double *seen);
+/* The box of a path in space with the sides side[3] in a panel of width and height, in cm, with
+ * letters of a size in points: *zoom is what `set view` has to scale it by so that it fills the panel,
+ * seen[k] is how long its edges are then, in cm. */
+typedef struct {
+    double width, height, points;
+    const qdot_panel *panel;
+} qdot_figure_room;
+void qdot_figure_see_box(const double *side, const qdot_figure_room *room, double *zoom,
+                         double *seen);
 /* The size of the whole figure in cm, and its letters in points. */
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);

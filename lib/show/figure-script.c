@@ -22,15 +22,14 @@ static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"
                                       "#56b4e9", "#e69f00", "#000000", "#8a6d00",
                                       "#7f7f7f", "#332288", "#882255", "#6b8e23"};
 
-/* Where there are more than four curves each has a pattern, too. */
+/* Of several curves each has a pattern, too: they differ on grey paper. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
 static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2};
 
 enum {
     COLOURS = sizeof colours / sizeof *colours,
     DASHES = sizeof dashes / sizeof *dashes,
-    MARKS = sizeof marks / sizeof *marks,
-    FEW = 4
+    MARKS = sizeof marks / sizeof *marks
 };
 
 /* --- the data ----------------------------------------------------------------------- */
@@ -256,16 +255,22 @@ add_title(const qdot_figure_drawing *d, const qdot_panel *panel)
 }
 
 static void
-add_space_view(qdot_text *script, const qdot_figure_axis *axes)
+add_space_view(const qdot_figure_drawing *d, const qdot_panel *panel,
+               const qdot_figure_axis *axes)
 {
+    const qdot_figure_room room = {d->width, d->height / (double)d->figure->n, d->points,
+                                   panel};
+    qdot_text *script = d->script;
     double side[3], seen[3], zoom;
 
     for (int k = 0; k < 3; k++)
         side[k] = axes[k].most - axes[k].least;
-    qdot_figure_see_box(side, &zoom, seen);
+    qdot_figure_see_box(side, &room, &zoom, seen);
     qdot_text_format(script, "set view %d,%d,", QDOT_FIGURE_TILT, QDOT_FIGURE_TURN);
     qdot_text_double(script, zoom, 4);
-    qdot_text_add(script, "\nset view equal xyz\nset border 31\nset xyplane at ");
+    qdot_text_add(script, "\nset view equal xyz\nset border 31\n"
+                          "set xtics offset -0.6,-0.4\nset ytics offset 0.8,-0.3\n"
+                          "set xyplane at ");
     qdot_text_double(script, axes[2].least, EXACT);
     qdot_text_char(script, '\n');
 }
@@ -276,21 +281,24 @@ add_axes(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
     const qdot_panel *panel = &d->figure->panels[i];
     const bool shared = qdot_figure_is_shared(d->figure, i);
     const int n = qdot_figure_is_space(panel) ? 3 : 2;
-    size_t width = 0;
 
     for (int k = 0; k < n; k++) {
+        size_t width = 0;
         const char name = "xyz"[k];
         const bool plain = !axes[k].log && axes[k].offset_text[0] == '\0' && axes[k].power == 0;
 
         qdot_figure_add_axis(d->script, name, &axes[k], k == 0 && shared, &width);
         if (d->kind == NULL && plain && !(k == 0 && shared)) /* one can zoom a window */
             qdot_text_format(d->script, "set %ctics autofreq\n", name);
-        qdot_figure_add_axis_label(d->script, name, &axes[k],
-                                   k == 0 && shared ? &(qdot_figure_label){0}
-                                                    : &panel->axis[k]);
+        if (n == 3) /* gnuplot's own labels leave boxes with unequal sides */
+            qdot_figure_add_edge_label(d->script, k, axes, &panel->axis[k], width);
+        else
+            qdot_figure_add_axis_label(d->script, name, &axes[k],
+                                       k == 0 && shared ? &(qdot_figure_label){0}
+                                                        : &panel->axis[k]);
     }
     if (n == 3)
-        add_space_view(d->script, axes);
+        add_space_view(d, panel, axes);
 }
 
 /* The data of a curve and their columns; floor: of a path in space its shadow on the floor. */
@@ -347,7 +355,7 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         else
             qdot_text_add(d->script, " with lines");
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
-        if (panel->n > FEW && !point)
+        if (panel->n > 1 && !panel->marks && !point)
             qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);
         qdot_text_add(d->script, " title ");
         qdot_figure_add_label(d->script, &panel->curves[k].label);
@@ -397,7 +405,7 @@ has_power(const qdot_figure_label *label)
 static double
 letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
-    return has_key_beside(d, panel) ? 1 + 0.55 * (double)key_width(panel) : 1;
+    return has_key_beside(d, panel) ? 1 + 0.62 * (double)key_width(panel) : 1;
 }
 
 /* Letters left of the axes: numbers, tics, a label; the same for all panels. */
@@ -409,7 +417,7 @@ letters_left(const qdot_figure_drawing *d, double *letters)
         qdot_figure_axis axes[3];
 
         QDOT_TRY(choose_axes(d, i, axes));
-        *letters = fmax(*letters, 3.2 + 0.62 * (double)widest_number(&axes[1]) +
+        *letters = fmax(*letters, 3.2 + 0.72 * (double)widest_number(&axes[1]) +
                                       (has_power(&d->figure->panels[i].axis[1]) ? 0.6 : 0));
     }
     return QDOT_OK;
@@ -435,7 +443,7 @@ place(const qdot_figure_drawing *d, size_t i, double *high)
             top -= below;
     }
     if (qdot_figure_is_space(&f->panels[i])) { /* gnuplot fits what it shows into its part */
-        qdot_text_add(d->script, "unset margins\nset origin 0,");
+        qdot_text_add(d->script, "unset xlabel\nunset ylabel\nunset label 1\nunset margins\nset origin 0,");
         qdot_text_double(d->script, (top - free - below) / d->height, 6);
         qdot_text_add(d->script, "\nset size 1,");
         qdot_text_double(d->script, (free + above + below) / d->height, 6);
@@ -467,7 +475,9 @@ add_panel(const qdot_figure_drawing *d, size_t i)
         qdot_text_format(d->script, "set size %s\n", panel->equal ? "ratio -1" : "noratio");
     add_curves(d, i, axes);
     if (d->figure->n > 1 && qdot_figure_is_space(panel))
-        qdot_text_add(d->script, "set origin 0,0\nset size 1,1\nset border 3\n");
+        qdot_text_add(d->script, "set origin 0,0\nset size 1,1\nset border 3\n"
+                                 "set xtics offset 0,0.3\nset ytics offset 0,0\n"
+                                 "unset label 2\nunset label 3\nunset label 4\n");
     return qdot_text_status(d->script);
 }
 

@@ -1,5 +1,6 @@
 /* formula-page.c -- lines of answers as blocks of aligned equations and paragraphs. */
 #include "show/formula-page.h"
+#include "show/formulas.h"
 #include "show/scripts.h"
 
 #include <ctype.h>
@@ -560,6 +561,7 @@ qdot_page_html(const char *title, const char *answers, qdot_text *out)
                      "padding: 0 1em; }\n%s</style>\n</head>\n<body>\n",
                      qdot_page_css);
     QDOT_TRY(qdot_page_mathml(answers, out));
+    qdot_formulas_foot(out);
     qdot_text_add(out, "</body>\n</html>\n");
     return qdot_text_status(out);
 }

@@ -1,5 +1,6 @@
 /* page.c -- answers as parts of a page: headings and formulas. */
 #include "show/page.h"
+#include "show/formulas.h"
 #include "show/scripts.h"
 
 #include <ctype.h>
@@ -32,6 +33,7 @@ void
 qdot_page_end(qdot_text *out)
 {
     qdot_text_add(out, "</main>\n");
+    qdot_formulas_foot(out);
     qdot_animation_foot(out);
     qdot_text_add(out, "</body>\n</html>\n");
 }
@@ -86,7 +88,8 @@ add_formula(qdot_text *out, const char *at, size_t n)
         size_t mark = depth == 0 && operand ? divides(at) : 0;
 
         if (mark > 0) {
-            qdot_text_add(out, "</math> <math><mo form=\"infix\">");
+            /* the blank is the room before it */
+            qdot_text_add(out, "</math> <math><mo form=\"infix\" lspace=\"0\">");
             qdot_text_add_n(out, at + 4, mark - 4);
             at += mark;
             operand = false;

@@ -118,7 +118,10 @@ function Animation(section) {
     data.points.forEach((_, p) => {
       const r = where(p, k), own = data.bodies.find(b => b.point === p);
       radius = Math.max(radius, Math.hypot(...r.map((x, d) => x - centre[d])) + (own ? reach(own) : 0));
-      lowest = Math.min(lowest, r.reduce((sum, x, d) => sum + (x - centre[d]) * data.up[d], 0));
+      const below = own && space
+        ? Math.hypot(...axesOf(own, k).map((e, i) => own.half[i] * e.reduce((sum, x, d) => sum + x * data.up[d], 0)))
+        : 0;
+      lowest = Math.min(lowest, r.reduce((sum, x, d) => sum + (x - centre[d]) * data.up[d], -below));
     });
   if (!(radius > 0)) radius = 1;
   const width = Math.max(box.hi[0] - box.lo[0], radius / 5), height = Math.max(box.hi[1] - box.lo[1], radius / 5);
@@ -369,15 +372,15 @@ function Animation(section) {
   }
 
   /* The columns of its rotation. */
-  function axesOf(b) {
-    const m = b.axes.map(c => read(channels[c], frame));
+  function axesOf(b, s) {
+    const m = b.axes.map(c => read(channels[c], s));
     if (!space) return [[m[0], m[1]], [-m[1], m[0]]];
     const e1 = m.slice(0, 3), e2 = m.slice(3, 6), own = [e1, e2, cross(e1, e2)];
     return b.principal === undefined ? own
       : [0, 1, 2].map(k => [0, 1, 2].map(d => own.reduce((sum, e, j) => sum + e[d] * b.principal[3 * k + j], 0)));
   }
   function drawBody(g, b, i) {
-    const r = where(b.point, frame), axes = axesOf(b);
+    const r = where(b.point, frame), axes = axesOf(b, frame);
     g.strokeStyle = colours.rod; g.fillStyle = colours.body; g.lineWidth = 1.6;
     for (const p of b.arms || []) {
       g.lineWidth = 3; line(g, [project(where(p, frame)), project(r)]); g.stroke(); g.lineWidth = 1.6;
@@ -453,9 +456,12 @@ function Animation(section) {
     g.fillStyle = colourOf(i); g.strokeStyle = colours.paper; g.lineWidth = 1.5;
     g.beginPath(); g.arc(at[0], at[1], size, 0, 7); g.fill(); g.stroke();
     if (data.particles.length <= 12) {
-      g.fillStyle = colours.ink; g.font = "13px system-ui,sans-serif";
-      g.textAlign = "left"; g.textBaseline = "bottom";
-      g.fillText(particle.name, at[0] + size + 2, at[1] - size * 0.4);
+      g.font = "13px system-ui,sans-serif"; g.textBaseline = "bottom";
+      const inside = at[0] + size + 6 + g.measureText(particle.name).width < scene.w;
+      const x = at[0] + (inside ? 1 : -1) * (size + 2), y = Math.max(16, at[1] - size * 0.4);
+      g.textAlign = inside ? "left" : "right";
+      g.strokeStyle = colours.well; g.lineWidth = 3; g.strokeText(particle.name, x, y);
+      g.fillStyle = colours.ink; g.fillText(particle.name, x, y);
     }
   }
 
@@ -483,7 +489,7 @@ function Animation(section) {
   function axes(g, s, x, y, xName, yName) {
     const pad = v => { const d = (v.hi - v.lo) * 0.06 || Math.abs(v.hi) * 0.1 || 1; return [v.lo - d, v.hi + d]; };
     const [x0, x1] = x.exact ? [x.lo, x.hi] : pad(x), [y0, y1] = pad(y);
-    const left = 48, right = s.w - 10, top = 20, bottom = s.h - 24;
+    const left = 48, right = s.w - 10, top = 20, bottom = s.h - 36;
     const X = v => left + (v - x0) / (x1 - x0) * (right - left), Y = v => bottom - (v - y0) / (y1 - y0) * (bottom - top);
     g.font = "11px system-ui,sans-serif"; g.lineWidth = 1;
     const sx = niceStep(x1 - x0, 5), sy = niceStep(y1 - y0, 5);
@@ -500,7 +506,7 @@ function Animation(section) {
     g.strokeStyle = colours.line; g.strokeRect(left, top, right - left, bottom - top);
     g.fillStyle = colours.ink; g.font = "12px system-ui,sans-serif";
     g.textAlign = "left"; g.textBaseline = "alphabetic"; g.fillText(yName, 6, 13);
-    g.textAlign = "right"; g.fillText(xName, right, s.h - 26);
+    g.textAlign = "right"; g.fillText(xName, right, s.h - 7);
     return { X, Y, left, right, top, bottom };
   }
 
@@ -513,7 +519,9 @@ function Animation(section) {
       points.push([a.X(read(q, upTo)), a.Y(read(v, upTo))]);
       return points;
     };
-    g.strokeStyle = colours.line; g.lineWidth = 1; line(g, course(frames - 1)); g.stroke();
+    g.strokeStyle = colours.faint; g.globalAlpha = 0.4; g.lineWidth = 1;
+    line(g, course(frames - 1)); g.stroke();
+    g.globalAlpha = 1;
     g.strokeStyle = colours.c0; g.lineWidth = 1.3; line(g, course(frame)); g.stroke();
     g.fillStyle = colours.c1; g.beginPath();
     g.arc(a.X(read(q, frame)), a.Y(read(v, frame)), 4.5, 0, 7); g.fill();
@@ -525,15 +533,19 @@ function Animation(section) {
     if (!(t.hi > t.lo)) t.hi = t.lo + 1;
     const y = { lo: Math.min(...list.map(c => c.lo)), hi: Math.max(...list.map(c => c.hi)) };
     const a = axes(g, energy, t, y, "t", ""), inks = [colours.c1, colours.c0, colours.ink];
+    const dashes = [[], [5, 3], []], wide = [1.4, 1.4, 2]; /* they differ in grey too */
     list.forEach((c, i) => {
       const points = [], step = Math.max(1, Math.floor(frames / 1500));
       for (let k = 0; k < frames; k += step) points.push([a.X(timeAt(k)), a.Y(read(c, k))]);
       points.push([a.X(timeAt(frames - 1)), a.Y(read(c, frames - 1))]);
-      g.strokeStyle = g.fillStyle = inks[i % 3]; g.lineWidth = 1.5;
+      const key = a.left + i * (a.right - a.left) / 3;
+      g.strokeStyle = g.fillStyle = inks[i % 3]; g.lineWidth = wide[i % 3]; g.setLineDash(dashes[i % 3]);
       line(g, points); g.stroke();
+      line(g, [[key, 9], [key + 18, 9]]); g.stroke();
+      g.setLineDash([]);
       g.beginPath(); g.arc(a.X(timeAt(frame)), a.Y(read(c, frame)), 3.2, 0, 7); g.fill();
       g.textAlign = "left"; g.textBaseline = "alphabetic"; g.font = "12px system-ui,sans-serif";
-      g.fillText("\u2014 " + data.energies[i].name, a.left + i * (a.right - a.left) / 3, 13);
+      g.fillText(data.energies[i].name, key + 23, 13);
     });
     g.strokeStyle = colours.faint; g.lineWidth = 1;
     line(g, [[a.X(timeAt(frame)), a.top], [a.X(timeAt(frame)), a.bottom]]); g.stroke();

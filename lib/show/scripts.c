@@ -1,7 +1,8 @@
-/* scripts.c -- MathML for pages: indices and powers one above the other. */
+/* scripts.c -- MathML for pages: indices and powers one above the other, brackets, functions. */
 #include "show/scripts.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 static const char begin[] = "<msup>", end[] = "</msup>", row[] = "<mrow>",
@@ -55,21 +56,81 @@ find_raised(const char *at, const char *stop, raised *r)
     return r->after != NULL;
 }
 
+/* --- brackets and functions ------------------------------------------------------------- */
+
+static const char opening[] = "<mo>(</mo>", closing[] = "<mo>)</mo>",
+                  times[] = "<mo>&#x2062;</mo>", apply[] = "<mo>&#x2061;</mo>";
+
+/* Whether the bracket at `at` is about nothing higher than a line. */
+static bool
+is_flat(const char *at, const char *stop)
+{
+    static const char *const high[] = {"<mfrac", "<mtable", "<msqrt", "<mroot", "<munder"};
+    int depth = 0;
+
+    for (; at < stop; at++) {
+        depth += begins(at, stop, opening) ? 1 : begins(at, stop, closing) ? -1 : 0;
+        if (depth == 0)
+            return true;
+        for (size_t i = 0; i < sizeof high / sizeof *high; i++)
+            if (begins(at, stop, high[i]))
+                return false;
+    }
+    return false;
+}
+
+/* Whether a function of more than one letter is applied at `at`: sin x, sin^2 x. */
+static bool
+is_applied(const char *at, const char *stop)
+{
+    static const char power[] = "<msup><mrow><mi>", name[] = "<mi>";
+    const bool raised = begins(at, stop, power);
+    const char *end_of_name;
+
+    if (!raised && !begins(at, stop, name))
+        return false;
+    at += raised ? sizeof power - 1 : sizeof name - 1;
+    end_of_name = memchr(at, '<', (size_t)(stop - at));
+    if (end_of_name == NULL || end_of_name - at < 2 || *at < 'a' || *at > 'z')
+        return false;
+    if (!raised)
+        return begins(end_of_name, stop, "</mi><mo>&#x2061;</mo>");
+    at = behind(end_of_name, stop, begin, end);
+    return at != NULL && begins(at, stop, apply);
+}
+
 void
 qdot_page_add_mathml(qdot_text *out, const char *mathml, size_t n)
 {
     const char *at = mathml, *stop = mathml + n;
+    uint64_t flat = 0; /* of the open brackets, the innermost lowest */
     raised r;
 
     while (at < stop) {
-        if (!find_raised(at, stop, &r)) {
+        const bool opens = begins(at, stop, opening);
+
+        if (opens || begins(at, stop, closing)) {
+            if (opens)
+                flat = flat << 1 | is_flat(at, stop);
+            qdot_text_add(out, flat & 1 ? "<mo stretchy=\"false\">" : "<mo>");
+            qdot_text_add(out, opens ? "(</mo>" : ")</mo>");
+            if (!opens)
+                flat >>= 1;
+            at += sizeof opening - 1;
+        } else if (begins(at, stop, times) &&
+                   is_applied(at + sizeof times - 1, stop)) {
+            qdot_text_add(out, times);
+            qdot_text_add(out, "<mspace width=\"0.17em\"></mspace>");
+            at += sizeof times - 1;
+        } else if (find_raised(at, stop, &r)) {
+            qdot_text_add(out, "<msubsup>");
+            qdot_text_add_n(out, r.base,
+                            (size_t)(r.index - r.base) - (sizeof index_end - 1));
+            qdot_text_add_n(out, r.power, (size_t)(r.after - r.power) - (sizeof end - 1));
+            qdot_text_add(out, "</msubsup>");
+            at = r.after;
+        } else {
             qdot_text_char(out, *at++);
-            continue;
         }
-        qdot_text_add(out, "<msubsup>");
-        qdot_text_add_n(out, r.base, (size_t)(r.index - r.base) - (sizeof index_end - 1));
-        qdot_text_add_n(out, r.power, (size_t)(r.after - r.power) - (sizeof end - 1));
-        qdot_text_add(out, "</msubsup>");
-        at = r.after;
     }
 }

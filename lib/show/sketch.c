@@ -7,14 +7,23 @@
 #include "base/utf8.h"
 #include "show/figure-parts.h"
 
-enum { ACROSS = 2, DOWN = 4 };
+enum { ACROSS = 2, DOWN = 4, MARGIN = 11 };
 
 typedef struct {
     size_t columns, rows;
     unsigned char *cells; /* the dots of braille, U+2800 + cell */
+    unsigned char *looks; /* of each cell: 1 + the look of the curve drawn there last */
+    size_t look;          /* of the present curve */
+    bool solid;           /* without gaps: marks differ */
+    long last[2], along;  /* its last dot, and how many there were before */
 } grid;
 
-/* Dot (x, y), y from above. */
+/* Curves differ in dashes; in ASCII in their marks. */
+enum { LOOKS = 4, DASHES = 8 };
+static const char marks[LOOKS + 1] = "*+ox";
+static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   ", "***** * "};
+
+/* Dot (x, y), y from above, unless it falls into a gap. */
 static void
 put(grid *g, double x, double y)
 {
@@ -22,9 +31,15 @@ put(grid *g, double x, double y)
         {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     long i = lround(x), j = lround(y);
 
-    if (i >= 0 && j >= 0 && i < (long)(ACROSS * g->columns) && j < (long)(DOWN * g->rows))
-        g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |=
-            bits[j % DOWN][i % ACROSS];
+    if (i != g->last[0] || j != g->last[1])
+        g->along++;
+    g->last[0] = i;
+    g->last[1] = j;
+    if (i < 0 || j < 0 || i >= (long)(ACROSS * g->columns) || j >= (long)(DOWN * g->rows) ||
+        (!g->solid && dashes[g->look][g->along % DASHES] == ' '))
+        return;
+    g->cells[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] |= bits[j % DOWN][i % ACROSS];
+    g->looks[(size_t)j / DOWN * g->columns + (size_t)i / ACROSS] = (unsigned char)(g->look + 1);
 }
 
 /* A path in space is seen from in front, to the right and above. */
@@ -78,10 +93,10 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
 }
 
 static void
-add_cell(qdot_text *out, unsigned char dots, bool ascii)
+add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
 {
     if (ascii || dots == 0) {
-        qdot_text_char(out, dots != 0 ? '*' : ' ');
+        qdot_text_char(out, dots != 0 ? marks[look] : ' ');
         return;
     }
     qdot_text_char(out, '\xE2');
@@ -89,12 +104,37 @@ add_cell(qdot_text *out, unsigned char dots, bool ascii)
     qdot_text_char(out, (char)(0x80 + (dots & 0x3F)));
 }
 
+static void
+add_label(qdot_text *out, const qdot_figure_label *label, bool ascii)
+{
+    if (label->formula && !ascii)
+        qdot_figure_add_formula(out, label->text, false);
+    else
+        qdot_text_add(out, label->text != NULL ? label->text : "");
+}
+
+/* Which curve is which. */
+static void
+write_key(const qdot_panel *panel, bool ascii, qdot_text *out)
+{
+    static const char *const lines[LOOKS] = {"⠒⠒⠒⠒⠒⠒⠒", "⠒⠒⠂ ⠒⠒⠂", "⠂ ⠂ ⠂ ⠂", "⠒⠒⠂⠂⠒⠒⠂"};
+
+    qdot_text_format(out, "%*s", MARGIN, "");
+    for (size_t k = 0; k < panel->n; k++) {
+        if (ascii)
+            qdot_text_format(out, "%s%c ", k > 0 ? "   " : "", marks[k % LOOKS]);
+        else
+            qdot_text_format(out, "%s%s ", k > 0 ? "   " : "", lines[k % LOOKS]);
+        add_label(out, &panel->curves[k].label, ascii);
+    }
+    qdot_text_char(out, '\n');
+}
+
 /* The ends of the ordinate to the left, of the abscissa below, with what stands there. */
 static void
 write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
            qdot_text *out)
 {
-    enum { MARGIN = 11 };
     char left[32], right[32];
     qdot_text label = {0};
     long free;
@@ -112,17 +152,15 @@ write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bo
         while (n > 0 && g->cells[r * g->columns + n - 1] == 0)
             n--;
         for (size_t i = 0; i < n; i++)
-            add_cell(out, g->cells[r * g->columns + i], ascii);
+            add_cell(out, g->cells[r * g->columns + i],
+                     (size_t)fmax(g->looks[r * g->columns + i] - 1.0, 0), ascii);
         qdot_text_char(out, '\n');
     }
     if (panel->axis[2].text != NULL)
         return;
     snprintf(left, sizeof left, "%.4g", v->least[0]);
     snprintf(right, sizeof right, "%.4g", v->most[0]);
-    if (panel->axis[0].formula && !ascii)
-        qdot_figure_add_formula(&label, panel->axis[0].text, false);
-    else
-        qdot_text_add(&label, panel->axis[0].text != NULL ? panel->axis[0].text : "");
+    add_label(&label, &panel->axis[0], ascii);
     free = (long)g->columns - (long)strlen(left) - (long)strlen(right);
     if (free < (long)qdot_utf8_columns(qdot_text_str(&label), label.n))
         qdot_text_truncate(&label, 0); /* the numbers say more */
@@ -138,15 +176,23 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
                    bool ascii, qdot_text *out)
 {
     const qdot_panel *panel = &figure->panels[i];
-    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3};
+    grid g = {.columns = columns > 40 ? columns - 14 : 26, .rows = rows > 5 ? rows - 2 : 3,
+              .solid = ascii};
     qdot_figure_view view;
 
     QDOT_TRY(qdot_figure_get_view(figure, i, &view));
-    g.cells = qdot_calloc(g.columns * g.rows, 1);
+    g.cells = qdot_calloc(g.columns * g.rows, 2);
     if (g.cells == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < panel->n; k++)
+    g.looks = g.cells + g.columns * g.rows;
+    for (size_t k = 0; k < panel->n; k++) {
+        g.look = k % LOOKS;
+        g.along = 0;
+        g.last[0] = g.last[1] = -1;
         draw_curve(&g, panel, &view, &panel->curves[k]);
+    }
+    if (panel->n > 1 || figure->n > 1)
+        write_key(panel, ascii, out);
     write_grid(&g, panel, &view, ascii, out);
     qdot_free(g.cells);
     return qdot_text_status(out);

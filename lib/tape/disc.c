@@ -215,37 +215,54 @@ qdot_disc_reads(const qdot_tape *tape, bool *used)
 }
 
 static bool
-falls_off(uint32_t op)
+falls_off(uint32_t op, qdot_disc_hiding by)
 {
     return op == QDOT_OP_EXP || op == QDOT_OP_TANH || op == QDOT_OP_SINH ||
-           op == QDOT_OP_COSH || op == QDOT_OP_POW;
+           op == QDOT_OP_COSH || op == QDOT_OP_POW ||
+           (op == QDOT_OP_DIV && by == QDOT_HIDES_QUOTIENTS);
 }
 
 bool
-qdot_disc_may_hide(const qdot_tape *tape)
+qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
 {
     for (size_t k = 0; k < tape->length; k++)
-        if (falls_off(tape->code[k].op))
+        if (falls_off(tape->code[k].op, by))
             return true;
     return false;
 }
 
+/* How far the argument of an operation that falls off, or its logarithm, may go. */
+static double
+reach_of(const qdot_instruction *i, const double *value, const double *radius)
+{
+    const double a = fabs(value[i->x]), ra = radius[i->x];
+
+    switch (i->op) {
+    case QDOT_OP_POW:
+        return times(fabs(value[i->y]), ra / a) + times(fabs(log(a)), radius[i->y]);
+    case QDOT_OP_DIV: {
+        const double part = radius[i->y] / fabs(value[i->y]);
+
+        return part < 1 ? -log1p(-part) : NAN;
+    }
+    default: return ra;
+    }
+}
+
 double
-qdot_disc_reach(const qdot_tape *tape, const double *c, const double *r, double *work)
+qdot_disc_reach(const qdot_tape *tape, qdot_disc_hiding by, const double *c, const double *r,
+                double *work)
 {
     double *radius = work + tape->places, reach = 0;
 
     load(tape, c, r, work);
     for (size_t k = 0; k < tape->length; k++) {
         const qdot_instruction *i = tape->code + k;
-        const double a = fabs(work[i->x]), ra = radius[i->x];
 
-        if (falls_off(i->op)) {
-            const double by = i->op != QDOT_OP_POW ? ra
-                              : times(fabs(work[i->y]), ra / a)
-                                    + times(fabs(log(a)), radius[i->y]);
+        if (falls_off(i->op, by)) {
+            const double far = reach_of(i, work, radius);
 
-            reach = by >= 0 ? fmax(reach, by) : INFINITY;
+            reach = far >= 0 ? fmax(reach, far) : INFINITY;
         }
         step(i, work, radius);
     }

@@ -32,13 +32,18 @@ void qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, dou
 /* used [inputs]: which inputs the tape reads; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_disc_reads(const qdot_tape *tape, bool *used);
 
-/* Whether the tape has operations that fall off like an exponential: a function large somewhere
- * may be negligible at a distance, with all its derivatives. */
-bool qdot_disc_may_hide(const qdot_tape *tape);
+/* Operations by which a function that is large somewhere may be negligible at a distance. */
+typedef enum {
+    QDOT_HIDES_EXPONENTIALS, /* with all its derivatives */
+    QDOT_HIDES_QUOTIENTS     /* or because it is that much smaller there, as 1/x^2 is */
+} qdot_disc_hiding;
+
+bool qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by);
 
 /* The largest change of the arguments of these operations over the discs c, r [inputs] (of a
- * power: of its logarithm): their values may be e^reach times those in the centre. Work as above.
- *  */
-double qdot_disc_reach(const qdot_tape *tape, const double *c, const double *r, double *work);
+ * power and a quotient: of its logarithm): their values may be e^reach times those in the centre.
+ * Work as above. */
+double qdot_disc_reach(const qdot_tape *tape, qdot_disc_hiding by, const double *c,
+                       const double *r, double *work);
 
 #endif

@@ -218,6 +218,18 @@ an_ending_has_something_before_it(void **state)
     assert_false(qdot_ends_in("a.csv.txt", ".csv"));
 }
 
+static void
+a_word_stands_by_itself(void **state)
+{
+    (void)state;
+    assert_true(qdot_has_word("run T0..T1 [tol TOL]", "tol"));
+    assert_true(qdot_has_word("a|b", "b"));
+    assert_false(qdot_has_word("tolerance", "tol"));
+    assert_false(qdot_has_word("a_tol", "tol"));
+    assert_true(qdot_has_word("tolerance, tol", "tol"));
+    assert_false(qdot_has_word("", "tol"));
+}
+
 int
 main(void)
 {
@@ -232,6 +244,7 @@ main(void)
         cmocka_unit_test(json_escapes_what_it_must),
         cmocka_unit_test(a_failed_append_marks_the_string_for_good),
         cmocka_unit_test(an_ending_has_something_before_it),
+        cmocka_unit_test(a_word_stands_by_itself),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -112,7 +112,8 @@ json_is_one_object_a_line(void **state)
     say(k, "thing");
     assert_string_equal(heard(k),
                         "{\"kind\":\"error\",\"file\":\"test\",\"line\":1,\"column\":1,"
-                        "\"message\":\"unknown name `thing`\",\"hint\":null}\n");
+                        "\"message\":\"unknown name `thing`\",\"hint\":"
+                        "\"`param thing` declares a parameter, `coord thing` a coordinate\"}\n");
     assert_non_null(strstr(complaint(k), "unknown name `thing`"));
 }
 

@@ -43,6 +43,9 @@ done
 # gnuplot draws the same from the script that was left
 mv rates.svg first.svg
 gnuplot rates.gp 2>/dev/null && cmp rates.svg first.svg && echo same
+# what a logarithmic axis leaves out is told; the 0 at which a drift begins is not
+qdot -q -e 'plot x^3 vs x = -1..2 log y to "cubic.svg"'
+qdot -q -e 'plot x^2 vs x = 0..2 log y to "square.svg"'
 # figures without a name never overwrite one another
 echo 'plot x vs x = 0..1' >named.lag
 : >named-2.svg

@@ -20,7 +20,7 @@ V
 END
 for file in T.tex eom.tex eom.html derive.tex latex.tex print.tex M.tex V.tex; do
     echo "--- $file"
-    cat $file
+    sed '/^<script>/,/^<\/script>/d' $file
 done
 for file in x.svg x.pdf x.csv x.h5 x x.doc; do
     qdot -q -e "coord x; x^2 to \"$file\""

@@ -40,6 +40,46 @@ what_does_not_move_bounds_nothing(void **state)
     assert_true(qdot_near_log2(2, sizes, 16, INFINITY) == INFINITY);
 }
 
+/* b = (1 - s)^2 + w^2 */
+static void
+a_divisor_may_fall_to_an_eighth(void **state)
+{
+    const double w = 1e-6, b[] = {1 + w * w, -2, 1};
+    const double s = qdot_near_divisor(2, b, false, 5);
+
+    (void)state;
+    assert_true(qdot_near_may_fall(2, b, 5));
+    assert_true(s > 0.2 && (1 - s) * (1 - s) >= QDOT_NEAR_LEFT);
+    assert_false(qdot_near_may_fall(2, b, 0.2));
+    assert_true(qdot_near_divisor(2, b, false, INFINITY) < 1);
+}
+
+/* It may grow as it likes, and fall as long as some is left. */
+static void
+a_divisor_that_grows_bounds_little(void **state)
+{
+    const double grows[] = {1, 2, 1}, falls[] = {4, -1, 0}, still[] = {3, 0, 0};
+
+    (void)state;
+    assert_true(qdot_near_divisor(2, grows, false, 1.5) == 1.5);
+    assert_true(qdot_near_divisor(2, falls, false, 3) == 3);
+    assert_false(qdot_near_may_fall(2, still, 1e9));
+    assert_true(qdot_near_divisor(2, falls, true, 8) == 8);
+    assert_true(qdot_near_divisor(2, falls, false, 8) < 4);
+}
+
+/* 1/(1 - s) at 2, sin s at 1 */
+static void
+a_quotient_that_diverges_is_told(void **state)
+{
+    const double pole[] = {1, 1, 1, 1, 1}, sine[] = {0, 1, 0, -1.0 / 6, 0};
+
+    (void)state;
+    assert_true(qdot_near_diverges(4, pole, 2));
+    assert_false(qdot_near_diverges(4, pole, 0.5));
+    assert_false(qdot_near_diverges(4, sine, 1));
+}
+
 int
 main(void)
 {
@@ -47,6 +87,9 @@ main(void)
         cmocka_unit_test(what_is_near_may_go_by_the_order),
         cmocka_unit_test(the_sum_is_the_limit),
         cmocka_unit_test(what_does_not_move_bounds_nothing),
+        cmocka_unit_test(a_divisor_may_fall_to_an_eighth),
+        cmocka_unit_test(a_divisor_that_grows_bounds_little),
+        cmocka_unit_test(a_quotient_that_diverges_is_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -343,7 +343,11 @@ formulas_are_set(void **state)
                {"x''", "'x\u0308' enhanced"},           {"theta[2]'", "'θ\u0307₂' enhanced"},
                {"m*x'^2", "'m·x\u0307^{2}' enhanced"},  {"a.theta - 1e-9", "'a.θ − 10^{−9}' enhanced"},
                {"speed'", "\"speed′\""},          {"x^(n+1)", "'x^{n+1}' enhanced"},
-               {"A[1,2]", "'A_{1,2}' enhanced"},  {"q_1_b", "'q_{1,b}' enhanced"}};
+               {"A[1,2]", "'A_{1,2}' enhanced"},  {"q_1_b", "'q_{1,b}' enhanced"},
+               {"phi_max'", "'φ\u0307_{max}' enhanced"},
+               {"phi_b vs x", "'φ_{b}\u200b vs x' enhanced"},
+               {"x_max'^2", "'x\u0307@^{2}_{/*0.97 max}' enhanced"},
+               {"x_1^2", "'x₁^{2}' enhanced"}};
 
     (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -360,13 +364,15 @@ formulas_are_set(void **state)
 }
 
 static void
-more_than_four_curves_have_patterns(void **state)
+several_curves_have_patterns(void **state)
 {
     qdot_curve many[6];
     qdot_panel figure = two_curves();
-    char *text = script_of_panel(&figure);
+    char *text;
 
     (void)state;
+    figure.n = 1;
+    text = script_of_panel(&figure);
     assert_null(strstr(text, "dashtype"));
     free(text);
     for (int i = 0; i < 6; i++)
@@ -456,7 +462,7 @@ paths_in_space_have_three_axes(void **state)
     assert_non_null(strstr(text, "splot "));
     assert_non_null(strstr(text, "using 1:2:3"));
     assert_non_null(strstr(text, "set view equal xyz"));
-    assert_non_null(strstr(text, "set zlabel 'z'"));
+    assert_non_null(strstr(text, "set label 4 'z'"));
     free(text);
 }
 
@@ -485,6 +491,28 @@ a_sketch_shows_the_curve(void **state)
 }
 
 /* Where a label does not fit between the numbers these stand alone; no line is too long. */
+/* Two curves differ, and a line above says which is which; one alone has none. */
+static void
+curves_of_a_sketch_differ(void **state)
+{
+    const double at[] = {0, 1}, up[] = {0, 10}, down[] = {10, 0};
+    const qdot_curve curves[] = {{.label = {"theta", true}, .rows = 2, .x = at, .y = up},
+                                 {.label = {"<b>", false}, .rows = 2, .x = at, .y = down}};
+    const qdot_panel panel = {.curves = curves, .n = 2};
+    const qdot_figure figure = {.panels = &panel, .n = 1};
+    qdot_text text = {0};
+
+    (void)state;
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, true, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, "           * theta   + <b>\n"));
+    assert_non_null(strstr(text.at, "|++"));
+    assert_non_null(strstr(text.at, "|**"));
+    qdot_text_clear(&text);
+    assert_int_equal(qdot_figure_sketch(&figure, 0, 50, 7, false, &text), QDOT_OK);
+    assert_non_null(strstr(text.at, " θ   ⠒⠒⠂ ⠒⠒⠂ <b>\n"));
+    qdot_text_clear(&text);
+}
+
 static void
 a_narrow_sketch_fits(void **state)
 {
@@ -735,12 +763,13 @@ main(void)
         cmocka_unit_test(paths_of_any_shape_have_tics),
         cmocka_unit_test(values_that_differ_late_have_an_offset),
         cmocka_unit_test(formulas_are_set),
-        cmocka_unit_test(more_than_four_curves_have_patterns),
+        cmocka_unit_test(several_curves_have_patterns),
         cmocka_unit_test(a_long_key_stands_beside_the_axes),
         cmocka_unit_test(panels_share_their_abscissa),
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),
         cmocka_unit_test(a_sketch_shows_the_curve),
+        cmocka_unit_test(curves_of_a_sketch_differ),
         cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),
         cmocka_unit_test(a_missing_gnuplot_is_said_with_a_hint),

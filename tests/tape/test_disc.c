@@ -217,19 +217,23 @@ tells_how_far_arguments_of_exponentials_go(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
     qdot_tape *wave = lone(pool, QDOT_OP_SIN, false), *fall = lone(pool, QDOT_OP_EXP, false);
-    qdot_tape *power = lone(pool, QDOT_OP_POW, false);
-    const double c[3] = {2, -50, 0}, r[3] = {0.1, 0, 0};
+    qdot_tape *power = lone(pool, QDOT_OP_POW, false), *quotient = lone(pool, QDOT_OP_DIV, false);
+    const double c[3] = {2, -50, 0}, r[3] = {0.1, 0, 0}, far[3] = {0, 25, 0};
     double work[16];
 
     (void)state;
-    assert_false(qdot_disc_may_hide(wave));
-    assert_true(qdot_disc_may_hide(fall));
-    assert_true(qdot_disc_reach(wave, c, r, work) == 0);
-    assert_true(qdot_disc_reach(fall, c, r, work) == 0.1);
-    assert_float_equal(qdot_disc_reach(power, c, r, work), 2.5, 1e-12);
+    assert_false(qdot_disc_may_hide(wave, QDOT_HIDES_QUOTIENTS));
+    assert_true(qdot_disc_may_hide(fall, QDOT_HIDES_EXPONENTIALS));
+    assert_true(qdot_disc_reach(wave, QDOT_HIDES_EXPONENTIALS, c, r, work) == 0);
+    assert_true(qdot_disc_reach(fall, QDOT_HIDES_EXPONENTIALS, c, r, work) == 0.1);
+    assert_float_equal(qdot_disc_reach(power, QDOT_HIDES_EXPONENTIALS, c, r, work), 2.5, 1e-12);
+    assert_false(qdot_disc_may_hide(quotient, QDOT_HIDES_EXPONENTIALS));
+    assert_true(qdot_disc_may_hide(quotient, QDOT_HIDES_QUOTIENTS));
+    assert_float_equal(qdot_disc_reach(quotient, QDOT_HIDES_QUOTIENTS, c, far, work), M_LN2, 1e-12);
     qdot_tape_free(wave);
     qdot_tape_free(fall);
     qdot_tape_free(power);
+    qdot_tape_free(quotient);
     qdot_pool_free(pool);
 }
 

@@ -395,7 +395,8 @@ qdot_ask_show(qdot_cursor *c)
         const char *near = qdot_names_nearest(session->names, name, 0, NULL);
 
         (void)qdot_fail(QDOT_ENAME, "`%s` is not declared", name);
-        return near != NULL ? qdot_hint("did you mean `%s`?", near) : QDOT_ENAME;
+        return near != NULL ? qdot_hint("did you mean `%s`?", near)
+                            : qdot_hint("`vars` lists what is declared");
     }
     return qdot_answer_written(session, name, status, &text);
 }

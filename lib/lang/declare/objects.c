@@ -11,6 +11,7 @@
 #include "lang/commands/warnings.h"
 #include "lang/language/hints.h"
 #include "lang/language/read.h"
+#include "lang/session/labels.h"
 #include "lang/session/member.h"
 
 /* --- operands ----------------------------------------------------------------------- */
@@ -350,6 +351,7 @@ read_target(qdot_cursor *c, bool label_first, qdot_expr *coordinate, const char 
     const qdot_token *start = c->at;
     const qdot_name *known;
     const char *name, *nearest;
+    qdot_words words = {0};
     bool labelled;
 
     *coordinate = QDOT_NIL;
@@ -368,9 +370,13 @@ read_target(qdot_cursor *c, bool label_first, qdot_expr *coordinate, const char 
     }
     c->error_at = start->start;
     (void)qdot_fail(QDOT_ENAME, "there is no coordinate, particle or body `%s`", name);
-    nearest = qdot_hints_nearest(c->session, name);
+    qdot_labels_add(c->session->scene, &words);
+    nearest = qdot_names_nearest(c->session->names, name, words.n, words.at);
+    qdot_free(words.at);
     return nearest != NULL ? qdot_hint("did you mean `%s`?", nearest)
-                           : qdot_hint("declare it first");
+                           : qdot_hint("`coord %.60s` declares a coordinate, "
+                                       "`particle %.60s mass m at (x, y)` a particle",
+                                       name, name);
 }
 
 /* The body of a place that is written point(BODY, P), and nothing else; NULL: it is not. */

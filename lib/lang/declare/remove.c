@@ -103,14 +103,19 @@ nothing_is_labelled(qdot_cursor *c, const char *label)
 {
     qdot_words words = {0};
     const char *nearest;
+    qdot_status status;
 
-    qdot_labels_add(c->session->scene, &words);
     for (size_t i = 0; i < KINDS; i++)
         (void)qdot_vec_push(&words, kinds[i].word); /* a hint less without memory */
     nearest = qdot_spelling_nearest(label, words.n, words.at);
-    qdot_free(words.at);
     (void)qdot_fail(QDOT_ENAME, "nothing in the scene is labelled %s", label);
-    return nearest != NULL ? qdot_hint("did you mean `%s`?", nearest) : QDOT_ENAME;
+    words.n = 0;
+    qdot_labels_add(c->session->scene, &words);
+    qdot_labels_add_applied(c->session->scene, &words);
+    status = nearest != NULL ? qdot_hint("did you mean `%s`?", nearest)
+                             : qdot_labels_hint(label, &words);
+    qdot_free(words.at);
+    return status;
 }
 
 qdot_status

@@ -75,10 +75,17 @@ sketch(qdot_session *session, const qdot_figure *figure)
 /* --- a window, or a file -------------------------------------------------------------- */
 
 static bool
+is_set(const char *variable)
+{
+    const char *value = getenv(variable);
+
+    return value != NULL && value[0] != '\0';
+}
+
+static bool
 expects_window(const qdot_session *session)
 {
-    return has_terminal(session) &&
-           (getenv("DISPLAY") != NULL || getenv("WAYLAND_DISPLAY") != NULL);
+    return has_terminal(session) && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
 }
 
 /* *open: a window shows the figure. A window that cannot be opened is told. */

@@ -3,6 +3,7 @@
 
 #include "lang/figures/figure-file.h"
 #include "lang/figures/plot-parts.h"
+#include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 
 enum { LONGEST_LABEL = 48 };
@@ -192,6 +193,23 @@ refine(panels *all, const qdot_figure *figure, frame *f)
     return QDOT_OK;
 }
 
+/* A notice where logarithmic axes leave something out; 0 is not told, at which a drift begins. */
+static qdot_status
+tell_left_out(qdot_session *session, const qdot_figure *figure)
+{
+    for (size_t i = 0; i < figure->n; i++) {
+        const qdot_panel *p = &figure->panels[i];
+
+        for (size_t k = 0; k < p->n; k++)
+            for (size_t j = 0; j < p->curves[k].rows; j++)
+                if ((p->log[0] && p->curves[k].x[j] < 0) ||
+                    (p->log[1] && p->curves[k].y[j] < 0))
+                    return qdot_answer_notice(session, "what is below 0 has no place on a "
+                                                       "logarithmic axis: it is left out");
+    }
+    return QDOT_OK;
+}
+
 /* --- the statement ------------------------------------------------------------------ */
 
 /* The next `|` outside brackets, or the end. */
@@ -257,6 +275,8 @@ qdot_plot_statement(qdot_cursor *c)
                                     .keep = choice.keep};
 
         status = refine(&all, &figure, &f);
+        if (status == QDOT_OK)
+            status = tell_left_out(c->session, &figure);
         if (status == QDOT_OK)
             status = qdot_figure_file_show(c->session, &figure, choice.path);
     }

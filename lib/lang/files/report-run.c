@@ -97,8 +97,7 @@ add_table(const sections *s)
         qdot_text_format(s->page, "</td><td>%s</td>", r->method);
         add_cell(s->page, r->tol, false);
         add_cell(s->page, r->t1, false);
-        add_cell(s->page, (double)r->steps, false);
-        add_cell(s->page, (double)r->evals, false);
+        qdot_text_format(s->page, "<td>%zu</td><td>%zu</td>", r->steps, r->evals);
         add_cell(s->page, r->cpu, false);
         add_cell(s->page, r->error, true);
         add_cell(s->page, r->energy_drift, true);

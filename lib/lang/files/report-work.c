@@ -36,8 +36,7 @@ add_table(const qdot_workprecision *w, qdot_text *page)
         add_cell(page, r->tol);
         add_cell(page, r->err);
         add_cell(page, r->time_median);
-        add_cell(page, (double)r->evals);
-        qdot_text_add(page, "<td>");
+        qdot_text_format(page, "<td>%llu</td><td>", (unsigned long long)r->evals);
         qdot_animation_escape(page, strcmp(r->status, "done") == 0 ? "" : r->status);
         qdot_text_add(page, "</td></tr>\n");
     }

@@ -108,6 +108,17 @@ tell(qdot_cursor *c, const form *f, const qdot_match *m)
     return fits;
 }
 
+/* Whether what was taken for a name is a word of our line: `between` of `spring between a, b`. */
+static bool
+holds_word(const form *f, const qdot_match *m)
+{
+    for (size_t i = 0; i < m->n && !f->say; i++)
+        if (m->held[i].kind == 'n' && m->held[i].from->length > 1 &&
+            qdot_has_word(f->line, m->held[i].from->text))
+            return true;
+    return false;
+}
+
 qdot_status
 qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
 {
@@ -120,7 +131,7 @@ qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
     if (to - from > LONGEST)
         to = from + LONGEST;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) &&
+        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) && !holds_word(&forms[i], &m) &&
             tell(c, &forms[i], &m))
             break;
     return status;

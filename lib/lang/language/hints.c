@@ -2,6 +2,7 @@
 #include "lang/language/hints.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "lang/functions/builtin.h"
@@ -85,10 +86,68 @@ hint_dot(qdot_cursor *c, const char *name)
     return false;
 }
 
+/* --- how it is declared --------------------------------------------------------------- */
+
+enum { LONGEST_NAME = 60, MOST_ARGUMENTS = 4, CLEAR = 5 /* letters */ };
+
+/* `param NAME`, `coord NAME`: of a member a whole family up to it. */
+static qdot_status
+hint_declaration(const qdot_token *token, const char *member, bool coordinate)
+{
+    const char *name = token->text, *open = member != NULL ? strchr(member, '[') : NULL;
+    const long k = open != NULL ? strtol(open + 1, NULL, 10) : 0;
+
+    if (strlen(name) > LONGEST_NAME)
+        return QDOT_ENAME;
+    if (open != NULL && strchr(open, ',') == NULL && coordinate)
+        return qdot_hint("`coord %s[k] for k = %d..%ld` declares coordinates", name, k > 0,
+                         k > 0 ? k : 3);
+    if (open != NULL && strchr(open, ',') == NULL)
+        return qdot_hint("`param %s[k] for k = %d..%ld` declares parameters, "
+                         "`coord %s[k] for k = %d..%ld` coordinates",
+                         name, k > 0, k > 0 ? k : 3, name, k > 0, k > 0 ? k : 3);
+    if (open != NULL)
+        return qdot_hint("`%s %s` declares it", coordinate ? "coord" : "param", member);
+    if (coordinate || (qdot_token_is(token + 1, "'") && token[1].glued))
+        return qdot_hint("`coord %s` declares it", name);
+    return qdot_hint("`param %s` declares a parameter, `coord %s` a coordinate", name, name);
+}
+
+/* Arguments of the call that `open` opens; 0: they cannot be counted. */
+static size_t
+count_arguments(const qdot_token *open)
+{
+    size_t n = 1;
+    long depth = 0;
+
+    for (const qdot_token *t = open; t->kind != QDOT_TOKEN_END; t++) {
+        depth += qdot_token_bracket(t);
+        n += depth == 1 && qdot_token_is(t, ",");
+        if (depth == 0)
+            return t == open + 1 ? 0 : n;
+    }
+    return 0;
+}
+
+/* `function NAME(s, u)`, or its definition. */
+static qdot_status
+hint_function(const qdot_token *token)
+{
+    static const char *const formals[MOST_ARGUMENTS] = {"s", "s, u", "s, u, v", "s, u, v, w"};
+    static const char *const bodies[MOST_ARGUMENTS] = {"s^2", "s*u", "s*u*v", "s*u*v*w"};
+    const char *name = token->text;
+    const size_t n = count_arguments(token + 1);
+
+    if (strlen(name) > LONGEST_NAME || n < 1 || n > MOST_ARGUMENTS)
+        return QDOT_ENAME;
+    return qdot_hint("`%s(%s) = %s` would define it, `function %s(%s)` declares an undefined one",
+                     name, formals[n - 1], bodies[n - 1], name, formals[n - 1]);
+}
+
 /* --- the errors --------------------------------------------------------------------- */
 
-qdot_status
-qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
+static qdot_status
+unknown(qdot_cursor *c, const qdot_token *token, const char *member, bool coordinate)
 {
     const char *name = token->text, *nearest, *ours;
     char text[100];
@@ -110,12 +169,28 @@ qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
     if (member == NULL && (strcmp(name, "p") == 0 || strcmp(name, "Q") == 0 ||
                            strcmp(name, "delta") == 0 || strcmp(name, "lambda") == 0))
         return qdot_hint("write %s[NAME], or declare `%s`", name, name);
-    nearest = qdot_hints_nearest(c->session, member != NULL ? member : name);
+    nearest = coordinate ? qdot_names_nearest(c->session->names, member != NULL ? member : name, 0, NULL)
+                         : qdot_hints_nearest(c->session, member != NULL ? member : name);
+    if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
+        qdot_names_find(c->session->names, nearest) == NULL)
+        nearest = NULL; /* a short name alone is seldom the slip of a function's */
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
     if (member == NULL && name[0] == 'd' && name[1] != '\0' && qdot_token_is(token + 1, "^"))
         return qdot_hint("`coord %s` declares %s and its differential %s", name + 1, name + 1, name);
-    return QDOT_ENAME;
+    return hint_declaration(token, member, coordinate);
+}
+
+qdot_status
+qdot_hints_unknown(qdot_cursor *c, const qdot_token *token, const char *member)
+{
+    return unknown(c, token, member, false);
+}
+
+qdot_status
+qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member)
+{
+    return unknown(c, token, member, true);
 }
 
 qdot_status
@@ -134,7 +209,7 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
     nearest = qdot_hints_nearest(c->session, name);
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
-    return QDOT_ENAME;
+    return hint_function(token);
 }
 
 qdot_status

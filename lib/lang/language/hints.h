@@ -1,5 +1,5 @@
-/* hints.h -- hints for unknown names: the nearest name, or our form of another system's function.
- *  */
+/* hints.h -- hints for unknown names: the nearest name, our form of another system's function, or how it
+ * is declared. */
 #ifndef QDOT_LANG_HINTS_H
 #define QDOT_LANG_HINTS_H
 
@@ -8,9 +8,11 @@
 /* Whether a name without a meaning is another system's for one of our functions: `Sin`. */
 bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
 /* "unknown name `thta`", with the hint that fits: the nearest name, our form of another
- * system's. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
+ * system's, or a statement that declares it. member: the whole, "thta[2]", or NULL. QDOT_ENAME. */
 qdot_status qdot_hints_unknown(qdot_cursor *c, const qdot_token *token,
                                const char *member);
+/* The same where only a coordinate may stand. */
+qdot_status qdot_hints_unknown_coordinate(qdot_cursor *c, const qdot_token *token, const char *member);
 /* The same for a call. */
 qdot_status qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token);
 /* A function's name without its brackets: `sqrt x`, `sin^2(x)`. QDOT_ESYNTAX. */

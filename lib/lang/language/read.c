@@ -197,7 +197,7 @@ qdot_read_coordinate(qdot_cursor *c, qdot_expr *jet)
 
         c->error_at = start->start;
         if (near == NULL || strcmp(near, name) != 0)
-            return qdot_hints_unknown(c, start, name);
+            return qdot_hints_unknown_coordinate(c, start, name);
         (void)qdot_fail(QDOT_ENAME, "`%.200s` is not a coordinate", name);
         return entry != NULL && entry->kind == QDOT_NAME_PARAM
                    ? qdot_hint("set %.200s = ...", name)

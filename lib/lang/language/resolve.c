@@ -487,12 +487,21 @@ may_be_family(const qdot_session *s, const char *name)
 static qdot_status
 unknown_member(qdot_cursor *c, const qdot_token *token, const char *spelled)
 {
+    const size_t length = strlen(token->text);
+    const qdot_name *other;
+
     if (!qdot_names_is_family(c->session->names, token->text))
         return qdot_hints_unknown(c, token, spelled);
     qdot_fail(QDOT_ENAME,
               "`%.200s` is not declared, though other members of its family are",
               spelled);
-    return QDOT_ENAME;
+    for (size_t i = 0; (other = qdot_names_at(c->session->names, i)) != NULL; i++)
+        if (strncmp(other->name, token->text, length) == 0 && other->name[length] == '[')
+            break;
+    if (other == NULL || (other->kind != QDOT_NAME_PARAM && other->kind != QDOT_NAME_COORD))
+        return QDOT_ENAME;
+    return qdot_hint("`%s %.100s` declares it", other->kind == QDOT_NAME_PARAM ? "param" : "coord",
+                     spelled);
 }
 
 /* Members first: theta[1], bob[1], dtheta[1]. */

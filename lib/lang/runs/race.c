@@ -240,6 +240,7 @@ qdot_race_statement(qdot_cursor *c)
             qdot_race_clear(&race);
         }
     }
+    status = qdot_request_explain(c->session, &order, status);
     qdot_request_free(&order);
     return status;
 }

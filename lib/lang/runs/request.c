@@ -126,3 +126,80 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     o->request.exactly = session->start_exactly;
     return QDOT_OK;
 }
+
+/* --- why it failed -------------------------------------------------------------------- */
+
+/* The error of a negative mass: "the mass of p is negative: m - 2 = -1". */
+static qdot_status
+negative(qdot_session *session, const char *what, const char *name, qdot_expr e,
+         double value)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(session->pool, e, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK && qdot_expr_kind(session->pool, e) == QDOT_NUM)
+        status = qdot_fail(
+            QDOT_ESINGULAR,
+            "the mass matrix is not positive definite: the %s of %.100s is negative: "
+            "%.10g",
+            what, name, value);
+    else if (status == QDOT_OK)
+        status = qdot_fail(
+            QDOT_ESINGULAR,
+            "the mass matrix is not positive definite: the %s of %.100s is negative: "
+            "%.200s = %.10g",
+            what, name, text.at, value);
+    if (status == QDOT_ESINGULAR && qdot_expr_is_class(session->pool, e, QDOT_PARAM))
+        status = qdot_hint("set %.100s = %.10g", text.at, -value);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* QDOT_ESINGULAR if e, a scalar or the moments of a body, is negative with these values. */
+static qdot_status
+refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
+                const char *name, qdot_expr e)
+{
+    qdot_pool *pool = session->pool;
+    const bool scalar = qdot_expr_is_scalar(pool, e);
+    const uint32_t n = scalar ? 1 : qdot_expr_kind(pool, e) == QDOT_MAT ? 3 : 0;
+
+    for (uint32_t i = 0; i < n; i++) {
+        const qdot_expr one =
+            scalar ? e : qdot_expr_arg(pool, e, 4 * i); /* of the diagonal */
+        const qdot_expr bound = qdot_subs(pool, one, o->request.n_values,
+                                          o->request.symbols, o->request.values);
+        double value;
+
+        QDOT_TRY(qdot_pool_check(pool));
+        if (qdot_expr_kind(pool, bound) != QDOT_NUM)
+            continue;
+        QDOT_TRY(qdot_session_number(session, bound, &value, NULL));
+        if (value < 0)
+            return negative(session, what, name, one, value);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_request_explain(qdot_session *session, const qdot_request *o, qdot_status status)
+{
+    const qdot_scene *scene = session->scene;
+    const qdot_error error = *qdot_last_error();
+
+    if (status != QDOT_ESINGULAR)
+        return status;
+    for (size_t i = 0; i < scene->particles.n; i++)
+        QDOT_TRY(refuse_negative(session, o, "mass", scene->particles.at[i].name,
+                                 scene->particles.at[i].mass));
+    for (size_t i = 0; i < scene->bodies.n; i++) {
+        const qdot_body *body = &scene->bodies.at[i];
+
+        QDOT_TRY(refuse_negative(session, o, "mass", body->name, body->mass));
+        QDOT_TRY(
+            refuse_negative(session, o, "moment of inertia", body->name, body->inertia));
+    }
+    return qdot_fail_again(&error);
+}

@@ -17,4 +17,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
+/* The status of what was done with the request. Where the mass matrix was singular and a mass or
+ * moment of inertia is negative, the error says so: which, and the value of its parameter. Tests:
+ * tests/bad/mass-negative*.lag. */
+QDOT_MUST_CHECK qdot_status qdot_request_explain(qdot_session *session, const qdot_request *o,
+                                                 qdot_status status);
+
 #endif

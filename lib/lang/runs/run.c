@@ -262,7 +262,7 @@ qdot_run_statement(qdot_cursor *c)
         status = qdot_pool_check(c->session->pool);
     }
     if (status == QDOT_OK)
-        status = carry_out(c, &o, &request);
+        status = qdot_request_explain(c->session, &request, carry_out(c, &o, &request));
     qdot_text_clear(&o.text);
     qdot_request_free(&request);
     qdot_pairs_free(&o.with);

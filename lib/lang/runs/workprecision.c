@@ -332,6 +332,7 @@ qdot_workprecision_statement(qdot_cursor *c)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
     if (status == QDOT_OK)
         status = keep(session, &order.request, &w);
+    status = qdot_request_explain(session, &order, status);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
     return status;

@@ -2,6 +2,9 @@
 #include "lang/session/labels.h"
 
 #include "base/spelling.h"
+#include "base/text.h"
+
+enum { MOST_LISTED = 8 };
 
 static void
 add(qdot_words *list, const char *word)
@@ -23,6 +26,41 @@ qdot_labels_add(const qdot_scene *s, qdot_words *list)
         add(list, s->dampers.at[i].name);
     for (size_t i = 0; i < s->constraints.n; i++)
         add(list, s->constraints.at[i].label);
+}
+
+void
+qdot_labels_add_applied(const qdot_scene *s, qdot_words *list)
+{
+    for (size_t i = 0; i < s->gravities.n; i++)
+        add(list, s->gravities.at[i].name);
+    for (size_t i = 0; i < s->potentials.n; i++)
+        add(list, s->potentials.at[i].name);
+    for (size_t i = 0; i < s->dissipations.n; i++)
+        add(list, s->dissipations.at[i].name);
+    for (size_t i = 0; i < s->forces.n; i++)
+        add(list, s->forces.at[i].name);
+    for (size_t i = 0; i < s->torques.n; i++)
+        add(list, s->torques.at[i].name);
+    for (size_t i = 0; i < s->events.n; i++)
+        add(list, s->events.at[i].name);
+}
+
+qdot_status
+qdot_labels_hint(const char *name, const qdot_words *known)
+{
+    const char *nearest = qdot_spelling_nearest(name, known->n, known->at);
+    qdot_text text = {0};
+    qdot_status status = qdot_last_error()->status;
+
+    if (nearest != NULL)
+        return qdot_hint("did you mean `%s`?", nearest);
+    for (size_t i = 0; i < known->n && i < MOST_LISTED; i++)
+        qdot_text_format(&text, "%s`%.60s`", i > 0 ? ", " : "", known->at[i]);
+    if (text.n > 0 && !text.failed)
+        status = qdot_hint("there %s %s%s", known->n == 1 ? "is" : "are", text.at,
+                           known->n > MOST_LISTED ? ", ..." : "");
+    qdot_text_clear(&text);
+    return status;
 }
 
 qdot_status

@@ -10,8 +10,15 @@ typedef qdot_vec(const char *) qdot_words;
 /* Append the labels, borrowed from the scene; fewer where there is no memory. */
 void qdot_labels_add(const qdot_scene *scene, qdot_words *list);
 
+/* Those of what is applied, and events. */
+void qdot_labels_add_applied(const qdot_scene *scene, qdot_words *list);
+
 /* "there is no particle or body `bod`", with the nearest label. QDOT_ENAME. */
 qdot_status qdot_labels_unknown(const qdot_scene *scene, const char *what,
                                 const char *label);
+
+/* Hint at the failure that `name` is none of these: the nearest, else which there are. The status of
+ * the failure. */
+qdot_status qdot_labels_hint(const char *name, const qdot_words *known);
 
 #endif

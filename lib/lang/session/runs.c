@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/session/bind.h"
+#include "lang/session/labels.h"
 #include "lang/session/measured.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
@@ -64,6 +65,20 @@ qdot_runs_next_name(const qdot_session *session, char *name, size_t size)
     }
 }
 
+static qdot_status
+unknown_run(const qdot_session *session, const char *name)
+{
+    qdot_words words = {0};
+    qdot_status status;
+
+    for (size_t i = 0; i < session->runs.n; i++)
+        (void)qdot_vec_push(&words, session->runs.at[i].name); /* a hint less without memory */
+    (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+    status = qdot_labels_hint(name, &words);
+    qdot_free(words.at);
+    return status;
+}
+
 qdot_status
 qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
 {
@@ -79,7 +94,7 @@ qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
             *run = &session->runs.at[i];
             return QDOT_OK;
         }
-    return qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+    return unknown_run(session, name);
 }
 
 qdot_status

@@ -105,20 +105,6 @@ static const struct {
     {"%", "% | %3", "the last value; the third of the session", ""},
 };
 
-/* Whether `usage` holds the word by itself. */
-static bool
-names_word(const char *usage, const char *word)
-{
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-    size_t n = strlen(word);
-
-    for (const char *at = strstr(usage, word); at != NULL; at = strstr(at + 1, word))
-        if ((at == usage || strchr(letters, at[-1]) == NULL) &&
-            (at[n] == '\0' || strchr(letters, at[n]) == NULL))
-            return true;
-    return false;
-}
-
 /* Every statement of which the word is an option. */
 static void
 look_up_option(qdot_text *text, const char *word)
@@ -128,7 +114,7 @@ look_up_option(qdot_text *text, const char *word)
     if (word[0] < 'a' || word[0] > 'z')
         return;
     for (size_t i = 0; (row = qdot_statement_at(i)) != NULL; i++)
-        if (names_word(row->usage, word)) {
+        if (qdot_has_word(row->usage, word)) {
             explain(text, row->usage, row->summary, row->example);
             if (row->run == NULL)
                 qdot_text_add(text, "    not built yet\n");

@@ -382,7 +382,7 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
     if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->placed)
         return status;
     if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
-        qdot_last_error()->hint[0] == '\0') { /* `runn 0..10` */
+        strchr("`", qdot_last_error()->hint[0]) != NULL) { /* `runn 0..10`; none, or how to declare it */
         const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
 
         if (near != NULL)

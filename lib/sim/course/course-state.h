@@ -11,6 +11,7 @@ typedef struct {
     size_t event;
     double t;
     int way; /* 1, -1: left - right rises, falls as t grows; 0: it touches 0 */
+    double within, bend; /* of a touch, as in qdot_root */
 } qdot_occurrence;
 
 /* What ended a piece. */
@@ -26,7 +27,8 @@ typedef struct qdot_course {
     bool shaken;
     bool no_series;   /* the method does not use Taylor series */
     int early;        /* of companions, +-1: the sign in qdot_piece_make_up; 0: the run itself */
-    double touch_tol; /* an extremum within this tolerance, that of the run, touches 0 */
+    double touch_tol; /* an extremum within this tolerance touches 0: that of the run, or less if
+                         the run is more exact (sim/error/touches.h) */
     /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
      * 0: no limit */
     uint64_t looked, most_looked;

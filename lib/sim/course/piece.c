@@ -63,7 +63,8 @@ static qdot_status
 note(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    qdot_occurrence o = {w->index, root->t, x->direction > 0 ? root->way : -root->way};
+    qdot_occurrence o = {w->index, root->t, x->direction > 0 ? root->way : -root->way,
+                         root->within, root->bend};
 
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
 }
@@ -82,26 +83,38 @@ leaves_domain(qdot_piece *x)
     return NULL;
 }
 
-/* Whether the motion leaves the event that ended the piece before: if an event with `then` occurs
- * again at once, within rounding, in its own direction, the contact persists. */
+/* Whether the motion stays on the zero of event i with a `then`: it leaves it so slowly that rounding
+ * decides when, and to the side `way`, to which the event occurs. */
 static bool
-leaves_event(qdot_piece *x)
+rests_on(const qdot_piece *x, size_t i, int way)
 {
-    const int *first = qdot_watch_first(qdot_piece_watch(x));
-    const bool *slow = qdot_watch_slow(qdot_piece_watch(x));
+    const qdot_watched *w =
+        i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
 
-    for (size_t k = 0; k < x->fired.n; k++) {
-        size_t i = x->fired.at[k].function;
-        const qdot_watched *w =
-            i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
+    return w && way != 0 && x->c->stage->events.at[w->index].then && x->functions_on[i]
+           && qdot_watch_slow(qdot_piece_watch(x))[i]
+           && qdot_watch_first(qdot_piece_watch(x))[i] == way;
+}
 
-        if (w && x->c->stage->events.at[w->index].then && x->functions_on[i] && slow[i] &&
-            first[i] != 0 && first[i] == x->fired.at[k].way) {
-            x->resting = w->index;
-            return false;
+/* Whether a contact persists: an event with `then` that ended the piece before, or on which the
+ * run starts, occurs again at once. The event's way, where the run starts, is that of its
+ * statement. */
+static bool
+stays_on_event(qdot_piece *x)
+{
+    const bool begins = x->c->tr.count == 1;
+
+    for (size_t k = 0; k < x->fired.n; k++)
+        if (rests_on(x, x->fired.at[k].function, x->fired.at[k].way)) {
+            x->resting = qdot_piece_mode(x)->watched[x->fired.at[k].function].index;
+            return true;
         }
-    }
-    return true;
+    for (size_t i = 0; i < x->c->stage->events.n && begins; i++)
+        if (rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
+            x->resting = i;
+            return true;
+        }
+    return false;
 }
 
 static qdot_status
@@ -109,9 +122,9 @@ say_resting(qdot_piece *x, double t)
 {
     snprintf(
         x->c->reason, sizeof x->c->reason,
-        "stopped at t = %.15g: behind the event %.100s the motion does not leave it: "
+        "stopped at t = %.15g: %s the event %.100s the motion does not leave it: "
         "a contact that lasts is no event",
-        t, x->c->stage->events.at[x->resting].name);
+        t, x->fired.n > 0 ? "behind" : "starting on", x->c->stage->events.at[x->resting].name);
     x->t_act = t;
     x->intent = QDOT_PIECE_ENDS;
     return QDOT_OK;
@@ -142,7 +155,7 @@ leave_zero(qdot_piece *x, double t0)
             continue;
         x->intent = QDOT_PIECE_ENDS;
         x->t_act = t0;
-        QDOT_TRY(qdot_vec_push(&x->roots, ((qdot_root){i, t0, first[i], 0, true})));
+        QDOT_TRY(qdot_vec_push(&x->roots, ((qdot_root){.function = i, .t = t0, .way = first[i], .exact = true})));
     }
     return QDOT_OK;
 }
@@ -185,8 +198,10 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
         const qdot_watched *w = leaves_domain(x);
 
         if (w) {
-            qdot_root root = {(size_t)(w - qdot_piece_mode(x)->watched), t0, -w->inside,
-                              0, true};
+            qdot_root root = {.function = (size_t)(w - qdot_piece_mode(x)->watched),
+                              .t = t0,
+                              .way = -w->inside,
+                              .exact = true};
 
             x->intent = QDOT_PIECE_ENDS;
             x->t_act = t0;
@@ -195,7 +210,7 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
         QDOT_TRY(judge_sides(x));
         if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        if (!leaves_event(x))
+        if (stays_on_event(x))
             return say_resting(x, t0);
     } else {
         QDOT_TRY(leave_zero(x, t0));

@@ -11,6 +11,8 @@ typedef struct {
                         touches */
     double residual; /* |g| at the doubles on both sides of it, the larger */
     bool exact;      /* g is 0 at t */
+    /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
+    double within, bend;
 } qdot_root;
 
 typedef struct {

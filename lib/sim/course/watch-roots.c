@@ -135,20 +135,36 @@ locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
 
 /* --- its roots ----------------------------------------------------------------------- */
 
-/* Whether an extremum of value v at x is a root. */
+/* Whether an extremum of value v at x is a root; *within: as in qdot_root. */
 static qdot_status
-is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch)
+is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch,
+         double *within)
 {
+    const double rounding = 0x1p-50, by = fmax(w->tol, rounding);
     double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
     double t = qdot_watch_time(p, x);
 
+    *within = 0;
     *touch = fabs(v) <= 0x1p-48 * size;
     if (*touch || p->from_zero || fabs(v) > 1e-3 * size)
         return QDOT_OK;
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
-    QDOT_TRY(qdot_watch_noise(w, t, w->z, fmax(w->tol, 0x1p-50), 0, i, &noise));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
     *touch = fabs(v) <= noise;
+    if (*touch && fabs(v) * by > noise * rounding)
+        *within = fabs(v) / noise * by;
     return QDOT_OK;
+}
+
+/* g'' at x; d: the derivative of the part's polynomial in x. */
+static double
+bend_at(const qdot_watch_part *p, const double *d, double x)
+{
+    double second[QDOT_WATCH_NODES];
+    const double slope = 2 / (p->b - p->a);
+
+    qdot_chebyshev_derivative(p->n - 1, d, second);
+    return qdot_chebyshev_at(p->n - 2, second, x) * slope * slope;
 }
 
 /* The root of the polynomial between x0 and x1, where it is monotone. */
@@ -184,7 +200,7 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     int before = w->now.sign[i];
 
     if (before != 0 && sign != 0)
-        QDOT_TRY(qdot_watch_push(w, (qdot_root){i, p->a, before == sign ? 0 : sign, 0, true}));
+        QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i, .t = p->a, .way = before == sign ? 0 : sign, .exact = true}));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
 }
@@ -246,12 +262,15 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
         double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
         bool touch = false, found;
+        double within = 0;
 
         if (e + 1 < n && there != 0)
-            QDOT_TRY(is_touch(w, p, i, x[e], v, &touch));
+            QDOT_TRY(is_touch(w, p, i, x[e], v, &touch, &within));
         if (touch || (e + 1 < n && there == 0)) {
+            const double bend = within > 0 ? bend_at(p, d, x[e]) : 0;
+
             if (sign != 0 && !is_start_again(p, to))
-                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false}));
+                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false, within, bend}));
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {
@@ -261,8 +280,11 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
             QDOT_TRY(locate(w, i, there, ends, guess, &found));
             if (found && !is_start_again(p, ends[1].t))
                 QDOT_TRY(qdot_watch_push(
-                    w, (qdot_root){i, ends[1].t, there, fmax(fabs(ends[0].g), fabs(ends[1].g)),
-                                   ends[1].g == 0}));
+                    w, (qdot_root){.function = i,
+                                   .t = ends[1].t,
+                                   .way = there,
+                                   .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
+                                   .exact = ends[1].g == 0}));
             there = found ? there : sign;
         }
         sign = there != 0 ? there : sign;

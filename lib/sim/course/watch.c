@@ -197,9 +197,14 @@ end_on_zero(qdot_watch *w, double t)
 {
     for (size_t i = 0; i < w->m; i++)
         if (w->grazed[i])
-            QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, 0, fabs(w->now.g0[i]), true}));
+            QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                    .t = t,
+                                                    .residual = fabs(w->now.g0[i]),
+                                                    .exact = true}));
         else if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
-            QDOT_TRY(qdot_watch_push(w, (qdot_root){i, t, -w->now.sign[i], 0, true}));
+            QDOT_TRY(qdot_watch_push(
+                w, (qdot_root){
+                       .function = i, .t = t, .way = -w->now.sign[i], .exact = true}));
     return QDOT_OK;
 }
 

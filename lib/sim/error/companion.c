@@ -198,7 +198,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
-    c->touch_tol = run->report.tol;
+    c->touch_tol = run->course.touch_tol;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     for (; status == QDOT_OK; way++) {

@@ -24,11 +24,13 @@ typedef struct {
     qdot_polynomial_bounds bounds;
     size_t piece, m;
     double tol;
+    qdot_disc_hiding hiding; /* what may have been stepped over */
     double *out;    /* [m] */
     double *largest; /* [m] met so far */
     double *values; /* [m x MANY] of a part */
     double *whole;  /* [m x MANY] coefficients of the step */
-    double *beyond; /* [m] the sum of what parts show beyond them */
+    double *beyond; /* [m] the sum of what parts show beyond them, */
+    double *all;    /* [m] and of what they show */
     double a, b;    /* the step */
     double peak, t; /* the largest of that, and where */
 } search;
@@ -39,7 +41,7 @@ leave_plan(search *s)
     qdot_reader_clear(&s->reader);
     qdot_polynomial_bounds_clear(&s->bounds);
     qdot_free(s->out);
-    *s = (search){.tol = s->tol};
+    *s = (search){.tol = s->tol, .hiding = s->hiding};
 }
 
 static qdot_status
@@ -53,12 +55,13 @@ take_plan(search *s, const qdot_course *course, const qdot_plan *plan)
     QDOT_TRY(qdot_reader_init(
         &s->reader, &(qdot_reading){.plan = plan, .m = m, .tape = plan->tape}, course));
     QDOT_TRY(qdot_polynomial_bounds_init(&s->bounds, plan->tape, 2 * plan->n));
-    s->out = qdot_calloc((2 * MANY + 3) * m + 1, sizeof *s->out);
+    s->out = qdot_calloc((2 * MANY + 4) * m + 1, sizeof *s->out);
     if (!s->out)
         return QDOT_ENOMEM;
     s->largest = s->out + m;
     s->beyond = s->largest + m;
-    s->values = s->beyond + m;
+    s->all = s->beyond + m;
+    s->values = s->all + m;
     s->whole = s->values + m * MANY;
     return QDOT_OK;
 }
@@ -108,7 +111,7 @@ static void
 add_beyond(search *s, double a, double b, int nodes)
 {
     for (size_t i = 0; i < s->m; i++) {
-        double sum = 0;
+        double sum = 0, all = 0;
 
         for (int j = 0; j < nodes; j++) {
             const double t = time_at(a, b, nodes, j);
@@ -117,12 +120,14 @@ add_beyond(search *s, double a, double b, int nodes)
                                   qdot_chebyshev_at(MANY, s->whole + i * MANY, x));
 
             sum += d / nodes;
+            all += fabs(s->values[i * MANY + (size_t)j]) / nodes;
             if (d > s->peak * s->largest[i]) {
                 s->peak = d / s->largest[i];
                 s->t = t;
             }
         }
         s->beyond[i] += sum * fabs(b - a);
+        s->all[i] += all * fabs(b - a);
     }
 }
 
@@ -134,6 +139,7 @@ look_at_parts(search *s)
     bool finite;
 
     memset(s->beyond, 0, s->m * sizeof *s->beyond);
+    memset(s->all, 0, s->m * sizeof *s->all);
     s->peak = 0;
     ends[0] = s->b;
     for (int depth = 1, parts = 0; depth > 0; parts++) {
@@ -173,7 +179,7 @@ is_short(search *s, const double *from, const double *to)
     }
     bounds->centre[2 * n] = 0.5 * (s->a + s->b);
     bounds->radius[2 * n] = 0.5 * h;
-    return qdot_disc_reach(s->plan->tape, bounds->centre, bounds->radius, bounds->work) <=
+    return qdot_disc_reach(s->plan->tape, s->hiding, bounds->centre, bounds->radius, bounds->work) <=
            short_reach;
 }
 
@@ -192,12 +198,10 @@ look_at_step(search *s, bool *found)
     for (size_t i = 0; i < s->m; i++)
         qdot_chebyshev_fit(MANY, s->values + i * MANY, s->whole + i * MANY);
     QDOT_TRY(look_at_parts(s));
-    for (size_t i = 0; i < s->m; i++) {
-        const double all = s->largest[i] * fabs(s->b - s->a);
-
-        *found = *found || s->beyond[i] > fmax(fmax(tolerances * s->tol, least) * all,
-                                               floor_of_it * s->tol);
-    }
+    for (size_t i = 0; i < s->m; i++)
+        *found = *found
+                 || s->beyond[i] > fmax(fmax(tolerances * s->tol, least) * s->all[i],
+                                        floor_of_it * s->tol);
     return QDOT_OK;
 }
 
@@ -211,7 +215,7 @@ go_through(search *s, const qdot_course *course, bool *found)
         const size_t end = k + 1 < tr->pieces.n ? p[1].first : tr->count;
         const qdot_plan *plan = course->stage->modes.at[p->mode]->plan;
 
-        if (!plan->tape || !qdot_disc_may_hide(plan->tape))
+        if (!plan->tape || !qdot_disc_may_hide(plan->tape, s->hiding))
             continue;
         if (plan != s->plan)
             QDOT_TRY(take_plan(s, course, plan));
@@ -235,6 +239,7 @@ qdot_unresolved_forces_find(const qdot_course *course, bool *found, double *t)
     *found = false;
     if (!course->tr.method || course->tr.method->stiff)
         return QDOT_OK;
+    s.hiding = course->tr.method->series ? QDOT_HIDES_EXPONENTIALS : QDOT_HIDES_QUOTIENTS;
     status = go_through(&s, course, found);
     *t = s.t;
     leave_plan(&s);

@@ -2,10 +2,9 @@
  *
  * The length of a step depends on the equations at its start. A force like exp(-10^6 (t - 3)^2),
  * or that of a thin wall, is negligible there with all its derivatives: the step passes over it,
- * and so may those of a companion. Steps by series check the arguments of exponentials
- * (series/near.h); other methods do not. Only functions that fall off like an exponential can be
- * missed in this way. If there are any (tape/disc.h), and their argument may change by 10 or more
- * in a step, the outputs of the plan's tape are sampled at 16 or 64 points of the step, and discs
+ * and so may those of a companion. Steps by series check the arguments of exponentials and what
+ * is divided by (series/near.h); other methods do not. If there are such functions (tape/disc.h),
+ * and their argument may change by 10 or more in a step, or the logarithm of a divisor, the outputs of the plan's tape are sampled at 16 or 64 points of the step, and discs
  * (sim/course/polynomial-bounds.h) bound them between; if the bound is too large the step is
  * split. The difference between the parts and the polynomial of the whole step, summed up, is
  * what the step missed.
@@ -17,7 +16,7 @@
 
 #include "sim/course/course.h"
 
-/* Whether a step missed a force, by more than ten tolerances times the largest force times the
+/* Whether a step missed a force, by more than ten tolerances of the integral of its size over the
  * step, and more than a hundredth of the tolerance; *t: about where. Stiff methods are not
  * checked: their steps may pass over what has died out. Errors: QDOT_ENOMEM, QDOT_EINTR; states
  * that cannot be read are skipped. */

@@ -447,7 +447,7 @@ make(qdot_motion_series *s, bool shaken)
         .extend = extend,
         .noise = constrained ? noise : NULL,
         .ahead = constrained ? ahead : NULL,
-        .near = qdot_taylor_has_exponentials(s->at.taylor) ? near : NULL,
+        .near = qdot_taylor_may_hide(s->at.taylor) ? near : NULL,
         .user = s};
     choose_code(s);
     return QDOT_OK;

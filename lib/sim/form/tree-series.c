@@ -202,8 +202,8 @@ make(qdot_tree_series *s, bool shaken)
                                   .begin = begin,
                                   .extend = extend,
                                   .user = s};
-    if (qdot_taylor_has_exponentials(s->places.taylor) ||
-        (s->forces.taylor && qdot_taylor_has_exponentials(s->forces.taylor)))
+    if (qdot_taylor_may_hide(s->places.taylor) ||
+        (s->forces.taylor && qdot_taylor_may_hide(s->forces.taylor)))
         s->series.near = near;
     return QDOT_OK;
 }

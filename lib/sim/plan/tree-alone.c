@@ -116,7 +116,8 @@ find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double
 static bool
 may_hide(const qdot_residual *r)
 {
-    return qdot_disc_may_hide(r->places) || (r->forces && qdot_disc_may_hide(r->forces));
+    return qdot_disc_may_hide(r->places, QDOT_HIDES_EXPONENTIALS)
+           || (r->forces && qdot_disc_may_hide(r->forces, QDOT_HIDES_EXPONENTIALS));
 }
 
 static qdot_status

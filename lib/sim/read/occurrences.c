@@ -6,6 +6,7 @@
 #include "ode/companion.h"
 #include "sim/digits/digits.h"
 #include "sim/error/companion.h"
+#include "sim/error/touches.h"
 #include "sim/run/run.h"
 
 bool
@@ -96,7 +97,8 @@ time_of_partner(const by_event *own, const by_event *other, size_t event, size_t
 }
 
 static qdot_status
-compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
+compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
+                    const double *widths)
 {
     size_t events = run->stage.events.n, n = run->course.occurrences.n;
     size_t companions = !run->has_companion ? 0 : run->has_twin ? 2 : 1;
@@ -116,7 +118,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others)
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
-                                   by + DBL_EPSILON * fabs(o->t), o->way,
+                                   by + widths[i] + DBL_EPSILON * fabs(o->t), o->way,
                                    QDOT_NIL}));
     }
     qdot_free(seen);
@@ -129,14 +131,18 @@ find_errors(qdot_run *run)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
     by_event sorted[3] = {{0}};
-    qdot_status status = QDOT_OK;
+    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
+    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
 
-    if (run->course.occurrences.n > 0)
-        QDOT_TRY(qdot_run_twin(run));
+    if (run->course.occurrences.n > 0 && status == QDOT_OK)
+        status = qdot_run_twin(run);
     for (size_t i = 0; i < 3 && status == QDOT_OK; i++)
         status = sort_by_event(courses[i], run->stage.events.n, sorted + i);
+    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
+        status = qdot_touches_look(run, i, widths, NULL);
     if (status == QDOT_OK)
-        status = compare_occurrences(run, sorted, sorted + 1);
+        status = compare_occurrences(run, sorted, sorted + 1, widths);
+    qdot_free(widths);
     for (size_t i = 0; i < 3; i++) {
         qdot_free(sorted[i].first);
         qdot_free(sorted[i].at);

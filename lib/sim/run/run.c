@@ -1,6 +1,7 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
+#include "sim/run/run-start.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,9 +16,9 @@
 #include "sim/error/failure.h"
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
+#include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 #include "sim/model/parameter-states.h"
-#include "sim/start/start.h"
 #include "tape/shake.h"
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
@@ -107,114 +108,6 @@ check_tolerance(double tol)
     }
     if (tol > 1)
         return qdot_fail(QDOT_EINVAL, "the tolerance %.3g is too large: at most 1", tol);
-    return QDOT_OK;
-}
-
-/* --- the start ---------------------------------------------------------------------- */
-
-/* Refuse different limits that round to one double: the run would have no length. */
-static qdot_status
-check_length(qdot_run *run, const qdot_run_request *request)
-{
-    qdot_pool *pool = run->plan->pool;
-    double length, low;
-    int side;
-
-    QDOT_TRY(qdot_plan_number(run->plan, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
-    if (length == 0)
-        return QDOT_OK;
-    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
-              fabs(length));
-    return qdot_hint("run 0..%.15g, with times counted from there", length);
-}
-
-static qdot_status
-read_start(qdot_run *run, const qdot_run_request *request)
-{
-    size_t n = run->plan->n;
-    int side;
-
-    run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
-    run->start = qdot_calloc(2 * n, sizeof *run->start);
-    if (!run->start || !run->start_low)
-        return QDOT_ENOMEM;
-    QDOT_TRY(qdot_plan_number(run->plan, request->t0, &run->t0, &run->t0_side, &run->t0_low));
-    QDOT_TRY(qdot_plan_number(run->plan, request->t1, &run->t1, &run->t1_side, &run->t1_low));
-    if (run->t0 == run->t1 && request->t0 != request->t1)
-        QDOT_TRY(check_length(run, request));
-    for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(qdot_plan_number(run->plan, request->q0[i], &run->start[i], &side,
-                          &run->start_low[i]));
-        QDOT_TRY(qdot_plan_number(run->plan, request->v0[i], &run->start[n + i], &side,
-                          &run->start_low[n + i]));
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-check_start(qdot_run *run)
-{
-    const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
-
-    if (d) {
-        const char *name = run->plan->names[d->coordinate];
-
-        qdot_fail(QDOT_EDOMAIN, "the start %s = %.15g is outside its domain %.200s", name,
-                  run->start[d->coordinate], d->text);
-        return qdot_hint("start %s = ...", name);
-    }
-    /* the bind of the run itself: it keeps what it finds of the constraints */
-    QDOT_TRY(qdot_course_prepare(&run->course));
-    return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
-}
-
-static qdot_status
-check_springs(const qdot_run *run, const qdot_scene *scene)
-{
-    for (size_t i = 0; i < scene->springs.n; i++) {
-        const qdot_link *spring = &scene->springs.at[i];
-        qdot_expr rest = qdot_plan_substitute(run->plan, spring->rest);
-
-        QDOT_TRY(qdot_pool_check(run->plan->pool));
-        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG) {
-            (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
-                            spring->name ? "spring " : "a spring",
-                            spring->name ? spring->name : "");
-            return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
-        }
-    }
-    return QDOT_OK;
-}
-
-/* The constraints that the run found redundant, by name. */
-static qdot_status
-name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
-{
-    if (run->report.independent >= run->report.m)
-        return QDOT_OK;
-    QDOT_TRY(qdot_start_redundant(scene, run->plan, request, run->start, &run->notice));
-    if (run->notice.n > 0)
-        run->report.notice = qdot_text_str(&run->notice);
-    return QDOT_OK;
-}
-
-/* Bring the start onto the constraints. */
-static qdot_status
-settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
-             const qdot_domains *domains)
-{
-    bool anew;
-
-    if (scene->constraints.n == 0)
-        return QDOT_OK;
-    QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
-                               run->start_low, &run->notice));
-    if (request->digits > 0)
-        QDOT_TRY(qdot_digits_say_start(run, request));
-    if (run->notice.n > 0)
-        run->report.notice = qdot_text_str(&run->notice);
-    QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
-    run->plan = run->stage.modes.at[0]->plan;
     return QDOT_OK;
 }
 
@@ -586,9 +479,9 @@ find_hidden(qdot_run *run)
         return QDOT_OK;
     run->report.error = NAN;
     snprintf(text, sizeof text,
-             "a force acts about t = %.6g for less than a step, which went over it: end a run "
-             "just before, and go on from there",
-             t);
+             "a force acts about t = %.6g for less than a step, which went over it: %s", t,
+             run->plan->method->series ? "end a run just before, and go on from there"
+                                       : "method taylor looks for such places");
     return qdot_run_say_doubt(run, text);
 }
 
@@ -619,8 +512,9 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
+/* touch_tol: of the course. */
 static qdot_status
-make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **out)
+make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_run **out)
 {
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
@@ -635,17 +529,11 @@ make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **
     run->report.horizon = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
-    run->course.touch_tol = request->tol;
+    run->course.touch_tol = touch_tol;
     if (status == QDOT_OK) {
         run->plan = run->stage.modes.at[0]->plan;
-        status = read_start(run, request);
+        status = qdot_run_start(run, scene, request);
     }
-    if (status == QDOT_OK)
-        status = check_springs(run, scene);
-    if (status == QDOT_OK)
-        status = settle_start(run, scene, request, &run->stage.domains);
-    if (status == QDOT_OK)
-        status = check_start(run);
     if (status == QDOT_OK)
         status = request->digits
                      ? qdot_digits_carry_out(run, scene, request, &run->stage.domains,
@@ -660,7 +548,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **
     fill_report(run, request->tol);
     status = say_apart(run);
     if (status == QDOT_OK && !interrupted)
-        status = name_redundant(run, scene, request);
+        status = qdot_run_name_redundant(run, scene, request);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;
@@ -668,9 +556,39 @@ make(qdot_scene *scene, const qdot_run_request *asked, double clock, qdot_run **
     if (request->digits)
         qdot_digits_fill_report(run);
     run->report.interrupted = interrupted;
-    run->report.cpu_total = process_clock() - clock;
     *out = run;
     return interrupted ? QDOT_EINTR : QDOT_OK;
+}
+
+/* Lower *tol, if the run is so exact that a touch of an event is seen to be none. */
+static qdot_status
+decide_touches(qdot_run *run, double *tol)
+{
+    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
+    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
+        status = qdot_touches_look(run, i, widths, tol);
+    qdot_free(widths);
+    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+}
+
+/* Make the run, anew while a touch of an event is none. */
+static qdot_status
+make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+{
+    for (double touch_tol = asked->tol;;) {
+        const double before = touch_tol;
+
+        QDOT_TRY(make(scene, asked, touch_tol, out));
+        if (asked->digits)
+            return QDOT_OK;
+        QDOT_TRY(decide_touches(*out, &touch_tol));
+        if (touch_tol == before)
+            return QDOT_OK;
+        qdot_run_free(*out);
+        *out = NULL;
+    }
 }
 
 qdot_status
@@ -682,7 +600,9 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 
     *out = NULL;
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
-    status = make(scene, &states.request, clock, out);
+    status = make_decided(scene, &states.request, out);
+    if (*out)
+        (*out)->report.cpu_total = process_clock() - clock;
     qdot_parameter_states_clear(&states);
     return status;
 }

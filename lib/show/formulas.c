@@ -1,0 +1,14 @@
+/* formulas.c -- what a page with MathML carries for browsers without a font for it. */
+#include "show/formulas.h"
+
+static const char program[] = {
+#include "show/formulas-js.inc"
+};
+
+void
+qdot_formulas_foot(qdot_text *out)
+{
+    qdot_text_add(out, "<script>\n");
+    qdot_text_add(out, program);
+    qdot_text_add(out, "</script>\n");
+}

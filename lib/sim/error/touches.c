@@ -1,0 +1,91 @@
+/* touches.c -- an event's function at its touches, with errors. */
+#include "sim/error/touches.h"
+
+#include <math.h>
+
+#include "sim/course/reader.h"
+#include "sim/error/companion.h"
+#include "sim/error/distance.h"
+
+typedef struct {
+    qdot_reading of;
+    qdot_reader reader;
+    qdot_distance *distance; /* NULL: no error is known */
+} look;
+
+static qdot_status
+open_look(qdot_run *run, size_t event, look *l)
+{
+    const qdot_expr function = run->stage.events.at[event].function;
+
+    QDOT_TRY(qdot_reader_lower(run->plan, 1, &function, &l->of));
+    l->of.exprs = NULL;
+    QDOT_TRY(qdot_reader_init(&l->reader, &l->of, &run->course));
+    QDOT_TRY(qdot_run_twin(run));
+    return qdot_run_comparable(run) ? qdot_distance_new(run, &l->of, &l->distance) : QDOT_OK;
+}
+
+static void
+close_look(look *l)
+{
+    qdot_distance_free(l->distance);
+    qdot_reader_clear(&l->reader);
+    qdot_tape_free(l->of.tape);
+}
+
+/* g and its error at t; NaN: unknown. */
+static qdot_status
+look_at(look *l, double t, double *g, double *error)
+{
+    qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t, g);
+
+    *error = NAN;
+    if (status == QDOT_OK && l->distance)
+        status = qdot_distance_at(l->distance, t, g, error);
+    if (!qdot_reader_has_nothing(status))
+        return status;
+    *g = *error = NAN;
+    return QDOT_OK;
+}
+
+static bool
+is_doubtful(const qdot_occurrence *o, size_t event)
+{
+    return o->event == event && o->within > 0;
+}
+
+static qdot_status
+look_at_all(qdot_run *run, size_t event, look *l, double *widths, double *tol)
+{
+    for (size_t i = 0; i < run->course.occurrences.n; i++) {
+        const qdot_occurrence *o = &run->course.occurrences.at[i];
+        double g, error;
+
+        if (!is_doubtful(o, event))
+            continue;
+        QDOT_TRY(look_at(l, o->t, &g, &error));
+        widths[i] = sqrt(2 * (fabs(g) + error) / fabs(o->bend));
+        if (tol && fabs(g) > 2 * error)
+            *tol = fmin(*tol, 0.5 * o->within);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
+{
+    const size_t n = run->course.occurrences.n;
+    look l = {0};
+    qdot_status status;
+    size_t first = 0;
+
+    while (first < n && !is_doubtful(&run->course.occurrences.at[first], event))
+        first++;
+    if (first == n)
+        return QDOT_OK;
+    status = open_look(run, event, &l);
+    if (status == QDOT_OK)
+        status = look_at_all(run, event, &l, widths, tol);
+    close_look(&l);
+    return status;
+}

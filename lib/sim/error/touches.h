@@ -1,0 +1,25 @@
+/* touches.h -- whether extrema that come near an event touch it, by what the run's errors are.
+ *
+ * While a run is integrated its errors are unknown, so that an extremum v of an event's function
+ * within the tolerance counts as a touch. Most runs are far more exact. With the error e of the
+ * function there, from the companions:
+ *
+ *     |v| > 2 e     no touch: two crossings, or none; to be searched for under less tolerance
+ *     else          a touch, as far as can be told: it may stand for two crossings at
+ *                   +- sqrt(2 (|v| + e)/|g''|) beside it
+ *
+ * Tests  tests/script/grazing.lag
+ */
+#ifndef QDOT_SIM_TOUCHES_H
+#define QDOT_SIM_TOUCHES_H
+
+#include "sim/course/run-state.h"
+
+/* For each occurrence of event `event` of the run, in order, how far from it two crossings may lie
+ * that it stands for: widths [occurrences of the run], 0 for others, crossings, and touches up to
+ * rounding; NaN: unknown. If a touch is none, *tol, the run's tolerance for touches, is lowered so
+ * that the same run, made anew, tells crossings from misses; NULL: not asked for. */
+QDOT_MUST_CHECK qdot_status qdot_touches_look(qdot_run *run, size_t event, double *widths,
+                                              double *tol);
+
+#endif

@@ -1,0 +1,122 @@
+/* run-start.c -- reads the limits and the start of a run, and brings it onto the constraints. */
+#include "sim/run/run-start.h"
+
+#include <math.h>
+
+#include "sim/digits/digits.h"
+#include "sim/start/start.h"
+#include "tape/shake.h"
+
+/* Refuse different limits that round to one double: the run would have no length. */
+static qdot_status
+check_length(qdot_run *run, const qdot_run_request *request)
+{
+    qdot_pool *pool = run->plan->pool;
+    double length, low;
+    int side;
+
+    QDOT_TRY(qdot_plan_number(run->plan, qdot_sub(pool, request->t1, request->t0), &length, &side, &low));
+    if (length == 0)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "the limits are %.3g apart, but one and the same double",
+              fabs(length));
+    return qdot_hint("run 0..%.15g, with times counted from there", length);
+}
+
+static qdot_status
+read_start(qdot_run *run, const qdot_run_request *request)
+{
+    size_t n = run->plan->n;
+    int side;
+
+    run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
+    run->start = qdot_calloc(2 * n, sizeof *run->start);
+    if (!run->start || !run->start_low)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_plan_number(run->plan, request->t0, &run->t0, &run->t0_side, &run->t0_low));
+    QDOT_TRY(qdot_plan_number(run->plan, request->t1, &run->t1, &run->t1_side, &run->t1_low));
+    if (run->t0 == run->t1 && request->t0 != request->t1)
+        QDOT_TRY(check_length(run, request));
+    for (size_t i = 0; i < n; i++) {
+        QDOT_TRY(qdot_plan_number(run->plan, request->q0[i], &run->start[i], &side,
+                          &run->start_low[i]));
+        QDOT_TRY(qdot_plan_number(run->plan, request->v0[i], &run->start[n + i], &side,
+                          &run->start_low[n + i]));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+check_springs(const qdot_run *run, const qdot_scene *scene)
+{
+    for (size_t i = 0; i < scene->springs.n; i++) {
+        const qdot_link *spring = &scene->springs.at[i];
+        qdot_expr rest = qdot_plan_substitute(run->plan, spring->rest);
+
+        QDOT_TRY(qdot_pool_check(run->plan->pool));
+        if ((qdot_expr_node(run->plan->pool, rest)->sign & QDOT_NEG) == QDOT_NEG) {
+            (void)qdot_fail(QDOT_EINVAL, "the rest length of %s%.100s is negative",
+                            spring->name ? "spring " : "a spring",
+                            spring->name ? spring->name : "");
+            return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");
+        }
+    }
+    return QDOT_OK;
+}
+
+/* Bring the start onto the constraints. */
+static qdot_status
+settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
+             const qdot_domains *domains)
+{
+    bool anew;
+
+    if (scene->constraints.n == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
+                               run->start_low, &run->notice));
+    if (request->digits > 0)
+        QDOT_TRY(qdot_digits_say_start(run, request));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
+    run->plan = run->stage.modes.at[0]->plan;
+    return QDOT_OK;
+}
+
+static qdot_status
+check_start(qdot_run *run)
+{
+    const qdot_domain *d = qdot_domains_outside(&run->stage.domains, run->start);
+
+    if (d) {
+        const char *name = run->plan->names[d->coordinate];
+
+        qdot_fail(QDOT_EDOMAIN, "the start %s = %.15g is outside its domain %.200s", name,
+                  run->start[d->coordinate], d->text);
+        return qdot_hint("start %s = ...", name);
+    }
+    /* the bind of the run itself: it keeps what it finds of the constraints */
+    QDOT_TRY(qdot_course_prepare(&run->course));
+    return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
+}
+
+qdot_status
+qdot_run_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+{
+    QDOT_TRY(read_start(run, request));
+    QDOT_TRY(check_springs(run, scene));
+    QDOT_TRY(settle_start(run, scene, request, &run->stage.domains));
+    return check_start(run);
+}
+
+qdot_status
+qdot_run_name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+{
+    if (run->report.independent >= run->report.m)
+        return QDOT_OK;
+    QDOT_TRY(qdot_start_redundant(scene, run->plan, request, run->start, &run->notice));
+    if (run->notice.n > 0)
+        run->report.notice = qdot_text_str(&run->notice);
+    return QDOT_OK;
+}
