@@ -878,6 +878,7 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/export-c-motion.template \
 	lib/show/export-c.template \
 	lib/show/export-julia.template \
 	lib/show/export-matlab.template \
