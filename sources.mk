@@ -114,6 +114,7 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
@@ -408,6 +409,7 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-matrix.c \
 	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
@@ -563,6 +565,7 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -702,6 +705,7 @@ library_headers = \
 	lib/num/series-dot.def \
 	lib/num/series.def \
 	lib/num/series.h \
+	lib/num/sort.h \
 	lib/num/sparse.h \
 	lib/num/structure.h \
 	lib/num/sum.h \
@@ -816,6 +820,7 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-matrix.h \
 	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
@@ -1849,6 +1854,7 @@ test_files = \
 	tests/normal/pairs.h \
 	tests/normal/text.h \
 	tests/num/kit.h \
+	tests/ode/failing.h \
 	tests/ode/problems.h \
 	tests/sanitized.h \
 	tests/script/abbreviate.out \
@@ -2034,6 +2040,8 @@ test_files = \
 	tests/script/values.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
+	tests/series/kit.h \
+	tests/series/operations.h \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \

@@ -23,6 +23,7 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
+/* Add what a further part of a run did. */
 static inline void
 qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
 {

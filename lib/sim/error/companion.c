@@ -172,7 +172,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         qdot_progress_begin(t0, goal(run), "error of the run");
         qdot_ode_meter_begin(meter, t0, goal(run));
         status = qdot_course_run(c, by->method, &options, t0, goal(run), y);
-        if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
         if (!*has || met_the_same(run, c))
@@ -182,7 +182,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
-    return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 static qdot_status
@@ -310,7 +310,7 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
         status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, *t, y);
     qdot_trajectory_close(cursor);
     *known = status == QDOT_OK;
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 qdot_status

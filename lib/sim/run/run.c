@@ -325,7 +325,7 @@ show_states(qdot_run *run, qdot_companion *companion)
     qdot_free(y);
     qdot_trajectory_close(cursor);
     /* without them the error is that of the end alone */
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Whether nothing can divide the run into pieces. */
