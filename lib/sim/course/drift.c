@@ -121,7 +121,7 @@ measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr h, qdot_d
     const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, h));
     qdot_tape *tape = NULL;
     qdot_drift of = {.quantity = terms};
-    qdot_status status = fatal(lower(p, terms, &tape));
+    qdot_status status = qdot_grave(lower(p, terms, &tape));
 
     if (status == QDOT_OK && tape)
         status = follow(tape, tr, &of);

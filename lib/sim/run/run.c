@@ -614,7 +614,7 @@ decide_touches(qdot_run *run, double *tol)
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
         status = qdot_touches_look(run, i, widths, tol);
     qdot_free(widths);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Make the run, anew while a touch of an event is none. */
