@@ -459,6 +459,7 @@ library_sources = \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/start/nearest-search.c \
@@ -861,6 +862,7 @@ library_headers = \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \

@@ -114,23 +114,6 @@ lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
     return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 1, &e, tape);
 }
 
-/* The largest sum of the sizes of the energy's terms. */
-static qdot_status
-measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr h, qdot_drifts *d)
-{
-    const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, h));
-    qdot_tape *tape = NULL;
-    qdot_drift of = {.quantity = terms};
-    qdot_status status = qdot_grave(lower(p, terms, &tape));
-
-    if (status == QDOT_OK && tape)
-        status = follow(tape, tr, &of);
-    if (tape)
-        d->terms = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
-    qdot_tape_free(tape);
-    return status;
-}
-
 /* absent [n]: coordinates that the conserved energy does not seem to depend on; only these can be
  * cyclic. */
 static qdot_status
@@ -154,8 +137,6 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
         return qdot_grave(status);
     status = note(tape, tr, h, "energy", d);
     d->energy = d->n == 1;
-    if (status == QDOT_OK && d->energy && p->M)
-        status = measure_terms(p, tr, h, d);
     if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
     else if (status == QDOT_OK)
@@ -211,15 +192,41 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     return status;
 }
 
-/* A step errs by about a tolerance of what it moves, and errors of steps add up. */
-bool
-qdot_drifts_contradict(const qdot_drifts *d, double tol, uint64_t steps)
+/* The largest sum of the sizes of a quantity's terms; 0: not known. */
+static qdot_status
+measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
+{
+    const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, quantity));
+    qdot_tape *tape = NULL;
+    qdot_drift of = {.quantity = terms};
+    qdot_status status = qdot_grave(lower(p, terms, &tape));
+
+    *most = 0;
+    if (status == QDOT_OK && tape)
+        status = follow(tape, tr, &of);
+    if (tape)
+        *most = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
+    qdot_tape_free(tape);
+    return status;
+}
+
+qdot_status
+qdot_drifts_contradict(const qdot_drifts *d, const qdot_plan *p, const qdot_trajectory *tr,
+                       double tol, bool *contradict)
 {
     static const double most = 100;
+    const double may = most * tol * (double)tr->result.stats.steps;
+    double drift, terms;
 
-    return d->energy && d->terms > 0
-           && d->at[0].drift * fmax(1, fabs(d->at[0].start))
-                  > most * tol * (double)steps * fmax(1, d->terms);
+    *contradict = false;
+    if (!d->energy || !p->M)
+        return QDOT_OK;
+    drift = d->at[0].drift * fmax(1, fabs(d->at[0].start));
+    if (!(drift > may * fmax(1, fabs(d->at[0].start)))) /* whatever the terms are */
+        return QDOT_OK;
+    QDOT_TRY(measure_terms(p, tr, d->at[0].quantity, &terms));
+    *contradict = terms > 0 && drift > may * fmax(1, terms);
+    return QDOT_OK;
 }
 
 qdot_status

@@ -1,6 +1,7 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
+#include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 
 #include <math.h>
@@ -13,12 +14,9 @@
 #include "sim/digits/digits.h"
 #include "sim/digits/precise.h"
 #include "sim/error/companion.h"
-#include "sim/error/constraint-corners.h"
 #include "sim/error/failure.h"
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
-#include "sim/error/touches.h"
-#include "sim/error/unresolved-forces.h"
 #include "sim/model/parameter-states.h"
 #include "tape/shake.h"
 
@@ -470,65 +468,6 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* If a step missed a force, the error is unknown. */
-static qdot_status
-find_hidden(qdot_run *run)
-{
-    const qdot_error before = *qdot_last_error();
-    char text[200];
-    double t;
-
-    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &run->hidden, &t));
-    qdot_fail_again(&before);
-    if (!run->hidden)
-        return QDOT_OK;
-    run->report.error = NAN;
-    snprintf(text, sizeof text,
-             "a force acts about t = %.6g for less than a step, which went over it: %s", t,
-             run->plan->method->series ? "end a run just before, and go on from there"
-                                       : "method taylor looks for such places");
-    return qdot_run_say_doubt(run, text);
-}
-
-/* If the motion turned round in a constraint's cusp, nothing is known of it from there on. */
-static qdot_status
-find_corner(qdot_run *run)
-{
-    bool found;
-    char text[300];
-    size_t row;
-    double t;
-
-    if (run->hidden)
-        return QDOT_OK;
-    QDOT_TRY(qdot_constraint_corners_find(&run->course, &found, &t, &row));
-    if (!found)
-        return QDOT_OK;
-    run->hidden = true;
-    run->report.error = NAN;
-    snprintf(text, sizeof text,
-             "constraint %.100s has no direction about t = %.6g, a cusp of it, and what the motion is "
-             "from there is not determined",
-             run->plan->constraints->rows[row].name, t);
-    return qdot_run_say_doubt(run, text);
-}
-
-/* If the energy is not kept as the tolerance would keep it, the error is unknown, whatever the
- * companions agree on. */
-static qdot_status
-check_energy(qdot_run *run, double tol)
-{
-    const double held = fmax(tol, run->course.tr.result.stats.raised);
-
-    if (run->hidden || isnan(run->report.error)
-        || !qdot_drifts_contradict(&run->drifts, held, run->course.tr.result.stats.steps))
-        return QDOT_OK;
-    run->hidden = true;
-    run->report.error = run->report.horizon = NAN;
-    return qdot_run_say_doubt(run, "the energy, which is conserved, has not been kept: a step went "
-                                   "over a place where the equations are singular");
-}
-
 /* Integrate, then find the error and the drift of conserved quantities. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
@@ -544,15 +483,13 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     if (status == QDOT_OK)
         status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
-        status = find_hidden(run);
-    if (status == QDOT_OK && !*interrupted)
-        status = find_corner(run);
+        status = qdot_run_doubt_places(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
-        status = check_energy(run, tol);
+        status = qdot_run_doubt_energy(run, tol);
     if (status == QDOT_EINTR) {
         *interrupted = true;
         status = QDOT_OK;
@@ -608,19 +545,6 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     return interrupted ? QDOT_EINTR : QDOT_OK;
 }
 
-/* Lower *tol, if the run is so exact that a touch of an event is seen to be none. */
-static qdot_status
-decide_touches(qdot_run *run, double *tol)
-{
-    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
-    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
-        status = qdot_touches_look(run, i, widths, tol);
-    qdot_free(widths);
-    return qdot_grave(status);
-}
-
 /* Make the run, anew while a touch of an event is none. */
 static qdot_status
 make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
@@ -631,7 +555,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         QDOT_TRY(make(scene, asked, touch_tol, out));
         if (asked->digits)
             return QDOT_OK;
-        QDOT_TRY(decide_touches(*out, &touch_tol));
+        QDOT_TRY(qdot_run_decide_touches(*out, &touch_tol));
         if (touch_tol == before)
             return QDOT_OK;
         qdot_run_free(*out);
