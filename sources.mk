@@ -296,6 +296,7 @@ library_sources = \
 	lib/ode/precise.c \
 	lib/ode/run.c \
 	lib/ode/stepper.c \
+	lib/ode/stiffness.c \
 	lib/ode/taylor-length.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
@@ -720,6 +721,7 @@ library_headers = \
 	lib/ode/precise.h \
 	lib/ode/run.h \
 	lib/ode/stepper.h \
+	lib/ode/stiffness.h \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
 	lib/ode/taylor-run.h \
@@ -977,6 +979,7 @@ unit_tests = \
 	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
+	tests/ode/test_stiffness \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
@@ -1178,6 +1181,8 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/stiff-auto.lag \
+	tests/script/stiff-told.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
 	tests/script/switch-nested.lag \
@@ -2016,6 +2021,8 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/stiff-auto.out \
+	tests/script/stiff-told.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
 	tests/script/switch-nested.out \

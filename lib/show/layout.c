@@ -25,6 +25,7 @@ typedef struct {
     const qdot_layout_request *request;
     size_t width, indent;
     size_t labels; /* leading items that are names or words */
+    bool several;  /* relations outside brackets, and words: each is one of a list */
     qdot_vec(item) todo;  /* a stack */
     qdot_vec(item) items; /* in reading order */
     qdot_vec(qdot_draw_item) line;
@@ -234,6 +235,8 @@ loss(const layout *l, size_t i)
 
     if (i > 0 && role_of(l, i - 1) == QDOT_BOX_WORD)
         return ends_label(l, i - 1) ? after_label : after_word;
+    if (role == QDOT_BOX_RELATION && l->several)
+        return between_factors;
     return deeper * l->items.at[i].depth + (role == QDOT_BOX_RELATION ? 0
                                             : role == QDOT_BOX_SIGN   ? before_sign
                                                                       : between_factors);
@@ -297,6 +300,19 @@ count_labels(layout *l)
         l->labels++;
 }
 
+/* `x = 0, y = 1, stable when a > 0`: a line may end between these, seldom within one. */
+static void
+count_relations(layout *l)
+{
+    size_t relations = 0, words = 0;
+
+    for (size_t i = 0; i < l->items.n; i++) {
+        relations += l->items.at[i].depth == 0 && role_of(l, i) == QDOT_BOX_RELATION;
+        words += role_of(l, i) == QDOT_BOX_WORD;
+    }
+    l->several = relations > 1 && words > 1;
+}
+
 /* One line, items [from, end) from column x on; only counted if enough are drawn. */
 static qdot_status
 write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
@@ -346,6 +362,7 @@ qdot_layout_part(const char *mathml, const qdot_layout_request *request, qdot_te
     if (status == QDOT_OK)
         status = take_apart(&l);
     count_labels(&l);
+    count_relations(&l);
     if (status == QDOT_OK)
         status = write_lines(&l, out, size);
     qdot_boxes_clear(&l.boxes);

@@ -283,9 +283,11 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
     qdot_formula_bracket(session, true, &line);
     status = add_name(session, &s, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
-    qdot_text_add(&line, session->style == QDOT_MATHML ? "<mtext>" : "");
-    qdot_text_add(&line, qdot_text_str(values));
-    qdot_text_add(&line, session->style == QDOT_MATHML ? "</mtext>" : "");
+    if (s.laid_out)
+        qdot_sheet_words(qdot_text_str(values), values->n, &line);
+    else
+        qdot_text_format(&line, session->style == QDOT_MATHML ? "<mtext>%s</mtext>" : "%s",
+                         qdot_text_str(values));
     return end_formula(session, &s, status, &line);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/terminal.h"
 #include "base/utf8.h"
+#include "base/wrap.h"
 #include "lang/answer/formula.h"
 #include "lang/answer/write.h"
 #include "show/formula-page.h"
@@ -35,9 +36,9 @@ qdot_sheet_begin(qdot_session *session)
 
 /* --- on a terminal --------------------------------------------------------------------- */
 
-/* Text between formulas, word by word, so that a line may end behind each. */
-static void
-add_words(const char *text, size_t n, qdot_text *out)
+/* A line may end behind each word. */
+void
+qdot_sheet_words(const char *text, size_t n, qdot_text *out)
 {
     while (n > 0) {
         const size_t blanks = strspn(text, " ");
@@ -67,10 +68,10 @@ as_formula(const char *line, size_t n, qdot_text *out)
         if (open != NULL)
             close = memmem(open, (size_t)(stop - open), end, sizeof end - 1);
         if (close == NULL) {
-            add_words(line, (size_t)(stop - line), out);
+            qdot_sheet_words(line, (size_t)(stop - line), out);
             return any;
         }
-        add_words(line, (size_t)(open - line), out);
+        qdot_sheet_words(line, (size_t)(open - line), out);
         qdot_text_add_n(out, open + sizeof begin - 1,
                         (size_t)(close - open) - (sizeof begin - 1));
         line = close + sizeof end - 1;
@@ -135,6 +136,7 @@ static void
 cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 {
     const size_t shown = s->rows / 2;
+    qdot_text last = {0};
     size_t at = 0;
 
     if (s->whole || size->lines < s->rows || qdot_text_status(text) != QDOT_OK)
@@ -142,10 +144,13 @@ cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
     for (size_t i = 0; i < shown; i++)
         at += strcspn(text->at + at, "\n") + 1;
     qdot_text_truncate(text, at);
-    qdot_text_format(text, "... %zu of %zu lines", shown, size->lines);
+    qdot_text_format(&last, "... %zu of %zu lines", shown, size->lines);
     if (s->operations > 0)
-        qdot_text_format(text, ", %" PRIu64 " operations", s->operations);
-    qdot_text_add(text, "; `% to \"all.txt\"` writes all of it, `style flat` shows it\n");
+        qdot_text_format(&last, ", %" PRIu64 " operations", s->operations);
+    qdot_text_add(&last, "; `% to \"all.txt\"` writes all of it, `style flat` shows it\n");
+    qdot_wrap(qdot_text_str(&last), s->columns, text);
+    text->failed = text->failed || last.failed;
+    qdot_text_clear(&last);
 }
 
 /* --- the end --------------------------------------------------------------------------- */

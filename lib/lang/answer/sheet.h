@@ -24,6 +24,9 @@ typedef struct {
 /* From here to the end the session has the style and the marks that the lines are to be in. */
 qdot_sheet qdot_sheet_begin(qdot_session *session);
 
+/* Append text, as MathML for a sheet that is laid out, word by word. */
+void qdot_sheet_words(const char *text, size_t n, qdot_text *out);
+
 /* The lines are answered if the status is good; they are cleared. With --json as the text `name`. */
 QDOT_MUST_CHECK qdot_status qdot_sheet_end(qdot_session *session, const qdot_sheet *sheet,
                                            const char *name, qdot_status status,

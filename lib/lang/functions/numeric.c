@@ -91,7 +91,7 @@ round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *e
     if (exponent > DBL_MAX_10_EXP || exponent < LEAST_EXPONENT) {
         qdot_text_clear(&text);
         return qdot_fail(QDOT_ELIMIT, "a number near 10^%ld is not written in digits",
-                         (long)exponent);
+                         (long)exponent - 1);
     }
     *value = QDOT_NIL;
     if (qdot_text_status(&text) == QDOT_OK) {

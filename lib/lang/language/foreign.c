@@ -41,7 +41,7 @@ static bool
 holds(const qdot_match *m, extent extent, size_t at)
 {
     if (extent == PART && m->to == m->from + 1)
-        return at == m->from->start && qdot_last_error()->status == QDOT_ENAME;
+        return at == m->from->start && strncmp(qdot_last_error()->message, "unknown ", 8) == 0;
     return m->to > m->from && at >= m->from->start &&
            at <= m->to[-1].start + m->to[-1].length;
 }
@@ -112,10 +112,13 @@ tell(qdot_cursor *c, const form *f, const qdot_match *m)
 static bool
 holds_word(const form *f, const qdot_match *m)
 {
-    for (size_t i = 0; i < m->n && !f->say; i++)
-        if (m->held[i].kind == 'n' && m->held[i].from->length > 1 &&
-            qdot_has_word(f->line, m->held[i].from->text))
+    for (size_t i = 0; i < m->n && !f->say; i++) {
+        const qdot_token *name = m->held[i].from;
+
+        if (strchr("nue", m->held[i].kind) != NULL && m->held[i].to == name + 1 &&
+            name->kind == QDOT_TOKEN_NAME && name->length > 1 && qdot_has_word(f->line, name->text))
             return true;
+    }
     return false;
 }
 

@@ -140,7 +140,7 @@ hint_function(const qdot_token *token)
 
     if (strlen(name) > LONGEST_NAME || n < 1 || n > MOST_ARGUMENTS)
         return QDOT_ENAME;
-    return qdot_hint("`%s(%s) = %s` would define it, `function %s(%s)` declares an undefined one",
+    return qdot_hint("define it, as in `%s(%s) = %s`; `function %s(%s)` declares an undefined one",
                      name, formals[n - 1], bodies[n - 1], name, formals[n - 1]);
 }
 

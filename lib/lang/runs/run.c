@@ -26,6 +26,7 @@ typedef struct {
     double tol;
     long digits; /* 0: doubles */
     const char *method, *name;
+    const qdot_token *method_at;
     bool tol_given, treatment_given;
     qdot_run_treatment treatment;
     qdot_pairs with;
@@ -135,6 +136,7 @@ read_options(qdot_cursor *c, const qdot_token *start, options *o)
             QDOT_TRY(qdot_cursor_once(c, "method", o->method != NULL));
             if (c->at->kind != QDOT_TOKEN_NAME)
                 return qdot_cursor_expected(c, "the name of a method");
+            o->method_at = c->at;
             o->method = c->at++->text;
         } else if (qdot_cursor_accept_word(c, "constraints")) {
             QDOT_TRY(read_treatment(c, o));
@@ -263,6 +265,8 @@ qdot_run_statement(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = qdot_request_explain(c->session, &request, carry_out(c, &o, &request));
+    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && o.method_at != NULL)
+        c->error_at = o.method_at->start;
     qdot_text_clear(&o.text);
     qdot_request_free(&request);
     qdot_pairs_free(&o.with);

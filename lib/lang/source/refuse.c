@@ -249,6 +249,33 @@ qdot_refuse_text(const char *text, size_t open)
     return qdot_hint("write %.*s\"", (int)(to - open), text + open);
 }
 
+static bool
+is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/* `1_000`, or `_x`. */
+static qdot_status
+refuse_underscore(const char *text, size_t at)
+{
+    size_t from = at, n = 0;
+    char digits[40];
+
+    while (from > 0 && (is_digit(text[from - 1]) || text[from - 1] == '_'))
+        from--;
+    if (from == at) {
+        qdot_fail(QDOT_ESYNTAX, "a name begins with a letter");
+        return QDOT_ESYNTAX;
+    }
+    for (; (is_digit(text[from]) || text[from] == '_') && n + 1 < sizeof digits; from++)
+        if (text[from] != '_')
+            digits[n++] = text[from];
+    digits[n] = '\0';
+    qdot_fail(QDOT_ESYNTAX, "`_` is no part of a number");
+    return qdot_hint("write %s", digits);
+}
+
 qdot_status
 qdot_refuse(const char *text, size_t at)
 {
@@ -293,8 +320,7 @@ qdot_refuse(const char *text, size_t at)
         return qdot_hint("a run ends at a time, as in run 0..1000");
     }
     if (c == '_') {
-        qdot_fail(QDOT_ESYNTAX, "a name begins with a letter");
-        return QDOT_ESYNTAX;
+        return refuse_underscore(text, at);
     }
     qdot_fail(QDOT_ESYNTAX, "`%.*s` has no meaning here", (int)length, here);
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)

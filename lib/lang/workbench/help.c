@@ -215,7 +215,11 @@ qdot_help(qdot_cursor *c)
         QDOT_TRY(qdot_read_string(c, &word));
     else if (qdot_cursor_accept_op(c, "%"))
         word = "%";
-    QDOT_TRY(qdot_cursor_expect_end(c));
+    if (!qdot_cursor_is_end(c)) {
+        c->error_at = c->at->start;
+        (void)qdot_fail(QDOT_ESYNTAX, "`help` takes one word of the language");
+        return qdot_hint("help search energy");
+    }
     c->error_at = start->start;
     if (c->at == start) {
         overview(&text, width > 0 ? width : OFF_TERMINAL);

@@ -21,6 +21,8 @@
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 
+enum { FEW = 5 }; /* tokens at the begin of a statement */
+
 typedef struct {
     size_t body, close; /* tokens: the first inside, the `}` */
     size_t resume;      /* the token behind the whole */
@@ -373,16 +375,46 @@ tell_time(const engine *x, clock_t since)
     qdot_text_clear(&text);
 }
 
+/* Whether no hint is given, or how the name could be declared: a statement's word is likelier. */
+static bool
+is_bare_or_declares(const char *hint)
+{
+    return hint[0] == '\0' || hint[0] == '`' || strncmp(hint, "define it", 9) == 0;
+}
+
+/* The row of the statement [i, end), if it fails in its first tokens and nothing says how it goes on:
+ * then its example helps. */
+static const qdot_statement *
+row_with_example(const engine *x, size_t i, size_t end)
+{
+    const qdot_token *first = &x->tokens[i];
+    const qdot_error *error = qdot_last_error();
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+    const size_t few = end - i > FEW ? FEW : end - i;
+    const qdot_token *last = &x->tokens[end - 1];
+    const bool broken_off = x->error_at >= last->start + last->length;
+
+    if (row == NULL || row->alone || error->status != QDOT_ESYNTAX || error->hint[0] != '\0' ||
+        strncmp(error->message, "expected ", 9) != 0 || strchr(error->message, '"') != NULL ||
+        strstr(error->message, "or the end of the statement") != NULL ||
+        (broken_off ? end - i > FEW : x->error_at > first[few - 1].start) ||
+        is_used_as_name(x->session, first, row))
+        return NULL;
+    return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
+}
+
 /* The statement [i, end) failed: the hint of its form, if that is known. */
 static qdot_status
 lead(engine *x, size_t i, size_t end, qdot_status status)
 {
     qdot_cursor c = {.session = x->session, .source = x->source, .error_at = x->error_at};
+    const qdot_statement *example;
 
     if (x->error_at == QDOT_SCRIPT_REPORTED || x->session->placed)
         return status;
     if (status == QDOT_ENAME && x->error_at == x->tokens[i].start &&
-        strchr("`", qdot_last_error()->hint[0]) != NULL) { /* `runn 0..10`; none, or how to declare it */
+        is_bare_or_declares(qdot_last_error()->hint)) { /* `runn 0..10` */
         const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
 
         if (near != NULL)
@@ -390,6 +422,9 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
     }
     (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
     x->error_at = c.error_at;
+    example = row_with_example(x, i, end);
+    if (example != NULL)
+        (void)qdot_hint("as in %s", example->example);
     return status;
 }
 

@@ -178,10 +178,7 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
     if (qdot_mech_stated(s))
         return qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: a body beside it "
                                       "would not count");
-    if (name && qdot_scene_has_label(s, name)) {
-        qdot_fail(QDOT_ENAME, "%s is a label of the scene already", name);
-        return qdot_hint("`remove %s` takes it out", name);
-    }
+    QDOT_TRY(qdot_scene_need_new_label(s, name));
     if (mass == QDOT_NIL || inertia == QDOT_NIL || position == QDOT_NIL ||
         (plane && angle == QDOT_NIL))
         return qdot_fail(QDOT_EINVAL, "a body needs its mass, inertia, position and %s",

@@ -190,10 +190,7 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
     if (!((qdot_mech_holds(s, left) | qdot_mech_holds(s, right)) &
           (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)))
         return without_coordinates();
-    if (label && qdot_scene_has_label(s, label)) {
-        qdot_fail(QDOT_ENAME, "%s is a label of the scene already", label);
-        return qdot_hint("`remove %s` takes it out", label);
-    }
+    QDOT_TRY(qdot_scene_need_new_label(s, label));
     if (!label) {
         snprintf(number, sizeof number, "%zu", next_number(s));
         stem = number;

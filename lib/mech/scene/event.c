@@ -73,8 +73,7 @@ qdot_scene_event(qdot_scene *s, const qdot_event *event)
 {
     qdot_event own = *event;
 
-    if (qdot_scene_has_label(s, event->name))
-        return qdot_fail(QDOT_ENAME, "%.100s is a label of the scene already", event->name);
+    QDOT_TRY(qdot_scene_need_new_label(s, event->name));
     QDOT_TRY(check(s, event));
     QDOT_TRY(qdot_scene_copy_text(s, event->name, &own.name));
     QDOT_TRY(copy(s, own.targets.n, &own.targets.at));

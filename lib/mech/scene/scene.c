@@ -140,8 +140,8 @@ need_vector(qdot_scene *s, qdot_expr e, const char *what, uint32_t forbidden)
     return need_free_of(s, e, what, forbidden);
 }
 
-static qdot_status
-need_new_label(const qdot_scene *s, const char *name)
+qdot_status
+qdot_scene_need_new_label(const qdot_scene *s, const char *name)
 {
     if (name && qdot_scene_has_label(s, name)) {
         qdot_fail(QDOT_ENAME, "%s is a label of the scene already", name);
@@ -206,7 +206,7 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
 
     qdot_scene_forget_dropped(s);
     QDOT_TRY(need_no_lagrangian(s, "a particle"));
-    QDOT_TRY(need_new_label(s, name));
+    QDOT_TRY(qdot_scene_need_new_label(s, name));
     QDOT_TRY(need_mass(s, mass));
     QDOT_TRY(need_vector(s, position, "a position", NO_VELOCITY));
     QDOT_TRY(qdot_scene_copy_text(s, name, &p.name));
@@ -247,7 +247,7 @@ qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr
     qdot_status status;
 
     qdot_scene_forget_dropped(s);
-    QDOT_TRY(need_new_label(s, name));
+    QDOT_TRY(qdot_scene_need_new_label(s, name));
     QDOT_TRY(need_term(s, kind, e));
     if (kind == QDOT_GRAVITY && !name)
         before = plain_gravity(s);
@@ -289,7 +289,7 @@ add_link(qdot_scene *s, const qdot_link *link, bool damper)
     qdot_expr u, u2;
     qdot_status status;
 
-    QDOT_TRY(need_new_label(s, link->name));
+    QDOT_TRY(qdot_scene_need_new_label(s, link->name));
     for (int k = 0; k < 2; k++)
         QDOT_TRY(need_vector(s, link->at[k], what, NO_VELOCITY));
     if (qdot_mech_dimension(s->pool, link->at[0]) !=
@@ -342,7 +342,7 @@ qdot_scene_force(qdot_scene *s, const qdot_force *force)
     qdot_force copy = *force;
 
     qdot_scene_forget_dropped(s);
-    QDOT_TRY(need_new_label(s, force->name));
+    QDOT_TRY(qdot_scene_need_new_label(s, force->name));
     QDOT_TRY(need_known_friction(s, force->force, "a force"));
     QDOT_TRY(need_vector(s, force->force, "a force", NO_ACCELERATION));
     QDOT_TRY(need_vector(s, force->point, "the point of a force", NO_VELOCITY));
@@ -365,7 +365,7 @@ qdot_scene_torque(qdot_scene *s, const qdot_torque *torque)
     qdot_torque copy = *torque;
 
     qdot_scene_forget_dropped(s);
-    QDOT_TRY(need_new_label(s, torque->name));
+    QDOT_TRY(qdot_scene_need_new_label(s, torque->name));
     QDOT_TRY(qdot_pool_check(s->pool));
     if (torque->coordinate != QDOT_NIL) {
         size_t i;

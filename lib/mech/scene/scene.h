@@ -88,6 +88,8 @@ QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qd
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);
 const qdot_body *qdot_scene_find_body(const qdot_scene *s, const char *label);
 bool qdot_scene_has_label(const qdot_scene *s, const char *label);
+/* QDOT_ENAME where it has; label NULL: none is wanted. */
+QDOT_MUST_CHECK qdot_status qdot_scene_need_new_label(const qdot_scene *s, const char *label);
 /* Position of a particle or body; nil and QDOT_ENAME if there is none. */
 qdot_expr qdot_scene_position(const qdot_scene *s, const char *label);
 /* point(body, P): position of the body-fixed P; for a particle P must be absent. spin(body):

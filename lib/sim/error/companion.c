@@ -144,7 +144,8 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
-                                .meter = meter};
+                                .meter = meter,
+                                .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
     qdot_ode_system system;
@@ -210,7 +211,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
         begin_anew(c);
         *has = false;
         status = follow_so(run, number, &by, meter, c, has);
-        if (!qdot_companion_leads_nowhere(method, way,
+        if (!qdot_companion_leads_nowhere(method,
                                           !*has || c->tr.result.outcome == QDOT_ODE_FAILED, meter))
             break;
         spent += meter->work;
