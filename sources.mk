@@ -114,6 +114,7 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
@@ -296,6 +297,7 @@ library_sources = \
 	lib/ode/precise.c \
 	lib/ode/run.c \
 	lib/ode/stepper.c \
+	lib/ode/stiffness.c \
 	lib/ode/taylor-length.c \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
@@ -407,6 +409,7 @@ library_sources = \
 	lib/sim/form/guarded.c \
 	lib/sim/form/leading.c \
 	lib/sim/form/momentum-rows.c \
+	lib/sim/form/motion-matrix.c \
 	lib/sim/form/motion-of-constraints.c \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
@@ -562,6 +565,7 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -701,6 +705,7 @@ library_headers = \
 	lib/num/series-dot.def \
 	lib/num/series.def \
 	lib/num/series.h \
+	lib/num/sort.h \
 	lib/num/sparse.h \
 	lib/num/structure.h \
 	lib/num/sum.h \
@@ -720,6 +725,7 @@ library_headers = \
 	lib/ode/precise.h \
 	lib/ode/run.h \
 	lib/ode/stepper.h \
+	lib/ode/stiffness.h \
 	lib/ode/system.h \
 	lib/ode/taylor-numbers.h \
 	lib/ode/taylor-run.h \
@@ -814,6 +820,7 @@ library_headers = \
 	lib/sim/form/guarded.h \
 	lib/sim/form/leading.h \
 	lib/sim/form/momentum-rows.h \
+	lib/sim/form/motion-matrix.h \
 	lib/sim/form/motion-of-constraints.h \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
@@ -978,6 +985,7 @@ unit_tests = \
 	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
+	tests/ode/test_stiffness \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
@@ -1179,6 +1187,8 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/stiff-auto.lag \
+	tests/script/stiff-told.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
 	tests/script/switch-nested.lag \
@@ -1846,6 +1856,7 @@ test_files = \
 	tests/normal/pairs.h \
 	tests/normal/text.h \
 	tests/num/kit.h \
+	tests/ode/failing.h \
 	tests/ode/problems.h \
 	tests/sanitized.h \
 	tests/script/abbreviate.out \
@@ -2017,6 +2028,8 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/stiff-auto.out \
+	tests/script/stiff-told.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
 	tests/script/switch-nested.out \
@@ -2030,6 +2043,8 @@ test_files = \
 	tests/script/values.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
+	tests/series/kit.h \
+	tests/series/operations.h \
 	tests/sim/ensembles.h \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \

@@ -196,6 +196,7 @@ run_by(follower *f, const qdot_companion_plan *by, double t1)
                                 .leading = c->leading,
                                 .end_low = c->leading ? f->now : NULL,
                                 .meter = c->meter ? &f->meter : NULL,
+                                .stiff_work = INFINITY, /* the meter bounds it */
                                 .apart = true};
     double t = f->t0;
     qdot_ode_stats spent = f->result.stats;
@@ -224,10 +225,10 @@ run_by(follower *f, const qdot_companion_plan *by, double t1)
 }
 
 bool
-qdot_companion_leads_nowhere(const qdot_ode_method *method, qdot_companion_way way, bool failed,
+qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
                              const qdot_ode_meter *meter)
 {
-    if (method->stiff && way == QDOT_COMPANION_SERIES)
+    if (method->stiff) /* whose work may be in a moment, as where a relaxation jumps */
         return failed || meter->over;
     return meter->over && !qdot_ode_meter_is_stuck(meter);
 }
@@ -247,7 +248,7 @@ run_ways(follower *f, double t1)
         f->tol = by.tol;
         run_by(f, &by, t1);
         if (f->result.outcome != QDOT_ODE_FAILED
-            || !qdot_companion_leads_nowhere(c->run, f->way, true, &f->meter))
+            || !qdot_companion_leads_nowhere(c->run, true, &f->meter))
             return;
         (void)qdot_ode_meter_exceeds(&f->meter, &work);
         f->spent += work;
@@ -473,7 +474,7 @@ arrive(follower *f, bool whole, double t_end, qdot_companion_estimate *out)
     if (!whole || !f->finished)
         run_to(f, t1);
     judge(f, t1);
-    if (f->number == 0)
+    if (f->number == 0 || out->result.outcome == QDOT_ODE_DONE)
         out->result = f->result;
     out->tol = fmax(out->tol, f->tol);
     if (f->way > out->way)

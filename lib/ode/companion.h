@@ -162,9 +162,9 @@ void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
                           qdot_companion_way way, double spent);
 
 /* Whether another way is worth trying, after one that `failed` or was found to cost too much: a
- * stiff method may spare what stops series; else not where the companion came to stand still, for
- * it may have met what the run has stepped over. */
-bool qdot_companion_leads_nowhere(const qdot_ode_method *method, qdot_companion_way way, bool failed,
+ * stiff method may spare what stops series, and go where a tight tolerance finds no step; else not
+ * where the companion came to stand still, for it may have met what the run has stepped over. */
+bool qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
                                   const qdot_ode_meter *meter);
 
 /* Tell the companions the number of steps of the run. */

@@ -23,6 +23,7 @@ typedef struct {
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
+/* Add what a further part of a run did. */
 static inline void
 qdot_ode_stats_add(qdot_ode_stats *sum, const qdot_ode_stats *more)
 {
@@ -54,6 +55,8 @@ typedef struct {
     uint64_t max_steps; /* tried; default 50 million */
     qdot_ode_meter *meter; /* to which each step adds its work, and which may end the run (meter.h);
                               borrowed */
+    double stiff_work; /* by explicit methods: the run ends if stability bounds its steps and so much
+                          work is left (stiffness.h); default 5e9 */
     /* Called after every accepted step, not for the initial state. Set *stop to end the run
      * here. QDOT_EDOMAIN: the step is rejected and smaller ones are tried, as if f were
      * undefined; any other failure rejects the step and ends the run. */
@@ -91,6 +94,7 @@ typedef enum {
 typedef struct {
     qdot_ode_outcome outcome;
     double t; /* time of the state; t1 exactly when done */
+    bool stiff; /* it failed because stability bounds its steps (stiffness.h) */
     qdot_ode_stats stats;
     char reason[512]; /* of a failure; else "" */
 } qdot_ode_result;

@@ -7,6 +7,7 @@
 #include "num/series.h"
 #include "ode/crawl.h"
 #include "ode/run.h"
+#include "ode/stiffness.h"
 #include "ode/written.h"
 
 typedef struct {
@@ -49,6 +50,7 @@ typedef struct {
     qdot_error undefined;      /* what f said last */
     double undefined_at;       /* the end of the step that met it; NaN before any */
     qdot_ode_crawl crawl;
+    qdot_ode_stiffness stiffness;
 } qdot_ode_taylor_run;
 
 static inline void

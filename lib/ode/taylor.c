@@ -428,6 +428,20 @@ count_work(run *r)
 }
 
 static qdot_status
+look_for_stiffness(run *r)
+{
+    const qdot_ode_stiff_step at = {.n = r->n,
+                                    .t = r->t,
+                                    .t1 = r->t1,
+                                    .y = r->y,
+                                    .noise = 4 * exp2(r->log_wanted) + 8 * DBL_EPSILON,
+                                    .work = r->work,
+                                    .most = r->max_steps};
+
+    return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
+}
+
+static qdot_status
 loop(run *r)
 {
     qdot_status status;
@@ -451,6 +465,7 @@ loop(run *r)
             QDOT_TRY(count_work(r));
         qdot_progress_at(r->t);
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
+        QDOT_TRY(look_for_stiffness(r));
     }
     return QDOT_OK;
 }
@@ -540,6 +555,7 @@ release(run *r)
     for (size_t i = 0; i < ARRAYS; i++)
         qdot_free(*arrays[i]);
     qdot_free(r->confirmed);
+    qdot_ode_stiffness_clear(&r->stiffness);
 }
 
 qdot_status

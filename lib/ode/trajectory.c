@@ -573,8 +573,7 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
 {
     const qdot_trajectory *tr = c->tr;
     size_t low = tr->pieces.at[piece].first;
-    size_t last = (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count)
-                  - 1;
+    const size_t last = qdot_trajectory_last_of(tr, piece);
 
     if (!c->tracks)
         QDOT_TRY(enter(c, piece));
@@ -638,4 +637,17 @@ qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k)
             high = middle;
     }
     return low;
+}
+
+size_t
+qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece)
+{
+    return (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count) - 1;
+}
+
+void
+qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high)
+{
+    *low = fmax(*low, fmin(tr->t[0], tr->t[tr->count - 1]));
+    *high = fmin(*high, fmax(tr->t[0], tr->t[tr->count - 1]));
 }

@@ -134,6 +134,19 @@ void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 /* The piece that stored point k belongs to. */
 size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
 
+/* The last point of a piece. */
+size_t qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece);
+
+/* Narrow the times *low ... *high to those that the run covers. */
+void qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high);
+
+/* Whether it goes back in time. */
+static inline bool
+qdot_trajectory_is_backward(const qdot_trajectory *tr)
+{
+    return tr->t[tr->count - 1] < tr->t[0];
+}
+
 /* Index k of the last stored point that is not beyond t, in the direction of the run;
  * t must lie within it. `near`: where to look first. */
 size_t qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near);

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "num/sum.h"
 #include "ode/meter.h"
+#include "ode/stiffness.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
 
@@ -41,6 +42,7 @@ typedef struct {
     double best;               /* the largest margin met */
     double longest;            /* step taken */
     double work;               /* that has been counted (meter.h) */
+    qdot_ode_stiffness stiffness;
     int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
 
@@ -290,6 +292,25 @@ count_work(run *r)
 }
 
 static qdot_status
+look_for_stiffness(run *r)
+{
+    const qdot_ode_stats stats = {.evaluations = r->s->evaluations};
+    const uint64_t steps = r->result->stats.steps;
+    const double work = qdot_ode_work(r->s->system, &stats) / (double)(steps ? steps : 1);
+
+    const qdot_ode_stiff_step at = {.n = r->s->system->n,
+                                    .t = r->t,
+                                    .t1 = r->t1,
+                                    .y = r->s->y,
+                                    .noise = r->s->tol,
+                                    .work = work,
+                                    .most = r->max_steps,
+                                    .implicit = r->s->method->stiff};
+
+    return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
+}
+
+static qdot_status
 loop(run *r)
 {
     double distance = fabs(r->t1 - r->t);
@@ -315,6 +336,7 @@ loop(run *r)
         QDOT_TRY(advance(r, &stop));
         if (r->options->meter)
             QDOT_TRY(count_work(r));
+        QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;
@@ -375,6 +397,7 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
         memcpy(y, r.s->y, system->n * sizeof *y);
         collect(result, r.s, cpu_start);
         qdot_ode_stepper_free(r.s);
+        qdot_ode_stiffness_clear(&r.stiffness);
     }
     result->t = r.t;
     if (status != QDOT_OK) {

@@ -49,8 +49,7 @@ static const lanes_kernels *const kinds[] = {
 struct qdot_lanes {
     const qdot_batch_kernels *kernels;
     const lanes_kernels *kind;
-    const qdot_motion *motion; /* it is of; NULL: of a tape, whose program is */
-    qdot_program own;
+    const qdot_motion *motion; /* it is of; NULL: of a program alone */
     const qdot_program *program;
     double unit[QDOT_LANES], per_unit[QDOT_LANES]; /* of a motion */
     bool has_rates, has_kept; /* steps of these kinds */
@@ -98,7 +97,6 @@ qdot_lanes_free(qdot_lanes *t)
 {
     if (!t)
         return;
-    qdot_program_clear(&t->own);
     qdot_free(t->memory);
     qdot_free(t->steps);
     qdot_free(t->drawn);
@@ -202,29 +200,23 @@ fill(qdot_lanes *t, bool shaken, int most)
     return QDOT_OK;
 }
 
+/* Of a program, which may be that of a motion. */
 static qdot_status
-check_order(int most)
-{
-    if (most < 0 || most > QDOT_SERIES_MOST)
-        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_lanes_new_moving(const qdot_tape *tape, int most, size_t moving, qdot_lanes **lanes)
+make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
+     qdot_lanes **lanes)
 {
     qdot_lanes *t;
     qdot_status status;
 
     *lanes = NULL;
-    QDOT_TRY(check_order(most));
+    if (most < 0 || most > QDOT_SERIES_MOST)
+        return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", most);
     t = qdot_calloc(1, sizeof *t);
     if (!t)
         return QDOT_ENOMEM;
-    t->program = &t->own;
-    status = qdot_program_init(tape, moving, false, &t->own);
-    if (status == QDOT_OK)
-        status = fill(t, false, most);
+    t->program = program;
+    t->motion = motion;
+    status = fill(t, shaken, most);
     if (status != QDOT_OK) {
         qdot_lanes_free(t);
         return status;
@@ -234,31 +226,15 @@ qdot_lanes_new_moving(const qdot_tape *tape, int most, size_t moving, qdot_lanes
 }
 
 qdot_status
-qdot_lanes_new(const qdot_tape *tape, int most, qdot_lanes **lanes)
+qdot_lanes_of_program(const qdot_program *program, bool shaken, int most, qdot_lanes **lanes)
 {
-    return qdot_lanes_new_moving(tape, most, tape->inputs, lanes);
+    return make(program, NULL, shaken, most, lanes);
 }
 
 qdot_status
 qdot_lanes_of_motion(const qdot_motion *motion, bool shaken, int most, qdot_lanes **lanes)
 {
-    qdot_lanes *t;
-    qdot_status status;
-
-    *lanes = NULL;
-    QDOT_TRY(check_order(most + 1));
-    t = qdot_calloc(1, sizeof *t);
-    if (!t)
-        return QDOT_ENOMEM;
-    t->motion = motion;
-    t->program = &motion->program;
-    status = fill(t, shaken, most + 1);
-    if (status != QDOT_OK) {
-        qdot_lanes_free(t);
-        return status;
-    }
-    *lanes = t;
-    return QDOT_OK;
+    return make(&motion->program, motion, shaken, most + 1, lanes);
 }
 
 qdot_lanes_rows

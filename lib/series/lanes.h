@@ -21,12 +21,9 @@ void qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, 
 /* The series program with its coefficients: one a thread. */
 typedef struct qdot_lanes qdot_lanes;
 
-/* As qdot_taylor_new. */
-QDOT_MUST_CHECK qdot_status qdot_lanes_new(const qdot_tape *tape, int most,
-                                           qdot_lanes **lanes);
-/* The same where the inputs from `moving` on are numbers (qdot_taylor_new_moving). */
-QDOT_MUST_CHECK qdot_status qdot_lanes_new_moving(const qdot_tape *tape, int most,
-                                                  size_t moving, qdot_lanes **lanes);
+/* As qdot_taylor_of_program; the program is borrowed. */
+QDOT_MUST_CHECK qdot_status qdot_lanes_of_program(const qdot_program *program, bool shaken,
+                                                  int most, qdot_lanes **lanes);
 void qdot_lanes_free(qdot_lanes *lanes);
 
 /* As qdot_taylor_input, qdot_taylor_stride (in groups), qdot_taylor_output,

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "tape/shake.h"
 #include "series/taylor-code.h"
 #include "series/taylor-products.h"
 #include "series/taylor-steps.h"
 #include "machine/asm.h"
+#include "tape/shake.h"
 
 /* --- building ----------------------------------------------------------------------- */
 
@@ -123,46 +123,6 @@ qdot_taylor_of_program(const qdot_program *program, bool shaken, int most,
     }
     *taylor = t;
     return QDOT_OK;
-}
-
-static qdot_status
-make(const qdot_tape *tape, int most, size_t moving, qdot_taylor **taylor)
-{
-    qdot_program program;
-    qdot_status status;
-
-    *taylor = NULL;
-    QDOT_TRY(check_order(most));
-    QDOT_TRY(qdot_program_init(tape, moving, false, &program));
-    status = qdot_taylor_of_program(&program, false, most, taylor);
-    qdot_program_clear(&program);
-    return status;
-}
-
-qdot_status
-qdot_taylor_new(const qdot_tape *tape, int most, qdot_taylor **taylor)
-{
-    return make(tape, most, tape->inputs, taylor);
-}
-
-qdot_status
-qdot_taylor_new_moving(const qdot_tape *tape, bool shaken, int most, size_t moving,
-                       qdot_taylor **taylor)
-{
-    qdot_tape *copy = NULL;
-    qdot_status status;
-
-    if (shaken)
-        QDOT_TRY(qdot_tape_shake(tape, &copy));
-    status = make(copy ? copy : tape, most, moving, taylor);
-    qdot_tape_free(copy);
-    return status;
-}
-
-qdot_status
-qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken, int most, qdot_taylor **taylor)
-{
-    return qdot_taylor_new_moving(tape, shaken, most, tape->inputs, taylor);
 }
 
 static void

@@ -7,7 +7,7 @@
  * an expansion does those of program.h.
  *
  * Operations that switch (abs, sign, min, max, mod, floor, relations, if) have no series
- * at the point where they switch: QDOT_ENOTBUILT names the operation.
+ * at the point where they switch: a tape that has one has no program (program.h).
  *
  * Tests   tests/series/test_taylor.c
  */
@@ -19,22 +19,11 @@
 /* The program with its coefficients: one a thread. */
 typedef struct qdot_taylor qdot_taylor;
 
-/* For orders 0 ... most (at most QDOT_SERIES_MOST). The tape is read, not kept. Errors:
- * QDOT_ENOTBUILT, QDOT_EINVAL (most), QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_new(const qdot_tape *tape, int most,
-                                            qdot_taylor **taylor);
-/* The same of its shaken copy (shake.h) if `shaken`. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_new_shaken(const qdot_tape *tape, bool shaken,
-                                                   int most, qdot_taylor **taylor);
-/* Of a program that is there, which is read, not kept; shaken or not. Errors: QDOT_EINVAL (most),
+/* For orders 0 ... most (at most QDOT_SERIES_MOST) of a program, which is read, not kept;
+ * `shaken`: with the other neighbours of its constants (tape/shake.h). Errors: QDOT_EINVAL (most),
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_taylor_of_program(const qdot_program *program, bool shaken,
                                                    int most, qdot_taylor **taylor);
-/* The same where the inputs from `moving` on are numbers: they have no coefficients but of
- * order 0, and what is made of them alone is computed there only. */
-QDOT_MUST_CHECK qdot_status qdot_taylor_new_moving(const qdot_tape *tape, bool shaken,
-                                                   int most, size_t moving,
-                                                   qdot_taylor **taylor);
 void qdot_taylor_free(qdot_taylor *taylor);
 
 /* Coefficients by order of input i, to be written by the caller before each order. The

@@ -385,4 +385,14 @@ rhs(kit *k, qdot_expr equation)
         kit_close(k);                                                                    \
     }
 
+static inline void
+symbolic_double_pendulum(kit *k)
+{
+    coords(k, "theta1 theta2");
+    particle(k, "a", "m1", "(L1*sin(theta1), -L1*cos(theta1))");
+    particle(k, "b", "m2",
+             "(L1*sin(theta1) + L2*sin(theta2), -L1*cos(theta1) - L2*cos(theta2))");
+    gravity(k, "(0, -g)");
+}
+
 #endif

@@ -25,16 +25,6 @@ in_velocities(kit *k, qdot_expr e)
 }
 
 static void
-double_pendulum(kit *k)
-{
-    coords(k, "theta1 theta2");
-    particle(k, "a", "m1", "(L1*sin(theta1), -L1*cos(theta1))");
-    particle(k, "b", "m2",
-             "(L1*sin(theta1) + L2*sin(theta2), -L1*cos(theta1) - L2*cos(theta2))");
-    gravity(k, "(0, -g)");
-}
-
-static void
 hamiltonian_of_the_pendulum_body(kit *k)
 {
     qdot_expr H, want;
@@ -57,7 +47,7 @@ hamiltons_equations_hold_body(kit *k)
 {
     qdot_expr H;
 
-    double_pendulum(k);
+    symbolic_double_pendulum(k);
     H = qdot_hamilton_hamiltonian(k->scene);
     same_at(k, in_velocities(k, H), qdot_mech_energy(k->scene), __LINE__);
     same_at(k, in_velocities(k, qdot_diff(k->pool, H, P(k, "theta2"))), E(k, "theta2'"),
@@ -125,7 +115,7 @@ TEST(routhian_over_named_coordinates)
 static void
 without_a_cyclic_coordinate_it_is_L_body(kit *k)
 {
-    double_pendulum(k);
+    symbolic_double_pendulum(k);
     same_at(k, qdot_hamilton_routhian(k->scene, 0, NULL), qdot_mech_lagrangian(k->scene),
             __LINE__);
 }

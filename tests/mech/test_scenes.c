@@ -133,19 +133,9 @@ pendulum_by_its_angle_body(kit *k)
 TEST(pendulum_by_its_angle)
 
 static void
-double_pendulum(kit *k)
-{
-    coords(k, "theta1 theta2");
-    particle(k, "a", "m1", "(L1*sin(theta1), -L1*cos(theta1))");
-    particle(k, "b", "m2",
-             "(L1*sin(theta1) + L2*sin(theta2), -L1*cos(theta1) - L2*cos(theta2))");
-    gravity(k, "(0, -g)");
-}
-
-static void
 double_pendulum_in_angles_body(kit *k)
 {
-    double_pendulum(k);
+    symbolic_double_pendulum(k);
     SAME(k, qdot_mech_kinetic(k->scene),
          "1/2*(m1 + m2)*L1^2*theta1'^2 + 1/2*m2*L2^2*theta2'^2"
          " + m2*L1*L2*cos(theta2 - theta1)*theta1'*theta2'");

@@ -5,10 +5,8 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "base/memory.h"
 #include "ode/dop853.h"
-#include "ode/trajectory.h"
-#include "problems.h"
+#include "failing.h"
 
 static const qdot_ode_method *
 dop853(void)
@@ -376,23 +374,7 @@ static void
 every_failed_allocation_is_told(void **state)
 {
     (void)state;
-    for (long k = 0;; k++) {
-        qdot_trajectory tr = {0};
-        double y[2];
-        qdot_status status;
-
-        qdot_memory_fail_at(k);
-        status = qdot_trajectory_run(&tr, &pendulum.system, dop853(), NULL, 0, 3,
-                                     pendulum.y0);
-        if (status == QDOT_OK)
-            status = qdot_trajectory_at(&tr, &pendulum.system, 1.5, y);
-        qdot_memory_fail_at(-1);
-        qdot_trajectory_clear(&tr);
-        if (status == QDOT_OK)
-            break;
-        assert_int_equal(status, QDOT_ENOMEM);
-        assert_true(k < 1000);
-    }
+    failed_allocations_are_told(dop853());
 }
 
 int

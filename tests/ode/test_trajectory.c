@@ -6,9 +6,7 @@
 #include <cmocka.h>
 
 #include "base/interrupt.h"
-#include "base/memory.h"
-#include "ode/trajectory.h"
-#include "problems.h"
+#include "failing.h"
 
 /* The pendulum from its start by a row of the table. */
 static qdot_status
@@ -228,22 +226,7 @@ static void
 every_failed_allocation_is_told(void **state)
 {
     (void)state;
-    for (long k = 0;; k++) {
-        qdot_trajectory tr = {0};
-        double y[2];
-        qdot_status status;
-
-        qdot_memory_fail_at(k);
-        status = swing(&tr, "rk8pd", NULL, 0, 3);
-        if (status == QDOT_OK)
-            status = qdot_trajectory_at(&tr, &pendulum.system, 1.5, y);
-        qdot_memory_fail_at(-1);
-        qdot_trajectory_clear(&tr);
-        if (status == QDOT_OK)
-            break;
-        assert_int_equal(status, QDOT_ENOMEM);
-        assert_true(k < 1000);
-    }
+    failed_allocations_are_told(method("rk8pd"));
 }
 
 int

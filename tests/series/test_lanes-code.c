@@ -201,15 +201,15 @@ one_agrees(plan *p, const qdot_lanes *kernels)
 }
 
 static void
-code_agrees_with_kernels(const scene *f, const qdot_tape *tape, plan p)
+code_agrees_with_kernels(const scene *f, const qdot_program *program, plan p)
 {
     qdot_lanes *kernels;
     qdot_lanes_code *code;
     qdot_lanes_rows rows;
 
     p.scene = f;
-    assert_int_equal(qdot_lanes_new_moving(tape, MOST + 2, MOVING, &p.lanes), QDOT_OK);
-    assert_int_equal(qdot_lanes_new_moving(tape, MOST + 2, MOVING, &kernels), QDOT_OK);
+    assert_int_equal(qdot_lanes_of_program(program, false, MOST + 2, &p.lanes), QDOT_OK);
+    assert_int_equal(qdot_lanes_of_program(program, false, MOST + 2, &kernels), QDOT_OK);
     rows = qdot_lanes_get_rows(p.lanes);
     assert_int_equal(qdot_lanes_code_new(&rows, 0, write_orders, &p, &code), QDOT_OK);
     assert_true((code != NULL) == qdot_lanes_may_be_code());
@@ -234,23 +234,26 @@ every_order_agrees_with_the_kernels(void **state)
 {
     scene f;
     qdot_tape *tape;
+    qdot_program program;
 
     (void)state;
     begin(&f);
     assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_program_init(tape, MOVING, false, &program), QDOT_OK);
     for (size_t kind = 0; kind < 3; kind++) {
         qdot_kind_limit(kind);
         if (kind == 0)
             assert_false(qdot_lanes_may_be_code());
         for (int to = 1; to <= MOST; to += to < 9 ? 1 : 5)
             for (int late = 0; late <= 2; late++)
-                code_agrees_with_kernels(&f, tape,
+                code_agrees_with_kernels(&f, &program,
                                          (plan){.from = 1 + late,
                                                 .late = late,
                                                 .loop = 4 * late,
                                                 .to = to + late});
     }
     qdot_kind_limit(2);
+    qdot_program_clear(&program);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }

@@ -1,6 +1,8 @@
 /* test_lanes.c -- eight at once against one at a time: every operation, every recurrence,
  * every kind of processor that is here. */
 #include "tape/reference.h"
+#include "series/kit.h"
+#include "series/operations.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,66 +11,8 @@
 #include "num/kinds.h"
 #include "num/series.h"
 #include "series/lanes.h"
-#include "series/taylor.h"
 
-enum { L = QDOT_LANES, ORDERS = 14, MOST_OUT = 64 };
-
-typedef struct {
-    qdot_pool *pool;
-    qdot_expr in[3], out[MOST_OUT];
-    size_t n;
-} fixture;
-
-static void
-push(fixture *f, qdot_expr e)
-{
-    assert_true(f->n < MOST_OUT);
-    f->out[f->n++] = e;
-}
-
-static qdot_expr
-apply(fixture *f, qdot_fun_id id, qdot_expr x)
-{
-    return qdot_fun1(f->pool, id, x);
-}
-
-/* 0 < x < 1 < u; t is about 0.25. */
-static void
-smooth(fixture *f)
-{
-    static const qdot_fun_id below[] = {QDOT_SIN,  QDOT_COS,   QDOT_TAN,   QDOT_ASIN,
-                                        QDOT_ACOS, QDOT_ATAN,  QDOT_SINH,  QDOT_COSH,
-                                        QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_EXP,
-                                        QDOT_ERF,  QDOT_ERFC};
-    qdot_pool *pool = f->pool = qdot_pool_new();
-    qdot_expr x = f->in[0] = qdot_symbol_get(pool, QDOT_COORD, "x");
-    qdot_expr u = f->in[1] = qdot_symbol_get(pool, QDOT_COORD, "u");
-    qdot_expr t = f->in[2] = QDOT_T, s = apply(f, QDOT_SIN, u), e = apply(f, QDOT_EXP, x);
-    qdot_expr tenth = qdot_expr_ratio(pool, 1, 10);
-
-    f->n = 0;
-    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
-        push(f, apply(f, below[i], x));
-    push(f, apply(f, QDOT_LOG, u));
-    push(f, apply(f, QDOT_ACOSH, u));
-    push(f, qdot_mul(pool, s, e));
-    push(f, qdot_div(pool, s, e));
-    push(f, qdot_pow_int(pool, s, 2));
-    push(f, qdot_pow_int(pool, u, -3));
-    push(f, qdot_sqrt(pool, u));
-    push(f, qdot_pow(pool, u, tenth));
-    push(f, qdot_pow(pool, u, x));
-    push(f, qdot_sub(pool, qdot_mul(pool, s, e), qdot_mul(pool, e, t)));
-    push(f, qdot_sub(pool, x, qdot_mul(pool, s, t)));
-    push(f, qdot_add(pool, t, qdot_mul(pool, tenth, s)));
-    push(f, qdot_sub(pool, t, qdot_mul(pool, tenth, e)));
-    push(f, qdot_sub(pool, qdot_mul(pool, tenth, e), u));
-    push(f, qdot_sub(pool, qdot_mul(pool, s, u), qdot_mul(pool, t, t)));
-    push(f, qdot_neg(pool, s));
-    push(f, qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){s, e}));
-    push(f, qdot_add(pool, apply(f, QDOT_SINH, s), apply(f, QDOT_COSH, s)));
-    push(f, tenth);
-}
+enum { L = QDOT_LANES, ORDERS = 14 };
 
 static void
 with_switches(fixture *f)
@@ -76,7 +20,7 @@ with_switches(fixture *f)
     qdot_pool *pool;
     qdot_expr x, u, less;
 
-    smooth(f);
+    smooth(f, false);
     pool = f->pool;
     x = f->in[0];
     u = f->in[1];
@@ -144,12 +88,13 @@ coefficient(const double *one, size_t i, int k)
 
 /* The same with the newest coefficients of the inputs brought in late. */
 static void
-late_coefficients_come_in(const fixture *f, const qdot_tape *tape, const qdot_lanes *seen)
+late_coefficients_come_in(const fixture *f, const qdot_program *program,
+                          const qdot_lanes *seen)
 {
     qdot_lanes *late;
     double one[3], newest[3 * L];
 
-    assert_int_equal(qdot_lanes_new(tape, ORDERS, &late), QDOT_OK);
+    assert_int_equal(qdot_lanes_of_program(program, false, ORDERS, &late), QDOT_OK);
     for (int k = 0; k <= ORDERS; k++) {
         for (size_t i = 0; i < 3; i++)
             for (size_t l = 0; l < L; l++) {
@@ -183,18 +128,20 @@ series_are_those_of_one_at_a_time(void **state)
 {
     fixture f;
     qdot_tape *tape;
+    qdot_program program;
 
     (void)state;
-    smooth(&f);
+    smooth(&f, false);
     assert_int_equal(qdot_tape_new(f.pool, 3, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_program_init(tape, 3, false, &program), QDOT_OK);
     for (size_t kind = 0; kind < 3; kind++) {
         qdot_taylor *single;
         qdot_lanes *lanes;
         double one[3], t[L];
 
         qdot_kind_limit(kind);
-        assert_int_equal(qdot_taylor_new(tape, ORDERS, &single), QDOT_OK);
-        assert_int_equal(qdot_lanes_new(tape, ORDERS, &lanes), QDOT_OK);
+        assert_int_equal(taylor_of_tape(tape, ORDERS, &single), QDOT_OK);
+        assert_int_equal(qdot_lanes_of_program(&program, false, ORDERS, &lanes), QDOT_OK);
         for (size_t l = 0; l < L; l++)
             t[l] = 0.25;
         qdot_lanes_draw(lanes, t);
@@ -230,11 +177,12 @@ series_are_those_of_one_at_a_time(void **state)
                 }
             }
         }
-        late_coefficients_come_in(&f, tape, lanes);
+        late_coefficients_come_in(&f, &program, lanes);
         qdot_lanes_free(lanes);
         qdot_taylor_free(single);
     }
     qdot_kind_limit(2);
+    qdot_program_clear(&program);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }
@@ -244,14 +192,16 @@ what_switches_and_orders_out_of_range_are_refused(void **state)
 {
     fixture f;
     qdot_tape *tape;
+    qdot_program program;
     qdot_lanes *lanes;
 
     (void)state;
     with_switches(&f);
     assert_int_equal(qdot_tape_new(f.pool, 3, f.in, f.n, f.out, &tape), QDOT_OK);
-    assert_int_equal(qdot_lanes_new(tape, 5, &lanes), QDOT_ENOTBUILT);
+    assert_int_equal(qdot_program_init(tape, 3, false, &program), QDOT_ENOTBUILT);
+    assert_int_equal(qdot_lanes_of_program(&program, false, QDOT_SERIES_MOST + 1, &lanes),
+                     QDOT_EINVAL);
     assert_null(lanes);
-    assert_int_equal(qdot_lanes_new(tape, QDOT_SERIES_MOST + 1, &lanes), QDOT_EINVAL);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }

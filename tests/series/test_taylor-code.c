@@ -14,10 +14,11 @@
 #include <cmocka.h>
 
 #include "expr/calculus.h"
+#include "machine/asm.h"
 #include "num/kinds.h"
 #include "num/series.h"
+#include "series/kit.h"
 #include "series/taylor-motion.h"
-#include "machine/asm.h"
 
 /* Inputs of q'' = e(q, p, q', p', t, m): two coordinates, their velocities, the time, a
  * number. */
@@ -61,8 +62,7 @@ linked(const qdot_tape *tape, int to, bool code)
 {
     qdot_taylor *t;
 
-    assert_int_equal(qdot_taylor_new_moving(tape, false, QDOT_SERIES_MOST, MOVING, &t),
-                     QDOT_OK);
+    assert_int_equal(taylor_moving(tape, MOVING, QDOT_SERIES_MOST, &t), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, V, Q, qdot_taylor_output(t, 0)), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, W, SIZE_MAX, qdot_taylor_output(t, 1)), QDOT_OK);
     assert_int_equal(qdot_taylor_link(t, P, SIZE_MAX, qdot_taylor_input(t, W)), QDOT_OK);

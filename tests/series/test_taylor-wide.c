@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "series/kit.h"
 #include "series/taylor-wide.h"
 
 enum { N = 11, TIME = N, INPUTS, ORDERS = 24, MOST = 40 };
@@ -131,7 +132,7 @@ begin_wide(scene *f, qdot_taylor **t, qdot_taylor_wide **w)
 {
     begin(f);
     fill(f);
-    assert_int_equal(qdot_taylor_new(f->tape, MOST, t), QDOT_OK);
+    assert_int_equal(taylor_of_tape(f->tape, MOST, t), QDOT_OK);
     assert_int_equal(qdot_taylor_wide_new(*t, N, NULL, 0, w), QDOT_OK);
     assert_non_null(*w);
 }
@@ -231,7 +232,7 @@ too_few_alike_have_none(void **state)
     push(&f, qdot_mul(f.pool, qdot_fun1(f.pool, QDOT_SIN, f.in[0]), f.in[1]));
     assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.out.n, f.out.at, &f.tape),
                      QDOT_OK);
-    assert_int_equal(qdot_taylor_new(f.tape, MOST, &t), QDOT_OK);
+    assert_int_equal(taylor_of_tape(f.tape, MOST, &t), QDOT_OK);
     assert_int_equal(qdot_taylor_wide_new(t, N, NULL, 0, &w), QDOT_OK);
     assert_null(w);
     qdot_taylor_free(t);

@@ -1,5 +1,6 @@
 /* test_taylor.c -- series against derivatives: coefficient k of e(t) is e^(k)(t)/k!. */
 #include "tape/reference.h"
+#include "series/kit.h"
 #include "tape/smooth.h"
 
 #include <string.h>
@@ -50,7 +51,7 @@ series_is_right(fixture *f, qdot_expr e, const char *what)
     long double factorial = 1;
 
     assert_int_equal(qdot_tape_new(f->pool, 1, &input, 1, &e, &tape), QDOT_OK);
-    assert_int_equal(qdot_taylor_new(tape, ORDERS, &series), QDOT_OK);
+    assert_int_equal(taylor_of_tape(tape, ORDERS, &series), QDOT_OK);
     late = solved_for(tape, &motion);
     for (int k = 0; k <= ORDERS; k++) {
         reference_value r = reference(f->pool, derivative, 1, &input, &at);
@@ -130,10 +131,12 @@ what_switches_is_refused_by_name(void **state)
     begin(&f);
     e = qdot_fun1(f.pool, QDOT_ABS, qdot_sub(f.pool, f.x, QDOT_ONE));
     assert_int_equal(qdot_tape_new(f.pool, 1, &input, 1, &e, &tape), QDOT_OK);
-    assert_int_equal(qdot_taylor_new(tape, 5, &series), QDOT_ENOTBUILT);
+    assert_int_equal(taylor_of_tape(tape, 5, &series), QDOT_ENOTBUILT);
     assert_non_null(strstr(qdot_last_error()->message, "abs"));
     assert_string_equal(qdot_program_hindrance(tape), "abs");
-    assert_int_equal(qdot_taylor_new(tape, QDOT_SERIES_MOST + 1, &series), QDOT_EINVAL);
+    assert_int_equal(
+        qdot_taylor_of_program(&(qdot_program){0}, false, QDOT_SERIES_MOST + 1, &series),
+        QDOT_EINVAL);
     qdot_tape_free(tape);
     qdot_pool_free(f.pool);
 }
@@ -151,7 +154,7 @@ constants_cost_no_convolution(void **state)
     e[0] = qdot_fun1(f.pool, QDOT_SIN, f.x);
     e[1] = decimal(&f, "2.5");
     assert_int_equal(qdot_tape_new(f.pool, 1, &input, 2, e, &tape), QDOT_OK);
-    assert_int_equal(qdot_taylor_new(tape, 5, &series), QDOT_OK);
+    assert_int_equal(taylor_of_tape(tape, 5, &series), QDOT_OK);
     assert_true(qdot_taylor_convolutions(series) == 2);
     assert_false(qdot_taylor_is_constant(series, 0));
     assert_true(qdot_taylor_is_constant(series, 1));
@@ -179,7 +182,7 @@ constants_between_doubles_average_out(void **state)
     e[1] = QDOT_PI;
     e[2] = qdot_neg(f.pool, decimal(&f, "0.1"));
     assert_int_equal(qdot_tape_new(f.pool, 1, &input, 3, e, &tape), QDOT_OK);
-    assert_int_equal(qdot_taylor_new(tape, 1, &series), QDOT_OK);
+    assert_int_equal(taylor_of_tape(tape, 1, &series), QDOT_OK);
     for (int i = 0; i < TIMES; i++) {
         qdot_taylor_draw(series, 0.01 * i);
         for (size_t k = 0; k < 3; k++)

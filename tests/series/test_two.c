@@ -1,77 +1,14 @@
 /* test_two.c -- series in sums of two doubles against those in MPFR: every operation, every
  * recurrence. */
 #include "tape/reference.h"
+#include "series/operations.h"
 
 #include <math.h>
 
 #include "series/precise.h"
 #include "series/two.h"
 
-enum { ORDERS = 9, MOST_OUT = 64, BITS = 256, INPUTS = 4 };
-
-/* x, u, t, of which series are given, and a number c. */
-typedef struct {
-    qdot_pool *pool;
-    qdot_expr in[INPUTS], out[MOST_OUT];
-    size_t n;
-} fixture;
-
-static void
-push(fixture *f, qdot_expr e)
-{
-    assert_true(f->n < MOST_OUT);
-    f->out[f->n++] = e;
-}
-
-static qdot_expr
-apply(fixture *f, qdot_fun_id id, qdot_expr x)
-{
-    return qdot_fun1(f->pool, id, x);
-}
-
-/* 0 < x < 1 < u, t about 0.25, c = 0.7. */
-static void
-smooth(fixture *f)
-{
-    static const qdot_fun_id below[] = {QDOT_SIN,  QDOT_COS,   QDOT_TAN,   QDOT_ASIN,
-                                        QDOT_ACOS, QDOT_ATAN,  QDOT_SINH,  QDOT_COSH,
-                                        QDOT_TANH, QDOT_ASINH, QDOT_ATANH, QDOT_EXP,
-                                        QDOT_ERF,  QDOT_ERFC};
-    qdot_pool *pool = f->pool = qdot_pool_new();
-    qdot_expr x = f->in[0] = qdot_symbol_get(pool, QDOT_COORD, "x");
-    qdot_expr u = f->in[1] = qdot_symbol_get(pool, QDOT_COORD, "u");
-    qdot_expr t = f->in[2] = QDOT_T, s = apply(f, QDOT_SIN, u), e = apply(f, QDOT_EXP, x);
-    qdot_expr c = f->in[3] = qdot_symbol_get(pool, QDOT_PARAM, "c");
-    qdot_expr tenth = qdot_expr_ratio(pool, 1, 10), k = apply(f, QDOT_COS, c);
-
-    f->n = 0;
-    for (size_t i = 0; i < sizeof below / sizeof *below; i++)
-        push(f, apply(f, below[i], x));
-    push(f, apply(f, QDOT_LOG, u));
-    push(f, apply(f, QDOT_ACOSH, u));
-    push(f, apply(f, QDOT_SIN, qdot_mul(pool, t, x)));
-    push(f, apply(f, QDOT_COS, qdot_mul(pool, t, u)));
-    push(f, qdot_mul(pool, s, e));
-    push(f, qdot_div(pool, s, e));
-    push(f, qdot_div(pool, s, k));
-    push(f, qdot_pow_int(pool, s, 2));
-    push(f, qdot_pow_int(pool, u, -3));
-    push(f, qdot_sqrt(pool, u));
-    push(f, qdot_pow(pool, u, tenth));
-    push(f, qdot_pow(pool, u, c));
-    push(f, qdot_pow(pool, u, x));
-    push(f, qdot_sub(pool, qdot_mul(pool, s, e), qdot_mul(pool, e, t)));
-    push(f, qdot_sub(pool, x, qdot_mul(pool, s, t)));
-    push(f, qdot_add(pool, t, qdot_mul(pool, tenth, s)));
-    push(f, qdot_sub(pool, t, qdot_mul(pool, k, e)));
-    push(f, qdot_sub(pool, qdot_mul(pool, tenth, e), u));
-    push(f, qdot_sub(pool, qdot_mul(pool, s, u), qdot_mul(pool, t, t)));
-    push(f, qdot_neg(pool, s));
-    push(f, qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){s, e}));
-    push(f, qdot_add(pool, apply(f, QDOT_SINH, s), apply(f, QDOT_COSH, s)));
-    push(f, tenth);
-    push(f, qdot_mul(pool, k, qdot_add(pool, QDOT_PI, c)));
-}
+enum { ORDERS = 9, BITS = 256, INPUTS = 4 };
 
 static void
 switching(fixture *f)
@@ -79,7 +16,7 @@ switching(fixture *f)
     qdot_pool *pool;
     qdot_expr x, u, t, less, same;
 
-    smooth(f);
+    smooth(f, true);
     pool = f->pool;
     x = f->in[0], u = f->in[1], t = f->in[2];
     less = qdot_rel(pool, QDOT_LT, x, t);
@@ -163,7 +100,7 @@ every_recurrence_is_that_of_MPFR(void **state)
     fixture f;
 
     (void)state;
-    smooth(&f);
+    smooth(&f, true);
     compare(&f, ORDERS);
     qdot_pool_free(f.pool);
 }
@@ -233,7 +170,7 @@ changed_is_as_evaluated(void **state)
     double by[2], guess[2];
 
     (void)state;
-    smooth(&f);
+    smooth(&f, true);
     assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
     make_motion(&f, tape, &motion);
     for (int which = 0; which < 2; which++) {

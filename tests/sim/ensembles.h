@@ -60,4 +60,14 @@ prepare(fixture *f, size_t n_varied, const qdot_expr *varied)
     return e;
 }
 
+/* Ends the failing of allocation k; whether all went well without it. */
+static inline bool
+went_well(long k, qdot_status status)
+{
+    qdot_memory_fail_at(-1);
+    if (status != QDOT_OK && status != QDOT_ENOMEM)
+        fail_msg("allocation %ld: %s", k, qdot_last_error()->message);
+    return status == QDOT_OK;
+}
+
 #endif

@@ -429,10 +429,7 @@ survives(bool cyclic)
         status = qdot_ensemble_new(f.scene, &f.request, 0, NULL, &e);
         if (status == QDOT_OK)
             status = qdot_ensemble_run(e, 3, y, NULL, true, results);
-        qdot_memory_fail_at(-1);
-        done = status == QDOT_OK;
-        if (!done && status != QDOT_ENOMEM)
-            fail_msg("allocation %ld: %s", k, qdot_last_error()->message);
+        done = went_well(k, status);
         qdot_ensemble_free(e);
         (void)!qdot_pool_check(f.pool);
         end(&f);

@@ -86,7 +86,8 @@ orders_agree(const found *at)
     a = qdot_motion_series_get(direct);
     must(a->begin(0, y, unit, a->user));
     must(a->extend(P, a->user));
-    must(qdot_taylor_new(at->residual->places, 30, &places));
+    must(qdot_residual_programs(at->residual));
+    must(qdot_taylor_of_program(&at->residual->of_places, false, 30, &places));
     stride = qdot_taylor_stride(places);
     q = qdot_taylor_input(places, 0);
     for (size_t i = 0; i < n; i++) {

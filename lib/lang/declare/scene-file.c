@@ -71,7 +71,7 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
     }
     qdot_source_free(source);
     (void)!qdot_pool_check(s->pool); /* a text without meaning here is no failure */
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Whether the text means the same wherever it stands: no `%`. */

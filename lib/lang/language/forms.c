@@ -103,7 +103,7 @@ sum_by_formula(qdot_machine *m, uint32_t *pc)
 qdot_status
 qdot_forms_too_many_terms(const qdot_sum_frame *f, qdot_status status)
 {
-    if (f->symbol == QDOT_NIL || status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (f->symbol == QDOT_NIL || qdot_grave(status) != QDOT_OK)
         return status;
     (void)qdot_fail(QDOT_ELIMIT, "a sum of %lu terms, and none is known by a formula",
                     (unsigned long)f->last - (unsigned long)f->k + 1);

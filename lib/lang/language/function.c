@@ -132,7 +132,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
     const qdot_error error = *qdot_last_error();
     uint32_t line, column;
 
-    if (s->placed || error.status != status || status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (s->placed || error.status != status || qdot_grave(status) != QDOT_OK)
         return status;
     s->placed = true;
     qdot_source_locate(entry->body->source, at, &line, &column);

@@ -5,20 +5,14 @@
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
-#include "lang/figures/figure-file.h"
 #include "lang/figures/figure-option.h"
+#include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
-#include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "show/figure.h"
 #include "sim/study/race.h"
 
 #define CELL QDOT_WRAP_CELL
-
-/* An error of 0 has no logarithm: it is drawn where rounding is. */
-static const double least_error = 1e-17;
 
 /* "1e-12", "-" where there is none */
 static void
@@ -105,56 +99,30 @@ answer_rows(qdot_session *session, const qdot_race *race)
     return QDOT_OK;
 }
 
-/* CPU time to the right, error up, both in powers of ten. */
 static qdot_status
 draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
      const qdot_panel_choice *of_panel)
 {
-    enum { N = QDOT_RACE_FORMULATIONS, K = QDOT_RACE_TOLERANCES };
-    double x[N][K], y[N][K];
-    qdot_curve curves[N];
+    qdot_error_point points[QDOT_RACE_FORMULATIONS * QDOT_RACE_TOLERANCES];
     qdot_text note = {0};
-    qdot_panel panel = {.title = {"one scene in every formulation", false},
-                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
-                        .curves = curves,
-                        .log = {true, true},
-                        .marks = true};
-    const qdot_figure figure = {.panels = &panel,
-                                .n = 1,
-                                .width = choice->width,
-                                .height = choice->height,
-                                .keep = choice->keep};
+    qdot_error_time of = {.title = "one scene in every formulation",
+                          .note = &note,
+                          .none = "no lane of the race got to the end",
+                          .points = points,
+                          .figure = choice,
+                          .panel = of_panel};
     qdot_status status;
 
-    for (int i = 0; i < N; i++) {
-        size_t points = 0;
-
-        for (int k = 0; race->lane[i].name != NULL && k < K; k++) {
+    for (int i = 0; i < QDOT_RACE_FORMULATIONS; i++)
+        for (int k = 0; race->lane[i].name != NULL && k < QDOT_RACE_TOLERANCES; k++) {
             const qdot_race_entry *e = &race->lane[i].entry[k];
 
-            if (!isfinite(e->error) || !(e->cpu > 0))
-                continue;
-            x[panel.n][points] = e->cpu;
-            y[panel.n][points++] = fmax(e->error, least_error);
+            points[of.n++] = (qdot_error_point){race->lane[i].name, e->cpu, e->error};
         }
-        if (points == 0)
-            continue;
-        curves[panel.n] = (qdot_curve){.label = {race->lane[i].name, false},
-                                       .rows = points,
-                                       .x = x[panel.n],
-                                       .y = y[panel.n]};
-        panel.n++;
-    }
-    if (panel.n == 0)
-        return qdot_fail(QDOT_EFAILED, "no lane of the race got to the end");
     qdot_text_format(&note, "reference: as given, projected, tol %.0e, its own error ",
                      race->reference_tol);
     qdot_number_text_bound(&note, race->reference_error);
-    panel.note = qdot_text_str(&note);
-    qdot_figure_option_apply(of_panel, &panel);
-    status = qdot_text_status(&note);
-    if (status == QDOT_OK)
-        status = qdot_figure_file_show(session, &figure, choice->path);
+    status = qdot_error_time_show(session, &of);
     qdot_text_clear(&note);
     return status;
 }
@@ -219,15 +187,9 @@ qdot_race_statement(qdot_cursor *c)
     c->error_at = start->start;
     status = qdot_request_fill(c->session, &order);
     if (status == QDOT_OK) {
-        qdot_session *session = c->session;
-
-        order.request.t0 =
-            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
-        order.request.t1 =
-            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
         order.request.method = "auto";
         order.request.tol = 1e-12;
-        status = qdot_pool_check(session->pool);
+        status = qdot_request_limits(c->session, from, to, &order);
     }
     if (status == QDOT_OK) {
         status = qdot_race_hold(c->session->scene, &order.request, &race);

@@ -4,6 +4,7 @@
 #include "expr/calculus.h"
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
 
 void
 qdot_request_free(qdot_request *o)
@@ -125,6 +126,14 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     o->request.v_named = o->v_named.at;
     o->request.exactly = session->start_exactly;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_request *o)
+{
+    o->request.t0 = qdot_session_bind(session, qdot_measured_as_rationals(session, from));
+    o->request.t1 = qdot_session_bind(session, qdot_measured_as_rationals(session, to));
+    return qdot_pool_check(session->pool);
 }
 
 /* --- why it failed -------------------------------------------------------------------- */

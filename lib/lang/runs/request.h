@@ -15,6 +15,9 @@ typedef struct {
 
 /* Fill in the session's present values and start. */
 QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_request *o);
+/* Its limits, which are constants of the session. */
+QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr from,
+                                                qdot_expr to, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
 /* The status of what was done with the request. Where the mass matrix was singular and a mass or

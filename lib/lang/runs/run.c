@@ -15,7 +15,6 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
-#include "lang/session/measured.h"
 #include "lang/session/runs.h"
 #include "tape/tape.h"
 
@@ -253,15 +252,11 @@ qdot_run_statement(qdot_cursor *c)
     if (status == QDOT_OK)
         status = fill_with(c->session, &o.with, &request);
     if (status == QDOT_OK) {
-        request.request.t0 = qdot_session_bind(
-            c->session, qdot_measured_as_rationals(c->session, o.from));
-        request.request.t1 =
-            qdot_session_bind(c->session, qdot_measured_as_rationals(c->session, o.to));
         request.request.tol = o.tol;
         request.request.digits = (int)o.digits;
         request.request.method = o.method != NULL ? o.method : "auto";
         request.request.treatment = o.treatment;
-        status = qdot_pool_check(c->session->pool);
+        status = qdot_request_limits(c->session, o.from, o.to, &request);
     }
     if (status == QDOT_OK)
         status = qdot_request_explain(c->session, &request, carry_out(c, &o, &request));

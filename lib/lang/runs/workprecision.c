@@ -7,14 +7,11 @@
 #include "base/wrap.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
-#include "lang/figures/figure-file.h"
 #include "lang/figures/figure-option.h"
+#include "lang/runs/error-time.h"
 #include "lang/runs/request.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
-#include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "show/figure.h"
 #include "sim/study/workprecision.h"
 
 typedef struct {
@@ -176,73 +173,33 @@ answer_table(qdot_session *session, const qdot_workprecision *w)
 
 /* --- a figure ------------------------------------------------------------------------ */
 
-/* One curve a method, over the rows that arrived. */
-static void
-fill_curves(const qdot_workprecision *w, double *values, qdot_curve *curves, size_t *n)
-{
-    size_t at = 0;
-
-    for (size_t k = 0; k < w->n;) {
-        const char *method = w->rows[k].method;
-        const size_t first = at;
-
-        for (; k < w->n && w->rows[k].method == method; k++)
-            if (!isnan(w->rows[k].err)) { /* an error of 0 has a place too */
-                values[at] = w->rows[k].time_median;
-                values[w->n + at++] = fmax(w->rows[k].err, 0x1p-60);
-            }
-        if (at > first)
-            curves[(*n)++] = (qdot_curve){.label = {method, false},
-                                          .rows = at - first,
-                                          .x = values + first,
-                                          .y = values + w->n + first};
-    }
-}
-
 static qdot_status
 figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
 {
-    qdot_curve *curves = qdot_calloc(w->n + 1, sizeof *curves);
-    double *values = qdot_calloc(2 * w->n + 1, sizeof *values);
+    qdot_error_point *points = qdot_calloc(w->n + 1, sizeof *points);
     qdot_text note = {0};
-    qdot_panel panel = {.title = {"work and precision", false},
-                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
-                        .curves = curves,
-                        .log = {true, true},
-                        .marks = true};
-    const qdot_figure f = {.panels = &panel,
-                           .n = 1,
-                           .width = chosen->figure.width,
-                           .height = chosen->figure.height,
-                           .keep = chosen->figure.keep};
-    qdot_status status = curves && values ? QDOT_OK : QDOT_ENOMEM;
+    const qdot_error_time of = {.title = "work and precision",
+                                .note = &note,
+                                .none = "no method came to the end",
+                                .n = w->n,
+                                .points = points,
+                                .figure = &chosen->figure,
+                                .panel = &chosen->panel};
+    qdot_status status;
 
-    if (status == QDOT_OK) {
-        fill_curves(w, values, curves, &panel.n);
-        qdot_text_add(&note, "medians of several runs; error of the reference ");
-        qdot_number_text_bound(&note, w->ref_err);
-        panel.note = qdot_text_str(&note);
-        qdot_figure_option_apply(&chosen->panel, &panel);
-        status = qdot_text_status(&note);
-    }
-    if (status == QDOT_OK)
-        status = qdot_figure_file_show(session, &f, chosen->figure.path);
+    if (points == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < w->n; i++)
+        points[i] = (qdot_error_point){w->rows[i].method, w->rows[i].time_median, w->rows[i].err};
+    qdot_text_add(&note, "medians of several runs; error of the reference ");
+    qdot_number_text_bound(&note, w->ref_err);
+    status = qdot_error_time_show(session, &of);
     qdot_text_clear(&note);
-    qdot_free(curves);
-    qdot_free(values);
+    qdot_free(points);
     return status;
 }
 
 /* --- the statement ------------------------------------------------------------------- */
-
-static bool
-any_done(const qdot_workprecision *w)
-{
-    for (size_t i = 0; i < w->n; i++)
-        if (isfinite(w->rows[i].err))
-            return true;
-    return false;
-}
 
 static qdot_status
 tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
@@ -258,8 +215,7 @@ tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
         QDOT_TRY(answer_table(session, w));
         if (w->interrupted && path == NULL)
             return QDOT_OK; /* who stopped it does not wait for a figure */
-        return any_done(w) ? figure(session, w, chosen)
-                           : qdot_fail(QDOT_EFAILED, "no method came to the end");
+        return figure(session, w, chosen);
     }
     (qdot_ends_in(path, ".csv") ? csv : table)(w, &text);
     status = qdot_answer_in_file(session, path, &text);
@@ -315,13 +271,8 @@ qdot_workprecision_statement(qdot_cursor *c)
     QDOT_TRY(read_options(c, &chosen));
     c->error_at = start->start;
     status = qdot_request_fill(session, &order);
-    if (status == QDOT_OK) {
-        order.request.t0 =
-            qdot_session_bind(session, qdot_measured_as_rationals(session, from));
-        order.request.t1 =
-            qdot_session_bind(session, qdot_measured_as_rationals(session, to));
-        status = qdot_pool_check(session->pool);
-    }
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
     if (w.interrupted)

@@ -18,13 +18,6 @@ qdot_drifts_clear(qdot_drifts *d)
     *d = (qdot_drifts){0};
 }
 
-/* Failures that end the measurement; after any other the quantity is left out. */
-static qdot_status
-fatal(qdot_status status)
-{
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
-
 /* Whether the equations switch at a point, which is stored twice: there sign(0) is 0, on
  * neither side. */
 static bool
@@ -133,14 +126,14 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     qdot_status status = qdot_mech_energy_conserved(scene, &conserved);
 
     if (status != QDOT_OK || !conserved)
-        return fatal(status);
+        return qdot_grave(status);
     h = p->M ? qdot_mech_numeric_energy(scene) : p->residual->h;
     status = qdot_pool_check(p->pool);
     if (status == QDOT_OK && h != QDOT_NIL && p->M)
         status = lower(p, h, &made);
     tape = p->M ? made : p->residual->energy;
     if (status != QDOT_OK || h == QDOT_NIL)
-        return fatal(status);
+        return qdot_grave(status);
     status = note(tape, tr, h, "energy", d);
     d->energy = d->n == 1;
     if (status == QDOT_OK && p->M)
@@ -185,7 +178,7 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
     name = qdot_strdup(qdot_expr_symbol(p->pool, symbol)->name);
     if (!name)
         return QDOT_ENOMEM;
-    status = fatal(lower(p, cyclic.momentum, &tape));
+    status = qdot_grave(lower(p, cyclic.momentum, &tape));
     if (tape)
         status = note(tape, tr, cyclic.momentum, name, d);
     qdot_tape_free(tape);
@@ -216,5 +209,5 @@ qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory
         if (asked[i])
             status = measure_momentum(scene, p, tr, i, d);
     qdot_free(asked);
-    return fatal(status);
+    return qdot_grave(status);
 }

@@ -218,7 +218,7 @@ qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
         memcpy(y, moved, x->n * sizeof *y);
     qdot_free(moved);
     qdot_free(sides);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 bool

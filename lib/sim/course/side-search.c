@@ -148,7 +148,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
         *too = status == QDOT_OK && x->intent == QDOT_PIECE_RETRIED && x->well
                && x->side[surface] == side;
     }
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Whether the present sides, held [surfaces], are the only right ones; c->reason if not. */

@@ -262,9 +262,8 @@ static double
 length_of(const qdot_course *g, size_t piece)
 {
     const qdot_trajectory *tr = &g->tr;
-    size_t last = piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count;
 
-    return fabs(tr->t[last - 1] - tr->t[tr->pieces.at[piece].first]);
+    return fabs(tr->t[qdot_trajectory_last_of(tr, piece)] - tr->t[tr->pieces.at[piece].first]);
 }
 
 static qdot_status
@@ -362,7 +361,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 {
     const qdot_trajectory *tr = &s->guide->tr;
     const qdot_trajectory_piece *piece = &tr->pieces.at[k];
-    const size_t last = k + 1 < tr->pieces.n ? tr->pieces.at[k + 1].first : tr->count;
+    const size_t last = qdot_trajectory_last_of(tr, k);
     qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
@@ -376,7 +375,7 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
         mpfr_set_d(s->course->at[W], way * pad * length_of(s->guide, k), RN);
         mpfr_add(goal, goal, s->course->at[W], RN);
     } else {
-        mpfr_set(goal, piece->first + 1 == last ? t : s->start.at[1], RN);
+        mpfr_set(goal, piece->first == last ? t : s->start.at[1], RN);
     }
     s->near = SIZE_MAX;
     status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[piece->mode]),

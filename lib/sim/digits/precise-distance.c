@@ -2,8 +2,8 @@
  * it. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 
+#include "num/sort.h"
 #include "sim/digits/precise-pair.h"
 
 #define RN MPFR_RNDN
@@ -28,14 +28,6 @@ distance(size_t n, const mpfr_t *a, const mpfr_t *b, mpfr_ptr w)
         most = fmax(most, qdot_real_log2(w) - fmax(0, qdot_real_log2(b[i])));
     }
     return most / QDOT_LOG2_10;
-}
-
-static int
-ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 /* The companion's state at the end t of the run. Both may have ended on t1, which is not
@@ -93,13 +85,13 @@ qdot_precise_compare(qdot_precise_pair *pair)
                 between[known++] =
                     distance(n, (const mpfr_t *)ya, (const mpfr_t *)yb, w.at[0]);
         }
-        qsort(between, known, sizeof *between, ascending);
+        qdot_sort(known, between);
         if (known > 0)
             pair->log10_error = fmax(pair->log10_error, between[known / 2]);
         pair->log10_error = fmax(pair->log10_error, -a->digits);
     }
     qdot_reals_clear(&w);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* --- whether digits help ------------------------------------------------------------- */
@@ -142,7 +134,7 @@ parting(qdot_precise_pair *pair, double *t)
         *t = mpfr_get_d(w.at[1], RN);
     }
     qdot_reals_clear(&w);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 qdot_status

@@ -122,7 +122,7 @@ read_both(readers *r, double *errors)
     if (!errors)
         return QDOT_OK;
     status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_at(&r->companion);
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(status) != QDOT_OK)
         return status;
     for (size_t j = 0; j < r->of.m; j++) {
         mpfr_srcptr x = qdot_precise_output(r->run.program, j)[0];

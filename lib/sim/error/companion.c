@@ -144,7 +144,8 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
-                                .meter = meter};
+                                .meter = meter,
+                                .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
     qdot_ode_system system;
@@ -172,7 +173,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         qdot_progress_begin(t0, goal(run), "error of the run");
         qdot_ode_meter_begin(meter, t0, goal(run));
         status = qdot_course_run(c, by->method, &options, t0, goal(run), y);
-        if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
         if (!*has || met_the_same(run, c))
@@ -182,7 +183,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
-    return status == QDOT_EINTR || status == QDOT_ENOMEM ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 static qdot_status
@@ -210,7 +211,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
         begin_anew(c);
         *has = false;
         status = follow_so(run, number, &by, meter, c, has);
-        if (!qdot_companion_leads_nowhere(method, way,
+        if (!qdot_companion_leads_nowhere(method,
                                           !*has || c->tr.result.outcome == QDOT_ODE_FAILED, meter))
             break;
         spent += meter->work;
@@ -310,7 +311,7 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
         status = qdot_trajectory_read_piece(cursor, b->pieces.n - 1, *t, y);
     qdot_trajectory_close(cursor);
     *known = status == QDOT_OK;
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 qdot_status

@@ -163,12 +163,6 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
 
 /* --- windows ------------------------------------------------------------------------- */
 
-static size_t
-last_of(const qdot_trajectory *tr, size_t piece)
-{
-    return (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count) - 1;
-}
-
 /* By how much the path turns at point k: the angle of the chords that meet there. */
 static double
 turn(const qdot_distance *d, size_t k)
@@ -195,7 +189,7 @@ static qdot_status
 look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool *cut)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
-    const size_t first = tr->pieces.at[piece].first, last = last_of(tr, piece);
+    const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
     double turned = 0;
 
     for (size_t j = 0; j < d->m; j++)
@@ -226,7 +220,7 @@ look_around(qdot_distance *d, size_t piece, size_t k, double *own)
     bool left_cut, right_cut = true;
 
     QDOT_TRY(look_aside(d, piece, k, -1, left, &left_cut));
-    if (k < last_of(&d->run->course.tr, piece))
+    if (k < qdot_trajectory_last_of(&d->run->course.tr, piece))
         QDOT_TRY(look_aside(d, piece, k + 1, 1, right, &right_cut));
     else
         memcpy(right, left, d->m * sizeof *right);

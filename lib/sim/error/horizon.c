@@ -116,7 +116,7 @@ measure_at(search *s, size_t k, size_t piece, double *d)
 
     QDOT_TRY(qdot_interrupt_check());
     status = qdot_trajectory_read_piece(s->companion, piece, s->run->course.tr.t[k], s->y);
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+    if (qdot_grave(status) != QDOT_OK)
         return status;
     if (status == QDOT_OK)
         *d = distance(s, k);

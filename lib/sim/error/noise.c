@@ -116,7 +116,7 @@ add(qdot_reader *r, double t, const double *values, double *noise, double *round
         if (status == QDOT_OK && isfinite(noise[j]))
             roundings[j] = fmax(roundings[j], levels * noise[j]);
     }
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 qdot_status

@@ -243,5 +243,5 @@ qdot_unresolved_forces_find(const qdot_course *course, bool *found, double *t)
     status = go_through(&s, course, found);
     *t = s.t;
     leave_plan(&s);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }

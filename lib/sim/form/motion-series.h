@@ -1,12 +1,7 @@
 /* motion-series.h -- Taylor coefficients of a single run from the program of its motion
  * (series/motion.h), stage by stage: by kernels, or as machine code.
  *
- *     explicit equations   M q'' = f, also bordered by constraints: K is of rows of the program
- *     d'Alembert's         K is M, from a tape of its own
- *     of constraints       K is [M A^T; A 0], of rows of the program, of any rank (saddle-solver.h)
- *
- * K is factored where a series begins. Orders of the unknowns up to QDOT_BLOCKS_SOLVED are solved for
- * by that factor, those beyond by the inverse; with constraints all by the inverse (num/bordered.h).
+ * What is solved for, of M q'' = f, d'Alembert's residual or constraints: motion-matrix.h.
  *
  * Tests  tests/sim/test_taylor.c, test_motion.c, test_bordered.c
  */

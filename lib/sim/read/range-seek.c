@@ -111,7 +111,7 @@ qdot_range_seek(qdot_range_scan *s)
         status = seek(s, 1);
     if (status == QDOT_OK && s->kind != QDOT_RANGE_MAX)
         status = seek(s, -1);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* --- what is open -------------------------------------------------------------------- */

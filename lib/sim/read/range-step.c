@@ -175,8 +175,11 @@ bound_blurred(scan *s, const part *p, double low, double high)
 
     if (p->n < MOST_NODES && off > 16 * DBL_EPSILON * qdot_chebyshev_size(p->n, p->c) &&
         may_surpass(s, low, high, off)) {
-        QDOT_TRY(fit(s, &finer, 2 * p->n, &good));
-        if (!good)
+        const qdot_status status = fit(s, &finer, 2 * p->n, &good);
+
+        if (status != QDOT_OK && !qdot_reader_has_nothing(status))
+            return status;
+        if (status != QDOT_OK || !good) /* one of them may be where there is no value */
             QDOT_TRY(fit(s, &finer, p->n, &good));
         qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, finer.n, NULL, NULL);
     }
@@ -265,7 +268,7 @@ find_noise(scan *s, double a, double b)
         s->noise = 0;
     if (status != QDOT_OK || !isfinite(s->blur))
         s->blur = 0;
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* The mean of the sizes of the values but for the largest. */

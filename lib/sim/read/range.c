@@ -28,12 +28,6 @@ typedef struct {
     qdot_joint joint;
 } question;
 
-static bool
-is_backward(const qdot_trajectory *tr)
-{
-    return tr->t[tr->count - 1] < tr->t[0];
-}
-
 /* --- along given courses -------------------------------------------------------------- */
 
 /* The value at a point by itself, or where the range has no length. */
@@ -177,7 +171,7 @@ compare(const question *q, size_t k, double x, double *error)
     qdot_run *run = q->x->runs[k];
     const qdot_course *companions[] = {&run->companion, &run->twin};
     const size_t count = run->has_twin ? 2 : 1;
-    const double last = is_backward(&run->course.tr) ? fmin(q->from, q->to) : fmax(q->from, q->to);
+    const double last = qdot_trajectory_is_backward(&run->course.tr) ? fmin(q->from, q->to) : fmax(q->from, q->to);
     double theirs[2], rough, spread = 0;
 
     if (!qdot_run_covered(run, last))
@@ -228,9 +222,8 @@ find_range(const qdot_run_expression *x, const double *given, double *from, doub
     for (size_t k = 0; k < x->n; k++) {
         const qdot_trajectory *tr = &x->runs[k]->course.tr;
 
-        low = fmax(low, fmin(tr->t[0], tr->t[tr->count - 1]));
-        high = fmin(high, fmax(tr->t[0], tr->t[tr->count - 1]));
-        backward = backward && is_backward(tr);
+        qdot_trajectory_narrow(tr, &low, &high);
+        backward = backward && qdot_trajectory_is_backward(tr);
     }
     if (low > high)
         return qdot_fail(QDOT_EDOMAIN, "the runs have no time in common");

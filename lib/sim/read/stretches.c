@@ -3,7 +3,8 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
+
+#include "num/sort.h"
 
 void
 qdot_stretches_clear(qdot_stretches *s)
@@ -11,14 +12,6 @@ qdot_stretches_clear(qdot_stretches *s)
     qdot_free(s->times.at);
     qdot_free(s->pieces);
     *s = (qdot_stretches){0};
-}
-
-static int
-ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 qdot_status
@@ -31,12 +24,8 @@ qdot_stretches_init(qdot_stretches *s, size_t n, const qdot_course *const *cours
     s->pieces = qdot_calloc(n, sizeof *s->pieces);
     if (!s->pieces)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < n; k++) {
-        const qdot_trajectory *tr = &courses[k]->tr;
-
-        low = fmax(low, fmin(tr->t[0], tr->t[tr->count - 1]));
-        high = fmin(high, fmax(tr->t[0], tr->t[tr->count - 1]));
-    }
+    for (size_t k = 0; k < n; k++)
+        qdot_trajectory_narrow(&courses[k]->tr, &low, &high);
     if (low > high)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&s->times, low));
@@ -45,7 +34,7 @@ qdot_stretches_init(qdot_stretches *s, size_t n, const qdot_course *const *cours
             if (courses[k]->tr.t[i] > low && courses[k]->tr.t[i] < high)
                 QDOT_TRY(qdot_vec_push(&s->times, courses[k]->tr.t[i]));
     QDOT_TRY(qdot_vec_push(&s->times, high));
-    qsort(s->times.at, s->times.n, sizeof *s->times.at, ascending);
+    qdot_sort(s->times.n, s->times.at);
     return QDOT_OK;
 }
 
@@ -67,7 +56,7 @@ enter(qdot_stretches *s)
     s->odd[0] = s->odd[1] = false;
     for (size_t k = 0; k < s->n; k++) {
         const qdot_trajectory *tr = &s->courses[k]->tr;
-        const bool opposite = (tr->t[tr->count - 1] < tr->t[0]) != (s->b < s->a);
+        const bool opposite = qdot_trajectory_is_backward(tr) != (s->b < s->a);
         const size_t point = qdot_trajectory_locate(tr, opposite ? s->b : s->a, 0);
 
         s->pieces[k] = qdot_trajectory_piece_of(tr, point);

@@ -21,6 +21,9 @@
 #include "sim/model/parameter-states.h"
 #include "tape/shake.h"
 
+/* The work that is left where `auto` changes over to a method for stiff scenes (ode/stiffness.h). */
+static const double worth_changing = 1e8;
+
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
 static const double least_tol = 2.3e-16;
 
@@ -211,7 +214,8 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .t0_low = run->t0_low,
                                 .t1_low = run->t1_low,
                                 .leading = run->leading,
-                                .meter = &run->meter};
+                                .meter = &run->meter,
+                                .stiff_work = run->plan->chosen ? worth_changing : 0};
     qdot_status status;
 
     qdot_progress_begin(run->t0, run->t1, "run");
@@ -318,7 +322,7 @@ show_states(qdot_run *run, qdot_companion *companion)
     qdot_free(y);
     qdot_trajectory_close(cursor);
     /* without them the error is that of the end alone */
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
+    return qdot_grave(status);
 }
 
 /* Whether nothing can divide the run into pieces. */
@@ -585,6 +589,91 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
+/* Its method for stiff scenes: steps keep its tolerance, but ends are off by a thousand times as
+ * much. */
+static const char stiff_method[] = "msbdf";
+static const double tighter = 1000, tightest = 1e-13;
+
+/* The error, in tolerances, at which a run by series is awaited all the same if it ends within
+ * reason. */
+static const double rather_wait = 100;
+
+static bool
+is_accurate(const qdot_run *run, double tol)
+{
+    return run->report.error <= fmax(rather_wait * tol, 1e-10);
+}
+
+/* *run's place is taken by `other`, which may be NULL. */
+static void
+take(qdot_run **run, qdot_run *other)
+{
+    if (!other)
+        return;
+    qdot_run_free(*run);
+    *run = other;
+}
+
+static qdot_status
+say_changed(qdot_run *run, const char *before, double t)
+{
+    qdot_text_format(&run->notice,
+                     "%sthe scene is stiff: from t = %.4g on stability would bound the steps of %s, "
+                     "so the run is by %s, tol %.3g",
+                     run->notice.n > 0 ? "\n" : "", t, before, run->plan->method->name,
+                     run->report.tol);
+    run->report.notice = qdot_text_str(&run->notice);
+    return qdot_text_status(&run->notice);
+}
+
+static bool
+has_arrived(qdot_status status, const qdot_run *run)
+{
+    return status == QDOT_OK && run->course.tr.result.outcome != QDOT_ODE_FAILED;
+}
+
+/* A run whose steps stability bounded, and whose method was `auto`'s choice, is made once more by a
+ * method for stiff scenes; if that is far off, by series after all, unless that would take long. If
+ * both fail the first stays. */
+static qdot_status
+change_over(qdot_scene *scene, const qdot_run_request *request, qdot_run **run)
+{
+    const double t = (*run)->course.tr.result.t;
+    const char *before = (*run)->plan->method->name;
+    qdot_run_request stiff = *request;
+    qdot_run *other = NULL, *patient = NULL;
+    qdot_status status;
+
+    if (!(*run)->course.tr.result.stiff || !(*run)->plan->chosen)
+        return QDOT_OK;
+    stiff.method = stiff_method;
+    stiff.tol = fmax(request->tol / tighter, tightest);
+    status = make_decided(scene, &stiff, &other);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
+        take(run, other);
+        return status;
+    }
+    if (has_arrived(status, other) && is_accurate(other, request->tol)) {
+        take(run, other);
+        return say_changed(*run, before, t);
+    }
+    stiff = *request;
+    stiff.method = before;
+    status = make_decided(scene, &stiff, &patient);
+    if (has_arrived(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
+        qdot_run_free(other);
+        take(run, patient);
+        return status;
+    }
+    qdot_run_free(patient);
+    if (!other || other->course.tr.result.outcome == QDOT_ODE_FAILED) {
+        qdot_run_free(other);
+        return QDOT_OK;
+    }
+    take(run, other);
+    return say_changed(*run, before, t);
+}
+
 qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
@@ -595,6 +684,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     *out = NULL;
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
     status = make_decided(scene, &states.request, out);
+    if (status == QDOT_OK && !asked->digits)
+        status = change_over(scene, &states.request, out);
     if (*out)
         (*out)->report.cpu_total = process_clock() - clock;
     qdot_parameter_states_clear(&states);

@@ -324,7 +324,7 @@ start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
     for (size_t m = 0; m < p->run.members; m++) {
         const qdot_status status = start(e, p->is_companion, whole, p->run.y + m * width(e));
 
-        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        if (qdot_grave(status) != QDOT_OK)
             return status;
         if (status == QDOT_OK)
             continue;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "num/sort.h"
 #include "ode/integrate.h"
 #include "sim/course/bind.h"
 #include "sim/course/course.h"
@@ -424,14 +425,6 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
                               w->t0, w->t1, w->y, result);
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 /* Three runs at least, more of short ones. */
 static qdot_status
 take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
@@ -445,7 +438,7 @@ take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
         QDOT_TRY(go(w, tol, false, &result));
         times[i] = result.stats.cpu;
     }
-    qsort(times, (size_t)n, sizeof *times, ascending);
+    qdot_sort((size_t)n, times);
     row->time_min = times[0];
     row->time_median = times[n / 2];
     return QDOT_OK;

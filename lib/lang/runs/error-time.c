@@ -1,0 +1,63 @@
+/* error-time.c -- the figure of `race` and `workprecision`: error at the end against CPU time. */
+#include "lang/runs/error-time.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/figures/figure-file.h"
+#include "show/figure.h"
+
+/* An error of 0 has no logarithm: it is drawn where rounding is. */
+static const double least_error = 0x1p-60;
+
+/* The curves and their points x, y [n each]; how many curves. */
+static size_t
+fill_curves(const qdot_error_time *of, double *x, double *y, qdot_curve *curves)
+{
+    size_t n = 0, at = 0;
+
+    for (size_t i = 0; i < of->n; i++) {
+        const qdot_error_point *p = of->points + i;
+
+        if (!isfinite(p->error) || !(p->time > 0))
+            continue;
+        if (n == 0 || strcmp(curves[n - 1].label.text, p->name) != 0)
+            curves[n++] = (qdot_curve){.label = {p->name, false}, .x = x + at, .y = y + at};
+        x[at] = p->time;
+        y[at++] = fmax(p->error, least_error);
+        curves[n - 1].rows++;
+    }
+    return n;
+}
+
+qdot_status
+qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
+{
+    qdot_curve *curves = qdot_calloc(of->n + 1, sizeof *curves);
+    double *values = qdot_calloc(2 * of->n + 1, sizeof *values);
+    qdot_panel panel = {.title = {of->title, false},
+                        .note = qdot_text_str(of->note),
+                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .curves = curves,
+                        .log = {true, true},
+                        .marks = true};
+    const qdot_figure figure = {.panels = &panel,
+                                .n = 1,
+                                .width = of->figure->width,
+                                .height = of->figure->height,
+                                .keep = of->figure->keep};
+    qdot_status status = curves && values ? qdot_text_status(of->note) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        panel.n = fill_curves(of, values, values + of->n, curves);
+        if (panel.n == 0)
+            status = qdot_fail(QDOT_EFAILED, "%s", of->none);
+    }
+    if (status == QDOT_OK) {
+        qdot_figure_option_apply(of->panel, &panel);
+        status = qdot_figure_file_show(session, &figure, of->figure->path);
+    }
+    qdot_free(curves);
+    qdot_free(values);
+    return status;
+}

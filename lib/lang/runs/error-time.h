@@ -1,0 +1,28 @@
+/* error-time.h -- the figure of `race` and `workprecision`: error at the end against CPU time, both
+ * in powers of ten, a curve for each name. */
+#ifndef QDOT_LANG_ERROR_TIME_H
+#define QDOT_LANG_ERROR_TIME_H
+
+#include "lang/figures/figure-option.h"
+#include "lang/session/session.h"
+
+typedef struct {
+    const char *name; /* points of one name stand together */
+    double time, error;
+} qdot_error_point;
+
+typedef struct {
+    const char *title;
+    const qdot_text *note;
+    const char *none; /* to be said where no point can be drawn */
+    size_t n;
+    const qdot_error_point *points; /* [n] those without an error or a time are left out */
+    const qdot_figure_choice *figure;
+    const qdot_panel_choice *panel;
+} qdot_error_time;
+
+/* Draw it, into its file or a window. Errors: QDOT_EFAILED with `none`, those of the file. */
+QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,
+                                                 const qdot_error_time *of);
+
+#endif

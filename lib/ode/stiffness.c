@@ -1,0 +1,113 @@
+/* stiffness.c -- whether thousands of steps lie on a parabola. */
+#include "ode/stiffness.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Steps from a place to the next, in all 4000. */
+static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
+
+/* Of the range, what a parabola may be off by. */
+static const double share = 1e-2;
+
+static const double work_default = 5e9;
+
+/* A million steps: earlier ones may be short for once. */
+static const int windows_patient = 250;
+
+void
+qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
+{
+    qdot_free(s->y);
+    *s = (qdot_ode_stiffness){0};
+}
+
+/* Whether component i lies on the parabola through its first, middle and last place. */
+static bool
+is_smooth(const qdot_ode_stiffness *s, size_t n, size_t i, double noise)
+{
+    enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
+    const double *y = s->y + i, a = y[0], b = y[MIDDLE * n], c = y[LAST * n];
+    const double T = s->t[LAST] - s->t[0], m = (s->t[MIDDLE] - s->t[0]) / T;
+    const double curved = ((b - a) / m - (c - a)) / (m - 1);
+    double low = a, high = a;
+
+    for (size_t k = 1; k <= LAST; k++) {
+        low = fmin(low, y[k * n]);
+        high = fmax(high, y[k * n]);
+    }
+    for (size_t k = 1; k < LAST; k++) {
+        const double x = (s->t[k] - s->t[0]) / T, by = a + x * (c - a) + curved * x * (x - 1);
+
+        if (!(fabs(y[k * n] - by) <= share * (high - low) + noise * fmax(1, fabs(b))))
+            return false;
+    }
+    return true;
+}
+
+static bool
+are_smooth(const qdot_ode_stiffness *s, size_t n, double noise)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!is_smooth(s, n, i, noise))
+            return false;
+    return true;
+}
+
+static int
+steps_between(void)
+{
+    int sum = 0;
+
+    for (size_t k = 1; k < QDOT_ODE_STIFF_PLACES; k++)
+        sum += waits[k];
+    return sum;
+}
+
+/* Keep the state; whether there are places enough to judge. */
+static qdot_status
+keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
+{
+    if (!s->y)
+        s->y = qdot_malloc(QDOT_ODE_STIFF_PLACES * at->n * sizeof *s->y);
+    if (!s->y)
+        return QDOT_ENOMEM;
+    memcpy(s->y + s->count * at->n, at->y, at->n * sizeof *s->y);
+    s->t[s->count++] = at->t;
+    *enough = s->count == QDOT_ODE_STIFF_PLACES;
+    s->wait = waits[*enough ? 0 : s->count];
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
+                        const qdot_ode_options *options, bool *stiff)
+{
+    const double worth = options->stiff_work > 0 ? options->stiff_work : work_default;
+    double step, left;
+    bool enough;
+
+    if (--s->wait > 0)
+        return QDOT_OK;
+    QDOT_TRY(keep(s, at, &enough));
+    if (!enough)
+        return QDOT_OK;
+    step = (at->t - s->t[0]) / steps_between();
+    left = fabs((at->t1 - at->t) / step);
+    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at->n, at->noise);
+    s->count = 0;
+    if (++s->windows >= windows_patient && left > (double)at->most && !*stiff)
+        return qdot_fail(QDOT_ELIMIT,
+                         "stopped at t = %.4g: steps of %.1g, of which %.0e are left, are more than "
+                         "a run may take (%.0e)",
+                         at->t, fabs(step), left, (double)at->most);
+    if (!*stiff)
+        return QDOT_OK;
+    return qdot_fail(QDOT_ELIMIT,
+                     "stopped at t = %.4g: the scene is stiff there: stability allows steps of "
+                     "%.1g, of which %.0e are left; method msbdf needs few, or method bsimp",
+                     at->t, fabs(step), left);
+}

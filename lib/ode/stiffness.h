@@ -1,0 +1,54 @@
+/* stiffness.h -- sees that the steps of an explicit method are bound by stability.
+ *
+ * Where a motion is damped fast and then goes slowly, an explicit method has to keep its steps below
+ * the time of the damping for ever. Then over thousands of steps every component moves along a
+ * parabola,
+ *
+ *     |y_i(t) - parabola through y_i at both ends and the middle|
+ *         <= share (max y_i - min y_i) + noise max(1, |y_i|),
+ *
+ * at seven more places without a pattern, which no motion does that its steps follow;
+ * noise is what these leave of the fast one. It matters if much work is left (in about nanoseconds;
+ * meter.h): the run ends, and says so. So does a run by any method that after a million steps would
+ * need more than it may take.
+ *
+ * Tests  tests/ode/test_stiffness.c, tests/script/stiff-told.sh, stiff-auto.lag
+ */
+#ifndef QDOT_ODE_STIFFNESS_H
+#define QDOT_ODE_STIFFNESS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "ode/run.h"
+
+enum { QDOT_ODE_STIFF_PLACES = 10 };
+
+typedef struct {
+    double *y;   /* [places x n] states, allocated when they are needed */
+    double t[QDOT_ODE_STIFF_PLACES];
+    size_t count; /* of them */
+    int wait;     /* steps until the next */
+    int windows;  /* looked at so far, 4000 steps each */
+} qdot_ode_stiffness;
+
+void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);
+
+/* Where a step ended. */
+typedef struct {
+    size_t n;
+    double t, t1;    /* now, and the end of the run */
+    const double *y; /* [n] */
+    double noise;
+    double work;   /* of a step */
+    uint64_t most; /* steps that the run may take */
+    bool implicit; /* stability does not bound its steps */
+} qdot_ode_stiff_step;
+
+/* Look after a step. QDOT_ELIMIT: steps are bound by stability, and *stiff, or too many are left;
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_ode_stiffness_look(qdot_ode_stiffness *s,
+                                                    const qdot_ode_stiff_step *at,
+                                                    const qdot_ode_options *options, bool *stiff);
+
+#endif

@@ -1,0 +1,69 @@
+/* motion-matrix.h -- the matrix K of what a motion solves for, K d = -E, while a series is expanded.
+ *
+ *     explicit equations   entries are rows of the program; block by block, Cholesky or LDL^T
+ *     d'Alembert's         K is M, from a tape of its own; likewise
+ *     of constraints       [M A^T; A 0], of rows of the program, of any rank (saddle-solver.h)
+ *
+ * It is factored where a series begins. Orders up to QDOT_BLOCKS_SOLVED are solved for by that
+ * factor, those beyond by the inverse; with constraints all by the inverse (num/bordered.h).
+ *
+ * Tests  tests/sim/test_taylor.c, test_motion.c, test_bordered.c
+ */
+#ifndef QDOT_SIM_MOTION_MATRIX_H
+#define QDOT_SIM_MOTION_MATRIX_H
+
+#include "series/lanes-motion.h"
+#include "series/taylor-motion.h"
+#include "sim/form/blocks.h"
+#include "sim/form/saddle-solver.h"
+
+/* An entry of K: where its value goes. */
+typedef struct {
+    double *to;
+    const double *from;
+} qdot_motion_matrix_entry;
+
+typedef struct {
+    const qdot_plan *plan;
+    const qdot_motion *motion;
+    qdot_saddle_solver *saddle; /* of constraints by their own coefficients, */
+    int refined;                /* and orders up to this one are; else NULL, and: */
+    qdot_blocks solvers;
+    size_t blocks; /* of the motion, */
+    size_t *block; /* [blocks] by their number in `solvers` */
+    qdot_motion_matrix_entry *entries; /* [n_entries] those that move; none: K is of `masses` */
+    size_t n_entries;
+    const qdot_tape *masses; /* NULL: K is of the entries */
+    qdot_tape *shaken;       /* these, shaken; NULL: as they are */
+    double *in, *out, *work; /* of `masses` */
+    double *by;              /* [solved] order k of what is solved for */
+} qdot_motion_matrix;
+
+/* For a series of the motion; all is borrowed. masses: M as lower triangles of the blocks that are
+ * not constant, from q, q', t; NULL: K is of rows. Errors: QDOT_ESINGULAR, QDOT_ENOMEM. Clear it in
+ * any case. */
+QDOT_MUST_CHECK qdot_status qdot_motion_matrix_init(qdot_motion_matrix *K, const qdot_plan *plan,
+                                                    const qdot_motion *motion,
+                                                    const qdot_tape *masses,
+                                                    qdot_taylor *taylor, bool shaken);
+void qdot_motion_matrix_clear(qdot_motion_matrix *K);
+
+/* Before the stages of order 0, at y: what does not come of rows. Then with the rows of order 0. */
+QDOT_MUST_CHECK qdot_status qdot_motion_matrix_begin(qdot_motion_matrix *K, double t,
+                                                     const double *y);
+QDOT_MUST_CHECK qdot_status qdot_motion_matrix_take_rows(qdot_motion_matrix *K);
+
+/* Before orders 1 ... p - 1 are solved for. */
+void qdot_motion_matrix_prepare(qdot_motion_matrix *K, int p);
+
+/* K->by, order k of -E, becomes order k of what is solved for. */
+void qdot_motion_matrix_solve(qdot_motion_matrix *K, int k);
+
+/* Give its factors and inverses to machine code, after _prepare. */
+void qdot_motion_matrix_hand_over(const qdot_motion_matrix *K, qdot_taylor *taylor);
+void qdot_motion_matrix_hand_to_lanes(const qdot_motion_matrix *K, qdot_lanes_motion *code);
+
+/* How often it was factored. */
+size_t qdot_motion_matrix_factored(const qdot_motion_matrix *K);
+
+#endif

@@ -1,0 +1,127 @@
+/* What lies on a line for thousands of steps is bound by stability; what turns is not. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "ode/stiffness.h"
+
+/* After how many steps of h of the motion (x, x') it is told, of 20,000; 0: never. */
+static int
+told_after(double (*x)(double), double (*v)(double), double h, double t1, double work)
+{
+    qdot_ode_stiffness s = {0};
+    const qdot_ode_options options = {.tol = 1e-9};
+    bool stiff = false;
+    int k = 0;
+
+    for (; k < 20000 && !stiff; k++) {
+        const double t = k * h, y[] = {x(t), v(t)};
+        const qdot_ode_stiff_step at = {
+            .n = 2, .t = t, .t1 = t1, .y = y, .noise = 1e-9, .work = work, .most = 50000000};
+
+        const qdot_status status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+
+        assert_int_equal(status, stiff ? QDOT_ELIMIT : QDOT_OK);
+    }
+    qdot_ode_stiffness_clear(&s);
+    return stiff ? k : 0;
+}
+
+static double
+sinks(double t)
+{
+    return -1e-3 * (t + expm1(-1e3 * t) / 1e3);
+}
+
+static double
+speed(double t)
+{
+    return 1e-3 * expm1(-1e3 * t);
+}
+
+static double
+trembles(double t)
+{
+    return t + 1e-6 * sin(1e3 * t);
+}
+
+static double
+rate(double t)
+{
+    return 1 + 1e-3 * cos(1e3 * t);
+}
+
+static double
+zero(double t)
+{
+    (void)t;
+    return 0;
+}
+
+static void
+a_motion_on_a_line_is_told(void **state)
+{
+    int steps;
+
+    (void)state;
+    steps = told_after(sinks, speed, 2e-3, 1e6, 100);
+    assert_true(steps > 4000 && steps < 8100);
+    steps = told_after(zero, zero, 1, 1e12, 100);
+    assert_true(steps > 4000 && steps < 4100);
+}
+
+static void
+one_that_turns_is_not(void **state)
+{
+    (void)state;
+    assert_int_equal(told_after(trembles, rate, 2e-3, 1e6, 100), 0);
+    assert_int_equal(told_after(sin, cos, 1.7, 1e12, 100), 0);
+    assert_int_equal(told_after(sin, cos, 6.283185307179586 / 7, 1e12, 100), 0);
+    assert_int_equal(told_after(exp, exp, 1e-3, 1e12, 100), 0);
+}
+
+static void
+nor_one_that_ends_soon(void **state)
+{
+    (void)state;
+    assert_int_equal(told_after(sinks, speed, 2e-3, 1e3, 100), 0);
+}
+
+/* Steps that turn, more than there may be: a million of them are awaited. */
+static void
+too_many_steps_are_told(void **state)
+{
+    qdot_ode_stiffness s = {0};
+    const qdot_ode_options options = {.tol = 1e-9};
+    bool stiff = false;
+    qdot_status status = QDOT_OK;
+    int k = 0;
+
+    (void)state;
+    for (; k < 2000000 && status == QDOT_OK; k++) {
+        const double y = sin(k);
+        const qdot_ode_stiff_step at = {.n = 1, .t = k, .t1 = 1e9, .y = &y, .noise = 1e-9,
+                                        .work = 100, .most = 50000000, .implicit = true};
+
+        status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+    }
+    assert_true(status == QDOT_ELIMIT && !stiff && k > 990000 && k < 1010000);
+    qdot_ode_stiffness_clear(&s);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_motion_on_a_line_is_told),
+        cmocka_unit_test(one_that_turns_is_not),
+        cmocka_unit_test(nor_one_that_ends_soon),
+        cmocka_unit_test(too_many_steps_are_told),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
