@@ -80,12 +80,6 @@ qdot_run_bytes(const qdot_run *run)
            points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
 }
 
-double
-qdot_run_requested_end(const qdot_run *run)
-{
-    return run->t1;
-}
-
 const qdot_run_report *
 qdot_run_get_report(const qdot_run *run)
 {
