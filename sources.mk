@@ -392,6 +392,7 @@ library_sources = \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
 	lib/sim/error/companion.c \
+	lib/sim/error/constraint-corners.c \
 	lib/sim/error/distance.c \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
@@ -459,6 +460,7 @@ library_sources = \
 	lib/sim/read/value.c \
 	lib/sim/run/change-over.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/start/nearest-search.c \
@@ -804,6 +806,7 @@ library_headers = \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
 	lib/sim/error/companion.h \
+	lib/sim/error/constraint-corners.h \
 	lib/sim/error/distance.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
@@ -861,6 +864,7 @@ library_headers = \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
 	lib/sim/run/change-over.h \
+	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/start/nearest.h \
@@ -885,6 +889,7 @@ library_headers = \
 	lib/tape/tape.h
 
 library_texts = \
+	lib/show/export-c-motion.template \
 	lib/show/export-c.template \
 	lib/show/export-julia.template \
 	lib/show/export-matlab.template \
@@ -1155,6 +1160,7 @@ script_tests = \
 	tests/script/order.lag \
 	tests/script/partial-sums.lag \
 	tests/script/parts.lag \
+	tests/script/passed-over.lag \
 	tests/script/pasted.lag \
 	tests/script/pendulum.lag \
 	tests/script/plan-chain.lag \
@@ -1995,6 +2001,7 @@ test_files = \
 	tests/script/order.out \
 	tests/script/partial-sums.out \
 	tests/script/parts.out \
+	tests/script/passed-over.out \
 	tests/script/pasted.out \
 	tests/script/pendulum.out \
 	tests/script/plan-chain.out \

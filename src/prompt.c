@@ -99,6 +99,10 @@ prepare(qdot_session *session)
     rl_outstream = session->json || !isatty(STDOUT_FILENO) ? stderr : stdout;
     rl_persistent_signal_handlers = 1;
     rl_variable_bind("enable-bracketed-paste", "off");
+    /* where the locale knows ASCII only, the bytes of θ are still no keys with Meta */
+    rl_variable_bind("input-meta", "on");
+    rl_variable_bind("output-meta", "on");
+    rl_variable_bind("convert-meta", "off");
     qdot_input_colours_install(session);
 }
 

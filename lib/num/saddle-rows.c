@@ -21,6 +21,12 @@ qdot_saddle_has_faded(const qdot_saddle *s, size_t k)
     return squared(s, k) < faded * s->widest[k];
 }
 
+double
+qdot_saddle_remains(const qdot_saddle *s, size_t k)
+{
+    return s->widest[k] > 0 ? sqrt(squared(s, k) / s->widest[k]) : 1;
+}
+
 size_t
 qdot_saddle_faded(qdot_saddle *s)
 {

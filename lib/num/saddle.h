@@ -108,6 +108,9 @@ size_t qdot_saddle_faded(qdot_saddle *s);
 /* Whether row k had shrunk so at that call. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);
 
+/* The length of row k now over the largest that it had at such calls; 1: it had none. */
+double qdot_saddle_remains(const qdot_saddle *s, size_t k);
+
 /* Factor for M and A, which are kept. QDOT_ESINGULAR: A has lost rank
  * (*failed is a row of it, n + k), or M is singular on its null space (*failed is an
  * unknown), or something is not finite. QDOT_EINTR. */

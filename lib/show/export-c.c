@@ -5,6 +5,10 @@ static const char system_text[] = {
 #include "show/export-c.inc"
 };
 
+static const char motion_text[] = {
+#include "show/export-c-motion.inc"
+};
+
 static const char value_text[] =
     "/* $name$ -- written by qdot.\n"
     " *\n"
@@ -78,6 +82,7 @@ const qdot_export_syntax qdot_export_c = {
 #include "show/export-operation.def"
         },
     .system = system_text,
+    .motion = motion_text,
     .value = value_text,
     .values = values_text,
 };

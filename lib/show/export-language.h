@@ -49,7 +49,8 @@ typedef struct {
      * NULL: + - * / and what is made of them. */
     const char *operation[QDOT_OP_COUNT];
 
-    const char *system, *value, *values; /* templates: a motion, an expression, several */
+    /* Templates: a motion (in two parts; motion NULL: in one), an expression, several. */
+    const char *system, *motion, *value, *values;
 } qdot_export_syntax;
 
 extern const qdot_export_syntax qdot_export_c, qdot_export_python, qdot_export_julia,

@@ -392,6 +392,8 @@ write_file(writer *w, const char *file, const char *text)
     if (status == QDOT_OK) {
         choose_temporary(w);
         status = write_template(w, text);
+        if (status == QDOT_OK && w->system != NULL && w->syntax->motion != NULL)
+            status = write_template(w, w->syntax->motion);
     }
     for (size_t i = 0; w->words != NULL && w->sources != NULL && i < w->inputs; i++) {
         qdot_free(w->words[i]);

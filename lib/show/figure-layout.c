@@ -47,10 +47,13 @@ is_inside(const qdot_figure_range *range, double value)
     return !range->set || (value >= range->least && value <= range->most);
 }
 
-/* Points beyond the range of one axis say nothing of the other. */
+/* Points beyond the range of one axis say nothing of the other; but a course is shown over all of its
+ * abscissa. */
 static qdot_status
 measure(const qdot_panel *panel, extent *e)
 {
+    double from = INFINITY, to = -INFINITY; /* of x, wherever y is */
+
     *e = (extent){.course = true};
     for (size_t i = 0; i < panel->n; i++) {
         const qdot_curve *c = &panel->curves[i];
@@ -61,8 +64,11 @@ measure(const qdot_panel *panel, extent *e)
                 QDOT_TRY(qdot_interrupt_check());
             up = up && (k == 0 || !(c->x[k] < c->x[k - 1]));
             down = down && (k == 0 || !(c->x[k] > c->x[k - 1]));
-            if (!qdot_figure_shows(panel, c, k) || !is_inside(&panel->range[0], c->x[k]) ||
-                !is_inside(&panel->range[1], c->y[k]))
+            if (!qdot_figure_shows(panel, c, k) || !is_inside(&panel->range[0], c->x[k]))
+                continue;
+            from = fmin(from, c->x[k]);
+            to = fmax(to, c->x[k]);
+            if (!is_inside(&panel->range[1], c->y[k]))
                 continue;
             widen(e, 0, c->x[k]);
             widen(e, 1, c->y[k]);
@@ -71,6 +77,10 @@ measure(const qdot_panel *panel, extent *e)
             e->points++;
         }
         e->course = e->course && (up || down);
+    }
+    if (e->course && e->points > 0) {
+        e->least[0] = from;
+        e->most[0] = to;
     }
     if (e->points == 0)
         return qdot_fail(QDOT_EDOMAIN, "no point of the plot is finite%s%s",

@@ -210,9 +210,24 @@ typedef struct {
     bool indented;
 } row;
 
+/* The line of a heading goes on into the equations below it: a paragraph that ends there would be
+ * followed by an empty line. */
+static void
+join_heading(page *p)
+{
+    static const char end[] = "}\\par\n";
+
+    if (qdot_ends_in(qdot_text_str(p->out), end)) {
+        qdot_text_truncate(p->out, p->out->n - strlen(end));
+        qdot_text_add(p->out, "}\n");
+    }
+}
+
 static void
 latex_row(page *p, const row *r)
 {
+    if (!p->block)
+        join_heading(p);
     qdot_text_add(p->out, p->told    ? ""
                           : p->block ? " \\\\\n    "
                                      : "\\begin{align*}\n    ");
@@ -442,7 +457,7 @@ add_text(page *p, const char *line, size_t n)
 
     end_block(p);
     line += blanks;
-    qdot_text_add(p->out, latex ? title ? "\\medskip\\noindent\\textbf{" : "\\noindent "
+    qdot_text_add(p->out, latex ? title ? "\\par\\medskip\\noindent\\textbf{" : "\\noindent "
                           : title ? "<h2>"
                                   : "<p>");
     while ((formula = next_formula(p, line, end, &size)) != NULL) {

@@ -491,6 +491,21 @@ a_sketch_shows_the_curve(void **state)
 }
 
 /* Where a label does not fit between the numbers these stand alone; no line is too long. */
+/* A course that leaves the range of y is shown over all of its time. */
+static void
+a_range_of_y_cuts_no_time_off(void **state)
+{
+    const double at[] = {0, 1, 2, 3}, up[] = {5, 0, 1, 7};
+    const qdot_curve curve = {.rows = 4, .x = at, .y = up};
+    const qdot_panel panel = {.curves = &curve, .n = 1, .range = {{0}, {0, 2, true}}};
+    char *text = script_of_panel(&panel);
+
+    (void)state;
+    assert_non_null(strstr(text, "set xrange [0:3]"));
+    assert_non_null(strstr(text, "set yrange [0:2]"));
+    free(text);
+}
+
 /* Two curves differ, and a line above says which is which; one alone has none. */
 static void
 curves_of_a_sketch_differ(void **state)
@@ -769,6 +784,7 @@ main(void)
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),
         cmocka_unit_test(a_sketch_shows_the_curve),
+        cmocka_unit_test(a_range_of_y_cuts_no_time_off),
         cmocka_unit_test(curves_of_a_sketch_differ),
         cmocka_unit_test(a_narrow_sketch_fits),
         cmocka_unit_test(a_locale_with_commas_changes_nothing),

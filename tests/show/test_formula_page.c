@@ -39,7 +39,7 @@ text_stands_between_blocks(void **state)
 {
     (void)state;
     becomes(qdot_page_latex, "1. Energies & all\n    \\(V = 0\\)\n\nx_1: \\(a\\) is 5 %\n",
-            "\\medskip\\noindent\\textbf{1. Energies \\& all}\\par\n"
+            "\\par\\medskip\\noindent\\textbf{1. Energies \\& all}\n"
             "\\begin{align*}\n    V & = 0\n\\end{align*}\n"
             "\\noindent x\\_1: \\(a\\) is 5 \\%\\par\n");
 }

@@ -33,6 +33,18 @@ statements_are_answered_and_errors_go_on(void **state)
     assert_int_equal(finish(), 0);
 }
 
+/* Where the locale is C the bytes of a letter are still that letter. */
+static void
+greek_letters_are_typed_in_any_locale(void **state)
+{
+    (void)state;
+    start("-q");
+    ready();
+    type("print \"θ\", 40 + 2\r");
+    expect("\nθ 42");
+    leave_by_ctrl_d();
+}
+
 static void
 an_open_bracket_continues(void **state)
 {
@@ -421,6 +433,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(banner_is_shown_unless_quiet),
         cmocka_unit_test(statements_are_answered_and_errors_go_on),
+        cmocka_unit_test(greek_letters_are_typed_in_any_locale),
         cmocka_unit_test(an_open_bracket_continues),
         cmocka_unit_test(ctrl_c_clears_the_line),
         cmocka_unit_test(ctrl_c_stops_a_computation_and_keeps_the_session),

@@ -227,6 +227,18 @@ spin(derivation *d, const qdot_body *b)
     return is(d, omega, tidy(d, w));
 }
 
+/* How a body in the plane is turned. */
+static qdot_status
+turn(derivation *d, const qdot_body *b)
+{
+    if (b->angle == QDOT_NIL || qdot_expr_kind(d->session->pool, b->angle) == QDOT_NUM)
+        return QDOT_OK;
+    label(d, "angle", b->name, NULL, NULL);
+    QDOT_TRY(qdot_formula(d->session, b->angle, &d->text));
+    qdot_text_char(&d->text, '\n');
+    return QDOT_OK;
+}
+
 /* What the steps below may use beside the laws of algebra. */
 static qdot_status
 assumptions(derivation *d)
@@ -266,6 +278,8 @@ kinematics(derivation *d)
                         step == 0   ? r
                         : step == 1 ? tidy(d, qdot_ddt(s->pool, r))
                                     : qdot_mech_speed2(s, r)));
+            if (step == 0 && !particle)
+                QDOT_TRY(turn(d, b));
             if (step == 1 && !particle)
                 QDOT_TRY(spin(d, b));
         }
@@ -315,13 +329,16 @@ potential(derivation *d)
     heading(d, "Potential energy",
             s->gravities.n > 0 && s->potentials.n + s->springs.n == 0 ? "V = -sum m g.r" : NULL);
     for (size_t k = 0; several && qdot_mech_potential_part(s, k, &part); k++) {
+        char number[24];
+
+        snprintf(number, sizeof number, "%zu", k + 1);
         if (strcmp(part.kind, "potential") == 0)
             label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
                   part.name, NULL, NULL);
         else
             label(d, "potential energy", part.kind,
                   strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
-        QDOT_TRY(is(d, bare("V"), part.value));
+        QDOT_TRY(is(d, (symbol){.plain = "V", .letter = "V", .of = number}, part.value));
     }
     if (several)
         label(d, "together", NULL, NULL, NULL);

@@ -470,7 +470,7 @@ start_of_run(description *d, qdot_run *run)
             d->values.at[i].value = value;
     }
     d->x.t0 = r->t0;
-    d->x.t1 = r->t1;
+    d->x.t1 = qdot_run_requested_end(run);
     d->x.tol = r->digits > 0 ? LEAST_TOL : fmax(r->tol / 10, LEAST_TOL); /* of a lower order */
     return status;
 }

@@ -98,7 +98,9 @@ add_table(const sections *s)
         add_cell(s->page, r->tol, false);
         add_cell(s->page, r->t1, false);
         qdot_text_format(s->page, "<td>%zu</td><td>%zu</td>", r->steps, r->evals);
-        add_cell(s->page, r->cpu, false);
+        qdot_text_add(s->page, "<td>");
+        qdot_text_double(s->page, r->cpu, 2);
+        qdot_text_add(s->page, "</td>");
         add_cell(s->page, r->error, true);
         add_cell(s->page, r->energy_drift, true);
         qdot_text_format(s->page, "<td>%s</td></tr>\n", ends[r->status]);

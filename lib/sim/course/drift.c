@@ -8,6 +8,7 @@
 #include "series/lanes.h"
 #include "sim/form/residual.h"
 #include "sim/model/absent.h"
+#include "sim/model/term-magnitude.h"
 
 void
 qdot_drifts_clear(qdot_drifts *d)
@@ -189,6 +190,43 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
         d->at[d->n - 1].drift = 0;
     }
     return status;
+}
+
+/* The largest sum of the sizes of a quantity's terms; 0: not known. */
+static qdot_status
+measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity, double *most)
+{
+    const qdot_expr terms = qdot_term_magnitude(p->pool, qdot_plan_substitute(p, quantity));
+    qdot_tape *tape = NULL;
+    qdot_drift of = {.quantity = terms};
+    qdot_status status = qdot_grave(lower(p, terms, &tape));
+
+    *most = 0;
+    if (status == QDOT_OK && tape)
+        status = follow(tape, tr, &of);
+    if (tape)
+        *most = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
+    qdot_tape_free(tape);
+    return status;
+}
+
+qdot_status
+qdot_drifts_contradict(const qdot_drifts *d, const qdot_plan *p, const qdot_trajectory *tr,
+                       double tol, bool *contradict)
+{
+    static const double most = 100;
+    const double may = most * tol * (double)tr->result.stats.steps;
+    double drift, terms;
+
+    *contradict = false;
+    if (!d->energy || !p->M)
+        return QDOT_OK;
+    drift = d->at[0].drift * fmax(1, fabs(d->at[0].start));
+    if (!(drift > may * fmax(1, fabs(d->at[0].start)))) /* whatever the terms are */
+        return QDOT_OK;
+    QDOT_TRY(measure_terms(p, tr, d->at[0].quantity, &terms));
+    *contradict = terms > 0 && drift > may * fmax(1, terms);
+    return QDOT_OK;
 }
 
 qdot_status

@@ -21,4 +21,14 @@ QDOT_MUST_CHECK qdot_status qdot_drifts_measure(qdot_scene *scene, const qdot_pl
                                                 qdot_drifts *drifts);
 void qdot_drifts_clear(qdot_drifts *drifts);
 
+/* Whether the energy of a run by tolerance drifts by far more than its steps can make it,
+ *
+ *     |E - E_0| > 100 tol steps max(1, sum of its terms' sizes):
+ *
+ * then a step went over a place where the equations are singular. Errors: as qdot_drifts_measure. */
+QDOT_MUST_CHECK qdot_status qdot_drifts_contradict(const qdot_drifts *drifts,
+                                                   const qdot_plan *plan,
+                                                   const qdot_trajectory *tr, double tol,
+                                                   bool *contradict);
+
 #endif

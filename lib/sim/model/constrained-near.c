@@ -1,4 +1,6 @@
 /* constrained-near.c -- how near constraints are to being dependent at a state. */
+#include <math.h>
+
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
@@ -19,6 +21,25 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
                           : failed < h->plan->n)
         return false;
     return qdot_constrained_dependent(h->c, &all->saddle, all->row, near, names) > 0;
+}
+
+double
+qdot_constrained_remains(qdot_constrained *h, double t, const double *y, size_t *row)
+{
+    const qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    double least = INFINITY;
+
+    qdot_constrained_load(h, t, y);
+    qdot_constrained_metric(h, h->at[QDOT_ACCELERATION]);
+    for (size_t k = 0; k < all->m; k++) {
+        const double left = qdot_saddle_remains(&all->saddle, k);
+
+        if (left < least) {
+            least = left;
+            *row = all->row ? all->row[k] : k;
+        }
+    }
+    return least;
 }
 
 double

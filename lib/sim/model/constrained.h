@@ -109,6 +109,11 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_look_beside(const qdot_plan *plan, 
 double qdot_constrained_independence(qdot_constrained *constrained, double t,
                                      const double *y);
 
+/* How long the row of A that has shrunk most is at y, over the largest that it was in the run; *row:
+ * the constraint that it is of. */
+double qdot_constrained_remains(qdot_constrained *constrained, double t, const double *y,
+                                size_t *row);
+
 /* Whether the constraints that hold accelerations are nearly dependent at y; if so append which:
  * "constraints a and b". false also if that cannot be found out. */
 bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y,

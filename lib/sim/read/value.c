@@ -179,3 +179,9 @@ qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr
         return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
     return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
 }
+
+double
+qdot_run_requested_end(const qdot_run *run)
+{
+    return run->t1;
+}

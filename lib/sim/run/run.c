@@ -2,6 +2,7 @@
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
 #include "sim/run/change-over.h"
+#include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 
 #include <math.h>
@@ -17,8 +18,6 @@
 #include "sim/error/failure.h"
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
-#include "sim/error/touches.h"
-#include "sim/error/unresolved-forces.h"
 #include "sim/model/parameter-states.h"
 #include "tape/shake.h"
 
@@ -464,26 +463,6 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
-/* If a step missed a force, the error is unknown. */
-static qdot_status
-find_hidden(qdot_run *run)
-{
-    const qdot_error before = *qdot_last_error();
-    char text[200];
-    double t;
-
-    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &run->hidden, &t));
-    qdot_fail_again(&before);
-    if (!run->hidden)
-        return QDOT_OK;
-    run->report.error = NAN;
-    snprintf(text, sizeof text,
-             "a force acts about t = %.6g for less than a step, which went over it: %s", t,
-             run->plan->method->series ? "end a run just before, and go on from there"
-                                       : "method taylor looks for such places");
-    return qdot_run_say_doubt(run, text);
-}
-
 /* Integrate, then find the error and the drift of conserved quantities. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
@@ -499,11 +478,13 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     if (status == QDOT_OK)
         status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
-        status = find_hidden(run);
+        status = qdot_run_doubt_places(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+    if (status == QDOT_OK && !*interrupted)
+        status = qdot_run_doubt_energy(run, tol);
     if (status == QDOT_EINTR) {
         *interrupted = true;
         status = QDOT_OK;
@@ -559,19 +540,6 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     return interrupted ? QDOT_EINTR : QDOT_OK;
 }
 
-/* Lower *tol, if the run is so exact that a touch of an event is seen to be none. */
-static qdot_status
-decide_touches(qdot_run *run, double *tol)
-{
-    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
-    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
-        status = qdot_touches_look(run, i, widths, tol);
-    qdot_free(widths);
-    return status == QDOT_ENOMEM || status == QDOT_EINTR ? status : QDOT_OK;
-}
-
 /* Make the run, anew while a touch of an event is none. */
 static qdot_status
 make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
@@ -582,7 +550,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         QDOT_TRY(make(scene, asked, touch_tol, out));
         if (asked->digits)
             return QDOT_OK;
-        QDOT_TRY(decide_touches(*out, &touch_tol));
+        QDOT_TRY(qdot_run_decide_touches(*out, &touch_tol));
         if (touch_tol == before)
             return QDOT_OK;
         qdot_run_free(*out);

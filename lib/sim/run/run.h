@@ -29,6 +29,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_new(qdot_scene *scene, const qdot_run_reque
 void qdot_run_free(qdot_run *run);
 size_t qdot_run_bytes(const qdot_run *run); /* memory of the stored points, about */
 const qdot_run_report *qdot_run_get_report(const qdot_run *run);
+double qdot_run_requested_end(const qdot_run *run); /* the second limit, reached or not */
 
 /* Any expressions [m] of the scene (coordinates, velocities, accelerations, t, parameters)
  * along the run at times [k], ascending or not: values [k*m] row by row, as accurate as the run;

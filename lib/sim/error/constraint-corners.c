@@ -1,0 +1,106 @@
+/* constraint-corners.c -- minima of the rows' lengths along a run, and the motion about them. */
+#include "sim/error/constraint-corners.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "sim/course/bind.h"
+#include "sim/model/constrained.h"
+
+/* What is left of a row counts as nothing below this; the motion is looked at where so many times
+ * as much is left, and where `apart` is. */
+static const double nothing = 1e-3, beside = 4, apart = 0.1;
+
+/* The cosine of a corner at most, and the part of the speed that is left beside it at least. */
+static const double turned = 0.5, kept = 0.3;
+
+typedef struct {
+    const qdot_trajectory *tr;
+    qdot_constrained *held;
+    size_t first, end; /* the points of the piece */
+} piece;
+
+static double
+remains(const piece *p, size_t k, size_t *row)
+{
+    return qdot_constrained_remains(p->held, p->tr->t[k], p->tr->y + k * p->tr->n, row);
+}
+
+/* From point k on by `way`: the first at which more is left; else the last of the piece. */
+static size_t
+where_left(const piece *p, size_t k, int way, double left)
+{
+    size_t row;
+
+    while (k != (way > 0 ? p->end - 1 : p->first) && remains(p, k, &row) <= left)
+        k = way > 0 ? k + 1 : k - 1;
+    return k;
+}
+
+static double
+product(const piece *p, size_t a, size_t b)
+{
+    const size_t n = p->tr->n / 2;
+    const double *u = p->tr->y + a * p->tr->n + n, *v = p->tr->y + b * p->tr->n + n;
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += u[i] * v[i];
+    return sum;
+}
+
+/* Whether the motion turns a corner about point k, where `least` is left. */
+static bool
+is_corner(const piece *p, size_t k, double least)
+{
+    const double near = beside * fmax(least, DBL_MIN);
+    const size_t before = where_left(p, k, -1, near), after = where_left(p, k, 1, near);
+    const size_t far = where_left(p, k, -1, apart);
+    const double speed = sqrt(product(p, before, before)), on = sqrt(product(p, after, after));
+
+    return product(p, before, after) < turned * speed * on
+           && fmin(speed, on) > kept * sqrt(product(p, far, far));
+}
+
+static qdot_status
+look_at_piece(const piece *p, bool *found, double *t, size_t *row)
+{
+    double last = INFINITY, now = INFINITY;
+    size_t of = 0;
+
+    for (size_t k = p->first; k < p->end && !*found; k++) {
+        const double next = remains(p, k, &of);
+
+        if (k % 1024 == 0)
+            QDOT_TRY(qdot_interrupt_check());
+        if (now < nothing && now <= last && now < next && is_corner(p, k - 1, now)) {
+            *found = true;
+            *t = p->tr->t[k - 1];
+            (void)remains(p, k - 1, row);
+        }
+        last = now;
+        now = next;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_constraint_corners_find(const qdot_course *c, bool *found, double *t, size_t *row)
+{
+    const qdot_trajectory *tr = &c->tr;
+
+    *found = false;
+    for (size_t i = 0; i < tr->pieces.n && !*found; i++) {
+        const qdot_trajectory_piece *at = tr->pieces.at + i;
+        const piece p = {.tr = tr,
+                         .held = c->binds.at[at->mode] ? qdot_bind_held(c->binds.at[at->mode])
+                                                       : NULL,
+                         .first = at->first,
+                         .end = i + 1 < tr->pieces.n ? at[1].first : tr->count};
+
+        if (p.held && tr->n_tracks == 0)
+            QDOT_TRY(look_at_piece(&p, found, t, row));
+    }
+    return QDOT_OK;
+}
