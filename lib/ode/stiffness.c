@@ -10,6 +10,9 @@
 /* Steps from a place to the next, in all 4000. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
 
+/* To the first: shorter runs need no places. */
+static const int first_wait = 300;
+
 /* Of the range, what a parabola may be off by. */
 static const double share = 1e-2;
 
@@ -90,6 +93,8 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     double step, left;
     bool enough;
 
+    if (s->wait == 0)
+        s->wait = first_wait;
     if (--s->wait > 0)
         return QDOT_OK;
     QDOT_TRY(keep(s, at, &enough));

@@ -28,7 +28,7 @@ typedef struct {
     double *y;   /* [places x n] states, allocated when they are needed */
     double t[QDOT_ODE_STIFF_PLACES];
     size_t count; /* of them */
-    int wait;     /* steps until the next */
+    int wait;     /* steps until the next; 0: none was taken */
     int windows;  /* looked at so far, 4000 steps each */
 } qdot_ode_stiffness;
 
