@@ -1264,6 +1264,7 @@ script_tests = \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
 	tests/bad/event-storm.lag \
+	tests/bad/export-nothing.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
 	tests/bad/foreign-function.lag \
@@ -1583,6 +1584,7 @@ test_files = \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
 	tests/bad/event-storm.out \
+	tests/bad/export-nothing.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
 	tests/bad/foreign-function.out \

@@ -410,7 +410,7 @@ qdot_ask_scene(qdot_cursor *c)
     qdot_status status;
 
     if (qdot_cursor_accept_word(c, "to"))
-        return qdot_scene_file_write(c, false);
+        return qdot_scene_file_write(c, QDOT_FILE_SCENE);
     QDOT_TRY(qdot_cursor_expect_end(c));
     status = qdot_scene_print(c->session->scene, &text);
     if (status == QDOT_OK && text.n == 0)

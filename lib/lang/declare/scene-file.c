@@ -171,12 +171,12 @@ put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols
 
 /* --- what is no scene ----------------------------------------------------------------- */
 
-/* The runs as comments: reading the file shall not integrate. */
 static void
-put_runs(const qdot_session *s, qdot_text *out)
+put_runs(const qdot_session *s, const char *before, qdot_text *out)
 {
     for (size_t i = 0; i < s->runs.n; i++)
-        qdot_text_format(out, "# run %s as %s\n", s->runs.at[i].text, s->runs.at[i].name);
+        qdot_text_format(out, "%srun %s as %s\n", before, s->runs.at[i].text,
+                         s->runs.at[i].name);
 }
 
 static void
@@ -190,13 +190,12 @@ put_settings(const qdot_session *s, qdot_text *out)
     qdot_text_format(out, "style %s\n", styles[s->style]);
     qdot_text_add(out, s->flat ? "style flat\n" : "");
     qdot_text_add(out, s->timing ? "timing on\n" : "");
-    put_runs(s, out);
 }
 
 /* --- the file ------------------------------------------------------------------------- */
 
 qdot_status
-qdot_scene_file_text(qdot_session *s, bool whole, qdot_text *out)
+qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
     qdot_text_add(out, header);
     QDOT_TRY(put_symbols(s, out));
@@ -207,8 +206,10 @@ qdot_scene_file_text(qdot_session *s, bool whole, qdot_text *out)
     QDOT_TRY(put_values(s, "start ", s->start_symbols.n, s->start_symbols.at,
                         s->start_values.at,
                         s->start_exactly ? " exactly\n" : "\n", out));
-    if (whole)
+    if (what != QDOT_FILE_SCENE) {
         put_settings(s, out);
+        put_runs(s, what == QDOT_FILE_SESSION ? "# " : "", out);
+    }
     return qdot_text_status(out);
 }
 
@@ -232,7 +233,7 @@ may_overwrite(const char *path)
 }
 
 qdot_status
-qdot_scene_file_write(qdot_cursor *c, bool whole)
+qdot_scene_file_write(qdot_cursor *c, qdot_scene_file what)
 {
     const qdot_token *start = c->at;
     qdot_text text = {0};
@@ -243,7 +244,7 @@ qdot_scene_file_write(qdot_cursor *c, bool whole)
         return qdot_cursor_expected(c, "the name of a file in quotes, \"x.lag\"");
     QDOT_TRY(qdot_read_string(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));
-    status = qdot_scene_file_text(c->session, whole, &text);
+    status = qdot_scene_file_text(c->session, what, &text);
     c->error_at = start->start;
     if (status == QDOT_OK)
         status = may_overwrite(path);

@@ -21,11 +21,17 @@
 /* Whether the token is the name of a scene file, "NAME.lag". */
 bool qdot_scene_file_is(const qdot_token *token);
 
-/* Append what stands in such a file; whole: with the style and the runs of the session. */
-QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, bool whole,
+typedef enum {
+    QDOT_FILE_SCENE,   /* the scene, values, start and definitions */
+    QDOT_FILE_SESSION, /* and the style, and the runs as comments: reading it shall not integrate */
+    QDOT_FILE_SCRIPT   /* and the style, and the runs */
+} qdot_scene_file;
+
+/* Append what stands in such a file. */
+QDOT_MUST_CHECK qdot_status qdot_scene_file_text(qdot_session *session, qdot_scene_file what,
                                                  qdot_text *out);
-/* Behind `to`; whole: with the style and the runs of the session. Errors: QDOT_EIO; QDOT_EINVAL for
+/* Behind `to`. Errors: QDOT_EIO; QDOT_EINVAL for
  * a file that does not begin as these do. */
-QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, bool whole);
+QDOT_MUST_CHECK qdot_status qdot_scene_file_write(qdot_cursor *c, qdot_scene_file what);
 
 #endif

@@ -40,11 +40,15 @@ typedef struct {
 } operand;
 
 static qdot_status
-read_operand(qdot_cursor *c, int language, operand *o)
+read_operand(qdot_cursor *c, const struct language *l, operand *o)
 {
     const qdot_token *start = c->at;
 
-    if (language != LATEX && qdot_cursor_is_word(c, "eom") && qdot_token_is_word(c->at + 1, "to") &&
+    if (qdot_cursor_is_word(c, "to") && c->at[1].kind == QDOT_TOKEN_STRING) {
+        (void)qdot_cursor_expected(c, "`eom` or an expression");
+        return qdot_hint("export %s eom to \"eom%s\"", l->word, l->ending);
+    }
+    if (l->language != LATEX && qdot_cursor_is_word(c, "eom") && qdot_token_is_word(c->at + 1, "to") &&
         qdot_names_find(c->session->names, "eom") == NULL) {
         o->motion = true;
         c->at++;
@@ -106,7 +110,7 @@ qdot_export_statement(qdot_cursor *c)
 
     QDOT_TRY(read_language(c, &l));
     start = c->at;
-    status = read_operand(c, l->language, &o);
+    status = read_operand(c, l, &o);
     if (status == QDOT_OK)
         status = read_file(c, l, &path, &name);
     if (status == QDOT_OK)

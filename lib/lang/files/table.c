@@ -332,7 +332,7 @@ qdot_table_save(qdot_cursor *c)
     if (name != NULL && strcmp(name, "session") == 0 &&
         (qdot_scene_file_is(c->at) ||
          qdot_runs_find(c->session, name, &named) != QDOT_OK))
-        return qdot_scene_file_write(c, true);
+        return qdot_scene_file_write(c, QDOT_FILE_SESSION);
     file = c->at;
     QDOT_TRY(qdot_figure_file_read(c, &path));
     QDOT_TRY(qdot_cursor_expect_end(c));
