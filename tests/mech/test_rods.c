@@ -172,8 +172,8 @@ free_body(kit *k, char name)
     char text[40], label[2] = {name, '\0'}, angle[3] = {'u', name, '\0'};
 
     snprintf(text, sizeof text, "(x%c, y%c)", name, name);
-    must(declare_body(k->scene, label, E(k, "m"), E(k, "J"), QDOT_NIL, E(k, text),
-                      E(k, angle), QDOT_NIL));
+    must(declare_body(k->scene, label, E(k, "m"), E(k, "J"), QDOT_NIL, E(k, "%s", text),
+                      E(k, "%s", angle), QDOT_NIL));
 }
 
 /* Of two free bodies: one rod written by its square, one by its length; one to a place in space;
