@@ -590,7 +590,8 @@ clear(description *d)
                                   &d->energy, &d->positions, &d->events, &d->u, &d->heads,
                                   &d->bodies, &d->held};
     const qdot_export_function *const functions[] = {&d->x.equations, &d->x.slopes, &d->x.energy,
-                                                     &d->x.positions, &d->x.events};
+                                                     &d->x.positions, &d->x.switches,
+                                                     &d->x.events};
 
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         qdot_free(lists[i]->at);
