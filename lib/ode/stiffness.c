@@ -85,6 +85,14 @@ keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
     return QDOT_OK;
 }
 
+bool
+qdot_ode_stiffness_is_due(qdot_ode_stiffness *s)
+{
+    if (s->wait == 0)
+        s->wait = first_wait;
+    return --s->wait <= 0;
+}
+
 qdot_status
 qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
                         const qdot_ode_options *options, bool *stiff)
@@ -93,10 +101,6 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     double step, left;
     bool enough;
 
-    if (s->wait == 0)
-        s->wait = first_wait;
-    if (--s->wait > 0)
-        return QDOT_OK;
     QDOT_TRY(keep(s, at, &enough));
     if (!enough)
         return QDOT_OK;

@@ -45,7 +45,10 @@ typedef struct {
     bool implicit; /* stability does not bound its steps */
 } qdot_ode_stiff_step;
 
-/* Look after a step. QDOT_ELIMIT: steps are bound by stability, and *stiff, or too many are left;
+/* Whether the step just taken is one of the few that are looked at. */
+bool qdot_ode_stiffness_is_due(qdot_ode_stiffness *s);
+
+/* Then look. QDOT_ELIMIT: steps are bound by stability, and *stiff, or too many are left;
  * QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_ode_stiffness_look(qdot_ode_stiffness *s,
                                                     const qdot_ode_stiff_step *at,

@@ -465,7 +465,8 @@ loop(run *r)
             QDOT_TRY(count_work(r));
         qdot_progress_at(r->t);
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
-        QDOT_TRY(look_for_stiffness(r));
+        if (qdot_ode_stiffness_is_due(&r->stiffness))
+            QDOT_TRY(look_for_stiffness(r));
     }
     return QDOT_OK;
 }

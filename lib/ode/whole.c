@@ -336,7 +336,8 @@ loop(run *r)
         QDOT_TRY(advance(r, &stop));
         if (r->options->meter)
             QDOT_TRY(count_work(r));
-        QDOT_TRY(look_for_stiffness(r));
+        if (qdot_ode_stiffness_is_due(&r->stiffness))
+            QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;

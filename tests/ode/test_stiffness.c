@@ -23,7 +23,9 @@ told_after(double (*x)(double), double (*v)(double), double h, double t1, double
         const qdot_ode_stiff_step at = {
             .n = 2, .t = t, .t1 = t1, .y = y, .noise = 1e-9, .work = work, .most = 50000000};
 
-        const qdot_status status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+        const qdot_status status = qdot_ode_stiffness_is_due(&s)
+                                       ? qdot_ode_stiffness_look(&s, &at, &options, &stiff)
+                                       : QDOT_OK;
 
         assert_int_equal(status, stiff ? QDOT_ELIMIT : QDOT_OK);
     }
@@ -107,7 +109,8 @@ too_many_steps_are_told(void **state)
         const qdot_ode_stiff_step at = {.n = 1, .t = k, .t1 = 1e9, .y = &y, .noise = 1e-9,
                                         .work = 100, .most = 50000000, .implicit = true};
 
-        status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+        if (qdot_ode_stiffness_is_due(&s))
+            status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
     }
     assert_true(status == QDOT_ELIMIT && !stiff && k > 990000 && k < 1010000);
     qdot_ode_stiffness_clear(&s);
