@@ -1,7 +1,6 @@
 /* course.c -- the loop over pieces: finds the mode of each and passes from one to the next. */
 #include "sim/course/course.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "sim/course/piece.h"
@@ -56,49 +55,6 @@ resume(qdot_piece *x)
                                   x->options, x->start.t, x->start.y);
 }
 
-/* A run whose last pieces were so short that this many would follow is given up, with the time
- * and memory that they would take; it is looked at after as many. */
-static const double most_to_come = 2e7;
-enum { LOOKED_AT = 20000 };
-
-/* What ended the piece, in words, from c->ends. */
-static void
-name_end(const qdot_course *c, qdot_text *to)
-{
-    const qdot_watched *w = c->ends.n > 0 ? &c->ends.at[c->ends.n - 1].what : NULL;
-
-    if (w && w->kind == QDOT_WATCH_EVENT)
-        qdot_text_format(to, "the event %.100s", c->stage->events.at[w->index].name);
-    else
-        qdot_text_add(to, "a switch of the equations");
-}
-
-/* Stop a run whose pieces will not come to an end. */
-static void
-check_pieces(qdot_piece *x, bool *over)
-{
-    qdot_course *c = x->c;
-    const size_t n = c->tr.pieces.n;
-    double now, since, to_come;
-    qdot_text text = {0};
-
-    if (n == 0 || n % LOOKED_AT != 0)
-        return;
-    now = c->tr.t[c->tr.count - 1];
-    since = now - c->tr.t[c->tr.pieces.at[n - LOOKED_AT].first];
-    to_come = LOOKED_AT * ((x->t1 - now) / since);
-    if (to_come <= most_to_come) /* not so for a NaN or if time stands still */
-        return;
-    name_end(c, &text);
-    snprintf(c->reason, sizeof c->reason,
-             "stopped at t = %.15g: %s came %d times within %.3g; %.1e more would follow until "
-             "t = %.10g",
-             now, qdot_text_str(&text), LOOKED_AT, fabs(since), to_come, x->t1);
-    qdot_text_clear(&text);
-    qdot_piece_stop(x, true);
-    *over = true;
-}
-
 /* Integrate piece after piece from y0 [n] at x->start.t. */
 static qdot_status
 loop(qdot_piece *x, const double *y0)
@@ -134,8 +90,6 @@ loop(qdot_piece *x, const double *y0)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
-        if (status == QDOT_OK && !over)
-            check_pieces(x, &over);
         if (status == QDOT_OK && over && x->start.jumped)
             status = resume(x);
         if (status == QDOT_OK && over)

@@ -13,6 +13,11 @@ enum { MOST_REPEATS = 4 };
 #define NEAR 1e-6
 #define SAME_RATIO 1e-3
 
+/* A run is also given up if its last LOOKED_AT pieces were so short that so many would follow: for
+ * the time and memory that they would take. */
+enum { LOOKED_AT = 20000 };
+static const double most_to_come = 2e7;
+
 void
 qdot_piece_stop(qdot_piece *x, bool failed)
 {
@@ -118,23 +123,52 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     return QDOT_OK;
 }
 
+/* What ended a piece, in words. */
+static void
+name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
+{
+    if (w->kind == QDOT_WATCH_EVENT)
+        qdot_text_format(to, "the event %.100s", x->c->stage->events.at[w->index].name);
+    else if (qdot_stage_describe(x->c->stage, w->index, qdot_piece_mode(x)->side[w->index], to)
+             != QDOT_OK)
+        qdot_text_add(to, "a switch of the equations");
+}
+
 static void
 say_accumulated(qdot_piece *x, const qdot_watched *w, double t, double left)
 {
     qdot_text text = {0};
 
-    if (w->kind == QDOT_WATCH_EVENT)
-        qdot_text_format(&text, "the event %.100s",
-                         x->c->stage->events.at[w->index].name);
-    else if (qdot_stage_describe(x->c->stage, w->index,
-                                 qdot_piece_mode(x)->side[w->index], &text) != QDOT_OK)
-        qdot_text_add(&text, "a switch of the equations");
+    name_end(x, w, &text);
     snprintf(
         x->c->reason, sizeof x->c->reason,
         "stopped at t = %.15g: %.200s comes ever faster there, without end before t = "
         "%.10g",
         t, qdot_text_str(&text), t + copysign(left, x->direction));
     qdot_text_clear(&text);
+}
+
+/* Whether so many pieces of this length would follow, with c->reason. */
+static bool
+has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
+{
+    const qdot_trajectory *tr = &x->c->tr;
+    double since, to_come;
+    qdot_text text = {0};
+
+    if (tr->pieces.n % LOOKED_AT != 0)
+        return false;
+    since = t - tr->t[tr->pieces.at[tr->pieces.n - LOOKED_AT].first];
+    to_come = LOOKED_AT * ((x->t1 - t) / since);
+    if (to_come <= most_to_come) /* not so for a NaN or if time stands still */
+        return false;
+    name_end(x, w, &text);
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: %.200s came %d times within %.3g; %.1e more would follow until "
+             "t = %.10g",
+             t, qdot_text_str(&text), LOOKED_AT, fabs(since), to_come, x->t1);
+    qdot_text_clear(&text);
+    return true;
 }
 
 /* A root that is not a double lies between the doubles around it. */
@@ -201,8 +235,9 @@ qdot_piece_act(qdot_piece *x, bool *over)
         }
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
-        if (fast && !*over) {
+        if (fast && !*over)
             say_accumulated(x, w, t, left);
+        if (status == QDOT_OK && !*over && (fast || has_too_many_to_come(x, w, t))) {
             *over = true;
             qdot_piece_stop(x, true);
         }
