@@ -11,8 +11,25 @@ qdot_near_limit(int p, double u0, double digits)
     return fmax(0.5 * (p + 1), fabs(u0) - digits - QDOT_NEAR_BEYOND);
 }
 
+/* In two chains that do not wait for each other. */
+double
+qdot_near_sum(int p, const double *x, double s)
+{
+    const double s2 = s * s;
+    double odd = 0, even = 0;
+    int k = p;
+
+    if (k % 2 == 1)
+        odd = fabs(x[k--]);
+    for (; k >= 2; k -= 2) {
+        even = (even + fabs(x[k])) * s2;
+        odd = odd * s2 + fabs(x[k - 1]);
+    }
+    return even + odd * s;
+}
+
 static double
-sum(int p, const double *log2_sizes, double log2_h)
+sum_of_sizes(int p, const double *log2_sizes, double log2_h)
 {
     double sum = 0;
 
@@ -33,12 +50,12 @@ qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
     if (!(log2_h > low))
         return log2_h;
     high = fmin(high, log2_h);
-    if (sum(p, log2_sizes, high) <= limit)
+    if (sum_of_sizes(p, log2_sizes, high) <= limit)
         return high;
     for (int i = 0; i < halvings; i++) {
         const double middle = 0.5 * (low + high);
 
-        if (sum(p, log2_sizes, middle) <= limit)
+        if (sum_of_sizes(p, log2_sizes, middle) <= limit)
             low = middle;
         else
             high = middle;
@@ -52,23 +69,6 @@ qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
  * is looked for in quarters. */
 static const double cannot_fall = 1 - QDOT_NEAR_LEFT, well_before = 8;
 enum { quarters = 4, shorter = 40 };
-
-/* sum_{k>=1} |b_k| s^k, in two chains that do not wait for each other */
-static double
-change(int p, const double *b, double s)
-{
-    const double s2 = s * s;
-    double odd = 0, even = 0;
-    int k = p;
-
-    if (k % 2 == 1)
-        odd = fabs(b[k--]);
-    for (; k >= 2; k -= 2) {
-        even = (even + fabs(b[k])) * s2;
-        odd = odd * s2 + fabs(b[k - 1]);
-    }
-    return even + odd * s;
-}
 
 static double
 value(int p, const double *b, double s)
@@ -95,7 +95,7 @@ qdot_near_may_fall(int p, const double *b, double s)
 {
     const double size = fabs(b[0]);
 
-    return size > 0 && !(change(p, b, s) <= cannot_fall * size);
+    return size > 0 && !(qdot_near_sum(p, b, s) <= cannot_fall * size);
 }
 
 double
@@ -113,7 +113,7 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
             return s;
         s = well_before / least;
     }
-    for (int i = 0; i < shorter && !(change(p, b, s) <= well_before * size); i++)
+    for (int i = 0; i < shorter && !(qdot_near_sum(p, b, s) <= well_before * size); i++)
         s *= 0.5;
     for (int i = 0; i < shorter; i++) {
         const int j = falls_in(p, b, s);

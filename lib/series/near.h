@@ -28,6 +28,9 @@
 /* E beyond the digits of the numbers. */
 #define QDOT_NEAR_BEYOND 20.0
 
+/* sum_{k>=1} |x_k| s^k over x [p + 1] */
+double qdot_near_sum(int p, const double *x, double s);
+
 /* The bound above, u_0 being the argument of an exponential. */
 double qdot_near_limit(int p, double u0, double digits);
 

@@ -18,16 +18,6 @@ qdot_taylor_may_hide(const qdot_taylor *t)
     return false;
 }
 
-static bool
-is_within(const double *u, int p, double limit, double s)
-{
-    double sum = 0;
-
-    for (int k = p; k >= 1; k--)
-        sum = (sum + fabs(u[k])) * s;
-    return sum <= limit;
-}
-
 /* So that the argument u of an exponential, so many times, is not carried too far. */
 static double
 near_argument(const double *u, int p, double times, double s)
@@ -35,7 +25,7 @@ near_argument(const double *u, int p, double times, double s)
     double sizes[QDOT_SERIES_MOST + 1];
     const double limit = qdot_near_limit(p, times * u[0], digits) / times;
 
-    if (is_within(u, p, limit, s))
+    if (qdot_near_sum(p, u, s) <= limit)
         return s;
     for (int k = 1; k <= p; k++)
         sizes[k] = log2(fabs(u[k]));
