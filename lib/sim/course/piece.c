@@ -155,7 +155,9 @@ leave_zero(qdot_piece *x, double t0)
             continue;
         x->intent = QDOT_PIECE_ENDS;
         x->t_act = t0;
-        QDOT_TRY(qdot_vec_push(&x->roots, ((qdot_root){.function = i, .t = t0, .way = first[i], .exact = true})));
+        QDOT_TRY(qdot_vec_push(
+            &x->roots,
+            ((qdot_root){.function = i, .t = t0, .way = first[i], .exact = true})));
     }
     return QDOT_OK;
 }

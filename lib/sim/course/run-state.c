@@ -1,6 +1,14 @@
 /* run-state.c -- records why a run ended or why its error is unknown. */
 #include "sim/course/run-state.h"
 
+qdot_text *
+qdot_run_next_notice(qdot_run *run)
+{
+    if (run->notice.n > 0)
+        qdot_text_char(&run->notice, '\n');
+    return &run->notice;
+}
+
 qdot_status
 qdot_run_say_why(qdot_run *run, const char *reason)
 {

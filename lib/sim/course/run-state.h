@@ -21,19 +21,20 @@ struct qdot_run {
     bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* sign of the exact limit less t0, t1 */
     char *reason;
-    qdot_text notice;     /* of the start */
+    qdot_text notice;     /* its lines, the report's in the end */
     qdot_text part_names;               /* for report.parts, each ended by a 0 */
     qdot_vec(qdot_run_part) parts;
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     bool occurrence_errors; /* the errors of the occurrences have been found */
-    bool hidden;            /* a step missed a force: no error is known */
+    bool hidden;            /* the run has passed over something: no error is known */
     char *doubt;            /* why the error is unknown; NULL */
+
+    qdot_ode_meter meter;   /* of the run's work, which that of companions is compared with */
+    qdot_companion_way way; /* by which a companion has arrived before */
 
     /* The run whose distance from this one is the error along the way: made together with it if
      * the run has pieces, else when errors are first needed. */
-    qdot_ode_meter meter; /* of the work of this one, which theirs is compared with */
-    qdot_companion_way way; /* by which a companion has arrived before */
     bool has_companion;
     qdot_course companion;
     bool has_twin; /* a second companion, for times at which the first is near by chance */
@@ -43,6 +44,9 @@ struct qdot_run {
                                           points as doubles */
     qdot_expr *exact;                  /* [2n] its end state */
 };
+
+/* run->notice, for one more line. */
+qdot_text *qdot_run_next_notice(struct qdot_run *run);
 
 /* Set why the run has failed; the text is copied. Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_run_say_why(struct qdot_run *run, const char *reason);

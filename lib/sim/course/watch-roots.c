@@ -200,7 +200,10 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     int before = w->now.sign[i];
 
     if (before != 0 && sign != 0)
-        QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i, .t = p->a, .way = before == sign ? 0 : sign, .exact = true}));
+        QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                .t = p->a,
+                                                .way = before == sign ? 0 : sign,
+                                                .exact = true}));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
 }

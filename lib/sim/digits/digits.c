@@ -134,7 +134,6 @@ qdot_status
 qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
 {
     const size_t n = run->plan->n - run->plan->n_states;
-    const char *before = run->notice.n > 0 ? "\n" : "";
     size_t found = 0;
 
     for (size_t i = 0; i < 2 * n; i++) {
@@ -144,8 +143,8 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
         if (!named || named[k] || run->start[i < n ? k : run->plan->n + k] == 0)
             continue;
         if (found++ < MOST_NAMES)
-            qdot_text_format(&run->notice, "%s%s%s", found == 1 ? before : ", ",
-                             run->plan->names[k], i < n ? "" : "'");
+            qdot_text_format(found == 1 ? qdot_run_next_notice(run) : &run->notice, "%s%s%s",
+                             found == 1 ? "" : ", ", run->plan->names[k], i < n ? "" : "'");
     }
     if (found > MOST_NAMES)
         qdot_text_format(&run->notice, " and %zu more", found - MOST_NAMES);

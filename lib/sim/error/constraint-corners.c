@@ -18,7 +18,7 @@ static const double turned = 0.5, kept = 0.3;
 typedef struct {
     const qdot_trajectory *tr;
     qdot_constrained *held;
-    size_t first, end; /* the points of the piece */
+    size_t first, last; /* the points of the piece */
 } piece;
 
 static double
@@ -33,7 +33,7 @@ where_left(const piece *p, size_t k, int way, double left)
 {
     size_t row;
 
-    while (k != (way > 0 ? p->end - 1 : p->first) && remains(p, k, &row) <= left)
+    while (k != (way > 0 ? p->last : p->first) && remains(p, k, &row) <= left)
         k = way > 0 ? k + 1 : k - 1;
     return k;
 }
@@ -69,7 +69,7 @@ look_at_piece(const piece *p, bool *found, double *t, size_t *row)
     double last = INFINITY, now = INFINITY;
     size_t of = 0;
 
-    for (size_t k = p->first; k < p->end && !*found; k++) {
+    for (size_t k = p->first; k <= p->last && !*found; k++) {
         const double next = remains(p, k, &of);
 
         if (k % 1024 == 0)
@@ -97,7 +97,7 @@ qdot_constraint_corners_find(const qdot_course *c, bool *found, double *t, size_
                          .held = c->binds.at[at->mode] ? qdot_bind_held(c->binds.at[at->mode])
                                                        : NULL,
                          .first = at->first,
-                         .end = i + 1 < tr->pieces.n ? at[1].first : tr->count};
+                         .last = qdot_trajectory_last_of(tr, i)};
 
         if (p.held && tr->n_tracks == 0)
             QDOT_TRY(look_at_piece(&p, found, t, row));

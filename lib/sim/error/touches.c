@@ -8,6 +8,7 @@
 #include "sim/error/distance.h"
 
 typedef struct {
+    qdot_expr function;
     qdot_reading of;
     qdot_reader reader;
     qdot_distance *distance; /* NULL: no error is known */
@@ -16,10 +17,8 @@ typedef struct {
 static qdot_status
 open_look(qdot_run *run, size_t event, look *l)
 {
-    const qdot_expr function = run->stage.events.at[event].function;
-
-    QDOT_TRY(qdot_reader_lower(run->plan, 1, &function, &l->of));
-    l->of.exprs = NULL;
+    l->function = run->stage.events.at[event].function;
+    QDOT_TRY(qdot_reader_lower(run->plan, 1, &l->function, &l->of));
     QDOT_TRY(qdot_reader_init(&l->reader, &l->of, &run->course));
     QDOT_TRY(qdot_run_twin(run));
     return qdot_run_comparable(run) ? qdot_distance_new(run, &l->of, &l->distance) : QDOT_OK;
@@ -64,7 +63,8 @@ look_at_all(qdot_run *run, size_t event, look *l, double *widths, double *tol)
         if (!is_doubtful(o, event))
             continue;
         QDOT_TRY(look_at(l, o->t, &g, &error));
-        widths[i] = sqrt(2 * (fabs(g) + error) / fabs(o->bend));
+        if (widths)
+            widths[i] = sqrt(2 * (fabs(g) + error) / fabs(o->bend));
         if (tol && fabs(g) > 2 * error)
             *tol = fmin(*tol, 0.5 * o->within);
     }

@@ -15,10 +15,11 @@
 
 #include "sim/course/run-state.h"
 
-/* For each occurrence of event `event` of the run, in order, how far from it two crossings may lie
- * that it stands for: widths [occurrences of the run], 0 for others, crossings, and touches up to
- * rounding; NaN: unknown. If a touch is none, *tol, the run's tolerance for touches, is lowered so
- * that the same run, made anew, tells crossings from misses; NULL: not asked for. */
+/* Look at the touches of event `event` beyond rounding.
+ *   widths  NULL, or [occurrences of the run] where that of such a touch is set: how far from it two
+ *           crossings may lie that it stands for; NaN: unknown
+ *   tol     NULL, or the run's tolerance for touches: if a touch is none it is lowered so that the
+ *           same run, made anew, tells crossings from misses */
 QDOT_MUST_CHECK qdot_status qdot_touches_look(qdot_run *run, size_t event, double *widths,
                                               double *tol);
 

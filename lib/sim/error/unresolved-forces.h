@@ -4,10 +4,11 @@
  * or that of a thin wall, is negligible there with all its derivatives: the step passes over it,
  * and so may those of a companion. Steps by series check the arguments of exponentials and what
  * is divided by (series/near.h); other methods do not. If there are such functions (tape/disc.h),
- * and their argument may change by 10 or more in a step, or the logarithm of a divisor, the outputs of the plan's tape are sampled at 16 or 64 points of the step, and discs
- * (sim/course/polynomial-bounds.h) bound them between; if the bound is too large the step is
- * split. The difference between the parts and the polynomial of the whole step, summed up, is
- * what the step missed.
+ * and their argument, or the logarithm of a divisor, may change by 10 or more in a step, the outputs
+ * of the plan's tape are sampled at 16 or 64 points of the step, and discs
+ * (sim/course/polynomial-bounds.h) bound them between; if the bound is too large the step is split.
+ * The difference between the parts and the polynomial of the whole step, summed up, is what the
+ * step missed.
  *
  * Tests  tests/script/hidden-forces.lag
  */

@@ -34,12 +34,10 @@ static qdot_status
 say_changed(qdot_run *run, const char *before, double t)
 {
     qdot_text_format(
-        &run->notice,
-        "%sthe scene is stiff: from t = %.4g on stability would bound the steps of %s, "
+        qdot_run_next_notice(run),
+        "the scene is stiff: from t = %.4g on stability would bound the steps of %s, "
         "so the run is by %s, tol %.3g",
-        run->notice.n > 0 ? "\n" : "", t, before, run->plan->method->name,
-        run->report.tol);
-    run->report.notice = qdot_text_str(&run->notice);
+        t, before, run->plan->method->name, run->report.tol);
     return qdot_text_status(&run->notice);
 }
 

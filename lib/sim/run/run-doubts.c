@@ -8,24 +8,33 @@
 #include "sim/error/touches.h"
 #include "sim/error/unresolved-forces.h"
 
+/* Give the error up, for that reason. */
+static qdot_status
+lose(qdot_run *run, const char *doubt)
+{
+    run->hidden = true;
+    run->report.error = run->report.horizon = NAN;
+    return qdot_run_say_doubt(run, doubt);
+}
+
 /* If a step missed a force, the error is unknown. */
 static qdot_status
 find_hidden(qdot_run *run)
 {
     const qdot_error before = *qdot_last_error();
     char text[200];
+    bool found;
     double t;
 
-    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &run->hidden, &t));
+    QDOT_TRY(qdot_unresolved_forces_find(&run->course, &found, &t));
     qdot_fail_again(&before);
-    if (!run->hidden)
+    if (!found)
         return QDOT_OK;
-    run->report.error = NAN;
     snprintf(text, sizeof text,
              "a force acts about t = %.6g for less than a step, which went over it: %s", t,
              run->plan->method->series ? "end a run just before, and go on from there"
                                        : "method taylor looks for such places");
-    return qdot_run_say_doubt(run, text);
+    return lose(run, text);
 }
 
 /* If the motion turned round in a constraint's cusp, nothing is known of it from there on. */
@@ -42,13 +51,11 @@ find_corner(qdot_run *run)
     QDOT_TRY(qdot_constraint_corners_find(&run->course, &found, &t, &row));
     if (!found)
         return QDOT_OK;
-    run->hidden = true;
-    run->report.error = NAN;
     snprintf(text, sizeof text,
              "constraint %.100s has no direction about t = %.6g, a cusp of it, and what the motion is "
              "from there is not determined",
              run->plan->constraints->rows[row].name, t);
-    return qdot_run_say_doubt(run, text);
+    return lose(run, text);
 }
 
 qdot_status
@@ -70,20 +77,16 @@ qdot_run_doubt_energy(qdot_run *run, double tol)
                                     fmax(tol, tr->result.stats.raised), &contradict));
     if (!contradict)
         return QDOT_OK;
-    run->hidden = true;
-    run->report.error = run->report.horizon = NAN;
-    return qdot_run_say_doubt(run, "the energy, which is conserved, has not been kept: a step went "
-                                   "over a place where the equations are singular");
+    return lose(run, "the energy, which is conserved, has not been kept: a step went over a place "
+                     "where the equations are singular");
 }
 
 qdot_status
 qdot_run_decide_touches(qdot_run *run, double *tol)
 {
-    double *widths = qdot_calloc(run->course.occurrences.n + 1, sizeof *widths);
-    qdot_status status = widths ? QDOT_OK : QDOT_ENOMEM;
+    qdot_status status = QDOT_OK;
 
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
-        status = qdot_touches_look(run, i, widths, tol);
-    qdot_free(widths);
+        status = qdot_touches_look(run, i, NULL, tol);
     return qdot_grave(status);
 }

@@ -77,8 +77,6 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
                                run->start_low, &run->notice));
     if (request->digits > 0)
         QDOT_TRY(qdot_digits_say_start(run, request));
-    if (run->notice.n > 0)
-        run->report.notice = qdot_text_str(&run->notice);
     QDOT_TRY(qdot_stage_settle(&run->stage, run->start, &anew));
     run->plan = run->stage.modes.at[0]->plan;
     return QDOT_OK;
@@ -115,8 +113,5 @@ qdot_run_name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request
 {
     if (run->report.independent >= run->report.m)
         return QDOT_OK;
-    QDOT_TRY(qdot_start_redundant(scene, run->plan, request, run->start, &run->notice));
-    if (run->notice.n > 0)
-        run->report.notice = qdot_text_str(&run->notice);
-    return QDOT_OK;
+    return qdot_start_redundant(scene, run->plan, request, run->start, &run->notice);
 }

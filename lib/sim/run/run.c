@@ -129,11 +129,8 @@ say_crossings(qdot_run *run, bool *interrupted)
 
     *interrupted = status == QDOT_EINTR;
     if (status == QDOT_OK && lines.n > 0)
-        qdot_text_format(&run->notice, "%s%s", run->notice.n > 0 ? "\n" : "",
-                         qdot_text_str(&lines));
+        qdot_text_add(qdot_run_next_notice(run), qdot_text_str(&lines));
     qdot_text_clear(&lines);
-    if (run->notice.n > 0)
-        run->report.notice = qdot_text_str(&run->notice);
     if (status == QDOT_ENOMEM)
         return status;
     qdot_fail_again(&before);
@@ -148,11 +145,10 @@ say_raised(qdot_run *run, double tol)
 
     if (!(raised > tol))
         return QDOT_OK;
-    qdot_text_format(&run->notice,
-                     "%stol %.3g is below what rounding leaves of the equations: where that is "
+    qdot_text_format(qdot_run_next_notice(run),
+                     "tol %.3g is below what rounding leaves of the equations: where that is "
                      "least, steps were held to %.2g",
-                     run->notice.n > 0 ? "\n" : "", tol, raised);
-    run->report.notice = qdot_text_str(&run->notice);
+                     tol, raised);
     return qdot_text_status(&run->notice);
 }
 
@@ -571,8 +567,10 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     status = make_decided(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = qdot_run_change_over(scene, &states.request, &by, out);
-    if (*out)
+    if (*out) {
+        (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;
+    }
     qdot_parameter_states_clear(&states);
     return status;
 }
