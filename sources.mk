@@ -371,6 +371,7 @@ library_sources = \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-layer.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -435,6 +436,7 @@ library_sources = \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
+	lib/sim/model/layer.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -844,6 +846,7 @@ library_headers = \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
+	lib/sim/model/layer.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -851,6 +854,7 @@ library_headers = \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
+	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
 	lib/sim/plan/cost.h \
@@ -1056,6 +1060,7 @@ script_tests = \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
+	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1228,6 +1233,8 @@ script_tests = \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
 	tests/bad/bound-coordinate.lag \
+	tests/bad/broken-power-digits.lag \
+	tests/bad/broken-power-rest.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/constraint-contradicts.lag \
@@ -1481,6 +1488,7 @@ script_tests = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -1548,6 +1556,8 @@ test_files = \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
 	tests/bad/bound-coordinate.out \
+	tests/bad/broken-power-digits.out \
+	tests/bad/broken-power-rest.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/constraint-contradicts.out \
@@ -1787,6 +1797,7 @@ test_files = \
 	tests/examples/modes.out \
 	tests/examples/moving-constraint.out \
 	tests/examples/n-four-bar.out \
+	tests/examples/newtons-cradle.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
@@ -1877,6 +1888,7 @@ test_files = \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
+	tests/script/broken-powers.out \
 	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \
@@ -2204,6 +2216,8 @@ example_files = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
+	examples/newtons-cradle.svg \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
