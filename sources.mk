@@ -274,6 +274,7 @@ library_sources = \
 	lib/num/bordered.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
+	lib/num/collocation.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
@@ -698,6 +699,7 @@ library_headers = \
 	lib/num/bordered.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
+	lib/num/collocation.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
@@ -974,6 +976,7 @@ unit_tests = \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
+	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_real \
