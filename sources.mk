@@ -274,6 +274,7 @@ library_sources = \
 	lib/num/bordered.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
+	lib/num/collocation.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
@@ -290,6 +291,9 @@ library_sources = \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
+	lib/ode/geometric/constant-steps.c \
+	lib/ode/geometric/gauss.c \
+	lib/ode/geometric/splitting.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
 	lib/ode/meter.c \
@@ -447,6 +451,7 @@ library_sources = \
 	lib/sim/model/term-magnitude.c \
 	lib/sim/plan/cost.c \
 	lib/sim/plan/form.c \
+	lib/sim/plan/geometric.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -700,6 +705,7 @@ library_headers = \
 	lib/num/bordered.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
+	lib/num/collocation.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
@@ -723,6 +729,9 @@ library_headers = \
 	lib/ode/crawl.h \
 	lib/ode/dop853.def \
 	lib/ode/dop853.h \
+	lib/ode/geometric/composition.def \
+	lib/ode/geometric/geometric.h \
+	lib/ode/geometric/splitting.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
 	lib/ode/meter.h \
@@ -859,6 +868,7 @@ library_headers = \
 	lib/sim/model/term-magnitude.h \
 	lib/sim/plan/cost.h \
 	lib/sim/plan/form.h \
+	lib/sim/plan/geometric.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -978,6 +988,7 @@ unit_tests = \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
+	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_real \
@@ -990,6 +1001,7 @@ unit_tests = \
 	tests/num/test_two \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
+	tests/ode/test_geometric \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
 	tests/ode/test_meter \
@@ -1132,6 +1144,7 @@ script_tests = \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
 	tests/script/long-sums.lag \
+	tests/script/long-time-methods.lag \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1237,6 +1250,7 @@ script_tests = \
 	tests/bad/broken-power-rest.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
+	tests/bad/composition8-friction.lag \
 	tests/bad/constraint-contradicts.lag \
 	tests/bad/constraint-corner.lag \
 	tests/bad/constraint-jump.lag \
@@ -1283,6 +1297,7 @@ script_tests = \
 	tests/bad/function-operator-prime.lag \
 	tests/bad/function-recursion.lag \
 	tests/bad/function-syntax.lag \
+	tests/bad/gauss-mass.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
@@ -1435,6 +1450,8 @@ script_tests = \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
+	tests/bad/verlet-constraint.lag \
+	tests/bad/verlet-friction.lag \
 	tests/bad/write-nowhere.lag \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
@@ -1560,6 +1577,7 @@ test_files = \
 	tests/bad/broken-power-rest.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
+	tests/bad/composition8-friction.out \
 	tests/bad/constraint-contradicts.out \
 	tests/bad/constraint-corner.out \
 	tests/bad/constraint-jump.out \
@@ -1606,6 +1624,7 @@ test_files = \
 	tests/bad/function-operator-prime.out \
 	tests/bad/function-recursion.out \
 	tests/bad/function-syntax.out \
+	tests/bad/gauss-mass.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
@@ -1758,6 +1777,8 @@ test_files = \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \
+	tests/bad/verlet-constraint.out \
+	tests/bad/verlet-friction.out \
 	tests/bad/write-nowhere.out \
 	tests/bad/wrong-arguments.out \
 	tests/examples/acceleration-constraint.out \
@@ -1981,6 +2002,7 @@ test_files = \
 	tests/script/labels.out \
 	tests/script/leading.out \
 	tests/script/long-sums.out \
+	tests/script/long-time-methods.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
