@@ -118,6 +118,7 @@ library_sources = \
 	lib/lang/runs/event.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
+	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
@@ -577,6 +578,7 @@ library_headers = \
 	lib/lang/language/token-text.h \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
+	lib/lang/runs/run-options.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \

@@ -1,0 +1,177 @@
+/* run-options.c -- reads the options of a run. */
+#include "lang/runs/run-options.h"
+
+#include <limits.h>
+
+#include "lang/commands/set.h"
+#include "lang/commands/value-check.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+
+/* NAME = VALUE of a parameter or of a coordinate or velocity. */
+static qdot_status
+read_with(qdot_cursor *c, qdot_pairs *with)
+{
+    do {
+        const qdot_token *start = c->at;
+        qdot_cursor look = *c;
+        qdot_expr symbol, value;
+        const char *name;
+        const qdot_name *known = NULL;
+
+        if (c->at->kind == QDOT_TOKEN_NAME && qdot_read_name(&look, &name) == QDOT_OK)
+            known = qdot_names_find(c->session->names, name);
+        if (known != NULL && known->kind == QDOT_NAME_COORD)
+            QDOT_TRY(qdot_set_read_jet(c, &symbol));
+        else
+            QDOT_TRY(qdot_set_read_parameter(c, &symbol));
+        QDOT_TRY(qdot_set_read_constant(c, &value));
+        c->error_at = start->start;
+        QDOT_TRY(qdot_session_in_domain(c->session, symbol, value));
+        QDOT_TRY(qdot_pairs_push(with, start, symbol, value));
+    } while (qdot_cursor_accept_op(c, ","));
+    return qdot_value_check(c, with);
+}
+
+static qdot_status
+read_tolerance(qdot_cursor *c, qdot_run_options *o)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_cursor_once(c, "tol", o->tol_given));
+    o->tol_given = true;
+    QDOT_TRY(qdot_read_number(c, &o->tol));
+    if (o->tol > 0 && o->tol < 1)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_EINVAL, "a tolerance lies between 0 and 1");
+}
+
+/* project, baumgarte or none: how drift off the constraints is treated. */
+static qdot_status
+read_treatment(qdot_cursor *c, qdot_run_options *o)
+{
+    static const struct {
+        const char *word;
+        qdot_run_treatment treatment;
+    } words[] = {{"project", QDOT_RUN_PROJECT},
+                 {"baumgarte", QDOT_RUN_BAUMGARTE},
+                 {"none", QDOT_RUN_NONE}};
+
+    if (c->session->scene->constraints.n == 0) {
+        c->error_at = c->at[-1].start;
+        (void)qdot_fail(QDOT_EINVAL, "the scene has no constraints");
+        return qdot_hint("constraint NAME: A = B");
+    }
+    QDOT_TRY(qdot_cursor_once(c, "constraints", o->treatment_given));
+    o->treatment_given = true;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_cursor_accept_word(c, words[i].word)) {
+            o->treatment = words[i].treatment;
+            return QDOT_OK;
+        }
+    return qdot_cursor_expected(c, "`project`, `baumgarte` or `none`");
+}
+
+static qdot_status
+read_digits(qdot_cursor *c, qdot_run_options *o)
+{
+    const qdot_token *start = c->at++;
+
+    QDOT_TRY(qdot_cursor_once(c, "digits", o->digits != 0));
+    QDOT_TRY(qdot_read_integer(c, &o->digits));
+    c->error_at = start->start;
+    if (o->digits >= 1 && o->digits <= INT_MAX)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "%ld digits cannot be asked for", o->digits);
+    return qdot_hint("digits 30");
+}
+
+/* What the tokens [from, to) say, behind what was said before. */
+static void
+add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
+         qdot_run_options *o)
+{
+    if (from == to)
+        return;
+    if (o->text.n > 0)
+        qdot_text_char(&o->text, ' ');
+    qdot_token_text(c->session, from, to, &o->text);
+}
+
+qdot_status
+qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options *o)
+{
+    while (!qdot_cursor_is_end(c)) {
+        if (qdot_cursor_accept_word(c, "tol")) {
+            QDOT_TRY(read_tolerance(c, o));
+        } else if (qdot_cursor_is_word(c, "digits")) {
+            QDOT_TRY(read_digits(c, o));
+        } else if (qdot_cursor_accept_word(c, "method")) {
+            QDOT_TRY(qdot_cursor_once(c, "method", o->method != NULL));
+            if (c->at->kind != QDOT_TOKEN_NAME)
+                return qdot_cursor_expected(c, "the name of a method");
+            o->method_at = c->at;
+            o->method = c->at++->text;
+        } else if (qdot_cursor_accept_word(c, "constraints")) {
+            QDOT_TRY(read_treatment(c, o));
+        } else if (qdot_cursor_accept_word(c, "as")) {
+            add_text(c, start, c->at - 1, o);
+            QDOT_TRY(qdot_cursor_once(c, "as", o->name != NULL));
+            QDOT_TRY(qdot_read_name(c, &o->name));
+            start = c->at;
+        } else if (qdot_cursor_accept_word(c, "with")) {
+            QDOT_TRY(read_with(c, &o->with));
+        } else {
+            return qdot_cursor_expected(
+                c, "`tol`, `digits`, `method`, `with`, `constraints` or `as`");
+        }
+    }
+    add_text(c, start, c->at, o);
+    if (o->tol_given && o->digits > 0) {
+        c->error_at = c->at->start;
+        qdot_fail(QDOT_EINVAL, "`digits` sets the tolerance itself: no `tol` beside it");
+        return qdot_hint("digits %ld", o->digits);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_request *request)
+{
+    const qdot_pairs *with = &o->with;
+    qdot_kept_values kept;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    for (size_t i = 0; i < with->symbols.n && status == QDOT_OK; i++) {
+        if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
+            status =
+                qdot_session_start(session, with->symbols.at[i], with->values.at[i]);
+        else
+            qdot_session_set(session, with->symbols.at[i], with->values.at[i], &status);
+    }
+    if (status == QDOT_OK)
+        status = qdot_request_fill(session, request);
+    qdot_session_restore_values(session, &kept);
+    request->request.tol = o->tol;
+    request->request.digits = (int)o->digits;
+    request->request.method = o->method != NULL ? o->method : "auto";
+    request->request.treatment = o->treatment;
+    return status;
+}
+
+void
+qdot_run_options_free(qdot_run_options *o)
+{
+    qdot_text_clear(&o->text);
+    qdot_pairs_free(&o->with);
+}
+
+void
+qdot_run_options_place(qdot_cursor *c, const qdot_run_options *o, qdot_status status)
+{
+    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && o->method_at != NULL)
+        c->error_at = o->method_at->start;
+}

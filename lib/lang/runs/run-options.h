@@ -1,0 +1,33 @@
+/* run-options.h -- limits and options of a run, as `run`, `plan` and `sweep` read them. */
+#ifndef QDOT_LANG_RUN_OPTIONS_H
+#define QDOT_LANG_RUN_OPTIONS_H
+
+#include "lang/language/cursor.h"
+#include "lang/runs/request.h"
+
+typedef struct {
+    qdot_expr from, to;
+    double tol;
+    long digits; /* 0: doubles */
+    const char *method, *name;
+    const qdot_token *method_at;
+    bool tol_given, treatment_given;
+    qdot_run_treatment treatment;
+    qdot_pairs with;
+    qdot_text text; /* of the statement, without its name */
+} qdot_run_options;
+
+/* Read the options up to the end; start: the first token of the statement's operands. From {.tol =
+ * 1e-12}; free it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_read(qdot_cursor *c, const qdot_token *start,
+                                                  qdot_run_options *o);
+/* The request of the present values, those of `with` in place of them, and of these options; its
+ * limits are left to the caller. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session,
+                                                  const qdot_run_options *o,
+                                                  qdot_request *request);
+void qdot_run_options_free(qdot_run_options *o);
+/* The place of an error of that status: the method, where it is unknown or not built. */
+void qdot_run_options_place(qdot_cursor *c, const qdot_run_options *o, qdot_status status);
+
+#endif
