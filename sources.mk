@@ -44,6 +44,7 @@ library_sources = \
 	lib/lang/answer/notation.c \
 	lib/lang/answer/number-text.c \
 	lib/lang/answer/report.c \
+	lib/lang/answer/row-answer.c \
 	lib/lang/answer/sheet.c \
 	lib/lang/answer/write.c \
 	lib/lang/ask/abbreviate.c \
@@ -75,6 +76,7 @@ library_sources = \
 	lib/lang/figures/figure-file.c \
 	lib/lang/figures/figure-option.c \
 	lib/lang/figures/plot-over.c \
+	lib/lang/figures/plot-rows.c \
 	lib/lang/figures/plot-run.c \
 	lib/lang/figures/plot.c \
 	lib/lang/figures/solid.c \
@@ -86,6 +88,7 @@ library_sources = \
 	lib/lang/files/report-page.c \
 	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
+	lib/lang/files/row-file.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
@@ -120,6 +123,8 @@ library_sources = \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
+	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
@@ -132,6 +137,7 @@ library_sources = \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
+	lib/lang/session/row-tables.c \
 	lib/lang/session/runs.c \
 	lib/lang/session/session.c \
 	lib/lang/session/transfer.c \
@@ -522,6 +528,7 @@ library_headers = \
 	lib/lang/answer/notation.h \
 	lib/lang/answer/number-text.h \
 	lib/lang/answer/report.h \
+	lib/lang/answer/row-answer.h \
 	lib/lang/answer/sheet.h \
 	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
@@ -544,6 +551,7 @@ library_headers = \
 	lib/lang/figures/figure-file.h \
 	lib/lang/figures/figure-option.h \
 	lib/lang/figures/plot-parts.h \
+	lib/lang/figures/plot-rows.h \
 	lib/lang/figures/solid.h \
 	lib/lang/files/data-file.h \
 	lib/lang/files/digits-table.h \
@@ -551,6 +559,7 @@ library_headers = \
 	lib/lang/files/report-answer.h \
 	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
+	lib/lang/files/row-file.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
 	lib/lang/functions/entry.h \
@@ -579,6 +588,7 @@ library_headers = \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
+	lib/lang/runs/sweep-axis.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -590,6 +600,7 @@ library_headers = \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
+	lib/lang/session/row-tables.h \
 	lib/lang/session/runs.h \
 	lib/lang/session/session.h \
 	lib/lang/session/transfer.h \
@@ -1218,6 +1229,7 @@ script_tests = \
 	tests/script/stiff-told.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
 	tests/script/text.lag \
@@ -1426,6 +1438,16 @@ script_tests = \
 	tests/bad/style-unknown.lag \
 	tests/bad/sum-too-long-family.lag \
 	tests/bad/sum-too-long.lag \
+	tests/bad/sweep-as.lag \
+	tests/bad/sweep-column.lag \
+	tests/bad/sweep-many.lag \
+	tests/bad/sweep-mixed.lag \
+	tests/bad/sweep-name.lag \
+	tests/bad/sweep-nothing.lag \
+	tests/bad/sweep-step.lag \
+	tests/bad/sweep-twice.lag \
+	tests/bad/sweep-unknown.lag \
+	tests/bad/sweep-vector.lag \
 	tests/bad/taken-constraint.lag \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
@@ -1516,6 +1538,7 @@ script_tests = \
 	examples/pumped-swing.lag \
 	examples/race.lag \
 	examples/rattleback.lag \
+	examples/resonance.lag \
 	examples/rolling-coin.lag \
 	examples/rolling-disk.lag \
 	examples/rolling-wheel.lag \
@@ -1753,6 +1776,16 @@ test_files = \
 	tests/bad/style-unknown.out \
 	tests/bad/sum-too-long-family.out \
 	tests/bad/sum-too-long.out \
+	tests/bad/sweep-as.out \
+	tests/bad/sweep-column.out \
+	tests/bad/sweep-many.out \
+	tests/bad/sweep-mixed.out \
+	tests/bad/sweep-name.out \
+	tests/bad/sweep-nothing.out \
+	tests/bad/sweep-step.out \
+	tests/bad/sweep-twice.out \
+	tests/bad/sweep-unknown.out \
+	tests/bad/sweep-vector.out \
 	tests/bad/taken-constraint.out \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
@@ -1826,6 +1859,7 @@ test_files = \
 	tests/examples/pendulum.out \
 	tests/examples/polar.out \
 	tests/examples/pumped-swing.out \
+	tests/examples/resonance.out \
 	tests/examples/rolling-disk.out \
 	tests/examples/rolling-wheel.out \
 	tests/examples/rotating-hoop.out \
@@ -2078,6 +2112,7 @@ test_files = \
 	tests/script/stiff-told.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
 	tests/script/text.out \
@@ -2254,6 +2289,8 @@ example_files = \
 	examples/race.svg \
 	examples/rattleback.lag \
 	examples/rattleback.svg \
+	examples/resonance.lag \
+	examples/resonance.svg \
 	examples/rolling-coin.lag \
 	examples/rolling-coin.svg \
 	examples/rolling-disk.lag \

@@ -230,7 +230,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     for (int k = 0; k < axes; k++) {
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
         view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
-        if (!fixed[k] && (k > 0 || !e.course || panel->marks || !(e.most[0] > e.least[0])))
+        if (!fixed[k] && (k > 0 || !e.course || panel->marks || panel->points || !(e.most[0] > e.least[0])))
             pad(&view->least[k], &view->most[k], view->log[k], 0.04);
     }
     if (panel->equal)

@@ -349,13 +349,15 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
 
         qdot_text_add(d->script, k == 0 ? "" : ", ");
         add_source(d, i, k, axes, false);
-        if (point || panel->marks)
+        if (panel->points && !point)
+            qdot_text_add(d->script, " with points pointtype 7 pointsize 0.3");
+        else if (point || panel->marks)
             qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8",
                              point ? "" : "lines", marks[k % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
-        if (panel->n > 1 && !panel->marks && !point)
+        if (panel->n > 1 && !panel->marks && !panel->points && !point)
             qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);
         qdot_text_add(d->script, " title ");
         qdot_figure_add_label(d->script, &panel->curves[k].label);

@@ -43,6 +43,7 @@ typedef struct {
     bool log[2];                /* x and y by powers of ten */
     bool equal;                 /* one scale for all axes: paths */
     bool marks;                 /* a mark at every point, joined by lines */
+    bool points;                /* points that are not joined */
 } qdot_panel;
 
 typedef struct {

@@ -3,6 +3,7 @@
 
 #include "lang/figures/figure-file.h"
 #include "lang/figures/plot-parts.h"
+#include "lang/figures/plot-rows.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 
@@ -263,7 +264,11 @@ qdot_plot_statement(qdot_cursor *c)
     qdot_figure_choice choice = {0};
     panels all = {0};
     frame f = {0};
-    qdot_status status = read_panels(c, &choice, &all);
+    qdot_status status;
+
+    if (qdot_plot_rows_is(c))
+        return qdot_plot_rows(c);
+    status = read_panels(c, &choice, &all);
 
     if (status == QDOT_OK)
         status = build(&all, &f);

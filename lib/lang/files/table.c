@@ -7,6 +7,7 @@
 #include "lang/answer/answer.h"
 #include "lang/files/data-file.h"
 #include "lang/files/digits-table.h"
+#include "lang/files/row-file.h"
 #include "lang/figures/figure-file.h"
 #include "lang/declare/scene-file.h"
 #include "lang/commands/statement.h"
@@ -233,8 +234,12 @@ qdot_table_statement(qdot_cursor *c)
     qdot_expr exact_step = QDOT_NIL;
     size_t rows = 0;
     grid g = {0};
-    qdot_status status = read_table(c, &list, &exact_step, &path);
+    const qdot_row_table *table = qdot_row_file_named(c);
+    qdot_status status;
 
+    if (table != NULL)
+        return qdot_row_file_statement(c, table);
+    status = read_table(c, &list, &exact_step, &path);
     if (status == QDOT_OK)
         status = qdot_session_number(c->session, exact_step, &step, NULL);
     if (status == QDOT_OK) {
@@ -325,6 +330,8 @@ qdot_table_save(qdot_cursor *c)
     grid g = {0};
     size_t rows;
 
+    if (qdot_row_file_named(c) != NULL)
+        return qdot_row_file_statement(c, qdot_row_file_named(c));
     if (!qdot_cursor_is_word(c, "to"))
         QDOT_TRY(qdot_read_name(c, &name));
     if (!qdot_cursor_accept_word(c, "to"))

@@ -1,5 +1,5 @@
 /* session.c -- a conversation begun and ended, and what it is given. */
-#include "lang/session/session.h"
+#include "lang/session/row-tables.h"
 
 #include <errno.h>
 #include <string.h>
@@ -49,6 +49,9 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->runs.n; i++)
         qdot_named_run_release(&session->runs.at[i]);
     qdot_free(session->runs.at);
+    for (size_t i = 0; i < session->tables.n; i++)
+        qdot_row_table_release(session->tables.at[i]);
+    qdot_free(session->tables.at);
     qdot_studies_clear(&session->studies);
     qdot_free(session->partial_sums.at);
     qdot_free(session->history.at);

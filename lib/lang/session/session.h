@@ -40,6 +40,9 @@ typedef struct {
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
 
+/* A table of rows, shared likewise (row-tables.h). */
+typedef struct qdot_row_table qdot_row_table;
+
 /* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
@@ -76,6 +79,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
+    qdot_vec(qdot_row_table *) tables; /* of many runs (row-tables.h) */
     qdot_kept_studies studies; /* of work and precision, so that a report need not repeat them */
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */

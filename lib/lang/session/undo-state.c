@@ -1,5 +1,6 @@
 /* undo-state.c -- the state of a session as arrays of items that are copied as they are. */
 #include "lang/session/undo-state.h"
+#include "lang/session/row-tables.h"
 
 #include <string.h>
 
@@ -10,7 +11,7 @@ qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k)
     const qdot_scene_part own[QDOT_UNDO_PARTS - QDOT_SCENE_PARTS] = {
         PART(s->set_symbols),  PART(s->set_values), PART(s->start_symbols),
         PART(s->start_values), PART(s->history),    PART(s->history_over),
-        PART(s->runs),         PART(state->names),
+        PART(s->runs),         PART(s->tables),     PART(state->names),
     };
 #undef PART
 
@@ -52,6 +53,15 @@ qdot_undo_count(int part, const unsigned char *at, size_t n, bool more)
             ++*run.uses;
         else
             qdot_named_run_release(&run);
+    }
+    for (size_t i = 0; i < n && part == QDOT_UNDO_TABLES; i++) {
+        qdot_row_table *table;
+
+        memcpy(&table, at + i * sizeof table, sizeof table);
+        if (more)
+            table->uses++;
+        else
+            qdot_row_table_release(table);
     }
     for (size_t i = 0; i < n && part == QDOT_UNDO_NAMES; i++) {
         const qdot_name *name;

@@ -15,6 +15,7 @@ enum { /* behind those of the scene */
     QDOT_UNDO_HISTORY,
     QDOT_UNDO_HISTORY_OVER,
     QDOT_UNDO_RUNS,
+    QDOT_UNDO_TABLES,
     QDOT_UNDO_NAMES,
     QDOT_UNDO_PARTS
 };

@@ -501,9 +501,9 @@ apply(qdot_session *s, record *r, int to)
 
         counts = counts || (c->part < QDOT_SCENE_PARTS &&
                             qdot_scene_part_counts((size_t)c->part));
-        if (c->part == QDOT_UNDO_RUNS) {
-            qdot_undo_count(QDOT_UNDO_RUNS, c->items[to], c->n[to], true);
-            qdot_undo_count(QDOT_UNDO_RUNS, c->items[!to], c->n[!to], false);
+        if (c->part == QDOT_UNDO_RUNS || c->part == QDOT_UNDO_TABLES) {
+            qdot_undo_count(c->part, c->items[to], c->n[to], true);
+            qdot_undo_count(c->part, c->items[!to], c->n[!to], false);
         }
         qdot_undo_splice(&live, c->at, c->n[!to], c->items[to], c->n[to]);
         qdot_undo_splice_kept(&u->now, c->part, live.size, c->at, c->n[!to], c->items[to], c->n[to]);

@@ -1,0 +1,18 @@
+/* row-answer.h -- rows of many runs as answers.
+ *
+ *     {"kind":"row","name":"curve","values":[0.5,1.25],"errors":[0,3e-13],"status":"done","reason":null}
+ *
+ * Tests  tests/script/sweep.lag, sweep-json.sh
+ */
+#ifndef QDOT_LANG_ROW_ANSWER_H
+#define QDOT_LANG_ROW_ANSWER_H
+
+#include "lang/session/row-tables.h"
+
+/* Row k; JSON only. */
+QDOT_MUST_CHECK qdot_status qdot_row_answer_json(qdot_session *session, const qdot_row_table *table,
+                                                 size_t k);
+/* All rows: as JSON, or as a table with why rows failed, the first few, below. */
+QDOT_MUST_CHECK qdot_status qdot_row_answer(qdot_session *session, const qdot_row_table *table);
+
+#endif

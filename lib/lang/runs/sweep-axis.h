@@ -1,0 +1,49 @@
+/* sweep-axis.h -- what a sweep runs over: parameters and initial values.
+ *
+ *     NAME = A..B step H       A, A + H, ... up to B
+ *     NAME = A..B count N      N values, ends included
+ *     NAME = [V1, V2, ...]
+ *     NAME = normal(MEAN, DEVIATION)     all random ones together: `count N` members
+ *     NAME = uniform(A, B)               `seed K`: 0 unless said
+ *
+ * Axes that are not random are combined, the last the fastest. Random numbers are those of the
+ * Mersenne twister (GSL), drawn member by member, axis by axis.
+ *
+ * Tests  tests/script/sweep.lag, tests/bad/sweep-*.lag
+ */
+#ifndef QDOT_LANG_SWEEP_AXIS_H
+#define QDOT_LANG_SWEEP_AXIS_H
+
+#include "lang/language/cursor.h"
+
+typedef enum { QDOT_AXIS_LADDER, QDOT_AXIS_LIST, QDOT_AXIS_NORMAL, QDOT_AXIS_UNIFORM } qdot_axis_kind;
+
+typedef struct {
+    const qdot_token *place;
+    char *label;
+    qdot_expr symbol; /* a parameter, a coordinate, a velocity */
+    qdot_axis_kind kind;
+    size_t n;             /* values; 0: random */
+    qdot_expr from, step; /* LADDER */
+    qdot_expr list;       /* LIST */
+    double a, b;          /* NORMAL: mean and deviation; UNIFORM: the ends */
+} qdot_sweep_axis;
+
+typedef struct {
+    qdot_vec(qdot_sweep_axis) at;
+    size_t members;
+    bool random;
+    unsigned long seed;
+    double *drawn; /* [members x axes] of random axes; NULL: none */
+} qdot_sweep_axes;
+
+/* Read the axes from {0}, with `count` and `seed`, and draw what is random; free them in any case.
+ * QDOT_ELIMIT: more than 10^7 members. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_axes_read(qdot_cursor *c, qdot_sweep_axes *axes);
+void qdot_sweep_axes_free(qdot_sweep_axes *axes);
+
+/* The value of axis i for a member, exact. Nil: the pool failed. */
+qdot_expr qdot_sweep_axes_value(qdot_session *session, const qdot_sweep_axes *axes, size_t member,
+                                size_t i);
+
+#endif

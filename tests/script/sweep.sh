@@ -1,0 +1,60 @@
+# A run for each value: numbers of it as rows, with their errors.
+six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/cpu [0-9.e-]* s/cpu S/; s/  */ /g; s/^ //' # what is compared
+cat >scene.lag <<'END'
+param m > 0, k = 4, c = 0.2, F = 1, omega
+coord x
+particle p mass m at x
+potential k*x^2/2
+force F*cos(omega*t) - c*x' on x
+set m = 1
+END
+qdot -q scene.lag - <<'END' 2>&1 | sed "$six" | sed '/^now:/,/x = /d'
+# the steady amplitude of a driven oscillator is F/sqrt((k - m*omega^2)^2 + c^2*omega^2)
+sweep omega = 1..3 step 1 run 0..200 : max(abs(x), 190..200) as curve
+table curve
+# several names, the last the fastest; lists, counts, initial values; any numbers of a run
+event cross: x = 0 falling
+sweep omega = [1, 2], x = -1..1 count 3 run 0..1 tol 1e-9 : value(x, 1/2), m*value(x', 1), x as grid
+# the same as a run of that member
+start x = 1
+set omega = 2
+run 0..1 as now
+check value(x, 1) == -0.1218486 within 1e-6
+END
+qdot -q scene.lag - <<'END' 2>&1 | sed "$six"
+event cross: x = 0 falling
+set omega = 2
+start x = 1
+# what is asked for, a run, a value may fail in some rows
+sweep x = [-1, 1], omega = [0, 1/2] run 0..1 : cross[1], 2*cross[1] as first
+table first
+sweep m = 0..1 step 1/2 run 0..1 : x as masses
+event late: t = 1/2 stop
+sweep x = [1, 2] run 0..1 : t, x'
+# random numbers, by a seed; an older table of that name goes, and comes back
+sweep omega = normal(2, 0.1), x = uniform(-1, 1) count 3 seed 7 run 0..1/4 : x as cloud
+sweep x = uniform(-1, 1) count 2 run 0..1/4 : x, x' as cloud
+undo
+table cloud
+# the values are again what they were
+run 0..1/4
+value(x, 0)
+END
+qdot -q scene.lag -e 'run 0..1 with omega = 2, x = 1; value(x, 1/2); value(m*x'"'"', 1)' | sed "$six" | tail -n 2
+# as JSON: values and errors of what was swept and of what was asked for
+qdot --json scene.lag -e 'sweep omega = [1], x = [0, 1] run 0..1 : value(1/x, 0) as r' | sed "$six; s/e-[0-9]*/e-N/g"
+# files
+qdot -q scene.lag - <<'END' 2>&1 | sed "$six"
+event cross: x = 0 rising
+sweep omega = 1..2 step 1/2 run 0..4 : x, cross[1] as r
+save r to "r.csv"
+table r to "r.json"
+save r to "r.h5"
+plot r to "r.svg"
+sweep omega = 1..2 count 2, x = 0..1 count 2 run 0..1 : x as s
+plot s
+sweep omega = [1, 2] run 0..1 : cross[7]
+END
+sed "$six" r.csv
+tail -n 1 r.json | sed "$six"
+grep -c '<svg' r.svg
