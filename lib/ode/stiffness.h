@@ -39,7 +39,8 @@ typedef struct {
     size_t n;
     double t, t1;    /* now, and the end of the run */
     const double *y; /* [n] */
-    double noise;
+    const double *scales; /* of the system (scale.h) */
+    double noise; /* relative to the size of a component */
     double work;   /* of a step */
     uint64_t most; /* steps that the run may take */
     bool implicit; /* stability does not bound its steps */
