@@ -7,8 +7,8 @@
  * the first sum in two doubles, the second in doubles. m is the least order, up to
  * QDOT_ODE_LEADING_MOST, beyond which rounding is negligible compared with the error of a step,
  *
- *     max_i |x_ik s^k|/max(1, |y_i|) 2^-52 <= eps   for k > m,
- *     max_i |X_im - x_im| s^m/max(1, |y_i|) <= 4 eps:
+ *     max_i |x_ik s^k|/max(s_i, |y_i|) 2^-52 <= eps   for k > m,
+ *     max_i |X_im - x_im| s^m/max(s_i, |y_i|) <= 4 eps:
  *
  * The second condition is the accuracy that doubles really have at order m if terms of the
  * equations cancel. The remaining rounding is of the size of the series' own error, whose bound

@@ -107,10 +107,12 @@ small_motions_are_as_accurate_as_others(void **state)
 {
     const double scales[] = {1e-10, 1e-10};
     const double tol = 1e-8;
+    static const char *const names[] = {"rk8pd",  "rkf45",  "msadams", "msbdf",
+                                        "bsimp",  "dop853", "taylor"};
 
     (void)state;
-    for (size_t m = 0; qdot_ode_method_at(m); m++) {
-        const qdot_ode_method *method = qdot_ode_method_at(m);
+    for (size_t m = 0; m < sizeof names / sizeof *names; m++) {
+        const qdot_ode_method *method = qdot_ode_method_find(names[m]);
         const double small = error_of(method, tol, scales, A);
         const double about_1 = error_of(method, tol, NULL, 3);
 
