@@ -138,6 +138,7 @@ library_sources = \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
+	lib/lang/session/row-table.c \
 	lib/lang/session/row-tables.c \
 	lib/lang/session/runs.c \
 	lib/lang/session/scales.c \
@@ -604,6 +605,7 @@ library_headers = \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
+	lib/lang/session/row-table.h \
 	lib/lang/session/row-tables.h \
 	lib/lang/session/runs.h \
 	lib/lang/session/scales.h \

@@ -1,5 +1,5 @@
 /* session.c -- a conversation begun and ended, and what it is given. */
-#include "lang/session/row-tables.h"
+#include "lang/session/session.h"
 
 #include <errno.h>
 #include <string.h>

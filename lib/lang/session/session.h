@@ -12,6 +12,7 @@
 #include "expr/print.h"
 #include "lang/session/conditions.h"
 #include "lang/session/names.h"
+#include "lang/session/row-table.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
@@ -39,9 +40,6 @@ typedef struct {
     unsigned *uses;
 } qdot_named_run;
 void qdot_named_run_release(qdot_named_run *run); /* one use less; the last frees it */
-
-/* A table of rows, shared likewise (row-tables.h). */
-typedef struct qdot_row_table qdot_row_table;
 
 /* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
@@ -80,7 +78,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
-    qdot_vec(qdot_row_table *) tables; /* of many runs (row-tables.h) */
+    qdot_vec(qdot_row_table *) tables; /* of many runs; shared likewise */
     qdot_kept_studies studies; /* of work and precision, so that a report need not repeat them */
     qdot_vec(
         char *) including; /* files being read, for include cycles and relative paths */

@@ -1,6 +1,5 @@
 /* undo-state.c -- the state of a session as arrays of items that are copied as they are. */
 #include "lang/session/undo-state.h"
-#include "lang/session/row-tables.h"
 
 #include <string.h>
 
