@@ -1,7 +1,9 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
+#include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
+#include "sim/run/chart-run.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 
@@ -57,6 +59,7 @@ qdot_run_free(qdot_run *run)
     qdot_text_clear(&run->part_names);
     qdot_free(run->parts.at);
     qdot_multipliers_clear(&run->multipliers);
+    qdot_run_chart_free(run->chart);
     qdot_free(run);
 }
 
@@ -567,6 +570,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     status = make_decided(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = qdot_run_change_over(scene, &states.request, &by, out);
+    if (!asked->digits)
+        status = qdot_run_change_chart(scene, &states.request, &by, status, out);
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;
