@@ -199,7 +199,7 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
     if (*out) {
         (*out)->chart = x;
         x = NULL;
-        status = qdot_run_chart_report(*out);
+        status = qdot_run_chart_report(*out, by);
         if (status == QDOT_OK)
             status = say_chart(*out);
     }

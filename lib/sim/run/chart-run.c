@@ -7,7 +7,6 @@
 
 #include "base/interrupt.h"
 #include "sim/course/reader.h"
-#include "sim/run/run.h"
 
 /* An angle is followed in steps below `sure`; a stretch ends where it is `far` from its quarters.
  * Each step of the run is looked at in `parts`. */
@@ -217,13 +216,13 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 
 /* A velocity may be undefined at a singular place. */
 static qdot_status
-read_end(qdot_run *run, size_t i, double *error)
+read_end(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
 {
     qdot_run_chart *x = run->chart;
     const qdot_expr q = x->coordinates[i % x->n];
     const qdot_expr e = i < x->n ? q : qdot_symbol_jet(run->plan->pool, q, 1);
     const qdot_status status =
-        qdot_run_values(run, 1, &e, 1, &run->report.t1, x->end + i, error);
+        by->values(run, 1, &e, 1, &run->report.t1, x->end + i, error);
 
     if (status != QDOT_EDOMAIN)
         return status;
@@ -232,7 +231,7 @@ read_end(qdot_run *run, size_t i, double *error)
 }
 
 qdot_status
-qdot_run_chart_report(qdot_run *run)
+qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
 {
     qdot_run_chart *x = run->chart;
     qdot_run_report *r = &run->report;
@@ -244,7 +243,7 @@ qdot_run_chart_report(qdot_run *run)
     for (size_t i = 0; i < 2 * x->n; i++) {
         double error = NAN;
 
-        QDOT_TRY(read_end(run, i, &error));
+        QDOT_TRY(read_end(run, by, i, &error));
         error /= fmax(1, fabs(x->end[i]));
         largest = isnan(error) || isnan(largest) ? NAN : fmax(largest, error);
     }

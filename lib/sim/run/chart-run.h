@@ -11,6 +11,7 @@
 
 #include "mech/study/chart.h"
 #include "sim/course/run-state.h"
+#include "sim/run/change-over.h"
 
 /* A time from which on angles are counted from so many quarters. */
 typedef struct {
@@ -37,6 +38,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
                                                     const long **quarters);
 
 /* Put the end state, with its error, into the report of a run that has a chart. */
-QDOT_MUST_CHECK qdot_status qdot_run_chart_report(qdot_run *run);
+QDOT_MUST_CHECK qdot_status qdot_run_chart_report(qdot_run *run,
+                                                  const qdot_run_maker *by);
 
 #endif

@@ -561,7 +561,7 @@ qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     const double clock = process_clock();
-    const qdot_run_maker by = {make_decided, qdot_run_free};
+    const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
