@@ -249,6 +249,8 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     }
     if (!isnan(r->error))
         r->error = largest;
+    r->scaled_error = r->error;
+    r->scales = NULL; /* those of the chart */
     r->n = x->n;
     r->coordinates = x->coordinates;
     r->q = x->end;
