@@ -18,6 +18,9 @@
  * an order of 8 the whole run costs a quarter more and errs eight times less. */
 static const double aim = 0.1;
 
+/* A step grows by so much or not at all where another size is dear. */
+static const double worthwhile = 1.2;
+
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
 
@@ -146,6 +149,9 @@ control(run *r, double h, double ratio, bool accepted)
         factor = fmin(1, factor);
     if (accepted && r->s->method->multistep)
         factor = fmax(1, factor);
+    if (accepted && r->s->method->kernel && r->s->method->kernel->keeps_step && factor >= 1
+        && factor < worthwhile)
+        factor = 1;
     /* a step cut short to land on t1 says nothing against the larger one */
     r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
 }

@@ -35,6 +35,8 @@ struct qdot_bind {
     double *out, *work;         /* of the tape */
     double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
     double *slopes_work;
+    qdot_ode_mass_form mass_form; /* where there are slopes */
+    double *all_slopes;           /* [2n x 2n + 2n] with constraints: of the first order */
 
     /* Of a plan with a reduced one, which is what is integrated: */
     qdot_tape *reduced; /* a shaken copy; else NULL */
@@ -89,6 +91,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
+    qdot_free(b->all_slopes);
     qdot_free(b);
 }
 
@@ -215,14 +218,27 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
 
 /* --- its Jacobian --------------------------------------------------------------------- */
 
-/* For block k, which is factored and whose outputs begin with `row`: dq''/dz of its coordinates,
- * z the column of slopes,
+/* Whether block k gives q'' itself, by the tape, or by its M that was factored once for all. */
+static bool
+is_solved(const qdot_plan_block *block)
+{
+    return block->n == 1 || block->constant;
+}
+
+/* The first output behind those of block k, which begin with `row`. */
+static size_t
+row_behind(const qdot_plan_block *block, size_t row)
+{
+    return row + block->n + (is_solved(block) ? 0 : block->n * (block->n + 1) / 2);
+}
+
+/* For block k, whose outputs begin with `row`: of its coordinates
  *
- *     M dq''/dz = df/dz - dM/dz q'',
+ *     df/dz - dM/dz q'',   z the column of slopes,
  *
- * into its x. */
+ * into its x; times M^-1 if that is constant. */
 static void
-block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
+block_slope(const qdot_bind *b, size_t k, size_t row, size_t column)
 {
     const qdot_plan_block *block = b->plan->blocks + k;
     const size_t columns = 2 * b->plan->n + 1;
@@ -240,7 +256,8 @@ block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
             if (j < i)
                 x[j] -= *slope * a[block->index[i]];
         }
-    qdot_blocks_solve(&b->blocks, k, x);
+    if (block->constant)
+        qdot_blocks_solve(&b->blocks, k, x);
 }
 
 static qdot_status
@@ -266,16 +283,118 @@ jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
         const qdot_plan_block *block = p->blocks + k;
 
         for (size_t j = 0; j < columns; j++) {
-            block_column(b, k, row, j);
+            block_slope(b, k, row, j);
+            if (!is_solved(block)) /* M dq''/dz = that */
+                qdot_blocks_solve(&b->blocks, k, b->blocks.at[k].x);
             for (size_t i = 0; i < block->n; i++) {
                 size_t at = n + block->index[i];
 
                 *(j < 2 * n ? &dfdy[at * 2 * n + j] : &dfdt[at]) = b->blocks.at[k].x[i];
             }
         }
-        row += block->n;
-        if (block->n > 1 && !block->constant)
-            row += block->n * (block->n + 1) / 2;
+        row = row_behind(block, row);
+    }
+    return QDOT_OK;
+}
+
+/* --- the form with M: f - M a, or q'' - a where a block is solved ---------------------------- */
+
+/* With constraints: q'' by them, less a. */
+static qdot_status
+held_residual(double t, const double *y, const double *a, double *r, void *user)
+{
+    const qdot_bind *b = user;
+
+    QDOT_TRY(qdot_constrained_solve(b->held, t, y, r, NULL));
+    for (size_t i = 0; i < b->plan->n; i++)
+        r[i] -= a[i];
+    return QDOT_OK;
+}
+
+static qdot_status
+residual(double t, const double *y, const double *a, double *r, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *p = b->plan;
+    const double *out = b->out;
+
+    load(b, t, y);
+    qdot_tape_eval(equations(b), b->in, b->out, b->work);
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+        double *x = b->blocks.at[k].x;
+
+        for (size_t i = 0; i < block->n; i++)
+            x[i] = *out++;
+        if (block->n > 1 && block->constant)
+            qdot_blocks_solve(&b->blocks, k, x);
+        for (size_t i = 0; i < block->n; i++)
+            r[block->index[i]] = is_solved(block) ? x[i] - a[block->index[i]] : x[i];
+        for (size_t i = 0; i < block->n && !is_solved(block); i++)
+            for (size_t j = 0; j <= i; j++, out++) {
+                r[block->index[i]] -= *out * a[block->index[j]];
+                if (j < i)
+                    r[block->index[j]] -= *out * a[block->index[i]];
+            }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+held_slopes(double t, const double *y, const double *a, double *dq, double *dv, double *M,
+            void *user)
+{
+    const qdot_bind *b = user;
+    const size_t n = b->plan->n;
+    double *all = b->all_slopes;
+
+    (void)a;
+    QDOT_TRY(qdot_constrained_jacobian(b->held, t, y, all, all + 4 * n * n));
+    for (size_t i = 0; i < n; i++) {
+        memcpy(dq + i * n, all + (n + i) * 2 * n, n * sizeof *dq);
+        memcpy(dv + i * n, all + (n + i) * 2 * n + n, n * sizeof *dv);
+        M[i * n + i] = 1;
+    }
+    return QDOT_OK;
+}
+
+/* M of block k from its outputs, which begin at `out`. */
+static void
+put_mass(const qdot_plan *p, const qdot_plan_block *block, const double *out, double *M)
+{
+    for (size_t i = 0; i < block->n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            const size_t row = block->index[i], column = block->index[j];
+
+            M[row * p->n + column] = M[column * p->n + row] =
+                is_solved(block) ? (double)(i == j) : *out++;
+        }
+}
+
+static qdot_status
+slopes(double t, const double *y, const double *a, double *dq, double *dv, double *M, void *user)
+{
+    qdot_bind *b = user;
+    const qdot_plan *p = b->plan;
+    const size_t n = p->n, columns = 2 * n + 1;
+    size_t row = 0;
+
+    load(b, t, y);
+    memcpy(b->in + columns, a, n * sizeof *a);
+    qdot_derivative_eval(equations(b), b->in, 0, columns, b->out, b->slopes, b->slopes_work);
+    memset(M, 0, n * n * sizeof *M);
+    memset(dq, 0, n * n * sizeof *dq);
+    memset(dv, 0, n * n * sizeof *dv);
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+
+        put_mass(p, block, b->out + row + block->n, M);
+        for (size_t j = 0; j < 2 * n; j++) {
+            block_slope(b, k, row, j);
+            for (size_t i = 0; i < block->n; i++)
+                (j < n ? dq + j : dv + j - n)[block->index[i] * n] = b->blocks.at[k].x[i];
+        }
+        row = row_behind(block, row);
     }
     return QDOT_OK;
 }
@@ -309,6 +428,7 @@ qdot_bind_system(qdot_bind *b)
         .rhs = b->momenta ? reduced_rhs : rhs,
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
+        .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
@@ -397,6 +517,9 @@ make_held(qdot_bind *b, bool shaken)
     const qdot_plan *p = b->plan;
 
     QDOT_TRY(qdot_constrained_new(p, shaken, &b->held));
+    if (b->mass_form.residual
+        && !(b->all_slopes = qdot_calloc(4 * p->n * p->n + 2 * p->n, sizeof *b->all_slopes)))
+        return QDOT_ENOMEM;
     if (!p->smooth)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_series_of_constraints(p, shaken, &b->tied));
@@ -508,6 +631,9 @@ make(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
+    if (qdot_plan_needs_jacobian(p))
+        b->mass_form = (qdot_ode_mass_form){p->n, p->constraints ? held_residual : residual,
+                                            p->constraints ? held_slopes : slopes, b};
     if (p->constraints)
         return make_held(b, shaken);
     if (p->tape)

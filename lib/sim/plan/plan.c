@@ -20,7 +20,7 @@
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"radau", "gauss4", "gauss6", "gauss8", "gauss12",
+static const char *const later_methods[] = {"gauss4", "gauss6", "gauss8", "gauss12",
                                             "verlet", "composition8", "variational"};
 
 /* --- the scene ---------------------------------------------------------------------- */
