@@ -151,6 +151,8 @@ typedef struct qdot_ode_system {
     void *user; /* borrowed */
     /* The same with M; NULL if there is no such form; borrowed */
     const qdot_ode_mass_form *mass_form;
+    bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
+                    constant: geometric methods take v for p */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

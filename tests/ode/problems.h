@@ -15,7 +15,7 @@
 /* The methods that a right-hand side is enough for. */
 #define for_each_method(m)                                                               \
     for (size_t m = 0; m < qdot_ode_method_count(); m++)                                 \
-        if (!qdot_ode_method_at(m)->series)
+        if (!qdot_ode_method_at(m)->series && !qdot_ode_method_at(m)->geometric)
 
 enum { series = 30 };
 

@@ -429,6 +429,7 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
+        .halves = b->plan->halves,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,

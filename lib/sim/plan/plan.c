@@ -10,6 +10,7 @@
 #include "sim/model/parameter-states.h"
 #include "sim/model/switch.h"
 #include "sim/plan/form.h"
+#include "sim/plan/geometric.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
 #include "sim/plan/tree-alone.h"
@@ -20,8 +21,7 @@
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"gauss4", "gauss6", "gauss8", "gauss12",
-                                            "verlet", "composition8", "variational"};
+static const char *const later_methods[] = {"variational"};
 
 /* --- the scene ---------------------------------------------------------------------- */
 
@@ -230,6 +230,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (p->residual)
         return QDOT_OK;
     QDOT_TRY(derive(p, scene));
+    QDOT_TRY(qdot_plan_check_geometric(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));
@@ -242,7 +243,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)
         return choose_in_lanes(p, scene, request);
-    if (qdot_plan_needs_jacobian(p))
+    if (qdot_plan_needs_jacobian(p) || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
     /* events that set parameters look at the steps of the whole */
