@@ -375,6 +375,7 @@ library_sources = \
 	lib/show/sketch.c \
 	lib/show/table.c \
 	lib/show/trace.c \
+	lib/sim/course/bind-slopes.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -809,6 +810,7 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
+	lib/sim/course/bind-state.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \

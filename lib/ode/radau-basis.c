@@ -114,16 +114,16 @@ find_vectors(qdot_radau_basis *b, const double *N)
 {
     const size_t s = b->stages;
     double re[MOST * MOST], im[MOST * MOST];
-    size_t pivot[MOST];
+    qdot_lu_row rows[MOST];
 
     for (size_t k = 0; k < b->spaces; k++)
         set_vector(b, N, k, re, im);
-    (void)qdot_lu_factor_complex(s, re, im, pivot);
+    (void)qdot_lu_factor_complex(s, re, im, rows);
     for (size_t i = 0; i < s; i++) {
         double x[MOST] = {0}, y[MOST] = {0};
 
         x[i] = 1;
-        qdot_lu_solve_complex(s, re, im, pivot, x, y);
+        qdot_lu_solve_complex(s, re, im, rows, x, y);
         for (size_t k = 0; k < b->spaces; k++) {
             b->left_re[k][i] = x[k ? 2 * k - 1 : 0];
             b->left_im[k][i] = y[k ? 2 * k - 1 : 0];
@@ -147,6 +147,19 @@ find_inverse(qdot_radau_basis *b, const qdot_collocation *m)
         }
 }
 
+/* 1/(c_j prod (c_j - c_k)) */
+static void
+find_weights(qdot_radau_basis *b)
+{
+    for (size_t j = 0; j < b->stages; j++) {
+        double product = b->c[j];
+
+        for (size_t k = 0; k < b->stages; k++)
+            product *= k == j ? 1 : b->c[j] - b->c[k];
+        b->weight[j] = 1 / product;
+    }
+}
+
 static void
 make(qdot_radau_basis *b, size_t stages)
 {
@@ -163,6 +176,7 @@ make(qdot_radau_basis *b, size_t stages)
             b->a[i][j] = m.a[i][j].hi;
     }
     find_inverse(b, &m);
+    find_weights(b);
     find_nodal(b, N);
     find_eigenvalues(stages, N, lambda);
     sort(b, lambda);
@@ -201,9 +215,14 @@ qdot_radau_basis_get(size_t kind)
 void
 qdot_radau_interpolate(const qdot_radau_basis *b, double x, double *w)
 {
+    double before = x, behind = 1;
+
     for (size_t j = 0; j < b->stages; j++) {
-        w[j] = x / b->c[j];
-        for (size_t k = 0; k < b->stages; k++)
-            w[j] *= k == j ? 1 : (x - b->c[k]) / (b->c[j] - b->c[k]);
+        w[j] = before * b->weight[j];
+        before *= x - b->c[j];
+    }
+    for (size_t j = b->stages; j-- > 0;) {
+        w[j] *= behind;
+        behind *= x - b->c[j];
     }
 }

@@ -28,8 +28,9 @@ typedef struct {
     size_t stages, spaces;
     double c[QDOT_RADAU_MOST];
     double a[QDOT_RADAU_MOST][QDOT_RADAU_MOST], inverse[QDOT_RADAU_MOST][QDOT_RADAU_MOST];
-    double
-        first[QDOT_RADAU_MOST]; /* L_i(0): what values at the nodes make at the start */
+    double first
+        [QDOT_RADAU_MOST]; /* L_i(0): values at the nodes times these are that at 0 */
+    double weight[QDOT_RADAU_MOST]; /* of interpolation */
     double lambda_re[QDOT_RADAU_SPACES], lambda_im[QDOT_RADAU_SPACES];
     /* u, for pairs twice; w */
     double right_re[QDOT_RADAU_SPACES][QDOT_RADAU_MOST],

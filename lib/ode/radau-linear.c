@@ -17,8 +17,13 @@ qdot_radau_linear_clear(qdot_radau_linear *l)
     for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
         qdot_free(l->re[k]);
         qdot_free(l->im[k]);
-        qdot_free(l->pivot[k]);
+        qdot_free(l->rows[k]);
     }
+    qdot_free(l->pattern);
+    qdot_free(l->order);
+    qdot_free(l->scratch);
+    qdot_free(l->put[0]);
+    qdot_free(l->put[1]);
     *l = (qdot_radau_linear){0};
 }
 
@@ -33,12 +38,20 @@ qdot_radau_linear_init(qdot_radau_linear *l, const qdot_ode_system *system)
     l->dv = qdot_calloc(cells, sizeof *l->dv);
     l->mass = qdot_calloc(cells, sizeof *l->mass);
     l->dt = qdot_calloc(m, sizeof *l->dt);
-    all = l->dq && l->dv && l->mass && l->dt;
+    l->pattern = qdot_calloc(cells, sizeof *l->pattern);
+    l->order = qdot_calloc(m, sizeof *l->order);
+    l->scratch = qdot_calloc(m, sizeof *l->scratch);
+    l->put[0] = qdot_calloc(m, sizeof *l->put[0]);
+    l->put[1] = qdot_calloc(m, sizeof *l->put[1]);
+    all = l->dq && l->dv && l->mass && l->dt && l->pattern && l->order && l->scratch &&
+          l->put[0] && l->put[1];
+    for (size_t i = 0; i < m && all; i++)
+        l->order[i] = i;
     for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
         l->re[k] = qdot_calloc(cells, sizeof *l->re[k]);
         l->im[k] = k ? qdot_calloc(cells, sizeof *l->im[k]) : NULL;
-        l->pivot[k] = qdot_calloc(m, sizeof *l->pivot[k]);
-        all = all && l->re[k] && (l->im[k] || k == 0) && l->pivot[k];
+        l->rows[k] = qdot_calloc(m, sizeof *l->rows[k]);
+        all = all && l->re[k] && (l->im[k] || k == 0) && l->rows[k];
     }
     return all ? QDOT_OK : QDOT_ENOMEM;
 }
@@ -69,6 +82,26 @@ qdot_radau_residual(const qdot_radau_linear *l, double t, const double *y,
     return check_finite(r, l->m, "right-hand side");
 }
 
+/* Order the unknowns anew if entries are not 0 that always were. */
+static void
+look_at_pattern(qdot_radau_linear *l)
+{
+    enum { few = 4 };
+    const size_t m = l->m;
+    bool more = false;
+
+    for (size_t i = 0; i < m && m > few; i++)
+        for (size_t j = 0; j < m; j++) {
+            const size_t at = i * m + j;
+
+            if (l->pattern[at] || (l->mass[at] == 0 && l->dq[at] == 0 && l->dv[at] == 0))
+                continue;
+            more = l->pattern[at] = l->pattern[j * m + i] = true;
+        }
+    if (more)
+        qdot_lu_order(m, l->pattern, l->order, l->scratch);
+}
+
 qdot_status
 qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double *a)
 {
@@ -84,7 +117,9 @@ qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double 
     }
     QDOT_TRY(check_finite(l->dq, m * m, "Jacobian"));
     QDOT_TRY(check_finite(l->mass, m * m, "Jacobian"));
-    return check_finite(l->dv, m * m, "Jacobian");
+    QDOT_TRY(check_finite(l->dv, m * m, "Jacobian"));
+    look_at_pattern(l);
+    return QDOT_OK;
 }
 
 static bool
@@ -95,14 +130,18 @@ factor_space(qdot_radau_linear *l, size_t k, double h)
     const double M_re = a / h, q_re = l->p ? h * a / size : 0;
     const double M_im = b / h, q_im = l->p ? -h * b / size : 0;
     double *re = l->re[k], *im = l->im[k];
+    const size_t m = l->m;
 
-    for (size_t i = 0; i < l->m * l->m; i++)
-        re[i] = M_re * l->mass[i] - l->dv[i] - q_re * l->dq[i];
-    if (k == 0)
-        return qdot_lu_factor(l->m, re, l->pivot[k]);
-    for (size_t i = 0; i < l->m * l->m; i++)
-        im[i] = M_im * l->mass[i] - q_im * l->dq[i];
-    return qdot_lu_factor_complex(l->m, re, im, l->pivot[k]);
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            const size_t from = l->order[i] * m + l->order[j], at = i * m + j;
+
+            re[at] = M_re * l->mass[from] - l->dv[from] - q_re * l->dq[from];
+            if (k > 0)
+                im[at] = M_im * l->mass[from] - q_im * l->dq[from];
+        }
+    return k == 0 ? qdot_lu_factor(m, re, l->rows[k])
+                  : qdot_lu_factor_complex(m, re, im, l->rows[k]);
 }
 
 bool
@@ -118,10 +157,21 @@ qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h)
 void
 qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im)
 {
+    double *x = l->put[0], *y = l->put[1];
+
+    for (size_t i = 0; i < l->m; i++) {
+        x[i] = re[l->order[i]];
+        y[i] = k ? im[l->order[i]] : 0;
+    }
     if (k == 0)
-        qdot_lu_solve(l->m, l->re[0], l->pivot[0], re);
+        qdot_lu_solve(l->m, l->re[0], l->rows[0], x);
     else
-        qdot_lu_solve_complex(l->m, l->re[k], l->im[k], l->pivot[k], re, im);
+        qdot_lu_solve_complex(l->m, l->re[k], l->im[k], l->rows[k], x, y);
+    for (size_t i = 0; i < l->m; i++) {
+        re[l->order[i]] = x[i];
+        if (k > 0)
+            im[l->order[i]] = y[i];
+    }
 }
 
 void

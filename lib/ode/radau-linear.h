@@ -14,6 +14,7 @@
 
 #include <stdbool.h>
 
+#include "num/lu.h"
 #include "ode/radau-basis.h"
 #include "ode/system.h"
 
@@ -24,7 +25,11 @@ typedef struct {
     double *dt;                    /* [m] scratch */
     double *re[QDOT_RADAU_SPACES],
         *im[QDOT_RADAU_SPACES]; /* [m x m] factors; im[0] NULL */
-    size_t *pivot[QDOT_RADAU_SPACES];
+    qdot_lu_row *rows[QDOT_RADAU_SPACES];
+    bool *pattern;   /* [m x m] which entries were ever not 0, and their mirror images */
+    size_t *order;   /* [m] of the unknowns in the matrices, by it */
+    size_t *scratch; /* [m] */
+    double *put[2];  /* [m] a right-hand side in that order */
     const qdot_radau_basis *basis; /* for which they are factored */
 } qdot_radau_linear;
 

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "ode/radau-linear.h"
+#include "ode/scale.h"
 
 enum { MOST = QDOT_RADAU_MOST, SPACES = QDOT_RADAU_SPACES };
 
@@ -15,8 +16,8 @@ static const double newton = 1e-3, newton_roundings = 10;
 
 /* Rates of the iteration: below `reuse` slopes are kept for the next step; below `fast`, above
  * `slow` the number of stages changes, after so many steps. */
-static const double reuse = 1e-3, fast = 2e-3, slow = 0.8;
-enum { steady = 10 };
+static const double reuse = 1e-3, reuse_dear = 0.1, fast = 2e-3, slow = 0.8;
+enum { steady = 10, dear = 2 };
 
 typedef struct {
     qdot_radau_linear linear;
@@ -27,7 +28,7 @@ typedef struct {
     double *a;       /* [MOST x m] */
     double *R;       /* [MOST x m] residuals */
     double *re, *im; /* [m] */
-    double *weight;  /* [n] 1/(tol max(1, |y|)) */
+    double *weight;  /* [n] 1/(tol max(scale, |y|)) */
     double *before;  /* [MOST x n] the stages of the last step accepted */
     const qdot_radau_basis *before_basis; /* NULL: there is none */
     double before_h, h;
@@ -356,7 +357,7 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
     bool converged = false, regular;
 
     for (size_t l = 0; l < r->n; l++)
-        r->weight[l] = 1 / (s->tol * fmax(1, fabs(s->y[l])));
+        r->weight[l] = 1 / (s->tol * qdot_ode_size(s->system->scales, l, s->y[l]));
     r->h = h;
     while (!converged) {
         QDOT_TRY(prepare(s, b, t, h, &regular));
@@ -404,7 +405,7 @@ accepted(qdot_ode_stepper *s)
     r->before_basis = r->linear.basis;
     r->before_h = r->h;
     r->fresh = false;
-    if (r->rate > reuse)
+    if (r->rate > (r->m > dear * r->before_basis->stages ? reuse_dear : reuse))
         r->slopes = false;
     choose_stages(r);
 }

@@ -113,6 +113,8 @@ first_step(run *r, double distance)
     else
         r->h = pow(0.01 / fmax(d1, d2), 1 / (p + 1));
     r->h = fmin(fmin(100 * h0, r->h), distance);
+    if (r->h < 2 * floor_of_step(r)) /* at rest, a long time after 0 */
+        r->h = fmin(2 * floor_of_step(r), distance);
     return QDOT_OK;
 }
 
