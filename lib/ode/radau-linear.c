@@ -1,6 +1,7 @@
 /* radau-linear.c -- the matrices of a step, filled and factored. */
 #include "ode/radau-linear.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -185,5 +186,23 @@ qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q, d
         for (size_t j = 0; j < m; j++)
             sum += l->mass[i * m + j] * v[j] + (q ? l->dq[i * m + j] * q[j] : 0);
         b[i] = sum;
+    }
+}
+
+void
+qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a, double *b)
+{
+    const size_t m = l->m;
+
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < m; j++) {
+            const size_t at = i * m + j;
+
+            sum += fabs(l->dv[at] * y[l->p + j]) + fabs(l->mass[at] * a[j]) +
+                   (l->p ? fabs(l->dq[at] * y[j]) : 0);
+        }
+        b[i] = DBL_EPSILON * (i % 2 ? -sum : sum);
     }
 }

@@ -53,6 +53,10 @@ bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, doub
 /* Solve with space k; im is not read for k = 0. */
 void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
 
+/* b [m]: about what rounding of y and a makes of f - M a, of one sign or the other. */
+void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
+                      double *b);
+
 /* b = M v + Dq q; q NULL: no such term. */
 void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,
                       double *b);

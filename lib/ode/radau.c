@@ -19,6 +19,15 @@ static const double newton = 1e-3, newton_roundings = 10;
 static const double reuse = 1e-3, reuse_dear = 0.1, fast = 2e-3, slow = 0.8;
 enum { steady = 10, dear = 2 };
 
+/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. */
+static const double bounds = 0.02, fair = 0.1;
+
+/* After a step whose iteration failed: those that follow, beside it. */
+static const double shorter = 0.6;
+
+/* An estimate is of so many roundings of f; where it is no more, a step may grow a little. */
+static const double stagnates = 0.3, several = 6, grows = 0.03;
+
 typedef struct {
     qdot_radau_linear linear;
     size_t n, m, p;  /* y = (q [p], v [m]) */
@@ -36,6 +45,9 @@ typedef struct {
     double factored;                /* the step for which the matrices are; 0: none */
     double rate, rate_before, left; /* of the iteration */
     int iterations, since;          /* steps since the number of stages changed */
+    double ratio;                   /* of the last step accepted */
+    double most; /* no longer steps for `cautious` more: the iteration failed with one */
+    int cautious;
     bool rejected;
 } radau;
 
@@ -93,6 +105,8 @@ restart(qdot_ode_stepper *s)
     r->factored = 0;
     r->rate = r->left = 1;
     r->since = 0;
+    r->ratio = 0;
+    r->cautious = 0;
     r->rejected = false;
 }
 
@@ -230,6 +244,24 @@ change(radau *r, const qdot_radau_basis *b, double h)
     return size;
 }
 
+/* What rounding of f may make of the change of a stage, in tolerances. */
+static double
+noise_of(const qdot_ode_stepper *s, double h)
+{
+    radau *r = s->own;
+    const double part = h / r->linear.basis->lambda_re[0];
+    double noise = 0;
+
+    qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->re);
+    qdot_radau_solve(&r->linear, 0, r->re, NULL);
+    for (size_t l = 0; l < r->m; l++) {
+        noise = fmax(noise, fabs(r->re[l]) * r->weight[r->p + l]);
+        if (r->p)
+            noise = fmax(noise, fabs(part * r->re[l]) * r->weight[l]);
+    }
+    return several * noise;
+}
+
 /* Whether it converged; the stages, and `a` by them. */
 static qdot_status
 iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
@@ -256,6 +288,11 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
 
             r->rate = r->iterations == 2 ? rate : sqrt(rate * r->rate_before);
             r->rate_before = rate;
+            if (size > enough && rate > stagnates && size <= noise_of(s, h)) {
+                *converged = true; /* as far as rounding lets it */
+                accelerate(r, b, h);
+                return QDOT_OK;
+            }
             if (r->rate >= 0.99 && size > enough)
                 return QDOT_OK;
             r->left = r->rate < 0.99 ? r->rate / (1 - r->rate) : 1;
@@ -309,6 +346,22 @@ estimate(qdot_ode_stepper *s, const qdot_radau_basis *b, double h, const double 
     return isfinite(size) ? size : INFINITY;
 }
 
+/* What rounding of f makes of an estimate that matters is no error of the step, which would get
+ * shorter for it and no better. */
+static void
+spare_noise(qdot_ode_stepper *s, double h, double *ratio)
+{
+    double noise;
+
+    if (*ratio <= grows || !isfinite(*ratio))
+        return;
+    noise = noise_of(s, h);
+    if (!(noise > grows))
+        return;
+    *ratio = fmax(*ratio - noise, grows);
+    s->raised = fmax(s->raised, noise * s->tol);
+}
+
 /* Where a motion is stiff and off its slow course the defect is large, and the error is not: once
  * more with f at the state that the estimate leads to. */
 static qdot_status
@@ -317,6 +370,7 @@ judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double
     radau *r = s->own;
 
     *ratio = estimate(s, b, h, s->dydt);
+    spare_noise(s, h, ratio);
     if (*ratio <= 1 || !isfinite(*ratio) || (r->before_basis && !r->rejected))
         return QDOT_OK;
     for (size_t l = 0; l < r->n; l++)
@@ -324,6 +378,7 @@ judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double
     if (qdot_ode_stepper_rhs(s, t, s->trial, s->trial_dydt) != QDOT_OK)
         return QDOT_OK;
     *ratio = estimate(s, b, h, s->trial_dydt);
+    spare_noise(s, h, ratio);
     return QDOT_OK;
 }
 
@@ -370,25 +425,37 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
     *ratio = INFINITY;
     if (converged)
         QDOT_TRY(judge(s, b, t, h, ratio));
-    else if (!r->kept && r->kind > 0)
+    else
+        r->most = shorter * fabs(h), r->cautious = steady;
+    if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds)
         r->kind--, r->since = 0;
     r->rejected = !(*ratio <= 1);
+    if (!r->rejected)
+        r->ratio = *ratio;
+    if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
+        *ratio = fmin(
+            1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
     memcpy(s->z, r->Z + (b->stages - 1) * r->n, r->n * sizeof *s->z);
     for (size_t l = 0; l < r->n; l++)
         s->trial[l] = s->y[l] + (s->carry[l] + s->z[l]);
     return QDOT_OK;
 }
 
+/* More stages where the iteration converges fast, or the error bounds the steps and it converges;
+ * fewer where it hardly does, and the error would allow longer steps. */
 static void
-choose_stages(radau *r)
+choose_stages(const qdot_ode_stepper *s)
 {
+    radau *r = s->own;
     const size_t old = r->kind;
+    const bool bound = s->tol < 1e-4 && r->ratio > bounds;
 
+    r->cautious -= r->cautious > 0;
     if (r->kept || ++r->since < steady)
         return;
-    if (r->rate < fast && r->kind + 1 < QDOT_RADAU_KINDS)
+    if (r->rate < (bound ? fair : fast) && r->kind + 1 < QDOT_RADAU_KINDS)
         r->kind++;
-    else if (r->rate > slow && r->iterations > 2 && r->kind > 0)
+    else if (r->rate > slow && r->iterations > 2 && r->kind > 0 && !bound)
         r->kind--;
     if (r->kind != old)
         r->since = 0;
@@ -407,7 +474,7 @@ accepted(qdot_ode_stepper *s)
     r->fresh = false;
     if (r->rate > (r->m > dear * r->before_basis->stages ? reuse_dear : reuse))
         r->slopes = false;
-    choose_stages(r);
+    choose_stages(s);
 }
 
 static double

@@ -79,6 +79,7 @@ struct qdot_ode_stepper {
     bool dydt_known;
 
     uint64_t evaluations, jacobians, factorisations;
+    double raised; /* the tolerance that rounding of f left, where it is more than that asked for */
     qdot_status broken; /* failure of a callback during the step tried */
 
     double *stages; /* [stages x n] of a kernel */

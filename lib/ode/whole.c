@@ -375,6 +375,7 @@ collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
     result->stats.evaluations = s->evaluations;
     result->stats.jacobians = s->jacobians;
     result->stats.factorisations = s->factorisations;
+    result->stats.raised = s->raised > s->tol ? s->raised : 0;
     result->stats.cpu = qdot_cpu_now() - cpu_start;
 }
 
