@@ -293,6 +293,7 @@ library_sources = \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
+	lib/num/lu.c \
 	lib/num/real.c \
 	lib/num/row-space.c \
 	lib/num/saddle-rows.c \
@@ -313,6 +314,9 @@ library_sources = \
 	lib/ode/meter.c \
 	lib/ode/method-table.c \
 	lib/ode/precise.c \
+	lib/ode/radau-basis.c \
+	lib/ode/radau-linear.c \
+	lib/ode/radau.c \
 	lib/ode/run.c \
 	lib/ode/stepper.c \
 	lib/ode/stiffness.c \
@@ -383,6 +387,7 @@ library_sources = \
 	lib/show/sketch.c \
 	lib/show/table.c \
 	lib/show/trace.c \
+	lib/sim/course/bind-slopes.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
@@ -739,6 +744,7 @@ library_headers = \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/least-move.h \
+	lib/num/lu.h \
 	lib/num/real.h \
 	lib/num/row-space.h \
 	lib/num/saddle.h \
@@ -766,6 +772,9 @@ library_headers = \
 	lib/ode/meter.h \
 	lib/ode/method.h \
 	lib/ode/precise.h \
+	lib/ode/radau-basis.h \
+	lib/ode/radau-linear.h \
+	lib/ode/radau.h \
 	lib/ode/run.h \
 	lib/ode/scale.h \
 	lib/ode/stepper.h \
@@ -826,6 +835,7 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
+	lib/sim/course/bind-state.h \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
@@ -1027,6 +1037,7 @@ unit_tests = \
 	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
+	tests/num/test_lu \
 	tests/num/test_real \
 	tests/num/test_row-space \
 	tests/num/test_saddle \
@@ -1043,6 +1054,7 @@ unit_tests = \
 	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
+	tests/ode/test_radau \
 	tests/ode/test_scale \
 	tests/ode/test_stiffness \
 	tests/ode/test_taylor \
@@ -1229,6 +1241,7 @@ script_tests = \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
+	tests/script/radau.lag \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
@@ -2127,6 +2140,7 @@ test_files = \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
+	tests/script/radau.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
 	tests/script/reactions.out \

@@ -21,25 +21,37 @@ legendre(int s, double by, qdot_two x)
     return qdot_two_sub(p, qdot_two_mul_double(before, by));
 }
 
-/* The zero of that between low and high, where its sign changes: by bisection, then by secants. */
+/* The same in doubles. */
+static double
+legendre_near(int s, double by, double x)
+{
+    double before = 1, p = x;
+
+    for (int k = 1; k < s; k++) {
+        const double next = ((2 * k + 1) * x * p - k * before) / (k + 1);
+
+        before = p;
+        p = next;
+    }
+    return p - by * before;
+}
+
+/* Its zero between low and high, where its sign changes: by bisection, then with a constant slope. */
 static qdot_two
 zero_between(int s, double by, double low, double high)
 {
-    const bool rises = legendre(s, by, (qdot_two){high, 0}).hi > 0;
+    const bool rises = legendre_near(s, by, high) > 0;
     qdot_two x;
     double slope;
 
     for (int k = 0; k < 40; k++) {
         const double middle = 0.5 * (low + high);
-        const bool above = (legendre(s, by, (qdot_two){middle, 0}).hi > 0) == rises;
 
-        *(above ? &high : &low) = middle;
+        *((legendre_near(s, by, middle) > 0) == rises ? &high : &low) = middle;
     }
     x = (qdot_two){0.5 * (low + high), 0};
-    slope = qdot_two_sub(legendre(s, by, (qdot_two){x.hi + 1e-7, 0}),
-                         legendre(s, by, (qdot_two){x.hi - 1e-7, 0}))
-                .hi /
-            2e-7;
+    slope =
+        (legendre_near(s, by, x.hi + 1e-6) - legendre_near(s, by, x.hi - 1e-6)) / 2e-6;
     for (int k = 0; k < 4; k++)
         x = qdot_two_sub(x, qdot_two_div_double(legendre(s, by, x), slope));
     return x;
@@ -50,16 +62,14 @@ zero_between(int s, double by, double low, double high)
 static void
 find_nodes(int s, double by, qdot_two *c)
 {
-    enum { CELLS = 500 };
+    enum { CELLS = 150 };
+    const int most = by != 0 ? s - 1 : s;
     int found = 0;
 
-    for (int k = 0; k < CELLS && found < s; k++) {
+    for (int k = 0; k < CELLS && found < most; k++) {
         const double low = -1 + 2 * (k - 0.317) / CELLS, high = low + 2.0 / CELLS;
 
-        if (by != 0 && found == s - 1)
-            break;
-        if ((legendre(s, by, (qdot_two){low, 0}).hi > 0) !=
-            (legendre(s, by, (qdot_two){high, 0}).hi > 0))
+        if ((legendre_near(s, by, low) > 0) != (legendre_near(s, by, high) > 0))
             c[found++] = qdot_two_scale(
                 qdot_two_add_double(zero_between(s, by, low, high), 1), 0.5);
     }

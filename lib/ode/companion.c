@@ -75,10 +75,17 @@ struct qdot_companion {
     size_t count;
 };
 
+bool
+qdot_companion_is_by_series(const qdot_ode_method *method)
+{
+    return !(method->stiff && method->kernel);
+}
+
 const qdot_ode_method *
 qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *method)
 {
-    return qdot_ode_method_find(system->series ? "taylor" : method->partner);
+    return qdot_ode_method_find(system->series && qdot_companion_is_by_series(method)
+                                    ? "taylor" : method->partner);
 }
 
 double
@@ -104,7 +111,7 @@ qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_sy
 
     plain.series = NULL;
     *plan = (qdot_companion_plan){0};
-    if (way == QDOT_COMPANION_SERIES && !system->series)
+    if (way == QDOT_COMPANION_SERIES && (!system->series || !qdot_companion_is_by_series(method)))
         way = QDOT_COMPANION_PARTNER;
     if (way == QDOT_COMPANION_PARTNER && system->series && !method->stiff)
         way = QDOT_COMPANION_FINER;

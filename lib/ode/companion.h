@@ -2,9 +2,9 @@
  *
  * Let y be the end state of a run under tol from y0. Its companion integrates the same system
  *
- *     by Taylor series if the system has them, else by the partner of the method
- *       (method.h); for a stiff method by the partner too if series get stuck,
- *     under tol* = tol/100 (tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
+ *     by Taylor series if the system has them (not for radau), else by the partner of the
+ *       method (method.h); for a stiff method by the partner too if series get stuck,
+ *     under tol* = tol/100 (tol/30 for radau, tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
  *       more accurate than they ask for by as much), not below the method's companion_tol. If a
  *       method is its own partner and its tolerance cannot be 4 times tighter, tol* = 10 max(tol,
  *       companion_tol): then the companion errs more, on the safe side (a tighter one would share
@@ -188,6 +188,10 @@ void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
 
 /* Additional orders of a companion by Taylor series (qdot_ode_options.order_more). */
 #define QDOT_COMPANION_ORDERS 3
+
+/* Whether companions are first tried by series, where there are any: not those of radau, which is
+ * for scenes that would stop series and is accurate enough itself. */
+bool qdot_companion_is_by_series(const qdot_ode_method *method);
 
 /* The method of a companion, and its tolerance tol*. */
 const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,

@@ -118,4 +118,5 @@ at(size_t n, const double *F, const double *y0, double x, double *y)
     }
 }
 
-const qdot_ode_kernel qdot_dop853 = {rows, degree, step, dense, at};
+const qdot_ode_kernel qdot_dop853 = {
+    .stages = rows, .powers = degree, .step = step, .dense = dense, .at = at};

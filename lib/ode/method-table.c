@@ -7,6 +7,7 @@
 
 #include "ode/dop853.h"
 #include "ode/geometric/geometric.h"
+#include "ode/radau.h"
 
 static const qdot_ode_method methods[] = {
     {"rk8pd", 8, false, false, false, 8, "rk8pd", 1e-2, 5e-15,
@@ -27,6 +28,9 @@ static const qdot_ode_method methods[] = {
     {"dop853", 8, false, false, false, 8, "dop853", 1e-2, 1e-15,
      "Runge-Kutta of order 8 with a polynomial of its own: as rk8pd, much output", NULL,
      false, &qdot_dop853, NULL},
+    {"radau", 13, true, false, true, 0, "radau", 0.03, 1e-14,
+     "Radau IIA, orders 5, 9 and 13: stiff scenes at any tolerance", NULL, false, &qdot_radau,
+     NULL},
     {"taylor", 40, false, false, false, 0, "taylor", 1e-2, 1e-16,
      "Taylor series, order by tolerance: smooth scenes, the fastest where it fits", NULL,
      true, NULL, NULL},

@@ -18,7 +18,7 @@ typedef struct {
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
     uint64_t projections;    /* steps whose end was moved by system->project */
-    double raised;           /* by Taylor series: the tolerance that rounding of the equations left,
+    double raised;           /* by Taylor series and radau: the tolerance that rounding of the equations left,
                                 where it is more than that asked for; else 0 */
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;

@@ -168,8 +168,8 @@ allocate(qdot_ode_stepper *s, size_t n)
             return false;
     }
     if (s->method->kernel) {
-        s->stages = qdot_calloc(s->method->kernel->stages * n, sizeof(double));
-        return s->stages != NULL;
+        s->stages = qdot_calloc(s->method->kernel->stages * n + 1, sizeof(double));
+        return s->stages && (!s->method->kernel->open || s->method->kernel->open(s) == QDOT_OK);
     }
     s->step = gsl_odeiv2_step_alloc(*type, n);
     s->control = gsl_odeiv2_control_alloc(&control_type);
@@ -227,6 +227,8 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
         gsl_odeiv2_step_free(s->step);
     if (s->control)
         gsl_odeiv2_control_free(s->control);
+    if (s->method->kernel && s->method->kernel->close)
+        s->method->kernel->close(s);
     qdot_free(s->y);
     qdot_free(s->carry);
     qdot_free(s->dydt);
@@ -245,7 +247,7 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
 static void
 choose_scale(qdot_ode_stepper *s)
 {
-    bool scaled = s->method->stiff && !s->method->multistep;
+    bool scaled = s->method->stiff && !s->method->multistep && !s->method->kernel;
 
     for (size_t i = 0; i < s->system->n; i++)
         s->scale[i] = scaled ? ldexp(1, ilogb(qdot_ode_size(s->system->scales, i, s->y[i]))) : 1;
@@ -260,6 +262,8 @@ qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
     choose_scale(s);
     if (s->step)
         gsl_odeiv2_step_reset(s->step);
+    else if (s->method->kernel->restart)
+        s->method->kernel->restart(s);
 }
 
 /* Ratio of the step tried; INFINITY where anything in it is not finite. */
@@ -385,6 +389,8 @@ qdot_ode_stepper_accept(qdot_ode_stepper *s)
 {
     const size_t n = s->system->n;
 
+    if (s->method->kernel && s->method->kernel->accepted)
+        s->method->kernel->accepted(s);
     if (s->projected) {
         memcpy(s->y, s->moved, n * sizeof *s->y);
         memcpy(s->carry, s->moved_carry, n * sizeof *s->carry);
@@ -409,6 +415,8 @@ qdot_ode_stepper_accept(qdot_ode_stepper *s)
 double
 qdot_ode_stepper_error_power(const qdot_ode_stepper *s)
 {
+    if (s->method->kernel && s->method->kernel->power)
+        return s->method->kernel->power(s);
     if (s->method->error_power)
         return s->method->error_power;
     return gsl_odeiv2_step_order(s->step) + 1.0;

@@ -39,7 +39,7 @@
 typedef struct qdot_ode_stepper qdot_ode_stepper;
 typedef struct qdot_ode_kernel qdot_ode_kernel;
 
-/* A one-step method that GSL does not have: dop853.h. */
+/* A one-step method that GSL does not have: dop853.h, radau.h. */
 struct qdot_ode_kernel {
     size_t stages; /* rows of s->stages */
     size_t powers; /* rows of a polynomial */
@@ -51,6 +51,17 @@ struct qdot_ode_kernel {
     qdot_status (*dense)(qdot_ode_stepper *s, double t, double h, double *F);
     /* y [n] at the part x of the step, 0 to 1, that began at y0 [n]. */
     void (*at)(size_t n, const double *F, const double *y0, double x, double *y);
+
+    /* Of a method that keeps more than stages, in s->own; else NULL: made with the stepper (close
+     * also after a failure); told of a start without history, and of a step accepted, before that
+     * becomes s->y. */
+    qdot_status (*open)(qdot_ode_stepper *s);
+    void (*close)(qdot_ode_stepper *s);
+    void (*restart)(qdot_ode_stepper *s);
+    void (*accepted)(qdot_ode_stepper *s);
+    double (*power)(const qdot_ode_stepper *s); /* NULL: method->error_power */
+    bool keeps_step; /* a new size of step is dear */
+    bool forward;    /* no step may be read backwards from its end */
 };
 
 struct qdot_ode_stepper {
@@ -68,9 +79,11 @@ struct qdot_ode_stepper {
     bool dydt_known;
 
     uint64_t evaluations, jacobians, factorisations;
+    double raised; /* the tolerance that rounding of f left, where it is more than that asked for */
     qdot_status broken; /* failure of a callback during the step tried */
 
     double *stages; /* [stages x n] of a kernel */
+    void *own;      /* of a kernel */
 
     /* If the system projects: the end of the step tried, as a sum, and whether it was moved. */
     double *moved, *moved_carry; /* [n] */

@@ -1,4 +1,4 @@
-/* stiffness.c -- whether thousands of steps lie on a parabola. */
+/* stiffness.c -- whether hundreds of steps lie on a parabola. */
 #include "ode/stiffness.h"
 
 #include <math.h>
@@ -8,11 +8,12 @@
 #include "base/memory.h"
 #include "ode/scale.h"
 
-/* Steps from a place to the next, in all 4000. */
+/* Steps from a place to the next, in all 4000; at first an eighth of that. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
+static const int eager = 8, windows_eager = 2;
 
 /* To the first: shorter runs need no places. */
-static const int first_wait = 300;
+static const int first_wait = 100;
 
 /* Of the range, what a parabola may be off by. */
 static const double share = 1e-2;
@@ -63,13 +64,20 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
     return true;
 }
 
+/* Steps from place k - 1 to k. */
 static int
-steps_between(void)
+steps_to(const qdot_ode_stiffness *s, size_t k)
+{
+    return s->windows < windows_eager && k > 0 ? waits[k] / eager : waits[k];
+}
+
+static int
+steps_between(const qdot_ode_stiffness *s)
 {
     int sum = 0;
 
     for (size_t k = 1; k < QDOT_ODE_STIFF_PLACES; k++)
-        sum += waits[k];
+        sum += steps_to(s, k);
     return sum;
 }
 
@@ -84,7 +92,7 @@ keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
     memcpy(s->y + s->count * at->n, at->y, at->n * sizeof *s->y);
     s->t[s->count++] = at->t;
     *enough = s->count == QDOT_ODE_STIFF_PLACES;
-    s->wait = waits[*enough ? 0 : s->count];
+    s->wait = steps_to(s, *enough ? 0 : s->count);
     return QDOT_OK;
 }
 
@@ -107,7 +115,7 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     QDOT_TRY(keep(s, at, &enough));
     if (!enough)
         return QDOT_OK;
-    step = (at->t - s->t[0]) / steps_between();
+    step = (at->t - s->t[0]) / steps_between(s);
     left = fabs((at->t1 - at->t) / step);
     *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
     s->count = 0;
@@ -120,6 +128,6 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
         return QDOT_OK;
     return qdot_fail(QDOT_ELIMIT,
                      "stopped at t = %.4g: the scene is stiff there: stability allows steps of "
-                     "%.1g, of which %.0e are left; method msbdf needs few, or method bsimp",
+                     "%.1g, of which %.0e are left; method radau needs few",
                      at->t, fabs(step), left);
 }

@@ -1,7 +1,7 @@
 /* stiffness.h -- sees that the steps of an explicit method are bound by stability.
  *
  * Where a motion is damped fast and then goes slowly, an explicit method has to keep its steps below
- * the time of the damping for ever. Then over thousands of steps every component moves along a
+ * the time of the damping for ever. Then over hundreds of steps every component moves along a
  * parabola,
  *
  *     |y_i(t) - parabola through y_i at both ends and the middle|
@@ -29,7 +29,7 @@ typedef struct {
     double t[QDOT_ODE_STIFF_PLACES];
     size_t count; /* of them */
     int wait;     /* steps until the next; 0: none was taken */
-    int windows;  /* looked at so far, 4000 steps each */
+    int windows;  /* looked at so far, 500 steps at first, then 4000 */
 } qdot_ode_stiffness;
 
 void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);

@@ -112,6 +112,22 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_following;
 
+/* The same system without the inverse of what stands before the highest derivatives, for implicit
+ * methods:
+ *
+ *     y = (q, v),   q' = v,   M(t, y) v' = f(t, y)
+ *
+ * v the last m components, q the n - m before: m, or none. Failures are those of qdot_ode_system. */
+typedef struct {
+    size_t m;
+    /* r [m] = f - M a, for any a [m] */
+    qdot_status (*residual)(double t, const double *y, const double *a, double *r, void *user);
+    /* Its slopes by q and v at a held, and M; each [m x m row-major]; dq is not touched without q */
+    qdot_status (*slopes)(double t, const double *y, const double *a, double *dq, double *dv,
+                          double *M, void *user);
+    void *user; /* borrowed */
+} qdot_ode_mass_form;
+
 /* A part of a system that knows nothing of its other parts. */
 typedef struct {
     const struct qdot_ode_system *system; /* borrowed; without parts */
@@ -133,6 +149,8 @@ typedef struct qdot_ode_system {
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* borrowed */
+    /* The same with M; NULL if there is no such form; borrowed */
+    const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
     /* Taylor coefficients; NULL if there are none; borrowed */

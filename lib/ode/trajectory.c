@@ -456,13 +456,15 @@ read_series(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
-/* The polynomial of half the step: from its beginning, or back from its end. */
+/* The polynomial of half the step: from its beginning, or back from its end; of the whole one
+ * where steps cannot be taken back. */
 static qdot_status
 find_polynomial(qdot_trajectory_cursor *c, bool second)
 {
     const qdot_trajectory *tr = c->tr;
     const size_t from = c->at + second;
-    const double h = 0.5 * (tr->t[c->at + 1 - second] - tr->t[from]);
+    const double part = tr->method->kernel->forward ? 1 : 0.5;
+    const double h = part * (tr->t[c->at + 1 - second] - tr->t[from]);
     double ratio;
     qdot_status status;
 
@@ -483,13 +485,15 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
     const double start = tr->t[c->at], end = tr->t[c->at + 1];
-    const bool second = fabs(t - start) > fabs(end - t);
+    const bool forward = tr->method->kernel->forward;
+    const bool second = !forward && fabs(t - start) > fabs(end - t);
     const double x = second ? (t - end) / (start - end) : (t - start) / (end - start);
 
     if (!c->known || c->second != second)
         QDOT_TRY(find_polynomial(c, second));
     if (c->good)
-        c->s->method->kernel->at(tr->n, c->F, tr->y + (c->at + second) * tr->n, 2 * x, y);
+        c->s->method->kernel->at(tr->n, c->F, tr->y + (c->at + second) * tr->n,
+                                     forward ? x : 2 * x, y);
     return QDOT_OK;
 }
 

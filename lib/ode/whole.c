@@ -20,6 +20,9 @@
  * an order of 8 the whole run costs a quarter more and errs eight times less. */
 static const double aim = 0.1;
 
+/* A step grows by so much or not at all where another size is dear. */
+static const double worthwhile = 1.2;
+
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
 
@@ -110,6 +113,8 @@ first_step(run *r, double distance)
     else
         r->h = pow(0.01 / fmax(d1, d2), 1 / (p + 1));
     r->h = fmin(fmin(100 * h0, r->h), distance);
+    if (r->h < 2 * floor_of_step(r)) /* at rest, a long time after 0 */
+        r->h = fmin(2 * floor_of_step(r), distance);
     return QDOT_OK;
 }
 
@@ -148,6 +153,9 @@ control(run *r, double h, double ratio, bool accepted)
         factor = fmin(1, factor);
     if (accepted && r->s->method->multistep)
         factor = fmax(1, factor);
+    if (accepted && r->s->method->kernel && r->s->method->kernel->keeps_step && factor >= 1
+        && factor < worthwhile)
+        factor = 1;
     /* a step cut short to land on t1 says nothing against the larger one */
     r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
@@ -367,6 +375,7 @@ collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
     result->stats.evaluations = s->evaluations;
     result->stats.jacobians = s->jacobians;
     result->stats.factorisations = s->factorisations;
+    result->stats.raised = s->raised > s->tol ? s->raised : 0;
     result->stats.cpu = qdot_cpu_now() - cpu_start;
 }
 

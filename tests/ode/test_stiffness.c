@@ -71,9 +71,9 @@ a_motion_on_a_line_is_told(void **state)
 
     (void)state;
     steps = told_after(sinks, speed, 2e-3, 1e6, 100);
-    assert_true(steps > 4000 && steps < 8100);
+    assert_true(steps > 500 && steps < 1600);
     steps = told_after(zero, zero, 1, 1e12, 100);
-    assert_true(steps > 4000 && steps < 4400);
+    assert_true(steps > 500 && steps < 700);
 }
 
 static void
@@ -83,7 +83,7 @@ one_that_turns_is_not(void **state)
     assert_int_equal(told_after(trembles, rate, 2e-3, 1e6, 100), 0);
     assert_int_equal(told_after(sin, cos, 1.7, 1e12, 100), 0);
     assert_int_equal(told_after(sin, cos, 6.283185307179586 / 7, 1e12, 100), 0);
-    assert_int_equal(told_after(exp, exp, 1e-3, 1e12, 100), 0);
+    assert_int_equal(told_after(exp, exp, 1e-2, 1e12, 100), 0);
 }
 
 static void

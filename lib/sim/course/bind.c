@@ -1,4 +1,4 @@
-/* bind.c -- the right-hand side and its Jacobian: evaluates the tape, then solves for q''. */
+/* bind.c -- the right-hand side: evaluates the tape, then solves for q''. */
 #include "sim/course/bind.h"
 
 #include <math.h>
@@ -6,56 +6,9 @@
 
 #include "ode/apart.h"
 #include "series/taylor.h"
-#include "sim/form/blocks.h"
-#include "sim/form/motion-series.h"
-#include "sim/form/guarded.h"
-#include "sim/form/leading.h"
+#include "sim/course/bind-state.h"
 #include "sim/form/residual.h"
-#include "sim/form/tree-series.h"
-#include "sim/model/constrained.h"
-#include "sim/model/momenta.h"
-#include "tape/derivative.h"
 #include "tape/shake.h"
-
-struct qdot_bind {
-    const qdot_plan *plan;
-    qdot_tape *tape; /* a shaken copy; else NULL */
-    qdot_blocks blocks;
-    qdot_constrained *held;            /* of a plan with constraints: in place of the blocks */
-    qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
-    qdot_tree_series *tree;
-    qdot_motion_series *tied;            /* or, of a plan with constraints: */
-    qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
-    const qdot_ode_series *series; /* its callbacks; else NULL */
-    qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
-    /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
-     * when that is first asked for. */
-    qdot_tree_series *elsewhere;
-    bool shaken;
-    double *in;                 /* [3n + 1] q, q', t, q'' */
-    double *out, *work;         /* of the tape */
-    double *slopes;             /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
-    double *slopes_work;
-
-    /* Of a plan with a reduced one, which is what is integrated: */
-    qdot_tape *reduced; /* a shaken copy; else NULL */
-    qdot_blocks reduced_blocks;
-    qdot_momenta *momenta;
-
-    /* Of a plan with parts: theirs. */
-    qdot_bind **parts;         /* [plan->n_parts] */
-    qdot_ode_system *systems;  /* [n_parts] */
-    qdot_ode_part *listed;     /* [n_parts] */
-    size_t *index;             /* [2n] what `listed` has */
-    double *part_scales;       /* [2n] theirs, one after another; NULL */
-    const double *scales;
-};
-
-static const qdot_tape *
-equations(const qdot_bind *b)
-{
-    return b->tape ? b->tape : b->plan->tape;
-}
 
 static const qdot_tape *
 reduced_equations(const qdot_bind *b)
@@ -93,19 +46,11 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
+    qdot_free(b->all_slopes);
     qdot_free(b);
 }
 
 /* --- the system --------------------------------------------------------------------- */
-
-static void
-load(const qdot_bind *b, double t, const double *y)
-{
-    size_t n = b->plan->n;
-
-    memcpy(b->in, y, 2 * n * sizeof *y);
-    b->in[2 * n] = t;
-}
 
 /* The accelerations of the blocks, from the outputs that begin at `out`; *end: the first output
  * after these. */
@@ -151,8 +96,8 @@ begin_elsewhere(qdot_bind *b, double *a)
 }
 
 /* q'' at the loaded state, into a [n]. */
-static qdot_status
-accelerations(qdot_bind *b, double *a)
+qdot_status
+qdot_bind_accelerate(qdot_bind *b, double *a)
 {
     const qdot_plan *p = b->plan;
     const double *end;
@@ -161,7 +106,7 @@ accelerations(qdot_bind *b, double *a)
         return qdot_constrained_solve(b->held, b->in[2 * p->n], b->in, a, NULL);
     if (!p->tape)
         return begin_elsewhere(b, a);
-    qdot_tape_eval(equations(b), b->in, b->out, b->work);
+    qdot_tape_eval(qdot_bind_equations(b), b->in, b->out, b->work);
     QDOT_TRY(solve(&b->blocks, b->out, a, &end));
     for (size_t i = 0; i < p->n; i++)
         if (!isfinite(a[i]))
@@ -176,9 +121,9 @@ rhs(double t, const double *y, double *dydt, void *user)
     qdot_bind *b = user;
     size_t n = b->plan->n;
 
-    load(b, t, y);
+    qdot_bind_load(b, t, y);
     memcpy(dydt, y + n, n * sizeof *y);
-    return accelerations(b, dydt + n);
+    return qdot_bind_accelerate(b, dydt + n);
 }
 
 /* The same by the reduced plan: rates of the coordinates whose momenta are kept. */
@@ -190,7 +135,7 @@ reduced_rhs(double t, const double *y, double *dydt, void *user)
     const size_t n = r->n;
     const double *rates;
 
-    load(b, t, y);
+    qdot_bind_load(b, t, y);
     memcpy(b->in + 2 * n + 1, qdot_momenta_hi(b->momenta), r->n_kept * sizeof *y);
     memcpy(dydt, y + n, n * sizeof *y);
     memset(dydt + n, 0, n * sizeof *y);
@@ -213,75 +158,8 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
 
     if (b->held)
         return qdot_constrained_solve(b->held, t, y, a, a + b->plan->n);
-    load(b, t, y);
-    return accelerations(b, a);
-}
-
-/* --- its Jacobian --------------------------------------------------------------------- */
-
-/* For block k, which is factored and whose outputs begin with `row`: dq''/dz of its coordinates,
- * z the column of slopes,
- *
- *     M dq''/dz = df/dz - dM/dz q'',
- *
- * into its x. */
-static void
-block_column(const qdot_bind *b, size_t k, size_t row, size_t column)
-{
-    const qdot_plan_block *block = b->plan->blocks + k;
-    const size_t columns = 2 * b->plan->n + 1;
-    const double *slope = b->slopes + row * columns + column;
-    const double *a = b->in + columns; /* q'' */
-    double *x = b->blocks.at[k].x;
-
-    for (size_t i = 0; i < block->n; i++, slope += columns)
-        x[i] = *slope;
-    if (block->n == 1)
-        return; /* the tape gives q'' itself */
-    for (size_t i = 0; i < block->n && !block->constant; i++)
-        for (size_t j = 0; j <= i; j++, slope += columns) {
-            x[i] -= *slope * a[block->index[j]];
-            if (j < i)
-                x[j] -= *slope * a[block->index[i]];
-        }
-    qdot_blocks_solve(&b->blocks, k, x);
-}
-
-static qdot_status
-jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
-{
-    qdot_bind *b = user;
-    const qdot_plan *p = b->plan;
-    const size_t n = p->n, columns = 2 * n + 1;
-    size_t row = 0;
-
-    if (b->held)
-        return qdot_constrained_jacobian(b->held, t, y, dfdy, dfdt);
-    load(b, t, y);
-    QDOT_TRY(accelerations(b, b->in + columns));
-    qdot_derivative_eval(equations(b), b->in, 0, columns, b->out, b->slopes,
-                         b->slopes_work);
-    memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
-    for (size_t i = 0; i < n; i++) {
-        dfdy[i * 2 * n + n + i] = 1;
-        dfdt[i] = 0;
-    }
-    for (size_t k = 0; k < p->structure.blocks; k++) {
-        const qdot_plan_block *block = p->blocks + k;
-
-        for (size_t j = 0; j < columns; j++) {
-            block_column(b, k, row, j);
-            for (size_t i = 0; i < block->n; i++) {
-                size_t at = n + block->index[i];
-
-                *(j < 2 * n ? &dfdy[at * 2 * n + j] : &dfdt[at]) = b->blocks.at[k].x[i];
-            }
-        }
-        row += block->n;
-        if (block->n > 1 && !block->constant)
-            row += block->n * (block->n + 1) / 2;
-    }
-    return QDOT_OK;
+    qdot_bind_load(b, t, y);
+    return qdot_bind_accelerate(b, a);
 }
 
 static qdot_status
@@ -311,8 +189,9 @@ qdot_bind_system(qdot_bind *b)
     return (qdot_ode_system){
         .n = 2 * b->plan->n,
         .rhs = b->momenta ? reduced_rhs : rhs,
-        .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
+        .jacobian = qdot_plan_needs_jacobian(b->plan) ? qdot_bind_jacobian : NULL,
         .user = b,
+        .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
         .halves = b->plan->halves,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
@@ -359,7 +238,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
         status = qdot_constrained_start(b->held, t, y, low);
         return status == QDOT_EDOMAIN ? QDOT_OK : status; /* as below */
     }
-    load(b, t, y);
+    qdot_bind_load(b, t, y);
     for (size_t k = 0; k < p->structure.blocks && status == QDOT_OK; k++) {
         const qdot_plan_block *block = p->blocks + k;
 
@@ -377,7 +256,7 @@ qdot_bind_check(qdot_bind *b, double t, double *y, double *low)
             status = qdot_blocks_singular(p, block, 0);
     }
     if (status == QDOT_OK) {
-        status = accelerations(b, b->in + 2 * p->n + 1);
+        status = qdot_bind_accelerate(b, b->in + 2 * p->n + 1);
         if (status == QDOT_EDOMAIN) /* the run itself says so, with its time */
             status = QDOT_OK;
     }
@@ -433,21 +312,6 @@ make_held(qdot_bind *b, bool shaken)
     QDOT_TRY(qdot_guarded_new(p, p->eliminated ? p->eliminated : p, shaken, b->series, &b->guarded));
     b->series = qdot_guarded_series(b->guarded);
     return QDOT_OK;
-}
-
-/* Work space for the Jacobian, if the method or its partner needs it. */
-static qdot_status
-make_slopes(qdot_bind *b)
-{
-    const qdot_plan *p = b->plan;
-
-    if (!qdot_plan_needs_jacobian(p))
-        return QDOT_OK;
-    b->slopes_work =
-        qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);
-    b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1)
-                            * sizeof *b->slopes);
-    return b->slopes && b->slopes_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
 /* Make the binds of the decoupled parts. */
@@ -513,7 +377,6 @@ make_equations(qdot_bind *b, bool shaken)
 {
     if (shaken)
         QDOT_TRY(qdot_tape_shake(b->plan->tape, &b->tape));
-    QDOT_TRY(make_slopes(b));
     QDOT_TRY(make_parts(b, shaken));
     return qdot_blocks_init(&b->blocks, b->plan, shaken);
 }
@@ -535,6 +398,7 @@ make(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
+    QDOT_TRY(qdot_bind_make_slopes(b));
     if (p->constraints)
         return make_held(b, shaken);
     if (p->tape)

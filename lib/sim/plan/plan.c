@@ -21,7 +21,7 @@
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"radau", "variational"};
+static const char *const later_methods[] = {"variational"};
 
 /* --- the scene ---------------------------------------------------------------------- */
 

@@ -5,10 +5,9 @@
 
 #include "sim/course/run-state.h"
 
-/* Its method for stiff scenes: steps keep its tolerance, but ends are off by a thousand times as
- * much. */
-static const char stiff_method[] = "msbdf";
-static const double tighter = 1000, tightest = 1e-13;
+/* The method for stiff scenes, and the tolerance below which its steps err by rounding. */
+static const char stiff_method[] = "radau";
+static const double tightest = 1e-13;
 
 /* The error, in tolerances, at which a run by series is awaited all the same if it ends within
  * reason. */
@@ -36,8 +35,8 @@ say_changed(qdot_run *run, const char *before, double t)
     qdot_text_format(
         qdot_run_next_notice(run),
         "the scene is stiff: from t = %.4g on stability would bound the steps of %s, "
-        "so the run is by %s, tol %.3g",
-        t, before, run->plan->method->name, run->report.tol);
+        "so the run is by %s",
+        t, before, run->plan->method->name);
     return qdot_text_status(&run->notice);
 }
 
@@ -60,7 +59,7 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
     if (!(*run)->course.tr.result.stiff || !(*run)->plan->chosen)
         return QDOT_OK;
     stiff.method = stiff_method;
-    stiff.tol = fmax(request->tol / tighter, tightest);
+    stiff.tol = fmax(request->tol, tightest);
     status = by->make(scene, &stiff, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
         take(by, run, other);

@@ -1,7 +1,7 @@
 /* change-over.h -- what `auto` does where a scene is stiff (ode/stiffness.h).
  *
  * A run whose steps stability bounded, and whose method was the choice of `auto`, is made once more
- * by a method for stiff scenes under a tighter tolerance. If that is far off, it is made by series
+ * by radau, which is no worse where nothing is stiff, so that it stays with it to the end. If that is far off, it is made by series
  * after all, unless that would take long. If both fail the first run stays.
  *
  * Tests  tests/script/stiff-auto.lag

@@ -391,7 +391,8 @@ describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
     qdot_text_format(out,
                      "error: two companion runs by %s, at a tighter tolerance, on threads of "
                      "their own\n",
-                     p->smooth ? "taylor" : p->method->partner);
+                     p->smooth && qdot_companion_is_by_series(p->method) ? "taylor"
+                                                                         : p->method->partner);
     if (status == QDOT_OK)
         status = say_switches(&stage, out);
     qdot_stage_clear(&stage);

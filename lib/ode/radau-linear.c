@@ -1,0 +1,208 @@
+/* radau-linear.c -- the matrices of a step, filled and factored. */
+#include "ode/radau-linear.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "num/lu.h"
+
+void
+qdot_radau_linear_clear(qdot_radau_linear *l)
+{
+    qdot_free(l->dq);
+    qdot_free(l->dv);
+    qdot_free(l->mass);
+    qdot_free(l->dt);
+    for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
+        qdot_free(l->re[k]);
+        qdot_free(l->im[k]);
+        qdot_free(l->rows[k]);
+    }
+    qdot_free(l->pattern);
+    qdot_free(l->order);
+    qdot_free(l->scratch);
+    qdot_free(l->put[0]);
+    qdot_free(l->put[1]);
+    *l = (qdot_radau_linear){0};
+}
+
+qdot_status
+qdot_radau_linear_init(qdot_radau_linear *l, const qdot_ode_system *system)
+{
+    const size_t m = system->mass_form ? system->mass_form->m : system->n, cells = m * m;
+    bool all;
+
+    *l = (qdot_radau_linear){.system = system, .m = m, .p = system->n - m};
+    l->dq = qdot_calloc(cells, sizeof *l->dq);
+    l->dv = qdot_calloc(cells, sizeof *l->dv);
+    l->mass = qdot_calloc(cells, sizeof *l->mass);
+    l->dt = qdot_calloc(m, sizeof *l->dt);
+    l->pattern = qdot_calloc(cells, sizeof *l->pattern);
+    l->order = qdot_calloc(m, sizeof *l->order);
+    l->scratch = qdot_calloc(m, sizeof *l->scratch);
+    l->put[0] = qdot_calloc(m, sizeof *l->put[0]);
+    l->put[1] = qdot_calloc(m, sizeof *l->put[1]);
+    all = l->dq && l->dv && l->mass && l->dt && l->pattern && l->order && l->scratch &&
+          l->put[0] && l->put[1];
+    for (size_t i = 0; i < m && all; i++)
+        l->order[i] = i;
+    for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
+        l->re[k] = qdot_calloc(cells, sizeof *l->re[k]);
+        l->im[k] = k ? qdot_calloc(cells, sizeof *l->im[k]) : NULL;
+        l->rows[k] = qdot_calloc(m, sizeof *l->rows[k]);
+        all = all && l->re[k] && (l->im[k] || k == 0) && l->rows[k];
+    }
+    return all ? QDOT_OK : QDOT_ENOMEM;
+}
+
+static qdot_status
+check_finite(const double *x, size_t n, const char *what)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += 0 * x[i];
+    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the %s is not finite", what);
+}
+
+qdot_status
+qdot_radau_residual(const qdot_radau_linear *l, double t, const double *y,
+                    const double *a, double *r)
+{
+    const qdot_ode_mass_form *form = l->system->mass_form;
+
+    if (form) {
+        QDOT_TRY(form->residual(t, y, a, r, form->user));
+    } else {
+        QDOT_TRY(l->system->rhs(t, y, r, l->system->user));
+        for (size_t i = 0; i < l->m; i++)
+            r[i] -= a[i];
+    }
+    return check_finite(r, l->m, "right-hand side");
+}
+
+/* Order the unknowns anew if entries are not 0 that always were. */
+static void
+look_at_pattern(qdot_radau_linear *l)
+{
+    enum { few = 4 };
+    const size_t m = l->m;
+    bool more = false;
+
+    for (size_t i = 0; i < m && m > few; i++)
+        for (size_t j = 0; j < m; j++) {
+            const size_t at = i * m + j;
+
+            if (l->pattern[at] || (l->mass[at] == 0 && l->dq[at] == 0 && l->dv[at] == 0))
+                continue;
+            more = l->pattern[at] = l->pattern[j * m + i] = true;
+        }
+    if (more)
+        qdot_lu_order(m, l->pattern, l->order, l->scratch);
+}
+
+qdot_status
+qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double *a)
+{
+    const qdot_ode_mass_form *form = l->system->mass_form;
+    const size_t m = l->m;
+
+    if (form) {
+        QDOT_TRY(form->slopes(t, y, a, l->dq, l->dv, l->mass, form->user));
+    } else {
+        QDOT_TRY(l->system->jacobian(t, y, l->dv, l->dt, l->system->user));
+        for (size_t i = 0; i < m; i++)
+            l->mass[i * m + i] = 1;
+    }
+    QDOT_TRY(check_finite(l->dq, m * m, "Jacobian"));
+    QDOT_TRY(check_finite(l->mass, m * m, "Jacobian"));
+    QDOT_TRY(check_finite(l->dv, m * m, "Jacobian"));
+    look_at_pattern(l);
+    return QDOT_OK;
+}
+
+static bool
+factor_space(qdot_radau_linear *l, size_t k, double h)
+{
+    const double a = l->basis->lambda_re[k], b = l->basis->lambda_im[k],
+                 size = a * a + b * b;
+    const double M_re = a / h, q_re = l->p ? h * a / size : 0;
+    const double M_im = b / h, q_im = l->p ? -h * b / size : 0;
+    double *re = l->re[k], *im = l->im[k];
+    const size_t m = l->m;
+
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < m; j++) {
+            const size_t from = l->order[i] * m + l->order[j], at = i * m + j;
+
+            re[at] = M_re * l->mass[from] - l->dv[from] - q_re * l->dq[from];
+            if (k > 0)
+                im[at] = M_im * l->mass[from] - q_im * l->dq[from];
+        }
+    return k == 0 ? qdot_lu_factor(m, re, l->rows[k])
+                  : qdot_lu_factor_complex(m, re, im, l->rows[k]);
+}
+
+bool
+qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h)
+{
+    l->basis = basis;
+    for (size_t k = 0; k < basis->spaces; k++)
+        if (!factor_space(l, k, h))
+            return false;
+    return true;
+}
+
+void
+qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im)
+{
+    double *x = l->put[0], *y = l->put[1];
+
+    for (size_t i = 0; i < l->m; i++) {
+        x[i] = re[l->order[i]];
+        y[i] = k ? im[l->order[i]] : 0;
+    }
+    if (k == 0)
+        qdot_lu_solve(l->m, l->re[0], l->rows[0], x);
+    else
+        qdot_lu_solve_complex(l->m, l->re[k], l->im[k], l->rows[k], x, y);
+    for (size_t i = 0; i < l->m; i++) {
+        re[l->order[i]] = x[i];
+        if (k > 0)
+            im[l->order[i]] = y[i];
+    }
+}
+
+void
+qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q, double *b)
+{
+    const size_t m = l->m;
+
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < m; j++)
+            sum += l->mass[i * m + j] * v[j] + (q ? l->dq[i * m + j] * q[j] : 0);
+        b[i] = sum;
+    }
+}
+
+void
+qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a, double *b)
+{
+    const size_t m = l->m;
+
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < m; j++) {
+            const size_t at = i * m + j;
+
+            sum += fabs(l->dv[at] * y[l->p + j]) + fabs(l->mass[at] * a[j]) +
+                   (l->p ? fabs(l->dq[at] * y[j]) : 0);
+        }
+        b[i] = DBL_EPSILON * (i % 2 ? -sum : sum);
+    }
+}

@@ -1,0 +1,64 @@
+/* radau-linear.h -- slopes of a system, and the linear equations of a step by Radau IIA.
+ *
+ * The unknowns of a stage are its velocities, m of them (system.h, qdot_ode_mass_form); positions
+ * follow from these. In the eigenvectors of the basis the equations of all stages come apart into
+ *
+ *     (lambda_k/h M - Dv - h/lambda_k Dq) x = b,
+ *
+ * one real and up to three complex systems of m unknowns.
+ *
+ * Tests  tests/ode/test_radau.c
+ */
+#ifndef QDOT_ODE_RADAU_LINEAR_H
+#define QDOT_ODE_RADAU_LINEAR_H
+
+#include <stdbool.h>
+
+#include "num/lu.h"
+#include "ode/radau-basis.h"
+#include "ode/system.h"
+
+typedef struct {
+    const qdot_ode_system *system; /* borrowed */
+    size_t m, p;                   /* velocities; positions, m or 0 */
+    double *dq, *dv, *mass;        /* [m x m] slopes of f - M a; M */
+    double *dt;                    /* [m] scratch */
+    double *re[QDOT_RADAU_SPACES],
+        *im[QDOT_RADAU_SPACES]; /* [m x m] factors; im[0] NULL */
+    qdot_lu_row *rows[QDOT_RADAU_SPACES];
+    bool *pattern;   /* [m x m] which entries were ever not 0, and their mirror images */
+    size_t *order;   /* [m] of the unknowns in the matrices, by it */
+    size_t *scratch; /* [m] */
+    double *put[2];  /* [m] a right-hand side in that order */
+    const qdot_radau_basis *basis; /* for which they are factored */
+} qdot_radau_linear;
+
+/* Errors: QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_radau_linear_init(qdot_radau_linear *l,
+                                                   const qdot_ode_system *system);
+void qdot_radau_linear_clear(qdot_radau_linear *l);
+
+/* r [m] = f - M a at (t, y). Errors: those of f; QDOT_EDOMAIN if it is not finite. */
+QDOT_MUST_CHECK qdot_status qdot_radau_residual(const qdot_radau_linear *l, double t,
+                                                const double *y, const double *a,
+                                                double *r);
+
+/* Take the slopes at (t, y, a). Errors likewise. */
+QDOT_MUST_CHECK qdot_status qdot_radau_slopes(qdot_radau_linear *l, double t,
+                                              const double *y, const double *a);
+
+/* Factor for a step h. False if a matrix is singular. */
+bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h);
+
+/* Solve with space k; im is not read for k = 0. */
+void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
+
+/* b [m]: about what rounding of y and a makes of f - M a, of one sign or the other. */
+void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
+                      double *b);
+
+/* b = M v + Dq q; q NULL: no such term. */
+void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,
+                      double *b);
+
+#endif

@@ -1,0 +1,528 @@
+/* radau.c -- a step by Radau IIA: Newton's iteration, error, number of stages. */
+#include "ode/radau.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/radau-linear.h"
+#include "ode/scale.h"
+
+enum { MOST = QDOT_RADAU_MOST, SPACES = QDOT_RADAU_SPACES };
+
+/* What Newton's iteration may leave, in tolerances; never below so many roundings. */
+static const double newton = 1e-3, newton_roundings = 10;
+
+/* Rates of the iteration: below `reuse` slopes are kept for the next step; below `fast`, above
+ * `slow` the number of stages changes, after so many steps. */
+static const double reuse = 1e-3, reuse_dear = 0.1, fast = 2e-3, slow = 0.8;
+enum { steady = 10, dear = 2 };
+
+/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. */
+static const double bounds = 0.02, fair = 0.1;
+
+/* After a step whose iteration failed: those that follow, beside it. */
+static const double shorter = 0.6;
+
+/* An estimate is of so many roundings of f; where it is no more, a step may grow a little. */
+static const double stagnates = 0.3, several = 6, grows = 0.03;
+
+typedef struct {
+    qdot_radau_linear linear;
+    size_t n, m, p;  /* y = (q [p], v [m]) */
+    size_t kind;     /* of radau-basis.h */
+    bool kept;       /* it does not change */
+    double *Z;       /* [MOST x n] the stages less y */
+    double *a;       /* [MOST x m] */
+    double *R;       /* [MOST x m] residuals */
+    double *re, *im; /* [m] */
+    double *weight;  /* [n] 1/(tol max(scale, |y|)) */
+    double *before;  /* [MOST x n] the stages of the last step accepted */
+    const qdot_radau_basis *before_basis; /* NULL: there is none */
+    double before_h, h;
+    bool slopes, fresh;             /* there are slopes; at the present y */
+    double factored;                /* the step for which the matrices are; 0: none */
+    double rate, rate_before, left; /* of the iteration */
+    int iterations, since;          /* steps since the number of stages changed */
+    double ratio;                   /* of the last step accepted */
+    double most; /* no longer steps for `cautious` more: the iteration failed with one */
+    int cautious;
+    bool rejected;
+} radau;
+
+/* --- memory --------------------------------------------------------------------------- */
+
+static void
+drop(qdot_ode_stepper *s)
+{
+    radau *r = s->own;
+
+    if (!r)
+        return;
+    qdot_radau_linear_clear(&r->linear);
+    qdot_free(r->Z);
+    qdot_free(r->a);
+    qdot_free(r->R);
+    qdot_free(r->re);
+    qdot_free(r->im);
+    qdot_free(r->weight);
+    qdot_free(r->before);
+    qdot_free(r);
+    s->own = NULL;
+}
+
+static qdot_status
+make(qdot_ode_stepper *s)
+{
+    radau *r = s->own = qdot_calloc(1, sizeof *r);
+
+    if (!r)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_radau_linear_init(&r->linear, s->system));
+    r->n = s->system->n;
+    r->m = r->linear.m;
+    r->p = r->linear.p;
+    r->kind = s->tol > 1e-4 ? 0 : s->tol > 1e-8 ? 1 : 2;
+    r->Z = qdot_calloc(MOST * r->n, sizeof *r->Z);
+    r->a = qdot_calloc(MOST * r->m, sizeof *r->a);
+    r->R = qdot_calloc(MOST * r->m, sizeof *r->R);
+    r->re = qdot_calloc(r->m, sizeof *r->re);
+    r->im = qdot_calloc(r->m, sizeof *r->im);
+    r->weight = qdot_calloc(r->n, sizeof *r->weight);
+    r->before = qdot_calloc(MOST * r->n, sizeof *r->before);
+    return r->Z && r->a && r->R && r->re && r->im && r->weight && r->before ? QDOT_OK
+                                                                            : QDOT_ENOMEM;
+}
+
+static void
+restart(qdot_ode_stepper *s)
+{
+    radau *r = s->own;
+
+    r->before_basis = NULL;
+    r->slopes = r->fresh = false;
+    r->factored = 0;
+    r->rate = r->left = 1;
+    r->since = 0;
+    r->ratio = 0;
+    r->cautious = 0;
+    r->rejected = false;
+}
+
+void
+qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages)
+{
+    radau *r = s->own;
+
+    r->kind = (stages - 3) / 2;
+    r->kept = true;
+}
+
+/* --- Newton's iteration ----------------------------------------------------------------- */
+
+/* Positions of the stages, less q, from velocities. */
+static void
+follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
+{
+    radau *r = s->own;
+
+    for (size_t i = 0; i < b->stages; i++)
+        for (size_t l = 0; l < r->p; l++) {
+            double sum = 0;
+
+            for (size_t j = 0; j < b->stages; j++)
+                sum += b->a[i][j] * r->Z[j * r->n + r->p + l];
+            r->Z[i * r->n + l] =
+                h * (b->c[i] * s->y[r->p + l] + (sum + b->c[i] * s->carry[r->p + l]));
+        }
+}
+
+/* The stages by the polynomial of the step before. */
+static void
+predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
+{
+    radau *r = s->own;
+    const qdot_radau_basis *old = r->before_basis;
+    double w[MOST];
+
+    memset(r->Z, 0, MOST * r->n * sizeof *r->Z);
+    for (size_t i = 0; i < b->stages && old; i++) {
+        double *Z = r->Z + i * r->n;
+
+        qdot_radau_interpolate(old, 1 + b->c[i] * h / r->before_h, w);
+        w[old->stages - 1] -= 1; /* less its end */
+        for (size_t j = 0; j < old->stages; j++)
+            for (size_t l = r->p; l < r->n; l++)
+                Z[l] += w[j] * r->before[j * r->n + l];
+    }
+    follow(s, b, h);
+}
+
+/* a_i = 1/h sum_j (A^-1)_ij Z_j */
+static void
+accelerate(radau *r, const qdot_radau_basis *b, double h)
+{
+    for (size_t i = 0; i < b->stages; i++)
+        for (size_t l = 0; l < r->m; l++) {
+            double sum = 0;
+
+            for (size_t j = 0; j < b->stages; j++)
+                sum += b->inverse[i][j] * r->Z[j * r->n + r->p + l];
+            r->a[i * r->m + l] = sum / h;
+        }
+}
+
+static qdot_status
+residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
+{
+    radau *r = s->own;
+
+    accelerate(r, b, h);
+    for (size_t i = 0; i < b->stages; i++) {
+        const double *Z = r->Z + i * r->n;
+
+        for (size_t l = 0; l < r->n; l++)
+            s->trial[l] = s->y[l] + (s->carry[l] + Z[l]);
+        s->evaluations++;
+        QDOT_TRY(qdot_radau_residual(&r->linear, t + b->c[i] * h, s->trial,
+                                     r->a + i * r->m, r->R + i * r->m));
+    }
+    return QDOT_OK;
+}
+
+/* The change of the velocities, from the residuals, in place of `a`. */
+static void
+solve(radau *r, const qdot_radau_basis *b)
+{
+    const size_t m = r->m;
+
+    for (size_t i = 0; i < b->stages; i++)
+        memset(r->a + i * m, 0, m * sizeof *r->a);
+    for (size_t k = 0; k < b->spaces; k++) {
+        memset(r->re, 0, m * sizeof *r->re);
+        memset(r->im, 0, m * sizeof *r->im);
+        for (size_t i = 0; i < b->stages; i++)
+            for (size_t l = 0; l < m; l++) {
+                r->re[l] += b->left_re[k][i] * r->R[i * m + l];
+                r->im[l] += b->left_im[k][i] * r->R[i * m + l];
+            }
+        qdot_radau_solve(&r->linear, k, r->re, r->im);
+        for (size_t i = 0; i < b->stages; i++)
+            for (size_t l = 0; l < m; l++)
+                r->a[i * m + l] +=
+                    b->right_re[k][i] * r->re[l] - (k ? b->right_im[k][i] * r->im[l] : 0);
+    }
+}
+
+/* Add the change, in `a`, to the stages. Returns its size in tolerances. */
+static double
+change(radau *r, const qdot_radau_basis *b, double h)
+{
+    double size = 0;
+
+    for (size_t i = 0; i < b->stages; i++) {
+        double *Z = r->Z + i * r->n;
+
+        for (size_t l = 0; l < r->p; l++) {
+            double sum = 0;
+
+            for (size_t j = 0; j < b->stages; j++)
+                sum += b->a[i][j] * r->a[j * r->m + l];
+            Z[l] += h * sum;
+            size = fmax(size, fabs(h * sum) * r->weight[l]);
+        }
+        for (size_t l = 0; l < r->m; l++) {
+            const double by = r->a[i * r->m + l];
+
+            Z[r->p + l] += by;
+            size = fmax(size, fabs(by) * r->weight[r->p + l]);
+            if (!isfinite(by))
+                return INFINITY;
+        }
+    }
+    return size;
+}
+
+/* What rounding of f may make of the change of a stage, in tolerances. */
+static double
+noise_of(const qdot_ode_stepper *s, double h)
+{
+    radau *r = s->own;
+    const double part = h / r->linear.basis->lambda_re[0];
+    double noise = 0;
+
+    qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->re);
+    qdot_radau_solve(&r->linear, 0, r->re, NULL);
+    for (size_t l = 0; l < r->m; l++) {
+        noise = fmax(noise, fabs(r->re[l]) * r->weight[r->p + l]);
+        if (r->p)
+            noise = fmax(noise, fabs(part * r->re[l]) * r->weight[l]);
+    }
+    return several * noise;
+}
+
+/* Whether it converged; the stages, and `a` by them. */
+static qdot_status
+iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
+        bool *converged)
+{
+    radau *r = s->own;
+    const int most = 7 + (int)(b->stages - 3) * 5 / 2;
+    const double enough = fmax(newton_roundings * DBL_EPSILON / s->tol, newton);
+    double before = 0;
+
+    *converged = false;
+    predict(s, b, h);
+    r->left = pow(fmax(r->left, DBL_EPSILON), 0.8);
+    for (r->iterations = 1; r->iterations <= most; r->iterations++) {
+        double size;
+
+        QDOT_TRY(residuals(s, b, t, h));
+        solve(r, b);
+        size = change(r, b, h);
+        if (!isfinite(size))
+            return QDOT_OK;
+        if (r->iterations > 1) {
+            const double rate = size / before;
+
+            r->rate = r->iterations == 2 ? rate : sqrt(rate * r->rate_before);
+            r->rate_before = rate;
+            if (size > enough && rate > stagnates && size <= noise_of(s, h)) {
+                *converged = true; /* as far as rounding lets it */
+                accelerate(r, b, h);
+                return QDOT_OK;
+            }
+            if (r->rate >= 0.99 && size > enough)
+                return QDOT_OK;
+            r->left = r->rate < 0.99 ? r->rate / (1 - r->rate) : 1;
+            if (size * r->left * pow(fmin(r->rate, 0.99), most - 1 - r->iterations) >
+                enough)
+                return QDOT_OK;
+        }
+        before = fmax(size, DBL_MIN);
+        if (r->left * size <= enough) {
+            *converged = true;
+            accelerate(r, b, h);
+            return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- the error ------------------------------------------------------------------------- */
+
+/* The filtered defect at the beginning of the step, f there being `slope` [n] and the state
+ * y + by, into s->error; returns its size in tolerances. */
+static double
+estimate(qdot_ode_stepper *s, const qdot_radau_basis *b, double h, const double *slope)
+{
+    radau *r = s->own;
+    const double part = h / b->lambda_re[0];
+    double *q = s->error, *v = q + r->p, size = 0;
+
+    for (size_t l = 0; l < r->n; l++) {
+        double sum = slope[l];
+
+        for (size_t i = 0; i < b->stages; i++)
+            sum -= b->first[i] * (l < r->p ? s->y[r->p + l] + r->Z[i * r->n + r->p + l]
+                                           : r->a[i * r->m + l - r->p]);
+        s->error[l] = part * sum;
+    }
+    for (size_t l = 0; l < r->m; l++)
+        v[l] /= part;
+    qdot_radau_weigh(&r->linear, v, r->p ? q : NULL, r->re);
+    qdot_radau_solve(&r->linear, 0, r->re, NULL);
+    for (size_t l = 0; l < r->m; l++)
+        v[l] = r->re[l];
+    for (size_t l = 0; l < r->p; l++)
+        q[l] += part * v[l];
+    for (size_t l = 0; l < r->n; l++) {
+        const double here = fabs(s->error[l]) * r->weight[l];
+
+        if (!(here <= size))
+            size = here;
+    }
+    return isfinite(size) ? size : INFINITY;
+}
+
+/* What rounding of f makes of an estimate that matters is no error of the step, which would get
+ * shorter for it and no better. */
+static void
+spare_noise(qdot_ode_stepper *s, double h, double *ratio)
+{
+    double noise;
+
+    if (*ratio <= grows || !isfinite(*ratio))
+        return;
+    noise = noise_of(s, h);
+    if (!(noise > grows))
+        return;
+    *ratio = fmax(*ratio - noise, grows);
+    s->raised = fmax(s->raised, noise * s->tol);
+}
+
+/* Where a motion is stiff and off its slow course the defect is large, and the error is not: once
+ * more with f at the state that the estimate leads to. */
+static qdot_status
+judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double *ratio)
+{
+    radau *r = s->own;
+
+    *ratio = estimate(s, b, h, s->dydt);
+    spare_noise(s, h, ratio);
+    if (*ratio <= 1 || !isfinite(*ratio) || (r->before_basis && !r->rejected))
+        return QDOT_OK;
+    for (size_t l = 0; l < r->n; l++)
+        s->trial[l] = s->y[l] + s->error[l];
+    if (qdot_ode_stepper_rhs(s, t, s->trial, s->trial_dydt) != QDOT_OK)
+        return QDOT_OK;
+    *ratio = estimate(s, b, h, s->trial_dydt);
+    spare_noise(s, h, ratio);
+    return QDOT_OK;
+}
+
+/* --- steps ----------------------------------------------------------------------------- */
+
+static qdot_status
+prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
+{
+    radau *r = s->own;
+
+    if (!r->slopes) {
+        s->jacobians++;
+        QDOT_TRY(qdot_radau_slopes(&r->linear, t, s->y, s->dydt + r->p));
+        r->slopes = r->fresh = true;
+        r->factored = 0;
+    }
+    *regular = true;
+    if (r->factored == h && r->linear.basis == b)
+        return QDOT_OK;
+    s->factorisations++;
+    *regular = qdot_radau_factor(&r->linear, b, h);
+    r->factored = *regular ? h : 0;
+    return QDOT_OK;
+}
+
+static qdot_status
+step(qdot_ode_stepper *s, double t, double h, double *ratio)
+{
+    radau *r = s->own;
+    const qdot_radau_basis *b = qdot_radau_basis_get(r->kind);
+    bool converged = false, regular;
+
+    for (size_t l = 0; l < r->n; l++)
+        r->weight[l] = 1 / (s->tol * qdot_ode_size(s->system->scales, l, s->y[l]));
+    r->h = h;
+    while (!converged) {
+        QDOT_TRY(prepare(s, b, t, h, &regular));
+        if (regular)
+            QDOT_TRY(iterate(s, b, t, h, &converged));
+        if (converged || r->fresh)
+            break;
+        r->slopes = false;
+    }
+    *ratio = INFINITY;
+    if (converged)
+        QDOT_TRY(judge(s, b, t, h, ratio));
+    else
+        r->most = shorter * fabs(h), r->cautious = steady;
+    if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds)
+        r->kind--, r->since = 0;
+    r->rejected = !(*ratio <= 1);
+    if (!r->rejected)
+        r->ratio = *ratio;
+    if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
+        *ratio = fmin(
+            1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
+    memcpy(s->z, r->Z + (b->stages - 1) * r->n, r->n * sizeof *s->z);
+    for (size_t l = 0; l < r->n; l++)
+        s->trial[l] = s->y[l] + (s->carry[l] + s->z[l]);
+    return QDOT_OK;
+}
+
+/* More stages where the iteration converges fast, or the error bounds the steps and it converges;
+ * fewer where it hardly does, and the error would allow longer steps. */
+static void
+choose_stages(const qdot_ode_stepper *s)
+{
+    radau *r = s->own;
+    const size_t old = r->kind;
+    const bool bound = s->tol < 1e-4 && r->ratio > bounds;
+
+    r->cautious -= r->cautious > 0;
+    if (r->kept || ++r->since < steady)
+        return;
+    if (r->rate < (bound ? fair : fast) && r->kind + 1 < QDOT_RADAU_KINDS)
+        r->kind++;
+    else if (r->rate > slow && r->iterations > 2 && r->kind > 0 && !bound)
+        r->kind--;
+    if (r->kind != old)
+        r->since = 0;
+}
+
+static void
+accepted(qdot_ode_stepper *s)
+{
+    radau *r = s->own;
+    double *Z = r->before;
+
+    r->before = r->Z;
+    r->Z = Z;
+    r->before_basis = r->linear.basis;
+    r->before_h = r->h;
+    r->fresh = false;
+    if (r->rate > (r->m > dear * r->before_basis->stages ? reuse_dear : reuse))
+        r->slopes = false;
+    choose_stages(s);
+}
+
+static double
+power(const qdot_ode_stepper *s)
+{
+    const radau *r = s->own;
+
+    return (double)qdot_radau_basis_get(r->kind)->stages + 1;
+}
+
+/* Rows of F: the stages, then their number. */
+static qdot_status
+dense(qdot_ode_stepper *s, double t, double h, double *F)
+{
+    const radau *r = s->own;
+    const size_t stages = r->linear.basis->stages;
+
+    (void)t;
+    (void)h;
+    memcpy(F, r->Z, stages * r->n * sizeof *F);
+    F[MOST * r->n] = (double)((stages - 3) / 2);
+    return QDOT_OK;
+}
+
+static void
+at(size_t n, const double *F, const double *y0, double x, double *y)
+{
+    const qdot_radau_basis *b = qdot_radau_basis_get((size_t)F[MOST * n]);
+    double w[MOST];
+
+    qdot_radau_interpolate(b, x, w);
+    for (size_t i = 0; i < n; i++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < b->stages; j++)
+            sum += w[j] * F[j * n + i];
+        y[i] = y0[i] + sum;
+    }
+}
+
+const qdot_ode_kernel qdot_radau = {.powers = MOST + 1,
+                                    .step = step,
+                                    .dense = dense,
+                                    .at = at,
+                                    .open = make,
+                                    .close = drop,
+                                    .restart = restart,
+                                    .accepted = accepted,
+                                    .power = power,
+                                    .keeps_step = true,
+                                    .forward = true};
