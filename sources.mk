@@ -2112,6 +2112,7 @@ test_files = \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \
 	tests/tape/lone.h \
+	tests/tape/random.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \
 	tests/fuzz/fuzz-parse.c \
