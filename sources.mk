@@ -2140,6 +2140,8 @@ other_files = \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
+	bench/hard/cases.py \
+	bench/hard/run \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
