@@ -8,6 +8,9 @@
 #include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 
+/* Relative to the size of a component. */
+static const double lost = 0x1p-50;
+
 static bool
 is_following(const qdot_ode_system *system, size_t i)
 {
@@ -36,13 +39,13 @@ orders_of_terms(const qdot_ode_leading_step *step, const double *power)
     return m;
 }
 
-/* Whether doubles were accurate enough at order k. */
+/* Whether doubles were accurate enough at order k, that is to `error`. */
 static bool
-agree(const qdot_ode_leading_step *step, int k, double power)
+agree(const qdot_ode_leading_step *step, int k, double power, double error)
 {
     const qdot_ode_series *series = step->system->series;
     const qdot_ode_leading *leading = step->system->leading;
-    const double most = 4 * step->eps / power;
+    const double most = error / power;
 
     for (size_t i = 0; i < step->system->n; i++)
         if (!(fabs(leading->x[i * leading->stride + (size_t)k].hi
@@ -53,7 +56,9 @@ agree(const qdot_ode_leading_step *step, int k, double power)
     return true;
 }
 
-/* The number of orders in two doubles; power: s^k. */
+/* The number of orders in two doubles; power: s^k. 0 where doubles have lost a digit at the highest
+ * of them: under a stiff force the rounding of the first orders is that of another start, which the
+ * others carry on and which dies out; better ones would not fit to those. */
 static qdot_status
 find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
 {
@@ -65,10 +70,10 @@ find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
     QDOT_TRY(leading->begin(&step->at, step->unit, leading->user));
     for (*m = 1; *m <= most; ++*m) {
         QDOT_TRY(leading->next(*m, leading->user));
-        if (*m >= least && agree(step, *m, fabs(power[*m])))
+        if (*m >= least && agree(step, *m, fabs(power[*m]), 4 * step->eps))
             return QDOT_OK;
     }
-    *m = most;
+    *m = agree(step, most, fabs(power[most]), fmax(4 * step->eps, lost)) ? most : 0;
     return QDOT_OK;
 }
 
