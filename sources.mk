@@ -116,6 +116,7 @@ library_sources = \
 	lib/lang/language/token-text.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
+	lib/lang/runs/longtime.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run.c \
@@ -473,6 +474,8 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/longtime.c \
+	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
 	lib/sim/study/workprecision.c \
 	lib/tape/angle.c \
@@ -881,6 +884,8 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/longtime.h \
+	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
@@ -1036,6 +1041,7 @@ unit_tests = \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_horizon \
+	tests/sim/test_longtime \
 	tests/sim/test_motion \
 	tests/sim/test_operations \
 	tests/sim/test_parameter_states \
@@ -1140,6 +1146,7 @@ script_tests = \
 	tests/script/leading.sh \
 	tests/script/long-sums.lag \
 	tests/script/long-time-methods.lag \
+	tests/script/longtime.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1493,6 +1500,7 @@ script_tests = \
 	examples/knife-edge.lag \
 	examples/lagrange-points.lag \
 	examples/line-element.lag \
+	examples/long-times.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
 	examples/modes.lag \
@@ -1803,6 +1811,7 @@ test_files = \
 	tests/examples/kinetic-energy.out \
 	tests/examples/knife-edge.out \
 	tests/examples/line-element.out \
+	tests/examples/long-times.out \
 	tests/examples/magnetic-field.out \
 	tests/examples/metrics.out \
 	tests/examples/modes.out \
@@ -1991,6 +2000,7 @@ test_files = \
 	tests/script/leading.out \
 	tests/script/long-sums.out \
 	tests/script/long-time-methods.out \
+	tests/script/longtime.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
@@ -2220,6 +2230,7 @@ example_files = \
 	examples/lagrange-points.lag \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
+	examples/long-times.lag \
 	examples/magnetic-field.lag \
 	examples/magnetic-field.svg \
 	examples/metrics.lag \
