@@ -55,6 +55,7 @@ library_sources = \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
+	lib/lang/commands/scale.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/usage.c \
@@ -133,6 +134,7 @@ library_sources = \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
+	lib/lang/session/scales.c \
 	lib/lang/session/session.c \
 	lib/lang/session/transfer.c \
 	lib/lang/session/undo-state.c \
@@ -376,6 +378,7 @@ library_sources = \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-layer.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -440,6 +443,7 @@ library_sources = \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
+	lib/sim/model/layer.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -469,6 +473,7 @@ library_sources = \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
+	lib/sim/run/scales.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -590,6 +595,7 @@ library_headers = \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
+	lib/lang/session/scales.h \
 	lib/lang/session/session.h \
 	lib/lang/session/transfer.h \
 	lib/lang/session/undo-state.h \
@@ -739,6 +745,7 @@ library_headers = \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
+	lib/ode/scale.h \
 	lib/ode/stepper.h \
 	lib/ode/stiffness.h \
 	lib/ode/system.h \
@@ -856,6 +863,7 @@ library_headers = \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
+	lib/sim/model/layer.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -863,6 +871,7 @@ library_headers = \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
 	lib/sim/model/substitute.h \
+	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
 	lib/sim/plan/cost.h \
@@ -880,6 +889,7 @@ library_headers = \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
+	lib/sim/run/scales.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
@@ -1008,6 +1018,7 @@ unit_tests = \
 	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
+	tests/ode/test_scale \
 	tests/ode/test_stiffness \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
@@ -1074,6 +1085,7 @@ script_tests = \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
+	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1204,6 +1216,8 @@ script_tests = \
 	tests/script/routhian-named.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
+	tests/script/scale-found.lag \
+	tests/script/scale.lag \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
 	tests/script/several-ranges.lag \
@@ -1248,6 +1262,8 @@ script_tests = \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
 	tests/bad/bound-coordinate.lag \
+	tests/bad/broken-power-digits.lag \
+	tests/bad/broken-power-rest.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/composition8-friction.lag \
@@ -1390,6 +1406,10 @@ script_tests = \
 	tests/bad/run-hopeless-digits.lag \
 	tests/bad/run-hopeless.lag \
 	tests/bad/same-label.lag \
+	tests/bad/scale-later.lag \
+	tests/bad/scale-negative.lag \
+	tests/bad/scale-of-acceleration.lag \
+	tests/bad/scale-of-nothing.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
 	tests/bad/series-none.sh \
@@ -1506,6 +1526,7 @@ script_tests = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -1573,6 +1594,8 @@ test_files = \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
 	tests/bad/bound-coordinate.out \
+	tests/bad/broken-power-digits.out \
+	tests/bad/broken-power-rest.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/composition8-friction.out \
@@ -1715,6 +1738,10 @@ test_files = \
 	tests/bad/run-hopeless-digits.out \
 	tests/bad/run-hopeless.out \
 	tests/bad/same-label.out \
+	tests/bad/scale-later.out \
+	tests/bad/scale-negative.out \
+	tests/bad/scale-of-acceleration.out \
+	tests/bad/scale-of-nothing.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
 	tests/bad/series-none.out \
@@ -1817,6 +1844,7 @@ test_files = \
 	tests/examples/modes.out \
 	tests/examples/moving-constraint.out \
 	tests/examples/n-four-bar.out \
+	tests/examples/newtons-cradle.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
@@ -1907,6 +1935,7 @@ test_files = \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
+	tests/script/broken-powers.out \
 	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \
@@ -2060,6 +2089,8 @@ test_files = \
 	tests/script/routhian-named.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
+	tests/script/scale-found.out \
+	tests/script/scale.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several-ranges.out \
@@ -2237,6 +2268,8 @@ example_files = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
+	examples/newtons-cradle.svg \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \

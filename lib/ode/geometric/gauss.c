@@ -105,11 +105,10 @@ stage(const stages *w, size_t i, double y, double low, double h, const double *x
 static inline void
 advance(const stages *w, double *y, double *low, double h, const double *x, size_t k)
 {
-    double rest, e, at;
+    double rest;
     const double sum = combine(w->s, w->n, w->b, w->b + w->s, x, k, &rest);
 
-    at = qdot_two_sum(*y, h * sum, &e);
-    *y = qdot_two_sum(at, e + (*low + h * rest), low);
+    qdot_sum_advance_by(y, low, h * sum, h * rest);
 }
 
 /* F and W to begin with: from the step before, of the same length, or those of the start. */

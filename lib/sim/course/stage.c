@@ -1,9 +1,11 @@
 /* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "expr/walk.h"
+#include "sim/model/layer.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
@@ -37,6 +39,7 @@ qdot_stage_clear(qdot_stage *s)
     qdot_domains_clear(&s->domains);
     qdot_parameter_conditions_clear(&s->conditions);
     qdot_tape_free(s->sides);
+    qdot_free(s->scales);
     *s = (qdot_stage){0};
 }
 
@@ -162,16 +165,36 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether `side` is the side of the number u. */
+/* Whether `side` is the side of the number u, that of a surface. */
 static bool
-is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
+is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 {
     qdot_expr k = qdot_expr_int(pool, side);
 
-    if (steps)
+    if (x->steps)
         return qdot_rel(pool, QDOT_LE, k, u) == QDOT_TRUE
                && qdot_rel(pool, QDOT_LT, u, qdot_add(pool, k, QDOT_ONE)) == QDOT_TRUE;
+    if (x->layer > 0 && side == 0)
+        return qdot_rel(pool, QDOT_LE, qdot_fun1(pool, QDOT_ABS, u),
+                        qdot_layers_rim(pool, x)) == QDOT_TRUE;
     return qdot_fun1(pool, QDOT_SIGN, u) == k;
+}
+
+/* The rims of a layer that the mode's side touches: u = layer, u = -layer. */
+static void
+watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
+{
+    qdot_pool *pool = m->plan->pool;
+    const long side = m->side[watched.index];
+    const qdot_expr w = qdot_layers_rim(pool, x);
+
+    for (int rim = 1; rim >= -1; rim -= 2) {
+        if (side == -rim)
+            continue;
+        watched.inside = side == 0 ? -rim : rim;
+        watched.beyond = side == 0 ? rim : 0;
+        watch_function(m, rim > 0 ? qdot_sub(pool, u, w) : qdot_add(pool, u, w), watched);
+    }
 }
 
 /* A surface whose u is constant in the mode is not watched; where u is 0, it is watched to stay
@@ -186,7 +209,7 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         qdot_expr u;
 
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &x->u, &u));
-        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, u, x->steps, m->side[i]))
+        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
         QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
         if (!moves)
@@ -194,6 +217,11 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         velocity = (qdot_expr_node(pool, u)->holds
                     & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
                    != 0;
+        if (x->layer > 0) {
+            watch_layer(m, x, u, (qdot_watched){.kind = QDOT_WATCH_SURFACE, .index = i,
+                                                .velocity = velocity});
+            continue;
+        }
         if (!x->steps) {
             watch_function(m, u,
                            (qdot_watched){.kind = QDOT_WATCH_SURFACE,
@@ -312,13 +340,19 @@ start_numbers(const qdot_stage *s, double *t, double *y)
     return QDOT_OK;
 }
 
-/* The sides at y, or at the start before there is a mode: side [surfaces]. */
+/* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
+ * first, once. */
 static qdot_status
-start_sides(const qdot_stage *s, const double *settled, long *side)
+start_sides(qdot_stage *s, const double *settled, long *side)
 {
     const size_t n = s->n;
-    double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
+    double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0, t1 = 0;
     qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && s->modes.n == 0)
+        status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
+    if (status == QDOT_OK && s->modes.n == 0)
+        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)));
 
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
@@ -326,6 +360,25 @@ start_sides(const qdot_stage *s, const double *settled, long *side)
         status = qdot_stage_sides(s, t, y, NULL, side);
     qdot_free(y);
     return status;
+}
+
+/* The scales that the request says; those of parameters that events set are 1. */
+static qdot_status
+take_scales(qdot_stage *s, size_t n)
+{
+    const double *said = s->request->scales;
+
+    if (!said)
+        return QDOT_OK;
+    s->scales = qdot_malloc((2 * s->n + 1) * sizeof *s->scales);
+    if (!s->scales)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < 2 * s->n; i++) {
+        const size_t k = i % s->n;
+
+        s->scales[i] = k < n && said[k + (i < s->n ? 0 : n)] > 0 ? said[k + (i < s->n ? 0 : n)] : 1;
+    }
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -340,6 +393,7 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     s->request = request;
     s->n = qdot_parameter_states_coordinates(scene, request);
     s->n_states = request->n_states;
+    QDOT_TRY(take_scales(s, scene->coordinates.n));
     QDOT_TRY(qdot_plan_check(scene));
     s->kept = qdot_kept_find(scene, request);
     if (s->kept) /* nothing switches, then */

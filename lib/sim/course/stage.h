@@ -55,6 +55,7 @@ typedef struct {
     qdot_switches switches;
     qdot_domains domains;
     qdot_parameter_conditions conditions;
+    double *scales; /* [2n] of the state (ode/scale.h); NULL: all are 1 */
     size_t n, n_states; /* coordinates of the run; how many of these are parameters that events
                            set */
     qdot_vec(qdot_staged_event) events;
@@ -92,6 +93,11 @@ QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
  * Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
                                              const double *y, const long *old, long *side);
+
+/* Measure the layers of the surfaces (sim/model/layer.h) at the start of a run that looks at times
+ * up to `latest`. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const double *y,
+                                              double latest);
 
 /* A surface in words: "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,

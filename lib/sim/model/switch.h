@@ -10,7 +10,8 @@
  *
  * A jump of T - V itself is a surface too, even if the equations on both sides are the same.
  *
- * A mode is one side of every surface: a sign, 0 if u stays 0, or the integer of a floor. An
+ * A mode is one side of every surface: a sign, 0 if u stays 0 or in a layer about it
+ * (sim/model/layer.h), or the integer of a floor. An
  * expression frozen to a mode does not switch.
  *
  * Surfaces may be nested: u of if(mod(t, 1) < 0.3, A, B) is mod(t, 1) - 0.3, which is t - k - 0.3
@@ -24,17 +25,13 @@
 #define QDOT_SIM_SWITCH_H
 
 #include "sim/model/request.h"
-
-typedef struct {
-    qdot_expr u;  /* as in the equations, with parameter values */
-    bool steps;   /* the side is floor(u); else the sign of u */
-    qdot_expr side; /* a symbol for the side */
-} qdot_surface;
+#include "sim/model/surface.h"
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
     qdot_vec(qdot_surface) surfaces; /* inner ones first */
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
+    qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */
 } qdot_switches;

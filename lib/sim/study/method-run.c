@@ -64,6 +64,7 @@ settle_side(qdot_method_run *m)
     QDOT_TRY(qdot_stage_settle(&m->stage, m->start, &anew));
     m->plan = m->stage.modes.at[0]->plan;
     QDOT_TRY(qdot_bind_new(m->plan, false, &m->bind));
+    QDOT_TRY(qdot_bind_scale(m->bind, m->stage.scales));
     m->held = qdot_bind_held(m->bind);
     return QDOT_OK;
 }
@@ -130,6 +131,7 @@ qdot_method_run_init(qdot_method_run *m, qdot_scene *scene, const qdot_run_reque
     for (size_t i = 0; i < m->stage.events.n; i++)
         m->pieces = m->pieces || m->stage.events.at[i].stop || m->stage.events.at[i].then;
     QDOT_TRY(qdot_bind_new(m->plan, false, &m->bind));
+    QDOT_TRY(qdot_bind_scale(m->bind, m->stage.scales));
     QDOT_TRY(read_start(m, request));
     QDOT_TRY(settle_start(m, scene, request));
     return prepare_energy(m, scene);

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "num/sort.h"
 #include "ode/integrate.h"
+#include "ode/scale.h"
 #include "sim/course/course.h"
 #include "sim/course/run-state.h"
 #include "sim/error/horizon.h"
@@ -111,12 +112,12 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
 
 /* The time counts where an event ends the run. */
 static double
-error_against(const reference *r, const double *y, double t)
+error_against(const reference *r, const double *scales, const double *y, double t)
 {
     double most = r->stopped ? fabs(t - r->t_end) / fmax(1, fabs(r->t_end)) : 0;
 
     for (size_t i = 0; i < r->n; i++) {
-        double e = fabs((y[i] - r->high[i]) - r->low[i]) / fmax(1, fabs(r->high[i]));
+        double e = fabs((y[i] - r->high[i]) - r->low[i]) / qdot_ode_size(scales, i, r->high[i]);
 
         if (!(e <= most)) /* a NaN stays */
             most = e;
@@ -365,7 +366,7 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                                        : "failed: an event ended the run");
         return QDOT_OK;
     }
-    row->err = error_against(r, w->run.y, w->t_end);
+    row->err = error_against(r, w->run.stage.scales, w->run.y, w->t_end);
     strcpy(row->status, row->err > rounding
                                 && row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
                             ? "done: no digit is right"
