@@ -424,6 +424,7 @@ library_sources = \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
+	lib/sim/form/phase-space.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
 	lib/sim/form/residual-sweeps.c \
@@ -471,6 +472,7 @@ library_sources = \
 	lib/sim/read/value.c \
 	lib/sim/run/change-over.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/long-run.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
@@ -850,6 +852,7 @@ library_headers = \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
+	lib/sim/form/phase-space.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
 	lib/sim/form/residual-sweeps.h \
@@ -888,6 +891,7 @@ library_headers = \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
 	lib/sim/run/change-over.h \
+	lib/sim/run/long-run.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
@@ -1059,6 +1063,7 @@ unit_tests = \
 	tests/sim/test_operations \
 	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
+	tests/sim/test_phase-space \
 	tests/sim/test_precise \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
@@ -1159,8 +1164,10 @@ script_tests = \
 	tests/script/jumps.sh \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
+	tests/script/long-run.lag \
 	tests/script/long-sums.lag \
 	tests/script/long-time-methods.lag \
+	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
@@ -2031,8 +2038,10 @@ test_files = \
 	tests/script/jumps.out \
 	tests/script/labels.out \
 	tests/script/leading.out \
+	tests/script/long-run.out \
 	tests/script/long-sums.out \
 	tests/script/long-time-methods.out \
+	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \

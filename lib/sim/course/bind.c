@@ -10,6 +10,7 @@
 #include "sim/form/motion-series.h"
 #include "sim/form/guarded.h"
 #include "sim/form/leading.h"
+#include "sim/form/phase-space.h"
 #include "sim/form/residual.h"
 #include "sim/form/tree-series.h"
 #include "sim/model/constrained.h"
@@ -27,6 +28,7 @@ struct qdot_bind {
     qdot_motion_series *tied;            /* or, of a plan with constraints: */
     qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
@@ -75,6 +77,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_tree_series_free(b->elsewhere);
     qdot_guarded_free(b->guarded);
     qdot_leading_free(b->leading);
+    qdot_phase_free(b->phase);
     qdot_motion_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -314,6 +317,7 @@ qdot_bind_system(qdot_bind *b)
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
         .halves = b->plan->halves,
+        .phase = b->phase ? qdot_phase_get(b->phase) : NULL,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
@@ -535,6 +539,8 @@ make(qdot_bind *b, bool shaken)
     b->work = qdot_calloc(work + 1, sizeof *b->work);
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
+    if (p->phase_space)
+        QDOT_TRY(qdot_phase_new(p->phase_space, &b->phase));
     if (p->constraints)
         return make_held(b, shaken);
     if (p->tape)
