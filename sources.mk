@@ -120,6 +120,7 @@ library_sources = \
 	lib/lang/language/token-text.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
+	lib/lang/runs/longtime.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
@@ -440,6 +441,7 @@ library_sources = \
 	lib/sim/form/motion-of-equations.c \
 	lib/sim/form/motion-of-residual.c \
 	lib/sim/form/motion-series.c \
+	lib/sim/form/phase-space.c \
 	lib/sim/form/precise-bind.c \
 	lib/sim/form/residual-energy.c \
 	lib/sim/form/residual-sweeps.c \
@@ -490,6 +492,7 @@ library_sources = \
 	lib/sim/run/change-over.c \
 	lib/sim/run/chart-run.c \
 	lib/sim/run/describe.c \
+	lib/sim/run/long-run.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
@@ -499,6 +502,8 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/longtime.c \
+	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
 	lib/sim/study/workprecision.c \
 	lib/tape/angle.c \
@@ -881,6 +886,7 @@ library_headers = \
 	lib/sim/form/motion-of-equations.h \
 	lib/sim/form/motion-of-residual.h \
 	lib/sim/form/motion-series.h \
+	lib/sim/form/phase-space.h \
 	lib/sim/form/precise-bind.h \
 	lib/sim/form/residual-energy.h \
 	lib/sim/form/residual-sweeps.h \
@@ -922,6 +928,7 @@ library_headers = \
 	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
 	lib/sim/run/chart-run.h \
+	lib/sim/run/long-run.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
@@ -930,6 +937,8 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/longtime.h \
+	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
@@ -1089,10 +1098,12 @@ unit_tests = \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_horizon \
+	tests/sim/test_longtime \
 	tests/sim/test_motion \
 	tests/sim/test_operations \
 	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
+	tests/sim/test_phase-space \
 	tests/sim/test_precise \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
@@ -1194,8 +1205,11 @@ script_tests = \
 	tests/script/jumps.sh \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
+	tests/script/long-run.lag \
 	tests/script/long-sums.lag \
 	tests/script/long-time-methods.lag \
+	tests/script/long-time-momenta.lag \
+	tests/script/longtime.sh \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1571,6 +1585,7 @@ script_tests = \
 	examples/knife-edge.lag \
 	examples/lagrange-points.lag \
 	examples/line-element.lag \
+	examples/long-times.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
 	examples/modes.lag \
@@ -1901,6 +1916,7 @@ test_files = \
 	tests/examples/kinetic-energy.out \
 	tests/examples/knife-edge.out \
 	tests/examples/line-element.out \
+	tests/examples/long-times.out \
 	tests/examples/magnetic-field.out \
 	tests/examples/metrics.out \
 	tests/examples/modes.out \
@@ -2092,8 +2108,11 @@ test_files = \
 	tests/script/jumps.out \
 	tests/script/labels.out \
 	tests/script/leading.out \
+	tests/script/long-run.out \
 	tests/script/long-sums.out \
 	tests/script/long-time-methods.out \
+	tests/script/long-time-momenta.out \
+	tests/script/longtime.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
@@ -2331,6 +2350,7 @@ example_files = \
 	examples/lagrange-points.lag \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
+	examples/long-times.lag \
 	examples/magnetic-field.lag \
 	examples/magnetic-field.svg \
 	examples/metrics.lag \

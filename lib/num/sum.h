@@ -46,4 +46,15 @@ qdot_sum_advance(double *hi, double *lo, double x)
     *hi = qdot_two_sum(*hi, *lo + x, lo);
 }
 
+/* Advance by x + rest, |rest| below a rounding of x: *lo + rest is not rounded to places of x, which
+ * would drop rest every time. */
+static inline void
+qdot_sum_advance_by(double *hi, double *lo, double x, double rest)
+{
+    double e;
+    const double at = qdot_two_sum(*hi, x, &e);
+
+    *hi = qdot_two_sum(at, e + (*lo + rest), lo);
+}
+
 #endif

@@ -128,6 +128,15 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_mass_form;
 
+/* Canonical momenta p of a system whose state is y = (q, q'). Failures as those of its f. */
+typedef struct {
+    qdot_status (*momenta)(double t, const double *q, const double *v, double *p, void *user);
+    qdot_status (*velocity)(double t, const double *q, const double *p, double *v, void *user);
+    /* p' */
+    qdot_status (*force)(double t, const double *q, const double *v, double *F, void *user);
+    void *user; /* borrowed */
+} qdot_ode_phase;
+
 /* A part of a system that knows nothing of its other parts. */
 typedef struct {
     const struct qdot_ode_system *system; /* borrowed; without parts */
@@ -153,6 +162,7 @@ typedef struct qdot_ode_system {
     const qdot_ode_mass_form *mass_form;
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
+    const qdot_ode_phase *phase; /* else, for these: its momenta; NULL: there are none; borrowed */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

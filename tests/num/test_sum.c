@@ -59,6 +59,19 @@ advance_keeps_a_small_carry(void **state)
     assert_true(lo == 0);
 }
 
+/* x has its last place at 2^-56, the rests are below half of it. */
+static void
+advance_by_keeps_the_rest(void **state)
+{
+    const double x = 0x1p-4 + 0x1p-56, rest = 0x1p-59;
+    double hi = 1, lo = 0;
+
+    (void)state;
+    for (int i = 0; i < 1 << 10; i++)
+        qdot_sum_advance_by(&hi, &lo, x, rest);
+    assert_true((hi - 1 - 64) + lo == 0x1p-46 + 0x1p-49);
+}
+
 int
 main(void)
 {
@@ -67,6 +80,7 @@ main(void)
         cmocka_unit_test(cancelling_sum_is_exact),
         cmocka_unit_test(sum_of_tenths_matches_long_double),
         cmocka_unit_test(advance_keeps_a_small_carry),
+        cmocka_unit_test(advance_by_keeps_the_rest),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

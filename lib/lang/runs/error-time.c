@@ -1,4 +1,4 @@
-/* error-time.c -- the figure of `race` and `workprecision`: error at the end against CPU time. */
+/* error-time.c -- the figure of `race`, `workprecision` and `longtime`: error against time. */
 #include "lang/runs/error-time.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
     double *values = qdot_calloc(2 * of->n + 1, sizeof *values);
     qdot_panel panel = {.title = {of->title, false},
                         .note = qdot_text_str(of->note),
-                        .axis = {{"CPU time in s", false}, {"error at the end", false}},
+                        .axis = {{of->abscissa, false}, {of->ordinate, false}},
                         .curves = curves,
                         .log = {true, true},
                         .marks = true};

@@ -1,5 +1,5 @@
-/* error-time.h -- the figure of `race` and `workprecision`: error at the end against CPU time, both
- * in powers of ten, a curve for each name. */
+/* error-time.h -- the figure of `race` and `workprecision`, error at the end against CPU time, and of
+ * `longtime`, error of the energy against time: both in powers of ten, a curve for each name. */
 #ifndef QDOT_LANG_ERROR_TIME_H
 #define QDOT_LANG_ERROR_TIME_H
 
@@ -13,6 +13,7 @@ typedef struct {
 
 typedef struct {
     const char *title;
+    const char *abscissa, *ordinate; /* labels */
     const qdot_text *note;
     const char *none; /* to be said where no point can be drawn */
     size_t n;

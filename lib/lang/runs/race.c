@@ -106,6 +106,8 @@ draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *cho
     qdot_error_point points[QDOT_RACE_FORMULATIONS * QDOT_RACE_TOLERANCES];
     qdot_text note = {0};
     qdot_error_time of = {.title = "one scene in every formulation",
+                          .abscissa = "CPU time in s",
+                          .ordinate = "error at the end",
                           .note = &note,
                           .none = "no lane of the race got to the end",
                           .points = points,

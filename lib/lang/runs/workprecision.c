@@ -179,6 +179,8 @@ figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen
     qdot_error_point *points = qdot_calloc(w->n + 1, sizeof *points);
     qdot_text note = {0};
     const qdot_error_time of = {.title = "work and precision",
+                       .abscissa = "CPU time in s",
+                       .ordinate = "error at the end",
                                 .note = &note,
                                 .none = "no method came to the end",
                                 .n = w->n,

@@ -38,9 +38,27 @@ typedef struct {
 qdot_status
 qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const double *p, double *v)
 {
-    (void)t;
-    (void)q;
+    const qdot_ode_phase *phase = g->system->phase;
+
+    if (phase)
+        return phase->velocity(t, q, p, v, phase->user);
     memcpy(v, p, g->n * sizeof *v);
+    return QDOT_OK;
+}
+
+/* The forces themselves. */
+static qdot_status
+evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
+{
+    const qdot_ode_phase *phase = g->system->phase;
+    const size_t n = g->n;
+
+    if (phase)
+        return phase->force(t, q, v, F, phase->user);
+    memcpy(g->state, q, n * sizeof *q);
+    memcpy(g->state + n, v, n * sizeof *v);
+    QDOT_TRY(g->system->rhs(t, g->state, g->rates, g->system->user));
+    memcpy(F, g->rates + n, n * sizeof *F);
     return QDOT_OK;
 }
 
@@ -51,13 +69,9 @@ qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double 
     double sum = 0;
 
     g->evaluations++;
-    memcpy(g->state, q, n * sizeof *q);
-    memcpy(g->state + n, v, n * sizeof *v);
-    QDOT_TRY(g->system->rhs(t, g->state, g->rates, g->system->user));
-    for (size_t i = 0; i < n; i++) {
-        F[i] = g->rates[n + i];
+    QDOT_TRY(evaluate(g, t, q, v, F));
+    for (size_t i = 0; i < n; i++)
         sum += 0 * F[i];
-    }
     return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
 }
 
@@ -360,7 +374,7 @@ loop(run *r)
 static qdot_status
 check(const run *r, double t0, const double *y)
 {
-    if (!r->g.system->halves)
+    if (!r->g.system->halves && (!r->g.system->phase || r->g.kernel->separable))
         return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
     if (!(r->tol >= 1e-16 && r->tol <= 1)) {
         qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", r->tol);
@@ -396,6 +410,19 @@ allocate(run *r, double **all)
     return QDOT_OK;
 }
 
+/* Begin at y: with its momenta, if the system has such. */
+static qdot_status
+enter(run *r, const double *y)
+{
+    const qdot_ode_phase *phase = r->g.system->phase;
+    const size_t n = r->g.n;
+
+    if (!phase)
+        return QDOT_OK;
+    memset(r->g.low + n, 0, n * sizeof *r->g.low);
+    return phase->momenta(r->t, y, y + n, r->g.y + n, phase->user);
+}
+
 qdot_status
 qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
                          const qdot_ode_options *options, double t0, double t1, double *y,
@@ -422,7 +449,9 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
             memcpy(r.g.low, options->carry, system->n * sizeof *y);
         if (r.g.kernel->begin)
             r.g.kernel->begin(&r.g);
-        status = loop(&r);
+        status = enter(&r, y);
+        if (status == QDOT_OK)
+            status = loop(&r);
         if (result->stats.steps > 0) {
             const qdot_error why = *qdot_last_error();
 

@@ -4,9 +4,10 @@
  *     W_i = v(t_i, Q_i, P_i),       F_i = F(t_i, Q_i, W_i),       t_i = t + c_i h
  *     p <- p + h sum_i b_i F_i,     q <- q + h sum_i b_i W_i
  *
- * is iterated in this order until the positions of the stages, q + h sum a_ij W_j, change by nothing or
- * no longer by less than before: what is left is rounding, without a direction of its own. The
- * iteration begins with the polynomials of F and W of the step before.
+ * is iterated in this order until the positions of the stages change by nothing or no longer by less
+ * than before: what is left is rounding, without a direction of its own. The iteration begins with
+ * the polynomials of F and W of the step before. The low parts of coefficients count: where they
+ * were added to the sums of the high ones, and so lost, the energy drifted as t.
  *
  * Source  Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3, VIII.5, VIII.6;
  *         num/collocation.h.
@@ -27,8 +28,8 @@ static const double converged = 1e-10;
 typedef struct {
     size_t s, n;
     double *a, *b, *c, *ahead; /* [2 x s x s], [2 x s], [s], [s x s] L_j(1 + c_i) */
-    double *F, *W, *Z;         /* [s x n]; Z = h sum a_ij W_j */
-    double *x, *p;             /* [n] */
+    double *F, *W, *X;         /* [s x n]; X the positions of the stages */
+    double *p;                 /* [n] */
 } stages;
 
 static stages
@@ -43,9 +44,8 @@ stages_of(const qdot_geometric *g)
     w.ahead = w.c + s;
     w.F = w.ahead + s * s;
     w.W = w.F + s * n;
-    w.Z = w.W + s * n;
-    w.x = w.Z + s * n;
-    w.p = w.x + n;
+    w.X = w.W + s * n;
+    w.p = w.X + s * n;
     return w;
 }
 
@@ -73,17 +73,42 @@ begin(qdot_geometric *g)
     }
 }
 
-/* sum_j (a_j + low_j) x_jk over the rows of x [s x n] */
+/* sum_j a_j x_jk over the rows of x [s x n]; *rest the same of the low parts, which may not be added to
+ * it here: rounding would drop them every time, in one direction. */
 static inline double
-combine(size_t s, size_t n, const double *a, const double *low, const double *x, size_t k)
+combine(size_t s, size_t n, const double *a, const double *low, const double *x, size_t k,
+        double *rest)
 {
-    double sum = 0, rest = 0;
+    double sum = 0;
 
+    *rest = 0;
     for (size_t j = 0; j < s; j++) {
         sum += a[j] * x[j * n + k];
-        rest += low[j] * x[j * n + k];
+        *rest += low[j] * x[j * n + k];
     }
-    return sum + rest;
+    return sum;
+}
+
+/* Component k of stage i: (y + low) + h sum_j a_ij x_jk, rounded once. */
+static inline double
+stage(const stages *w, size_t i, double y, double low, double h, const double *x, size_t k)
+{
+    const size_t s = w->s;
+    double rest, e;
+    const double sum = combine(s, w->n, w->a + i * s, w->a + s * s + i * s, x, k, &rest);
+    const double at = qdot_two_sum(y, h * sum, &e);
+
+    return at + (e + (low + h * rest));
+}
+
+/* y + low += h sum_j b_j x_jk */
+static inline void
+advance(const stages *w, double *y, double *low, double h, const double *x, size_t k)
+{
+    double rest;
+    const double sum = combine(w->s, w->n, w->b, w->b + w->s, x, k, &rest);
+
+    qdot_sum_advance_by(y, low, h * sum, h * rest);
 }
 
 /* F and W to begin with: from the step before, of the same length, or those of the start. */
@@ -117,46 +142,41 @@ guess(qdot_geometric *g, const stages *w, double t, double h)
     return QDOT_OK;
 }
 
-/* Z from W; the largest change of a position. */
+/* X from W; the largest change of a position. */
 static double
 move(const qdot_geometric *g, const stages *w, double h)
 {
-    const size_t s = w->s, n = w->n;
+    const size_t n = w->n;
     double most = 0;
 
-    for (size_t i = 0; i < s; i++)
+    for (size_t i = 0; i < w->s; i++)
         for (size_t k = 0; k < n; k++) {
-            const double z = h * combine(s, n, w->a + i * s, w->a + s * s + i * s, w->W, k);
-            const double change = fabs(z - w->Z[i * n + k]), size = fabs(g->y[k]) + fabs(z);
+            const double x = stage(w, i, g->y[k], g->low[k], h, w->W, k);
+            const double change = fabs(x - w->X[i * n + k]);
+            const double size = fabs(g->y[k]) + fabs(x - g->y[k]);
 
-            w->Z[i * n + k] = z;
+            w->X[i * n + k] = x;
             if (!(change <= most * size))
                 most = change / size;
         }
     return most;
 }
 
-/* Once round: P, W, Z, F. */
+/* Once round: P, W, X, F. */
 static qdot_status
 iterate(qdot_geometric *g, const stages *w, double t, double h, double *change)
 {
-    const size_t s = w->s, n = w->n;
-    const double *q = g->y, *p = q + n, *q_low = g->low, *p_low = q_low + n;
+    const size_t n = w->n;
 
-    for (size_t i = 0; i < s; i++) {
-        for (size_t k = 0; k < n; k++) {
-            w->x[k] = q[k] + (q_low[k] + w->Z[i * n + k]);
-            w->p[k] = p[k] + (p_low[k]
-                              + h * combine(s, n, w->a + i * s, w->a + s * s + i * s, w->F, k));
-        }
-        QDOT_TRY(qdot_geometric_velocity(g, t + w->c[i] * h, w->x, w->p, w->W + i * n));
+    for (size_t i = 0; i < w->s; i++) {
+        for (size_t k = 0; k < n; k++)
+            w->p[k] = stage(w, i, g->y[n + k], g->low[n + k], h, w->F, k);
+        QDOT_TRY(qdot_geometric_velocity(g, t + w->c[i] * h, w->X + i * n, w->p, w->W + i * n));
     }
     *change = move(g, w, h);
-    for (size_t i = 0; i < s; i++) {
-        for (size_t k = 0; k < n; k++)
-            w->x[k] = q[k] + (q_low[k] + w->Z[i * n + k]);
-        QDOT_TRY(qdot_geometric_force(g, t + w->c[i] * h, w->x, w->W + i * n, w->F + i * n));
-    }
+    for (size_t i = 0; i < w->s; i++)
+        QDOT_TRY(qdot_geometric_force(g, t + w->c[i] * h, w->X + i * n, w->W + i * n,
+                                      w->F + i * n));
     return QDOT_OK;
 }
 
@@ -164,7 +184,7 @@ static qdot_status
 gauss(qdot_geometric *g, double t, double h)
 {
     const stages w = stages_of(g);
-    const size_t s = w.s, n = w.n;
+    const size_t n = w.n;
     double before = INFINITY, change;
 
     QDOT_TRY(guess(g, &w, t, h));
@@ -179,8 +199,8 @@ gauss(qdot_geometric *g, double t, double h)
         before = change;
     }
     for (size_t k = 0; k < n; k++) {
-        qdot_sum_advance(&g->y[k], &g->low[k], h * combine(s, n, w.b, w.b + s, w.W, k));
-        qdot_sum_advance(&g->y[n + k], &g->low[n + k], h * combine(s, n, w.b, w.b + s, w.F, k));
+        advance(&w, &g->y[k], &g->low[k], h, w.W, k);
+        advance(&w, &g->y[n + k], &g->low[n + k], h, w.F, k);
     }
     g->known = true;
     return QDOT_OK;
@@ -188,7 +208,7 @@ gauss(qdot_geometric *g, double t, double h)
 
 #define GAUSS(order, s)                                                                       \
     const qdot_geometric_kernel qdot_gauss##order = {                                         \
-        order, false, s, 3 * (s) + 2, 3 * (s) * (s) + 3 * (s), begin, gauss};
+        order, false, s, 3 * (s) + 1, 3 * (s) * (s) + 3 * (s), begin, gauss};
 
 GAUSS(4, 2)
 GAUSS(6, 3)

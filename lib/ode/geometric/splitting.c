@@ -36,7 +36,7 @@ static void
 advance(size_t n, double *x, double *low, double a, double b, const double *d)
 {
     for (size_t i = 0; i < n; i++)
-        qdot_sum_advance(&x[i], &low[i], a * d[i] + b * d[i]);
+        qdot_sum_advance_by(&x[i], &low[i], a * d[i], b * d[i]);
 }
 
 /* Stages of these lengths, the middle one longer by `rest`; work: F at the state. */

@@ -9,6 +9,7 @@
 #include "sim/form/guarded.h"
 #include "sim/form/leading.h"
 #include "sim/form/motion-series.h"
+#include "sim/form/phase-space.h"
 #include "sim/form/tree-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/momenta.h"
@@ -25,6 +26,7 @@ struct qdot_bind {
     qdot_motion_series *tied;      /* or, of a plan with constraints: */
     qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */

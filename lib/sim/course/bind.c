@@ -28,6 +28,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_tree_series_free(b->elsewhere);
     qdot_guarded_free(b->guarded);
     qdot_leading_free(b->leading);
+    qdot_phase_free(b->phase);
     qdot_motion_series_free(b->tied);
     qdot_tape_free(b->tape);
     if (b->reduced_blocks.plan)
@@ -193,6 +194,7 @@ qdot_bind_system(qdot_bind *b)
         .user = b,
         .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
         .halves = b->plan->halves,
+        .phase = b->phase ? qdot_phase_get(b->phase) : NULL,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
@@ -399,6 +401,8 @@ make(qdot_bind *b, bool shaken)
     if (!b->in || !b->out || !b->work)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_bind_make_slopes(b));
+    if (p->phase_space)
+        QDOT_TRY(qdot_phase_new(p->phase_space, &b->phase));
     if (p->constraints)
         return make_held(b, shaken);
     if (p->tape)

@@ -2,6 +2,7 @@
 #include "sim/form/derived.h"
 
 #include "sim/form/canonical.h"
+#include "sim/form/phase-space.h"
 #include "base/memory.h"
 #include "sim/form/motion-of-equations.h"
 #include "sim/form/residual.h"
@@ -62,6 +63,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_tape_free(p->tape);
     qdot_residual_free(p->residual);
     qdot_canonical_free(p->canonical);
+    qdot_phase_space_free(p->phase_space);
     qdot_constraints_free(p->constraints);
     for (size_t k = 0; k < p->n_parts; k++)
         qdot_plan_free(p->parts[k]);

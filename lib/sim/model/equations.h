@@ -32,6 +32,7 @@ typedef struct {
 
 typedef struct qdot_residual qdot_residual; /* sim/form/residual.h */
 typedef struct qdot_canonical qdot_canonical; /* sim/form/canonical.h */
+typedef struct qdot_phase_space qdot_phase_space; /* sim/form/phase-space.h */
 typedef struct qdot_constraints qdot_constraints; /* sim/model/constraints.h */
 struct qdot_switches;                       /* sim/model/switch.h */
 
@@ -64,7 +65,9 @@ struct qdot_plan {
     qdot_plan_block *blocks; /* [structure.blocks] */
     const qdot_ode_method *method;
     bool chosen; /* the plan chose the method */
-    bool halves; /* q' may stand for the momenta (sim/plan/geometric.h) */
+    /* Of a geometric method (sim/plan/geometric.h): q' may stand for the momenta; else these. */
+    bool halves;
+    qdot_phase_space *phase_space;
 
     /* NULL without constraints. With them there are no blocks, and `tape` is that of the
      * index-1 equations. */

@@ -2,6 +2,7 @@
 #include "sim/plan/geometric.h"
 
 #include "ode/geometric/geometric.h"
+#include "sim/form/phase-space.h"
 #include "tape/constant.h"
 
 /* The first coordinate whose row of M is no row of numbers; n: none. */
@@ -42,13 +43,18 @@ qdot_plan_check_geometric(qdot_plan *p, qdot_scene *scene)
         return QDOT_OK;
     if (scene->constraints.n > 0)
         return refuse(p, "is for scenes without constraints", "");
-    i = varying_mass(p);
-    if (i < p->n)
-        return refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
-                      p->names[i]);
-    i = velocity_force(p);
-    if (i < p->n && p->method->geometric->separable)
-        return refuse(p, "needs forces without velocities, but there are some along ", p->names[i]);
-    p->halves = true;
+    if (p->method->geometric->separable) {
+        i = varying_mass(p);
+        if (i < p->n)
+            return refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
+                          p->names[i]);
+        i = velocity_force(p);
+        if (i < p->n)
+            return refuse(p, "needs forces without velocities, but there are some along ",
+                          p->names[i]);
+    } else {
+        QDOT_TRY(qdot_phase_space_new(scene, p, &p->phase_space));
+    }
+    p->halves = !p->phase_space;
     return QDOT_OK;
 }

@@ -1,7 +1,7 @@
 /* geometric.h -- which equations the methods for long times are for (ode/geometric/geometric.h).
  *
- *     verlet, composition8     M a matrix of numbers, f = f(q, t): H = T(p) + V(q, t)
- *     gauss4 ... gauss12       M a matrix of numbers
+ *     verlet, composition8     M a matrix of numbers, f = f(q, t): H = T(p) + V(q, t), p = q'
+ *     gauss4 ... gauss12       any, in (q, p) of sim/form/phase-space.h
  *
  * without constraints.
  *
@@ -12,7 +12,7 @@
 
 #include "sim/model/equations.h"
 
-/* Of a plan with M and f: set plan->halves. If its method is geometric and does not fit:
+/* Of a plan with M and f: set plan->halves or plan->phase_space. If its method is geometric and does not fit:
  * QDOT_ENOTBUILT, with the reason and a hint. */
 QDOT_MUST_CHECK qdot_status qdot_plan_check_geometric(qdot_plan *plan, qdot_scene *scene);
 

@@ -4,6 +4,7 @@
 #include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
 #include "sim/run/chart-run.h"
+#include "sim/run/long-run.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 #include "sim/run/scales.h"
@@ -497,9 +498,39 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     return status;
 }
 
-/* touch_tol: of the course. */
+/* The tolerance that a run of many steps takes, in place of tol. */
 static qdot_status
-make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_run **out)
+foresee(const qdot_run *run, double tol, double *better)
+{
+    const qdot_long_run it = {.plan = run->plan,
+                              .system = qdot_course_systems(&run->course),
+                              .start = run->start,
+                              .low = run->start_low,
+                              .t0 = run->t0,
+                              .t1 = run->t1,
+                              .tol = tol};
+
+    *better = tol;
+    return is_whole(run) && run->stage.events.n == 0 ? qdot_long_run_tolerance(&it, better)
+                                                     : QDOT_OK;
+}
+
+/* Add to the notice that the tolerance is a tighter one. */
+static qdot_status
+say_tighter(qdot_run *run, double tol)
+{
+    qdot_text_format(qdot_run_next_notice(run),
+                     "more than %g steps were foreseen: under tol %.3g, not %.3g, the energy errs by "
+                     "rounding alone; method taylor keeps to tol",
+                     QDOT_LONG_STEPS, run->report.tol, tol);
+    return qdot_text_status(&run->notice);
+}
+
+/* touch_tol: of the course; *better: the tolerance that it should have, before anything was
+ * integrated. */
+static qdot_status
+make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double *better,
+     qdot_run **out)
 {
     const qdot_run_request precise = qdot_precise_request(asked);
     const qdot_run_request *request = asked->digits ? &precise : asked;
@@ -518,6 +549,13 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     if (status == QDOT_OK) {
         run->plan = run->stage.modes.at[0]->plan;
         status = qdot_run_start(run, scene, request);
+    }
+    *better = request->tol;
+    if (status == QDOT_OK && !request->digits)
+        status = foresee(run, request->tol, better);
+    if (status == QDOT_OK && *better != request->tol) {
+        qdot_run_free(run);
+        return QDOT_OK;
     }
     if (status == QDOT_OK)
         status = request->digits
@@ -545,14 +583,23 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     return interrupted ? QDOT_EINTR : QDOT_OK;
 }
 
-/* Make the run, anew while a touch of an event is none. */
+/* Make the run, anew where it is long, and while a touch of an event is none. */
 static qdot_status
 make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
+    qdot_run_request request = *asked;
+
     for (double touch_tol = asked->tol;;) {
         const double before = touch_tol;
+        double better;
 
-        QDOT_TRY(make(scene, asked, touch_tol, out));
+        QDOT_TRY(make(scene, &request, touch_tol, &better, out));
+        if (!*out) {
+            request.tol = better;
+            continue;
+        }
+        if (request.tol != asked->tol)
+            QDOT_TRY(say_tighter(*out, asked->tol));
         if (asked->digits)
             return QDOT_OK;
         QDOT_TRY(qdot_run_decide_touches(*out, &touch_tol));

@@ -9,14 +9,13 @@
 #include "num/sort.h"
 #include "ode/integrate.h"
 #include "ode/scale.h"
-#include "sim/course/bind.h"
 #include "sim/course/course.h"
 #include "sim/course/run-state.h"
 #include "sim/error/horizon.h"
+#include "sim/form/derived.h"
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
-#include "sim/plan/plan.h"
-#include "sim/start/start.h"
+#include "sim/study/method-run.h"
 #include "tape/constant.h"
 
 enum { FIRST = 3, LAST = 15, REFERENCE_DIGITS = 20, MOST_TIMES = 9 };
@@ -31,21 +30,13 @@ static const double rounding = 1e-14;
 
 /* A method at work. */
 typedef struct {
-    qdot_run_request request;
-    qdot_stage stage;
+    qdot_method_run run;
     qdot_course course; /* of a run that may be divided into pieces */
-    bool pieces;
     double t_end;
-    qdot_plan *plan; /* the stage's */
-    qdot_bind *bind;
     qdot_ode_system inner, system; /* the system counts evaluations of the inner one */
     qdot_ode_series series;
     uint64_t evaluations, most_evaluations;
-    double t0, t1, t1_low;
-    double *start, *low, *y; /* [2n] */
-    /* the energy along a run */
-    qdot_tape *energy; /* NULL: not conserved */
-    double *in, *work, energy0, drift;
+    double drift;           /* of the energy along a run */
     qdot_constrained *held; /* NULL: no constraints */
     double residual;        /* the largest met */
 } worker;
@@ -180,13 +171,8 @@ margin(double t, const double *y, void *user)
 static void
 follow_energy(worker *w, double t, const double *y)
 {
-    const size_t n = w->inner.n;
-    double h, change;
+    const double change = fabs(qdot_method_run_energy_error(&w->run, t, y));
 
-    memcpy(w->in, y, n * sizeof *y);
-    w->in[n] = t;
-    qdot_tape_eval(w->energy, w->in, &h, w->work);
-    change = fabs(h - w->energy0) / fmax(1, fabs(w->energy0));
     if (!(change <= w->drift))
         w->drift = change;
 }
@@ -207,7 +193,7 @@ follow(double t, const double *y, bool *stop, void *user)
     worker *w = user;
 
     (void)stop;
-    if (w->energy)
+    if (w->run.energy)
         follow_energy(w, t, y);
     if (w->held)
         follow_constraints(w, t, y);
@@ -218,97 +204,7 @@ static void
 worker_clear(worker *w)
 {
     qdot_course_clear(&w->course);
-    qdot_bind_free(w->bind);
-    qdot_stage_clear(&w->stage);
-    qdot_tape_free(w->energy);
-    qdot_free(w->start);
-    qdot_free(w->in);
-}
-
-static qdot_status
-read_start(worker *w, const qdot_run_request *request)
-{
-    const size_t n = w->plan->n;
-    double low;
-    int side;
-
-    w->start = qdot_calloc(6 * n, sizeof *w->start);
-    if (!w->start)
-        return QDOT_ENOMEM;
-    w->low = w->start + 2 * n;
-    w->y = w->low + 2 * n;
-    QDOT_TRY(qdot_plan_number(w->plan, request->t0, &w->t0, &side, &low));
-    QDOT_TRY(qdot_plan_number(w->plan, request->t1, &w->t1, &side, &w->t1_low));
-    for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(qdot_plan_number(w->plan, request->q0[i], &w->start[i], &side, &w->low[i]));
-        QDOT_TRY(qdot_plan_number(w->plan, request->v0[i], &w->start[n + i], &side, &w->low[n + i]));
-    }
-    return QDOT_OK;
-}
-
-/* The projected start may lie on another side of a surface. */
-static qdot_status
-settle_side(worker *w)
-{
-    bool anew;
-
-    qdot_bind_free(w->bind); /* of a plan that may go */
-    w->bind = NULL;
-    w->held = NULL;
-    QDOT_TRY(qdot_stage_settle(&w->stage, w->start, &anew));
-    w->plan = w->stage.modes.at[0]->plan;
-    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
-    QDOT_TRY(qdot_bind_scale(w->bind, w->stage.scales));
-    w->held = qdot_bind_held(w->bind);
-    return QDOT_OK;
-}
-
-/* Bring the start onto the constraints. */
-static qdot_status
-settle_start(worker *w, qdot_scene *scene, const qdot_run_request *request)
-{
-    qdot_domains domains = {0};
-    qdot_text notice = {0};
-    qdot_status status;
-
-    w->held = qdot_bind_held(w->bind);
-    if (!w->held)
-        return QDOT_OK;
-    status = qdot_domains_find(w->plan, &domains);
-    if (status == QDOT_OK)
-        status =
-            qdot_start_settle(scene, w->plan, request, &domains, w->start, w->low, &notice);
-    if (status == QDOT_OK && w->stage.switches.surfaces.n > 0)
-        status = settle_side(w);
-    if (status == QDOT_OK)
-        status = qdot_bind_check(w->bind, w->t0, w->start, w->low);
-    qdot_text_clear(&notice);
-    qdot_domains_clear(&domains);
-    return status;
-}
-
-static qdot_status
-prepare_energy(worker *w, qdot_scene *scene)
-{
-    const qdot_plan *p = w->plan;
-    const size_t n = 2 * p->n;
-    bool conserved = false;
-    qdot_expr h;
-
-    QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
-    if (!conserved)
-        return QDOT_OK;
-    h = qdot_plan_substitute(p, qdot_mech_energy(scene));
-    QDOT_TRY(qdot_pool_check(p->pool));
-    QDOT_TRY(qdot_tape_new(p->pool, n + 1, p->inputs, 1, &h, &w->energy));
-    w->in = qdot_calloc(n + 1 + qdot_tape_work(w->energy) + 1, sizeof *w->in);
-    if (!w->in)
-        return QDOT_ENOMEM;
-    w->work = w->in + n + 1;
-    memcpy(w->in, w->start, n * sizeof *w->in);
-    w->in[n] = w->t0;
-    qdot_tape_eval(w->energy, w->in, &w->energy0, w->work);
-    return QDOT_OK;
+    qdot_method_run_clear(&w->run);
 }
 
 static qdot_status
@@ -317,29 +213,17 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
 {
     double n, operations;
 
-    w->request = *request;
-    w->request.method = method;
-    w->request.digits = 0;
-    w->request.tol = tol;
-    QDOT_TRY(qdot_stage_begin(&w->stage, scene, &w->request));
-    w->plan = w->stage.modes.at[0]->plan;
-    w->pieces = w->stage.switches.surfaces.n > 0;
-    for (size_t i = 0; i < w->stage.events.n; i++)
-        w->pieces = w->pieces || w->stage.events.at[i].stop || w->stage.events.at[i].then;
-    QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
-    QDOT_TRY(qdot_bind_scale(w->bind, w->stage.scales));
-    QDOT_TRY(read_start(w, request));
-    QDOT_TRY(settle_start(w, scene, request));
-    QDOT_TRY(prepare_energy(w, scene));
-    w->inner = w->system = qdot_bind_system(w->bind);
+    QDOT_TRY(qdot_method_run_init(&w->run, scene, request, method, tol));
+    w->held = w->run.held;
+    w->inner = w->system = qdot_bind_system(w->run.bind);
     w->system.rhs = counted_rhs;
     w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
     w->system.project = w->inner.project ? project : NULL;
     w->system.margin = w->inner.margin ? margin : NULL;
     w->system.user = w;
-    n = (double)(w->plan->n + w->plan->m);
-    operations = (double)qdot_plan_operations(w->plan, NULL) + n * n * n / 3 + 100;
-    if (w->plan->method->series) /* an expansion is worth a few hundred evaluations */
+    n = (double)(w->run.plan->n + w->run.plan->m);
+    operations = (double)qdot_plan_operations(w->run.plan, NULL) + n * n * n / 3 + 100;
+    if (w->run.plan->method->series) /* an expansion is worth a few hundred evaluations */
         operations *= 200;
     w->most_evaluations = (uint64_t)fmax(100, budget / operations);
     return QDOT_OK;
@@ -349,10 +233,10 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
 static bool
 keeps_energy(const worker *w)
 {
-    for (size_t i = 0; i < w->stage.events.n; i++)
-        if (w->stage.events.at[i].then)
+    for (size_t i = 0; i < w->run.stage.events.n; i++)
+        if (w->run.stage.events.at[i].then)
             return false;
-    return w->energy != NULL;
+    return w->run.energy != NULL;
 }
 
 /* What is followed, at all points of the course. */
@@ -379,23 +263,23 @@ follow_course(worker *w)
 static qdot_status
 go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
-    const uint64_t a_step = w->plan->method->series ? 1 : 10; /* evaluations, about */
+    const uint64_t a_step = w->run.plan->method->series ? 1 : 10; /* evaluations, about */
     const qdot_ode_options options = {.tol = tol,
-                                      .carry = w->low,
-                                      .t1_low = w->t1_low,
+                                      .carry = w->run.low,
+                                      .t1_low = w->run.t1_low,
                                       .max_steps = w->most_evaluations / a_step + 1};
     const qdot_trajectory *tr = &w->course.tr;
     qdot_status status;
 
     qdot_course_clear(&w->course);
-    w->course.stage = &w->stage;
+    w->course.stage = &w->run.stage;
     w->course.touch_tol = tol;
     w->course.most_looked = w->most_evaluations;
-    status = qdot_course_run(&w->course, w->plan->method, &options, w->t0, w->t1, w->start);
+    status = qdot_course_run(&w->course, w->run.plan->method, &options, w->run.t0, w->run.t1, w->run.start);
     *result = tr->result;
     if (tr->count == 0)
         return status == QDOT_OK ? qdot_fail(QDOT_EFAILED, "nothing was integrated") : status;
-    memcpy(w->y, tr->y + (tr->count - 1) * tr->n, tr->n * sizeof *w->y);
+    memcpy(w->run.y, tr->y + (tr->count - 1) * tr->n, tr->n * sizeof *w->run.y);
     w->t_end = tr->t[tr->count - 1];
     if (status == QDOT_OK && w->course.failed)
         return qdot_fail(QDOT_EFAILED, "%s", w->course.reason);
@@ -409,23 +293,23 @@ static qdot_status
 go(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
     qdot_ode_options options = {
-        .tol = tol, .carry = w->low, .t1_low = w->t1_low};
+        .tol = tol, .carry = w->run.low, .t1_low = w->run.t1_low};
 
-    qdot_progress_begin(w->t0, w->t1, "%s, tol %.0e", w->plan->method->name, tol);
-    if (w->pieces)
+    qdot_progress_begin(w->run.t0, w->run.t1, "%s, tol %.0e", w->run.plan->method->name, tol);
+    if (w->run.pieces)
         return go_in_pieces(w, tol, watched, result);
-    memcpy(w->y, w->start, w->inner.n * sizeof *w->y);
+    memcpy(w->run.y, w->run.start, w->inner.n * sizeof *w->run.y);
     w->evaluations = 0;
-    w->t_end = w->t1;
-    if (watched && (w->energy || w->held)) {
+    w->t_end = w->run.t1;
+    if (watched && (w->run.energy || w->held)) {
         w->drift = w->residual = 0;
         options.accepted = follow;
         options.user = w;
     }
-    if (w->plan->method->series || w->plan->method->geometric) /* told beforehand */
+    if (w->run.plan->method->series || w->run.plan->method->geometric) /* told beforehand */
         options.max_steps = w->most_evaluations;
-    return qdot_ode_integrate(watched ? &w->system : &w->inner, w->plan->method, &options,
-                              w->t0, w->t1, w->y, result);
+    return qdot_ode_integrate(watched ? &w->system : &w->inner, w->run.plan->method, &options,
+                              w->run.t0, w->run.t1, w->run.y, result);
 }
 
 /* Three runs at least, more of short ones. */
@@ -460,7 +344,7 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
     qdot_ode_result result;
     qdot_status status = go(w, tol, true, &result);
 
-    *row = (qdot_workprecision_row){.method = w->plan->method->name,
+    *row = (qdot_workprecision_row){.method = w->run.plan->method->name,
                                     .tol = tol,
                                     .err = NAN,
                                     .scd = NAN,
@@ -477,12 +361,12 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
         return QDOT_OK;
     }
     QDOT_TRY(status);
-    if (r->stopped != (w->pieces && w->course.stopped_by != SIZE_MAX)) {
+    if (r->stopped != (w->run.pieces && w->course.stopped_by != SIZE_MAX)) {
         strcpy(row->status, r->stopped ? "failed: the event that ends the run was not met"
                                        : "failed: an event ended the run");
         return QDOT_OK;
     }
-    row->err = error_against(r, w->stage.scales, w->y, w->t_end);
+    row->err = error_against(r, w->run.stage.scales, w->run.y, w->t_end);
     strcpy(row->status, row->err > rounding
                                 && row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
                             ? "done: no digit is right"
@@ -526,7 +410,7 @@ rung(int k)
 static bool
 is_planned_anew(const worker *w)
 {
-    return w->plan->constraints && w->plan->method->series;
+    return w->run.plan->constraints && w->run.plan->method->series;
 }
 
 /* A method over the ladder. */

@@ -1,0 +1,244 @@
+/* longtime.c -- the error of the energy over a long time, every method: a table, a figure, a file. */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/wrap.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/commands/statement.h"
+#include "lang/figures/figure-option.h"
+#include "lang/language/read.h"
+#include "lang/runs/error-time.h"
+#include "lang/runs/request.h"
+#include "sim/study/longtime.h"
+
+typedef struct {
+    double tol;         /* 0: not said */
+    const char *method; /* NULL: not said */
+    const qdot_token *method_at;
+    qdot_figure_choice figure;
+    qdot_panel_choice panel;
+} choices;
+
+/* --- what is told ------------------------------------------------------------------- */
+
+static void
+csv(const qdot_longtime *l, qdot_text *out)
+{
+    qdot_text_add(out, "method,tol,t,error\n");
+    for (size_t k = 0; k < l->n; k++)
+        for (size_t i = 0; i < l->rows[k].n; i++) {
+            qdot_text_format(out, "%s,", l->rows[k].method);
+            qdot_text_double(out, l->rows[k].tol, 1);
+            qdot_text_char(out, ',');
+            qdot_text_double(out, l->rows[k].t[i], 17);
+            qdot_text_char(out, ',');
+            qdot_text_double(out, l->rows[k].error[i], 17);
+            qdot_text_char(out, '\n');
+        }
+}
+
+/* "t^1.00 +- 0.02" */
+static void
+growth(const qdot_longtime_row *r, qdot_text *out)
+{
+    char text[40] = "-";
+
+    if (!isnan(r->growth))
+        snprintf(text, sizeof text, "t^%.2f +- %.2f", r->growth, r->growth_error);
+    qdot_text_format(out, QDOT_WRAP_CELL "%17s", text);
+}
+
+static void
+table(const qdot_longtime *l, qdot_text *out)
+{
+    qdot_text_format(out, "%-12s" QDOT_WRAP_CELL "%7s" QDOT_WRAP_CELL "%10s" QDOT_WRAP_CELL
+                          "%12s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL
+                          "%17s" QDOT_WRAP_CELL "  status\n",
+                     "method", "tol", "steps", "evals", "time/s", "error", "growth");
+    for (size_t k = 0; k < l->n; k++) {
+        const qdot_longtime_row *r = l->rows + k;
+
+        qdot_text_format(out, "%-12s" QDOT_WRAP_CELL "%7.0e" QDOT_WRAP_CELL "%10llu"
+                              QDOT_WRAP_CELL "%12llu" QDOT_WRAP_CELL "%9.2g" QDOT_WRAP_CELL
+                              "%9.1e",
+                         r->method, r->tol, (unsigned long long)r->steps,
+                         (unsigned long long)r->evals, r->cpu, r->largest);
+        growth(r, out);
+        qdot_text_format(out, QDOT_WRAP_CELL "  %s\n", r->status);
+    }
+    qdot_text_add(out, "error: the largest |E - E0| / max(1, |E0|) met; growth: of its root mean square in "
+                       "windows of time,\nfitted to the later half of them, with twice the standard "
+                       "error\n");
+}
+
+/* A row for each window; the growth as a number for each method. */
+static qdot_status
+rows_json(qdot_session *session, const qdot_longtime *l)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t k = 0; k < l->n && status == QDOT_OK; k++) {
+        const qdot_longtime_row *r = l->rows + k;
+
+        for (size_t i = 0; i < r->n && status == QDOT_OK; i++) {
+            qdot_text_clear(&text);
+            qdot_text_json(&text, r->method);
+            qdot_text_char(&text, ',');
+            qdot_number_text_json(&text, r->tol);
+            qdot_text_char(&text, ',');
+            qdot_number_text_json(&text, r->t[i]);
+            qdot_text_char(&text, ',');
+            qdot_number_text_json(&text, r->error[i]);
+            status = qdot_answer_cells(session, &text);
+        }
+        if (status == QDOT_OK && strcmp(r->status, "done") != 0)
+            status = qdot_answer_notice(session, "method %s, tol %.0e: %s", r->method, r->tol,
+                                        r->status);
+        qdot_text_clear(&text);
+        qdot_text_format(&text, "growth[%s]", r->method);
+        if (status == QDOT_OK)
+            status = qdot_answer_number(session, qdot_text_str(&text), r->growth, r->growth_error);
+    }
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+answer_table(qdot_session *session, const qdot_longtime *l)
+{
+    qdot_text text = {0};
+
+    if (session->json)
+        return rows_json(session, l);
+    table(l, &text);
+    return qdot_answer_written(session, "longtime", QDOT_OK, &text);
+}
+
+static qdot_status
+figure(qdot_session *session, const qdot_longtime *l, const choices *chosen)
+{
+    qdot_error_point *points = qdot_calloc(l->n * QDOT_LONGTIME_WINDOWS + 1, sizeof *points);
+    qdot_text note = {0};
+    qdot_error_time of = {.title = "error of the energy over long times",
+                          .abscissa = "time",
+                          .ordinate = "|E - E0| / max(1, |E0|)",
+                          .note = &note,
+                          .none = "no method came far enough",
+                          .points = points,
+                          .figure = &chosen->figure,
+                          .panel = &chosen->panel};
+    qdot_status status;
+
+    if (points == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < l->n; k++)
+        for (size_t i = 0; i < l->rows[k].n; i++)
+            points[of.n++] = (qdot_error_point){l->rows[k].method, l->rows[k].t[i],
+                                                l->rows[k].error[i]};
+    qdot_text_add(&note, "root mean squares in windows of time");
+    status = qdot_error_time_show(session, &of);
+    qdot_text_clear(&note);
+    qdot_free(points);
+    return status;
+}
+
+static qdot_status
+tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
+{
+    const char *path = chosen->figure.path;
+    qdot_text text = {0};
+    qdot_status status;
+
+    for (size_t i = 0; i < l->n_unfit; i++)
+        QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s", l->unfit[i].method,
+                                    l->unfit[i].reason));
+    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
+        QDOT_TRY(answer_table(session, l));
+        if (l->interrupted && path == NULL)
+            return QDOT_OK; /* who stopped it does not wait for a figure */
+        return figure(session, l, chosen);
+    }
+    (qdot_ends_in(path, ".csv") ? csv : table)(l, &text);
+    status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- the statement ------------------------------------------------------------------ */
+
+static qdot_status
+read_options(qdot_cursor *c, choices *chosen)
+{
+    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
+    const qdot_token *start = c->at;
+    bool good = false;
+
+    for (;;) {
+        if (qdot_cursor_accept_word(c, "tol")) {
+            QDOT_TRY(qdot_cursor_once(c, "tol", chosen->tol != 0));
+            start = c->at;
+            QDOT_TRY(qdot_read_number(c, &chosen->tol));
+            c->error_at = start->start;
+            if (!(chosen->tol >= 1e-16 && chosen->tol < 1))
+                return qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
+        } else if (qdot_cursor_accept_word(c, "method")) {
+            QDOT_TRY(qdot_cursor_once(c, "method", chosen->method != NULL));
+            if (c->at->kind != QDOT_TOKEN_NAME)
+                return qdot_cursor_expected(c, "the name of a method");
+            chosen->method_at = c->at;
+            chosen->method = c->at++->text;
+        } else {
+            break;
+        }
+    }
+    start = c->at;
+    QDOT_TRY(qdot_figure_option_read(c, &chosen->figure, &chosen->panel));
+    if (!qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, "`tol`, `method`, " QDOT_FIGURE_OPTIONS);
+    for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
+        good = good || qdot_ends_in(chosen->figure.path, known[i]);
+    if (good || chosen->figure.path == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
+                    chosen->figure.path);
+    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+}
+
+qdot_status
+qdot_longtime_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_session *session = c->session;
+    qdot_request order = {0};
+    qdot_longtime l = {0};
+    choices chosen = {0};
+    qdot_expr from, to;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    QDOT_TRY(read_options(c, &chosen));
+    c->error_at = start->start;
+    l.tol = chosen.tol;
+    l.method = chosen.method;
+    status = qdot_request_fill(session, &order);
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, &order);
+    if (status == QDOT_OK)
+        status = qdot_longtime_measure(session->scene, &order.request, &l);
+    if (l.interrupted)
+        qdot_interrupt_clear(); /* heard: the rows so far are told */
+    if (status == QDOT_OK)
+        status = tell(session, &l, &chosen);
+    if (status == QDOT_OK && l.interrupted)
+        status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu methods", l.n);
+    status = qdot_request_explain(session, &order, status);
+    if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && chosen.method_at != NULL)
+        c->error_at = chosen.method_at->start;
+    qdot_longtime_clear(&l);
+    qdot_request_free(&order);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* phase-space.h -- canonical momenta of a plan, for methods that are symplectic in (q, p).
+ *
+ *     p = dL/dq' = M(q, t) q' + b(q, t)          so   M q' = p - b
+ *     p' = M q'' + sum_j dp/dq_j q_j' + dp/dt,    M q'' = f
+ *
+ * Where M is a matrix of numbers and b does not depend on q, q' itself will do.
+ *
+ * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1.
+ * Tests   tests/sim/test_phase-space.c
+ */
+#ifndef QDOT_SIM_PHASE_SPACE_H
+#define QDOT_SIM_PHASE_SPACE_H
+
+#include "mech/scene/scene.h"
+#include "ode/system.h"
+#include "sim/model/equations.h"
+
+/* Tapes from q [n], q' [n], t. */
+struct qdot_phase_space {
+    size_t n;
+    qdot_tape *momenta; /* p [n] */
+    qdot_tape *masses;  /* b [n], the lower triangle of M by rows; they do not depend on q' */
+    qdot_tape *forces;  /* p' [n] */
+};
+
+/* Of a plan with M and f and without constraints; *space NULL where q' itself will do. QDOT_ENOTBUILT:
+ * M depends on q'; those of the pool, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan,
+                                                 qdot_phase_space **space);
+void qdot_phase_space_free(qdot_phase_space *space);
+
+/* A phase space with room of its own, for one thread. */
+typedef struct qdot_phase qdot_phase;
+QDOT_MUST_CHECK qdot_status qdot_phase_new(const qdot_phase_space *space, qdot_phase **phase);
+void qdot_phase_free(qdot_phase *phase);
+/* Its callbacks; valid while it lives. */
+const qdot_ode_phase *qdot_phase_get(const qdot_phase *phase);
+
+#endif

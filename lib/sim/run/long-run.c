@@ -1,0 +1,74 @@
+/* long-run.c -- foresees the number of steps of a run from its first ones. */
+#include "sim/run/long-run.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/integrate.h"
+
+/* The tolerance of a run for which none was said. */
+static const double tol_unsaid = 1e-12;
+
+/* A look at so many steps, and at more where these make a long run likely. */
+enum { few_steps = 2, first_steps = 64 };
+static const double unlikely = QDOT_LONG_STEPS / 50;
+
+/* Points are kept up to 2 GB; half of it is left for their low parts and the companions'. */
+static const double most_bytes = 1e9;
+
+static qdot_status
+count(double t, const double *y, bool *stop, void *user)
+{
+    int *left = user;
+
+    (void)t;
+    (void)y;
+    *stop = --*left == 0;
+    return QDOT_OK;
+}
+
+/* The number of steps of the whole; 0 if the first `looked` ones do not tell. */
+static qdot_status
+foresee(const qdot_long_run *run, int looked, double *steps)
+{
+    int left = looked;
+    qdot_ode_options options = {
+        .tol = run->tol, .carry = run->low, .accepted = count, .user = &left};
+    double *y = qdot_malloc(run->system->n * sizeof *y);
+    qdot_ode_result result;
+    qdot_status status;
+
+    *steps = 0;
+    if (!y)
+        return QDOT_ENOMEM;
+    memcpy(y, run->start, run->system->n * sizeof *y);
+    status = qdot_ode_integrate(run->system, run->plan->method, &options, run->t0, run->t1, y,
+                                &result);
+    qdot_free(y);
+    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        return status;
+    if (result.outcome == QDOT_ODE_STOPPED)
+        *steps = looked * ((run->t1 - run->t0) / (result.t - run->t0));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_long_run_tolerance(const qdot_long_run *run, double *tol)
+{
+    const qdot_plan *p = run->plan;
+    const double bytes = (double)(1 + 2 * run->system->n) * sizeof(double);
+    double steps;
+
+    *tol = run->tol;
+    if (!p->chosen || !p->method->series || !p->smooth || p->constraints || p->n_states > 0
+        || fabs(run->tol / tol_unsaid - 1) > 1e-9)
+        return QDOT_OK;
+    QDOT_TRY(foresee(run, few_steps, &steps));
+    if (!(steps > unlikely))
+        return QDOT_OK;
+    QDOT_TRY(foresee(run, first_steps, &steps));
+    if (steps > QDOT_LONG_STEPS && steps * bytes < most_bytes)
+        *tol = QDOT_LONG_TOL;
+    return QDOT_OK;
+}

@@ -1,0 +1,319 @@
+/* longtime.c -- runs a method over a long time, and looks at the energy in growing windows. */
+#include "sim/study/longtime.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/progress.h"
+#include "ode/integrate.h"
+#include "ode/meter.h"
+#include "sim/model/parameter-states.h"
+#include "sim/study/method-run.h"
+
+/* Work of a run in nanoseconds; how much more than foretold it may take. */
+static const double budget_default = 3e9, slack = 4;
+
+static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
+
+enum { foretelling_steps = 1000, least_in_window = 8, samples_in_window = 256 };
+
+/* A run without an end of its own. */
+static const uint64_t no_bound = UINT64_MAX / 2;
+
+/* A run that is watched. */
+typedef struct {
+    qdot_method_run *run;
+    qdot_longtime_row *row;
+    qdot_ode_meter meter;
+    double most_work;
+    uint64_t steps, next, draw; /* the step to be looked at next; for irregular distances */
+    double square;              /* sum of e^2 in the window */
+    size_t count, window;
+    bool too_much;
+} watched;
+
+/* --- the growth --------------------------------------------------------------------- */
+
+void
+qdot_longtime_fit(size_t n, const double *x, const double *y, double *slope, double *error)
+{
+    double u = 0, v = 0, uu = 0, uv = 0, squares = 0, products = 0, before = 0, c;
+
+    *slope = *error = NAN;
+    for (size_t i = 0; i < n; i++) {
+        if (!(y[i] > 0))
+            return;
+        u += log(x[i]) / (double)n;
+        v += log(y[i]) / (double)n;
+    }
+    if (n < 4)
+        return;
+    for (size_t i = 0; i < n; i++) {
+        uu += (log(x[i]) - u) * (log(x[i]) - u);
+        uv += (log(x[i]) - u) * (log(y[i]) - v);
+    }
+    *slope = uv / uu;
+    for (size_t i = 0; i < n; i++) {
+        const double r = log(y[i]) - v - *slope * (log(x[i]) - u);
+
+        squares += r * r;
+        products += i ? r * before : 0;
+        before = r;
+    }
+    c = squares > 0 ? fmin(0.95, fmax(0, products / squares)) : 0;
+    *error = 2 * sqrt(squares / (double)(n - 2) / uu * (1 + c) / (1 - c));
+}
+
+/* The later half of the windows, in log t. */
+static void
+find_growth(qdot_longtime_row *row)
+{
+    const size_t first = row->n / 2;
+
+    qdot_longtime_fit(row->n - first, row->t + first, row->error + first, &row->growth,
+                      &row->growth_error);
+}
+
+/* --- a run -------------------------------------------------------------------------- */
+
+/* The end of window k of `windows`, as a part of the run. */
+static double
+end_of(size_t k)
+{
+    return pow(2, 0.5 * ((double)k - (QDOT_LONGTIME_WINDOWS - 1)));
+}
+
+/* Close the window; one with few steps, at the beginning, is left out. */
+static void
+close_window(watched *w, double t)
+{
+    qdot_longtime_row *row = w->row;
+
+    if (w->count >= least_in_window) {
+        row->t[row->n] = t;
+        row->error[row->n++] = sqrt(w->square / (double)w->count);
+        w->square = 0;
+        w->count = 0;
+    }
+}
+
+static qdot_status
+look(double t, const double *y, bool *stop, void *user)
+{
+    watched *w = user;
+    const qdot_method_run *m = w->run;
+    const double past = fabs(t - m->t0), whole = fabs(m->t1 - m->t0);
+
+    if (w->meter.work > w->most_work)
+        *stop = w->too_much = true;
+    if (++w->steps < w->next && t != m->t1)
+        return QDOT_OK;
+    /* irregular distances: no period of the motion is met at one phase */
+    w->draw = w->draw * 6364136223846793005u + 1442695040888963407u;
+    w->next = w->steps + 1 + (w->draw >> 33) % (1 + w->steps / samples_in_window);
+    {
+        const double e = qdot_method_run_energy_error(w->run, t, y);
+
+        w->square += e * e;
+        w->count++;
+        w->row->largest = fmax(w->row->largest, fabs(e));
+    }
+    if (past >= end_of(w->window) * whole || t == m->t1) {
+        close_window(w, past);
+        while (w->window + 1 < QDOT_LONGTIME_WINDOWS && past >= end_of(w->window) * whole)
+            w->window++;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+count_steps(double t, const double *y, bool *stop, void *user)
+{
+    uint64_t *left = user;
+
+    (void)t;
+    (void)y;
+    *stop = --*left == 0;
+    return QDOT_OK;
+}
+
+static qdot_status
+integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_result *result)
+{
+    const qdot_ode_system system = qdot_bind_system(m->bind);
+
+    options->carry = m->low;
+    options->t1_low = m->t1_low;
+    options->max_steps = no_bound;
+    memcpy(m->y, m->start, system.n * sizeof *m->y);
+    qdot_ode_meter_begin(options->meter, m->t0, m->t1);
+    return qdot_ode_integrate(&system, m->plan->method, options, m->t0, m->t1, m->y, result);
+}
+
+/* The work of the whole, as its first steps foretell it; INFINITY: they fail. */
+static qdot_status
+foretell(qdot_method_run *m, double tol, double *work)
+{
+    uint64_t left = foretelling_steps;
+    qdot_ode_meter meter = {0};
+    qdot_ode_options options = {
+        .tol = tol, .accepted = count_steps, .user = &left, .meter = &meter};
+    qdot_ode_result result;
+    const qdot_status status = integrate(m, &options, &result);
+
+    *work = INFINITY;
+    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        return status;
+    if (result.t != m->t0)
+        *work = meter.work * ((m->t1 - m->t0) / (result.t - m->t0));
+    return QDOT_OK;
+}
+
+static qdot_status
+watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
+{
+    watched w = {.run = m, .row = row, .most_work = most_work};
+    qdot_ode_options options = {.tol = row->tol,
+                                .accepted = look,
+                                .user = &w,
+                                .meter = &w.meter,
+                                .stiff_work = most_work};
+    qdot_ode_result result;
+    qdot_status status;
+
+    qdot_progress_begin(m->t0, m->t1, "%s, tol %.0e", row->method, row->tol);
+    status = integrate(m, &options, &result);
+    if (status == QDOT_EINTR || status == QDOT_ENOMEM)
+        return status;
+    row->steps = result.stats.steps;
+    row->evals = result.stats.evaluations;
+    row->cpu = result.stats.cpu;
+    if (status != QDOT_OK)
+        snprintf(row->status, sizeof row->status, "failed: %.280s", result.reason);
+    else if (w.too_much)
+        snprintf(row->status, sizeof row->status,
+                 "stopped at t = %.6g: more work than its first steps foretold", result.t);
+    else
+        strcpy(row->status, "done");
+    find_growth(row);
+    return QDOT_OK;
+}
+
+/* --- a method ----------------------------------------------------------------------- */
+
+static qdot_status
+check(const qdot_method_run *m)
+{
+    if (m->pieces)
+        return qdot_fail(QDOT_EFAILED, "an event or a switch may divide the run");
+    if (!m->energy) {
+        qdot_fail(QDOT_EFAILED, "the energy of this scene is not conserved");
+        return qdot_hint("take the friction, or what depends on time, away");
+    }
+    if (m->t0 == m->t1)
+        return qdot_fail(QDOT_EINVAL, "the run has no length");
+    return QDOT_OK;
+}
+
+/* At one tolerance: *done unless the work foretold exceeds `most`. */
+static qdot_status
+try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_longtime_row *row,
+       bool *done)
+{
+    qdot_method_run m = {0};
+    double work = 0;
+    qdot_status status = qdot_method_run_init(&m, scene, request, row->method, row->tol);
+
+    *done = false;
+    if (status == QDOT_OK)
+        status = check(&m);
+    if (status == QDOT_OK)
+        status = foretell(&m, row->tol, &work);
+    if (status == QDOT_OK && !(work <= most)) {
+        snprintf(row->status, sizeof row->status,
+                 "failed: at tol %.0e it would take %.2g times the work it may", row->tol,
+                 work / most);
+    } else if (status == QDOT_OK) {
+        *done = true;
+        status = watch(&m, isfinite(most) ? slack * most : INFINITY, row);
+    }
+    qdot_method_run_clear(&m);
+    return status;
+}
+
+static qdot_status
+push_row(qdot_longtime *out, const qdot_longtime_row *row)
+{
+    QDOT_TRY(qdot_grow(&out->rows, &out->capacity, out->n + 1, sizeof *out->rows));
+    out->rows[out->n++] = *row;
+    return QDOT_OK;
+}
+
+static qdot_status
+push_unfit(qdot_longtime *out, const char *method)
+{
+    qdot_longtime_unfit *u;
+
+    QDOT_TRY(qdot_grow(&out->unfit, &out->unfit_capacity, out->n_unfit + 1, sizeof *out->unfit));
+    u = &out->unfit[out->n_unfit++];
+    u->method = method;
+    snprintf(u->reason, sizeof u->reason, "%.299s", qdot_last_error()->message);
+    return QDOT_OK;
+}
+
+static qdot_status
+one_method(qdot_scene *scene, const qdot_run_request *request, const char *method,
+           qdot_longtime *out)
+{
+    const double most = out->budget > 0 ? out->budget : out->method ? INFINITY : budget_default;
+    const size_t rungs = out->tol > 0 ? 1 : sizeof tolerances / sizeof *tolerances;
+    qdot_longtime_row row;
+    qdot_status status = QDOT_OK;
+    bool done = false;
+
+    for (size_t k = 0; k < rungs && !done && status == QDOT_OK; k++) {
+        row = (qdot_longtime_row){.method = method,
+                                  .tol = out->tol > 0 ? out->tol : tolerances[k],
+                                  .growth = NAN,
+                                  .growth_error = NAN};
+        status = try_at(scene, request, most, &row, &done);
+    }
+    if (status == QDOT_ENOTBUILT && !out->method)
+        return push_unfit(out, method);
+    return status == QDOT_OK ? push_row(out, &row) : status;
+}
+
+static qdot_status
+measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+{
+    qdot_status status = QDOT_OK;
+
+    if (out->method)
+        return one_method(scene, request, out->method, out);
+    for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++)
+        status = one_method(scene, request, qdot_ode_method_at(i)->name, out);
+    return status;
+}
+
+qdot_status
+qdot_longtime_measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+{
+    qdot_parameter_states states = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
+    status = measure(scene, &states.request, out);
+    qdot_parameter_states_clear(&states);
+    out->interrupted = status == QDOT_EINTR && out->n > 0;
+    return out->interrupted ? QDOT_OK : status;
+}
+
+void
+qdot_longtime_clear(qdot_longtime *l)
+{
+    qdot_free(l->rows);
+    qdot_free(l->unfit);
+    *l = (qdot_longtime){0};
+}

@@ -1,0 +1,39 @@
+/* method-run.h -- a scene made ready for one method, without companions: for studies of methods.
+ *
+ * The plan, the system, the start (brought onto the constraints) and, where h is proved conserved,
+ *
+ *     (h(t) - h(t0)) / max(1, |h(t0)|)
+ *
+ * Tests  tests/sim/test_workprecision.c, test_longtime.c
+ */
+#ifndef QDOT_SIM_METHOD_RUN_H
+#define QDOT_SIM_METHOD_RUN_H
+
+#include "sim/course/bind.h"
+#include "sim/course/stage.h"
+
+/* Not to be copied: the stage points to the request. */
+typedef struct {
+    qdot_run_request request;
+    qdot_stage stage;
+    qdot_plan *plan; /* the stage's */
+    qdot_bind *bind;
+    qdot_constrained *held; /* NULL: no constraints */
+    bool pieces;            /* events or switches may divide the run */
+    double t0, t1, t1_low;
+    double *start, *low, *y; /* [2n] the exact start is start + low; y is work space */
+    qdot_tape *energy;       /* NULL: not conserved */
+    double *in, *work, energy0;
+} qdot_method_run;
+
+/* Start *m from {0}; clear it in any case. Errors: as qdot_run_new; QDOT_ENOTBUILT: the method does
+ * not fit. */
+QDOT_MUST_CHECK qdot_status qdot_method_run_init(qdot_method_run *m, qdot_scene *scene,
+                                                 const qdot_run_request *request,
+                                                 const char *method, double tol);
+void qdot_method_run_clear(qdot_method_run *m);
+
+/* The error of the energy at (t, y), as above; there must be one. */
+double qdot_method_run_energy_error(qdot_method_run *m, double t, const double *y);
+
+#endif
