@@ -440,6 +440,8 @@ library_sources = \
 	lib/sim/model/power-quotient.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
+	lib/sim/model/sliding-rows.c \
+	lib/sim/model/sliding.c \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
@@ -463,6 +465,7 @@ library_sources = \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
+	lib/sim/run/slides.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -850,6 +853,7 @@ library_headers = \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
+	lib/sim/model/sliding.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
@@ -867,6 +871,7 @@ library_headers = \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
+	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
@@ -1032,6 +1037,7 @@ unit_tests = \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
@@ -1194,6 +1200,7 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
 	tests/script/styles-names.lag \
@@ -2038,6 +2045,7 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \
 	tests/script/styles-names.out \
