@@ -274,6 +274,7 @@ library_sources = \
 	lib/num/bordered.c \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
+	lib/num/collocation.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
@@ -290,6 +291,9 @@ library_sources = \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
+	lib/ode/geometric/constant-steps.c \
+	lib/ode/geometric/gauss.c \
+	lib/ode/geometric/splitting.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
 	lib/ode/meter.c \
@@ -371,6 +375,7 @@ library_sources = \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-layer.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -435,6 +440,7 @@ library_sources = \
 	lib/sim/model/constraints.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
+	lib/sim/model/layer.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -447,6 +453,7 @@ library_sources = \
 	lib/sim/model/term-magnitude.c \
 	lib/sim/plan/cost.c \
 	lib/sim/plan/form.c \
+	lib/sim/plan/geometric.c \
 	lib/sim/plan/kept.c \
 	lib/sim/plan/parts.c \
 	lib/sim/plan/plan.c \
@@ -701,6 +708,7 @@ library_headers = \
 	lib/num/bordered.h \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
+	lib/num/collocation.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
@@ -724,6 +732,9 @@ library_headers = \
 	lib/ode/crawl.h \
 	lib/ode/dop853.def \
 	lib/ode/dop853.h \
+	lib/ode/geometric/composition.def \
+	lib/ode/geometric/geometric.h \
+	lib/ode/geometric/splitting.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
 	lib/ode/meter.h \
@@ -847,6 +858,7 @@ library_headers = \
 	lib/sim/model/constraints.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
+	lib/sim/model/layer.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -855,10 +867,12 @@ library_headers = \
 	lib/sim/model/request.h \
 	lib/sim/model/sliding.h \
 	lib/sim/model/substitute.h \
+	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
 	lib/sim/plan/cost.h \
 	lib/sim/plan/form.h \
+	lib/sim/plan/geometric.h \
 	lib/sim/plan/kept.h \
 	lib/sim/plan/parts.h \
 	lib/sim/plan/plan.h \
@@ -979,6 +993,7 @@ unit_tests = \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
+	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_real \
@@ -991,6 +1006,7 @@ unit_tests = \
 	tests/num/test_two \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
+	tests/ode/test_geometric \
 	tests/ode/test_integrate \
 	tests/ode/test_leading \
 	tests/ode/test_meter \
@@ -1062,6 +1078,7 @@ script_tests = \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
+	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1133,6 +1150,7 @@ script_tests = \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
 	tests/script/long-sums.lag \
+	tests/script/long-time-methods.lag \
 	tests/script/loops.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1235,8 +1253,11 @@ script_tests = \
 	tests/bad/binary.lag \
 	tests/bad/block-without-for.lag \
 	tests/bad/bound-coordinate.lag \
+	tests/bad/broken-power-digits.lag \
+	tests/bad/broken-power-rest.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
+	tests/bad/composition8-friction.lag \
 	tests/bad/constraint-contradicts.lag \
 	tests/bad/constraint-corner.lag \
 	tests/bad/constraint-jump.lag \
@@ -1283,6 +1304,7 @@ script_tests = \
 	tests/bad/function-operator-prime.lag \
 	tests/bad/function-recursion.lag \
 	tests/bad/function-syntax.lag \
+	tests/bad/gauss-mass.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
@@ -1435,6 +1457,8 @@ script_tests = \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
+	tests/bad/verlet-constraint.lag \
+	tests/bad/verlet-friction.lag \
 	tests/bad/write-nowhere.lag \
 	tests/bad/wrong-arguments.lag \
 	examples/acceleration-constraint.lag \
@@ -1488,6 +1512,7 @@ script_tests = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -1555,8 +1580,11 @@ test_files = \
 	tests/bad/binary.out \
 	tests/bad/block-without-for.out \
 	tests/bad/bound-coordinate.out \
+	tests/bad/broken-power-digits.out \
+	tests/bad/broken-power-rest.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
+	tests/bad/composition8-friction.out \
 	tests/bad/constraint-contradicts.out \
 	tests/bad/constraint-corner.out \
 	tests/bad/constraint-jump.out \
@@ -1603,6 +1631,7 @@ test_files = \
 	tests/bad/function-operator-prime.out \
 	tests/bad/function-recursion.out \
 	tests/bad/function-syntax.out \
+	tests/bad/gauss-mass.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
@@ -1755,6 +1784,8 @@ test_files = \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \
+	tests/bad/verlet-constraint.out \
+	tests/bad/verlet-friction.out \
 	tests/bad/write-nowhere.out \
 	tests/bad/wrong-arguments.out \
 	tests/examples/acceleration-constraint.out \
@@ -1794,6 +1825,7 @@ test_files = \
 	tests/examples/modes.out \
 	tests/examples/moving-constraint.out \
 	tests/examples/n-four-bar.out \
+	tests/examples/newtons-cradle.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
@@ -1884,6 +1916,7 @@ test_files = \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
+	tests/script/broken-powers.out \
 	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \
@@ -1976,6 +2009,7 @@ test_files = \
 	tests/script/labels.out \
 	tests/script/leading.out \
 	tests/script/long-sums.out \
+	tests/script/long-time-methods.out \
 	tests/script/loops.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
@@ -2212,6 +2246,8 @@ example_files = \
 	examples/modes.lag \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
+	examples/newtons-cradle.lag \
+	examples/newtons-cradle.svg \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \

@@ -1,8 +1,8 @@
 /* method.h -- the table of methods of integration.
  *
  * Taylor series (taylor.h) and DOP853 (dop853.h) are ours. The other steppers are GSL's
- * (gsl_odeiv2), with our step control, last step, rounding and failures (integrate.h). A new
- * method is a row.
+ * (gsl_odeiv2), with our step control, last step, rounding and failures (integrate.h). Methods
+ * for long times are ours too (geometric/geometric.h). A new method is a row.
  *
  * Tests  tests/ode/test_method.c: names, and the order of the one-step rows measured.
  */
@@ -28,6 +28,8 @@ typedef struct qdot_ode_method {
     const void *stepper;    /* const gsl_odeiv2_step_type *const *; else NULL */
     bool series;            /* the system must have Taylor series */
     const struct qdot_ode_kernel *kernel; /* of our own Runge-Kutta methods (stepper.h) */
+    /* of methods by steps of one length (geometric/geometric.h) */
+    const struct qdot_geometric_kernel *geometric;
 } qdot_ode_method;
 
 size_t qdot_ode_method_count(void);

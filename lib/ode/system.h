@@ -133,6 +133,8 @@ typedef struct qdot_ode_system {
     qdot_status (*jacobian)(double t, const double *y, double *dfdy, double *dfdt,
                             void *user);
     void *user; /* borrowed */
+    bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
+                    constant: geometric methods take v for p */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

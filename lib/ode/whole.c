@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "num/sum.h"
+#include "ode/geometric/geometric.h"
 #include "ode/meter.h"
 #include "ode/stiffness.h"
 #include "ode/stepper.h"
@@ -384,6 +385,8 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
 
     if (method->series)
         return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
+    if (method->geometric)
+        return qdot_geometric_integrate(system, method, options, t0, t1, y, result);
     status = check_arguments(system, t0, t1, y);
     if (status == QDOT_OK)
         status = qdot_ode_enter(system, options, t0, y);

@@ -15,7 +15,7 @@
 /* The methods that a right-hand side is enough for. */
 #define for_each_method(m)                                                               \
     for (size_t m = 0; m < qdot_ode_method_count(); m++)                                 \
-        if (!qdot_ode_method_at(m)->series)
+        if (!qdot_ode_method_at(m)->series && !qdot_ode_method_at(m)->geometric)
 
 enum { series = 30 };
 
@@ -192,13 +192,13 @@ typedef struct {
 } problem;
 
 static const problem pendulum = {
-    "pendulum", {2, pendulum_rhs, pendulum_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL}, {2, 0}, pendulum_at};
+    "pendulum", {.n = 2, .rhs = pendulum_rhs, .jacobian = pendulum_jacobian}, {2, 0}, pendulum_at};
 static const problem henon = {"Henon-Heiles",
-                              {4, henon_rhs, henon_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL},
+                              {.n = 4, .rhs = henon_rhs, .jacobian = henon_jacobian},
                               {0, 0, 1.0 / 3, 0.23570226039551584},
                               henon_at};
 static const problem kepler = {"Kepler e = 0.5",
-                               {4, kepler_rhs, kepler_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL},
+                               {.n = 4, .rhs = kepler_rhs, .jacobian = kepler_jacobian},
                                {0.5, 0, 0, 1.7320508075688772},
                                kepler_at};
 

@@ -108,7 +108,7 @@ growth(double t, const double *y, double *dydt, void *user)
 static void
 zeros_of_the_start_are_moved_too(void **state)
 {
-    qdot_ode_system s = {2, growth, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 2, .rhs = growth};
     const qdot_ode_method *m = qdot_ode_method_find("rk8pd");
     double y0[2] = {0, 1}, y[2] = {0, 1};
     qdot_ode_result r;
@@ -169,7 +169,7 @@ a_companion_that_fails_leaves_the_error_unknown(void **state)
     const qdot_ode_method *m = qdot_ode_method_find("rk8pd");
     double y[2] = {2, 0}, difference[2];
     int allowed = 200;
-    qdot_ode_system s = {2, fails_later, NULL, &allowed, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 2, .rhs = fails_later, .user = &allowed};
     qdot_companion *c;
     qdot_companion_estimate e;
 

@@ -48,7 +48,7 @@ eccentric_orbit_keeps_its_energy(void **state)
 {
     double y[4] = {0.1, 0, 0, sqrt(19)};
     const double energy = 0.5 * y[3] * y[3] - 1 / y[0];
-    const problem p = {"", {4, kepler_rhs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL}, {y[0], 0, 0, y[3]}, kepler_at};
+    const problem p = {"", {.n = 4, .rhs = kepler_rhs}, {y[0], 0, 0, y[3]}, kepler_at};
     qdot_ode_options o = {.tol = 1e-14};
     qdot_ode_result r;
 
@@ -73,7 +73,7 @@ constant(double t, const double *y, double *dydt, void *user)
 static void
 additions_do_not_round(void **state)
 {
-    qdot_ode_system s = {1, constant, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 1, .rhs = constant};
     qdot_ode_options o = {.h_fixed = 1e-3};
     double exact = (double)(1000 + 100 * (long double)(1.0 / 3)), plain = 1000;
 
@@ -101,7 +101,7 @@ gsl_kepler(double t, const double *y, double *dydt, void *user)
 static void
 compensation_pays(void **state)
 {
-    const problem p = {"", {4, kepler_rhs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL}, {1, 0, 0, 1}, kepler_at};
+    const problem p = {"", {.n = 4, .rhs = kepler_rhs}, {1, 0, 0, 1}, kepler_at};
     double ours = 0, theirs = 0;
 
     (void)state;
@@ -204,7 +204,7 @@ square_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *use
 static void
 a_singularity_is_told_where_it_is(void **state)
 {
-    qdot_ode_system s = {1, square, square_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 1, .rhs = square, .jacobian = square_jacobian};
 
     (void)state;
     for_each_method(m) {
@@ -253,7 +253,7 @@ an_undefined_right_hand_side_is_approached_and_told(void **state)
     for (size_t m = 0; m < 3; m++) /* those without a Jacobian */
         for (int how = 0; how < 4; how++) {
             double y[2] = {0, 1};
-            qdot_ode_system s = {2, ends_at_one, NULL, &how, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+            qdot_ode_system s = {.n = 2, .rhs = ends_at_one, .user = &how};
             qdot_ode_result r;
 
             assert_int_equal(go(&s, m, NULL, 0, 5, y, &r), QDOT_EFAILED);
@@ -270,7 +270,7 @@ another_failure_ends_the_run_at_once(void **state)
 {
     double y[2] = {0, 1};
     int how = 4;
-    qdot_ode_system s = {2, ends_at_one, NULL, &how, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 2, .rhs = ends_at_one, .user = &how};
     qdot_ode_result r;
 
     (void)state;
@@ -284,7 +284,7 @@ a_start_where_nothing_is_defined_fails_there(void **state)
 {
     double y[2] = {0, 1};
     int how = 0;
-    qdot_ode_system s = {2, ends_at_one, NULL, &how, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 2, .rhs = ends_at_one, .user = &how};
     qdot_ode_result r;
 
     (void)state;
@@ -351,7 +351,7 @@ static void
 senseless_arguments_are_refused(void **state)
 {
     double y[2] = {2, 0}, bad[2] = {2, NAN};
-    qdot_ode_system plain = {2, pendulum_rhs, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system plain = {.n = 2, .rhs = pendulum_rhs};
     qdot_ode_options zero = {.tol = 1e-17}, steps = {.max_steps = 10}, nan = {.tol = NAN};
     qdot_ode_result r;
     const qdot_ode_system *s = &pendulum.system;
@@ -392,7 +392,7 @@ counted_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *us
 static void
 statistics_count_what_was_called(void **state)
 {
-    qdot_ode_system s = {2, counted, counted_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 2, .rhs = counted, .jacobian = counted_jacobian};
 
     (void)state;
     for_each_method(m) {
@@ -414,7 +414,7 @@ statistics_count_what_was_called(void **state)
 static void
 stiff_methods_step_over_stiffness(void **state)
 {
-    qdot_ode_system s = {1, stiff, stiff_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 1, .rhs = stiff, .jacobian = stiff_jacobian};
     qdot_ode_options o = {.tol = 1e-9};
     uint64_t steps[16];
 
@@ -447,7 +447,7 @@ fall(double t, const double *y, double *dydt, void *user)
 static void
 free_fall_and_rest_are_exact(void **state)
 {
-    qdot_ode_system s = {3, fall, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 3, .rhs = fall};
 
     (void)state;
     for (size_t m = 0; m < 3; m++) {

@@ -198,7 +198,7 @@ counted_stiff(double t, const double *y, double *dydt, void *user)
 static void
 a_stiff_run_is_read_cheaply(void **state)
 {
-    qdot_ode_system s = {1, counted_stiff, stiff_jacobian, NULL, NULL, NULL, NULL, NULL, NULL, 0, NULL};
+    qdot_ode_system s = {.n = 1, .rhs = counted_stiff, .jacobian = stiff_jacobian};
     qdot_ode_options o = {.tol = 1e-9};
     double y0 = 1, y;
 

@@ -309,6 +309,7 @@ qdot_bind_system(qdot_bind *b)
         .rhs = b->momenta ? reduced_rhs : rhs,
         .jacobian = qdot_plan_needs_jacobian(b->plan) ? jacobian : NULL,
         .user = b,
+        .halves = b->plan->halves,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,

@@ -17,7 +17,7 @@ make_room(qdot_piece *x)
     x->before = qdot_calloc(m, sizeof *x->before);
     x->residual = qdot_calloc(m, sizeof *x->residual);
     x->signs = qdot_calloc(m, sizeof *x->signs);
-    x->y = qdot_calloc(3 * x->n, sizeof *x->y);
+    x->y = qdot_calloc(4 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
                                 .method = x->method,
@@ -31,6 +31,7 @@ make_room(qdot_piece *x)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
+    x->rim = x->start.y + x->n;
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
 

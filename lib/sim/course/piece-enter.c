@@ -271,6 +271,9 @@ qdot_piece_cross(qdot_piece *x, bool first)
         QDOT_TRY(check_level(x));
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
+    QDOT_TRY(qdot_piece_check_layers(x));
+    if (x->c->reason[0] != '\0')
+        return QDOT_OK;
     qdot_piece_carry(x);
     if (first && (x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
         QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));

@@ -1,10 +1,13 @@
 /* piece-sides.c -- checks the sides of a piece by its first step. */
 #include "sim/course/piece.h"
 
+/* Whether a side of the surface lies between two thresholds. */
 static bool
 is_step(const qdot_piece *x, size_t surface)
 {
-    return x->c->stage->switches.surfaces.at[surface].steps;
+    const qdot_surface *s = &x->c->stage->switches.surfaces.at[surface];
+
+    return s->steps || s->layer > 0;
 }
 
 /* Whether a function of a surface stays on its side, by the sign just after the start. */

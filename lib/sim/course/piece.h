@@ -53,6 +53,8 @@ typedef struct {
     int *signs;         /* [functions] of the mode before, where its piece ended */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
+    double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
+    bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
     /* Search for the sides: one set is tried, then alternatives to one that fits, then known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
@@ -122,6 +124,10 @@ void qdot_piece_carry(qdot_piece *x);
 
 /* Check a mode before it is integrated; c->reason if it cannot be entered. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, bool first);
+
+/* Part of it: what the layers that are left have left out, and whether one is entered for good where
+ * its power makes that one motion of many (sim/model/layer.h). */
+QDOT_MUST_CHECK qdot_status qdot_piece_check_layers(qdot_piece *x);
 
 /* A piece ends at the first double after its root, in all courses alike: late and never early, so
  * these errors add up. To show their effect one companion continues as if it had left half an ulp

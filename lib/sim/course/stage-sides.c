@@ -5,6 +5,7 @@
 
 #include "expr/print.h"
 #include "sim/course/stage.h"
+#include "sim/model/layer.h"
 #include "sim/model/term-magnitude.h"
 
 /* Error of evaluating u, relative to the magnitude of its terms. */
@@ -29,6 +30,21 @@ typedef struct {
     double *out, *in, *work;
 } decision;
 
+/* The symbols of q, q', t; their number. */
+static size_t
+inputs_of(const qdot_stage *s, qdot_expr *in)
+{
+    size_t k = 0;
+
+    for (uint32_t order = 0; order < 2; order++)
+        for (size_t i = 0; i < s->n; i++)
+            in[k++] = qdot_symbol_jet(s->scene->pool,
+                                      qdot_parameter_states_coordinate(s->scene, s->request, i),
+                                      order);
+    in[k++] = QDOT_T;
+    return k;
+}
+
 qdot_status
 qdot_stage_lower_sides(qdot_stage *s)
 {
@@ -39,13 +55,8 @@ qdot_stage_lower_sides(qdot_stage *s)
     qdot_expr *in = qdot_calloc(2 * n + 1 + m, sizeof *in);
     qdot_status status = u && in ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t order = 0; order < 2 && in; order++)
-        for (size_t i = 0; i < n; i++)
-            in[k++] = qdot_symbol_jet(
-                pool, qdot_parameter_states_coordinate(s->scene, s->request, i),
-                (uint32_t)order);
     if (status == QDOT_OK)
-        in[k++] = QDOT_T;
+        k = inputs_of(s, in);
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         in[k++] = s->switches.surfaces.at[i].side;
         status = qdot_switches_freeze(&s->switches, NULL, NULL, 1, &s->switches.surfaces.at[i].u,
@@ -132,6 +143,7 @@ decide(const decision *d, size_t i, bool anew, long kept, long *side)
 {
     const bool steps = d->s->switches.surfaces.at[i].steps;
     const double u = d->u[i], near = steps ? round(u) : 0;
+    const double layer = d->s->switches.surfaces.at[i].layer;
     const bool on = fabs(u - near) <= d->noise[i];
 
     *side = kept;
@@ -139,13 +151,102 @@ decide(const decision *d, size_t i, bool anew, long kept, long *side)
         return QDOT_OK;
     if (steps && !(fabs(u) < most_steps))
         return qdot_fail(QDOT_EDOMAIN, "a floor or mod is too large at t = %.15g", d->t);
-    if (!on)
+    if (layer > 0)
+        *side = fabs(u) <= layer ? 0 : u > 0 ? 1 : -1;
+    else if (!on)
         *side = steps ? (long)floor(u) : u > 0 ? 1 : -1;
     else if (d->flat[i] || (steps && (anew || kept != (long)near - 1)))
         *side = (long)near;
     else if (anew)
         *side = 1;
     return QDOT_OK;
+}
+
+/* f_i/M_ii at the start, into a [n]: 0 where that is no number or holds multipliers. */
+static qdot_status
+start_accelerations(const decision *d, double *a)
+{
+    const qdot_switches *s = &d->s->switches;
+    const size_t n = d->s->n - d->s->n_states;
+    qdot_expr *e = qdot_calloc(2 * n + d->n + 1, sizeof *e), *in = e + 2 * n;
+    qdot_tape *tape = NULL;
+    double *out = NULL;
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        e[i] = qdot_expr_arg(s->pool, s->forcing, (uint32_t)i);
+        e[n + i] = qdot_expr_arg(s->pool, s->mass, (uint32_t)(i * n + i));
+        if (qdot_expr_node(s->pool, e[i])->holds & QDOT_HAS_MULTIPLIER)
+            e[i] = QDOT_ZERO;
+    }
+    if (status == QDOT_OK)
+        inputs_of(d->s, in);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(s->pool, d->n + 1, in, 2 * n, e, &tape);
+    if (status == QDOT_OK)
+        out = qdot_calloc(2 * n + qdot_tape_work(tape) + 1, sizeof *out);
+    if (status == QDOT_OK && !out)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        qdot_tape_eval(tape, d->in, out, out + 2 * n);
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        a[i] = isfinite(out[i] / out[n + i]) ? out[i] / out[n + i] : 0;
+    qdot_free(out);
+    qdot_tape_free(tape);
+    qdot_free(e);
+    return status;
+}
+
+/* How fast all u change, into rate [m], if coordinate i does by w[i]. */
+static void
+rates_of(decision *d, const long *side, const double *w, double *rate)
+{
+    const double h = 0x1p-20;
+
+    for (size_t i = 0; i < d->s->n - d->s->n_states; i++)
+        d->in[i] += h * w[i];
+    evaluate(d, side);
+    for (size_t i = 0; i < d->m; i++)
+        rate[i] = fabs(d->out[i] - d->u[i]) / h;
+}
+
+qdot_status
+qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest)
+{
+    const size_t m = s->switches.surfaces.n;
+    bool some = false;
+    decision d;
+    long *side;
+    double *a, *speed, *bend;
+    qdot_status status;
+
+    for (size_t i = 0; i < m; i++)
+        some |= s->switches.surfaces.at[i].power > 0;
+    if (!some)
+        return QDOT_OK;
+    side = qdot_calloc(m, sizeof *side);
+    a = qdot_calloc(s->n + 2 * m, sizeof *a);
+    speed = a + s->n;
+    bend = speed + m;
+    status = begin(&d, s, t, y);
+    if (!side || !a)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = start_accelerations(&d, a);
+    if (status == QDOT_OK) {
+        evaluate(&d, side);
+        memcpy(d.u, d.out, m * sizeof *d.u);
+        rates_of(&d, side, y + s->n, speed);
+        rates_of(&d, side, a, bend);
+        for (size_t i = 0; i < m; i++)
+            speed[i] = fmax(fmax(speed[i], sqrt(2 * bend[i] * fabs(d.u[i]))), fabs(d.u[i]));
+        qdot_layers_measure(m, s->switches.surfaces.at, speed, latest);
+    }
+    qdot_free(side);
+    qdot_free(a);
+    qdot_free(d.u);
+    qdot_free(d.flat);
+    return status;
 }
 
 qdot_status

@@ -1,9 +1,11 @@
 /* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "expr/walk.h"
+#include "sim/model/layer.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
@@ -169,15 +171,18 @@ watch_domains(const qdot_stage *s, qdot_mode *m)
     return qdot_pool_check(p->pool);
 }
 
-/* Whether `side` is the side of the number u. */
+/* Whether `side` is the side of the number u, that of a surface. */
 static bool
-is_side(qdot_pool *pool, qdot_expr u, bool steps, long side)
+is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
 {
     qdot_expr k = qdot_expr_int(pool, side);
 
-    if (steps)
+    if (x->steps)
         return qdot_rel(pool, QDOT_LE, k, u) == QDOT_TRUE
                && qdot_rel(pool, QDOT_LT, u, qdot_add(pool, k, QDOT_ONE)) == QDOT_TRUE;
+    if (x->layer > 0 && side == 0)
+        return qdot_rel(pool, QDOT_LE, qdot_fun1(pool, QDOT_ABS, u),
+                        qdot_layers_rim(pool, x)) == QDOT_TRUE;
     return qdot_fun1(pool, QDOT_SIGN, u) == k;
 }
 
@@ -191,6 +196,23 @@ watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const 
         w.inside = k ? -1 : 1;
         w.beyond = beyond[k];
         watch_function(m, qdot_sub(pool, e, qdot_expr_int(pool, values[k])), w);
+    }
+}
+
+/* The rims of a layer that the mode's side touches: u = layer, u = -layer. */
+static void
+watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
+{
+    qdot_pool *pool = m->plan->pool;
+    const long side = m->side[watched.index];
+    const qdot_expr w = qdot_layers_rim(pool, x);
+
+    for (int rim = 1; rim >= -1; rim -= 2) {
+        if (side == -rim)
+            continue;
+        watched.inside = side == 0 ? -rim : rim;
+        watched.beyond = side == 0 ? rim : 0;
+        watch_function(m, rim > 0 ? qdot_sub(pool, u, w) : qdot_add(pool, u, w), watched);
     }
 }
 
@@ -214,7 +236,7 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
             continue;
         }
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &x->u, &u));
-        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, u, x->steps, m->side[i]))
+        if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
         QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
         if (!moves)
@@ -222,6 +244,10 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         w.velocity = (qdot_expr_node(pool, u)->holds
                       & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
                      != 0;
+        if (x->layer > 0) {
+            watch_layer(m, x, u, w);
+            continue;
+        }
         if (x->steps) {
             watch_between(pool, m, w, u, (long[]){m->side[i], m->side[i] + 1},
                           (long[]){m->side[i] - 1, m->side[i] + 1});
@@ -358,13 +384,19 @@ start_numbers(const qdot_stage *s, double *t, double *y)
     return QDOT_OK;
 }
 
-/* The sides at y, or at the start before there is a mode: side [surfaces]. */
+/* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
+ * first, once. */
 static qdot_status
-start_sides(const qdot_stage *s, const double *settled, long *side)
+start_sides(qdot_stage *s, const double *settled, long *side)
 {
     const size_t n = s->n;
-    double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0;
+    double *y = qdot_calloc(2 * n + 1, sizeof *y), t = 0, t1 = 0;
     qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && s->modes.n == 0)
+        status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
+    if (status == QDOT_OK && s->modes.n == 0)
+        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)));
 
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);

@@ -97,6 +97,11 @@ QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
 QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
                                              const double *y, const long *old, long *side);
 
+/* Measure the layers of the surfaces (sim/model/layer.h) at the start of a run that looks at times
+ * up to `latest`. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const double *y,
+                                              double latest);
+
 /* A surface in words: "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,
                                                 long side, qdot_text *out);

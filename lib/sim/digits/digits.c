@@ -155,6 +155,20 @@ qdot_digits_say_start(qdot_run *run, const qdot_run_request *request)
     return qdot_text_status(&run->notice);
 }
 
+/* A layer leaves out more than the digits asked for. */
+static qdot_status
+refuse_layers(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.switches.surfaces.n; i++)
+        if (run->stage.switches.surfaces.at[i].layer > 0) {
+            qdot_fail(QDOT_EFAILED, "`digits` does not follow a power of %.4g where its base "
+                                    "passes 0",
+                      run->stage.switches.surfaces.at[i].power);
+            return qdot_hint("a run in doubles: `run ... tol 1e-15`");
+        }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
                       qdot_domains *domains, bool *interrupted)
@@ -163,6 +177,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
     qdot_error failure;
     qdot_status status;
 
+    QDOT_TRY(refuse_layers(run));
     if (run->stage.events.n > 0 || run->stage.switches.surfaces.n > 0) {
         QDOT_TRY(find_guide(run, request));
         guide = &run->course;

@@ -67,6 +67,7 @@ struct qdot_plan {
     qdot_plan_block *blocks; /* [structure.blocks] */
     const qdot_ode_method *method;
     bool chosen; /* the plan chose the method */
+    bool halves; /* q' may stand for the momenta (sim/plan/geometric.h) */
 
     /* NULL without constraints. With them there are no blocks, and `tape` is that of the
      * index-1 equations. */

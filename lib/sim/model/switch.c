@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
+#include "sim/model/layer.h"
 #include "sim/model/substitute.h"
 
 void
@@ -87,7 +88,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
     side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
     QDOT_TRY(qdot_pool_check(s->pool));
-    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps, side}));
+    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps, side, 0, 0}));
 }
 
 static qdot_status
@@ -278,6 +279,9 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, e[i]));
     }
+    s->mass = e[0];
+    s->forcing = e[1];
+    QDOT_TRY(qdot_layers_find(pool, s->surfaces.n, s->surfaces.at, 2, e));
     for (size_t k = 0; k < scene->constraints.n; k++) {
         qdot_expr f = qdot_substitute(pool, scene->constraints.at[k].f, request->n_values,
                                       request->symbols, request->values);
@@ -304,11 +308,12 @@ look_up(qdot_pool *pool, qdot_expr node, void *user)
 {
     const freezer *f = user;
 
-    (void)pool;
     for (size_t i = 0; i < f->done; i++)
         if (f->s->atoms.at[i] == node)
             return f->frozen[i];
-    return QDOT_NIL;
+    return qdot_layers_vanishes(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, node)
+               ? QDOT_ZERO
+               : QDOT_NIL;
 }
 
 static qdot_expr

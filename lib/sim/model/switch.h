@@ -10,7 +10,8 @@
  *
  * A jump of T - V itself is a surface too, even if the equations on both sides are the same.
  *
- * A mode is one side of every surface: a sign, 0 if u stays 0, the integer of a floor, or
+ * A mode is one side of every surface: a sign, 0 if u stays 0 or in a layer about it
+ * (sim/model/layer.h), the integer of a floor, or
  * QDOT_SIDE_SLIDES. An expression frozen to a mode does not switch.
  *
  * On a surface along which the motion slides an expression is the mean of its values e+, e- on both
@@ -31,22 +32,19 @@
 #include <limits.h>
 
 #include "sim/model/request.h"
+#include "sim/model/surface.h"
 
 /* The side of a surface along which the motion slides (sim/model/sliding.h): u is held at 0. */
 #define QDOT_SIDE_SLIDES LONG_MAX
 /* For freezing: what switches there stays as it is. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
-typedef struct {
-    qdot_expr u;  /* as in the equations, with parameter values */
-    bool steps;   /* the side is floor(u); else the sign of u */
-    qdot_expr side; /* a symbol for the side */
-} qdot_surface;
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
     qdot_vec(qdot_surface) surfaces; /* inner ones first */
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
+    qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */
 } qdot_switches;

@@ -11,6 +11,7 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 #include "sim/plan/form.h"
+#include "sim/plan/geometric.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/routh.h"
 #include "sim/plan/tree-alone.h"
@@ -21,8 +22,7 @@
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
 /* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"radau", "gauss4", "gauss6", "gauss8", "gauss12",
-                                            "verlet", "composition8", "variational"};
+static const char *const later_methods[] = {"radau", "variational"};
 
 /* --- the scene ---------------------------------------------------------------------- */
 
@@ -232,6 +232,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (p->residual)
         return QDOT_OK;
     QDOT_TRY(derive(p, scene));
+    QDOT_TRY(qdot_plan_check_geometric(p, scene));
     if (scene->constraints.n > 0)
         return constrain(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));
@@ -244,7 +245,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)
         return choose_in_lanes(p, scene, request);
-    if (qdot_plan_needs_jacobian(p) || p->share)
+    if (qdot_plan_needs_jacobian(p) || p->share || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
     /* events that set parameters look at the steps of the whole */

@@ -419,7 +419,7 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
         options.accepted = follow;
         options.user = w;
     }
-    if (w->plan->method->series)
+    if (w->plan->method->series || w->plan->method->geometric) /* told beforehand */
         options.max_steps = w->most_evaluations;
     return qdot_ode_integrate(watched ? &w->system : &w->inner, w->plan->method, &options,
                               w->t0, w->t1, w->y, result);

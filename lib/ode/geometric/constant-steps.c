@@ -1,0 +1,441 @@
+/* constant-steps.c -- integrates by steps of one length, which a trial finds. */
+#include "ode/geometric/geometric.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "num/sum.h"
+#include "ode/meter.h"
+
+static const double tol_default = 1e-12;
+static const uint64_t max_steps_default = 50000000;
+
+enum { trial_steps = 64, measured = 16, most_undefined = 60 };
+
+/* The trial aims at this part of the tolerance; its shortest step times `safe` is taken. */
+static const double aim = 0.5, safe = 0.9, most_growth = 5;
+
+/* Differences of states below this, relative to max(1, |y_i|), are rounding. */
+static const double rounding = 8 * DBL_EPSILON;
+
+typedef struct {
+    qdot_geometric g;
+    const qdot_ode_options *options;
+    qdot_ode_result *result;
+    double tol, t, t_low, t1, direction;
+    double h; /* positive */
+    double *before, *halves, *full; /* [4n] state with its low part; [2n] (q, q') */
+    double work;      /* that has been counted */
+    int undefined;    /* tries in a row from this t that met no f */
+} run;
+
+qdot_status
+qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const double *p, double *v)
+{
+    (void)t;
+    (void)q;
+    memcpy(v, p, g->n * sizeof *v);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double *v, double *F)
+{
+    const size_t n = g->n;
+    double sum = 0;
+
+    g->evaluations++;
+    memcpy(g->state, q, n * sizeof *q);
+    memcpy(g->state + n, v, n * sizeof *v);
+    QDOT_TRY(g->system->rhs(t, g->state, g->rates, g->system->user));
+    for (size_t i = 0; i < n; i++) {
+        F[i] = g->rates[n + i];
+        sum += 0 * F[i];
+    }
+    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
+}
+
+/* (q, q') of the state at t, into y [2n]. QDOT_EDOMAIN if it is not finite. */
+static qdot_status
+write_state(qdot_geometric *g, double t, double *y)
+{
+    double sum = 0;
+
+    memcpy(y, g->y, g->n * sizeof *y);
+    QDOT_TRY(qdot_geometric_velocity(g, t, g->y, g->y + g->n, y + g->n));
+    for (size_t i = 0; i < 2 * g->n; i++)
+        sum += 0 * y[i];
+    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the state is not finite");
+}
+
+static void
+keep(run *r)
+{
+    memcpy(r->before, r->g.y, 4 * r->g.n * sizeof *r->before);
+}
+
+static void
+go_back(run *r)
+{
+    memcpy(r->g.y, r->before, 4 * r->g.n * sizeof *r->before);
+    r->g.known = false;
+}
+
+static qdot_status
+step(run *r, double t, double h)
+{
+    const qdot_status status = r->g.kernel->step(&r->g, t, h);
+
+    r->g.h = h;
+    return status;
+}
+
+/* Measure a step of signed length h from the state, and take it: its end is in r->full. On a failure
+ * the state is that of before. */
+static qdot_status
+measure(run *r, double h, double *ratio)
+{
+    qdot_status status;
+
+    keep(r);
+    r->g.known = false;
+    status = step(r, r->t, 0.5 * h);
+    if (status == QDOT_OK)
+        status = step(r, r->t + 0.5 * h, 0.5 * h);
+    if (status == QDOT_OK)
+        status = write_state(&r->g, r->t + h, r->halves);
+    go_back(r);
+    if (status == QDOT_OK)
+        status = step(r, r->t, h);
+    if (status == QDOT_OK)
+        status = write_state(&r->g, r->t + h, r->full);
+    if (status != QDOT_OK) {
+        go_back(r);
+        return status;
+    }
+    *ratio = 0;
+    for (size_t i = 0; i < 2 * r->g.n; i++) {
+        const double size = fmax(1, fabs(r->full[i]));
+        const double apart = fabs(r->full[i] - r->halves[i]) - rounding * size;
+
+        *ratio = fmax(*ratio, apart / (r->tol * size));
+    }
+    return QDOT_OK;
+}
+
+/* The factor by which the length of a step with that ratio is changed. */
+static double
+factor_of(const run *r, double ratio)
+{
+    const double f = ratio > 0 ? safe * pow(ratio / aim, -1.0 / (r->g.kernel->order + 1)) : most_growth;
+
+    return fmin(most_growth, fmax(0.1, f));
+}
+
+/* A length to try first: what changes the state by a hundredth, at most all. */
+static qdot_status
+first_length(run *r, double distance)
+{
+    const size_t n = r->g.n;
+    double size = 0, rate = 0;
+
+    QDOT_TRY(write_state(&r->g, r->t, r->full));
+    QDOT_TRY(qdot_geometric_force(&r->g, r->t, r->g.y, r->full + n, r->halves));
+    for (size_t i = 0; i < 2 * n; i++) {
+        size = fmax(size, fabs(r->full[i]));
+        rate = fmax(rate, fabs(i < n ? r->full[n + i] : r->halves[i - n]));
+    }
+    r->h = fmin(distance, 0.01 * fmax(1e-3, size) / fmax(rate, DBL_MIN));
+    return QDOT_OK;
+}
+
+static qdot_status
+too_small(const run *r)
+{
+    return qdot_fail(QDOT_EFAILED,
+                     "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g", r->t,
+                     r->h, r->tol);
+}
+
+static double
+least_length(const run *r)
+{
+    return 16 * DBL_EPSILON * fmax(fabs(r->t), DBL_MIN / DBL_EPSILON);
+}
+
+/* Find the length: steps of varying ones from the start, to which the state then returns. */
+static qdot_status
+find_length(run *r)
+{
+    const double distance = fabs(r->t1 - r->t), t0 = r->t;
+    double *start = qdot_malloc(4 * r->g.n * sizeof *start), shortest = INFINITY;
+    qdot_status status = start ? first_length(r, distance) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
+    for (int k = 0; status == QDOT_OK && k < trial_steps && fabs(r->t - t0) < distance; k++) {
+        const double h = fmin(r->h, distance - fabs(r->t - t0));
+        double ratio;
+
+        status = measure(r, r->direction * h, &ratio);
+        if (qdot_ode_may_be_undefined(status) && h > least_length(r)) {
+            r->h = 0.25 * h;
+            status = QDOT_OK;
+            continue;
+        }
+        if (status != QDOT_OK)
+            break;
+        r->h = h * factor_of(r, ratio);
+        if (ratio > 1) {
+            go_back(r);
+            status = r->h > least_length(r) ? QDOT_OK : too_small(r);
+            continue;
+        }
+        r->t += r->direction * h;
+        if (r->h < most_growth * h) /* else the tolerance did not limit it */
+            shortest = fmin(shortest, r->h);
+    }
+    /* what ends the trial ends the run, there */
+    if (qdot_ode_may_be_undefined(status))
+        status = QDOT_OK;
+    if (start && status == QDOT_OK) {
+        memcpy(r->g.y, start, 4 * r->g.n * sizeof *start);
+        r->g.known = false;
+        r->t = t0;
+        if (isfinite(shortest))
+            r->h = safe * shortest;
+    }
+    qdot_free(start);
+    return status;
+}
+
+static uint64_t
+most_steps(const run *r)
+{
+    return r->options->max_steps ? r->options->max_steps : max_steps_default;
+}
+
+/* f is undefined somewhere in the step. */
+static qdot_status
+undefined(run *r, double h, qdot_status status)
+{
+    const qdot_error why = *qdot_last_error();
+
+    if (!qdot_ode_may_be_undefined(status))
+        return status;
+    r->result->stats.rejected++;
+    r->h = 0.25 * h;
+    if (++r->undefined <= most_undefined && r->h > least_length(r) && !(r->options->h_fixed > 0))
+        return QDOT_OK;
+    qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, why.message);
+    return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
+}
+
+/* The step just made is accepted, unless the caller objects. */
+static qdot_status
+take(run *r, double h, bool last, bool *stop)
+{
+    double t = r->t, t_low = r->t_low;
+
+    if (last) {
+        t = r->t1;
+        t_low = 0;
+    } else {
+        qdot_sum_advance(&t, &t_low, r->direction * h);
+    }
+    if (r->options->accepted) {
+        const qdot_status status = r->options->accepted(t, r->full, stop, r->options->user);
+
+        if (status != QDOT_OK)
+            go_back(r);
+        if (status == QDOT_EDOMAIN)
+            return undefined(r, h, status);
+        QDOT_TRY(status);
+    }
+    r->t = t;
+    r->t_low = t_low;
+    r->undefined = 0;
+    r->result->stats.steps++;
+    return QDOT_OK;
+}
+
+/* A step of signed length h whose error nobody asks for. */
+static qdot_status
+step_plainly(run *r, double h)
+{
+    qdot_status status;
+
+    keep(r);
+    status = step(r, r->t, h);
+    if (status == QDOT_OK)
+        status = write_state(&r->g, r->t + h, r->full);
+    if (status != QDOT_OK)
+        go_back(r);
+    return status;
+}
+
+static qdot_status
+advance(run *r, bool *stop)
+{
+    const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
+    const bool last = r->h >= rest * (1 - 1e-12);
+    const double h = last ? rest : r->h;
+    const bool look = r->result->stats.steps % measured == 0 && !(r->options->h_fixed > 0);
+    double ratio = 0;
+    qdot_status status;
+
+    QDOT_TRY(qdot_interrupt_check());
+    if (r->result->stats.steps + r->result->stats.rejected >= most_steps(r))
+        return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
+                         (unsigned long long)most_steps(r));
+    status = look ? measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
+    if (status != QDOT_OK)
+        return undefined(r, h, status);
+    if (ratio <= 1)
+        return take(r, h, last, stop);
+    go_back(r);
+    r->result->stats.rejected++;
+    r->h = h * fmin(safe, factor_of(r, ratio));
+    return r->h > least_length(r) ? QDOT_OK : too_small(r);
+}
+
+static qdot_status
+count_work(run *r)
+{
+    const qdot_ode_stats stats = {.evaluations = r->g.evaluations};
+    const double now = qdot_ode_work(r->g.system, &stats), more = now - r->work;
+
+    r->work = now;
+    return qdot_ode_meter_add(r->options->meter, r->t, more);
+}
+
+/* Whether so many steps are allowed. */
+static qdot_status
+check_length(const run *r)
+{
+    const double steps = fabs(r->t1 - r->t) / r->h;
+
+    if (steps < (double)most_steps(r))
+        return QDOT_OK;
+    qdot_fail(QDOT_ELIMIT,
+              "stopped at t = %.17g: tol %.2g takes steps of %.2g, %.2g of them: more than %.2g", r->t,
+              r->tol, r->h, steps, (double)most_steps(r));
+    return qdot_hint("a larger tol, or a method of higher order");
+}
+
+static qdot_status
+loop(run *r)
+{
+    const double distance = fabs(r->t1 - r->t);
+    bool stop = false;
+
+    if (distance == 0)
+        return QDOT_OK;
+    if (r->options->h_fixed > 0)
+        r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
+    else
+        QDOT_TRY(find_length(r));
+    QDOT_TRY(check_length(r));
+    while (r->t != r->t1) {
+        QDOT_TRY(advance(r, &stop));
+        if (r->options->meter)
+            QDOT_TRY(count_work(r));
+        qdot_progress_at(r->t);
+        if (stop) {
+            r->result->outcome = QDOT_ODE_STOPPED;
+            return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- the whole ---------------------------------------------------------------------- */
+
+static qdot_status
+check(const run *r, double t0, const double *y)
+{
+    if (!r->g.system->halves)
+        return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
+    if (!(r->tol >= 1e-16 && r->tol <= 1)) {
+        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", r->tol);
+        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
+    }
+    if (!isfinite(t0) || !isfinite(r->t1) || !isfinite(r->t1 - t0))
+        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
+    for (size_t i = 0; i < r->g.system->n; i++)
+        if (!isfinite(y[i]))
+            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
+    return QDOT_OK;
+}
+
+/* All arrays in one. */
+static qdot_status
+allocate(run *r, double **all)
+{
+    const size_t n = r->g.n;
+    const size_t own = r->g.kernel->rows * n + r->g.kernel->more;
+    double *x = qdot_calloc(16 * n + own + 1, sizeof *x);
+
+    *all = x;
+    if (!x)
+        return QDOT_ENOMEM;
+    r->g.y = x;
+    r->g.low = x + 2 * n;
+    r->before = x + 4 * n;
+    r->halves = x + 8 * n;
+    r->full = x + 10 * n;
+    r->g.state = x + 12 * n;
+    r->g.rates = x + 14 * n;
+    r->g.work = x + 16 * n;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
+                         const qdot_ode_options *options, double t0, double t1, double *y,
+                         qdot_ode_result *result)
+{
+    const double cpu_start = qdot_cpu_now();
+    run r = {.g = {.system = system, .kernel = method->geometric, .n = system->n / 2},
+             .options = options,
+             .result = result,
+             .tol = options->tol != 0 ? options->tol : tol_default,
+             .t = t0,
+             .t1 = t1,
+             .direction = t1 < t0 ? -1 : 1};
+    double *all = NULL;
+    qdot_status status;
+
+    *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
+    status = check(&r, t0, y);
+    if (status == QDOT_OK)
+        status = allocate(&r, &all);
+    if (status == QDOT_OK) {
+        memcpy(r.g.y, y, system->n * sizeof *y);
+        if (options->carry)
+            memcpy(r.g.low, options->carry, system->n * sizeof *y);
+        if (r.g.kernel->begin)
+            r.g.kernel->begin(&r.g);
+        status = loop(&r);
+        if (result->stats.steps > 0) {
+            const qdot_error why = *qdot_last_error();
+
+            if (write_state(&r.g, r.t, y) != QDOT_OK)
+                qdot_fail_again(&why);
+        }
+    }
+    qdot_free(all);
+    result->stats.evaluations = r.g.evaluations;
+    result->stats.cpu = qdot_cpu_now() - cpu_start;
+    result->t = r.t;
+    if (status != QDOT_OK) {
+        result->outcome = QDOT_ODE_FAILED;
+        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
+    }
+    return status;
+}

@@ -1,0 +1,80 @@
+/* geometric.h -- methods that keep the structure of a mechanical system over long times.
+ *
+ *     q' = v(t, q, p),   p' = F(t, q, v)      n coordinates
+ *
+ * Either p = v = q', where M and what else belongs to the momenta are constant (`halves` of
+ * ode/system.h): then F are the accelerations. Or p are the canonical momenta dL/dq' (`phase` there).
+ * In these variables the methods are symplectic and symmetric, if forces come from a potential. So
+ * the error of the energy stays bounded for times far beyond the length of a step, as long as that
+ * length is constant (Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed. 2006, IX.8).
+ *
+ * Steps. Where the length is not given it is found by a trial of 64 steps of varying length from the
+ * start, each under the tolerance, and 0.9 of the shortest is taken. The error of a step is its
+ * difference from two steps of half the length,
+ *
+ *     ratio = max_i |y_i - y_i,halves| / (tol max(1, |y_i|)),     y = (q, q').
+ *
+ * Every sixteenth step is measured like that. If its ratio is above 1 the step is repeated with a
+ * shorter length, and all that follow have that one: the length never grows.
+ *
+ * Rounding. The state is a sum y + low of two doubles, and each increment is added to it without
+ * error (VIII.5). Coefficients whose doubles are off have the rest beside them: else the energy
+ * would drift.
+ *
+ * Tests  tests/ode/test_geometric.c
+ */
+#ifndef QDOT_ODE_GEOMETRIC_H
+#define QDOT_ODE_GEOMETRIC_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ode/run.h"
+
+typedef struct qdot_geometric qdot_geometric;
+typedef struct qdot_geometric_kernel qdot_geometric_kernel;
+
+struct qdot_geometric_kernel {
+    int order;
+    bool separable;    /* F must not depend on v */
+    int stages;        /* of a method of collocation; else 0 */
+    size_t rows, more; /* work space: rows of n doubles, and doubles */
+    /* Fill what g->work holds all along; NULL: nothing. */
+    void (*begin)(qdot_geometric *g);
+    /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
+     * iteration does not converge. */
+    qdot_status (*step)(qdot_geometric *g, double t, double h);
+};
+
+struct qdot_geometric {
+    const qdot_ode_system *system; /* borrowed */
+    const qdot_geometric_kernel *kernel;
+    size_t n;        /* coordinates */
+    double *y, *low; /* [2n] (q, p) as a sum */
+    double *work;    /* [rows x n + more] the kernel's own */
+    double *state, *rates; /* [2n] (q, q'), and its derivative */
+    bool known;      /* what the kernel keeps of the end of the last step belongs to y */
+    double h;        /* of the last step */
+    uint64_t evaluations;
+};
+
+/* v [n] at (t, q, p). Failures as those of qdot_ode_system. */
+QDOT_MUST_CHECK qdot_status qdot_geometric_velocity(qdot_geometric *g, double t, const double *q,
+                                                    const double *p, double *v);
+/* F [n] at (t, q, v). QDOT_EDOMAIN if it is not finite. */
+QDOT_MUST_CHECK qdot_status qdot_geometric_force(qdot_geometric *g, double t, const double *q,
+                                                 const double *v, double *F);
+
+/* As qdot_ode_integrate, by a method with a `geometric` kernel; options not NULL. QDOT_EINVAL: the
+ * system is none that the method is for. */
+QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *system,
+                                                     const qdot_ode_method *method,
+                                                     const qdot_ode_options *options, double t0,
+                                                     double t1, double *y,
+                                                     qdot_ode_result *result);
+
+/* The rows of method.h. */
+extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* splitting.c */
+extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12; /* gauss.c */
+
+#endif

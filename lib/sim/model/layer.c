@@ -1,0 +1,123 @@
+/* layer.c -- finds broken powers of what switches, and how wide their layers are. */
+#include "sim/model/layer.h"
+
+#include <math.h>
+
+#include "expr/walk.h"
+#include "tape/constant.h"
+
+/* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
+static const double passage = 0x1p-42;
+
+/* Whether `base` is 0 just where u is 0: u, -u, |u|, or the larger or smaller of u and 0. */
+static bool
+is_base(qdot_pool *pool, qdot_expr base, qdot_expr u)
+{
+    const bool function = qdot_expr_kind(pool, base) == QDOT_FUN;
+    const qdot_fun_id id =
+        function ? (qdot_fun_id)qdot_expr_node(pool, base)->op : QDOT_SIGN;
+
+    if (id == QDOT_ABS)
+        base = qdot_expr_arg(pool, base, 0);
+    if ((id == QDOT_MAX || id == QDOT_MIN) && qdot_expr_count(pool, base) == 2) {
+        const qdot_expr a = qdot_expr_arg(pool, base, 0),
+                        b = qdot_expr_arg(pool, base, 1);
+
+        if (a == QDOT_ZERO || b == QDOT_ZERO)
+            base = a == QDOT_ZERO ? b : a;
+    }
+    return base == u || base == qdot_neg(pool, u);
+}
+
+/* Whether factor k of a product is a broken power; *p: its exponent. */
+static bool
+is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
+{
+    const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
+    long whole;
+
+    return qdot_expr_kind(pool, exponent) == QDOT_NUM &&
+           !qdot_expr_to_int(pool, exponent, &whole) &&
+           qdot_tape_constant((qdot_pool *)pool, exponent, p) == QDOT_OK;
+}
+
+static void
+note_power(qdot_surface *x, double p)
+{
+    if (p < 0 || x->power < 0)
+        x->power = -1;
+    else if (x->power == 0 || p < x->power)
+        x->power = p;
+}
+
+static void
+look_at_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr product)
+{
+    double p;
+
+    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, product); k += 2) {
+        if (!is_broken(pool, product, k, &p))
+            continue;
+        for (size_t i = 0; i < m; i++)
+            if (!surfaces[i].steps
+                && is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u))
+                note_power(&surfaces[i], p);
+    }
+}
+
+qdot_status
+qdot_layers_find(qdot_pool *pool, size_t m, qdot_surface *surfaces, size_t n,
+                 const qdot_expr *e)
+{
+    qdot_walk walk;
+
+    if (m == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_walk_begin_n(pool, n, e, &walk));
+    for (size_t i = 0; i < walk.n; i++)
+        if (qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD)
+            look_at_product(pool, m, surfaces, walk.at[i]);
+    qdot_walk_end(&walk);
+    for (size_t i = 0; i < m; i++)
+        surfaces[i].power = fmax(surfaces[i].power, 0);
+    return qdot_pool_check(pool);
+}
+
+void
+qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest)
+{
+    double largest = 0;
+
+    for (size_t i = 0; i < m; i++)
+        if (surfaces[i].power > 0 && isfinite(speed[i]))
+            largest = fmax(largest, speed[i]);
+    largest = largest > 0 ? largest : 1;
+    for (size_t i = 0; i < m; i++) {
+        const double width = passage * latest * (speed[i] > 0 ? speed[i] : largest);
+
+        if (surfaces[i].power > 0 && isnormal(width)) /* a power of two: rims are exact */
+            surfaces[i].layer = exp2(ilogb(width));
+    }
+}
+
+qdot_expr
+qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface)
+{
+    return qdot_pow_int(pool, qdot_expr_int(pool, 2), ilogb(surface->layer));
+}
+
+bool
+qdot_layers_vanishes(qdot_pool *pool, size_t m, const qdot_surface *surfaces, const long *side,
+                     qdot_expr node)
+{
+    double p;
+
+    if (!side || qdot_expr_kind(pool, node) != QDOT_PROD)
+        return false;
+    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
+        for (size_t i = 0; i < m; i++)
+            if (surfaces[i].layer > 0 && side[i] == 0 && is_broken(pool, node, k, &p)
+                && is_base(pool, qdot_expr_arg(pool, node, k), surfaces[i].u))
+                return true;
+    return false;
+}

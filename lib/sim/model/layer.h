@@ -1,0 +1,43 @@
+/* layer.h -- layers about the branch points of powers.
+ *
+ *     |u|^p,  max(u, 0)^p,  if(u < 0, 0, u^p),     p > 0 no integer
+ *
+ * have no Taylor series at u = 0, and neither has a motion that passes there: no step can. But
+ * the power is small there. In a layer |u| <= w it counts as 0, as side 0 of the surface u = 0;
+ * beyond the layer, steps grow with the distance from the branch point.
+ *
+ * What is left out, while u passes with the velocity u', changes velocities by up to
+ *
+ *     C w^p/(p + 1) 2 w/|u'|,     C w^p the force at the rim of the layer.
+ *
+ * So a layer is as thin as doubles of t can follow the motion through it, w = 2^-42 T U for times
+ * up to T, where U is the larger of |u'| and sqrt(2 |u''| |u|) at the start and |u| there in a unit
+ * of time. What was left out is added up (sim/course/piece-layer.c): a run that leaves out more
+ * than its tolerance ends.
+ *
+ * Tests  tests/script/broken-powers.lag, tests/sim/test_switch.c
+ */
+#ifndef QDOT_SIM_LAYER_H
+#define QDOT_SIM_LAYER_H
+
+#include "sim/model/surface.h"
+
+/* Set `power` of every surface [m] whose u stands under such a power in e [n], to the least of its
+ * exponents. None has one whose u stands under a negative broken power as well: the force is
+ * infinite there. */
+QDOT_MUST_CHECK qdot_status qdot_layers_find(qdot_pool *pool, size_t m, qdot_surface *surfaces,
+                                             size_t n, const qdot_expr *e);
+
+/* Set `layer` of these surfaces [m], for times up to `latest` and speed [m], U above: where it is 0,
+ * the largest of them, or 1. */
+void qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest);
+
+/* The layer of a surface as an exact number. */
+qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
+
+/* Whether a node of an expression that is not frozen is a product with such a power of a u that
+ * is in its layer by side [m]. */
+bool qdot_layers_vanishes(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
+                          const long *side, qdot_expr node);
+
+#endif

@@ -1,0 +1,19 @@
+/* geometric.h -- which equations the methods for long times are for (ode/geometric/geometric.h).
+ *
+ *     verlet, composition8     M a matrix of numbers, f = f(q, t): H = T(p) + V(q, t)
+ *     gauss4 ... gauss12       M a matrix of numbers
+ *
+ * without constraints.
+ *
+ * Tests  tests/script/longtime-methods.lag, tests/bad/geometric.lag
+ */
+#ifndef QDOT_SIM_GEOMETRIC_H
+#define QDOT_SIM_GEOMETRIC_H
+
+#include "sim/model/equations.h"
+
+/* Of a plan with M and f: set plan->halves. If its method is geometric and does not fit:
+ * QDOT_ENOTBUILT, with the reason and a hint. */
+QDOT_MUST_CHECK qdot_status qdot_plan_check_geometric(qdot_plan *plan, qdot_scene *scene);
+
+#endif
