@@ -55,6 +55,7 @@ library_sources = \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
+	lib/lang/commands/scale.c \
 	lib/lang/commands/set.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/usage.c \
@@ -132,6 +133,7 @@ library_sources = \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/runs.c \
+	lib/lang/session/scales.c \
 	lib/lang/session/session.c \
 	lib/lang/session/transfer.c \
 	lib/lang/session/undo-state.c \
@@ -472,6 +474,7 @@ library_sources = \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
+	lib/sim/run/scales.c \
 	lib/sim/run/slides.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
@@ -592,6 +595,7 @@ library_headers = \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/runs.h \
+	lib/lang/session/scales.h \
 	lib/lang/session/session.h \
 	lib/lang/session/transfer.h \
 	lib/lang/session/undo-state.h \
@@ -741,6 +745,7 @@ library_headers = \
 	lib/ode/method.h \
 	lib/ode/precise.h \
 	lib/ode/run.h \
+	lib/ode/scale.h \
 	lib/ode/stepper.h \
 	lib/ode/stiffness.h \
 	lib/ode/system.h \
@@ -885,6 +890,7 @@ library_headers = \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
+	lib/sim/run/scales.h \
 	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
@@ -1012,6 +1018,7 @@ unit_tests = \
 	tests/ode/test_meter \
 	tests/ode/test_method \
 	tests/ode/test_precise \
+	tests/ode/test_scale \
 	tests/ode/test_stiffness \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
@@ -1208,6 +1215,8 @@ script_tests = \
 	tests/script/routhian-named.lag \
 	tests/script/run.sh \
 	tests/script/saved-run.sh \
+	tests/script/scale-found.lag \
+	tests/script/scale.lag \
 	tests/script/scene-file.sh \
 	tests/script/series-removable.lag \
 	tests/script/several-ranges.lag \
@@ -1397,6 +1406,10 @@ script_tests = \
 	tests/bad/run-hopeless-digits.lag \
 	tests/bad/run-hopeless.lag \
 	tests/bad/same-label.lag \
+	tests/bad/scale-later.lag \
+	tests/bad/scale-negative.lag \
+	tests/bad/scale-of-acceleration.lag \
+	tests/bad/scale-of-nothing.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
 	tests/bad/series-none.sh \
@@ -1724,6 +1737,10 @@ test_files = \
 	tests/bad/run-hopeless-digits.out \
 	tests/bad/run-hopeless.out \
 	tests/bad/same-label.out \
+	tests/bad/scale-later.out \
+	tests/bad/scale-negative.out \
+	tests/bad/scale-of-acceleration.out \
+	tests/bad/scale-of-nothing.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
 	tests/bad/series-none.out \
@@ -2069,6 +2086,8 @@ test_files = \
 	tests/script/routhian-named.out \
 	tests/script/run.out \
 	tests/script/saved-run.out \
+	tests/script/scale-found.out \
+	tests/script/scale.out \
 	tests/script/scene-file.out \
 	tests/script/series-removable.out \
 	tests/script/several-ranges.out \

@@ -64,7 +64,8 @@ typedef struct {
     /* All of these have room for 8 more: */
     const double *y, *carry; /* [n] */
     double *next, *next_carry;
-    double *size, *scale; /* [n] max(1, |next|), and its inverse */
+    const double *least;  /* [n] what sizes are at least, positive (ode/scale.h) */
+    double *size, *scale; /* [n] max(least, |next|), and its inverse */
     /* [n] Only for components from `linked` on: the derivative at the end times the step, sum k
      * x_k s^k, and the sum of the sizes of its terms, of x_1 s and of `size`. */
     double *slope, *terms;

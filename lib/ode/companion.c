@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 
 static const double unit = 0x1p-53;
@@ -58,6 +59,7 @@ typedef struct {
 
 struct qdot_companion {
     size_t n;
+    const double *scales; /* of the system (scale.h) */
     const qdot_ode_method *run; /* its method */
     const qdot_ode_meter *meter;
     double tol, t1, t1_low, t0_low; /* of the run */
@@ -145,19 +147,19 @@ goes_up(size_t i, size_t number)
 }
 
 double
-qdot_companion_aside(double tol, double y, size_t i, size_t number, double by)
+qdot_companion_aside(double tol, double size, size_t i, size_t number, double by)
 {
-    by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * fmax(1, fabs(y));
+    by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
     return goes_up(i, number) ? by : -by;
 }
 
 double
-qdot_companion_moved(double y, size_t i, size_t number, double by)
+qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
 {
     const bool up = goes_up(i, number);
 
     if (y == 0)
-        return up ? unit : -unit;
+        return up ? unit * scale : -unit * scale;
     return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
@@ -314,15 +316,15 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
     c->n_shown = k + 1;
 }
 
-/* max |a - b| / max(1, min(|a|, |b|)) over components. */
+/* max |a - b| / max(s, min(|a|, |b|)) over components. */
 static double
-apart(const qdot_companion *c, const double *a, const double *b)
+apart(const qdot_companion *c, const double *scales, const double *a, const double *b)
 {
     double worst = 0;
 
     for (size_t i = 0; i < c->n; i++)
-        worst = fmax(worst,
-                     fabs(a[i] - b[i]) / fmax(1, fmin(fabs(a[i]), fabs(b[i]))));
+        worst = fmax(worst, fabs(a[i] - b[i])
+                                / qdot_ode_size(scales, i, fmin(fabs(a[i]), fabs(b[i]))));
     return worst;
 }
 
@@ -332,20 +334,20 @@ qdot_companion_bound(double apart, double own)
     return (1 + most_share) * apart + own;
 }
 
-/* Error bound of the run's state y from the companions' states at time k (SIZE_MAX: at the end).
- * The distance of the second companion counts by the factor `share`. */
+/* Error bound of the run's state y, relative to these scales, from the companions' states at time k
+ * (SIZE_MAX: at the end). The distance of the second companion counts by the factor `share`. */
 static double
-bound_at(const qdot_companion *c, const double *y, size_t k)
+bound_at(const qdot_companion *c, const double *scales, const double *y, size_t k)
 {
     const double *of[2];
     double worst = 0;
 
     for (size_t i = 0; i < c->count; i++) {
         of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
-        worst = fmax(worst, (i ? c->share : 1) * apart(c, y, of[i]));
+        worst = fmax(worst, (i ? c->share : 1) * apart(c, scales, y, of[i]));
     }
     return qdot_companion_bound(worst,
-                                c->count == 2 ? c->share * apart(c, of[0], of[1]) : 0);
+                                c->count == 2 ? c->share * apart(c, scales, of[0], of[1]) : 0);
 }
 
 double
@@ -360,12 +362,12 @@ qdot_companion_bound_of(double x, size_t count, const double *theirs, double sha
 
 /* The median of the error bounds at the times between. */
 static double
-median_between(const qdot_companion *c)
+median_between(const qdot_companion *c, const double *scales)
 {
     double errors[PLACES];
 
     for (size_t k = 0; k < PLACES; k++) {
-        double worst = bound_at(c, c->shown + k * c->n, k);
+        double worst = bound_at(c, scales, c->shown + k * c->n, k);
         size_t at = k;
 
         for (; at > 0 && errors[at - 1] > worst; at--)
@@ -398,8 +400,11 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
         const double y = request->y0[i], far = number ? QDOT_COMPANION_FAR : 1;
 
         if (c->leading)
-            f->low[i] += qdot_companion_aside(request->tol, y, i, number, far);
-        f->start[i] = c->leading ? y : qdot_companion_moved(y, i, number, far);
+            f->low[i] += qdot_companion_aside(request->tol, qdot_ode_size(c->scales, i, y), i,
+                                              number, far);
+        f->start[i] = c->leading ? y
+                                 : qdot_companion_moved(y, qdot_ode_scale(c->scales, i), i,
+                                                        number, far);
     }
     if (f->system.project) { /* only along what solutions may do */
         double by;
@@ -419,6 +424,7 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     if (!c)
         return QDOT_ENOMEM;
     c->n = request->system->n;
+    c->scales = request->system->scales;
     c->run = request->method;
     c->tol = request->tol;
     c->meter = request->meter;
@@ -492,6 +498,15 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
                                            : unit;
 }
 
+/* The error of the end y relative to these scales; `between`: that of states before it, too. */
+static double
+error_of(const qdot_companion *c, const double *scales, const double *y, bool between)
+{
+    const double error = fmax(c->floor, bound_at(c, scales, y, SIZE_MAX));
+
+    return between ? fmax(error, fmin(median_between(c, scales), most_between * error)) : error;
+}
+
 void
 qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                       double *difference, qdot_companion_estimate *out)
@@ -505,15 +520,11 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         if (c->at[k].running)
             pthread_join(c->at[k].thread, NULL);
     atomic_store(&c->leave, false);
-    *out = (qdot_companion_estimate){.known = true, .error = c->floor};
+    *out = (qdot_companion_estimate){.known = true};
     for (size_t k = 0; k < c->count; k++)
         between = arrive(c->at + k, whole, t_end, out) && between;
-    if (out->known)
-        out->error = fmax(out->error, bound_at(c, y, SIZE_MAX));
-    if (out->known && between)
-        out->error = fmax(out->error, fmin(median_between(c), most_between * out->error));
-    if (!out->known)
-        out->error = NAN;
+    out->error = out->known ? error_of(c, c->scales, y, between) : NAN;
+    out->plain = out->known ? error_of(c, NULL, y, between) : NAN;
     for (size_t i = 0; i < c->n && difference; i++) {
         const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
 

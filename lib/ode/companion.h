@@ -12,7 +12,7 @@
  *       coefficients
  *       are computed and not rounded once for all, takes tol/100 down to 1e-16, and three
  *       orders more than that asks for,
- *     from the doubles next to y0, +-2^-53 for a zero, signs mixed,
+ *     from the doubles next to y0, +-2^-53 s_i for a zero, signs mixed,
  *
  * to y*. The tighter tolerance shows the error of the method, the moved start the
  * rounding of the inputs (its zeros too) and, as all roundings of the second run differ,
@@ -22,7 +22,8 @@
  *     error   = max(floor, bound(apart, own))     (qdot_companion_bound)
  *     floor   = 2^-52 min(sqrt(steps), 32)
  *
- * where a distance of states is max_i |a_i - b_i| / max(1, min(|a_i|, |b_i|)).
+ * where a distance of states is max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)), s_i the scales of
+ * the system (scale.h); `plain` is the same with s_i = 1.
  *
  * There are two companions, moved to either side, with three orders and one order more. One is
  * not enough: if all is rounding, the difference of two random walks may be small by chance; near
@@ -36,7 +37,7 @@
  * A run whose first orders are sums of two doubles (leading.h) has exact inputs and errs by far
  * less than a rounding a step. Its companions are of the same kind and start
  *
- *     QDOT_COMPANION_AIMS eps max(1, |y_i|)
+ *     QDOT_COMPANION_AIMS eps max(s_i, |y_i|)
  *
  * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
@@ -81,7 +82,7 @@ typedef enum {
 
 typedef struct {
     bool known;
-    double error;           /* as above; NaN where unknown */
+    double error, plain;    /* as above; NaN where unknown */
     double tol;             /* tol* */
     qdot_companion_way way; /* the last one that was needed */
     qdot_ode_result result; /* of the companion: its cost, why it did not arrive */
@@ -194,13 +195,13 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
-/* The distance from y in component i at which companion `number` starts, for a run whose first
- * orders are sums of two doubles: `by` times the least one. */
-double qdot_companion_aside(double tol, double y, size_t i, size_t number, double by);
+/* The distance from component i, of that size (scale.h), at which companion `number` starts, for a
+ * run whose first orders are sums of two doubles: `by` times the least one. */
+double qdot_companion_aside(double tol, double size, size_t i, size_t number, double by);
 #define QDOT_COMPANION_AIMS 0.0625
 
 /* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
- * for a zero 2^-53. */
-double qdot_companion_moved(double y, size_t i, size_t number, double by);
+ * for a zero 2^-53 of its scale. */
+double qdot_companion_moved(double y, double scale, size_t i, size_t number, double by);
 
 #endif

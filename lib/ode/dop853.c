@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "ode/scale.h"
+
 enum { rows = 16, degree = 7 };
 
 static double
@@ -54,7 +56,7 @@ finish(qdot_ode_stepper *s, double h)
         trial[i] = y[i] + (s->carry[i] + z[i]);
         if (!isfinite(trial[i]))
             return INFINITY;
-        size = fmax(1, fmax(fabs(y[i]), fabs(trial[i])));
+        size = qdot_ode_size(s->system->scales, i, fmax(fabs(y[i]), fabs(trial[i])));
         fifth /= size;
         third /= size;
         if (!(fifth <= e5))

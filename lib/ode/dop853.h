@@ -5,7 +5,7 @@
  *     y(t + h) = y + h sum_j b_j k_j,   k_12 = f there, the k_0 of the next step
  *
  * Twelve evaluations a step taken, eleven a step refused. With E5 and E3 the largest
- * components, in units of tol max(1, |y_i|), of how far the results of orders 5 and 3 are
+ * components, in units of tol max(s_i, |y_i|), of how far the results of orders 5 and 3 are
  * off,
  *
  *     ratio = E5^2 / sqrt(E5^2 + E3^2 / 100),

@@ -1,6 +1,6 @@
 /* integrate.h -- integration from t0 to t1 with a bound for the error of every step.
  *
- *     |error of y_i in one step| <= tol max(1, |y_i|),   every component, every step
+ *     |error of y_i in one step| <= tol max(s_i, |y_i|),   every component, every step
  *
  * (as the method estimates it). t1 < t0 runs backwards. The last step ends on t1 to the
  * bit; time and, for one-step methods, the state are accumulated as sums of two doubles,

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "num/series.h"
+#include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 
 static bool
@@ -114,7 +115,7 @@ qdot_ode_leading_read(const qdot_ode_system *system, int p, double tol,
     if (!room)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < system->n; i++) {
-        room[i] = 1 / qdot_larger(1, fabs(at->y[i]));
+        room[i] = 1 / qdot_ode_size(system->scales, i, at->y[i]);
         y[i] = at->y[i];
     }
     step.h = qdot_two_rounded_sum(t, -at->t, &step.h_low);

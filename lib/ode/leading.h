@@ -7,8 +7,8 @@
  * the first sum in two doubles, the second in doubles. m is the least order, up to
  * QDOT_ODE_LEADING_MOST, beyond which rounding is negligible compared with the error of a step,
  *
- *     max_i |x_ik s^k|/max(1, |y_i|) 2^-52 <= eps   for k > m,
- *     max_i |X_im - x_im| s^m/max(1, |y_i|) <= 4 eps:
+ *     max_i |x_ik s^k|/max(s_i, |y_i|) 2^-52 <= eps   for k > m,
+ *     max_i |X_im - x_im| s^m/max(s_i, |y_i|) <= 4 eps:
  *
  * The second condition is the accuracy that doubles really have at order m if terms of the
  * equations cancel. The remaining rounding is of the size of the series' own error, whose bound
@@ -32,7 +32,7 @@ typedef struct {
     const qdot_ode_system *system;
     qdot_ode_place at;
     double h, h_low, unit, eps;
-    const double *scale; /* [n] 1/max(1, |y|) */
+    const double *scale; /* [n] 1/max(s_i, |y_i|) (scale.h) */
     int p;
 } qdot_ode_leading_step;
 

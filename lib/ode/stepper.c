@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "num/sum.h"
+#include "ode/scale.h"
 
 static pthread_once_t handler_once = PTHREAD_ONCE_INIT;
 
@@ -93,21 +94,27 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
 }
 
 /* The control object: only its error level is ever asked for, by multistep methods. */
+typedef struct {
+    double tol;
+    const double *scales; /* of the system */
+} level_of_error;
+
 static int
 error_level(void *state, const double y, const double dydt, const double h,
             const size_t ind, double *level)
 {
+    const level_of_error *of = state;
+
     (void)dydt;
     (void)h;
-    (void)ind;
-    *level = *(const double *)state * fmax(1, fabs(y));
+    *level = of->tol * qdot_ode_size(of->scales, ind, y);
     return GSL_SUCCESS;
 }
 
 static void *
 control_alloc(void)
 {
-    return qdot_calloc(1, sizeof(double));
+    return qdot_calloc(1, sizeof(level_of_error));
 }
 
 static int
@@ -116,7 +123,7 @@ control_init(void *state, double tol, double eps_rel, double a_y, double a_dydt)
     (void)eps_rel;
     (void)a_y;
     (void)a_dydt;
-    *(double *)state = tol;
+    ((level_of_error *)state)->tol = tol;
     return GSL_SUCCESS;
 }
 
@@ -206,6 +213,7 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
     s->inner = (gsl_odeiv2_system){inner_rhs, inner_jacobian, system->n, s};
     s->driver = (gsl_odeiv2_driver){.sys = &s->inner, .s = s->step, .c = s->control};
     gsl_odeiv2_control_init(s->control, tol, 0, 0, 0);
+    ((level_of_error *)s->control->state)->scales = system->scales;
     gsl_odeiv2_step_set_driver(s->step, &s->driver);
     return QDOT_OK;
 }
@@ -240,7 +248,7 @@ choose_scale(qdot_ode_stepper *s)
     bool scaled = s->method->stiff && !s->method->multistep;
 
     for (size_t i = 0; i < s->system->n; i++)
-        s->scale[i] = scaled ? ldexp(1, ilogb(fmax(1, fabs(s->y[i])))) : 1;
+        s->scale[i] = scaled ? ldexp(1, ilogb(qdot_ode_size(s->system->scales, i, s->y[i]))) : 1;
 }
 
 void
@@ -261,7 +269,8 @@ judge(const qdot_ode_stepper *s)
     double ratio = 0;
 
     for (size_t i = 0; i < s->system->n; i++) {
-        double size = fmax(1, fmax(fabs(s->y[i]), fabs(s->trial[i])));
+        double size = qdot_ode_size(s->system->scales, i,
+                                    fmax(fabs(s->y[i]), fabs(s->trial[i])));
         double r = fabs(s->error[i]) * s->scale[i] / (s->tol * size);
 
         if (!(r <= ratio))

@@ -8,7 +8,7 @@
  *     z = (Y - (y + carry)) / s,   z = 0 at the start,
  *     dz/dt = f(t, y + (carry + s z)) / s
  *
- * (s: for bsimp, whose safeguards depend on |z|, the power of two at or below max(1, |y|); else
+ * (s: for bsimp, whose safeguards depend on |z|, the power of two at or below the size of y; else
  * 1). So its increment is rounded to 2^-53 of itself, not of y, and is added by TwoSum: no
  * addition rounds (tests/ode/test_integrate.c, additions_do_not_round). The rounding of f and of
  * the method's coefficients remains. On smooth scenes at tol 1e-15 and 1e-16 the end error was
@@ -18,7 +18,7 @@
  *
  * The error of a step is judged component by component:
  *
- *     ratio = max_i |error_i| / (tol max(1, |y_i|)),   accepted if ratio <= 1.
+ *     ratio = max_i |error_i| / (tol max(s_i, |y_i|)),   accepted if ratio <= 1 (scale.h).
  *
  * GSL's error handler aborts the program by default; qdot_ode_stepper_new turns it off
  * for the process (once, through pthread_once), as a library that returns its errors

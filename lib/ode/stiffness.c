@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "ode/scale.h"
 
 /* Steps from a place to the next, in all 4000. */
 static const int waits[QDOT_ODE_STIFF_PLACES] = {1, 397, 512, 331, 467, 389, 541, 443, 491, 429};
@@ -30,12 +31,14 @@ qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
 
 /* Whether component i lies on the parabola through its first, middle and last place. */
 static bool
-is_smooth(const qdot_ode_stiffness *s, size_t n, size_t i, double noise)
+is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_step *at)
 {
     enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
+    const size_t n = at->n;
     const double *y = s->y + i, a = y[0], b = y[MIDDLE * n], c = y[LAST * n];
     const double T = s->t[LAST] - s->t[0], m = (s->t[MIDDLE] - s->t[0]) / T;
     const double curved = ((b - a) / m - (c - a)) / (m - 1);
+    const double noise = at->noise * qdot_ode_size(at->scales, i, b);
     double low = a, high = a;
 
     for (size_t k = 1; k <= LAST; k++) {
@@ -45,17 +48,17 @@ is_smooth(const qdot_ode_stiffness *s, size_t n, size_t i, double noise)
     for (size_t k = 1; k < LAST; k++) {
         const double x = (s->t[k] - s->t[0]) / T, by = a + x * (c - a) + curved * x * (x - 1);
 
-        if (!(fabs(y[k * n] - by) <= share * (high - low) + noise * fmax(1, fabs(b))))
+        if (!(fabs(y[k * n] - by) <= share * (high - low) + noise))
             return false;
     }
     return true;
 }
 
 static bool
-are_smooth(const qdot_ode_stiffness *s, size_t n, double noise)
+are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
 {
-    for (size_t i = 0; i < n; i++)
-        if (!is_smooth(s, n, i, noise))
+    for (size_t i = 0; i < at->n; i++)
+        if (!is_smooth(s, i, at))
             return false;
     return true;
 }
@@ -106,7 +109,7 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
         return QDOT_OK;
     step = (at->t - s->t[0]) / steps_between();
     left = fabs((at->t1 - at->t) / step);
-    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at->n, at->noise);
+    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
     s->count = 0;
     if (++s->windows >= windows_patient && left > (double)at->most && !*stiff)
         return qdot_fail(QDOT_ELIMIT,

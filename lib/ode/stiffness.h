@@ -5,7 +5,7 @@
  * parabola,
  *
  *     |y_i(t) - parabola through y_i at both ends and the middle|
- *         <= share (max y_i - min y_i) + noise max(1, |y_i|),
+ *         <= share (max y_i - min y_i) + noise max(s_i, |y_i|),
  *
  * at seven more places without a pattern, which no motion does that its steps follow;
  * noise is what these leave of the fast one. It matters if much work is left (in about nanoseconds;
@@ -39,7 +39,8 @@ typedef struct {
     size_t n;
     double t, t1;    /* now, and the end of the run */
     const double *y; /* [n] */
-    double noise;
+    const double *scales; /* of the system (scale.h) */
+    double noise; /* relative to the size of a component */
     double work;   /* of a step */
     uint64_t most; /* steps that the run may take */
     bool implicit; /* stability does not bound its steps */

@@ -156,6 +156,9 @@ typedef struct qdot_ode_system {
     size_t n_parts;
     /* The first orders of the series in two doubles; NULL if there are none; borrowed */
     const qdot_ode_leading *leading;
+    /* [n] s_i, positive: errors of y_i are relative to max(s_i, |y_i|) (scale.h). NULL: all are 1;
+     * borrowed */
+    const double *scales;
 } qdot_ode_system;
 
 /* Statuses by which f says that it does not exist at a point. */

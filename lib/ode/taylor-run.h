@@ -38,7 +38,8 @@ typedef struct {
 
     /* [n], with the room that qdot_series_step wants */
     double *y, *carry;           /* the state now */
-    double *scale;               /* 1/max(1, |y|) */
+    double *least;               /* the scales of the system (scale.h) */
+    double *scale;               /* 1/max(least, |y|) */
     double *next, *next_carry;   /* at the end of the step tried */
     double *next_size, *next_scale;
     double *slope, *terms;       /* of the polynomial there */

@@ -11,13 +11,14 @@
 #include "base/progress.h"
 #include "ode/leading.h"
 #include "ode/meter.h"
+#include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 #include "ode/taylor-run.h"
 
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
 
-enum { ARRAYS = 9 };
+enum { ARRAYS = 10 };
 
 typedef qdot_ode_taylor_run run;
 
@@ -55,6 +56,7 @@ aim_step(run *r)
                                  .carry = r->carry,
                                  .next = r->next,
                                  .next_carry = r->next_carry,
+                                 .least = r->least,
                                  .size = r->next_size,
                                  .scale = r->next_scale,
                                  .slope = r->slope,
@@ -79,7 +81,7 @@ arrive(run *r)
 static void
 take_size(run *r, size_t i)
 {
-    r->next_size[i] = qdot_larger(1, fabs(r->next[i]));
+    r->next_size[i] = qdot_ode_size(r->least, i, r->next[i]);
     r->next_scale[i] = 1 / r->next_size[i];
 }
 
@@ -98,7 +100,7 @@ followers_agree(const run *r, double h, double share)
         double P = r->next[i], now = r->series->x[i * r->series->stride];
 
         if (!(fabs((P - now) * h) <=
-              share * fmax(1, fabs(P)) + 0x1p-26 * (fabs(P) + fabs(now)) * fabs(h)))
+              share * qdot_ode_size(r->least, i, P) + 0x1p-26 * (fabs(P) + fabs(now)) * fabs(h)))
             return false;
     }
     return true;
@@ -434,6 +436,7 @@ look_for_stiffness(run *r)
                                     .t = r->t,
                                     .t1 = r->t1,
                                     .y = r->y,
+                                    .scales = r->least,
                                     .noise = 4 * exp2(r->log_wanted) + 8 * DBL_EPSILON,
                                     .work = r->work,
                                     .most = r->max_steps};
@@ -484,6 +487,7 @@ list_arrays(run *r, double ***arrays)
     arrays[6] = &r->next_scale;
     arrays[7] = &r->slope;
     arrays[8] = &r->terms;
+    arrays[9] = &r->least;
 }
 
 static qdot_status
@@ -498,6 +502,8 @@ make_room(run *r)
         if (!*arrays[i])
             return QDOT_ENOMEM;
     }
+    for (size_t i = 0; i < r->n + 8; i++)
+        r->least[i] = i < r->n ? qdot_ode_scale(r->system->scales, i) : 1;
     r->confirmed = qdot_calloc(r->n, sizeof *r->confirmed);
     if (!r->confirmed)
         return QDOT_ENOMEM;
@@ -534,7 +540,7 @@ prepare(run *r, double t0, double t1, const double *y)
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
     for (size_t i = 0; i < r->n; i++)
-        r->scale[i] = 1 / qdot_larger(1, fabs(y[i]));
+        r->scale[i] = 1 / qdot_ode_size(r->least, i, y[i]);
     r->log_wanted = log2(qdot_step_aim(r->tol, r->options->leading));
     r->log_term = qdot_step_term(r->log_wanted);
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,

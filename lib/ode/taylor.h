@@ -14,7 +14,7 @@
  *
  * The length of a step is
  *
- *     h = rho eps^(1/p),   rho = min over k = p/2 ... p, i of (max(1, |y_i|)/|x_ik|)^(1/k):
+ *     h = rho eps^(1/p),   rho = min over k = p/2 ... p, i of (max(s_i, |y_i|)/|x_ik|)^(1/k):
  *
  * from the whole upper half of the series, since a symmetric start makes most of the
  * coefficients vanish. So a term at k may be eps^(k/p), a steady fall from the size of the state;
@@ -26,7 +26,7 @@
  * defect at its end: the slope of the polynomial there against y' as the equations have it
  * (the next step's first coefficient),
  *
- *     |P_i'(h) - f_i| h <= 10 (p + 1) tol max(1, |y_i|) + rounding,
+ *     |P_i'(h) - f_i| h <= 10 (p + 1) tol max(s_i, |y_i|) + rounding,
  *
  * else it is taken back and a quarter of it tried. Where the upper half holds nothing at
  * all (free fall, an equilibrium, few terms of a high power) the polynomial may be the

@@ -11,6 +11,7 @@
 #include "num/sum.h"
 #include "ode/geometric/geometric.h"
 #include "ode/meter.h"
+#include "ode/scale.h"
 #include "ode/stiffness.h"
 #include "ode/stepper.h"
 #include "ode/taylor.h"
@@ -67,14 +68,14 @@ floor_of_step(const run *r)
     return fmax(16 * spacing(r->t), 16 * DBL_MIN);
 }
 
-/* max_i |x_i| / (tol max(1, |y_i|)) */
+/* max_i |x_i| / (tol max(s_i, |y_i|)) */
 static double
 norm(const run *r, const double *x, const double *y)
 {
     double largest = 0;
 
     for (size_t i = 0; i < r->s->system->n; i++)
-        largest = fmax(largest, fabs(x[i]) / (r->s->tol * fmax(1, fabs(y[i]))));
+        largest = fmax(largest, fabs(x[i]) / (r->s->tol * qdot_ode_size(r->s->system->scales, i, y[i])));
     return largest;
 }
 
@@ -303,6 +304,7 @@ look_for_stiffness(run *r)
                                     .t = r->t,
                                     .t1 = r->t1,
                                     .y = r->s->y,
+                                    .scales = r->s->system->scales,
                                     .noise = r->s->tol,
                                     .work = work,
                                     .most = r->max_steps,

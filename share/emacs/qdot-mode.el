@@ -22,8 +22,8 @@
     "derive" "dissipation" "dof" "equilibria" "event" "events" "export" "force" "forces"
     "function" "gravity" "help" "include" "lagrangian" "modes" "param" "particle" "plan"
     "plot" "potential" "print" "quit" "race" "reactions" "redo" "remove" "report" "reset"
-    "run" "save" "scene" "set" "show" "spring" "start" "style" "table" "timing" "torque"
-    "undo" "vars" "workprecision")
+    "run" "save" "scale" "scene" "set" "show" "spring" "start" "style" "table" "timing"
+    "torque" "undo" "vars" "workprecision")
   "Words at the beginning of a statement.")
 (defconst qdot-functions
   '("N" "abs" "acos" "acosh" "asin" "asinh" "atan" "atan2" "atanh" "christoffel"

@@ -7,6 +7,7 @@
 #include "lang/answer/digits.h"
 #include "lang/answer/number-text.h"
 #include "lang/answer/write.h"
+#include "ode/scale.h"
 
 static const char *
 status_word(qdot_run_status status)
@@ -32,7 +33,8 @@ exact_number(qdot_session *session, const qdot_run_report *r, size_t i, double e
 }
 
 static void
-double_number(qdot_session *session, double value, double error, qdot_text *number)
+double_number(qdot_session *session, double value, double error, double size,
+              qdot_text *number)
 {
     if (session->json)
         qdot_number_text_json(number, value);
@@ -40,14 +42,14 @@ double_number(qdot_session *session, double value, double error, qdot_text *numb
         qdot_text_add(number, "unknown"); /* a multiplier where a constraint has no direction */
     else
         qdot_number_text(number, value,
-                         isfinite(error) ? fmax(error, 2e-16) * fmax(1, fabs(value))
-                                         : NAN);
+                         isfinite(error) ? fmax(error, 2e-16) * size : NAN);
 }
 
 /* What is at the end: jets, parameters that events set, multipliers. */
 typedef struct {
     qdot_expr symbol;
-    double value, error; /* relative to max(1, |value|) */
+    double value, error; /* relative to size */
+    double size;         /* max(scale, |value|) */
     size_t exact;        /* its place in report->exact */
     bool first;          /* of a line */
 } end_number;
@@ -57,20 +59,20 @@ static end_number
 number_at(qdot_session *session, const qdot_run_report *r, size_t k)
 {
     const size_t n = r->n - r->n_states;
+    const bool velocity = k < 2 * n && k % 2 != 0;
+    const size_t i = velocity ? r->n + k / 2 : k >= 2 * n ? k - n : k / 2;
 
     if (k >= 2 * n + r->n_states) {
-        const size_t i = k - 2 * n - r->n_states;
+        const size_t j = k - 2 * n - r->n_states;
+        const double size = fmax(1, fabs(r->lambda[j]));
 
-        return (end_number){r->multipliers[i], r->lambda[i],
-                            r->lambda_error[i] / fmax(1, fabs(r->lambda[i])), 2 * r->n + i,
-                            i % 2 == 0};
+        return (end_number){r->multipliers[j], r->lambda[j], r->lambda_error[j] / size, size,
+                            2 * r->n + j, j % 2 == 0};
     }
-    if (k >= 2 * n)
-        return (end_number){r->coordinates[k - n], r->q[k - n], r->error, k - n, true};
-    if (k % 2 == 0)
-        return (end_number){r->coordinates[k / 2], r->q[k / 2], r->error, k / 2, true};
-    return (end_number){qdot_symbol_jet(session->pool, r->coordinates[k / 2], 1), r->v[k / 2],
-                        r->error, r->n + k / 2, false};
+    return (end_number){velocity ? qdot_symbol_jet(session->pool, r->coordinates[k / 2], 1)
+                                 : r->coordinates[i],
+                        r->q[i], r->scaled_error, qdot_ode_size(r->scales, i, r->q[i]), i,
+                        !velocity};
 }
 
 /* Call `each` for every number of the end state. */
@@ -91,10 +93,9 @@ each_state(qdot_session *session, const qdot_run_report *report, qdot_style styl
         if (status == QDOT_OK)
             status = qdot_print(session->pool, x.symbol, style, &name);
         if (status == QDOT_OK && exact)
-            status = exact_number(session, report, x.exact, x.error * fmax(1, fabs(x.value)),
-                                  &number);
+            status = exact_number(session, report, x.exact, x.error * x.size, &number);
         else if (status == QDOT_OK)
-            double_number(session, x.value, x.error, &number);
+            double_number(session, x.value, x.error, x.size, &number);
         if (status == QDOT_OK)
             each(line, k, x.first, qdot_text_str(&name), qdot_text_str(&number));
         qdot_text_clear(&name);
@@ -211,6 +212,8 @@ run_json(qdot_session *session, const char *name, const qdot_run_report *r,
     field(line, "cpu", r->cpu);
     field(line, "cpu_total", r->cpu_total);
     field(line, "error", r->error);
+    if (r->scales)
+        field(line, "scaled_error", r->scaled_error);
     field(line, "horizon", r->horizon);
     field(line, "energy_drift", r->energy_drift);
     drifts_json(line, r);
@@ -359,9 +362,11 @@ run_text(qdot_session *session, const char *name, const qdot_run_report *r,
                                            : "\n  drift: no conserved quantity is known");
     constraints_text(line, r);
     qdot_text_add(line, "\n  error of the end state: ");
-    if (isfinite(r->error)) {
+    if (isfinite(r->scaled_error)) {
         qdot_text_add(line, "at most ");
-        qdot_number_text_bound(line, r->error);
+        qdot_number_text_bound(line, r->scaled_error);
+        if (r->scales)
+            qdot_text_add(line, " of max(scale, |value|)");
     } else {
         qdot_text_add(line, "unknown");
     }

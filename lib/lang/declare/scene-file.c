@@ -206,6 +206,8 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
     QDOT_TRY(put_values(s, "start ", s->start_symbols.n, s->start_symbols.at,
                         s->start_values.at,
                         s->start_exactly ? " exactly\n" : "\n", out));
+    QDOT_TRY(put_values(s, "scale ", s->scale_symbols.n, s->scale_symbols.at,
+                        s->scale_values.at, "\n", out));
     if (what != QDOT_FILE_SCENE) {
         put_settings(s, out);
         put_runs(s, what == QDOT_FILE_SESSION ? "# " : "", out);

@@ -5,6 +5,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/scales.h"
 
 void
 qdot_request_free(qdot_request *o)
@@ -14,6 +15,7 @@ qdot_request_free(qdot_request *o)
     qdot_free(o->v0.at);
     qdot_free(o->q_named.at);
     qdot_free(o->v_named.at);
+    qdot_free(o->scales);
 }
 
 static qdot_expr
@@ -117,6 +119,7 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     QDOT_TRY(follow_events(session, o));
     QDOT_TRY(qdot_value_check_assumed(session));
     QDOT_TRY(order_start(session, o));
+    QDOT_TRY(qdot_scales_of_run(session, &o->scales));
     o->request.n_values = o->values.symbols.n;
     o->request.symbols = o->values.symbols.at;
     o->request.values = o->values.values.at;
@@ -124,6 +127,7 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     o->request.v0 = o->v0.at;
     o->request.q_named = o->q_named.at;
     o->request.v_named = o->v_named.at;
+    o->request.scales = o->scales;
     o->request.exactly = session->start_exactly;
     return QDOT_OK;
 }

@@ -74,6 +74,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
     qdot_kept_studies studies; /* of work and precision, so that a report need not repeat them */

@@ -115,15 +115,20 @@ qdot_reset(qdot_cursor *c)
     const qdot_token *start = c->at;
     bool scene = qdot_cursor_accept_word(c, "scene");
     bool initial = !scene && qdot_cursor_accept_word(c, "start");
+    bool scale = !scene && !initial && qdot_cursor_accept_word(c, "scale");
 
-    if (!scene && !initial && !qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, "`scene`, `start` or the end of the statement");
+    if (!scene && !initial && !scale && !qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, "`scene`, `start`, `scale` or the end of the statement");
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
     if (initial) {
         c->session->start_symbols.n = 0;
         c->session->start_exactly = false;
         c->session->start_values.n = 0;
+        return QDOT_OK;
+    }
+    if (scale) {
+        c->session->scale_symbols.n = c->session->scale_values.n = 0;
         return QDOT_OK;
     }
     return reset(c->session, !scene);

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "num/sum.h"
 #include "ode/meter.h"
+#include "ode/scale.h"
 
 static const double tol_default = 1e-12;
 static const uint64_t max_steps_default = 50000000;
@@ -120,7 +121,7 @@ measure(run *r, double h, double *ratio)
     }
     *ratio = 0;
     for (size_t i = 0; i < 2 * r->g.n; i++) {
-        const double size = fmax(1, fabs(r->full[i]));
+        const double size = qdot_ode_size(r->g.system->scales, i, r->full[i]);
         const double apart = fabs(r->full[i] - r->halves[i]) - rounding * size;
 
         *ratio = fmax(*ratio, apart / (r->tol * size));

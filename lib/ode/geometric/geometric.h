@@ -12,7 +12,7 @@
  * start, each under the tolerance, and 0.9 of the shortest is taken. The error of a step is its
  * difference from two steps of half the length,
  *
- *     ratio = max_i |y_i - y_i,halves| / (tol max(1, |y_i|)),     y = (q, q').
+ *     ratio = max_i |y_i - y_i,halves| / (tol max(s_i, |y_i|)),     y = (q, q').
  *
  * Every sixteenth step is measured like that. If its ratio is above 1 the step is repeated with a
  * shorter length, and all that follow have that one: the length never grows.

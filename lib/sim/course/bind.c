@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "ode/apart.h"
 #include "series/taylor.h"
 #include "sim/form/blocks.h"
 #include "sim/form/motion-series.h"
@@ -46,6 +47,8 @@ struct qdot_bind {
     qdot_ode_system *systems;  /* [n_parts] */
     qdot_ode_part *listed;     /* [n_parts] */
     size_t *index;             /* [2n] what `listed` has */
+    double *part_scales;       /* [2n] theirs, one after another; NULL */
+    const double *scales;
 };
 
 static const qdot_tape *
@@ -84,6 +87,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->systems);
     qdot_free(b->listed);
     qdot_free(b->index);
+    qdot_free(b->part_scales);
     qdot_free(b->in);
     qdot_free(b->out);
     qdot_free(b->work);
@@ -317,7 +321,29 @@ qdot_bind_system(qdot_bind *b)
         .n_parts = b->listed ? b->plan->n_parts : 0,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
         .margin = b->held ? margin : NULL,
+        .scales = b->scales,
     };
+}
+
+qdot_status
+qdot_bind_scale(qdot_bind *b, const double *scales)
+{
+    double *at;
+
+    b->scales = scales;
+    if (!b->listed || !scales)
+        return QDOT_OK;
+    if (!b->part_scales)
+        b->part_scales = qdot_calloc(2 * b->plan->n, sizeof *b->part_scales);
+    if (!(at = b->part_scales))
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < b->plan->n_parts; k++) {
+        qdot_ode_part_gather(b->listed + k, scales, at);
+        QDOT_TRY(qdot_bind_scale(b->parts[k], at));
+        b->systems[k] = qdot_bind_system(b->parts[k]);
+        at += b->systems[k].n;
+    }
+    return QDOT_OK;
 }
 
 qdot_status

@@ -22,6 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_bind_new(const qdot_plan *plan, bool shaken,
                                           qdot_bind **bind);
 void qdot_bind_free(qdot_bind *bind);
 
+/* From now on the system has these scales [2 plan->n] (ode/scale.h), borrowed; NULL: they are 1.
+ * Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_bind_scale(qdot_bind *bind, const double *scales);
+
 /* The system of a bind; n = 2 plan->n. Valid while the bind lives. Its rhs and Jacobian fail with
  * QDOT_ESINGULAR if M is singular, QDOT_EDOMAIN if q'' is undefined; both name the coordinate. */
 qdot_ode_system qdot_bind_system(qdot_bind *bind);

@@ -154,9 +154,11 @@ qdot_course_prepare(qdot_course *c)
     QDOT_TRY(qdot_vec_push(&c->systems, (qdot_ode_system){0}));
     QDOT_TRY(qdot_vec_push(&c->watches, NULL));
     QDOT_TRY(qdot_bind_new(c->stage->modes.at[0]->plan, c->shaken, &bind));
-    c->systems.at[0] = qdot_bind_system(bind);
-    if (qdot_vec_push(&c->binds, bind) == QDOT_OK)
+    if (qdot_bind_scale(bind, c->stage->scales) == QDOT_OK
+        && qdot_vec_push(&c->binds, bind) == QDOT_OK) {
+        c->systems.at[0] = qdot_bind_system(bind);
         return QDOT_OK;
+    }
     qdot_bind_free(bind);
     return QDOT_ENOMEM;
 }

@@ -229,9 +229,25 @@ qdot_drifts_contradict(const qdot_drifts *d, const qdot_plan *p, const qdot_traj
     return QDOT_OK;
 }
 
+/* Make drifts of quantities below 1 relative to the sizes of their terms. */
+static qdot_status
+make_relative(const qdot_plan *p, const qdot_trajectory *tr, qdot_drifts *d)
+{
+    for (size_t i = 0; i < d->n; i++) {
+        double terms;
+
+        if (fabs(d->at[i].start) > 1 || !(d->at[i].drift > 0))
+            continue;
+        QDOT_TRY(measure_terms(p, tr, d->at[i].quantity, &terms));
+        if (terms > 0 && terms < 1)
+            d->at[i].drift /= terms;
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
-                    qdot_drifts *d)
+                    bool scaled, qdot_drifts *d)
 {
     bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* it may be cyclic */
     qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
@@ -246,6 +262,8 @@ qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory
     for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)
         if (asked[i])
             status = measure_momentum(scene, p, tr, i, d);
+    if (status == QDOT_OK && scaled)
+        status = make_relative(p, tr, d);
     qdot_free(asked);
     return qdot_grave(status);
 }

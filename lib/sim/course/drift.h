@@ -15,9 +15,10 @@ typedef struct {
 } qdot_drifts;
 
 /* Measure every known conserved quantity at all points of the run. A quantity that cannot be
- * evaluated is left out. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+ * evaluated is left out. `scaled`: the scene is not about 1, and a drift of a quantity below 1 is
+ * relative to the largest sum of the sizes of its terms. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_drifts_measure(qdot_scene *scene, const qdot_plan *plan,
-                                                const qdot_trajectory *tr,
+                                                const qdot_trajectory *tr, bool scaled,
                                                 qdot_drifts *drifts);
 void qdot_drifts_clear(qdot_drifts *drifts);
 

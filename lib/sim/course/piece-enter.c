@@ -21,6 +21,7 @@ qdot_piece_enter(qdot_piece *x)
     m = qdot_piece_mode(x);
     if (!c->binds.at[x->mode])
         QDOT_TRY(qdot_bind_new(m->plan, c->shaken, &c->binds.at[x->mode]));
+    QDOT_TRY(qdot_bind_scale(c->binds.at[x->mode], c->stage->scales));
     c->systems.at[x->mode] = qdot_bind_system(c->binds.at[x->mode]);
     if (c->no_series)
         c->systems.at[x->mode].series = NULL;

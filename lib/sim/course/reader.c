@@ -4,7 +4,11 @@
 #include <math.h>
 
 #include "ode/companion.h"
+<<<<<<< HEAD
 #include "sim/model/sliding.h"
+=======
+#include "ode/scale.h"
+>>>>>>> main
 
 void
 qdot_reader_clear(qdot_reader *r)
@@ -102,7 +106,8 @@ qdot_reader_read(qdot_reader *r, const size_t *pieces, double t, double *out)
         QDOT_TRY(pieces == NULL ? qdot_trajectory_read(c->cursor, t, c->in)
                                 : qdot_trajectory_read_piece(c->cursor, pieces[k], t, c->in));
         for (size_t i = 0; i < 2 * c->n && r->moved > 0; i++)
-            c->in[i] = qdot_companion_moved(c->in[i], i, (size_t)r->moved - 1, 1);
+            c->in[i] = qdot_companion_moved(c->in[i], qdot_ode_scale(c->course->stage->scales, i),
+                                            i, (size_t)r->moved - 1, 1);
     }
     return qdot_reader_evaluate(r, t, out);
 }

@@ -29,6 +29,8 @@ typedef struct {
     double cpu_total;              /* s, with derivation, lowering, error estimate */
     double error;                  /* estimate of the end state's error, max over components relative
                                       to max(1, |value|); NaN: unknown */
+    double scaled_error;           /* the same relative to max(scale, |value|) */
+    const double *scales;          /* [2n] of q, then q' (ode/scale.h); NULL: all are 1 */
     double horizon;                /* time beyond which no digit is left (sim/error/horizon.h); NaN: none */
     double energy_drift;           /* NaN unless h is proved conserved */
     size_t n_drifts;

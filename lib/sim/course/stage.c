@@ -46,6 +46,7 @@ qdot_stage_clear(qdot_stage *s)
     qdot_domains_clear(&s->domains);
     qdot_parameter_conditions_clear(&s->conditions);
     qdot_tape_free(s->sides);
+    qdot_free(s->scales);
     *s = (qdot_stage){0};
 }
 
@@ -406,6 +407,25 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     return status;
 }
 
+/* The scales that the request says; those of parameters that events set are 1. */
+static qdot_status
+take_scales(qdot_stage *s, size_t n)
+{
+    const double *said = s->request->scales;
+
+    if (!said)
+        return QDOT_OK;
+    s->scales = qdot_malloc((2 * s->n + 1) * sizeof *s->scales);
+    if (!s->scales)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < 2 * s->n; i++) {
+        const size_t k = i % s->n;
+
+        s->scales[i] = k < n && said[k + (i < s->n ? 0 : n)] > 0 ? said[k + (i < s->n ? 0 : n)] : 1;
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
       const double *settled)
@@ -418,6 +438,7 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     s->request = request;
     s->n = qdot_parameter_states_coordinates(scene, request);
     s->n_states = request->n_states;
+    QDOT_TRY(take_scales(s, scene->coordinates.n));
     QDOT_TRY(qdot_plan_check(scene));
     s->kept = qdot_kept_find(scene, request);
     if (s->kept) /* nothing switches, then */

@@ -59,6 +59,7 @@ typedef struct {
     qdot_switches switches;
     qdot_domains domains;
     qdot_parameter_conditions conditions;
+    double *scales; /* [2n] of the state (ode/scale.h); NULL: all are 1 */
     size_t n, n_states; /* coordinates of the run; how many of these are parameters that events
                            set */
     qdot_vec(qdot_staged_event) events;

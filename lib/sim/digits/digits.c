@@ -200,7 +200,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
         status = how_it_ended(run, domains);
     if (status == QDOT_OK && !*interrupted)
         status =
-            qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+            qdot_drifts_measure(scene, run->plan, &run->course.tr, false, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_precise_pair_drifts(run->precise, &run->drifts);
     if (status == QDOT_OK && run->plan->constraints)
@@ -221,7 +221,7 @@ qdot_digits_fill_report(qdot_run *run)
     qdot_run_report *r = &run->report;
 
     r->tol = qdot_precise_pair_tol(run->precise);
-    r->error = qdot_precise_pair_error(run->precise);
+    r->error = r->scaled_error = qdot_precise_pair_error(run->precise);
     r->factorizations = qdot_precise_pair_factored(run->precise);
     r->exact = run->exact;
 }

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "ode/companion.h"
+#include "ode/scale.h"
 #include "tape/shake.h"
 
 /* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
@@ -99,9 +100,13 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
 
     for (size_t i = 0; i < n; i++) {
         low[i] = run->start_low[i]
-                 + qdot_companion_aside(run->report.tol, run->start[i], i, number, by);
+                 + qdot_companion_aside(run->report.tol,
+                                        qdot_ode_size(run->stage.scales, i, run->start[i]), i,
+                                        number, by);
         y[i] = run->leading ? run->start[i]
-                            : qdot_companion_moved(run->start[i], i, number, by);
+                            : qdot_companion_moved(run->start[i],
+                                                   qdot_ode_scale(run->stage.scales, i), i,
+                                                   number, by);
     }
     if (system->project) { /* along what solutions may do */
         double by;
@@ -315,16 +320,17 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
 }
 
 qdot_status
-qdot_run_end_error(qdot_run *run, double *error, double *difference)
+qdot_run_end_error(qdot_run *run, double *difference)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double *y = tr->y + (tr->count - 1) * tr->n, t = tr->t[tr->count - 1];
-    double worst = qdot_companion_floor(tr->result.stats.steps), ends[2] = {t, t}, *of;
+    double plain = qdot_companion_floor(tr->result.stats.steps), scaled = plain;
+    double ends[2] = {t, t}, *of;
     const size_t companions = run->has_twin ? 2 : 1;
     bool known = run->has_companion;
     qdot_status status;
 
-    *error = NAN;
+    run->report.error = run->report.scaled_error = NAN;
     if (!known)
         return find_doubt(run, &run->companion);
     of = qdot_calloc(3 * tr->n, sizeof *of); /* their ends, and what delays make */
@@ -334,16 +340,21 @@ qdot_run_end_error(qdot_run *run, double *error, double *difference)
     if (status == QDOT_OK && known)
         status = add_delays(&run->course, of + 2 * tr->n);
     for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
-        const double size = fmax(1, fabs(y[i]));
+        const double size = qdot_ode_size(run->stage.scales, i, y[i]);
         const double theirs[] = {of[i], of[tr->n + i]};
         const double by = qdot_companion_bound_of(y[i], companions, theirs, 1) + of[2 * tr->n + i];
 
-        worst = fmax(worst, by / size);
+        scaled = fmax(scaled, by / size);
+        plain = fmax(plain, by / fmax(1, fabs(y[i])));
         difference[i] = fmax(by, 0x1p-53 * size);
     }
-    if (status == QDOT_OK && known)
-        *error = fmax(worst,
-                      qdot_companion_bound_of(t, companions, ends, 1) / fmax(1, fabs(t)));
+    if (status == QDOT_OK && known) {
+        const double late =
+            qdot_companion_bound_of(t, companions, ends, 1) / fmax(1, fabs(t));
+
+        run->report.error = fmax(plain, late);
+        run->report.scaled_error = fmax(scaled, late);
+    }
     qdot_free(of);
     return status;
 }

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "ode/companion.h"
+#include "ode/scale.h"
 #include "sim/error/companion.h"
 
 /* Radians on either side. */
@@ -59,7 +60,7 @@ find_units(qdot_distance *d)
             high = fmax(high, tr->y[k * tr->n + i]);
         }
         least = tolerances * fmax(d->run->report.tol, 0x1p-53)
-                * fmax(1, fmax(fabs(low), fabs(high)));
+                * qdot_ode_size(d->run->stage.scales, i, fmax(fabs(low), fabs(high)));
         d->unit[i] = high - low > least ? 1 / (high - low) : 0;
     }
 }

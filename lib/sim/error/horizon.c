@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "ode/scale.h"
 #include "sim/error/companion.h"
 
 /* Of the variation: what the end of a run shows where it is worth looking. */
@@ -48,7 +49,8 @@ widen(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *h
 }
 
 static double
-variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
+variation(const double *scales, const qdot_trajectory *a, const qdot_trajectory *b,
+          size_t stride)
 {
     double most = 0;
 
@@ -58,7 +60,8 @@ variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
         widen(a, i, stride, &low, &high);
         if (b)
             widen(b, i, stride, &low, &high);
-        most = fmax(most, 0.5 * (high - low) / fmax(1, fmax(fabs(low), fabs(high))));
+        most = fmax(most, 0.5 * (high - low)
+                               / qdot_ode_size(scales, i, fmax(fabs(low), fabs(high))));
     }
     return most;
 }
@@ -66,17 +69,17 @@ variation(const qdot_trajectory *a, const qdot_trajectory *b, size_t stride)
 /* Whether the variation is above x. A sample of the points is tried first: more can only raise
  * it. */
 static bool
-varies_by_more(const qdot_trajectory *tr, double x)
+varies_by_more(const double *scales, const qdot_trajectory *tr, double x)
 {
-    if (x < 0.5 && variation(tr, NULL, tr->count / SAMPLES + 1) > x)
+    if (x < 0.5 && variation(scales, tr, NULL, tr->count / SAMPLES + 1) > x)
         return true;
-    return variation(tr, NULL, 1) > x;
+    return variation(scales, tr, NULL, 1) > x;
 }
 
 double
 qdot_horizon_variation(const qdot_trajectory *tr)
 {
-    return variation(tr, NULL, 1);
+    return variation(NULL, tr, NULL, 1);
 }
 
 /* --- distances ----------------------------------------------------------------------- */
@@ -102,7 +105,7 @@ distance(const search *s, size_t k)
     for (size_t i = 0; i < tr->n; i++) {
         double y = tr->y[k * tr->n + i];
 
-        most = fmax(most, fabs(y - s->y[i]) / fmax(1, fabs(y)));
+        most = fmax(most, fabs(y - s->y[i]) / qdot_ode_size(s->run->stage.scales, i, y));
     }
     return most;
 }
@@ -236,10 +239,11 @@ find(qdot_run *run, search *s)
     const qdot_trajectory *a = &run->course.tr, *b = &s->other->tr;
     const double way = run->t1 < run->t0 ? -1 : 1;
     qdot_run_report *report = &run->report;
-    double size = variation(a, b, 1);
+    double size = variation(run->stage.scales, a, b, 1);
     const double length = fabs(a->t[a->count - 1] - a->t[0]);
     const size_t room = (a->count < MOST_POINTS ? a->count : MOST_POINTS) + 1;
     size_t first;
+    double mean;
 
     s->run = run;
     s->threshold = QDOT_HORIZON_NONE_LEFT * size;
@@ -261,7 +265,9 @@ find(qdot_run *run, search *s)
         report->horizon = crossing(s, first);
     qdot_free(run->doubt); /* of the end: it needs none any more */
     run->doubt = NULL;
-    report->error = fmax(report->error, mean_from(s, first)); /* of a NaN the mean */
+    mean = mean_from(s, first);
+    report->error = fmax(report->error, mean); /* of a NaN the mean */
+    report->scaled_error = fmax(report->scaled_error, mean);
     return QDOT_OK;
 }
 
@@ -287,8 +293,8 @@ qdot_horizon_find(qdot_run *run)
     report->horizon = NAN;
     if (tr->count < 2)
         return QDOT_OK;
-    if (report->error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
-        || varies_by_more(tr, report->error / worth_looking))
+    if (report->scaled_error < worth_looking * tolerances * fmax(report->tol, 0x1p-53)
+        || varies_by_more(run->stage.scales, tr, report->scaled_error / worth_looking))
         return QDOT_OK;
     /* one may stay beside it for a while by chance */
     QDOT_TRY(qdot_run_twin(run));

@@ -19,7 +19,9 @@ typedef struct {
     bool exactly;                 /* a start that breaks a constraint is refused */
     qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
     double tol;                   /* local error of each component in each step, relative to
-                                     max(1, |value|) */
+                                     max(s, |value|) */
+    const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
+                                     by the run (sim/run/scales.h); NULL: all are */
     const char *method;           /* "auto" or a name of ode/method.h */
     qdot_run_treatment treatment; /* of a scene with constraints */
     size_t n_states;              /* set by the run itself, leave it 0: parameters that events

@@ -17,7 +17,7 @@ static const double rather_wait = 100;
 static bool
 is_accurate(const qdot_run *run, double tol)
 {
-    return run->report.error <= fmax(rather_wait * tol, 1e-10);
+    return run->report.scaled_error <= fmax(rather_wait * tol, 1e-10);
 }
 
 /* *run's place is taken by `other`, which may be NULL. */

@@ -13,7 +13,7 @@ static qdot_status
 lose(qdot_run *run, const char *doubt)
 {
     run->hidden = true;
-    run->report.error = run->report.horizon = NAN;
+    run->report.error = run->report.scaled_error = run->report.horizon = NAN;
     return qdot_run_say_doubt(run, doubt);
 }
 

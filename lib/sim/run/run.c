@@ -5,6 +5,7 @@
 #include "sim/run/change-over.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
+#include "sim/run/scales.h"
 
 #include <math.h>
 #include <string.h>
@@ -53,6 +54,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->doubt);
     qdot_free(run->start);
     qdot_free(run->start_low);
+    qdot_free(run->difference);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
     qdot_text_clear(&run->part_names);
@@ -288,6 +290,7 @@ fill_report(qdot_run *run, double tol)
     r->q = last_state(run);
     r->v = r->q + p->n;
     r->operations = qdot_plan_operations(p, NULL);
+    r->scales = run->stage.scales;
     r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
     r->n_drifts = run->drifts.n;
     r->drifts = run->drifts.at;
@@ -365,10 +368,12 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .threaded = true};
 
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
+    QDOT_TRY(qdot_bind_scale(b->shaken, run->stage.scales));
     system = qdot_bind_system(b->shaken);
     if (!system.series)
         request.t1 = qdot_shake_double(run->t1, run->t1_side);
     QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
+    QDOT_TRY(qdot_bind_scale(b->twin, run->stage.scales));
     twin = qdot_bind_system(b->twin);
     return qdot_companion_start(&request, &b->companion);
 }
@@ -389,14 +394,14 @@ say_lost(qdot_run *run, const char *reason)
 static qdot_status
 run_beside(qdot_run *run, double tol, bool *interrupted)
 {
-    qdot_companion_estimate estimate = {.error = 0};
+    qdot_companion_estimate estimate = {.error = 0, .plain = 0};
     beside b = {0};
     qdot_status status = QDOT_OK;
 
     qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
-        estimate.error = NAN;
+        estimate.error = estimate.plain = NAN;
         status = start_companion(run, tol, &b);
         if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
             status = QDOT_OK;
@@ -412,18 +417,15 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
         bool there = run->course.tr.count > 0;
         qdot_error failure = *qdot_last_error();
 
-        double *difference = qdot_calloc(2 * run->plan->n, sizeof *difference);
+        double *difference = run->difference;
 
         qdot_companion_limit(b.companion, run->course.tr.result.stats.steps);
         qdot_companion_finish(b.companion, there ? run->course.tr.result.t : run->t1,
                               there ? last_state(run) : run->start, difference,
                               &estimate);
-        if (!difference)
-            status = QDOT_ENOMEM;
-        else if (status == QDOT_OK && !*interrupted && there)
+        if (status == QDOT_OK && !*interrupted && there)
             status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
-        qdot_free(difference);
         run->way = estimate.known ? estimate.way : QDOT_COMPANION_SERIES;
         if (status == QDOT_OK && !estimate.known)
             status = say_lost(run, estimate.result.reason);
@@ -432,7 +434,8 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
     }
     qdot_bind_free(b.shaken);
     qdot_bind_free(b.twin);
-    run->report.error = estimate.error;
+    run->report.error = estimate.plain;
+    run->report.scaled_error = estimate.error;
     return status;
 }
 
@@ -440,23 +443,20 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
 static qdot_status
 run_after(qdot_run *run, double tol, bool *interrupted)
 {
-    double *difference;
     qdot_status status;
 
     qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     QDOT_TRY(integrate(run, tol, interrupted));
-    run->report.error = NAN;
+    run->report.error = run->report.scaled_error = NAN;
     run->report.tol = tol;
     QDOT_TRY(measure_multipliers(run));
     if (*interrupted)
         return QDOT_OK;
     QDOT_TRY(qdot_run_twin(run));
-    difference = qdot_calloc(run->course.tr.n + 1, sizeof *difference);
-    status = difference ? qdot_run_end_error(run, &run->report.error, difference) : QDOT_ENOMEM;
+    status = qdot_run_end_error(run, run->difference);
     if (status == QDOT_OK && !isnan(run->report.error))
-        status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr, difference,
+        status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr, run->difference,
                                          &run->multipliers);
-    qdot_free(difference);
     return status;
 }
 
@@ -467,6 +467,11 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     qdot_status status;
 
     *interrupted = false;
+    run->difference = qdot_calloc(2 * run->plan->n + 1, sizeof *run->difference);
+    if (!run->difference)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < 2 * run->plan->n; i++)
+        run->difference[i] = NAN;
     /* events are found by doubles */
     run->leading = run->plan->leading && is_whole(run) && run->stage.events.n == 0;
     status = is_whole(run) ? run_beside(run, tol, interrupted)
@@ -479,7 +484,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted)
-        status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->drifts);
+        status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
+                                     run->stage.scales != NULL, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
     if (status == QDOT_EINTR) {
@@ -557,19 +563,57 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
+/* The same, by a method for stiff scenes where `auto` finds one. */
+static qdot_status
+make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
+{
+    const qdot_run_maker by = {make_decided, qdot_run_free};
+
+    QDOT_TRY(make_decided(scene, request, out));
+    return request->digits ? QDOT_OK : qdot_run_change_over(scene, request, &by, out);
+}
+
+/* Make the run once more in the scales that it shows; it stays where that fails. */
+static qdot_status
+make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **run)
+{
+    qdot_run_request scaled = *request;
+    double *scales = qdot_calloc(2 * (*run)->plan->n, sizeof *scales);
+    qdot_run *other = NULL;
+    qdot_status status = scales ? QDOT_OK : QDOT_ENOMEM;
+    bool found = false;
+
+    scaled.scales = scales;
+    if (status == QDOT_OK)
+        status = qdot_run_find_scales(*run, request, scales, &found);
+    if (status == QDOT_OK && found) {
+        status = make_whole(scene, &scaled, &other);
+        if (status == QDOT_OK && other->course.tr.result.outcome != QDOT_ODE_FAILED) {
+            qdot_run_free(*run);
+            *run = other;
+            other = NULL;
+            status = qdot_run_say_scales(*run, scales, true);
+        } else if (status != QDOT_ENOMEM && status != QDOT_EINTR) {
+            status = QDOT_OK;
+        }
+        qdot_run_free(other);
+    }
+    qdot_free(scales);
+    return status;
+}
+
 qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     const double clock = process_clock();
-    const qdot_run_maker by = {make_decided, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
     *out = NULL;
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
-    status = make_decided(scene, &states.request, out);
+    status = make_whole(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
-        status = qdot_run_change_over(scene, &states.request, &by, out);
+        status = make_in_scales(scene, &states.request, out);
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;

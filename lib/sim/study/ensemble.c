@@ -188,7 +188,7 @@ static void
 put(size_t n, const double *x, size_t at, bool moved, double *to)
 {
     for (size_t i = 0; i < n; i++)
-        to[i] = moved ? qdot_companion_moved(x[at + i], at + i, 0, 1) : x[at + i];
+        to[i] = moved ? qdot_companion_moved(x[at + i], 1, at + i, 0, 1) : x[at + i];
 }
 
 /* From {.run.order, .run.tol}. */

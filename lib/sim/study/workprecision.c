@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "num/sort.h"
 #include "ode/integrate.h"
+#include "ode/scale.h"
 #include "sim/course/bind.h"
 #include "sim/course/course.h"
 #include "sim/course/run-state.h"
@@ -120,12 +121,12 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
 
 /* The time counts where an event ends the run. */
 static double
-error_against(const reference *r, const double *y, double t)
+error_against(const reference *r, const double *scales, const double *y, double t)
 {
     double most = r->stopped ? fabs(t - r->t_end) / fmax(1, fabs(r->t_end)) : 0;
 
     for (size_t i = 0; i < r->n; i++) {
-        double e = fabs((y[i] - r->high[i]) - r->low[i]) / fmax(1, fabs(r->high[i]));
+        double e = fabs((y[i] - r->high[i]) - r->low[i]) / qdot_ode_size(scales, i, r->high[i]);
 
         if (!(e <= most)) /* a NaN stays */
             most = e;
@@ -257,6 +258,7 @@ settle_side(worker *w)
     QDOT_TRY(qdot_stage_settle(&w->stage, w->start, &anew));
     w->plan = w->stage.modes.at[0]->plan;
     QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    QDOT_TRY(qdot_bind_scale(w->bind, w->stage.scales));
     w->held = qdot_bind_held(w->bind);
     return QDOT_OK;
 }
@@ -325,6 +327,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     for (size_t i = 0; i < w->stage.events.n; i++)
         w->pieces = w->pieces || w->stage.events.at[i].stop || w->stage.events.at[i].then;
     QDOT_TRY(qdot_bind_new(w->plan, false, &w->bind));
+    QDOT_TRY(qdot_bind_scale(w->bind, w->stage.scales));
     QDOT_TRY(read_start(w, request));
     QDOT_TRY(settle_start(w, scene, request));
     QDOT_TRY(prepare_energy(w, scene));
@@ -479,7 +482,7 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                                        : "failed: an event ended the run");
         return QDOT_OK;
     }
-    row->err = error_against(r, w->y, w->t_end);
+    row->err = error_against(r, w->stage.scales, w->y, w->t_end);
     strcpy(row->status, row->err > rounding
                                 && row->err >= QDOT_HORIZON_NONE_LEFT * r->variation
                             ? "done: no digit is right"

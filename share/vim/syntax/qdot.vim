@@ -20,8 +20,8 @@ syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibri
 syntax keyword qdotWord contained events export force forces function gravity help include
 syntax keyword qdotWord contained lagrangian modes param particle plan plot potential
 syntax keyword qdotWord contained print quit race reactions redo remove report reset run
-syntax keyword qdotWord contained save scene set show spring start style table timing
-syntax keyword qdotWord contained torque undo vars workprecision
+syntax keyword qdotWord contained save scale scene set show spring start style table
+syntax keyword qdotWord contained timing torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

@@ -1,0 +1,88 @@
+/* scales.c -- the list of scales, in the order in which they were first said. */
+#include "lang/session/scales.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "lang/session/bind.h"
+
+qdot_status
+qdot_scales_set(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    for (size_t i = 0; i < session->scale_symbols.n; i++)
+        if (session->scale_symbols.at[i] == symbol) {
+            session->scale_values.at[i] = value;
+            return QDOT_OK;
+        }
+    QDOT_TRY(qdot_vec_push(&session->scale_symbols, symbol));
+    if (qdot_vec_push(&session->scale_values, value) == QDOT_OK)
+        return QDOT_OK;
+    session->scale_symbols.n--;
+    return QDOT_ENOMEM;
+}
+
+/* The number; QDOT_EINVAL if it is not positive. */
+static qdot_status
+number_of(qdot_session *session, qdot_expr symbol, qdot_expr value, double *number)
+{
+    const qdot_symbol *s = qdot_expr_symbol(session->pool, symbol);
+
+    QDOT_TRY(
+        qdot_session_number(session, qdot_session_bind(session, value), number, NULL));
+    if (*number > 0 && isfinite(*number))
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "a scale is positive: that of %.200s%s would be %.10g",
+                    s->name, s->order > 0 ? "'" : "", *number);
+    return qdot_hint("scale %.200s%s = 1e-10", s->name, s->order > 0 ? "'" : "");
+}
+
+qdot_status
+qdot_scales_check(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    double number;
+
+    if (qdot_expr_kind(session->pool, qdot_session_bind(session, value)) != QDOT_NUM)
+        return qdot_pool_check(session->pool); /* its parameters have no values yet */
+    return number_of(session, symbol, value, &number);
+}
+
+/* What was said of one symbol; 0: nothing. */
+static qdot_status
+said_of(qdot_session *session, qdot_expr symbol, double *scale)
+{
+    *scale = 0;
+    for (size_t i = 0; i < session->scale_symbols.n; i++)
+        if (session->scale_symbols.at[i] == symbol)
+            return number_of(session, symbol, session->scale_values.at[i], scale);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_scales_of_run(qdot_session *session, double **scales)
+{
+    const size_t n = session->scene->coordinates.n;
+    double *of, unit;
+    qdot_status status;
+
+    *scales = NULL;
+    if (session->scale_symbols.n == 0)
+        return QDOT_OK;
+    QDOT_TRY(said_of(session, QDOT_T, &unit));
+    of = qdot_calloc(2 * n + 1, sizeof *of);
+    status = of ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        const qdot_expr q = session->scene->coordinates.at[i];
+
+        status = said_of(session, q, of + i);
+        if (status == QDOT_OK)
+            status = said_of(session, qdot_symbol_jet(session->pool, q, 1), of + n + i);
+        if (status == QDOT_OK && of[n + i] == 0 && unit > 0)
+            of[n + i] = of[i] / unit;
+    }
+    if (status != QDOT_OK) {
+        qdot_free(of);
+        return status;
+    }
+    *scales = of;
+    return QDOT_OK;
+}

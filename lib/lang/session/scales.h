@@ -1,0 +1,23 @@
+/* scales.h -- what `scale` has said, and the scales of a run.
+ *
+ * Tests  tests/script/scale.lag, tests/bad/scale-*.lag
+ */
+#ifndef QDOT_LANG_SCALES_H
+#define QDOT_LANG_SCALES_H
+
+#include "lang/session/session.h"
+
+/* From now on q, q' or t has this scale. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_scales_set(qdot_session *session, qdot_expr symbol,
+                                            qdot_expr value);
+
+/* QDOT_EINVAL if the value, as far as parameters have theirs, is no positive number. */
+QDOT_MUST_CHECK qdot_status qdot_scales_check(qdot_session *session, qdot_expr symbol,
+                                              qdot_expr value);
+
+/* The scales said, of q, then of q', in the order of the scene's coordinates, 0 where none was:
+ * that of q' is q's over t's if these were. *scales [2n] is the caller's; NULL: none was said.
+ * Errors: QDOT_EINVAL, QDOT_EUNSET, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_scales_of_run(qdot_session *session, double **scales);
+
+#endif

@@ -1,0 +1,166 @@
+/* scales.c -- largest sizes along the run, their powers of ten, and what is said of them. */
+#include "sim/run/scales.h"
+
+#include <math.h>
+
+/* Coordinates below this have a scale of their own. */
+static const double small = 1e-3;
+
+/* A is no rounding if its error is below this part of it, and it is above that part of the largest
+ * coordinate. */
+static const double sure = 0.1, least_part = 1e-12;
+
+/* The work of a run, in about nanoseconds, that is not done twice. */
+static const double most_work = 3e8;
+
+/* So many coordinates are named in a notice. */
+enum { MOST_NAMES = 4 };
+
+/* The largest |y_i| at the stored points. */
+static double
+size_along(const qdot_trajectory *tr, size_t i)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < tr->count; k++)
+        most = fmax(most, fabs(tr->y[k * tr->n + i]));
+    return most;
+}
+
+/* The power of ten at or below x > 0. */
+static double
+decade(double x)
+{
+    return pow(10, floor(log10(x)));
+}
+
+/* Whether component i of the state is more than rounding: A is its largest size, `of` that of any
+ * like it. */
+static bool
+is_resolved(const qdot_run *run, size_t i, double A, double of)
+{
+    return A > least_part * of && run->difference[i] < sure * A;
+}
+
+/* The largest size of components [first, first + n). */
+static double
+largest_of(const qdot_trajectory *tr, size_t first, size_t n)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, size_along(tr, first + i));
+    return most;
+}
+
+/* The scales of coordinates into found [n], 0 where there is none. */
+static void
+find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
+                 double *found)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const double most = largest_of(tr, 0, n);
+    const bool all = most < small;
+    double largest = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        const double A = size_along(tr, i);
+        const bool shown = A < small && (all || run->start[i] != 0);
+
+        found[i] = shown && is_resolved(run, i, A, most) ? decade(A) : 0;
+        if (request->scales && request->scales[i] > 0)
+            found[i] = request->scales[i];
+        largest = fmax(largest, found[i]);
+    }
+    for (size_t i = 0; i < n && all; i++)
+        if (found[i] == 0)
+            found[i] = largest;
+}
+
+/* Those of the velocities of coordinates that have one. */
+static void
+find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
+                double *found)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const size_t N = tr->n / 2;
+    const double most = largest_of(tr, N, n);
+    double largest = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        const double A = size_along(tr, N + i);
+
+        found[n + i] = found[i] > 0 && is_resolved(run, N + i, A, most) ? decade(A) : 0;
+        if (request->scales && request->scales[n + i] > 0)
+            found[n + i] = request->scales[n + i];
+        largest = fmax(largest, found[n + i]);
+    }
+    for (size_t i = 0; i < n; i++)
+        if (found[i] > 0 && found[n + i] == 0)
+            found[n + i] = largest;
+}
+
+qdot_status
+qdot_run_find_scales(qdot_run *run, const qdot_run_request *request, double *scales,
+                     bool *found)
+{
+    const size_t n = run->plan->n - run->plan->n_states, N = run->plan->n;
+    bool other = false;
+
+    *found = false;
+    if (run->course.tr.result.outcome == QDOT_ODE_FAILED || !run->difference)
+        return QDOT_OK;
+    find_coordinates(run, request, n, scales);
+    find_velocities(run, request, n, scales);
+    for (size_t i = 0; i < 2 * n; i++) {
+        const size_t at = i < n ? i : N + i - n;
+        const double now = run->stage.scales ? run->stage.scales[at] : 1;
+
+        other = other || (scales[i] > 0 && scales[i] != now);
+    }
+    if (!other)
+        return QDOT_OK;
+    *found = run->meter.work < most_work;
+    return *found ? QDOT_OK : qdot_run_say_scales(run, scales, false);
+}
+
+/* Whether all of these [n] are one number. */
+static bool
+are_alike(const double *scales, size_t n)
+{
+    for (size_t i = 1; i < n; i++)
+        if (scales[i] != scales[0])
+            return false;
+    return scales[0] > 0;
+}
+
+qdot_status
+qdot_run_say_scales(qdot_run *run, const double *scales, bool hold)
+{
+    const size_t n = run->plan->n - run->plan->n_states;
+    qdot_text *line = qdot_run_next_notice(run);
+    size_t named = 0;
+
+    qdot_text_add(line, "scales found: ");
+    if (n > 1 && are_alike(scales, n) && are_alike(scales + n, n)) {
+        qdot_text_format(line, "%g for coordinates, %g for velocities", scales[0],
+                         scales[n]);
+    } else {
+        for (size_t i = 0; i < 2 * n; i++) {
+            const size_t k = i / 2 + (i % 2 ? n : 0);
+
+            if (scales[k] > 0 && named++ < MOST_NAMES)
+                qdot_text_format(line, "%s%s%s = %g", named > 1 ? ", " : "",
+                                 run->plan->names[i / 2], i % 2 ? "'" : "", scales[k]);
+        }
+        if (named > MOST_NAMES)
+            qdot_text_format(line, " and %zu more", named - MOST_NAMES);
+    }
+    qdot_text_format(
+        line,
+        hold ? "; tol and errors are relative to max(scale, |value|)"
+             : ", too costly to be run once more: tol and errors are relative to "
+               "max(1, |value|); `scale %s = %g` sets another",
+        run->plan->names[0], scales[0]);
+    return qdot_text_status(&run->notice);
+}
