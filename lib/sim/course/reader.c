@@ -4,11 +4,8 @@
 #include <math.h>
 
 #include "ode/companion.h"
-<<<<<<< HEAD
-#include "sim/model/sliding.h"
-=======
 #include "ode/scale.h"
->>>>>>> main
+#include "sim/model/sliding.h"
 
 void
 qdot_reader_clear(qdot_reader *r)
