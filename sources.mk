@@ -468,6 +468,8 @@ library_sources = \
 	lib/sim/model/power-quotient.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
+	lib/sim/model/sliding-rows.c \
+	lib/sim/model/sliding.c \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
@@ -497,6 +499,7 @@ library_sources = \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/run/scales.c \
+	lib/sim/run/slides.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -909,6 +912,7 @@ library_headers = \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
+	lib/sim/model/sliding.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
@@ -933,6 +937,7 @@ library_headers = \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/run/scales.h \
+	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
@@ -1108,6 +1113,7 @@ unit_tests = \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
@@ -1280,6 +1286,7 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
 	tests/script/stiff-two.sh \
@@ -2185,6 +2192,7 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \
 	tests/script/stiff-two.out \

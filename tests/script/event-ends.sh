@@ -16,5 +16,5 @@ printf 'param m = 1\ncoord -1 < x <= 1\nparticle p mass m at (x, 0)\nstart x'"' 
     qdot -q - 2>&1 | grep failed
 printf 'param m = 1\ncoord x <= 1\nparticle p mass m at (x, 0)\npotential x\nstart x'"' = 1.41422"'\nrun 0..3\n' |
     qdot -q - 2>&1 | grep failed
-printf 'param m = 1\ncoord x\nparticle p mass m at (x, 0)\nforce -sign(x) - 2*sign(x'"')"' on x\nstart x'"' = 1"'\nrun 0..30\n' |
+printf 'coord x, y\nparticle p mass 1 at (x, y)\nforce (1/2 - sign(x'"'"')*(2 + sign(y'"'"')), 1/2 - sign(y'"'"')*(2 + sign(x'"'"'))) on p\nstart x'"'"' = 1, y'"'"' = 1\nrun 0..30\n' |
     qdot -q - 2>&1 | grep failed

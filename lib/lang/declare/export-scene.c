@@ -88,7 +88,7 @@ push_frozen(description *d, expressions *to, qdot_expr e)
 
     e = qdot_export_bound(d->session, e);
     QDOT_TRY(qdot_pool_check(d->session->pool));
-    QDOT_TRY(qdot_switches_freeze(&d->switches, NULL, 1, &e, &frozen));
+    QDOT_TRY(qdot_switches_freeze(&d->switches, NULL, NULL, 1, &e, &frozen));
     return qdot_vec_push(to, frozen);
 }
 

@@ -12,8 +12,8 @@
  *
  * If a piece starts on a surface, side-search.c tries the sides: the motion must leave towards
  * the side whose equations it follows, or stay on the surface with the equations of u = 0. If it
- * does so for no side, it would slide along the surface; if for more than one, it is not unique.
- * Either ends the run.
+ * does so for no side, it slides along the surface (sim/model/sliding.h); if that cannot be, or if it
+ * does so for more than one, the run ends.
  *
  * Events without `then` or `stop` are only recorded. A run also ends if one event or switch
  * occurs more than MOST_REPEATS times within 1e-9 of its time: a ball that comes to rest.

@@ -36,6 +36,20 @@ qdot_piece_enter(qdot_piece *x)
     return QDOT_OK;
 }
 
+/* A start farther than this from a surface is not on it. */
+static const double away = 1e-9;
+
+qdot_status
+qdot_piece_keep(qdot_piece *x, bool *near)
+{
+    double moved = 0;
+
+    QDOT_TRY(qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y,
+                                    &moved));
+    *near = moved <= away;
+    return QDOT_OK;
+}
+
 /* --- what is known where a piece starts ---------------------------------------------- */
 
 /* Whether an event was recorded within about a double of t before the end of the piece. */
@@ -53,6 +67,12 @@ just_noted(const qdot_piece *x, size_t event)
     return false;
 }
 
+static bool
+slides(const qdot_mode *m, size_t surface)
+{
+    return m->side[surface] == QDOT_SIDE_SLIDES;
+}
+
 /* Events and domains keep their indices; the functions of a surface are matched by its index. */
 void
 qdot_piece_carry(qdot_piece *x)
@@ -63,6 +83,15 @@ qdot_piece_carry(qdot_piece *x)
     for (size_t i = 0; i < next->m; i++) {
         x->before[i] = x->start.jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
         x->residual[i] = -1;
+    }
+    for (size_t i = 0; i < next->m; i++) { /* it was held at 0 */
+        const qdot_watched *w = &next->watched[i];
+
+        if (w->kind == QDOT_WATCH_SURFACE && slides(old, w->index) && !slides(next, w->index)
+            && !x->start.jumped) {
+            x->residual[i] = 0;
+            x->put_aside = true;
+        }
     }
     for (size_t k = 0; k < x->fired.n; k++) {
         const qdot_root *root = &x->fired.at[k];
@@ -75,7 +104,8 @@ qdot_piece_carry(qdot_piece *x)
         }
         for (size_t i = 0; i < next->m; i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
-                next->watched[i].index == w->index &&
+                next->watched[i].index == w->index && !slides(old, w->index) &&
+                !slides(next, w->index) &&
                 (next->watched[i].beyond == old->side[w->index] ||
                  old->side[w->index] == next->side[w->index]))
                 x->residual[i] = root->residual;
@@ -248,5 +278,6 @@ qdot_piece_cross(qdot_piece *x, bool first)
     qdot_piece_carry(x);
     if (first && (x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
         QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));
+    x->put_aside |= first && qdot_piece_makes_up(x);
     return QDOT_OK;
 }

@@ -14,14 +14,19 @@ is_step(const qdot_piece *x, size_t surface)
 static bool
 keeps(const qdot_piece *x, const qdot_watched *w, int first)
 {
-    return first == w->inside || (first == 0 && w->inside == 1 && is_step(x, w->index));
+    const bool slides = qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES;
+
+    return first == w->inside
+           || (first == 0 && ((w->inside == 1 && is_step(x, w->index)) || slides));
 }
 
 /* The side to which the motion went, if not to the present one. */
 static long
 went_to(const qdot_piece *x, const qdot_watched *w, int first)
 {
-    return is_step(x, w->index) ? w->beyond : first;
+    return is_step(x, w->index) || qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES
+               ? w->beyond
+               : first;
 }
 
 static qdot_status
@@ -36,9 +41,12 @@ doubt(qdot_piece *x, const qdot_watched *w, int first)
     if (is_step(x, w->index)) {
         d.sides[1] = went_to(x, w, first);
     } else {
-        d.n = 3;
-        d.sides[1] = now != 0 ? -now : 1;
-        d.sides[2] = now != 0 ? 0 : -1;
+        const long others[] = {1, -1, QDOT_SIDE_SLIDES, 0};
+
+        d.n = 1;
+        for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+            if (others[i] != now)
+                d.sides[d.n++] = others[i];
     }
     return qdot_vec_push(&x->doubts, d);
 }

@@ -355,6 +355,21 @@ accepted(double t, const double *y, bool *stop, void *user)
 
 /* --- the piece ------------------------------------------------------------------------ */
 
+/* A start that rounding, or qdot_piece_make_up, has moved off its surfaces is on them still. */
+static qdot_status
+widen_residuals(qdot_piece *x)
+{
+    const double *g;
+
+    if (!x->put_aside)
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
+    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++)
+        if (qdot_piece_mode(x)->watched[i].velocity && x->residual[i] >= 0)
+            x->residual[i] = fmax(x->residual[i], fabs(g[i]));
+    return QDOT_OK;
+}
+
 /* The watch at the start of a piece. */
 qdot_status
 qdot_piece_begin(qdot_piece *x)
@@ -376,6 +391,7 @@ qdot_piece_begin(qdot_piece *x)
         memcpy(x->step.y, y, x->n * sizeof *y);
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
+    QDOT_TRY(widen_residuals(x));
     return qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
         &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual},

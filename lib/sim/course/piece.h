@@ -31,7 +31,7 @@ typedef struct {
 /* A surface for which another side has to be tried. */
 typedef struct {
     size_t surface, n;
-    long sides[3]; /* [n] candidates, the present side first */
+    long sides[4]; /* [n] candidates, the present side first */
 } qdot_piece_doubt;
 
 /* course.c owns the arrays and the cursor. */
@@ -51,12 +51,14 @@ typedef struct {
     bool *functions_on; /* [functions] the piece starts on a zero of it */
     int *before;        /* [functions] sign just before the start; 0: unknown */
     int *signs;         /* [functions] of the mode before, where its piece ended */
+    bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
     /* Search for the sides: one set is tried, then alternatives to one that fits, then known. */
     enum { QDOT_SIDES_TRIED, QDOT_SIDES_COMPARED, QDOT_SIDES_KNOWN } search;
+    char hindrance[120]; /* why the motion cannot slide along a surface in doubt; "" */
     bool well;          /* RETRIED: the motion leaves to its sides, but others may fit as well */
     bool far; /* no watched bound is near this step: no roots were looked for */
 
@@ -111,6 +113,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 /* Integrate one piece from its start, the last point, with sides towards which the motion leaves;
  * x->side are tried first. c->reason if there are none, or more than one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
+
+/* Bring the start of the piece back onto the surfaces along which the mode slides; *near: it was as
+ * near as rounding leaves it. */
+QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
 
 /* Carry the signs and residuals at the end of the piece before over to the functions of the new
  * mode. */

@@ -1,8 +1,11 @@
 /* reader.c -- reads a state, its accelerations if needed, and evaluates the tape. */
 #include "sim/course/reader.h"
 
+#include <math.h>
+
 #include "ode/companion.h"
 #include "ode/scale.h"
+#include "sim/model/sliding.h"
 
 void
 qdot_reader_clear(qdot_reader *r)
@@ -56,6 +59,27 @@ read_accelerations(const qdot_reader_course *c, double t)
                                    c->in + 2 * c->n + 1);
 }
 
+/* The sides of the piece, and the shares of surfaces along which it slides. */
+static qdot_status
+read_sides(const qdot_plan *p, const qdot_reader_course *c)
+{
+    const qdot_mode *m = c->course->stage->modes.at[qdot_trajectory_mode_read(c->cursor)];
+    double *sides = c->in + qdot_plan_inputs(p) - p->n_sides;
+    double *work = NULL;
+
+    if (m->shares) {
+        work = qdot_malloc((qdot_tape_work(m->shares) + 1) * sizeof *work);
+        if (!work)
+            return QDOT_ENOMEM;
+        qdot_tape_eval(m->shares, c->in, sides, work);
+        qdot_free(work);
+    }
+    for (size_t i = 0; i < p->n_sides; i++)
+        sides[i] = m->side[i] == QDOT_SIDE_SLIDES ? fmin(fmax(sides[i], -1), 1)
+                                                  : (double)m->side[i];
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_reader_evaluate(qdot_reader *r, double t, double *out)
 {
@@ -63,6 +87,8 @@ qdot_reader_evaluate(qdot_reader *r, double t, double *out)
         r->courses[k].in[2 * r->courses[k].n] = t;
         if (r->of.accelerations)
             QDOT_TRY(read_accelerations(r->courses + k, t));
+        if (plan_of(&r->of, k)->read_side)
+            QDOT_TRY(read_sides(plan_of(&r->of, k), r->courses + k));
     }
     qdot_tape_eval(r->of.tape, r->in, out, r->work);
     return QDOT_OK;
@@ -105,7 +131,7 @@ qdot_reader_lower_beside(const qdot_reading *other, size_t m, const qdot_expr *e
     for (size_t k = 0; k <= of->n_more; k++)
         inputs += qdot_plan_inputs(plan_of(of, k));
     for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-        e[j] = of->n_more == 0 ? qdot_plan_substitute(p, exprs[j]) : exprs[j];
+        e[j] = of->n_more == 0 ? qdot_plan_reading(p, exprs[j]) : exprs[j];
         status = qdot_pool_check(p->pool);
         if (status == QDOT_OK && qdot_reading_of_accelerations(p->pool, e[j]))
             of->accelerations = true;

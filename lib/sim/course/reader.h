@@ -33,7 +33,7 @@ typedef struct {
     const qdot_course *course;
     qdot_trajectory_cursor *cursor;
     size_t n;   /* coordinates */
-    double *in; /* [3n + 1 + m] q, q', t, q'', lambda, within those of the reader */
+    double *in; /* q, q', t, q'', lambda, sides, within those of the reader */
 } qdot_reader_course;
 
 /* Reads such expressions. */

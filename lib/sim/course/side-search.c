@@ -2,7 +2,8 @@
  *
  * A side is right if the motion with its equations leaves to it: u > 0 after the start with the
  * equations of side 1, u < 0 with those of -1, u = 0 with those of 0; for a floor side k if u
- * rises from k or stays, k - 1 if it falls. The first step in a mode shows it. Wrong sides are
+ * rises from k or stays, k - 1 if it falls; that it slides if its share is between -1 and 1. The first
+ * step in a mode shows it. Wrong sides are
  * replaced by those to which the motion went; if these were tried before, all combinations of the
  * surfaces in doubt are tried.
  *
@@ -17,7 +18,7 @@
 
 #include "base/interrupt.h"
 
-/* Surfaces in doubt at one time: 3^4 combinations at most. */
+/* Surfaces in doubt at one time: 4^4 combinations at most. */
 enum { MOST_DOUBTS = 4 };
 
 /* --- words --------------------------------------------------------------------------- */
@@ -53,9 +54,11 @@ say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 static void
 say_slides(qdot_piece *x)
 {
-    say(x, x->doubts.n > 0 ? x->doubts.at[0].surface : 0,
-        "the motion would slide along",
-        "where the equations switch: both sides lead back to it");
+    char why[200];
+
+    snprintf(why, sizeof why, "where the equations switch: both sides lead back to it%s",
+             x->hindrance);
+    say(x, x->doubts.n > 0 ? x->doubts.at[0].surface : 0, "the motion would slide along", why);
 }
 
 static void
@@ -121,6 +124,34 @@ next_sides(qdot_piece *x, size_t *k, bool *over)
     return QDOT_OK;
 }
 
+/* Enter the mode with x->side; *can: where the motion would slide it may be that it cannot, and
+ * x->hindrance says why. */
+static qdot_status
+enter(qdot_piece *x, bool *can)
+{
+    const size_t n = x->n;
+    double *kept;
+    qdot_status status = qdot_piece_enter(x);
+
+    *can = true;
+    if (!qdot_sliding_is(x->c->stage->switches.surfaces.n, x->side))
+        return status;
+    if (status != QDOT_OK) {
+        *can = false;
+        snprintf(x->hindrance, sizeof x->hindrance, ", but %.100s", qdot_last_error()->message);
+        return qdot_grave(status);
+    }
+    kept = qdot_malloc(n * sizeof *kept);
+    if (!kept)
+        return QDOT_ENOMEM;
+    memcpy(kept, x->start.y, n * sizeof *kept);
+    status = qdot_piece_keep(x, can);
+    if (!*can)
+        memcpy(x->start.y, kept, n * sizeof *kept);
+    qdot_free(kept);
+    return status;
+}
+
 /* Integrate with x->side: the whole piece, or its first step. */
 static qdot_status
 go(qdot_piece *x)
@@ -136,19 +167,27 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     qdot_status status;
+    bool can;
 
     *too = false;
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
-    status = qdot_piece_enter(x);
-    if (status == QDOT_OK) {
+    status = enter(x, &can);
+    if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
         status = go(x);
         *too = status == QDOT_OK && x->intent == QDOT_PIECE_RETRIED && x->well
                && x->side[surface] == side;
     }
     return qdot_grave(status);
+}
+
+/* Whether u stays 0 on both sides of a surface: its motion is one. */
+static bool
+stays_alike(long side, long other)
+{
+    return (side == 0 && other == QDOT_SIDE_SLIDES) || (side == QDOT_SIDE_SLIDES && other == 0);
 }
 
 /* Whether the present sides, held [surfaces], are the only right ones; c->reason if not. */
@@ -166,6 +205,8 @@ compare(qdot_piece *x, const long *held)
             const size_t surface = others.at[i].surface;
             bool too;
 
+            if (stays_alike(held[surface], others.at[i].sides[k]))
+                continue;
             status = holds_too(x, held, surface, others.at[i].sides[k], &too);
             if (status == QDOT_OK && too && x->c->reason[0] == '\0')
                 say_open(x, surface);
@@ -204,8 +245,10 @@ qdot_piece_search(qdot_piece *x)
     x->tried.n = 0;
     x->doubts.n = 0;
     x->search = QDOT_SIDES_TRIED;
+    x->hindrance[0] = '\0';
+    x->put_aside = false;
     for (bool first = true;; first = false) {
-        bool over;
+        bool over, can;
 
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(next_sides(x, &combinations, &over));
@@ -213,7 +256,9 @@ qdot_piece_search(qdot_piece *x)
             say_slides(x);
             return QDOT_OK;
         }
-        QDOT_TRY(qdot_piece_enter(x));
+        QDOT_TRY(enter(x, &can));
+        if (!can)
+            continue;
         QDOT_TRY(qdot_piece_cross(x, first));
         if (x->c->reason[0] != '\0')
             return QDOT_OK;

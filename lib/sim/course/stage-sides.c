@@ -59,7 +59,7 @@ qdot_stage_lower_sides(qdot_stage *s)
         k = inputs_of(s, in);
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         in[k++] = s->switches.surfaces.at[i].side;
-        status = qdot_switches_freeze(&s->switches, NULL, 1, &s->switches.surfaces.at[i].u,
+        status = qdot_switches_freeze(&s->switches, NULL, NULL, 1, &s->switches.surfaces.at[i].u,
                                       u + i);
         u[m + i] = qdot_term_magnitude(pool, u[i]);
     }
@@ -98,7 +98,7 @@ static void
 evaluate(decision *d, const long *side)
 {
     for (size_t i = 0; i < d->m; i++)
-        d->in[d->n + 1 + i] = (double)side[i];
+        d->in[d->n + 1 + i] = side[i] == QDOT_SIDE_SLIDES ? 0 : (double)side[i];
     qdot_tape_eval(d->s->sides, d->in, d->out, d->work);
     memcpy(d->in, d->y, d->n * sizeof *d->in);
     d->in[d->n] = d->t;

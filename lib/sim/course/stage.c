@@ -19,20 +19,27 @@ clear_event(qdot_staged_event *e)
     qdot_tape_free(e->then);
 }
 
+static void
+free_mode(qdot_mode *m)
+{
+    qdot_plan_free(m->plan);
+    qdot_free(m->side);
+    qdot_tape_free(m->level);
+    qdot_tape_free(m->shares);
+    qdot_sliding_rows_clear(&m->held);
+    qdot_free(m->functions);
+    qdot_free(m->watched);
+    qdot_free(m);
+}
+
 void
 qdot_stage_clear(qdot_stage *s)
 {
     for (size_t i = 0; i < s->events.n; i++)
         clear_event(&s->events.at[i]);
     qdot_free(s->events.at);
-    for (size_t i = 0; i < s->modes.n; i++) {
-        qdot_plan_free(s->modes.at[i]->plan);
-        qdot_free(s->modes.at[i]->side);
-        qdot_tape_free(s->modes.at[i]->level);
-        qdot_free(s->modes.at[i]->functions);
-        qdot_free(s->modes.at[i]->watched);
-        qdot_free(s->modes.at[i]);
-    }
+    for (size_t i = 0; i < s->modes.n; i++)
+        free_mode(s->modes.at[i]);
     qdot_free(s->modes.at);
     qdot_plan_free(s->kept);
     qdot_switches_clear(&s->switches);
@@ -180,6 +187,19 @@ is_side(qdot_pool *pool, const qdot_surface *x, qdot_expr u, long side)
     return qdot_fun1(pool, QDOT_SIGN, u) == k;
 }
 
+/* Two functions of a surface, e less each of two values, between which e has to stay; `beyond` them
+ * are the sides [2]. */
+static void
+watch_between(qdot_pool *pool, qdot_mode *m, qdot_watched w, qdot_expr e, const long *values,
+              const long *beyond)
+{
+    for (int k = 0; k < 2; k++) {
+        w.inside = k ? -1 : 1;
+        w.beyond = beyond[k];
+        watch_function(m, qdot_sub(pool, e, qdot_expr_int(pool, values[k])), w);
+    }
+}
+
 /* The rims of a layer that the mode's side touches: u = layer, u = -layer. */
 static void
 watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watched)
@@ -198,46 +218,45 @@ watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watch
 }
 
 /* A surface whose u is constant in the mode is not watched; where u is 0, it is watched to stay
- * 0. */
+ * 0; where the motion slides, its share is. */
 static qdot_status
 watch_surfaces(const qdot_stage *s, qdot_mode *m)
 {
+    static const long ends[] = {-1, 1};
+
     for (size_t i = 0; i < s->switches.surfaces.n; i++) {
         const qdot_surface *x = &s->switches.surfaces.at[i];
         qdot_pool *pool = s->switches.pool;
-        bool velocity, some, moves;
+        bool some, moves;
+        qdot_watched w = {.kind = QDOT_WATCH_SURFACE, .index = i};
         qdot_expr u;
 
-        QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &x->u, &u));
+        if (m->side[i] == QDOT_SIDE_SLIDES) {
+            w.velocity = true;
+            watch_between(pool, m, w, m->plan->share[i], ends, ends);
+            continue;
+        }
+        QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &x->u, &u));
         if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
         QDOT_TRY(qdot_parameter_states_occur(m->plan, u, &some, &moves));
         if (!moves)
             continue;
-        velocity = (qdot_expr_node(pool, u)->holds
-                    & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
-                   != 0;
+        w.velocity = (qdot_expr_node(pool, u)->holds
+                      & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+                     != 0;
         if (x->layer > 0) {
-            watch_layer(m, x, u, (qdot_watched){.kind = QDOT_WATCH_SURFACE, .index = i,
-                                                .velocity = velocity});
+            watch_layer(m, x, u, w);
             continue;
         }
-        if (!x->steps) {
-            watch_function(m, u,
-                           (qdot_watched){.kind = QDOT_WATCH_SURFACE,
-                                          .index = i,
-                                          .inside = (int)m->side[i],
-                                          .beyond = -m->side[i],
-                                          .velocity = velocity});
+        if (x->steps) {
+            watch_between(pool, m, w, u, (long[]){m->side[i], m->side[i] + 1},
+                          (long[]){m->side[i] - 1, m->side[i] + 1});
             continue;
         }
-        for (int k = 0; k < 2; k++)
-            watch_function(m, qdot_sub(pool, u, qdot_expr_int(pool, m->side[i] + k)),
-                           (qdot_watched){.kind = QDOT_WATCH_SURFACE,
-                                          .index = i,
-                                          .inside = k ? -1 : 1,
-                                          .beyond = m->side[i] + (k ? 1 : -1),
-                                          .velocity = velocity});
+        w.inside = (int)m->side[i];
+        w.beyond = -m->side[i];
+        watch_function(m, u, w);
     }
     return qdot_pool_check(s->switches.pool);
 }
@@ -249,9 +268,36 @@ lower_level(const qdot_stage *s, qdot_mode *m)
 
     if (s->switches.level == QDOT_NIL)
         return QDOT_OK;
-    QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, 1, &s->switches.level, &level));
+    QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &s->switches.level,
+                                  &level));
     return qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, 1, &level,
                          &m->level);
+}
+
+static qdot_status
+find_held(const qdot_stage *s, qdot_mode *m)
+{
+    const size_t surfaces = s->switches.surfaces.n;
+    qdot_expr *u;
+    qdot_status status = QDOT_OK;
+
+    if (!qdot_sliding_is(surfaces, m->side))
+        return QDOT_OK;
+    u = qdot_calloc(surfaces, sizeof *u);
+    if (!u)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < surfaces && status == QDOT_OK; i++)
+        status = qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1,
+                                      &s->switches.surfaces.at[i].u, u + i);
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_make(m->plan, surfaces, m->side, u, &m->held);
+    for (size_t i = 0; i < surfaces; i++)
+        u[i] = m->side[i] == QDOT_SIDE_SLIDES ? m->plan->share[i] : QDOT_ZERO;
+    if (status == QDOT_OK)
+        status = qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, surfaces, u,
+                               &m->shares);
+    qdot_free(u);
+    return status;
 }
 
 static qdot_status
@@ -287,6 +333,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
                        (qdot_watched){.kind = QDOT_WATCH_EVENT, .index = i});
     QDOT_TRY(watch_domains(s, m));
     QDOT_TRY(lower_level(s, m));
+    QDOT_TRY(find_held(s, m));
     return watch_surfaces(s, m);
 }
 
@@ -308,15 +355,13 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
     m = qdot_calloc(1, sizeof *m);
     if (!m)
         return QDOT_ENOMEM;
-    *mode = s->modes.n;
-    status = qdot_vec_push(&s->modes, m);
-    if (status != QDOT_OK) {
-        qdot_free(m);
-        return status;
-    }
-    s->modes.n--; /* it counts once it is whole */
     status = make_mode(s, side, m);
-    s->modes.n++;
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&s->modes, m);
+    if (status == QDOT_OK)
+        *mode = s->modes.n - 1;
+    else
+        free_mode(m);
     return status;
 }
 

@@ -10,6 +10,7 @@
 #include "sim/model/domain.h"
 #include "sim/model/equations.h"
 #include "sim/model/parameter-states.h"
+#include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
 typedef struct {
@@ -30,7 +31,8 @@ typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_wa
 typedef struct {
     qdot_watched_kind kind;
     size_t index;   /* of the event, domain or surface */
-    int inside;     /* its sign in this mode; 0: an event, or a surface whose u stays 0 */
+    int inside;     /* its sign in this mode; 0: an event, or a surface whose u stays 0. A surface along
+                       which the motion slides has s + 1 and s - 1, s its share */
     long beyond;    /* surface: the side after a crossing; unused if u stays 0 */
     bool velocity;  /* surface: u contains velocities, so that du/dt depends on the mode */
     size_t coordinate; /* of a domain */
@@ -45,6 +47,8 @@ typedef struct {
                          none */
     qdot_expr *functions;  /* [m] events, then domains, then surfaces */
     qdot_watched *watched; /* [m] */
+    qdot_tape *shares; /* from q, q', t: the shares [surfaces], 0 of others; NULL: it does not slide */
+    qdot_sliding_rows held; /* what the motion keeps where it slides along surfaces; else no rows */
 } qdot_mode;
 
 /* Start from {0}. */
@@ -75,7 +79,7 @@ QDOT_MUST_CHECK qdot_status qdot_stage_settle(qdot_stage *stage, const double *y
                                               bool *anew);
 
 /* The mode with these sides [surfaces], made if it is new. QDOT_EFAILED if it is new and the run
- * has ended (stage->scene is NULL). */
+ * has ended (stage->scene is NULL), or as qdot_sliding_freeze. */
 QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
                                             size_t *mode);
 

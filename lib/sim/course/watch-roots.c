@@ -8,6 +8,9 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
+/* What the rounding of a function makes of its slope at a zero, by nodes that crowd there. */
+static const double noise_of_slope = 1e4;
+
 /* --- its polynomial ------------------------------------------------------------------ */
 
 /* Rounding of the nodes, as a fraction of the length of the part. */
@@ -46,7 +49,7 @@ qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
     const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
 
     return fmax(part * w->size[i],
-                isnan(w->noise[i]) ? 0 : (w->now.on[i] ? 1e4 : 8) * w->noise[i]);
+                isnan(w->noise[i]) ? 0 : (w->now.on[i] ? noise_of_slope : 8) * w->noise[i]);
 }
 
 static void
@@ -182,15 +185,27 @@ between(const qdot_watch_part *p, double x0, double x1, int way)
     return x1;
 }
 
+/* Whether the slope at the zero at the start of the part is nothing beside the function there. */
+static bool
+is_flat(const qdot_watch_part *p)
+{
+    return fabs(qdot_chebyshev_at(p->n, p->c, -1))
+           <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
+}
+
+/* Whether that slope cannot be told from 0. */
+static bool
+is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    return is_flat(p) /* not for a NaN: */
+           || fabs(qdot_chebyshev_at(p->n, p->c, -1)) <= noise_of_slope * w->noise[i];
+}
+
 /* The sign of a function just after its zero at the start of the part. */
 static int
-leaves_to(const qdot_watch_part *p)
+leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    double at_start = qdot_chebyshev_at(p->n, p->c, -1);
-
-    if (fabs(at_start) > least_slope(p) * qdot_chebyshev_size(p->n, p->c))
-        return qdot_watch_sign(at_start);
-    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, 1));
+    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
 }
 
 /* Treat the zero at the start of the part: count it as a root if the sign before differs. */
@@ -245,13 +260,15 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
     int n = 0, sign = w->now.sign[i];
     bool grazes;
 
+    if (w->fresh[i] && p->from_zero && is_flat(p))
+        w->slow[i] = true;
     if (vanishes(w, p, i)) {
         w->now.on[i] = true;
         w->now.g0[i] = p->at_end;
         return QDOT_OK;
     }
     if (p->from_zero) {
-        sign = leaves_to(p);
+        sign = leaves_to(w, p, i);
         QDOT_TRY(pass_start(w, p, i, sign));
     }
     if (qdot_chebyshev_sign(p->n, p->c) == 0) {
@@ -296,9 +313,8 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
     }
     w->now.sign[i] = sign;
     if (w->fresh[i]) {
-        w->first[i] = p->from_zero ? leaves_to(p) : qdot_watch_sign(w->now.g0[i]);
-        w->slow[i] = p->from_zero && fabs(qdot_chebyshev_at(p->n, p->c, -1)) <=
-                                         least_slope(p) * qdot_chebyshev_size(p->n, p->c);
+        w->first[i] = p->from_zero ? leaves_to(w, p, i) : qdot_watch_sign(w->now.g0[i]);
+        w->slow[i] |= p->from_zero && is_slow(w, p, i);
         w->fresh[i] = false;
     }
     if (grazes)

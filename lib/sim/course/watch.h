@@ -55,6 +55,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
                                              const double *y, const qdot_watch_known *known,
                                              bool *on);
 
+/* The functions [m] at a state, before _begin. */
+QDOT_MUST_CHECK qdot_status qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader,
+                                               double t, const double *y, const double **g);
+
 /* All roots of the step to (t, y), ascending in the direction of the run; borrowed until
  * the next call. `last`: the step ends the run, and a root at its end counts. A repeated call
  * tries another step from the same start; _take accepts the step.

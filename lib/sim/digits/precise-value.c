@@ -7,6 +7,7 @@
 #include "sim/course/reader.h"
 #include "sim/digits/precise-pair.h"
 #include "sim/digits/precise.h"
+#include "sim/model/sliding.h"
 #include "tape/constant.h"
 
 #define RN MPFR_RNDN
@@ -88,6 +89,11 @@ static qdot_status
 readers_init(readers *r, qdot_precise_pair *pair, size_t m, const qdot_expr *exprs)
 {
     *r = (readers){.pair = pair};
+    for (size_t j = 0; j < m && pair->plan->read_side; j++)
+        if (qdot_plan_reading(pair->plan, exprs[j]) != qdot_plan_substitute(pair->plan, exprs[j]))
+            return qdot_fail(QDOT_ENOTBUILT,
+                             "not built yet: with `digits`, values of what switches on a surface "
+                             "along which the motion slides");
     QDOT_TRY(qdot_reader_lower(pair->plan, m, exprs, &r->of));
     QDOT_TRY(reader_init(&r->run, &r->of, &pair->run));
     return reader_init(&r->companion, &r->of, &pair->companion);

@@ -74,6 +74,8 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->kept);
     qdot_tape_free(p->momenta);
     qdot_tape_free(p->bordered);
+    qdot_free(p->share);
+    qdot_free(p->read_side);
     free_motion(p);
     qdot_free(p);
 }

@@ -153,7 +153,7 @@ read_rows(builder *b, const qdot_scene *scene)
             return QDOT_ENOMEM;
         QDOT_TRY(qdot_pool_check(p->pool));
         if (p->mode)
-            QDOT_TRY(qdot_switches_freeze(p->mode, p->side, 1, &row->f, &row->f));
+            QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &row->f, &row->f));
         QDOT_TRY(add_slopes(b, k));
         QDOT_TRY(add_derivatives(b, k));
     }

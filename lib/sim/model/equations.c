@@ -8,7 +8,7 @@
 size_t
 qdot_plan_inputs(const qdot_plan *p)
 {
-    return 3 * p->n + 1 + p->m;
+    return 3 * p->n + 1 + p->m + p->n_sides;
 }
 
 bool

@@ -56,7 +56,10 @@ struct qdot_plan {
     size_t m;        /* constraints, one a component */
     size_t n_states; /* the last coordinates: parameters that events set
                         (sim/model/parameter-states.h) */
-    qdot_expr *inputs; /* [3n + 1 + m] q, q', t, q'', lambda of m constraints */
+    size_t n_sides;  /* surfaces at which the equations switch */
+    qdot_expr *inputs; /* [3n + 1 + m + n_sides] q, q', t, q'', lambda of m constraints, the symbols of
+                          the sides (sim/model/switch.h), of which only what is read along a run
+                          may hold some */
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] M, f and tape are NULL if only the tree is used */
     qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */
@@ -128,6 +131,13 @@ struct qdot_plan {
     /* While the plan is made: the mode that its equations are frozen to; else NULL. */
     const struct qdot_switches *mode;
     const long *side;
+    /* [surfaces] of that mode: the shares of the surfaces along which the motion slides, functions
+     * of q, q', t; NULL: there are none (sim/model/sliding.h). Kept with the plan. */
+    qdot_expr *share;
+    /* Of the first plan of a run: the switches and, [surfaces], QDOT_SIDE_SLIDES for surfaces along which
+     * it slid; NULL: none (qdot_plan_reading). Borrowed and owned. */
+    const struct qdot_switches *read_switches;
+    long *read_side;
 };
 
 /* Make an empty plan for n coordinates of another plan, with the same method, and room for inputs
@@ -149,7 +159,7 @@ QDOT_MUST_CHECK qdot_status qdot_plan_lower(qdot_plan *plan, size_t inputs, size
 /* Lower p->tape anew for series in lanes (qdot_tape_new_for_series). */
 QDOT_MUST_CHECK qdot_status qdot_plan_lower_for_series(qdot_plan *plan);
 
-/* The number of inputs: 3n + 1 + m. */
+/* The number of inputs: 3n + 1 + m + n_sides. */
 size_t qdot_plan_inputs(const qdot_plan *plan);
 
 /* The value of the constant e with parameter values (tape/constant.h): the nearest double, the

@@ -298,6 +298,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
 typedef struct {
     const qdot_switches *s;
     const long *side; /* NULL: symbols */
+    const long *corner; /* [surfaces] the side meant by QDOT_SIDE_SLIDES */
     size_t done;       /* atoms frozen so far */
     qdot_expr *frozen; /* [atoms] */
 } freezer;
@@ -336,11 +337,26 @@ side_of(const freezer *f, qdot_expr u, bool steps)
 
         if (x->u != u || x->steps != steps)
             continue;
-        side = f->side ? qdot_expr_int(pool, f->side[i]) : x->side;
+        side = !f->side                          ? x->side
+               : f->side[i] == QDOT_SIDE_SLIDES ? qdot_expr_int(pool, f->corner[i])
+                                                 : qdot_expr_int(pool, f->side[i]);
         return turned ? qdot_neg(pool, side) : side;
     }
     u = qdot_fun1(pool, steps ? QDOT_FLOOR : QDOT_SIGN, u);
     return turned ? qdot_neg(pool, u) : u;
+}
+
+/* Whether u is held at 0. */
+static bool
+is_held(const freezer *f, qdot_expr u)
+{
+    bool turned;
+
+    u = upright(f->s->pool, u, &turned);
+    for (size_t i = 0; i < f->s->surfaces.n && f->side; i++)
+        if (f->s->surfaces.at[i].u == u && f->side[i] == QDOT_SIDE_SLIDES)
+            return true;
+    return false;
 }
 
 /* The argument that min or max selects; the first of equal ones. */
@@ -355,9 +371,8 @@ chosen(const freezer *f, qdot_expr e, int way)
         qdot_expr own = inner(f, qdot_expr_arg(pool, e, i)), kept = own;
 
         for (uint32_t j = i + 1; j < n; j++) {
-            qdot_expr side = side_of(f, qdot_sub(pool, qdot_expr_arg(pool, e, i),
-                                                 qdot_expr_arg(pool, e, j)),
-                                     false);
+            qdot_expr u = qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, j));
+            qdot_expr side = is_held(f, u) ? QDOT_ZERO : side_of(f, u, false);
 
             if (way < 0)
                 side = qdot_neg(pool, side);
@@ -385,6 +400,8 @@ freeze_atom(const freezer *f, qdot_expr e)
             return side == QDOT_ZERO ? QDOT_TRUE : QDOT_FALSE;
         return qdot_rel(pool, op, side, QDOT_ZERO);
     }
+    if (is_function(pool, e, QDOT_ABS) && is_held(f, a))
+        return QDOT_ZERO;
     if (is_function(pool, e, QDOT_ABS))
         return qdot_mul(pool, side_of(f, a, false), inner(f, a));
     if (is_function(pool, e, QDOT_SIGN))
@@ -398,23 +415,116 @@ freeze_atom(const freezer *f, qdot_expr e)
     return chosen(f, e, is_function(pool, e, QDOT_MAX) ? 1 : -1);
 }
 
-qdot_status
-qdot_switches_freeze(const qdot_switches *s, const long *side, size_t n,
-                     const qdot_expr *e, qdot_expr *frozen)
+/* Whether a function switches on a surface whose side is left open. */
+static bool
+is_open(const freezer *f, qdot_expr atom)
 {
-    freezer f = {.s = s, .side = side};
+    qdot_pool *pool = f->s->pool;
+    const uint32_t n = qdot_expr_count(pool, atom);
+    bool turned;
+
+    for (size_t s = 0; s < f->s->surfaces.n && f->side; s++) {
+        const qdot_expr u = f->s->surfaces.at[s].u;
+
+        if (f->side[s] != QDOT_SIDE_OPEN)
+            continue;
+        if (f->s->surfaces.at[s].steps) {
+            if (is_function(pool, atom, QDOT_FLOOR) || is_function(pool, atom, QDOT_MOD))
+                return true;
+            continue;
+        }
+        if (n == 1 && upright(pool, qdot_expr_arg(pool, atom, 0), &turned) == u)
+            return true;
+        for (uint32_t i = 0; i < n; i++)
+            for (uint32_t j = i + 1; j < n; j++)
+                if (upright(pool,
+                            qdot_sub(pool, qdot_expr_arg(pool, atom, i),
+                                     qdot_expr_arg(pool, atom, j)),
+                            &turned)
+                    == u)
+                    return true;
+    }
+    return false;
+}
+
+/* With one side of every surface: that of `corner` where the motion slides. */
+static qdot_status
+freeze_corner(freezer f, size_t n, const qdot_expr *e, qdot_expr *frozen)
+{
+    f.frozen = qdot_calloc(f.s->atoms.n, sizeof *f.frozen);
+    if (!f.frozen)
+        return QDOT_ENOMEM;
+    for (f.done = 0; f.done < f.s->atoms.n; f.done++) {
+        const qdot_expr atom = f.s->atoms.at[f.done];
+
+        f.frozen[f.done] = is_open(&f, atom) ? atom : freeze_atom(&f, atom);
+    }
+    for (size_t i = 0; i < n; i++)
+        frozen[i] = inner(&f, e[i]);
+    qdot_free(f.frozen);
+    return qdot_pool_check(f.s->pool);
+}
+
+/* (1 + share)/2 a + (1 - share)/2 b. */
+static qdot_expr
+mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
+{
+    if (a == b)
+        return a;
+    return qdot_mul(pool, QDOT_HALF,
+                    qdot_add(pool, qdot_add(pool, a, b),
+                             qdot_mul(pool, share, qdot_sub(pool, a, b))));
+}
+
+/* The mean over both sides of every surface along which the motion slides, from surface `from`
+ * on. */
+static qdot_status
+freeze_means(const freezer *f, long *corner, const qdot_expr *share, size_t from, size_t n,
+             const qdot_expr *e, qdot_expr *frozen)
+{
+    size_t i = from;
+    qdot_expr *low;
+    qdot_status status;
+
+    while (i < f->s->surfaces.n && f->side && f->side[i] != QDOT_SIDE_SLIDES)
+        i++;
+    if (!f->side || i == f->s->surfaces.n)
+        return freeze_corner(*f, n, e, frozen);
+    low = qdot_malloc((n + 1) * sizeof *low);
+    if (!low)
+        return QDOT_ENOMEM;
+    corner[i] = -1;
+    status = freeze_means(f, corner, share, i + 1, n, e, low);
+    corner[i] = 1;
+    if (status == QDOT_OK)
+        status = freeze_means(f, corner, share, i + 1, n, e, frozen);
+    for (size_t k = 0; k < n && status == QDOT_OK; k++)
+        frozen[k] = mean(f->s->pool, share[i], frozen[k], low[k]);
+    qdot_free(low);
+    return status == QDOT_OK ? qdot_pool_check(f->s->pool) : status;
+}
+
+qdot_status
+qdot_switches_freeze(const qdot_switches *s, const long *side, const qdot_expr *share,
+                     size_t n, const qdot_expr *e, qdot_expr *frozen)
+{
+    qdot_expr *copy;
+    long *corner;
+    qdot_status status;
 
     if (s->atoms.n == 0) {
         memcpy(frozen, e, n * sizeof *e);
         return QDOT_OK;
     }
-    f.frozen = qdot_calloc(s->atoms.n, sizeof *f.frozen);
-    if (!f.frozen)
-        return QDOT_ENOMEM;
-    for (; f.done < s->atoms.n; f.done++)
-        f.frozen[f.done] = freeze_atom(&f, s->atoms.at[f.done]);
-    for (size_t i = 0; i < n; i++)
-        frozen[i] = inner(&f, e[i]);
-    qdot_free(f.frozen);
-    return qdot_pool_check(s->pool);
+    corner = qdot_calloc(s->surfaces.n + 1, sizeof *corner);
+    copy = qdot_malloc((n + 1) * sizeof *copy); /* `frozen` may be `e` */
+    status = corner && copy ? QDOT_OK : QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        memcpy(copy, e, n * sizeof *e);
+        status = freeze_means(&(freezer){.s = s, .side = side, .corner = corner}, corner, share,
+                              0, n, copy, frozen);
+    }
+    qdot_free(corner);
+    qdot_free(copy);
+    return status;
 }

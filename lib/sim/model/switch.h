@@ -11,8 +11,13 @@
  * A jump of T - V itself is a surface too, even if the equations on both sides are the same.
  *
  * A mode is one side of every surface: a sign, 0 if u stays 0 or in a layer about it
- * (sim/model/layer.h), or the integer of a floor. An
- * expression frozen to a mode does not switch.
+ * (sim/model/layer.h), the integer of a floor, or
+ * QDOT_SIDE_SLIDES. An expression frozen to a mode does not switch.
+ *
+ * On a surface along which the motion slides an expression is the mean of its values e+, e- on both
+ * sides, with a share s of -1 ... 1 (Filippov):
+ *
+ *     (1 + s)/2 e+ + (1 - s)/2 e-        so sign(u) is s, abs(u) is 0
  *
  * Surfaces may be nested: u of if(mod(t, 1) < 0.3, A, B) is mod(t, 1) - 0.3, which is t - k - 0.3
  * on the side k of its inner surface. A surface comes after those inside it, so that sides can be
@@ -24,8 +29,16 @@
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H
 
+#include <limits.h>
+
 #include "sim/model/request.h"
 #include "sim/model/surface.h"
+
+/* The side of a surface along which the motion slides (sim/model/sliding.h): u is held at 0. */
+#define QDOT_SIDE_SLIDES LONG_MAX
+/* For freezing: what switches there stays as it is. */
+#define QDOT_SIDE_OPEN LONG_MIN
+
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
@@ -48,9 +61,12 @@ QDOT_MUST_CHECK qdot_status qdot_switches_find(qdot_scene *scene,
                                                qdot_switches *switches);
 void qdot_switches_clear(qdot_switches *switches);
 
-/* frozen [n]: e [n] in the mode side [surfaces]; NULL: with the symbols of the sides. */
+/* frozen [n]: e [n] in the mode side [surfaces]; NULL: with the symbols of the sides.
+ *   share  [surfaces] the share of each surface along which the motion slides; NULL: none does
+ */
 QDOT_MUST_CHECK qdot_status qdot_switches_freeze(const qdot_switches *switches,
-                                                 const long *side, size_t n,
-                                                 const qdot_expr *e, qdot_expr *frozen);
+                                                 const long *side, const qdot_expr *share,
+                                                 size_t n, const qdot_expr *e,
+                                                 qdot_expr *frozen);
 
 #endif

@@ -8,6 +8,7 @@
 #include "sim/form/motion-of-constraints.h"
 #include "sim/model/constraints.h"
 #include "sim/model/parameter-states.h"
+#include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 #include "sim/plan/form.h"
 #include "sim/plan/geometric.h"
@@ -89,7 +90,8 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
 {
     size_t n = p->n, m = scene->constraints.n;
 
-    p->inputs = qdot_calloc(3 * n + 1 + m, sizeof *p->inputs);
+    p->n_sides = p->mode ? p->mode->surfaces.n : 0;
+    p->inputs = qdot_calloc(3 * n + 1 + m + p->n_sides, sizeof *p->inputs);
     p->names = qdot_calloc(n, sizeof *p->names);
     if (!p->inputs || !p->names)
         return QDOT_ENOMEM;
@@ -106,6 +108,8 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
     p->inputs[2 * n] = QDOT_T;
     for (size_t k = 0; k < m; k++)
         p->inputs[3 * n + 1 + k] = scene->constraints.at[k].multiplier;
+    for (size_t i = 0; i < p->n_sides; i++)
+        p->inputs[3 * n + 1 + m + i] = p->mode->surfaces.at[i].side;
     return qdot_pool_check(p->pool);
 }
 
@@ -133,10 +137,8 @@ derive(qdot_plan *p, qdot_scene *scene)
                               : i == j ? QDOT_ONE
                                        : QDOT_ZERO;
     }
-    if (p->mode) {
-        QDOT_TRY(qdot_switches_freeze(p->mode, p->side, n * n, p->M, p->M));
-        QDOT_TRY(qdot_switches_freeze(p->mode, p->side, n, p->f, p->f));
-    }
+    if (p->mode)
+        QDOT_TRY(qdot_sliding_freeze(p, scene));
     p->indefinite = scene->lagrangian != QDOT_NIL;
     for (size_t i = 0; i < scene->potentials.n; i++)
         if (qdot_expr_node(p->pool, scene->potentials.at[i].e)->holds & QDOT_HAS_VELOCITY)
@@ -243,7 +245,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return qdot_plan_choose_canonical(p, scene);
     if (request->lanes)
         return choose_in_lanes(p, scene, request);
-    if (qdot_plan_needs_jacobian(p) || p->method->geometric)
+    if (qdot_plan_needs_jacobian(p) || p->share || p->method->geometric)
         return QDOT_OK;
     QDOT_TRY(qdot_routh_reduce(p, scene, request));
     /* events that set parameters look at the steps of the whole */

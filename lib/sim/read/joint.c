@@ -43,7 +43,7 @@ express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 {
     const qdot_plan *plan = j->plans[m->run];
     const size_t time = 2 * plan->n, behind = time + 1;
-    qdot_expr e = qdot_plan_substitute(plan, m->value);
+    qdot_expr e = qdot_plan_reading(plan, m->value);
 
     j->of.accelerations =
         j->of.accelerations || qdot_reading_of_accelerations(plan->pool, e);

@@ -1,6 +1,7 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
+#include "sim/run/slides.h"
 #include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
 #include "sim/run/chart-run.h"
@@ -562,6 +563,8 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
                      ? qdot_digits_carry_out(run, scene, request, &run->stage.domains,
                                              &interrupted)
                      : carry_out(run, scene, request->tol, &interrupted);
+    if (status == QDOT_OK)
+        status = qdot_slides_tell(run);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;

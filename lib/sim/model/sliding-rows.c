@@ -1,0 +1,118 @@
+/* sliding-rows.c -- states brought back onto the surfaces along which the motion slides. */
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "sim/model/sliding.h"
+#include "sim/model/switch.h"
+
+/* Sweeps over the rows [Kaczmarz 1937]; of rows that are linear and apart one is enough. */
+enum { MOST_SWEEPS = 100 };
+
+void
+qdot_sliding_rows_clear(qdot_sliding_rows *rows)
+{
+    qdot_free(rows->order);
+    qdot_tape_free(rows->tape);
+    *rows = (qdot_sliding_rows){0};
+}
+
+/* Append a row to out [rows x (1 + n)]: its value and its slopes. */
+static void
+add_row(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_expr h, qdot_expr *values,
+        qdot_expr *slopes)
+{
+    const size_t r = rows->rows++;
+
+    rows->order[r] = order;
+    values[r] = h;
+    for (size_t i = 0; i < p->n; i++)
+        slopes[r * p->n + i] = i < p->n - p->n_states
+                                   ? qdot_diff(p->pool, h, p->inputs[(size_t)order * p->n + i])
+                                   : QDOT_ZERO;
+}
+
+qdot_status
+qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
+                       const qdot_expr *u, qdot_sliding_rows *rows)
+{
+    const size_t most = 2 * surfaces;
+    qdot_expr *out = qdot_calloc(most * (1 + p->n) + 1, sizeof *out);
+    qdot_status status;
+
+    rows->order = qdot_calloc(most + 1, sizeof *rows->order);
+    if (!out || !rows->order) {
+        qdot_free(out);
+        return QDOT_ENOMEM;
+    }
+    for (size_t i = 0; i < surfaces; i++) {
+        const bool velocity =
+            u[i] != QDOT_NIL && (qdot_expr_node(p->pool, u[i])->holds & QDOT_HAS_VELOCITY) != 0;
+
+        if (side[i] != QDOT_SIDE_SLIDES)
+            continue;
+        add_row(p, rows, velocity, u[i], out, out + most);
+        if (!velocity)
+            add_row(p, rows, 1, qdot_ddt(p->pool, u[i]), out, out + most);
+    }
+    memmove(out + rows->rows, out + most, rows->rows * p->n * sizeof *out);
+    status = qdot_pool_check(p->pool);
+    if (status == QDOT_OK && rows->rows > 0)
+        status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, rows->rows * (1 + p->n), out,
+                               &rows->tape);
+    qdot_free(out);
+    return status;
+}
+
+/* One row: y moves along its slopes; whether it did. */
+static bool
+keep_row(const qdot_sliding_rows *rows, size_t n, size_t r, const double *out, double *y)
+{
+    const double *slope = out + rows->rows + r * n;
+    double *x = y + (size_t)rows->order[r] * n, square = 0;
+    bool moves = false;
+
+    for (size_t i = 0; i < n; i++)
+        square += slope[i] * slope[i];
+    for (size_t i = 0; i < n && out[r] != 0; i++) {
+        const double before = x[i];
+
+        x[i] -= out[r] / square * slope[i];
+        moves = moves || x[i] != before;
+    }
+    return moves;
+}
+
+qdot_status
+qdot_sliding_rows_keep(const qdot_sliding_rows *rows, size_t n, double t, double *y,
+                       double *moved)
+{
+    const size_t outputs = rows->rows * (1 + n);
+    bool moves = true;
+    double *in, *out;
+
+    *moved = 0;
+    if (rows->rows == 0)
+        return QDOT_OK;
+    in = qdot_calloc(2 * n + 1 + outputs + qdot_tape_work(rows->tape) + 1, sizeof *in);
+    if (!in)
+        return QDOT_ENOMEM;
+    out = in + 2 * n + 1;
+    memcpy(in, y, 2 * n * sizeof *y);
+    in[2 * n] = t;
+    for (size_t sweep = 0; sweep < MOST_SWEEPS && moves; sweep++) {
+        moves = false;
+        for (size_t r = 0; r < rows->rows; r++) {
+            qdot_tape_eval(rows->tape, in, out, out + outputs);
+            moves = keep_row(rows, n, r, out, in) || moves;
+        }
+    }
+    for (size_t i = 0; i < 2 * n; i++) {
+        const double by = fabs(in[i] - y[i]) / fmax(1, fabs(y[i]));
+
+        *moved = by <= *moved ? *moved : isfinite(by) ? by : INFINITY;
+        y[i] = isfinite(in[i]) ? in[i] : y[i];
+    }
+    qdot_free(in);
+    return QDOT_OK;
+}

@@ -1,0 +1,92 @@
+/* slides.c -- the stretches of a run in which a surface was held, in words. */
+#include "sim/run/slides.h"
+
+#include "expr/print.h"
+
+/* So many stretches are listed, the others counted. */
+enum { MOST_LISTED = 3 };
+
+static const qdot_mode *
+mode_of(const qdot_run *run, size_t piece)
+{
+    return run->stage.modes.at[run->course.tr.pieces.at[piece].mode];
+}
+
+/* Whether piece k slides along a surface; its end that is a point only does not count. */
+static bool
+slides(const qdot_run *run, size_t k, size_t surface)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+
+    return k < tr->pieces.n && mode_of(run, k)->side[surface] == QDOT_SIDE_SLIDES
+           && qdot_trajectory_last_of(tr, k) > tr->pieces.at[k].first;
+}
+
+/* "sticks at x' = 0" where only velocities are held, else "slides along u = 0". */
+static qdot_status
+name(const qdot_run *run, size_t surface, qdot_text *to)
+{
+    const qdot_switches *s = &run->stage.switches;
+    const qdot_expr u = s->surfaces.at[surface].u;
+
+    qdot_text_add(to, qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
+                                                                         : "sticks at ");
+    return qdot_stage_describe(&run->stage, surface, 0, to);
+}
+
+static qdot_status
+tell(qdot_run *run, size_t surface)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    size_t listed = 0, others = 0;
+    double end = 0;
+    qdot_text *to = NULL;
+
+    for (size_t k = 0; k < tr->pieces.n; k++) {
+        const double begin = tr->t[tr->pieces.at[k].first];
+
+        if (!slides(run, k, surface))
+            continue;
+        while (slides(run, k + 1, surface))
+            k++;
+        end = tr->t[qdot_trajectory_last_of(tr, k)];
+        if (!to) {
+            to = qdot_run_next_notice(run);
+            QDOT_TRY(name(run, surface, to));
+        }
+        if (listed < MOST_LISTED)
+            qdot_text_format(to, "%s from t = %.10g to %.10g", listed > 0 ? "," : "", begin, end);
+        else
+            others++;
+        listed++;
+    }
+    if (others > 0)
+        qdot_text_format(to, ", and %zu more times, until t = %.10g", others, end);
+    return to ? qdot_text_status(to) : QDOT_OK;
+}
+
+qdot_status
+qdot_slides_tell(qdot_run *run)
+{
+    const size_t surfaces = run->stage.switches.surfaces.n;
+    bool any = false;
+
+    for (size_t i = 0; i < run->stage.modes.n; i++)
+        any = any || run->stage.modes.at[i]->shares;
+    if (!any)
+        return QDOT_OK;
+    qdot_free(run->plan->read_side);
+    run->plan->read_switches = &run->stage.switches;
+    run->plan->read_side = qdot_calloc(surfaces, sizeof *run->plan->read_side);
+    if (!run->plan->read_side)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < surfaces; i++) {
+        bool slid = false;
+
+        for (size_t k = 0; k < run->course.tr.pieces.n; k++)
+            slid = slid || slides(run, k, i);
+        run->plan->read_side[i] = slid ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
+        QDOT_TRY(tell(run, i));
+    }
+    return QDOT_OK;
+}
