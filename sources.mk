@@ -1226,6 +1226,7 @@ script_tests = \
 	tests/script/start-mass.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
+	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
 	tests/script/switch-nested.lag \
@@ -2097,6 +2098,7 @@ test_files = \
 	tests/script/start-mass.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \
+	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
 	tests/script/switch-nested.out \
