@@ -13,6 +13,10 @@
 /* With more coordinates groups are not looked for. */
 enum { MOST_COORDINATES = 12 };
 
+/* Nor with more work than so many calls of constructors, some tenths of a second: those found by
+ * then are all. */
+static const uint64_t most_work = 300000;
+
 void
 qdot_chart_clear(qdot_chart *c)
 {
@@ -522,13 +526,18 @@ qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
 {
     static const qdot_chart_kind order[] = {QDOT_CHART_BODY, QDOT_CHART_SPACE,
                                             QDOT_CHART_PLANE, QDOT_CHART_SPHERE};
-
     joined pairs;
+    uint64_t rest;
+    qdot_status status = QDOT_OK, pending;
 
     if (s->constraints.n > 0 || s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
+    rest = qdot_pool_budget(s->pool, most_work);
     pairs = find_pairs(s);
-    for (size_t k = 0; k < sizeof order / sizeof *order; k++)
-        QDOT_TRY(try_kind(s, order[k], &pairs, groups));
-    return qdot_pool_check(s->pool);
+    for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
+        status = try_kind(s, order[k], &pairs, groups);
+    pending = qdot_pool_check(s->pool);
+    status = status == QDOT_OK ? pending : status;
+    (void)qdot_pool_budget(s->pool, rest);
+    return status == QDOT_ELIMIT ? QDOT_OK : status;
 }
