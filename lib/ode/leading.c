@@ -8,9 +8,6 @@
 #include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 
-/* Relative to the size of a component. */
-static const double lost = 0x1p-50;
-
 static bool
 is_following(const qdot_ode_system *system, size_t i)
 {
@@ -39,13 +36,13 @@ orders_of_terms(const qdot_ode_leading_step *step, const double *power)
     return m;
 }
 
-/* Whether doubles were accurate enough at order k, that is to `error`. */
+/* Whether doubles were accurate enough at order k. */
 static bool
-agree(const qdot_ode_leading_step *step, int k, double power, double error)
+agree(const qdot_ode_leading_step *step, int k, double power)
 {
     const qdot_ode_series *series = step->system->series;
     const qdot_ode_leading *leading = step->system->leading;
-    const double most = error / power;
+    const double most = 4 * step->eps / power;
 
     for (size_t i = 0; i < step->system->n; i++)
         if (!(fabs(leading->x[i * leading->stride + (size_t)k].hi
@@ -56,9 +53,7 @@ agree(const qdot_ode_leading_step *step, int k, double power, double error)
     return true;
 }
 
-/* The number of orders in two doubles; power: s^k. 0 where doubles have lost a digit at the highest
- * of them: under a stiff force the rounding of the first orders is that of another start, which the
- * others carry on and which dies out; better ones would not fit to those. */
+/* The number of orders in two doubles; power: s^k. */
 static qdot_status
 find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
 {
@@ -70,10 +65,10 @@ find_orders(const qdot_ode_leading_step *step, const double *power, int *m)
     QDOT_TRY(leading->begin(&step->at, step->unit, leading->user));
     for (*m = 1; *m <= most; ++*m) {
         QDOT_TRY(leading->next(*m, leading->user));
-        if (*m >= least && agree(step, *m, fabs(power[*m]), 4 * step->eps))
+        if (*m >= least && agree(step, *m, fabs(power[*m])))
             return QDOT_OK;
     }
-    *m = agree(step, most, fabs(power[most]), fmax(4 * step->eps, lost)) ? most : 0;
+    *m = most;
     return QDOT_OK;
 }
 

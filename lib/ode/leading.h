@@ -11,8 +11,7 @@
  *     max_i |X_im - x_im| s^m/max(s_i, |y_i|) <= 4 eps:
  *
  * The second condition is the accuracy that doubles really have at order m if terms of the
- * equations cancel. Where even the highest order in two doubles differs by more than 2^-50, all
- * orders but y are in doubles (m = 0). The remaining rounding is of the size of the series' own error, whose bound
+ * equations cancel. The remaining rounding is of the size of the series' own error, whose bound
  * eps = tol^(5/4) may then be below 10^-17.
  *
  * Tests  tests/ode/test_leading.c
