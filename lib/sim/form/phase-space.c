@@ -7,7 +7,6 @@
 #include "expr/calculus.h"
 #include "num/ldlt.h"
 #include "sim/model/substitute.h"
-#include "sim/model/switch.h"
 
 struct qdot_phase {
     const qdot_phase_space *space;
@@ -29,7 +28,7 @@ qdot_phase_space_free(qdot_phase_space *s)
 
 /* --- expressions -------------------------------------------------------------------- */
 
-/* p [n] with the plan's values, in the plan's mode. */
+/* p [n] with the plan's values. A function that switches is itself, whatever the mode. */
 static qdot_status
 momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
 {
@@ -41,8 +40,7 @@ momenta_of(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p)
         p[i] = i < plan->n - states
                    ? qdot_plan_substitute(plan, qdot_expr_arg(plan->pool, all, (uint32_t)i))
                    : plan->inputs[plan->n + i];
-    QDOT_TRY(qdot_pool_check(plan->pool));
-    return plan->mode ? qdot_switches_freeze(plan->mode, plan->side, plan->n, p, p) : QDOT_OK;
+    return qdot_pool_check(plan->pool);
 }
 
 /* sum_j dp/dq_j q_j' + dp/dt */
