@@ -410,6 +410,7 @@ library_sources = \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
 	lib/sim/error/singular-places.c \
+	lib/sim/error/standstill.c \
 	lib/sim/error/touches.c \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
@@ -838,6 +839,7 @@ library_headers = \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
 	lib/sim/error/singular-places.h \
+	lib/sim/error/standstill.h \
 	lib/sim/error/touches.h \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
@@ -1093,6 +1095,7 @@ script_tests = \
 	tests/script/bodies-moved.lag \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
+	tests/script/chaos.sh \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
@@ -1944,6 +1947,7 @@ test_files = \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \
+	tests/script/chaos.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \

@@ -508,7 +508,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     run = qdot_calloc(1, sizeof *run);
     if (!run)
         return QDOT_ENOMEM;
-    run->report.horizon = NAN;
+    run->report.horizon = run->report.standstill = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
     run->course.touch_tol = touch_tol;
