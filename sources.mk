@@ -177,6 +177,7 @@ library_sources = \
 	lib/mech/scene/body.c \
 	lib/mech/scene/cache.c \
 	lib/mech/scene/constraint.c \
+	lib/mech/scene/copy.c \
 	lib/mech/scene/event.c \
 	lib/mech/scene/kind.c \
 	lib/mech/scene/label.c \
@@ -186,6 +187,9 @@ library_sources = \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
 	lib/mech/scene/scene.c \
+	lib/mech/study/chart-body.c \
+	lib/mech/study/chart-express.c \
+	lib/mech/study/chart.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
@@ -465,6 +469,7 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
@@ -473,7 +478,9 @@ library_sources = \
 	lib/sim/read/range.c \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
+	lib/sim/run/change-chart.c \
 	lib/sim/run/change-over.c \
+	lib/sim/run/chart-run.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
@@ -636,6 +643,8 @@ library_headers = \
 	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
+	lib/mech/study/chart-body.h \
+	lib/mech/study/chart.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
@@ -891,10 +900,13 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
+	lib/sim/run/chart-run.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
@@ -986,6 +998,7 @@ unit_tests = \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
 	tests/machine/test_x86 \
+	tests/mech/test_chart \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -1096,6 +1109,7 @@ script_tests = \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
+	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
@@ -1273,6 +1287,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/composition8-friction.lag \
@@ -1558,6 +1573,7 @@ script_tests = \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
 	examples/tautochrone.lag \
+	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
 	examples/torus-geodesic.lag \
@@ -1604,6 +1620,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/composition8-friction.out \
@@ -1948,6 +1965,7 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/chaos.out \
+	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \
@@ -2312,6 +2330,7 @@ example_files = \
 	examples/swinging-atwood.svg \
 	examples/tautochrone.lag \
 	examples/tautochrone.svg \
+	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \

@@ -1,7 +1,9 @@
 /* run.c -- carries out a request: integrates, estimates the error, fills the report. */
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
+#include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
+#include "sim/run/chart-run.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 #include "sim/run/scales.h"
@@ -59,6 +61,7 @@ qdot_run_free(qdot_run *run)
     qdot_text_clear(&run->part_names);
     qdot_free(run->parts.at);
     qdot_multipliers_clear(&run->multipliers);
+    qdot_run_chart_free(run->chart);
     qdot_free(run);
 }
 
@@ -564,7 +567,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
-    const qdot_run_maker by = {make_decided, qdot_run_free};
+    const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
 
     QDOT_TRY(make_decided(scene, request, out));
     return request->digits ? QDOT_OK : qdot_run_change_over(scene, request, &by, out);
@@ -603,6 +606,7 @@ qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     const double clock = process_clock();
+    const qdot_run_maker by = {make_whole, qdot_run_values, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
@@ -611,6 +615,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     status = make_whole(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = make_in_scales(scene, &states.request, out);
+    if (!asked->digits)
+        status = qdot_run_change_chart(scene, &states.request, &by, status, out);
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;
