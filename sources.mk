@@ -2261,9 +2261,11 @@ other_files = \
 	bench/peers/scene/stiff_spring.lag \
 	bench/peers/scenes.hh \
 	bench/peers/scipy_dop853.py \
+	bench/peers/stiff.c \
 	bench/peers/table.awk \
 	bench/pendulum-run.lag \
 	bench/run \
+	bench/stiff \
 	bench/symbolic/ginac-peer.cc \
 	bench/symbolic/identities \
 	bench/symbolic/maxima-peer.mac \
