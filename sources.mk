@@ -372,9 +372,11 @@ library_sources = \
 	lib/show/table.c \
 	lib/show/trace.c \
 	lib/sim/course/bind.c \
+	lib/sim/course/contact.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
+	lib/sim/course/piece-contact.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-layer.c \
@@ -805,6 +807,7 @@ library_headers = \
 	lib/show/sink.h \
 	lib/show/trace.h \
 	lib/sim/course/bind.h \
+	lib/sim/course/contact.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
@@ -1210,6 +1213,7 @@ script_tests = \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
+	tests/script/resting.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
@@ -2081,6 +2085,7 @@ test_files = \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
+	tests/script/resting.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \
