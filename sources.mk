@@ -177,6 +177,7 @@ library_sources = \
 	lib/mech/scene/body.c \
 	lib/mech/scene/cache.c \
 	lib/mech/scene/constraint.c \
+	lib/mech/scene/copy.c \
 	lib/mech/scene/event.c \
 	lib/mech/scene/kind.c \
 	lib/mech/scene/label.c \
@@ -186,6 +187,9 @@ library_sources = \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
 	lib/mech/scene/scene.c \
+	lib/mech/study/chart-body.c \
+	lib/mech/study/chart-express.c \
+	lib/mech/study/chart.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
@@ -407,6 +411,7 @@ library_sources = \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
 	lib/sim/error/singular-places.c \
+	lib/sim/error/standstill.c \
 	lib/sim/error/touches.c \
 	lib/sim/error/unresolved-forces.c \
 	lib/sim/form/blocks.c \
@@ -463,6 +468,7 @@ library_sources = \
 	lib/sim/plan/plan.c \
 	lib/sim/plan/routh.c \
 	lib/sim/plan/tree-alone.c \
+	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
 	lib/sim/read/range-poles.c \
@@ -471,7 +477,9 @@ library_sources = \
 	lib/sim/read/range.c \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
+	lib/sim/run/change-chart.c \
 	lib/sim/run/change-over.c \
+	lib/sim/run/chart-run.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-start.c \
@@ -635,6 +643,8 @@ library_headers = \
 	lib/mech/scene/constraint.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
+	lib/mech/study/chart-body.h \
+	lib/mech/study/chart.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
@@ -834,6 +844,7 @@ library_headers = \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
 	lib/sim/error/singular-places.h \
+	lib/sim/error/standstill.h \
 	lib/sim/error/touches.h \
 	lib/sim/error/unresolved-forces.h \
 	lib/sim/form/blocks.h \
@@ -886,10 +897,13 @@ library_headers = \
 	lib/sim/plan/plan.h \
 	lib/sim/plan/routh.h \
 	lib/sim/plan/tree-alone.h \
+	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/stretches.h \
+	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
+	lib/sim/run/chart-run.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
@@ -982,6 +996,7 @@ unit_tests = \
 	tests/lang/test_undo \
 	tests/machine/test_vector \
 	tests/machine/test_x86 \
+	tests/mech/test_chart \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -1090,6 +1105,8 @@ script_tests = \
 	tests/script/bodies-moved.lag \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
+	tests/script/chaos.sh \
+	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
@@ -1268,6 +1285,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
 	tests/bad/composition8-friction.lag \
@@ -1553,6 +1571,7 @@ script_tests = \
 	examples/static-equilibrium.lag \
 	examples/swinging-atwood.lag \
 	examples/tautochrone.lag \
+	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
 	examples/torus-geodesic.lag \
@@ -1599,6 +1618,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
 	tests/bad/composition8-friction.out \
@@ -1942,6 +1962,8 @@ test_files = \
 	tests/script/cases.inc \
 	tests/script/cases.json \
 	tests/script/cases.out \
+	tests/script/chaos.out \
+	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \
@@ -2307,6 +2329,7 @@ example_files = \
 	examples/swinging-atwood.svg \
 	examples/tautochrone.lag \
 	examples/tautochrone.svg \
+	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \

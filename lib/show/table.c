@@ -1,6 +1,7 @@
 /* table.c -- columns as aligned text. */
 #include "show/show.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -9,12 +10,15 @@
 
 enum { GAP = 2, LONGEST = 64 };
 
-/* The number as it will stand; its length. */
+/* The number as it will stand, - for none; its length. */
 static size_t
 write_cell(qdot_text *cell, double x, int digits)
 {
     qdot_text_truncate(cell, 0);
-    qdot_text_double(cell, x, digits);
+    if (isnan(x))
+        qdot_text_char(cell, '-');
+    else
+        qdot_text_double(cell, x, digits);
     return cell->n;
 }
 

@@ -188,7 +188,7 @@ measured(const qdot_session *session, double value, double error, qdot_text *lin
     bool tags = session->style == QDOT_MATHML;
 
     qdot_text_add(line, tags ? "<mn>" : "");
-    qdot_number_text(line, value, error);
+    qdot_number_text_known(line, value, error);
     qdot_text_add(line, tags ? "</mn>" : "");
     if (isnan(error)) {
         qdot_text_add(line,

@@ -45,6 +45,21 @@ qdot_number_text(qdot_text *text, double value, double error)
         tidy_exponent(text, before);
 }
 
+bool
+qdot_number_is_known(double value, double error)
+{
+    return !(isfinite(error) && error > 0.5 * fmax(1, fabs(value)));
+}
+
+void
+qdot_number_text_known(qdot_text *text, double value, double error)
+{
+    if (qdot_number_is_known(value, error))
+        qdot_number_text(text, value, error);
+    else
+        qdot_text_add(text, "unknown");
+}
+
 void
 qdot_number_text_bound(qdot_text *text, double error)
 {

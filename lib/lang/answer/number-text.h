@@ -2,10 +2,15 @@
 #ifndef QDOT_LANG_NUMBER_TEXT_H
 #define QDOT_LANG_NUMBER_TEXT_H
 
+#include <stdbool.h>
+
 #include "base/text.h"
 
 /* Append a double as people read it: as many digits as the error leaves meaningful. */
 void qdot_number_text(qdot_text *text, double value, double error);
+/* The same, but "unknown" where the error leaves no digit: above half of max(1, |value|). */
+bool qdot_number_is_known(double value, double error);
+void qdot_number_text_known(qdot_text *text, double value, double error);
 /* Append an error bound, one digit, rounded up: 3e-13. */
 void qdot_number_text_bound(qdot_text *text, double error);
 /* Append a double for JSON: 17 digits, null where it is not finite. */

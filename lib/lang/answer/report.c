@@ -281,8 +281,42 @@ constraints_text(qdot_text *line, const qdot_run_report *r)
                          r->independent, r->m);
 }
 
+/* A quantity that drifts by less holds. */
+static const double drifts_little = 1e-3;
+
 /* Tolerances above this are worth a hint that a smaller one reaches further. */
 static const double of_method = 1e-11;
+
+/* What holds beyond the horizon. */
+static void
+beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
+{
+    bool some = false;
+
+    qdot_text_add(line, "\n  beyond it ");
+    for (size_t i = 0; i < r->n_drifts; i++) {
+        const qdot_drift *d = &r->drifts[i];
+
+        if (!d->kept && !(d->drift < drifts_little))
+            continue;
+        qdot_text_add(line, some ? ", " : "what is conserved holds (");
+        if (strcmp(d->name, "energy") == 0)
+            qdot_text_add(line, d->name);
+        else
+            qdot_print_name(session->pool, d->name, session->style, line);
+        some = true;
+    }
+    qdot_text_add(line, some ? "); " : "");
+    if (isfinite(r->standstill)) {
+        qdot_text_add(line, "about t = ");
+        qdot_number_text(line, r->standstill, 0.005 * fabs(r->standstill));
+        qdot_text_add(line, " the motion nearly comes to rest, and the side to which it leaves that "
+                            "place is undecided");
+    } else {
+        qdot_text_add(line, "the states are a sample of what neighbouring motions do: means over "
+                            "long times tell of these");
+    }
+}
 
 /* The end state, or since when it is nothing but error. */
 static qdot_status
@@ -298,6 +332,7 @@ end_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
                                 ? "; no digit of the state beyond it is right under this tol"
                                 : ", where doubles are exhausted: no digit of the state "
                                   "beyond it is right; `digits 6` goes on");
+        beyond_text(session, r, line);
     }
     qdot_text_char(line, '\n');
     return QDOT_OK;

@@ -230,7 +230,7 @@ print_one(qdot_cursor *c, qdot_text *line)
         if (digits > 0)
             QDOT_TRY(qdot_digits_text(session, member, digits, error, line));
         else
-            qdot_number_text(line, x, error);
+            qdot_number_text_known(line, x, error);
         if (scalar)
             return QDOT_OK;
     }

@@ -95,23 +95,27 @@ qdot_operands_find_runs(qdot_session *session, qdot_operands *list)
 
 qdot_status
 qdot_operands_values(const qdot_operand *o, size_t rows, const double *times,
-                     double *values)
+                     double *values, double *errors)
 {
     size_t m = o->columns.n;
 
     if (o->mixed)
         return qdot_member_values(o->session, NULL, o->columns.at[0],
-                                  &(qdot_samples){rows, times, NULL, values, NULL});
+                                  &(qdot_samples){rows, times, NULL, values, errors});
 
-    double *by_row = qdot_calloc(rows * m, sizeof *by_row);
+    double *by_row = qdot_calloc(2 * rows * m, sizeof *by_row), *error = by_row + rows * m;
     qdot_status status;
 
     if (by_row == NULL)
         return QDOT_ENOMEM;
-    status = qdot_run_values(o->run, m, o->columns.at, rows, times, by_row, NULL);
+    status = qdot_run_values(o->run, m, o->columns.at, rows, times, by_row,
+                             errors != NULL ? error : NULL);
     for (size_t k = 0; k < rows && status == QDOT_OK; k++)
-        for (size_t i = 0; i < m; i++)
+        for (size_t i = 0; i < m; i++) {
             values[i * rows + k] = by_row[k * m + i];
+            if (errors != NULL)
+                errors[i * rows + k] = error[k * m + i];
+        }
     qdot_free(by_row);
     return status;
 }

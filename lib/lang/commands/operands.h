@@ -26,8 +26,10 @@ QDOT_MUST_CHECK qdot_status qdot_operands_read(qdot_cursor *c, qdot_operands *li
 /* Use the latest run for operands that name none; QDOT_EINVAL if there is no run. */
 QDOT_MUST_CHECK qdot_status qdot_operands_find_runs(qdot_session *session,
                                                     qdot_operands *list);
-/* Along its run at times [rows]: values [components * rows], component by component. */
+/* Along its run at times [rows]: values [components * rows], component by component, and the
+ * errors of these; NULL: not wanted. */
 QDOT_MUST_CHECK qdot_status qdot_operands_values(const qdot_operand *o, size_t rows,
-                                                 const double *times, double *values);
+                                                 const double *times, double *values,
+                                                 double *errors);
 
 #endif

@@ -150,7 +150,7 @@ path_values(void *user, size_t n, const double *s, double *values)
 {
     const qdot_plot_curve *curve = user;
 
-    return qdot_operands_values(curve->y, n, s, values);
+    return qdot_operands_values(curve->y, n, s, values, NULL);
 }
 
 static qdot_status
@@ -163,9 +163,9 @@ curve_values(void *user, size_t n, const double *s, double *values)
 
     memcpy(values, s, n * sizeof *s);
     if (status == QDOT_OK && curve->x.session != NULL)
-        status = qdot_operands_values(&curve->x, n, s, values);
+        status = qdot_operands_values(&curve->x, n, s, values, NULL);
     if (status == QDOT_OK)
-        status = qdot_operands_values(curve->y, n, s, all);
+        status = qdot_operands_values(curve->y, n, s, all, NULL);
     if (status == QDOT_OK)
         memcpy(y, all + curve->component * n, n * sizeof *y);
     for (size_t k = 0; curve->drift && k < n && status == QDOT_OK; k++) {

@@ -5,6 +5,7 @@
 #include "base/wrap.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
 #include "lang/files/data-file.h"
 #include "lang/files/digits-table.h"
 #include "lang/figures/figure-file.h"
@@ -82,12 +83,61 @@ fill_grid(grid *g, const qdot_operands *list, size_t rows, const double *times)
     for (size_t i = 0; i < list->n; i++) {
         const qdot_operand *o = &list->at[i];
 
-        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows));
+        QDOT_TRY(qdot_operands_values(o, rows, times, g->values + next * rows, NULL));
         for (size_t k = 0; k < o->columns.n; k++)
             QDOT_TRY(label_column(g, next + k, o->label, k, o->columns.n));
         next += o->columns.n;
     }
     return QDOT_OK;
+}
+
+/* Numbers of operand o, whose columns [m x rows] these are, that have no digit because they are beyond
+ * the horizon of its run become NaN. *some: whether there are any. */
+static qdot_status
+blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *columns,
+              bool *some)
+{
+    const qdot_run_report *r = qdot_run_get_report(o->run);
+    const size_t m = o->columns.n;
+    double *values, *errors;
+    size_t first = 0;
+    qdot_status status;
+
+    if (o->mixed || isnan(r->horizon))
+        return QDOT_OK;
+    while (first < rows && !((times[first] - r->horizon) * (r->t1 - r->t0) > 0))
+        first++;
+    values = qdot_calloc(2 * m * (rows - first) + 1, sizeof *values);
+    errors = values + m * (rows - first);
+    status = values == NULL ? QDOT_ENOMEM
+                            : qdot_operands_values(o, rows - first, times + first, values, errors);
+    for (size_t i = 0; i < m && status == QDOT_OK; i++)
+        for (size_t k = first; k < rows; k++) {
+            const size_t at = i * (rows - first) + k - first;
+
+            if (qdot_number_is_known(values[at], errors[at]))
+                continue;
+            columns[i * rows + k] = NAN;
+            *some = true;
+        }
+    qdot_free(values);
+    return status;
+}
+
+/* The same for all operands, with a notice. */
+static qdot_status
+blank_all_unknown(qdot_session *session, grid *g, const qdot_operands *list, const double *times)
+{
+    size_t next = 1;
+    bool some = false;
+
+    for (size_t i = 0; i < list->n; i++) {
+        QDOT_TRY(blank_unknown(&list->at[i], g->rows, times, g->values + next * g->rows, &some));
+        next += list->at[i].columns.n;
+    }
+    return some ? qdot_answer_notice(session, "- stands for numbers beyond the horizon of their run, "
+                                              "of which no digit is known")
+                : QDOT_OK;
 }
 
 /* The run that all operands are along; NULL: several. */
@@ -251,6 +301,8 @@ qdot_table_statement(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK && path == NULL && !c->session->json)
+        status = blank_all_unknown(c->session, &g, &list, times);
     if (status == QDOT_OK)
         status = write_grid(c->session, &g, only_run(&list), path);
     free_grid(&g);

@@ -210,7 +210,7 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     if (digits > 0)
         QDOT_TRY(qdot_digits_text(session, o->exact, digits, o->error, text));
     else
-        qdot_number_text(text, o->t, o->error);
+        qdot_number_text_known(text, o->t, o->error);
     if (isnan(o->error)) {
         qdot_text_add(text, " (error unknown)");
     } else {

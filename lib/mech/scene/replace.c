@@ -1,4 +1,4 @@
-/* replace.c -- one symbol of a scene by another expression.
+/* replace.c -- all expressions of a scene by others.
  *
  * A function may be declared, and used, before the coordinate that is its argument.
  */
@@ -6,57 +6,76 @@
 #include "mech/scene/scene.h"
 
 typedef struct {
+    qdot_expr (*f)(qdot_expr e, void *user);
+    void *user;
+} mapping;
+
+static void
+map(const mapping *m, qdot_expr *e)
+{
+    if (*e != QDOT_NIL)
+        *e = m->f(*e, m->user);
+}
+
+/* In a field of every item. */
+#define MAP(list, field)                                                                 \
+    do {                                                                                 \
+        for (size_t i_ = 0; i_ < s->list.n; i_++)                                        \
+            map(&m, &s->list.at[i_] field);                                              \
+    } while (0)
+
+qdot_status
+qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *user)
+{
+    const mapping m = {f, user};
+
+    MAP(particles, .mass);
+    MAP(particles, .position);
+    MAP(bodies, .mass);
+    MAP(bodies, .position);
+    MAP(bodies, .rotation);
+    MAP(bodies, .inertia);
+    MAP(bodies, .angle);
+    MAP(springs, .at[0]);
+    MAP(springs, .at[1]);
+    MAP(springs, .stiffness);
+    MAP(springs, .rest);
+    MAP(dampers, .at[0]);
+    MAP(dampers, .at[1]);
+    MAP(dampers, .stiffness);
+    MAP(dampers, .rest);
+    MAP(forces, .force);
+    MAP(forces, .point);
+    MAP(torques, .torque);
+    MAP(constraints, .f);
+    MAP(constraints, .left);
+    MAP(constraints, .right);
+    MAP(gravities, .e);
+    MAP(potentials, .e);
+    MAP(dissipations, .e);
+    MAP(assumed, .relation);
+    MAP(conditions, );
+    MAP(relations, );
+    map(&m, &s->lagrangian);
+    s->version++;
+    return qdot_pool_check(s->pool);
+}
+
+typedef struct {
     qdot_pool *pool;
     qdot_expr from, to;
 } replacement;
 
-static void
-replace(const replacement *r, qdot_expr *e)
+static qdot_expr
+replace(qdot_expr e, void *user)
 {
-    if (*e != QDOT_NIL)
-        *e = qdot_subs(r->pool, *e, 1, &r->from, &r->to);
-}
+    const replacement *r = user;
 
-/* In a field of every item. */
-#define REPLACE(list, field)                                                             \
-    do {                                                                                 \
-        for (size_t i_ = 0; i_ < s->list.n; i_++)                                        \
-            replace(&r, &s->list.at[i_] field);                                          \
-    } while (0)
+    return qdot_subs(r->pool, e, 1, &r->from, &r->to);
+}
 
 qdot_status
 qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
 {
-    const replacement r = {s->pool, from, to};
-
-    REPLACE(particles, .mass);
-    REPLACE(particles, .position);
-    REPLACE(bodies, .mass);
-    REPLACE(bodies, .position);
-    REPLACE(bodies, .rotation);
-    REPLACE(bodies, .inertia);
-    REPLACE(bodies, .angle);
-    REPLACE(springs, .at[0]);
-    REPLACE(springs, .at[1]);
-    REPLACE(springs, .stiffness);
-    REPLACE(springs, .rest);
-    REPLACE(dampers, .at[0]);
-    REPLACE(dampers, .at[1]);
-    REPLACE(dampers, .stiffness);
-    REPLACE(dampers, .rest);
-    REPLACE(forces, .force);
-    REPLACE(forces, .point);
-    REPLACE(torques, .torque);
-    REPLACE(constraints, .f);
-    REPLACE(constraints, .left);
-    REPLACE(constraints, .right);
-    REPLACE(gravities, .e);
-    REPLACE(potentials, .e);
-    REPLACE(dissipations, .e);
-    REPLACE(assumed, .relation);
-    REPLACE(conditions, );
-    REPLACE(relations, );
-    replace(&r, &s->lagrangian);
-    s->version++;
-    return qdot_pool_check(s->pool);
+    return qdot_scene_map(s, replace, &(replacement){s->pool, from, to});
 }

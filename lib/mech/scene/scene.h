@@ -81,8 +81,14 @@ bool qdot_scene_part_counts(size_t k);
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);
 
-/* Replace a symbol by another expression in all declarations. */
+/* Replace a symbol by another expression in all declarations but events. */
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
+/* Replace every expression e of them by f(e); nil: the pool keeps the failure. */
+QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
+                                           qdot_expr (*f)(qdot_expr e, void *user), void *user);
+/* Declare all that s declares in `to`, except coordinates, constraints, assumptions and events.
+ */
+QDOT_MUST_CHECK qdot_status qdot_scene_copy_things(const qdot_scene *s, qdot_scene *to);
 
 /* By label; NULL if there is none. */
 const qdot_particle *qdot_scene_find_particle(const qdot_scene *s, const char *label);

@@ -276,48 +276,6 @@ solve_all(work *w)
 /* --- the scene anew ----------------------------------------------------------------- */
 
 static qdot_status
-copy_link(qdot_scene *to, const qdot_link *link, bool damper)
-{
-    qdot_link copy = *link;
-
-    return damper ? qdot_scene_damper(to, &copy) : qdot_scene_spring(to, &copy);
-}
-
-static qdot_status
-copy_term(qdot_scene *to, qdot_scene_kind kind, const qdot_term *term)
-{
-    return qdot_scene_term(to, kind, term->name, term->e);
-}
-
-/* Everything but coordinates and constraints. */
-static qdot_status
-copy_scene(const qdot_scene *s, qdot_scene *to)
-{
-    for (size_t i = 0; i < s->particles.n; i++)
-        QDOT_TRY(qdot_scene_particle(to, s->particles.at[i].name, s->particles.at[i].mass,
-                                     s->particles.at[i].position));
-    for (size_t i = 0; i < s->bodies.n; i++)
-        QDOT_TRY(qdot_scene_body(to, s->bodies.at[i].name, &s->bodies.at[i], QDOT_NIL));
-    for (size_t i = 0; i < s->gravities.n; i++)
-        QDOT_TRY(copy_term(to, QDOT_GRAVITY, &s->gravities.at[i]));
-    for (size_t i = 0; i < s->potentials.n; i++)
-        QDOT_TRY(copy_term(to, QDOT_POTENTIAL, &s->potentials.at[i]));
-    for (size_t i = 0; i < s->springs.n; i++)
-        QDOT_TRY(copy_link(to, &s->springs.at[i], false));
-    for (size_t i = 0; i < s->dampers.n; i++)
-        QDOT_TRY(copy_link(to, &s->dampers.at[i], true));
-    for (size_t i = 0; i < s->dissipations.n; i++)
-        QDOT_TRY(copy_term(to, QDOT_DISSIPATION, &s->dissipations.at[i]));
-    for (size_t i = 0; i < s->forces.n; i++)
-        QDOT_TRY(qdot_scene_force(to, &s->forces.at[i]));
-    for (size_t i = 0; i < s->torques.n; i++)
-        QDOT_TRY(qdot_scene_torque(to, &s->torques.at[i]));
-    if (s->lagrangian != QDOT_NIL)
-        QDOT_TRY(qdot_scene_lagrangian(to, s->lagrangian));
-    return QDOT_OK;
-}
-
-static qdot_status
 write_anew(work *w)
 {
     qdot_scene *to = qdot_scene_new(w->pool);
@@ -331,7 +289,7 @@ write_anew(work *w)
             QDOT_TRY(qdot_scene_coordinate(to, w->s->coordinates.at[i]));
     for (size_t k = 0; k < m->fresh; k++)
         QDOT_TRY(qdot_scene_coordinate(to, w->angle[k]));
-    QDOT_TRY(copy_scene(w->s, to));
+    QDOT_TRY(qdot_scene_copy_things(w->s, to));
     for (size_t i = 0; i < m->n; i++) {
         qdot_expr rate;
 

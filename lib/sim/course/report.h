@@ -32,6 +32,8 @@ typedef struct {
     double scaled_error;           /* the same relative to max(scale, |value|) */
     const double *scales;          /* [2n] of q, then q' (ode/scale.h); NULL: all are 1 */
     double horizon;                /* time beyond which no digit is left (sim/error/horizon.h); NaN: none */
+    double standstill;             /* time about which the motion nearly came to rest, on a horizon
+                                      that is there because of that; NaN */
     double energy_drift;           /* NaN unless h is proved conserved */
     size_t n_drifts;
     const qdot_drift *drifts;      /* every conserved quantity known, energy first */

@@ -41,6 +41,9 @@ struct qdot_run {
     bool has_twin; /* a second companion, for times at which the first is near by chance */
     qdot_course twin;
 
+    struct qdot_run_chart *chart; /* of a run made in other coordinates (sim/run/chart-run.h) */
+    bool limited;     /* companions are compared between the times `within` alone: angles of the */
+    double within[2]; /* chart jump beyond them */
     struct qdot_precise_pair *precise; /* with `digits`: the run itself; course.tr holds its
                                           points as doubles */
     qdot_expr *exact;                  /* [2n] its end state */

@@ -184,8 +184,16 @@ turn(const qdot_distance *d, size_t k)
     return isnan(product) ? 0 : acos(fmax(-1, fmin(1, product)));
 }
 
+static bool
+is_beyond(const qdot_run *run, double t)
+{
+    return run->limited
+           && !(fmin(run->within[0], run->within[1]) <= t
+                && t <= fmax(run->within[0], run->within[1]));
+}
+
 /* The largest over the points on one side, from k on in steps of `way`, into out [m];
- * *cut: a neighbouring piece ends it early. */
+ * *cut: a neighbouring piece, or what may be compared, ends it early. */
 static qdot_status
 look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool *cut)
 {
@@ -199,6 +207,9 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     for (int points = 0; points < QDOT_DISTANCE_POINTS && turned < least_turn; points++) {
         const double *at;
 
+        *cut = is_beyond(d->run, tr->t[k]);
+        if (*cut)
+            return QDOT_OK;
         QDOT_TRY(at_point(d, piece, k, &at));
         for (size_t j = 0; j < d->m; j++)
             out[j] = fmax(out[j], at[j]);

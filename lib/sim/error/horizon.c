@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "ode/scale.h"
 #include "sim/error/companion.h"
+#include "sim/error/standstill.h"
 
 /* Of the variation: what the end of a run shows where it is worth looking. */
 static const double worth_looking = 0.02;
@@ -300,7 +301,9 @@ qdot_horizon_find(qdot_run *run)
     QDOT_TRY(qdot_run_twin(run));
     if (run->has_companion)
         QDOT_TRY(find_by(run, &run->companion));
-    return run->has_twin ? find_by(run, &run->twin) : QDOT_OK;
+    if (run->has_twin)
+        QDOT_TRY(find_by(run, &run->twin));
+    return isnan(report->horizon) ? QDOT_OK : qdot_standstill_find(run, &report->standstill);
 }
 
 bool

@@ -5,7 +5,6 @@
 
 #include "expr/calculus.h"
 #include "sim/course/run-state.h"
-#include "sim/model/sliding.h"
 
 void
 qdot_joint_clear(qdot_joint *j)

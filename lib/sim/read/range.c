@@ -11,6 +11,7 @@
 #include "sim/error/companion.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
+#include "sim/read/in-chart.h"
 #include "sim/read/joint.h"
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
@@ -244,8 +245,9 @@ find_range(const qdot_run_expression *x, const double *given, double *from, doub
                      ends[0], ends[1], low, high);
 }
 
-qdot_status
-qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+/* Of expressions in the coordinates of the runs. */
+static qdot_status
+range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
                      double *value, double *error)
 {
     question q = {.x = x, .kind = kind};
@@ -266,6 +268,138 @@ qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const d
     }
     qdot_joint_clear(&q.joint);
     return status;
+}
+
+/* The same where run k was made in other coordinates: what is said along it, put into those for the
+ * stretch of time t. */
+static qdot_status
+express(const qdot_run_expression *x, size_t k, double t, qdot_in_chart *in, qdot_expr *e,
+        qdot_run_member *members)
+{
+    qdot_run *run = x->runs[k];
+    qdot_expr *given = qdot_calloc(x->m + 1, sizeof *given);
+    qdot_status status = given ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < x->m && given; i++)
+        given[i] = x->members[i].run == k ? x->members[i].value : QDOT_ZERO;
+    if (given)
+        given[x->m] = k == 0 ? *e : QDOT_ZERO;
+    if (status == QDOT_OK)
+        status = qdot_in_chart_express(in, run, x->m + 1, given, t);
+    for (size_t i = 0; i < x->m && status == QDOT_OK; i++)
+        if (x->members[i].run == k)
+            members[i].value = in->exprs[i];
+    if (status == QDOT_OK && k == 0)
+        *e = in->exprs[x->m];
+    qdot_free(given);
+    return status;
+}
+
+/* Combine the result over one stretch with that over those before it. */
+typedef struct {
+    double length, sum, most, least, first, error, sum_error;
+    bool begun;
+} gathered;
+
+static qdot_status
+gather(const qdot_run_expression *x, qdot_range_kind kind, const double *range, gathered *g)
+{
+    double value, error;
+
+    if (kind == QDOT_RANGE_MEAN) {
+        const double length = range[0] == range[1] ? 1 : fabs(range[1] - range[0]);
+
+        QDOT_TRY(range_along(x, kind, range, &value, &error));
+        g->sum += length * value;
+        g->sum_error += length * error;
+        g->length += length;
+        return QDOT_OK;
+    }
+    for (int way = 0; way < 2; way++) {
+        QDOT_TRY(range_along(x, way ? QDOT_RANGE_MIN : QDOT_RANGE_MAX, range, &value, &error));
+        g->most = way ? g->most : g->begun ? fmax(g->most, value) : value;
+        g->least = !way ? g->least : g->begun ? fmin(g->least, value) : value;
+        g->error = isnan(g->error) || isnan(error) ? NAN : fmax(g->error, error);
+    }
+    if (!g->begun)
+        QDOT_TRY(range_along(x, QDOT_RANGE_MEAN, (double[]){range[0], range[0]}, &g->first,
+                             &error));
+    g->begun = true;
+    return QDOT_OK;
+}
+
+static void
+result_of(const gathered *g, qdot_range_kind kind, double *value, double *error)
+{
+    const double size = fmax(1, fabs(g->first));
+
+    *error = g->error;
+    switch (kind) {
+    case QDOT_RANGE_MAX: *value = g->most; break;
+    case QDOT_RANGE_MIN: *value = g->least; break;
+    case QDOT_RANGE_MEAN:
+        *value = g->sum / g->length;
+        *error = g->sum_error / g->length;
+        break;
+    default:
+        *value = fmax(g->most - g->first, g->first - g->least) / size;
+        *error = 2 * g->error / size;
+    }
+}
+
+/* Of runs of which some were made in other coordinates. Where an angle stands by itself the range
+ * is gone over stretch by stretch. */
+static qdot_status
+range_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+               double *value, double *error)
+{
+    qdot_run_member *members = qdot_calloc(x->m + 1, sizeof *members);
+    qdot_run_expression own = *x;
+    gathered g = {0};
+    double from, to;
+    qdot_status status = members ? find_range(x, range, &from, &to) : QDOT_ENOMEM;
+
+    own.members = members;
+    for (bool more = true; more && status == QDOT_OK;) {
+        double end = to;
+
+        own.e = x->e;
+        if (x->m > 0)
+            memcpy(members, x->members, x->m * sizeof *members);
+        for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
+            qdot_in_chart in = {0};
+
+            if (x->runs[k]->chart)
+                status = express(x, k, from, &in, &own.e, members);
+            if (status == QDOT_OK && in.turns)
+                end = qdot_in_chart_end(&in, from, end);
+            qdot_in_chart_clear(&in);
+        }
+        if (status == QDOT_OK && end == to && !g.begun
+            && g.length == 0) {
+            status = range_along(&own, kind, range, value, error);
+            qdot_free(members);
+            return status;
+        }
+        if (status == QDOT_OK)
+            status = gather(&own, kind, (double[]){from, end}, &g);
+        more = end != to;
+        from = end;
+    }
+    qdot_free(members);
+    if (status == QDOT_OK)
+        result_of(&g, kind, value, error);
+    return status;
+}
+
+qdot_status
+qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+                     double *value, double *error)
+{
+    for (size_t k = 0; k < x->n; k++)
+        if (x->runs[k]->chart)
+            return range_in_chart(x, kind, range, value, error);
+    return range_along(x, kind, range, value, error);
 }
 
 qdot_status

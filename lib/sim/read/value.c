@@ -11,6 +11,7 @@
 #include "sim/error/distance.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
+#include "sim/read/in-chart.h"
 #include "sim/run/run.h"
 
 /* Step of t, relative, for slopes. */
@@ -150,17 +151,15 @@ qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     return qdot_run_values_beyond(run, m, exprs, &all, values, errors);
 }
 
-qdot_status
-qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
-                       const qdot_exact_times *times, double *values, double *errors)
+/* Of expressions in the coordinates of the run. */
+static qdot_status
+values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+              double *values, double *errors)
 {
     const size_t k = times->n;
     qdot_reading of;
     qdot_status status;
 
-    if (run->precise)
-        return qdot_precise_pair_sample_values(run->precise, m, exprs, k, times->at, values,
-                                               errors);
     QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &of));
     status = read_values(run, &of, k, times->at, values);
     if (status == QDOT_OK && errors)
@@ -169,6 +168,39 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
         status = add_lows(run, &of, k, times->at, times->low, values);
     qdot_tape_free(of.tape);
     return status;
+}
+
+/* The times, part by part: each in one stretch of the angles. */
+static qdot_status
+values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+                double *values, double *errors)
+{
+    qdot_in_chart in = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0, n; i < times->n && status == QDOT_OK; i += n) {
+        status = qdot_in_chart_express(&in, run, m, exprs, times->at[i]);
+        n = 1;
+        while (status == QDOT_OK && i + n < times->n && qdot_in_chart_holds(&in, times->at[i + n]))
+            n++;
+        if (status == QDOT_OK)
+            status = values_beyond(run, m, in.exprs,
+                                   &(qdot_exact_times){n, times->at + i,
+                                                       times->low ? times->low + i : NULL},
+                                   values + i * m, errors ? errors + i * m : NULL);
+    }
+    qdot_in_chart_clear(&in);
+    return status;
+}
+
+qdot_status
+qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
+                       const qdot_exact_times *times, double *values, double *errors)
+{
+    if (run->precise)
+        return qdot_precise_pair_sample_values(run->precise, m, exprs, times->n, times->at, values,
+                                               errors);
+    return (run->chart ? values_in_chart : values_beyond)(run, m, exprs, times, values, errors);
 }
 
 qdot_status

@@ -12,10 +12,12 @@
 #include "sim/course/report.h"
 #include "sim/model/request.h"
 
-/* How runs are made, as by qdot_run_new, and freed. */
+/* How runs are made, as by qdot_run_new, read, as by qdot_run_values, and freed. */
 typedef struct {
     qdot_status (*make)(qdot_scene *scene, const qdot_run_request *request,
                         qdot_run **run);
+    qdot_status (*values)(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
+                          const double *times, double *values, double *errors);
     void (*free)(qdot_run *run);
 } qdot_run_maker;
 

@@ -2,7 +2,9 @@
 #include "sim/form/derived.h"
 #include "sim/run/run.h"
 #include "sim/run/slides.h"
+#include "sim/run/change-chart.h"
 #include "sim/run/change-over.h"
+#include "sim/run/chart-run.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-start.h"
 #include "sim/run/scales.h"
@@ -60,6 +62,7 @@ qdot_run_free(qdot_run *run)
     qdot_text_clear(&run->part_names);
     qdot_free(run->parts.at);
     qdot_multipliers_clear(&run->multipliers);
+    qdot_run_chart_free(run->chart);
     qdot_free(run);
 }
 
@@ -509,7 +512,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, qdot_ru
     run = qdot_calloc(1, sizeof *run);
     if (!run)
         return QDOT_ENOMEM;
-    run->report.horizon = NAN;
+    run->report.horizon = run->report.standstill = NAN;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
     run->course.touch_tol = touch_tol;
@@ -567,7 +570,7 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
-    const qdot_run_maker by = {make_decided, qdot_run_free};
+    const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
 
     QDOT_TRY(make_decided(scene, request, out));
     return request->digits ? QDOT_OK : qdot_run_change_over(scene, request, &by, out);
@@ -606,6 +609,7 @@ qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
     const double clock = process_clock();
+    const qdot_run_maker by = {make_whole, qdot_run_values, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
@@ -614,6 +618,8 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     status = make_whole(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = make_in_scales(scene, &states.request, out);
+    if (!asked->digits)
+        status = qdot_run_change_chart(scene, &states.request, &by, status, out);
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;

@@ -1,0 +1,75 @@
+/* in-chart.c -- expressions by the chart of a run, stretch by stretch. */
+#include "sim/read/in-chart.h"
+
+#include <math.h>
+
+void
+qdot_in_chart_clear(qdot_in_chart *in)
+{
+    qdot_free(in->exprs);
+    *in = (qdot_in_chart){0};
+}
+
+/* Express them, from no quarters where no angle stands by itself. */
+static qdot_status
+express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
+{
+    const qdot_chart *c = &in->run->chart->chart;
+
+    in->turns = false;
+    for (size_t j = 0; j < in->m; j++) {
+        bool turns;
+
+        in->exprs[j] = qdot_chart_express(c, exprs[j], quarters, &turns);
+        in->turns = in->turns || turns;
+    }
+    return qdot_pool_check(c->pool);
+}
+
+qdot_status
+qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_expr *exprs,
+                      double t)
+{
+    qdot_in_chart_clear(in);
+    in->run = run;
+    in->m = m;
+    in->t = t;
+    in->exprs = qdot_calloc(m + 1, sizeof *in->exprs);
+    if (!in->exprs)
+        return QDOT_ENOMEM;
+    QDOT_TRY(express(in, exprs, NULL));
+    run->limited = false;
+    if (!in->turns)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_chart_quarters(run, t, &in->quarters));
+    return express(in, exprs, in->quarters);
+}
+
+bool
+qdot_in_chart_holds(const qdot_in_chart *in, double t)
+{
+    const long *quarters;
+
+    if (!in->turns)
+        return true;
+    if (qdot_run_chart_quarters(in->run, t, &quarters) == QDOT_OK &&
+        quarters == in->quarters)
+        return true;
+    (void)!qdot_run_chart_quarters(in->run, in->t, &quarters);
+    return false;
+}
+
+double
+qdot_in_chart_end(const qdot_in_chart *in, double from, double to)
+{
+    const qdot_run_chart *x = in->run->chart;
+    double end = to;
+
+    for (size_t i = 0; in->turns && i < x->stretches.n; i++) {
+        const double t = x->stretches.at[i].t;
+
+        if (fabs(t - from) < fabs(end - from) && (t - from) * (to - from) > 0)
+            end = t;
+    }
+    return end;
+}

@@ -1,0 +1,31 @@
+/* in-chart.h -- expressions of the scene given, read along a run made in other coordinates.
+ *
+ * Tests  tests/script/charts.lag
+ */
+#ifndef QDOT_SIM_IN_CHART_H
+#define QDOT_SIM_IN_CHART_H
+
+#include "sim/run/chart-run.h"
+
+/* Expressions in the coordinates of the run, as they hold over one stretch of its angles. */
+typedef struct {
+    qdot_run *run;
+    size_t m;
+    double t;             /* of the stretch */
+    qdot_expr *exprs;     /* [m] */
+    bool turns;           /* one holds an angle outside of sin and cos */
+    const long *quarters; /* from which that is counted; borrowed */
+} qdot_in_chart;
+
+/* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading. */
+QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
+                                                  size_t m, const qdot_expr *exprs,
+                                                  double t);
+/* Whether they hold at another time, too: it is in the same stretch. */
+bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
+void qdot_in_chart_clear(qdot_in_chart *in);
+
+/* The end of the stretch of `from` on the way to `to`, or `to` if that is nearer. */
+double qdot_in_chart_end(const qdot_in_chart *in, double from, double to);
+
+#endif

@@ -1,0 +1,44 @@
+/* chart-run.h -- a run made in other coordinates (mech/study/chart.h) and read in those given.
+ *
+ * An angle outside of sin and cos is continued along the run: it is followed from the start in
+ * steps of less than 0.8, and counted from a number of quarter turns that stays the same over a
+ * stretch of time, in which the angle is within 2.8 of it.
+ *
+ * Tests  tests/script/charts.lag
+ */
+#ifndef QDOT_SIM_CHART_RUN_H
+#define QDOT_SIM_CHART_RUN_H
+
+#include "mech/study/chart.h"
+#include "sim/course/run-state.h"
+#include "sim/run/change-over.h"
+
+/* A time from which on angles are counted from so many quarters. */
+typedef struct {
+    double t;
+    size_t quarters; /* index of the first of qdot_run_chart.quarters */
+} qdot_chart_stretch;
+
+typedef struct qdot_run_chart {
+    qdot_chart chart;       /* its scene is that of the run */
+    size_t n;               /* coordinates of the scene given */
+    qdot_expr *coordinates; /* [n] */
+    double *angles;         /* [moved] at the start, as given */
+    double *end;   /* [2n] the end state in the coordinates given; NaN: undefined there */
+    bool followed; /* the stretches are known */
+    qdot_vec(qdot_chart_stretch) stretches; /* in the direction of the run */
+    qdot_vec(long) quarters;
+} qdot_run_chart;
+
+void qdot_run_chart_free(qdot_run_chart *x);
+
+/* The quarters [moved] for the stretch of time t; follows the run if that was not done yet, and
+ * limits the comparison with companions to the stretch. */
+QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
+                                                    const long **quarters);
+
+/* Put the end state, with its error, into the report of a run that has a chart. */
+QDOT_MUST_CHECK qdot_status qdot_run_chart_report(qdot_run *run,
+                                                  const qdot_run_maker *by);
+
+#endif
