@@ -376,7 +376,6 @@ library_sources = \
 	lib/show/table.c \
 	lib/show/trace.c \
 	lib/sim/course/bind.c \
-	lib/sim/course/contact.c \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
@@ -447,6 +446,7 @@ library_sources = \
 	lib/sim/model/constrained-start.c \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
+	lib/sim/model/contact.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
@@ -817,7 +817,6 @@ library_headers = \
 	lib/show/sink.h \
 	lib/show/trace.h \
 	lib/sim/course/bind.h \
-	lib/sim/course/contact.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/drift.h \
@@ -875,6 +874,7 @@ library_headers = \
 	lib/sim/model/constrained-parts.h \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
+	lib/sim/model/contact.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \

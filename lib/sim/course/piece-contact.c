@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/course/contact.h"
+#include "sim/model/contact.h"
 #include "sim/course/piece.h"
 
 /* Two velocities count as equal up to this. */
@@ -147,7 +147,7 @@ enter(qdot_piece *x, size_t surface, double *moved, bool *can)
 qdot_status
 qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, bool *soon)
 {
-    const size_t surface = qdot_contacts_surface(x->c->stage, event, way);
+    const size_t surface = qdot_contacts_surface(&x->c->stage->switches, event, way);
     double *kept, moved = 0, noise = 0, height;
     qdot_status status;
 

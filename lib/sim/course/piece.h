@@ -158,7 +158,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_change(qdot_piece *x, const qdot_staged_e
                                               const double *old, double *y);
 
 /* (piece-contact.c) The motion comes to rest, within the time `left`, on the event that it meets with the
- * sign `way`. *lasts: the contact lasts (sim/course/contact.h), from the start of the piece on: x->side
+ * sign `way`. *lasts: the contact lasts (sim/model/contact.h), from the start of the piece on: x->side
  * and x->start.y are those. *soon: it will, but the bounces to come are too high as yet. */
 QDOT_MUST_CHECK qdot_status qdot_piece_rest(qdot_piece *x, size_t event, int way, double left,
                                             bool *lasts, bool *soon);

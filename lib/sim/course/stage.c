@@ -1,7 +1,7 @@
 /* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
-#include "sim/course/contact.h"
+#include "sim/model/contact.h"
 
 #include <math.h>
 #include <string.h>
@@ -463,7 +463,7 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
         s->switches.pool = scene->pool;
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
-    QDOT_TRY(qdot_contacts_find(s));
+    QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;

@@ -12,7 +12,7 @@
  * the force of friction over its largest size. Where a share leaves -1 ... 1 the mode ends, to the
  * side with its sign: s - 1 and s + 1 are watched (sim/course/stage.c).
  *
- * A contact that lasts (sim/course/contact.h) is held in the same way: u = 0 of its event, B the slopes of
+ * A contact that lasts (sim/model/contact.h) is held in the same way: u = 0 of its event, B the slopes of
  * u, s >= 0 the reaction.
  *
  * Source  Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 2.4.

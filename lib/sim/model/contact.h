@@ -4,7 +4,7 @@
  *
  * Where such an event comes ever faster, or the motion does not leave it, the contact lasts: u = 0 of
  * the event is held by a reaction that only pushes, until it would have to pull. This is a mode as
- * sliding is (sim/model/sliding.h), with the reaction as its share; u is a surface of the stage behind
+ * sliding is (sim/model/sliding.h), with the reaction as its share; u is a surface of the switches behind
  * those of the equations, one for each side that it may be met from.
  *
  * It is what the event means only if `then` is an impact on a smooth wall: it sets velocities alone, by
@@ -16,12 +16,14 @@
 #ifndef QDOT_SIM_CONTACT_H
 #define QDOT_SIM_CONTACT_H
 
-#include "sim/course/stage.h"
+#include "mech/scene/scene.h"
+#include "sim/model/switch.h"
 
-/* Append the surfaces of contacts to stage->switches. Errors: those of the pool, QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_contacts_find(qdot_stage *stage);
+/* Append the surfaces of contacts of a run to its switches. Errors: those of the pool, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *request,
+                                               qdot_switches *switches);
 
 /* The surface of an event whose contact keeps du/dt from the sign `way`; SIZE_MAX: none. */
-size_t qdot_contacts_surface(const qdot_stage *stage, size_t event, int way);
+size_t qdot_contacts_surface(const qdot_switches *switches, size_t event, int way);
 
 #endif

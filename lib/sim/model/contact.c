@@ -1,5 +1,5 @@
 /* contact.c -- the surfaces of events whose contacts may last. */
-#include "sim/course/contact.h"
+#include "sim/model/contact.h"
 
 #include <stdio.h>
 
@@ -36,12 +36,8 @@ add(qdot_switches *s, size_t event, qdot_expr u, int way)
 }
 
 qdot_status
-qdot_contacts_find(qdot_stage *stage)
+qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *r, qdot_switches *s)
 {
-    const qdot_scene *scene = stage->scene;
-    const qdot_run_request *r = stage->request;
-    qdot_switches *s = &stage->switches;
-
     for (size_t i = 0; i < scene->events.n && r->digits == 0 && !r->lanes; i++) {
         const qdot_event *event = &scene->events.at[i];
         const qdot_expr u = qdot_substitute(
@@ -59,10 +55,8 @@ qdot_contacts_find(qdot_stage *stage)
 }
 
 size_t
-qdot_contacts_surface(const qdot_stage *stage, size_t event, int way)
+qdot_contacts_surface(const qdot_switches *s, size_t event, int way)
 {
-    const qdot_switches *s = &stage->switches;
-
     for (size_t i = qdot_switches_own(s); i < s->surfaces.n; i++)
         if (s->surfaces.at[i].event == event && s->surfaces.at[i].reaction == -way)
             return i;
