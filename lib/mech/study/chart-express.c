@@ -307,18 +307,25 @@ is_of_square(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
     return false;
 }
 
+/* Whether e holds an angle outside of sin and cos. */
+static bool
+holds_bare(const qdot_chart *c, qdot_expr e)
+{
+    for (size_t i = 0; i < c->moved.n; i++)
+        if (c->moved.at[i].angle && qdot_expr_contains(c->pool, e, c->moved.at[i].bare))
+            return true;
+    return false;
+}
+
 /* Whether e holds N, a power of N^2 that is not smooth, or an angle outside of sin and cos. */
 static bool
 is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
 {
-    bool singular = false;
+    bool singular = holds_bare(c, e);
     qdot_walk w;
 
     for (size_t i = 0; i < c->distances.n; i++)
         singular = singular || qdot_expr_contains(pool, e, c->distances.at[i].symbol);
-    for (size_t i = 0; i < c->moved.n; i++)
-        singular = singular || (c->moved.at[i].angle &&
-                                qdot_expr_contains(pool, e, c->moved.at[i].bare));
     if (singular || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return true;
     for (size_t i = 0; i < w.n; i++)
@@ -342,6 +349,8 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     qdot_pool *pool = c->pool;
 
     e = qdot_chart_put(c, e);
+    if (e == QDOT_NIL || holds_bare(c, e)) /* no simplification would help */
+        return QDOT_NIL;
     for (int tries = 0; tries < 3; tries++) {
         e = qdot_walk_replace(pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
         if (e == QDOT_NIL)

@@ -13,6 +13,10 @@
 /* With more coordinates groups are not looked for. */
 enum { MOST_COORDINATES = 12 };
 
+/* Nor with more work than so many calls of constructors, some tenths of a second: those found by
+ * then are all. */
+static const uint64_t most_work = 300000;
+
 void
 qdot_chart_clear(qdot_chart *c)
 {
@@ -99,10 +103,10 @@ add_fresh(work *w, qdot_expr given, qdot_expr *q)
     qdot_text name = {0};
     qdot_status status = qdot_print(w->pool, given, QDOT_PLAIN, &name);
 
-    if (status != QDOT_OK)
-        return status;
-    *q = qdot_symbol_get(w->pool, QDOT_COORD, qdot_text_str(&name));
+    if (status == QDOT_OK)
+        *q = qdot_symbol_get(w->pool, QDOT_COORD, qdot_text_str(&name));
     qdot_text_clear(&name);
+    QDOT_TRY(status);
     return qdot_vec_push(&w->c->fresh, ((qdot_chart_fresh){*q, given}));
 }
 
@@ -382,14 +386,15 @@ begin_scene(work *w, const qdot_chart_groups *groups)
         }
         for (size_t k = 0; k < s->torques.n; k++)
             if (s->torques.at[k].coordinate == w->q[i])
-                snprintf(c->hindrance, sizeof c->hindrance, "a generalized force acts on %.60s",
-                         name_of(w, i));
+                snprintf(c->hindrance, sizeof c->hindrance,
+                         "a generalized force acts on %.60s", name_of(w, i));
     }
     return c->hindrance[0] == '\0' ? qdot_scene_copy_things(s, c->scene) : QDOT_OK;
 }
 
 qdot_status
-qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign, qdot_chart *c)
+qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
+                qdot_chart *c)
 {
     work w = {c, s, s->pool, s->coordinates.at};
 
@@ -448,34 +453,57 @@ try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
     return status == QDOT_OK && good ? qdot_vec_push(groups, g) : status;
 }
 
-/* Whether all of the positions of a scene, or its Lagrangian, hold the angle as that of a group: in
- * sin or cos, with the rest of the group beside it. */
-static bool
-may_be(const qdot_scene *s, const size_t *index, size_t n)
-{
-    bool together = false;
+/* Which pairs of coordinates stand in one term of a place, or of the Lagrangian. */
+typedef struct {
+    bool at[MOST_COORDINATES][MOST_COORDINATES];
+} joined;
 
-    for (size_t i = 0; i < s->particles.n + s->bodies.n && !together; i++) {
+static void
+join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
+{
+    const size_t n = s->coordinates.n;
+
+    for (size_t i = 0; i < n && e != QDOT_NIL; i++) {
+        const qdot_expr q = s->coordinates.at[i];
+        const qdot_expr slope =
+            qdot_expr_contains(s->pool, e, q) ? qdot_diff(s->pool, e, q) : QDOT_NIL;
+
+        for (size_t j = 0; j < n && slope != QDOT_NIL; j++)
+            pairs->at[i][j] |= qdot_expr_contains(s->pool, slope, s->coordinates.at[j]);
+    }
+}
+
+static joined
+find_pairs(const qdot_scene *s)
+{
+    joined pairs = {0};
+
+    for (size_t i = 0; i < s->particles.n + s->bodies.n; i++) {
         const qdot_expr r = i < s->particles.n
                                 ? s->particles.at[i].position
                                 : s->bodies.at[i - s->particles.n].position;
 
-        together = true;
-        for (size_t k = 0; k < n; k++)
-            together =
-                together && qdot_expr_contains(s->pool, r, s->coordinates.at[index[k]]);
+        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, r); d++)
+            join_pairs(s, qdot_mech_component(s->pool, r, d), &pairs);
     }
-    if (!together && s->lagrangian != QDOT_NIL) {
-        together = true;
-        for (size_t k = 0; k < n; k++)
-            together = together && qdot_expr_contains(s->pool, s->lagrangian,
-                                                      s->coordinates.at[index[k]]);
-    }
-    return together;
+    join_pairs(s, s->lagrangian, &pairs);
+    return pairs;
+}
+
+/* Whether the coordinates are all joined, as those of a group are. */
+static bool
+may_be(const joined *pairs, const size_t *index, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < i; j++)
+            if (!pairs->at[index[i]][index[j]])
+                return false;
+    return true;
 }
 
 static qdot_status
-try_kind(qdot_scene *s, qdot_chart_kind kind, qdot_chart_groups *groups)
+try_kind(qdot_scene *s, qdot_chart_kind kind, const joined *pairs,
+         qdot_chart_groups *groups)
 {
     const size_t n = s->coordinates.n, third = size_of(kind) == 3 ? n : 1;
 
@@ -487,7 +515,7 @@ try_kind(qdot_scene *s, qdot_chart_kind kind, qdot_chart_groups *groups)
 
                 if (i != j && (third == 1 || (k != i && k != j)) &&
                     (kind == QDOT_CHART_BODY ? qdot_chart_body_fits(s, g.index)
-                                             : may_be(s, g.index, size_of(kind))))
+                                             : may_be(pairs, g.index, size_of(kind))))
                     QDOT_TRY(try_group(s, g, groups));
             }
     return QDOT_OK;
@@ -498,10 +526,18 @@ qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
 {
     static const qdot_chart_kind order[] = {QDOT_CHART_BODY, QDOT_CHART_SPACE,
                                             QDOT_CHART_PLANE, QDOT_CHART_SPHERE};
+    joined pairs;
+    uint64_t rest;
+    qdot_status status = QDOT_OK, pending;
 
     if (s->constraints.n > 0 || s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
-    for (size_t k = 0; k < sizeof order / sizeof *order; k++)
-        QDOT_TRY(try_kind(s, order[k], groups));
-    return qdot_pool_check(s->pool);
+    rest = qdot_pool_budget(s->pool, most_work);
+    pairs = find_pairs(s);
+    for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
+        status = try_kind(s, order[k], &pairs, groups);
+    pending = qdot_pool_check(s->pool);
+    status = status == QDOT_OK ? pending : status;
+    (void)qdot_pool_budget(s->pool, rest);
+    return status == QDOT_ELIMIT ? QDOT_OK : status;
 }

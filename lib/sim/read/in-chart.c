@@ -38,7 +38,7 @@ qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_exp
     if (!in->exprs)
         return QDOT_ENOMEM;
     QDOT_TRY(express(in, exprs, NULL));
-    run->limited = false;
+    qdot_run_chart_limit(run);
     if (!in->turns)
         return QDOT_OK;
     QDOT_TRY(qdot_run_chart_quarters(run, t, &in->quarters));

@@ -187,10 +187,12 @@ say_chart(qdot_run *run)
     return qdot_text_status(&run->notice);
 }
 
-/* Make the run with the first groups replaced; *out NULL where it does not arrive. */
+/* Make the run with these groups replaced; *out NULL where it does not arrive. at_place: it begins
+ * at a singular place. */
 static qdot_status
 run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
-            const qdot_chart_groups *groups, const int *sign, qdot_run **out)
+            const qdot_chart_groups *groups, const int *sign, bool at_place,
+            qdot_run **out)
 {
     qdot_run_chart *x = NULL;
     qdot_status status = make_chart(s, request, groups, sign, &x);
@@ -198,6 +200,7 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
     if (status == QDOT_OK && x->chart.scene)
         status = run_in(x, request, by, out);
     if (*out) {
+        x->at_place = at_place;
         (*out)->chart = x;
         x = NULL;
         status = qdot_run_chart_report(*out, by);
@@ -229,9 +232,9 @@ change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
     if (status == QDOT_OK && near > 0) {
         const qdot_chart_groups first = {.n = near, .at = groups.at};
 
-        status = run_without(s, request, by, &first, sign, out);
+        status = run_without(s, request, by, &first, sign, run == NULL, out);
         if (!*out && near < groups.n && status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = run_without(s, request, by, &groups, sign, out);
+            status = run_without(s, request, by, &groups, sign, run == NULL, out);
     }
     qdot_free(groups.at);
     qdot_free(sign);

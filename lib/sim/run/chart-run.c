@@ -184,6 +184,23 @@ follow(qdot_run *run)
     return status;
 }
 
+/* The first time at which the coordinates given have values. */
+static double
+first_time(const qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+
+    return run->chart->at_place ? nextafter(tr->t[0], tr->t[tr->count - 1]) : tr->t[0];
+}
+
+void
+qdot_run_chart_limit(qdot_run *run)
+{
+    run->limited = run->chart->at_place;
+    run->within[0] = first_time(run);
+    run->within[1] = run->course.tr.t[run->course.tr.count - 1];
+}
+
 qdot_status
 qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 {
@@ -205,7 +222,7 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
     }
     *quarters = x->quarters.at + x->stretches.at[low].quarters;
     run->limited = true;
-    run->within[0] = x->stretches.at[low].t;
+    run->within[0] = low == 0 ? first_time(run) : x->stretches.at[low].t;
     run->within[1] = low + 1 < x->stretches.n
                          ? x->stretches.at[low + 1].t
                          : run->course.tr.t[run->course.tr.count - 1];

@@ -25,6 +25,7 @@ typedef struct qdot_run_chart {
     qdot_expr *coordinates; /* [n] */
     double *angles;         /* [moved] at the start, as given */
     double *end;   /* [2n] the end state in the coordinates given; NaN: undefined there */
+    bool at_place;         /* the run begins at a singular place */
     bool followed; /* the stretches are known */
     qdot_vec(qdot_chart_stretch) stretches; /* in the direction of the run */
     qdot_vec(long) quarters;
@@ -36,6 +37,9 @@ void qdot_run_chart_free(qdot_run_chart *x);
  * limits the comparison with companions to the stretch. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
                                                     const long **quarters);
+
+/* Limit the comparison of companions to the whole run, but for a start at a singular place. */
+void qdot_run_chart_limit(qdot_run *run);
 
 /* Put the end state, with its error, into the report of a run that has a chart. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_report(qdot_run *run,
