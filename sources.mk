@@ -1251,6 +1251,7 @@ script_tests = \
 	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
+	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
 	tests/script/switch-nested.lag \
@@ -2128,6 +2129,7 @@ test_files = \
 	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \
+	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
 	tests/script/switch-nested.out \
@@ -2147,6 +2149,7 @@ test_files = \
 	tests/sim/scenes.h \
 	tests/src/terminal.h \
 	tests/tape/lone.h \
+	tests/tape/random.h \
 	tests/tape/reference.h \
 	tests/tape/smooth.h \
 	tests/fuzz/fuzz-parse.c \
@@ -2168,6 +2171,8 @@ other_files = \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
+	bench/hard/cases.py \
+	bench/hard/run \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \

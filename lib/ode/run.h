@@ -75,6 +75,7 @@ typedef struct {
      * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a
      * pointer to the state less y; [n] out, the end state less y. */
     bool leading;
+    bool judged; /* a run with those ends, result.unfit, where they make it worse (taylor.h) */
     double t0_low;
     const double **beyond;
     double *end_low;
@@ -94,6 +95,7 @@ typedef enum {
 typedef struct {
     qdot_ode_outcome outcome;
     double t; /* time of the state; t1 exactly when done */
+    bool unfit; /* it failed because first orders in two doubles do not fit to the others */
     bool stiff; /* it failed because stability bounds its steps (stiffness.h) */
     qdot_ode_stats stats;
     char reason[512]; /* of a failure; else "" */

@@ -29,6 +29,9 @@ static const double rounding_of_projection = 1e-13;
  * this of the state over the step. */
 static const double falls = 0.125, most_noise = 1e-5;
 
+/* So many steps taken back show that first orders in two doubles do not fit. */
+enum { taken_back = 100 };
+
 /* Tries at one place where f is undefined: a quarter each. */
 static const int max_undefined = 60;
 
@@ -444,6 +447,21 @@ look_for_stiffness(run *r)
     return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
 }
 
+/* Under a stiff force the rounding of low orders is that of another start, which the others carry on and
+ * which dies out; low orders in two doubles do not fit to these, and nearly all steps are taken back. */
+static qdot_status
+look_for_misfit(run *r)
+{
+    const qdot_ode_stats *s = &r->result->stats;
+
+    if (!r->options->judged || s->rejected < taken_back || s->rejected < s->steps / 2)
+        return QDOT_OK;
+    r->result->unfit = true;
+    return qdot_fail(QDOT_ELIMIT,
+                     "stopped at t = %.4g: first orders in two doubles do not fit to the others there",
+                     r->t);
+}
+
 static qdot_status
 loop(run *r)
 {
@@ -467,6 +485,7 @@ loop(run *r)
         if (r->options->meter)
             QDOT_TRY(count_work(r));
         qdot_progress_at(r->t);
+        QDOT_TRY(look_for_misfit(r));
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
         if (qdot_ode_stiffness_is_due(&r->stiffness))
             QDOT_TRY(look_for_stiffness(r));

@@ -15,6 +15,8 @@
 #include "num/kinds.h"
 #include "tape/derivative.h"
 #include "lone.h"
+#include "random.h"
+#include "reference.h"
 
 enum { MANY = 19, OUTPUTS = 6 };
 
@@ -149,12 +151,67 @@ whole_tapes_agree_with_symbolic_derivatives(void **state)
     qdot_pool_free(pool);
 }
 
+/* Slopes of 1000 random expressions by the tape and by symbols, these in long double, to 1e-13: where
+ * rounding of the symbolic slope in doubles would be above a tenth of that it is no reference. */
+static void
+random_slopes_agree_with_symbolic_derivatives(void **state)
+{
+    enum { LEAVES = 3, NODES = 9, WANTED = 1000 };
+    const double within = 1e-13;
+    size_t expressions = 0, slopes = 0;
+
+    (void)state;
+    for (int round = 0; expressions < WANTED; round++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_expr have[LEAVES + NODES], e;
+        double at[LEAVES], out, J[LEAVES];
+        long double exact[LEAVES];
+        qdot_tape *tape = NULL;
+        bool looked = false;
+
+        assert_true(round < 4 * WANTED);
+        for (int i = 0; i < LEAVES; i++) {
+            have[i] = coordinate(pool, "x", i);
+            exact[i] = at[i] = (double)roll(4001) / 1000.0 - 2.0 + 1e-9;
+        }
+        for (unsigned i = LEAVES; i < LEAVES + NODES; i++)
+            have[i] = random_node(pool, have, i);
+        e = have[LEAVES + NODES - 1];
+        if (qdot_pool_check(pool) == QDOT_OK) {
+            assert_int_equal(qdot_tape_new(pool, LEAVES, have, 1, &e, &tape), QDOT_OK);
+            derive(tape, at, 0, LEAVES, &out, J);
+        }
+        for (size_t j = 0; j < LEAVES && tape; j++) {
+            const qdot_expr slope = qdot_diff(pool, e, have[j]);
+            reference_value want;
+            long double size;
+
+            if (qdot_pool_check(pool) != QDOT_OK)
+                break;
+            want = reference(pool, slope, LEAVES, have, exact);
+            size = fmaxl(1, fabsl(want.v));
+            if (!isfinite(want.v) || !(want.err <= within / 10 * size))
+                continue;
+            if (!(fabsl(J[j] - want.v) <= within * size))
+                fail_msg("expression %d: the slope along x[%zu] is %.17g, not %.17Lg", round, j,
+                         J[j], want.v);
+            looked = true;
+            slopes++;
+        }
+        expressions += looked;
+        qdot_tape_free(tape);
+        qdot_pool_free(pool);
+    }
+    assert_true(slopes > WANTED);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_operation_agrees_with_differences),
         cmocka_unit_test(whole_tapes_agree_with_symbolic_derivatives),
+        cmocka_unit_test(random_slopes_agree_with_symbolic_derivatives),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

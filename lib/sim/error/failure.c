@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "ode/scale.h"
+
 /* A singularity is nearer than this fraction of the run. */
 static const double nothing = 1e-6;
 
@@ -18,10 +20,11 @@ qdot_failure_explain(const qdot_plan *plan, const qdot_ode_system *system, doubl
         return QDOT_ENOMEM;
     if (system->rhs(t, y, slope, system->user) == QDOT_OK)
         for (size_t i = 0; i < n; i++) {
-            double a = fabs(slope[n + i]), v = fabs(y[n + i]);
+            const double a = fabs(slope[n + i]);
+            const double v = qdot_ode_size(system->scales, n + i, y[n + i]);
 
-            if (a > 0 && fmax(1, v) / a < left) {
-                left = fmax(1, v) / a;
+            if (a > 0 && v / a < left) {
+                left = v / a;
                 worst = i;
             }
         }

@@ -34,7 +34,7 @@ typedef struct {
     double sure[2];           /* lower bound of the largest, upper bound of the smallest value */
     double left;              /* error of the integral from parts without a good polynomial */
     double noise;             /* evaluation noise in this step */
-    double blur;              /* change of e by a change 2^-53 max(1, |x|) of the state */
+    double blur;              /* change of e by a change 2^-53 max(s, |x|) of the state */
     size_t parts;             /* of this step so far */
     size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
     double typical;           /* size of the values in this step */

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
+#include "ode/scale.h"
 #include "sim/error/noise.h"
 #include "sim/read/range-parts.h"
 
@@ -245,10 +246,13 @@ find_blur(scan *s, double t)
     double value, other;
 
     QDOT_TRY(qdot_range_at(s, t, &value));
-    for (size_t k = 0; k < r->n_courses; k++)
-        for (size_t i = 0; i < 2 * r->courses[k].n; i++)
-            r->courses[k].in[i] +=
-                ((i + k) % 2 ? -0x1p-53 : 0x1p-53) * fmax(1, fabs(r->courses[k].in[i]));
+    for (size_t k = 0; k < r->n_courses; k++) {
+        const qdot_reader_course *c = r->courses + k;
+
+        for (size_t i = 0; i < 2 * c->n; i++)
+            c->in[i] += ((i + k) % 2 ? -0x1p-53 : 0x1p-53)
+                        * qdot_ode_size(c->course->stage->scales, i, c->in[i]);
+    }
     QDOT_TRY(qdot_reader_evaluate(r, t, &other));
     s->blur = fabs(other - value);
     return QDOT_OK;

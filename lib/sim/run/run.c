@@ -216,6 +216,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .t0_low = run->t0_low,
                                 .t1_low = run->t1_low,
                                 .leading = run->leading,
+                                .judged = run->leading,
                                 .meter = &run->meter,
                                 .stiff_work = run->plan->chosen ? worth_changing : 0};
     qdot_status status;
@@ -463,10 +464,26 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     return status;
 }
 
+/* Make a run whose first orders in two doubles did not fit once more, without them; of its notice as
+ * much stays as was said before it. */
+static qdot_status
+run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
+{
+    qdot_free(run->reason);
+    qdot_free(run->doubt);
+    run->reason = run->doubt = NULL;
+    run->report.reason = NULL;
+    run->report.status = QDOT_RUN_DONE;
+    qdot_text_truncate(&run->notice, notice);
+    run->leading = false;
+    return run_beside(run, tol, interrupted);
+}
+
 /* Integrate, then find the error and the drift of conserved quantities. */
 static qdot_status
 carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
 {
+    const size_t notice = run->notice.n;
     qdot_status status;
 
     *interrupted = false;
@@ -479,6 +496,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     run->leading = run->plan->leading && is_whole(run) && run->stage.events.n == 0;
     status = is_whole(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
+    if (status == QDOT_OK && run->course.tr.result.unfit)
+        status = run_in_doubles(run, tol, notice, interrupted);
     run->report.tol = tol;
     if (status == QDOT_OK)
         status = say_raised(run, tol);
