@@ -393,6 +393,7 @@ library_sources = \
 	lib/sim/course/course.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
+	lib/sim/course/piece-contact.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-layer.c \
@@ -460,6 +461,7 @@ library_sources = \
 	lib/sim/model/constrained-start.c \
 	lib/sim/model/constrained.c \
 	lib/sim/model/constraints.c \
+	lib/sim/model/contact.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
@@ -903,6 +905,7 @@ library_headers = \
 	lib/sim/model/constrained-parts.h \
 	lib/sim/model/constrained.h \
 	lib/sim/model/constraints.h \
+	lib/sim/model/contact.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \
@@ -1269,6 +1272,7 @@ script_tests = \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
+	tests/script/resting.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
@@ -2175,6 +2179,7 @@ test_files = \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
+	tests/script/resting.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \

@@ -36,12 +36,12 @@ say_left(qdot_piece *x, const qdot_watched *w)
              qdot_piece_mode(x)->plan->names[d->coordinate], d->text, x->t_act);
 }
 
-/* The new values of an event, all from the old ones. */
-static qdot_status
-change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old, double *y)
+qdot_status
+qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old,
+                  double *y)
 {
     const qdot_plan *p = qdot_piece_mode(x)->plan;
-    const qdot_ode_system *system = x->reader.system;
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
     qdot_constrained *held = qdot_bind_held(system->user);
     size_t inputs = qdot_plan_inputs(p);
     double *in =
@@ -118,7 +118,7 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
         r->n = 0;
     }
     *left = remaining(r, t);
-    *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach;
+    *yes = ++r->n > MOST_REPEATS || *left <= NEAR * reach || r->soon;
     *left = isfinite(*left) ? *left : 0;
     return QDOT_OK;
 }
@@ -169,6 +169,26 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
              t, qdot_text_str(&text), LOOKED_AT, fabs(since), to_come, x->t1);
     qdot_text_clear(&text);
     return true;
+}
+
+/* The event w comes ever faster: its contact lasts from here on (*fast false), or will soon. */
+static qdot_status
+come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
+{
+    bool lasts, soon;
+
+    QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
+    *fast = !lasts && !soon;
+    for (size_t i = 0; i < x->repeats.n; i++) {
+        qdot_piece_repeat *r = &x->repeats.at[i];
+
+        if (r->kind != w->kind || r->index != w->index)
+            continue;
+        r->soon = soon;
+        if (lasts) /* bounces may come again */
+            *r = x->repeats.at[--x->repeats.n];
+    }
+    return QDOT_OK;
 }
 
 /* A root that is not a double lies between the doubles around it. */
@@ -222,7 +242,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
             if (e->then) {
-                status = change(x, e, t, old, y);
+                status = qdot_piece_change(x, e, t, old, y);
                 x->start.jumped = true;
             }
             if (e->stop && status == QDOT_OK) {
@@ -235,6 +255,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
         }
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
+        if (status == QDOT_OK && fast && !*over && w->kind == QDOT_WATCH_EVENT)
+            status = come_to_rest(x, w, root->way, left, &fast);
         if (fast && !*over)
             say_accumulated(x, w, t, left);
         if (status == QDOT_OK && !*over && (fast || has_too_many_to_come(x, w, t))) {
@@ -244,6 +266,12 @@ qdot_piece_act(qdot_piece *x, bool *over)
     }
     if (x->start.jumped)
         x->crossed.n = 0;
+    if (x->start.jumped && status == QDOT_OK && !*over) {
+        status = qdot_piece_keep_contacts(x);
+        *over = x->c->reason[0] != '\0';
+        if (*over)
+            qdot_piece_stop(x, true);
+    }
     qdot_free(old);
     return status;
 }

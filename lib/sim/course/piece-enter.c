@@ -93,6 +93,9 @@ qdot_piece_carry(qdot_piece *x)
             x->put_aside = true;
         }
     }
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n; i++)
+        if (x->c->stage->switches.surfaces.at[i].contact && slides(old, i)) /* no occurrence */
+            x->before[x->c->stage->switches.surfaces.at[i].event] = 0;
     for (size_t k = 0; k < x->fired.n; k++) {
         const qdot_root *root = &x->fired.at[k];
         const qdot_watched *w = &old->watched[root->function];

@@ -38,7 +38,7 @@ doubt(qdot_piece *x, const qdot_watched *w, int first)
     for (size_t i = 0; i < x->doubts.n; i++)
         if (x->doubts.at[i].surface == w->index)
             return QDOT_OK;
-    if (is_step(x, w->index)) {
+    if (is_step(x, w->index) || x->c->stage->switches.surfaces.at[w->index].contact) {
         d.sides[1] = went_to(x, w, first);
     } else {
         const long others[] = {1, -1, QDOT_SIDE_SLIDES, 0};

@@ -107,27 +107,16 @@ stays_on_event(qdot_piece *x)
     for (size_t k = 0; k < x->fired.n; k++)
         if (rests_on(x, x->fired.at[k].function, x->fired.at[k].way)) {
             x->resting = qdot_piece_mode(x)->watched[x->fired.at[k].function].index;
+            x->resting_way = x->fired.at[k].way;
             return true;
         }
     for (size_t i = 0; i < x->c->stage->events.n && begins; i++)
         if (rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
             x->resting = i;
+            x->resting_way = qdot_watch_first(qdot_piece_watch(x))[i];
             return true;
         }
     return false;
-}
-
-static qdot_status
-say_resting(qdot_piece *x, double t)
-{
-    snprintf(
-        x->c->reason, sizeof x->c->reason,
-        "stopped at t = %.15g: %s the event %.100s the motion does not leave it: "
-        "a contact that lasts is no event",
-        t, x->fired.n > 0 ? "behind" : "starting on", x->c->stage->events.at[x->resting].name);
-    x->t_act = t;
-    x->intent = QDOT_PIECE_ENDS;
-    return QDOT_OK;
 }
 
 /* After the first step: whether the piece continues with its sides. */
@@ -212,8 +201,10 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
         QDOT_TRY(judge_sides(x));
         if (x->intent == QDOT_PIECE_RETRIED)
             return QDOT_OK;
-        if (stays_on_event(x))
-            return say_resting(x, t0);
+        if (stays_on_event(x)) { /* side-search.c decides */
+            x->intent = QDOT_PIECE_RETRIED;
+            return QDOT_OK;
+        }
     } else {
         QDOT_TRY(leave_zero(x, t0));
         if (x->intent == QDOT_PIECE_ENDS)
@@ -415,6 +406,7 @@ qdot_piece_integrate(qdot_piece *x)
     if (c->tr.count > 1 || x->start.t != c->tr.t[0])
         options.carry = NULL;
     x->intent = QDOT_PIECE_GOES_ON;
+    x->resting = SIZE_MAX;
     x->broken_off = false;
     x->first_step = true;
     x->far = false;

@@ -26,6 +26,7 @@ typedef struct {
     double last, interval, ratio; /* time of the last one; the interval before it; that over the
                                      interval before */
     size_t steady;                /* how often in a row the ratio was the same */
+    bool soon;                    /* its contact was about to last (qdot_piece_rest) */
 } qdot_piece_repeat;
 
 /* A surface for which another side has to be tried. */
@@ -78,7 +79,8 @@ typedef struct {
     qdot_trajectory step; /* its two ends */
     qdot_trajectory_cursor *cursor;
     double *y;      /* [n] scratch */
-    size_t resting; /* the event of a persistent contact */
+    size_t resting; /* the event of a persistent contact; SIZE_MAX: none was found in this piece */
+    int resting_way; /* the sign to which the motion would leave it */
 
     /* Sides tried from one point: [tries x surfaces]; surfaces with alternatives. */
     qdot_vec(long) tried;
@@ -150,6 +152,19 @@ QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
  * the run ends, for c->reason or by the event c->stopped_by; x->start.jumped: the state was
  * changed. QDOT_EDOMAIN if an event sets a value that is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_piece_act(qdot_piece *x, bool *over);
+
+/* The new values of an event into y [n], all from the state old [n]; errors as qdot_piece_act. */
+QDOT_MUST_CHECK qdot_status qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t,
+                                              const double *old, double *y);
+
+/* (piece-contact.c) The motion comes to rest, within the time `left`, on the event that it meets with the
+ * sign `way`. *lasts: the contact lasts (sim/model/contact.h), from the start of the piece on: x->side
+ * and x->start.y are those. *soon: it will, but the bounces to come are too high as yet. */
+QDOT_MUST_CHECK qdot_status qdot_piece_rest(qdot_piece *x, size_t event, int way, double left,
+                                            bool *lasts, bool *soon);
+/* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
+ * one. */
+QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);
 
 /* End the run here, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);

@@ -2,6 +2,7 @@
 #include "sim/course/reader.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "ode/companion.h"
 #include "ode/scale.h"
@@ -64,15 +65,17 @@ static qdot_status
 read_sides(const qdot_plan *p, const qdot_reader_course *c)
 {
     const qdot_mode *m = c->course->stage->modes.at[qdot_trajectory_mode_read(c->cursor)];
+    const size_t surfaces = c->course->stage->switches.surfaces.n;
     double *sides = c->in + qdot_plan_inputs(p) - p->n_sides;
-    double *work = NULL;
 
     if (m->shares) {
-        work = qdot_malloc((qdot_tape_work(m->shares) + 1) * sizeof *work);
-        if (!work)
+        double *out = qdot_malloc((surfaces + qdot_tape_work(m->shares) + 1) * sizeof *out);
+
+        if (!out)
             return QDOT_ENOMEM;
-        qdot_tape_eval(m->shares, c->in, sides, work);
-        qdot_free(work);
+        qdot_tape_eval(m->shares, c->in, out, out + surfaces);
+        memcpy(sides, out, p->n_sides * sizeof *sides);
+        qdot_free(out);
     }
     for (size_t i = 0; i < p->n_sides; i++)
         sides[i] = m->side[i] == QDOT_SIDE_SLIDES ? fmin(fmax(sides[i], -1), 1)

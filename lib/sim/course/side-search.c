@@ -237,8 +237,8 @@ go_by(qdot_piece *x)
     return go(x);
 }
 
-qdot_status
-qdot_piece_search(qdot_piece *x)
+static qdot_status
+search(qdot_piece *x)
 {
     size_t combinations = 0;
 
@@ -263,10 +263,43 @@ qdot_piece_search(qdot_piece *x)
         if (x->c->reason[0] != '\0')
             return QDOT_OK;
         QDOT_TRY(go(x));
-        if (x->intent != QDOT_PIECE_RETRIED)
+        if (x->intent != QDOT_PIECE_RETRIED || x->resting != SIZE_MAX)
             return QDOT_OK;
         if (x->well)
             return go_by(x);
         QDOT_TRY(qdot_piece_sides(x, qdot_piece_mode(x)->side));
     }
+}
+
+/* The contact at x->resting does not leave its event, and is none that can last. */
+static void
+say_resting(qdot_piece *x)
+{
+    snprintf(x->c->reason, sizeof x->c->reason,
+             "stopped at t = %.15g: %s the event %.100s the motion does not leave it: a contact that "
+             "lasts is no event",
+             x->start.t, x->fired.n > 0 ? "behind" : "starting on",
+             x->c->stage->events.at[x->resting].name);
+    x->intent = QDOT_PIECE_ENDS;
+}
+
+qdot_status
+qdot_piece_search(qdot_piece *x)
+{
+    /* each time a contact more lasts */
+    for (size_t k = 0; k <= x->c->stage->switches.contacts; k++) {
+        bool lasts, soon;
+        const size_t surfaces = x->c->stage->switches.surfaces.n;
+
+        QDOT_TRY(search(x));
+        if (x->intent != QDOT_PIECE_RETRIED || x->resting == SIZE_MAX)
+            return QDOT_OK;
+        if (surfaces > 0)
+            memcpy(x->side, qdot_piece_mode(x)->side, surfaces * sizeof *x->side);
+        QDOT_TRY(qdot_piece_rest(x, x->resting, x->resting_way, 0, &lasts, &soon));
+        if (!lasts)
+            break;
+    }
+    say_resting(x);
+    return QDOT_OK;
 }

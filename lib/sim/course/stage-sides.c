@@ -49,7 +49,7 @@ qdot_status
 qdot_stage_lower_sides(qdot_stage *s)
 {
     qdot_pool *pool = s->scene->pool;
-    const size_t n = s->n, m = s->switches.surfaces.n;
+    const size_t n = s->n, m = qdot_switches_own(&s->switches);
     size_t k = 0;
     qdot_expr *u = qdot_calloc(2 * m + 1, sizeof *u);
     qdot_expr *in = qdot_calloc(2 * n + 1 + m, sizeof *in);
@@ -75,7 +75,7 @@ qdot_stage_lower_sides(qdot_stage *s)
 static qdot_status
 begin(decision *d, const qdot_stage *s, double t, const double *y)
 {
-    size_t m = s->switches.surfaces.n;
+    size_t m = qdot_switches_own(&s->switches);
     const size_t n = 2 * s->n;
 
     *d = (decision){.s = s, .m = m, .n = n, .t = t, .y = y};
@@ -213,7 +213,7 @@ rates_of(decision *d, const long *side, const double *w, double *rate)
 qdot_status
 qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest)
 {
-    const size_t m = s->switches.surfaces.n;
+    const size_t m = qdot_switches_own(&s->switches);
     bool some = false;
     decision d;
     long *side;
@@ -252,7 +252,7 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest)
 qdot_status
 qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old, long *side)
 {
-    const size_t m = s->switches.surfaces.n;
+    const size_t m = qdot_switches_own(&s->switches); /* contacts stay */
     long *kept;
     decision d;
     bool changed = true;

@@ -1,6 +1,8 @@
 /* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
+#include "sim/model/contact.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -233,9 +235,15 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
 
         if (m->side[i] == QDOT_SIDE_SLIDES) {
             w.velocity = true;
-            watch_between(pool, m, w, m->plan->share[i], ends, ends);
+            if (!x->contact)
+                watch_between(pool, m, w, m->plan->share[i], ends, ends);
+            w.inside = 1;
+            if (x->contact) /* a reaction only pushes */
+                watch_function(m, m->plan->share[i], w);
             continue;
         }
+        if (x->contact)
+            continue;
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &x->u, &u));
         if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
             return qdot_fail(QDOT_EFAILED, "a switch of the equations cannot be decided");
@@ -272,6 +280,15 @@ lower_level(const qdot_stage *s, qdot_mode *m)
                                   &level));
     return qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, 1, &level,
                          &m->level);
+}
+
+/* An event whose contact lasts is none: a function without roots takes its place. */
+static void
+watch_contacts(const qdot_stage *s, qdot_mode *m)
+{
+    for (size_t i = qdot_switches_own(&s->switches); i < s->switches.surfaces.n; i++)
+        if (m->side[i] == QDOT_SIDE_SLIDES)
+            m->functions[s->switches.surfaces.at[i].event] = QDOT_ONE;
 }
 
 static qdot_status
@@ -315,7 +332,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     s->kept = NULL;
     if (!m->plan) {
         QDOT_TRY(qdot_plan_in_mode(s->scene, s->request, &s->switches, m->side, &m->plan));
-        if (s->switches.atoms.n == 0 && s->switches.level == QDOT_NIL)
+        if (s->switches.atoms.n == 0 && s->switches.level == QDOT_NIL && !m->plan->share)
             qdot_kept_add(s->scene, s->request, m->plan);
     }
     if (s->modes.n == 0) {
@@ -334,6 +351,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     QDOT_TRY(watch_domains(s, m));
     QDOT_TRY(lower_level(s, m));
     QDOT_TRY(find_held(s, m));
+    watch_contacts(s, m);
     return watch_surfaces(s, m);
 }
 
@@ -445,12 +463,13 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
         s->switches.pool = scene->pool;
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
+    QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;
-    if (s->switches.surfaces.n > 0)
+    if (qdot_switches_own(&s->switches) > 0)
         status = qdot_stage_lower_sides(s);
-    if (s->switches.surfaces.n > 0 && status == QDOT_OK)
+    if (qdot_switches_own(&s->switches) > 0 && status == QDOT_OK)
         status = start_sides(s, settled, side);
     if (status == QDOT_OK)
         status = qdot_stage_mode(s, side, &mode);
@@ -469,14 +488,14 @@ qdot_stage_settle(qdot_stage *s, const double *y, bool *anew)
 {
     qdot_scene *scene = s->scene;
     const qdot_run_request *request = s->request;
-    size_t m = s->switches.surfaces.n;
+    size_t m = qdot_switches_own(&s->switches);
     qdot_status status;
     long *side;
 
     *anew = false;
     if (m == 0)
         return QDOT_OK;
-    side = qdot_calloc(m, sizeof *side);
+    side = qdot_calloc(s->switches.surfaces.n, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;
     status = start_sides(s, y, side);

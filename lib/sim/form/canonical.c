@@ -26,7 +26,7 @@ fits(const qdot_plan *p)
     bool moves = false;
 
     if (p->constraints || p->n_states > 0 || p->n > most_coordinates || !p->smooth
-        || (p->mode && p->mode->atoms.n > 0))
+        || p->share || (p->mode && p->mode->atoms.n > 0))
         return false;
     for (size_t b = 0; b < p->structure.blocks; b++)
         if (p->blocks[b].n > most_coupled)

@@ -13,6 +13,7 @@ void
 qdot_sliding_rows_clear(qdot_sliding_rows *rows)
 {
     qdot_free(rows->order);
+    qdot_free(rows->surface);
     qdot_tape_free(rows->tape);
     *rows = (qdot_sliding_rows){0};
 }
@@ -41,7 +42,8 @@ qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
     qdot_status status;
 
     rows->order = qdot_calloc(most + 1, sizeof *rows->order);
-    if (!out || !rows->order) {
+    rows->surface = qdot_calloc(most + 2, sizeof *rows->surface);
+    if (!out || !rows->order || !rows->surface) {
         qdot_free(out);
         return QDOT_ENOMEM;
     }
@@ -51,6 +53,8 @@ qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
 
         if (side[i] != QDOT_SIDE_SLIDES)
             continue;
+        rows->surface[rows->rows] = i;
+        rows->surface[rows->rows + 1] = i;
         add_row(p, rows, velocity, u[i], out, out + most);
         if (!velocity)
             add_row(p, rows, 1, qdot_ddt(p->pool, u[i]), out, out + most);
@@ -62,6 +66,27 @@ qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
                                &rows->tape);
     qdot_free(out);
     return status;
+}
+
+qdot_status
+qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t, const double *y,
+                        size_t surface, int order, double *value)
+{
+    const size_t outputs = rows->rows * (1 + n);
+    double *in = qdot_calloc(2 * n + 1 + outputs + qdot_tape_work(rows->tape) + 1, sizeof *in);
+    double *out = in + 2 * n + 1;
+
+    *value = 0;
+    if (!in)
+        return QDOT_ENOMEM;
+    memcpy(in, y, 2 * n * sizeof *y);
+    in[2 * n] = t;
+    qdot_tape_eval(rows->tape, in, out, out + outputs);
+    for (size_t r = 0; r < rows->rows; r++)
+        if (rows->surface[r] == surface && rows->order[r] == order)
+            *value = out[r];
+    qdot_free(in);
+    return QDOT_OK;
 }
 
 /* One row: y moves along its slopes; whether it did. */

@@ -163,13 +163,20 @@ fill(sliding *s)
     QDOT_TRY(fill_forces(s));
     QDOT_TRY(fill_constraints(s));
     for (size_t j = 0; j < s->k; j++) {
+        const qdot_surface *x = &s->p->mode->surfaces.at[s->surface[j]];
+        const size_t r = s->n + s->m + j;
         qdot_expr u;
 
         QDOT_TRY(held(s->p, s->surface[j], &u));
         if (holds_share(s, u))
             return cannot("one switch is inside another");
-        QDOT_TRY(fill_row(s, s->n + s->m + j, u,
-                          holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
+        QDOT_TRY(fill_row(s, r, u, holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
+        for (size_t i = 0; i < s->n && x->contact; i++) { /* its reaction */
+            const qdot_expr slope = s->A[r * s->size + i];
+
+            s->A[i * s->size + r] =
+                x->reaction > 0 ? qdot_neg(s->p->pool, slope) : slope;
+        }
     }
     return QDOT_OK;
 }

@@ -12,6 +12,9 @@
  * the force of friction over its largest size. Where a share leaves -1 ... 1 the mode ends, to the
  * side with its sign: s - 1 and s + 1 are watched (sim/course/stage.c).
  *
+ * A contact that lasts (sim/model/contact.h) is held in the same way: u = 0 of its event, B the slopes of
+ * u, s >= 0 the reaction.
+ *
  * Source  Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 2.4.
  * Tests   tests/script/sticking.lag, tests/sim/test_sliding.c
  */
@@ -41,6 +44,7 @@ qdot_expr qdot_plan_reading(const qdot_plan *plan, qdot_expr e);
 typedef struct {
     size_t rows;
     int *order;      /* [rows] */
+    size_t *surface; /* [rows] */
     qdot_tape *tape; /* from q, q', t: values [rows], then slopes by q or q' [rows x n]; owned */
 } qdot_sliding_rows;
 
@@ -49,6 +53,11 @@ QDOT_MUST_CHECK qdot_status qdot_sliding_rows_make(const qdot_plan *p, size_t su
                                                    const long *side, const qdot_expr *u,
                                                    qdot_sliding_rows *rows);
 void qdot_sliding_rows_clear(qdot_sliding_rows *rows);
+
+/* The value of the row of that order of a surface at a state; 0 if there is none. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t,
+                                                    const double *y, size_t surface, int order,
+                                                    double *value);
 
 /* Move y [2n] by the shortest way onto the rows; *moved the largest change of a component over max(1,
  * |component|), infinite if that fails. Allocates. */

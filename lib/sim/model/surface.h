@@ -12,6 +12,11 @@ typedef struct {
     bool steps;   /* the side is floor(u); else the sign of u */
     qdot_expr side; /* a symbol for the side */
     double power;   /* the least broken exponent of a power of u (sim/model/layer.h); 0: none */
+    /* A contact that may last (sim/model/contact.h): u of an event, which no equation holds.
+     * Its side is 0, or QDOT_SIDE_SLIDES while it lasts. */
+    bool contact;
+    size_t event; /* whose `then` is the impact */
+    int reaction; /* the sign of du/dt that the contact can push to */
     double layer;   /* half the width of the layer in which that power counts as 0, there of
                        side 0: a power of two; 0: there is none */
 } qdot_surface;

@@ -88,7 +88,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     snprintf(name, sizeof name, "side %zu", s->surfaces.n + 1);
     side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
     QDOT_TRY(qdot_pool_check(s->pool));
-    return qdot_vec_push(&s->surfaces, ((qdot_surface){u, steps, side, 0, 0}));
+    return qdot_vec_push(&s->surfaces, ((qdot_surface){.u = u, .steps = steps, .side = side}));
 }
 
 static qdot_status
@@ -331,7 +331,7 @@ side_of(const freezer *f, qdot_expr u, bool steps)
 
     if (!steps)
         u = upright(pool, u, &turned);
-    for (size_t i = 0; i < f->s->surfaces.n; i++) {
+    for (size_t i = 0; i < qdot_switches_own(f->s); i++) {
         const qdot_surface *x = &f->s->surfaces.at[i];
         qdot_expr side;
 
@@ -353,7 +353,7 @@ is_held(const freezer *f, qdot_expr u)
     bool turned;
 
     u = upright(f->s->pool, u, &turned);
-    for (size_t i = 0; i < f->s->surfaces.n && f->side; i++)
+    for (size_t i = 0; i < qdot_switches_own(f->s) && f->side; i++)
         if (f->s->surfaces.at[i].u == u && f->side[i] == QDOT_SIDE_SLIDES)
             return true;
     return false;
@@ -423,7 +423,7 @@ is_open(const freezer *f, qdot_expr atom)
     const uint32_t n = qdot_expr_count(pool, atom);
     bool turned;
 
-    for (size_t s = 0; s < f->s->surfaces.n && f->side; s++) {
+    for (size_t s = 0; s < qdot_switches_own(f->s) && f->side; s++) {
         const qdot_expr u = f->s->surfaces.at[s].u;
 
         if (f->side[s] != QDOT_SIDE_OPEN)
@@ -486,9 +486,9 @@ freeze_means(const freezer *f, long *corner, const qdot_expr *share, size_t from
     qdot_expr *low;
     qdot_status status;
 
-    while (i < f->s->surfaces.n && f->side && f->side[i] != QDOT_SIDE_SLIDES)
+    while (i < qdot_switches_own(f->s) && f->side && f->side[i] != QDOT_SIDE_SLIDES)
         i++;
-    if (!f->side || i == f->s->surfaces.n)
+    if (!f->side || i == qdot_switches_own(f->s))
         return freeze_corner(*f, n, e, frozen);
     low = qdot_malloc((n + 1) * sizeof *low);
     if (!low)

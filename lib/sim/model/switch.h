@@ -42,7 +42,8 @@
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
-    qdot_vec(qdot_surface) surfaces; /* inner ones first */
+    qdot_vec(qdot_surface) surfaces; /* inner ones first, contacts last */
+    size_t contacts;
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
     qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
@@ -53,6 +54,13 @@ typedef struct qdot_switches {
  * (sim/plan/tree-alone.h), and switches are looked for in their ingredients. Fewer are derived in
  * milliseconds. */
 enum { QDOT_MANY_COORDINATES = 32 };
+
+/* How many surfaces are such of the equations. */
+static inline size_t
+qdot_switches_own(const qdot_switches *s)
+{
+    return s->surfaces.n - s->contacts;
+}
 
 /* Find the surfaces of the equations of motion and of the constraints; start from {0}. Errors: as
  * qdot_plan_new. */

@@ -120,7 +120,7 @@ is_cheaper(const qdot_plan *p, const candidate *c, const qdot_run_request *reque
 static bool
 has_others(const qdot_plan *p)
 {
-    if ((p->mode && p->mode->atoms.n > 0) || p->n_states > 0)
+    if ((p->mode && p->mode->atoms.n > 0) || p->share || p->n_states > 0)
         return false;
     for (size_t k = 0; k < p->structure.blocks; k++)
         if (p->blocks[k].n > 1 && !p->blocks[k].constant)

@@ -90,7 +90,7 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
 {
     size_t n = p->n, m = scene->constraints.n;
 
-    p->n_sides = p->mode ? p->mode->surfaces.n : 0;
+    p->n_sides = p->mode ? qdot_switches_own(p->mode) : 0;
     p->inputs = qdot_calloc(3 * n + 1 + m + p->n_sides, sizeof *p->inputs);
     p->names = qdot_calloc(n, sizeof *p->names);
     if (!p->inputs || !p->names)

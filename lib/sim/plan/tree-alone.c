@@ -10,13 +10,15 @@
 #include "sim/plan/cost.h"
 #include "sim/plan/routh.h"
 #include "sim/form/tree-series.h"
+#include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 #include "tape/disc.h"
 
 static bool
 may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
-    return p->mode && p->mode->atoms.n == 0 && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
+    return p->mode && p->mode->atoms.n == 0 && !qdot_sliding_is(p->mode->surfaces.n, p->side)
+           && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
            && scene->constraints.n == 0 && request->digits == 0 && p->method->series
            && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;
 }

@@ -264,7 +264,7 @@ say_watched(const qdot_stage *s, const qdot_plan *p, qdot_text *out)
         qdot_text_format(out, "%s%s", i ? ", " : found ? " and bounds of " : "bounds of ",
                          p->names[s->domains.at[i].coordinate]);
     found += s->domains.n;
-    if (s->switches.surfaces.n > 0)
+    if (qdot_switches_own(&s->switches) > 0)
         qdot_text_format(out, "%sswitches", found ? " and " : "");
 }
 
@@ -321,7 +321,7 @@ say_parts(const qdot_stage *s, const qdot_plan *p, double tol, qdot_text *out)
 static qdot_status
 say_switches(const qdot_stage *s, qdot_text *out)
 {
-    for (size_t i = 0; i < s->switches.surfaces.n; i++) {
+    for (size_t i = 0; i < qdot_switches_own(&s->switches); i++) {
         qdot_text_add(out, i ? ", " : "switches: located, a plan for each side; at ");
         if (s->switches.surfaces.at[i].steps)
             qdot_text_add(out, "whole ");
@@ -329,7 +329,7 @@ say_switches(const qdot_stage *s, qdot_text *out)
                             out));
         qdot_text_add(out, s->switches.surfaces.at[i].steps ? "" : " = 0");
     }
-    qdot_text_add(out, s->switches.surfaces.n ? "\n" : "");
+    qdot_text_add(out, qdot_switches_own(&s->switches) ? "\n" : "");
     for (size_t i = 0; i < s->events.n; i++)
         qdot_text_format(out, "%s%s", i ? ", " : "events: ", s->events.at[i].name);
     qdot_text_add(out, s->events.n ? "\n" : "");

@@ -29,8 +29,12 @@ name(const qdot_run *run, size_t surface, qdot_text *to)
     const qdot_switches *s = &run->stage.switches;
     const qdot_expr u = s->surfaces.at[surface].u;
 
-    qdot_text_add(to, qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
-                                                                         : "sticks at ");
+    if (s->surfaces.at[surface].contact)
+        qdot_text_format(to, "rests on %s: ",
+                         run->stage.events.at[s->surfaces.at[surface].event].name);
+    else
+        qdot_text_add(to, qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
+                                                                             : "sticks at ");
     return qdot_stage_describe(&run->stage, surface, 0, to);
 }
 
@@ -85,7 +89,7 @@ qdot_slides_tell(qdot_run *run)
 
         for (size_t k = 0; k < run->course.tr.pieces.n; k++)
             slid = slid || slides(run, k, i);
-        run->plan->read_side[i] = slid ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
+        run->plan->read_side[i] = slid && !run->stage.switches.surfaces.at[i].contact ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
         QDOT_TRY(tell(run, i));
     }
     return QDOT_OK;

@@ -1,0 +1,205 @@
+/* piece-contact.c -- contacts that last: where one begins, and whether a change of the state leaves
+ * it. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "sim/model/contact.h"
+#include "sim/course/piece.h"
+
+/* Two velocities count as equal up to this. */
+static const double alike = 1e-9;
+/* The speed of a trial impact. */
+static const double trial = 1e-3;
+/* What a contact may leave out: the height of the bounces to come, in roundings of the place. Lower
+ * ones are lost in these. */
+static const double least_height = 1e7 * DBL_EPSILON;
+/* A speed above this is none of rest. */
+static const double fastest = 1e-4;
+
+/* --- whether the event is an impact on a smooth wall ---------------------------------- */
+
+/* The direction M^-1 du/dq [n] times the reaction at the start: q'' of the mode less that without
+ * the contact, `free`; *size its length. */
+static qdot_status
+direction(qdot_piece *x, size_t mode, size_t free, double *d, double *size)
+{
+    const size_t n = x->n / 2;
+    double *rates = qdot_malloc(2 * x->n * sizeof *rates);
+    qdot_status status = rates ? QDOT_OK : QDOT_ENOMEM;
+
+    *size = 0;
+    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
+        const qdot_ode_system *system = x->c->systems.at + (k ? free : mode);
+
+        status = system->rhs(x->start.t, x->start.y, rates + k * x->n, system->user);
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        d[i] = rates[n + i] - rates[x->n + n + i];
+        *size = hypot(*size, d[i]);
+    }
+    qdot_free(rates);
+    return status;
+}
+
+/* Whether `then` at the start with its velocities less `speed` d/|d| gives them back, turned about by
+ * 0 ... 1 times that speed. */
+static qdot_status
+is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double size, double speed,
+          bool *yes)
+{
+    const size_t n = x->n / 2;
+    double *old = qdot_malloc(2 * x->n * sizeof *old), *y = old + x->n, back = 0, aside = 0;
+    double scale = 1;
+    qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
+
+    *yes = false;
+    if (status == QDOT_OK) {
+        memcpy(old, x->start.y, x->n * sizeof *old);
+        for (size_t i = 0; i < n; i++)
+            old[n + i] -= speed * d[i] / size;
+        memcpy(y, old, x->n * sizeof *y);
+        status = qdot_piece_change(x, e, x->start.t, old, y);
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        back += (y[n + i] - old[n + i]) * d[i] / size;
+        scale = fmax(scale, fabs(old[n + i]));
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        aside = fmax(aside, fabs(y[n + i] - old[n + i] - back * d[i] / size));
+    *yes = status == QDOT_OK && aside <= alike * (speed + DBL_EPSILON * scale / alike)
+           && back >= speed * (1 - 1e-6) - alike * scale
+           && back <= 2 * speed * (1 + 1e-6) + alike * scale;
+    qdot_free(old);
+    return qdot_grave(status);
+}
+
+static qdot_status
+is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, bool *yes)
+{
+    const qdot_staged_event *e = &x->c->stage->events.at[event];
+    double *d = qdot_malloc((x->n + 1) * sizeof *d), size;
+    qdot_status status = d ? direction(x, mode, free, d, &size) : QDOT_ENOMEM;
+
+    *yes = status == QDOT_OK && size > 0 && isfinite(size);
+    if (*yes)
+        status = is_impact(x, e, d, size, 0, yes);
+    if (status == QDOT_OK && *yes)
+        status = is_impact(x, e, d, size, trial, yes);
+    qdot_free(d);
+    return qdot_grave(status);
+}
+
+/* How large the terms of u are: what u is changed by if q is by its own size. */
+static qdot_status
+size_of_place(qdot_piece *x, size_t surface, double *size)
+{
+    const double by = 0x1p-20;
+    double *y = qdot_malloc((x->n + 1) * sizeof *y), u0 = 0, u1 = 0;
+    const size_t free = x->mode;
+    qdot_status status = y ? qdot_piece_enter(x) : QDOT_ENOMEM; /* the mode of the contact */
+
+    for (size_t i = 0; i < x->n && y; i++)
+        y[i] = x->start.y[i] * (i < x->n / 2 ? 1 + by : 1);
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t,
+                                         x->start.y, surface, 0, &u0);
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, y,
+                                         surface, 0, &u1);
+    *size = fabs(u1 - u0) / by;
+    x->mode = free;
+    qdot_free(y);
+    return status;
+}
+
+/* --- where one begins ----------------------------------------------------------------- */
+
+/* Enter the contact at the start of the piece; *moved by how much that is off it. */
+static qdot_status
+enter(qdot_piece *x, size_t surface, double *moved, bool *can)
+{
+    const size_t free = x->mode, n = x->n;
+    double *kept = qdot_malloc((n + 1) * sizeof *kept);
+    qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
+
+    *can = false;
+    if (!kept)
+        return status;
+    memcpy(kept, x->start.y, n * sizeof *kept);
+    x->side[surface] = QDOT_SIDE_SLIDES;
+    status = qdot_piece_enter(x);
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, n / 2, x->start.t, x->start.y,
+                                        moved);
+    if (status == QDOT_OK && isfinite(*moved))
+        status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free,
+                                can);
+    if (status != QDOT_OK || !*can) {
+        memcpy(x->start.y, kept, n * sizeof *kept);
+        x->side[surface] = 0;
+    }
+    x->mode = free;
+    qdot_free(kept);
+    return qdot_grave(status);
+}
+
+qdot_status
+qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, bool *soon)
+{
+    const size_t surface = qdot_contacts_surface(&x->c->stage->switches, event, way);
+    double *kept, moved = 0, noise = 0, height;
+    qdot_status status;
+
+    *lasts = *soon = false;
+    if (surface == SIZE_MAX || x->side[surface] == QDOT_SIDE_SLIDES)
+        return QDOT_OK;
+    kept = qdot_malloc((x->n + 1) * sizeof *kept);
+    if (!kept)
+        return QDOT_ENOMEM;
+    memcpy(kept, x->start.y, x->n * sizeof *kept);
+    status = enter(x, surface, &moved, lasts);
+    if (status == QDOT_OK && *lasts)
+        status = size_of_place(x, surface, &noise);
+    height = moved * left;
+    if (status == QDOT_OK && *lasts
+        && (moved > fastest || height > least_height * fmax(noise, 0x1p-24))) {
+        *lasts = false;
+        *soon = moved <= fastest || left > 0;
+        x->side[surface] = 0;
+        memcpy(x->start.y, kept, x->n * sizeof *kept);
+    }
+    qdot_free(kept);
+    return status;
+}
+
+/* --- after a change ------------------------------------------------------------------- */
+
+/* The contacts that a new state leaves end; c->reason if it is pushed into one. */
+qdot_status
+qdot_piece_keep_contacts(qdot_piece *x)
+{
+    const qdot_switches *s = &x->c->stage->switches;
+    const qdot_sliding_rows *held = &qdot_piece_mode(x)->held;
+
+    for (size_t i = qdot_switches_own(s); i < s->surfaces.n; i++) {
+        double place, rate;
+
+        if (x->side[i] != QDOT_SIDE_SLIDES || qdot_piece_mode(x)->side[i] != QDOT_SIDE_SLIDES)
+            continue;
+        QDOT_TRY(qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place));
+        QDOT_TRY(qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 1, &rate));
+        place *= s->surfaces.at[i].reaction;
+        rate *= s->surfaces.at[i].reaction;
+        if (fabs(place) <= alike && fabs(rate) <= alike)
+            continue;
+        x->side[i] = 0;
+        if (place > alike || (fabs(place) <= alike && rate > 0))
+            continue;
+        snprintf(x->c->reason, sizeof x->c->reason,
+                 "stopped at t = %.15g: an event pushes the motion into the contact at %.100s, and "
+                 "nothing says what comes of it",
+                 x->start.t, x->c->stage->events.at[s->surfaces.at[i].event].name);
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,64 @@
+/* contact.c -- the surfaces of events whose contacts may last. */
+#include "sim/model/contact.h"
+
+#include <stdio.h>
+
+#include "sim/model/substitute.h"
+
+/* Whether an event sets velocities only, and is a place at rest: u of q. One that moves does work, of
+ * which the drift of the energy does not know. */
+static bool
+may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
+{
+    const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER
+                            | QDOT_HAS_TIME;
+
+    if (event->stop || event->targets.n == 0
+        || !(qdot_expr_node(scene->pool, u)->holds & QDOT_HAS_COORD)
+        || (qdot_expr_node(scene->pool, u)->holds & others))
+        return false;
+    for (size_t i = 0; i < event->targets.n; i++)
+        if (!(qdot_expr_node(scene->pool, event->targets.at[i])->holds & QDOT_HAS_VELOCITY))
+            return false;
+    return true;
+}
+
+static qdot_status
+add(qdot_switches *s, size_t event, qdot_expr u, int way)
+{
+    qdot_surface x = {.u = u, .contact = true, .event = event, .reaction = -way};
+    char name[32];
+
+    snprintf(name, sizeof name, "contact %zu", ++s->contacts);
+    x.side = qdot_symbol_get(s->pool, QDOT_FORMAL, name);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_vec_push(&s->surfaces, x);
+}
+
+qdot_status
+qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *r, qdot_switches *s)
+{
+    for (size_t i = 0; i < scene->events.n && r->digits == 0 && !r->lanes; i++) {
+        const qdot_event *event = &scene->events.at[i];
+        const qdot_expr u = qdot_substitute(
+            s->pool, qdot_sub(s->pool, event->left, event->right), r->n_values, r->symbols,
+            r->values);
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        if (!may_last(scene, event, u))
+            continue;
+        for (int way = -1; way <= 1; way += 2)
+            if (event->way == 0 || event->way == way)
+                QDOT_TRY(add(s, i, u, way));
+    }
+    return QDOT_OK;
+}
+
+size_t
+qdot_contacts_surface(const qdot_switches *s, size_t event, int way)
+{
+    for (size_t i = qdot_switches_own(s); i < s->surfaces.n; i++)
+        if (s->surfaces.at[i].event == event && s->surfaces.at[i].reaction == -way)
+            return i;
+    return SIZE_MAX;
+}

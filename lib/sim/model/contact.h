@@ -1,0 +1,29 @@
+/* contact.h -- contacts that last: a ball that has come to rest on the floor of its event.
+ *
+ *     event bounce: y = 0 falling then y' = -e*y'
+ *
+ * Where such an event comes ever faster, or the motion does not leave it, the contact lasts: u = 0 of
+ * the event is held by a reaction that only pushes, until it would have to pull. This is a mode as
+ * sliding is (sim/model/sliding.h), with the reaction as its share; u is a surface of the switches behind
+ * those of the equations, one for each side that it may be met from.
+ *
+ * It is what the event means only if `then` is an impact on a smooth wall: it sets velocities alone, by
+ * a change along M^-1 du/dq that turns du/dt about, to at most its size, and leaves a motion with du/dt
+ * = 0 as it is; and u is of q alone. Anything else ends the run as before.
+ *
+ * Tests  tests/script/resting.lag
+ */
+#ifndef QDOT_SIM_CONTACT_H
+#define QDOT_SIM_CONTACT_H
+
+#include "mech/scene/scene.h"
+#include "sim/model/switch.h"
+
+/* Append the surfaces of contacts of a run to its switches. Errors: those of the pool, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *request,
+                                               qdot_switches *switches);
+
+/* The surface of an event whose contact keeps du/dt from the sign `way`; SIZE_MAX: none. */
+size_t qdot_contacts_surface(const qdot_switches *switches, size_t event, int way);
+
+#endif
