@@ -10,7 +10,6 @@ hamiltonian p[x]^2/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
-longtime 0..10
 sweep mu = 0..1 count 3 run 0..1 : x threads 4
 poincare x = 0 rising : y
 lyapunov 0..10

@@ -520,7 +520,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
 
 /* The tolerance that a run of many steps takes, in place of tol. */
 static qdot_status
-foresee(const qdot_run *run, double tol, double *better)
+foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
 {
     const qdot_long_run it = {.plan = run->plan,
                               .system = qdot_course_systems(&run->course),
@@ -530,9 +530,17 @@ foresee(const qdot_run *run, double tol, double *better)
                               .t1 = run->t1,
                               .tol = tol};
 
+    bool conserved = false;
+
     *better = tol;
-    return is_whole(run) && run->stage.events.n == 0 ? qdot_long_run_tolerance(&it, better)
-                                                     : QDOT_OK;
+    if (!is_whole(run) || run->stage.events.n > 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_long_run_tolerance(&it, better));
+    if (*better != tol)
+        QDOT_TRY(qdot_mech_energy_conserved(scene, &conserved));
+    if (!conserved) /* nothing to keep */
+        *better = tol;
+    return QDOT_OK;
 }
 
 /* Add to the notice that the tolerance is a tighter one. */
@@ -572,7 +580,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
     }
     *better = request->tol;
     if (status == QDOT_OK && !request->digits)
-        status = foresee(run, request->tol, better);
+        status = foresee(scene, run, request->tol, better);
     if (status == QDOT_OK && *better != request->tol) {
         qdot_run_free(run);
         return QDOT_OK;
