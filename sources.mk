@@ -498,6 +498,7 @@ library_sources = \
 	lib/sim/run/describe.c \
 	lib/sim/run/long-run.c \
 	lib/sim/run/run-doubts.c \
+	lib/sim/run/run-report.c \
 	lib/sim/run/run-start.c \
 	lib/sim/run/run.c \
 	lib/sim/run/scales.c \
@@ -937,6 +938,7 @@ library_headers = \
 	lib/sim/run/chart-run.h \
 	lib/sim/run/long-run.h \
 	lib/sim/run/run-doubts.h \
+	lib/sim/run/run-report.h \
 	lib/sim/run/run-start.h \
 	lib/sim/run/run.h \
 	lib/sim/run/scales.h \

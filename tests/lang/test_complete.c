@@ -100,7 +100,7 @@ what_may_stand_is_offered_and_no_more(void **state)
         {"event e: theta = 0 ", "falling for rising stop then"},
         {"event e: theta = 0 falling ", "for stop then"},
         {"event e: theta = 0 then theta' = -theta', p", "part party phi"},
-        {"reset ", "for scene start"},
+        {"reset ", "for scale scene start"},
         {"param ", ""},
         {"coord ", ""},
         {"run 0..20", ""},

@@ -250,11 +250,27 @@ is_poor(const qdot_run *run, double tol)
            run->report.error > poor_error * tol;
 }
 
+/* Whether a run that arrived has passed through a place where the chart's reading turns: (theta, phi)
+ * and (-theta, phi + pi) are one point, and its own coordinates may take the other way. */
+static bool
+takes_another_way(const qdot_run *other, const qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const double *own = tr->y + (tr->count - 1) * tr->n;
+    bool another = false;
+
+    for (size_t i = 0; i < other->chart->n && i < run->plan->n; i++)
+        another = another || fabs(own[i] - other->chart->end[i]) > 1;
+    return another && !run->hidden;
+}
+
 static bool
 is_better(const qdot_run *other, const qdot_run *run)
 {
     if (!run || run->report.status == QDOT_RUN_FAILED)
         return true;
+    if (takes_another_way(other, run))
+        return false;
     return other->report.error < run->report.error ||
            (isnan(run->report.error) && !isnan(other->report.error));
 }

@@ -1,0 +1,13 @@
+/* run-report.h -- what a run tells of itself.
+ *
+ * Tests  tests/sim/test_run.c, tests/script/run.sh
+ */
+#ifndef QDOT_SIM_RUN_REPORT_H
+#define QDOT_SIM_RUN_REPORT_H
+
+#include "sim/course/run-state.h"
+
+/* Fill run->report, but for the error, from the run, made under `tol`. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_run_fill_report(qdot_run *run, double tol);
+
+#endif
