@@ -17,19 +17,21 @@ static const char look[] = "set encoding utf8\n"
                            "set samples 2\n";
 
 /* Okabe and Ito's palette, told apart by eyes that do not see all colours, its yellow darkened;
- * then four more. */
+ * then six more. */
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#56b4e9", "#e69f00", "#000000", "#8a6d00",
-                                      "#7f7f7f", "#332288", "#882255", "#6b8e23"};
+                                      "#7f7f7f", "#332288", "#882255", "#6b8e23",
+                                      "#44aa99", "#aa4499"};
 
 /* Of several curves each has a pattern, too: they differ on grey paper. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
-static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2};
+static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15};
 
 enum {
     COLOURS = sizeof colours / sizeof *colours,
     DASHES = sizeof dashes / sizeof *dashes,
-    MARKS = sizeof marks / sizeof *marks
+    MARKS = sizeof marks / sizeof *marks,
+    MANY_MARKS = 24 /* on a curve */
 };
 
 /* --- the data ----------------------------------------------------------------------- */
@@ -201,6 +203,15 @@ has_key_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
            0.5 * d->points / 28.35 * (double)key_width(panel) < 0.3 * d->width;
 }
 
+/* The distance of the rows of a key beside the axes, in lines: less than one where there are many. */
+static double
+spacing_beside(const qdot_figure_drawing *d, const qdot_panel *panel)
+{
+    const double line = 1.5 * d->points / 28.35, around = 3.6; /* of gnuplot, in cm */
+
+    return fmax(0.5, fmin(1, (d->height - around) / (line * (double)panel->n)));
+}
+
 /* high: of the axes in cm, where they were placed */
 static void
 add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
@@ -210,8 +221,10 @@ add_key(const qdot_figure_drawing *d, const qdot_panel *panel, double high)
     if (rows == 0)
         qdot_text_add(d->script, "unset key\n");
     else if (has_key_beside(d, panel))
-        qdot_text_add(d->script, "set key at graph 1.02, graph 1 left top vertical Left reverse "
-                                 "samplen 2.5\n");
+        qdot_text_format(d->script,
+                         "set key at graph 1.02, graph 1 left top vertical maxrows %zu Left reverse "
+                         "samplen 2.5 spacing %.2f\n",
+                         panel->n, spacing_beside(d, panel));
     else if (qdot_figure_is_space(panel))
         qdot_text_add(d->script, "set key inside right top vertical Left reverse samplen 2.5\n");
     else {
@@ -356,6 +369,9 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                              point ? "" : "lines", marks[k % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
+        if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* not to hide each other */
+            qdot_text_format(d->script, " pointinterval %zu",
+                             panel->curves[k].rows / (MANY_MARKS / 2));
         qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
         if (panel->n > 1 && !panel->marks && !panel->points && !point)
             qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);

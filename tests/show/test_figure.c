@@ -403,6 +403,27 @@ a_long_key_stands_beside_the_axes(void **state)
     text = script_of_panel(&figure);
     assert_non_null(strstr(text, "set key at graph 1.02, graph 1 left top"));
     assert_non_null(strstr(text, "set rmargin at screen 0.6"));
+    assert_non_null(strstr(text, "maxrows 6 Left reverse samplen 2.5 spacing 1.00\n"));
+    free(text);
+}
+
+/* Fourteen rows are closer, so that none is lost below. */
+static void
+a_key_of_many_has_all_its_rows(void **state)
+{
+    qdot_curve many[14];
+    qdot_panel figure = two_curves();
+    char *text;
+
+    (void)state;
+    for (int i = 0; i < 14; i++) {
+        many[i] = both[i % 2];
+        many[i].label = (qdot_figure_label){"fourteen signs", false};
+    }
+    figure.curves = many;
+    figure.n = 14;
+    text = script_of_panel(&figure);
+    assert_non_null(strstr(text, "maxrows 14 Left reverse samplen 2.5 spacing 0.6"));
     free(text);
 }
 
@@ -780,6 +801,7 @@ main(void)
         cmocka_unit_test(formulas_are_set),
         cmocka_unit_test(several_curves_have_patterns),
         cmocka_unit_test(a_long_key_stands_beside_the_axes),
+        cmocka_unit_test(a_key_of_many_has_all_its_rows),
         cmocka_unit_test(panels_share_their_abscissa),
         cmocka_unit_test(ranges_and_sizes_are_kept_to),
         cmocka_unit_test(paths_in_space_have_three_axes),

@@ -61,3 +61,23 @@ qdot_error_time_show(qdot_session *session, const qdot_error_time *of)
     qdot_free(values);
     return status;
 }
+
+qdot_status
+qdot_error_time_read(qdot_cursor *c, const char *expected, qdot_figure_choice *figure,
+                     qdot_panel_choice *panel)
+{
+    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
+    const qdot_token *start = c->at;
+    bool good = false;
+
+    QDOT_TRY(qdot_figure_option_read(c, figure, panel));
+    if (!qdot_cursor_is_end(c))
+        return qdot_cursor_expected(c, expected);
+    for (size_t i = 0; figure->path != NULL && i < sizeof known / sizeof *known; i++)
+        good = good || qdot_ends_in(figure->path, known[i]);
+    if (good || figure->path == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold", figure->path);
+    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+}

@@ -4,7 +4,7 @@
 #define QDOT_LANG_ERROR_TIME_H
 
 #include "lang/figures/figure-option.h"
-#include "lang/session/session.h"
+#include "lang/language/cursor.h"
 
 typedef struct {
     const char *name; /* points of one name stand together */
@@ -21,6 +21,12 @@ typedef struct {
     const qdot_figure_choice *figure;
     const qdot_panel_choice *panel;
 } qdot_error_time;
+
+/* Read the options of such a statement up to its end; its file is a figure, .csv or .txt. expected:
+ * what else might stand here. Errors: QDOT_ESYNTAX, QDOT_EINVAL. */
+QDOT_MUST_CHECK qdot_status qdot_error_time_read(qdot_cursor *c, const char *expected,
+                                                 qdot_figure_choice *figure,
+                                                 qdot_panel_choice *panel);
 
 /* Draw it, into its file or a window. Errors: QDOT_EFAILED with `none`, those of the file. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,

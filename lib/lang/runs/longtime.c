@@ -172,9 +172,7 @@ tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
 static qdot_status
 read_options(qdot_cursor *c, choices *chosen)
 {
-    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
-    const qdot_token *start = c->at;
-    bool good = false;
+    const qdot_token *start;
 
     for (;;) {
         if (qdot_cursor_accept_word(c, "tol")) {
@@ -194,18 +192,8 @@ read_options(qdot_cursor *c, choices *chosen)
             break;
         }
     }
-    start = c->at;
-    QDOT_TRY(qdot_figure_option_read(c, &chosen->figure, &chosen->panel));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, "`tol`, `method`, " QDOT_FIGURE_OPTIONS);
-    for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
-        good = good || qdot_ends_in(chosen->figure.path, known[i]);
-    if (good || chosen->figure.path == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
-                    chosen->figure.path);
-    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+    return qdot_error_time_read(c, "`tol`, `method`, " QDOT_FIGURE_OPTIONS, &chosen->figure,
+                                &chosen->panel);
 }
 
 qdot_status

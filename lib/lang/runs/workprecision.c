@@ -225,26 +225,6 @@ tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
     return status;
 }
 
-static qdot_status
-read_options(qdot_cursor *c, choices *chosen)
-{
-    static const char *const known[] = {".csv", ".txt", ".svg", ".png", ".pdf"};
-    const qdot_token *start = c->at;
-    bool good = false;
-
-    QDOT_TRY(qdot_figure_option_read(c, &chosen->figure, &chosen->panel));
-    if (!qdot_cursor_is_end(c))
-        return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
-    for (size_t i = 0; chosen->figure.path != NULL && i < sizeof known / sizeof *known; i++)
-        good = good || qdot_ends_in(chosen->figure.path, known[i]);
-    if (good || chosen->figure.path == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold",
-                    chosen->figure.path);
-    return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
-}
-
 /* A whole study is kept for reports (lang/files/report-work.h). */
 static qdot_status
 keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
@@ -270,7 +250,7 @@ qdot_workprecision_statement(qdot_cursor *c)
     qdot_status status;
 
     QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(read_options(c, &chosen));
+    QDOT_TRY(qdot_error_time_read(c, QDOT_FIGURE_OPTIONS, &chosen.figure, &chosen.panel));
     c->error_at = start->start;
     status = qdot_request_fill(session, &order);
     if (status == QDOT_OK)
