@@ -3,6 +3,7 @@
 #include "scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "sim/course/stage.h"
 #include "sim/model/sliding.h"
