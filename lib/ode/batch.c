@@ -1,5 +1,6 @@
 /* batch.c -- steps by Taylor series in independent lanes. */
 #include "ode/batch.h"
+#include "ode/run.h"
 
 #include <float.h>
 #include <math.h>
@@ -354,10 +355,7 @@ check(const qdot_ode_batch *system, const qdot_batch_run *run)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
     if (run->order < 2 || run->order > QDOT_SERIES_MOST)
         return qdot_fail(QDOT_EINVAL, "an order of %d is out of range", run->order);
-    if (!(run->tol >= 1e-16 && run->tol <= 1)) {
-        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", run->tol);
-        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
-    }
+    QDOT_TRY(qdot_ode_check_tolerance(run->tol));
     for (size_t m = 0; m < run->members; m++) {
         if (!isfinite(run->t0[m]) || !isfinite(run->t1[m]))
             return qdot_fail(QDOT_EINVAL, "the limits of member %zu are not finite", m + 1);

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "num/lu.h"
+#include "ode/run.h"
 
 void
 qdot_radau_linear_clear(qdot_radau_linear *l)
@@ -60,11 +61,8 @@ qdot_radau_linear_init(qdot_radau_linear *l, const qdot_ode_system *system)
 static qdot_status
 check_finite(const double *x, size_t n, const char *what)
 {
-    double sum = 0;
-
-    for (size_t i = 0; i < n; i++)
-        sum += 0 * x[i];
-    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the %s is not finite", what);
+    return qdot_ode_all_finite(x, n) ? QDOT_OK
+                                     : qdot_fail(QDOT_EDOMAIN, "the %s is not finite", what);
 }
 
 qdot_status

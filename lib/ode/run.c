@@ -1,5 +1,38 @@
-/* run.c -- the common beginning of integrations. */
+/* run.c -- the common beginning and end of integrations. */
 #include "ode/run.h"
+
+#include <math.h>
+#include <string.h>
+
+qdot_status
+qdot_ode_check_tolerance(double tol)
+{
+    if (tol >= 1e-16 && tol <= 1)
+        return QDOT_OK;
+    qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", tol);
+    return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
+}
+
+qdot_status
+qdot_ode_check_limits(const qdot_ode_system *system, double t0, double t1, const double *y)
+{
+    if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
+        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
+    for (size_t i = 0; i < system->n; i++)
+        if (!isfinite(y[i]))
+            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
+    return QDOT_OK;
+}
+
+void
+qdot_ode_end(qdot_ode_result *result, double t, qdot_status status)
+{
+    result->t = t;
+    if (status == QDOT_OK)
+        return;
+    result->outcome = QDOT_ODE_FAILED;
+    memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
+}
 
 qdot_status
 qdot_ode_enter(const qdot_ode_system *system, const qdot_ode_options *options, double t,

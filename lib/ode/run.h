@@ -18,8 +18,8 @@ typedef struct {
     uint64_t factorisations; /* LU, inside the method; for msbdf a lower bound (GSL does
                                 not tell); a step of bsimp broken off counts in full */
     uint64_t projections;    /* steps whose end was moved by system->project */
-    double raised;           /* by Taylor series and radau: the tolerance that rounding of the equations left,
-                                where it is more than that asked for; else 0 */
+    double raised;           /* by Taylor series and radau: the tolerance that rounding of the
+                                equations left, where it is more than that asked for; else 0 */
     double cpu;              /* seconds of this thread */
 } qdot_ode_stats;
 
@@ -100,6 +100,39 @@ typedef struct {
     qdot_ode_stats stats;
     char reason[512]; /* of a failure; else "" */
 } qdot_ode_result;
+
+/* The tolerance and the number of steps tried of these options, or their defaults. */
+static inline double
+qdot_ode_tolerance(const qdot_ode_options *options)
+{
+    return options->tol != 0 ? options->tol : 1e-12;
+}
+
+static inline uint64_t
+qdot_ode_most_steps(const qdot_ode_options *options)
+{
+    return options->max_steps ? options->max_steps : 50000000;
+}
+
+/* Whether all x [n] are finite: then every 0 x is 0, else NaN. */
+static inline bool
+qdot_ode_all_finite(const double *x, size_t n)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += 0 * x[i];
+    return sum == 0;
+}
+
+/* QDOT_EINVAL, with the reason: a tolerance that no double can hold; limits or an initial state that are
+ * not finite. */
+QDOT_MUST_CHECK qdot_status qdot_ode_check_tolerance(double tol);
+QDOT_MUST_CHECK qdot_status qdot_ode_check_limits(const qdot_ode_system *system, double t0,
+                                                  double t1, const double *y);
+
+/* Put how an integration ended, at t with that status, into its result. */
+void qdot_ode_end(qdot_ode_result *result, double t, qdot_status status);
 
 /* Begin an integration: enter the solution through y [n] at t (system->following), unless
  * options->goes_on. Failures become QDOT_EFAILED, with the time. */

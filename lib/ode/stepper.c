@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "num/sum.h"
+#include "ode/run.h"
 #include "ode/scale.h"
 
 static pthread_once_t handler_once = PTHREAD_ONCE_INIT;
@@ -19,23 +20,12 @@ handler_off(void)
     gsl_set_error_handler_off();
 }
 
-/* Whether all x are finite: then every 0 x is 0, else NaN. */
-static bool
-all_finite(const double *x, size_t n)
-{
-    double sum = 0;
-
-    for (size_t i = 0; i < n; i++)
-        sum += 0 * x[i];
-    return sum == 0;
-}
-
 qdot_status
 qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t, const double *y, double *dydt)
 {
     s->evaluations++;
     QDOT_TRY(s->system->rhs(t, y, dydt, s->system->user));
-    if (!all_finite(dydt, s->system->n))
+    if (!qdot_ode_all_finite(dydt, s->system->n))
         return qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
     return QDOT_OK;
 }
@@ -81,7 +71,7 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
     if (s->method->multistep)
         s->factorisations++;
     s->broken = s->system->jacobian(t, y, dfdy, dfdt, s->system->user);
-    if (s->broken == QDOT_OK && !(all_finite(dfdy, n * n) && all_finite(dfdt, n)))
+    if (s->broken == QDOT_OK && !(qdot_ode_all_finite(dfdy, n * n) && qdot_ode_all_finite(dfdt, n)))
         s->broken = qdot_fail(QDOT_EDOMAIN, "the Jacobian is not finite");
     if (s->broken != QDOT_OK)
         return GSL_FAILURE;
@@ -187,10 +177,7 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
     *out = NULL;
     if (system->n == 0)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
-    if (!(tol >= 1e-16 && tol <= 1)) {
-        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", tol);
-        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
-    }
+    QDOT_TRY(qdot_ode_check_tolerance(tol));
     if (!method->stepper && !method->kernel)
         return qdot_fail(QDOT_EINVAL, "%s is no stepper", method->name);
     if (method->needs_jacobian && !system->jacobian)

@@ -15,9 +15,6 @@
 #include "ode/taylor-numbers.h"
 #include "ode/taylor-run.h"
 
-static const double tol_default = 1e-12;
-static const uint64_t max_steps_default = 50000000;
-
 enum { ARRAYS = 10 };
 
 typedef qdot_ode_taylor_run run;
@@ -541,19 +538,12 @@ make_room(run *r)
 static qdot_status
 prepare(run *r, double t0, double t1, const double *y)
 {
-    if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
-        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
+    QDOT_TRY(qdot_ode_check_limits(r->system, t0, t1, y));
     if (r->n == 0)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
     if (!r->series)
         return qdot_fail(QDOT_EINVAL, "taylor needs the Taylor series of the equations");
-    if (!(r->tol >= 1e-16 && r->tol <= 1)) {
-        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", r->tol);
-        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
-    }
-    for (size_t i = 0; i < r->n; i++)
-        if (!isfinite(y[i]))
-            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
+    QDOT_TRY(qdot_ode_check_tolerance(r->tol));
     QDOT_TRY(make_room(r));
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
@@ -607,8 +597,8 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    r.tol = r.options->tol != 0 ? r.options->tol : tol_default;
-    r.max_steps = r.options->max_steps ? r.options->max_steps : max_steps_default;
+    r.tol = qdot_ode_tolerance(r.options);
+    r.max_steps = qdot_ode_most_steps(r.options);
     status = prepare(&r, t0, t1, y);
     if (status == QDOT_OK)
         status = qdot_ode_enter(system, r.options, t0, y);
@@ -620,10 +610,6 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
     }
     release(&r);
     result->stats.cpu = qdot_cpu_now() - cpu_start;
-    result->t = r.t;
-    if (status != QDOT_OK) {
-        result->outcome = QDOT_ODE_FAILED;
-        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
-    }
+    qdot_ode_end(result, r.t, status);
     return status;
 }

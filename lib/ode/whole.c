@@ -23,9 +23,6 @@ static const double aim = 0.1;
 /* A step grows by so much or not at all where another size is dear. */
 static const double worthwhile = 1.2;
 
-static const double tol_default = 1e-12;
-static const uint64_t max_steps_default = 50000000;
-
 /* Tries at one place that fail because f is undefined: each divides the step by 4, so
  * this many reach the spacing of doubles from any step. */
 static const int max_undefined = 60;
@@ -78,7 +75,8 @@ norm(const run *r, const double *x, const double *y)
     double largest = 0;
 
     for (size_t i = 0; i < r->s->system->n; i++)
-        largest = fmax(largest, fabs(x[i]) / (r->s->tol * qdot_ode_size(r->s->system->scales, i, y[i])));
+        largest = fmax(largest, fabs(x[i])
+                                    / (r->s->tol * qdot_ode_size(r->s->system->scales, i, y[i])));
     return largest;
 }
 
@@ -358,17 +356,6 @@ loop(run *r)
     return QDOT_OK;
 }
 
-static qdot_status
-check_arguments(const qdot_ode_system *system, double t0, double t1, const double *y)
-{
-    if (!isfinite(t0) || !isfinite(t1) || !isfinite(t1 - t0))
-        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
-    for (size_t i = 0; i < system->n; i++)
-        if (!isfinite(y[i]))
-            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
-    return QDOT_OK;
-}
-
 static void
 collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
 {
@@ -391,19 +378,19 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
              .t1 = t1,
              .undefined_at = NAN,
              .margin_at = NAN};
-    double tol = options->tol != 0 ? options->tol : tol_default;
+    double tol = qdot_ode_tolerance(options);
     qdot_status status;
 
     if (method->series)
         return qdot_ode_taylor_integrate(system, options, t0, t1, y, result);
     if (method->geometric)
         return qdot_geometric_integrate(system, method, options, t0, t1, y, result);
-    status = check_arguments(system, t0, t1, y);
+    status = qdot_ode_check_limits(system, t0, t1, y);
     if (status == QDOT_OK)
         status = qdot_ode_enter(system, options, t0, y);
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
     r.direction = t1 < t0 ? -1 : 1;
-    r.max_steps = options->max_steps ? options->max_steps : max_steps_default;
+    r.max_steps = qdot_ode_most_steps(options);
     if (status == QDOT_OK)
         status = qdot_ode_stepper_new(system, method, tol, &r.s);
     if (status == QDOT_OK) {
@@ -414,10 +401,6 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
         qdot_ode_stepper_free(r.s);
         qdot_ode_stiffness_clear(&r.stiffness);
     }
-    result->t = r.t;
-    if (status != QDOT_OK) {
-        result->outcome = QDOT_ODE_FAILED;
-        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
-    }
+    qdot_ode_end(result, r.t, status);
     return status;
 }

@@ -13,9 +13,6 @@
 #include "ode/meter.h"
 #include "ode/scale.h"
 
-static const double tol_default = 1e-12;
-static const uint64_t max_steps_default = 50000000;
-
 enum { trial_steps = 64, measured = 16, most_undefined = 60 };
 
 /* The trial aims at this part of the tolerance; its shortest step times `safe` is taken. */
@@ -65,27 +62,22 @@ evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *
 qdot_status
 qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
-    const size_t n = g->n;
-    double sum = 0;
-
     g->evaluations++;
     QDOT_TRY(evaluate(g, t, q, v, F));
-    for (size_t i = 0; i < n; i++)
-        sum += 0 * F[i];
-    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
+    return qdot_ode_all_finite(F, g->n)
+               ? QDOT_OK
+               : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
 }
 
 /* (q, q') of the state at t, into y [2n]. QDOT_EDOMAIN if it is not finite. */
 static qdot_status
 write_state(qdot_geometric *g, double t, double *y)
 {
-    double sum = 0;
-
     memcpy(y, g->y, g->n * sizeof *y);
     QDOT_TRY(qdot_geometric_velocity(g, t, g->y, g->y + g->n, y + g->n));
-    for (size_t i = 0; i < 2 * g->n; i++)
-        sum += 0 * y[i];
-    return sum == 0 ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "the state is not finite");
+    return qdot_ode_all_finite(y, 2 * g->n)
+               ? QDOT_OK
+               : qdot_fail(QDOT_EDOMAIN, "the state is not finite");
 }
 
 static void
@@ -229,12 +221,6 @@ find_length(run *r)
     return status;
 }
 
-static uint64_t
-most_steps(const run *r)
-{
-    return r->options->max_steps ? r->options->max_steps : max_steps_default;
-}
-
 /* f is undefined somewhere in the step. */
 static qdot_status
 undefined(run *r, double h, qdot_status status)
@@ -305,9 +291,9 @@ advance(run *r, bool *stop)
     qdot_status status;
 
     QDOT_TRY(qdot_interrupt_check());
-    if (r->result->stats.steps + r->result->stats.rejected >= most_steps(r))
+    if (r->result->stats.steps + r->result->stats.rejected >= qdot_ode_most_steps(r->options))
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
-                         (unsigned long long)most_steps(r));
+                         (unsigned long long)qdot_ode_most_steps(r->options));
     status = look ? measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
     if (status != QDOT_OK)
         return undefined(r, h, status);
@@ -335,11 +321,11 @@ check_length(const run *r)
 {
     const double steps = fabs(r->t1 - r->t) / r->h;
 
-    if (steps < (double)most_steps(r))
+    if (steps < (double)qdot_ode_most_steps(r->options))
         return QDOT_OK;
     qdot_fail(QDOT_ELIMIT,
               "stopped at t = %.17g: tol %.2g takes steps of %.2g, %.2g of them: more than %.2g", r->t,
-              r->tol, r->h, steps, (double)most_steps(r));
+              r->tol, r->h, steps, (double)qdot_ode_most_steps(r->options));
     return qdot_hint("a larger tol, or a method of higher order");
 }
 
@@ -376,16 +362,8 @@ check(const run *r, double t0, const double *y)
 {
     if (!r->g.system->halves && (!r->g.system->phase || r->g.kernel->separable))
         return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
-    if (!(r->tol >= 1e-16 && r->tol <= 1)) {
-        qdot_fail(QDOT_EINVAL, "tolerance %g is out of range", r->tol);
-        return qdot_hint("a double holds 1e-16 of itself; take 1e-16 to 1");
-    }
-    if (!isfinite(t0) || !isfinite(r->t1) || !isfinite(r->t1 - t0))
-        return qdot_fail(QDOT_EINVAL, "the limits of the run are not finite");
-    for (size_t i = 0; i < r->g.system->n; i++)
-        if (!isfinite(y[i]))
-            return qdot_fail(QDOT_EINVAL, "initial value %zu is not finite", i + 1);
-    return QDOT_OK;
+    QDOT_TRY(qdot_ode_check_tolerance(r->tol));
+    return qdot_ode_check_limits(r->g.system, t0, r->t1, y);
 }
 
 /* All arrays in one. */
@@ -432,7 +410,7 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
     run r = {.g = {.system = system, .kernel = method->geometric, .n = system->n / 2},
              .options = options,
              .result = result,
-             .tol = options->tol != 0 ? options->tol : tol_default,
+             .tol = qdot_ode_tolerance(options),
              .t = t0,
              .t1 = t1,
              .direction = t1 < t0 ? -1 : 1};
@@ -462,10 +440,6 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
     qdot_free(all);
     result->stats.evaluations = r.g.evaluations;
     result->stats.cpu = qdot_cpu_now() - cpu_start;
-    result->t = r.t;
-    if (status != QDOT_OK) {
-        result->outcome = QDOT_ODE_FAILED;
-        memcpy(result->reason, qdot_last_error()->message, sizeof result->reason);
-    }
+    qdot_ode_end(result, r.t, status);
     return status;
 }
