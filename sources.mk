@@ -508,6 +508,7 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
@@ -947,6 +948,7 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \

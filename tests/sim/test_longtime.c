@@ -58,7 +58,7 @@ symplectic_methods_do_not_drift(void **state)
     oscillator(&f, false);
     must(qdot_longtime_measure(f.scene, &f.request, &l));
     assert_int_equal(l.n, qdot_ode_method_count());
-    assert_int_equal(l.n_unfit, 0);
+    assert_int_equal(l.left_out.n, 0);
     for (size_t k = 0; k < l.n; k++) {
         const qdot_longtime_row *r = l.rows + k;
 

@@ -35,7 +35,7 @@ every_method_climbs_the_ladder(void **state)
     (void)state;
     oscillator(&f, false);
     must(qdot_workprecision_measure(f.scene, &f.request, &w));
-    assert_int_equal(w.n_unfit, 0);
+    assert_int_equal(w.left_out.n, 0);
     assert_int_equal(w.n, 13 * qdot_ode_method_count());
     assert_true(w.ref_err > 0 && w.ref_err <= 0.5e-20);
     for (size_t k = 0; k < w.n; k++) {

@@ -43,9 +43,9 @@ add_table(const qdot_workprecision *w, qdot_text *page)
     qdot_text_add(page, "</table>\n<p>Errors against a reference whose own error is ");
     qdot_number_text_bound(page, w->ref_err);
     qdot_text_add(page, ".");
-    for (size_t i = 0; i < w->n_unfit; i++) {
-        qdot_text_format(page, " Method %s is left out: ", w->unfit[i].method);
-        qdot_animation_escape(page, w->unfit[i].reason);
+    for (size_t i = 0; i < w->left_out.n; i++) {
+        qdot_text_format(page, " Method %s is left out: ", w->left_out.at[i].method);
+        qdot_animation_escape(page, w->left_out.at[i].reason);
         qdot_text_char(page, '.');
     }
     qdot_text_add(page, "</p>\n");

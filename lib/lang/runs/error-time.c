@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "lang/answer/answer.h"
 #include "lang/figures/figure-file.h"
 #include "show/figure.h"
 
@@ -80,4 +81,13 @@ qdot_error_time_read(qdot_cursor *c, const char *expected, qdot_figure_choice *f
     c->error_at = start->start;
     (void)qdot_fail(QDOT_EINVAL, "`%.200s` does not say what it is to hold", figure->path);
     return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
+}
+
+qdot_status
+qdot_error_time_say_left_out(qdot_session *session, const qdot_methods_left_out *list)
+{
+    for (size_t i = 0; i < list->n; i++)
+        QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s", list->at[i].method,
+                                    list->at[i].reason));
+    return QDOT_OK;
 }

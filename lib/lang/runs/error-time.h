@@ -5,6 +5,7 @@
 
 #include "lang/figures/figure-option.h"
 #include "lang/language/cursor.h"
+#include "sim/study/left-out.h"
 
 typedef struct {
     const char *name; /* points of one name stand together */
@@ -27,6 +28,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_error_time_read(qdot_cursor *c, const char *expected,
                                                  qdot_figure_choice *figure,
                                                  qdot_panel_choice *panel);
+
+/* A notice for each method that the study left out. */
+QDOT_MUST_CHECK qdot_status qdot_error_time_say_left_out(qdot_session *session,
+                                                         const qdot_methods_left_out *list);
 
 /* Draw it, into its file or a window. Errors: QDOT_EFAILED with `none`, those of the file. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,

@@ -152,9 +152,7 @@ tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
     qdot_text text = {0};
     qdot_status status;
 
-    for (size_t i = 0; i < l->n_unfit; i++)
-        QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s", l->unfit[i].method,
-                                    l->unfit[i].reason));
+    QDOT_TRY(qdot_error_time_say_left_out(session, &l->left_out));
     if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
         QDOT_TRY(answer_table(session, l));
         if (l->interrupted && path == NULL)

@@ -210,9 +210,7 @@ tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
     qdot_text text = {0};
     qdot_status status;
 
-    for (size_t i = 0; i < w->n_unfit; i++)
-        QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s",
-                                    w->unfit[i].method, w->unfit[i].reason));
+    QDOT_TRY(qdot_error_time_say_left_out(session, &w->left_out));
     if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
         QDOT_TRY(answer_table(session, w));
         if (w->interrupted && path == NULL)

@@ -252,18 +252,6 @@ push_row(qdot_longtime *out, const qdot_longtime_row *row)
 }
 
 static qdot_status
-push_unfit(qdot_longtime *out, const char *method)
-{
-    qdot_longtime_unfit *u;
-
-    QDOT_TRY(qdot_grow(&out->unfit, &out->unfit_capacity, out->n_unfit + 1, sizeof *out->unfit));
-    u = &out->unfit[out->n_unfit++];
-    u->method = method;
-    snprintf(u->reason, sizeof u->reason, "%.299s", qdot_last_error()->message);
-    return QDOT_OK;
-}
-
-static qdot_status
 one_method(qdot_scene *scene, const qdot_run_request *request, const char *method,
            qdot_longtime *out)
 {
@@ -281,7 +269,7 @@ one_method(qdot_scene *scene, const qdot_run_request *request, const char *metho
         status = try_at(scene, request, most, &row, &done);
     }
     if (status == QDOT_ENOTBUILT && !out->method)
-        return push_unfit(out, method);
+        return qdot_methods_leave_out(&out->left_out, method);
     return status == QDOT_OK ? push_row(out, &row) : status;
 }
 
@@ -314,6 +302,6 @@ void
 qdot_longtime_clear(qdot_longtime *l)
 {
     qdot_free(l->rows);
-    qdot_free(l->unfit);
+    qdot_free(l->left_out.at);
     *l = (qdot_longtime){0};
 }

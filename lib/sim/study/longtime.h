@@ -28,6 +28,7 @@
 #include <stdint.h>
 
 #include "sim/run/run.h"
+#include "sim/study/left-out.h"
 
 enum { QDOT_LONGTIME_WINDOWS = 64 };
 
@@ -44,18 +45,12 @@ typedef struct {
 } qdot_longtime_row;
 
 typedef struct {
-    const char *method;
-    char reason[300];
-} qdot_longtime_unfit;
-
-typedef struct {
     const char *method; /* the only one; NULL: all */
     double tol;         /* of all; 0: as above */
     double budget;      /* work of a run, in about nanoseconds; 0: 3e9, of the only one without bound */
     size_t n, capacity;
     qdot_longtime_row *rows;
-    size_t n_unfit, unfit_capacity;
-    qdot_longtime_unfit *unfit;
+    qdot_methods_left_out left_out;
     bool interrupted;
 } qdot_longtime;
 

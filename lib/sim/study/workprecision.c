@@ -387,19 +387,6 @@ push_row(qdot_workprecision *out, const qdot_workprecision_row *row)
     return QDOT_OK;
 }
 
-static qdot_status
-push_unfit(qdot_workprecision *out, const char *method)
-{
-    qdot_workprecision_unfit *u;
-
-    QDOT_TRY(qdot_grow(&out->unfit, &out->unfit_capacity, out->n_unfit + 1,
-                       sizeof *out->unfit));
-    u = &out->unfit[out->n_unfit++];
-    u->method = method;
-    snprintf(u->reason, sizeof u->reason, "%.299s", qdot_last_error()->message);
-    return QDOT_OK;
-}
-
 static double
 rung(int k)
 {
@@ -451,7 +438,7 @@ measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *
 
         status = climb(scene, request, method, &r, out);
         if (status == QDOT_ENOTBUILT)
-            status = push_unfit(out, method);
+            status = qdot_methods_leave_out(&out->left_out, method);
     }
     out->interrupted = status == QDOT_EINTR && out->n > 0;
     if (out->interrupted)
@@ -477,6 +464,6 @@ void
 qdot_workprecision_clear(qdot_workprecision *w)
 {
     qdot_free(w->rows);
-    qdot_free(w->unfit);
+    qdot_free(w->left_out.at);
     *w = (qdot_workprecision){0};
 }

@@ -31,6 +31,7 @@
 #include <stdint.h>
 
 #include "sim/run/run.h"
+#include "sim/study/left-out.h"
 
 typedef struct {
     const char *method;
@@ -41,18 +42,11 @@ typedef struct {
     char status[300];  /* "done", "done: no digit is right", or "failed: " and why */
 } qdot_workprecision_row;
 
-/* A method that does not suit this scene, and why. */
-typedef struct {
-    const char *method;
-    char reason[300];
-} qdot_workprecision_unfit;
-
 typedef struct {
     double budget; /* operations that a run may take, about; 0: 3e8 */
     size_t n, capacity;
     qdot_workprecision_row *rows; /* method by method, tolerances falling */
-    size_t n_unfit, unfit_capacity;
-    qdot_workprecision_unfit *unfit;
+    qdot_methods_left_out left_out;
     double ref_err; /* error of the reference, as err */
     bool interrupted; /* by Ctrl-C: the rows so far */
     bool constraints; /* the scene has constraints */
