@@ -58,3 +58,12 @@ END
 sed "$six" r.csv
 tail -n 1 r.json | sed "$six"
 grep -c '<svg' r.svg
+# Beyond the horizon no digit is known: none is printed.
+qdot -q - <<'END' 2>&1 | sed "$six"
+coord a, b
+particle p mass 1 at (sin(a), -cos(a))
+particle q mass 1 at (sin(a) + sin(b), -cos(a) - cos(b))
+gravity (0, -9.81)
+start b = 2
+sweep a = 2..3 step 1 run 0..100 : a, energy as chaos
+END

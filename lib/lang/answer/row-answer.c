@@ -71,7 +71,8 @@ write_cell(const qdot_row_table *table, size_t k, size_t i, qdot_text *cell)
     qdot_text_truncate(cell, 0);
     if (k == table->rows)
         qdot_text_add(cell, table->labels[i]);
-    else if (isnan(table->values[at]))
+    else if (isnan(table->values[at])
+             || !qdot_number_is_known(table->values[at], table->errors[at]))
         qdot_text_char(cell, '-');
     else
         qdot_number_text(cell, table->values[at], table->errors[at]);
