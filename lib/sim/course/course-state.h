@@ -32,7 +32,7 @@ typedef struct qdot_course {
     /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
      * 0: no limit */
     uint64_t looked, most_looked;
-    double left_out; /* of velocities by layers so far, relative to max(1, |value|) */
+    double left_out; /* of velocities by layers so far, relative to their sizes (ode/scale.h) */
     size_t most_pieces; /* a companion with more is given up; 0: no limit */
     qdot_trajectory tr;
     qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes not yet met */

@@ -62,7 +62,7 @@ loop(qdot_piece *x, const double *y0)
 {
     qdot_course *c = x->c;
     double *y = x->start.y;
-    bool over = false, near;
+    bool over = false;
     qdot_status status;
 
     memcpy(y, y0, x->n * sizeof *y);
@@ -87,7 +87,7 @@ loop(qdot_piece *x, const double *y0)
         x->start.jumped = false;
         x->start.t = c->tr.t[c->tr.count - 1];
         memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
-        status = qdot_piece_keep(x, &near);
+        status = qdot_piece_keep(x, NULL);
         if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x))
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)

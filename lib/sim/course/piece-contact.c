@@ -29,11 +29,10 @@ direction(qdot_piece *x, size_t mode, size_t free, double *d, double *size)
     qdot_status status = rates ? QDOT_OK : QDOT_ENOMEM;
 
     *size = 0;
-    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
-        const qdot_ode_system *system = x->c->systems.at + (k ? free : mode);
-
-        status = system->rhs(x->start.t, x->start.y, rates + k * x->n, system->user);
-    }
+    if (status == QDOT_OK)
+        status = qdot_piece_rates(x, mode, rates);
+    if (status == QDOT_OK)
+        status = qdot_piece_rates(x, free, rates + x->n);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         d[i] = rates[n + i] - rates[x->n + n + i];
         *size = hypot(*size, d[i]);

@@ -25,6 +25,20 @@ qdot_piece_stop(qdot_piece *x, bool failed)
     x->c->tr.result.outcome = failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
 }
 
+void
+qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
+                   const char *behind)
+{
+    qdot_text text = {0};
+
+    if (qdot_stage_describe(x->c->stage, surface, side, &text) != QDOT_OK)
+        qdot_text_truncate(&text, 0);
+    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s%s", x->start.t,
+             before, text.n > 0 ? qdot_text_str(&text) : "a surface", behind);
+    qdot_text_clear(&text);
+    qdot_piece_stop(x, true);
+}
+
 static void
 say_left(qdot_piece *x, const qdot_watched *w)
 {

@@ -46,7 +46,8 @@ qdot_piece_keep(qdot_piece *x, bool *near)
 
     QDOT_TRY(qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y,
                                     &moved));
-    *near = moved <= away;
+    if (near)
+        *near = moved <= away;
     return QDOT_OK;
 }
 

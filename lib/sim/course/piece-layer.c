@@ -3,7 +3,8 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
+
+#include "ode/scale.h"
 
 /* What may be left out at tolerances below this. */
 static const double least_left_out = 16 * DBL_EPSILON;
@@ -14,30 +15,8 @@ surface(const qdot_piece *x, size_t i)
     return &x->c->stage->switches.surfaces.at[i];
 }
 
-static void
-say(qdot_piece *x, size_t i, const char *what)
-{
-    qdot_text text = {0};
-
-    if (qdot_stage_describe(x->c->stage, i, 0, &text) != QDOT_OK)
-        qdot_text_truncate(&text, 0);
-    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s",
-             x->start.t, what, text.n > 0 ? qdot_text_str(&text) : "a surface");
-    qdot_text_clear(&text);
-    qdot_piece_stop(x, true);
-}
-
-/* The rates at the start of the piece in a mode, of the whole state. */
-static qdot_status
-rates_in(const qdot_piece *x, size_t mode, double *rates)
-{
-    const qdot_ode_system *system = x->c->systems.at + mode;
-
-    return system->rhs(x->start.t, x->start.y, rates, system->user);
-}
-
 /* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what has been left
- * out of velocities since, relative to max(1, |value|). */
+ * out of velocities since, relative to its size. */
 static qdot_status
 pass_rim(qdot_piece *x, size_t i, bool leaves)
 {
@@ -49,14 +28,14 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     qdot_status status = inside ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = rates_in(x, leaves ? x->start.from : x->mode, inside);
+        status = qdot_piece_rates(x, leaves ? x->start.from : x->mode, inside);
     if (status == QDOT_OK)
-        status = rates_in(x, leaves ? x->mode : x->start.from, beyond);
+        status = qdot_piece_rates(x, leaves ? x->mode : x->start.from, beyond);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
         const double out = beyond[k] - inside[k];
 
-        most = fmax(most, fabs(x->entered ? (x->rim[k] + out) / 2 : out) /
-                              fmax(1, fabs(x->start.y[k])));
+        most = fmax(most, fabs(x->entered ? (x->rim[k] + out) / 2 : out)
+                              / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
     }
     qdot_free(inside);
@@ -64,7 +43,7 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     if (leaves)
         c->left_out += most * time;
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
-        say(x, i, "a power of what passes 0 so slowly cannot be followed at");
+        qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");
     return status;
 }
 
@@ -73,7 +52,6 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
 static qdot_status
 rests(qdot_piece *x, size_t i, bool *yes)
 {
-    const qdot_ode_system *system = x->c->systems.at + x->mode;
     const size_t n = x->n / 2;
     const double h = x->t1 - x->start.t;
     double *y = qdot_malloc(2 * x->n * sizeof *y), *rates = y + x->n;
@@ -81,7 +59,7 @@ rests(qdot_piece *x, size_t i, bool *yes)
     qdot_status status = y && side ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = system->rhs(x->start.t, x->start.y, rates, system->user);
+        status = qdot_piece_rates(x, x->mode, rates);
     for (size_t k = 0; k < n && status == QDOT_OK; k++) {
         y[k] = x->start.y[k] + h * (rates[k] + h / 2 * rates[n + k]);
         y[n + k] = x->start.y[n + k] + h * rates[n + k];
@@ -114,7 +92,7 @@ qdot_piece_check_layers(qdot_piece *x)
         if (now->side[i] == 0 && surface(x, i)->power < 1)
             QDOT_TRY(rests(x, i, &stays));
         if (stays)
-            say(x, i, "nothing says when the motion, at rest, leaves");
+            qdot_piece_stop_at(x, i, 0, "nothing says when the motion, at rest, leaves", "");
     }
     return QDOT_OK;
 }

@@ -109,6 +109,15 @@ qdot_piece_sides(qdot_piece *x, const long *old)
     return qdot_stage_sides(x->c->stage, x->start.t, x->start.y, old, x->side);
 }
 
+/* The rates of the state at the start of the piece in a mode that was entered, [n]. */
+QDOT_MUST_CHECK static inline qdot_status
+qdot_piece_rates(const qdot_piece *x, size_t mode, double *rates)
+{
+    const qdot_ode_system *system = x->c->systems.at + mode;
+
+    return system->rhs(x->start.t, x->start.y, rates, system->user);
+}
+
 /* Make the mode with the sides x->side, its bind and its watch; it becomes x->mode. */
 QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 
@@ -117,7 +126,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_enter(qdot_piece *x);
 QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
 
 /* Bring the start of the piece back onto the surfaces along which the mode slides; *near: it was as
- * near as rounding leaves it. */
+ * near as rounding leaves it; NULL: not asked for. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
 
 /* Carry the signs and residuals at the end of the piece before over to the functions of the new
@@ -168,6 +177,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);
 
 /* End the run here, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);
+/* End it here as failed, at a surface: c->reason has it, on that side, between the words. */
+void qdot_piece_stop_at(qdot_piece *x, size_t surface, long side, const char *before,
+                        const char *behind);
 
 /* After a first step: whether the motion leaves all surfaces towards the sides of its equations.
  * If not, x->side gets other sides and x->doubts the surfaces. */

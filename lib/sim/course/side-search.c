@@ -23,8 +23,9 @@ enum { MOST_DOUBTS = 4 };
 
 /* --- words --------------------------------------------------------------------------- */
 
-static qdot_status
-describe(const qdot_piece *x, size_t surface, qdot_text *out)
+/* End the run at a surface, with c->reason. */
+static void
+say(qdot_piece *x, size_t surface, const char *before, const char *behind)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     long side = m->side[surface];
@@ -34,21 +35,7 @@ describe(const qdot_piece *x, size_t surface, qdot_text *out)
         if (m->watched[i].kind == QDOT_WATCH_SURFACE && m->watched[i].index == surface
             && x->functions_on[i])
             side = m->side[surface] + (m->watched[i].inside < 0);
-    return qdot_stage_describe(x->c->stage, surface, side, out);
-}
-
-/* Set c->reason to a message about a surface. */
-static void
-say(qdot_piece *x, size_t surface, const char *before, const char *behind)
-{
-    qdot_text text = {0};
-
-    if (describe(x, surface, &text) != QDOT_OK)
-        qdot_text_truncate(&text, 0);
-    snprintf(x->c->reason, sizeof x->c->reason, "stopped at t = %.15g: %s %.200s, %s",
-             x->start.t, before, text.n > 0 ? qdot_text_str(&text) : "a surface", behind);
-    qdot_text_clear(&text);
-    qdot_piece_stop(x, true);
+    qdot_piece_stop_at(x, surface, side, before, behind);
 }
 
 static void
@@ -56,7 +43,7 @@ say_slides(qdot_piece *x)
 {
     char why[200];
 
-    snprintf(why, sizeof why, "where the equations switch: both sides lead back to it%s",
+    snprintf(why, sizeof why, ", where the equations switch: both sides lead back to it%s",
              x->hindrance);
     say(x, x->doubts.n > 0 ? x->doubts.at[0].surface : 0, "the motion would slide along", why);
 }
@@ -65,7 +52,7 @@ static void
 say_open(qdot_piece *x, size_t surface)
 {
     say(x, surface, "on",
-        "where the equations switch, the motion may go on in more than one way: which one "
+        ", where the equations switch, the motion may go on in more than one way: which one "
         "they do not say");
 }
 

@@ -1,12 +1,11 @@
 /* stage.c -- events, domains and surfaces with parameter values; the modes. */
 #include "sim/course/stage.h"
 
-#include "sim/model/contact.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "expr/walk.h"
+#include "sim/model/contact.h"
 #include "sim/model/layer.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
@@ -416,7 +415,6 @@ start_sides(qdot_stage *s, const double *settled, long *side)
         status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && s->modes.n == 0)
         status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)));
-
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
     if (status == QDOT_OK)
