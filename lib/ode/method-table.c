@@ -41,13 +41,17 @@ static const qdot_ode_method methods[] = {
      "17 steps of verlet composed to order 8: long times, M constant, V(q, t)", NULL,
      false, NULL, &qdot_composition8},
     {"gauss4", 4, false, false, false, 5, "rk8pd", 1e-2, 1e-15,
-     "Gauss collocation of order 4, symplectic: long times at coarse tolerances", NULL, false, NULL, &qdot_gauss4},
+     "Gauss collocation of order 4, symplectic: long times at coarse tolerances",
+     NULL, false, NULL, &qdot_gauss4},
     {"gauss6", 6, false, false, false, 7, "rk8pd", 1e-2, 1e-15,
-     "Gauss collocation of order 6, symplectic: long times", NULL, false, NULL, &qdot_gauss6},
+     "Gauss collocation of order 6, symplectic: long times",
+     NULL, false, NULL, &qdot_gauss6},
     {"gauss8", 8, false, false, false, 9, "rk8pd", 1e-2, 1e-15,
-     "Gauss collocation of order 8, symplectic: long times at tight tolerances", NULL, false, NULL, &qdot_gauss8},
+     "Gauss collocation of order 8, symplectic: long times at tight tolerances",
+     NULL, false, NULL, &qdot_gauss8},
     {"gauss12", 12, false, false, false, 13, "rk8pd", 1e-2, 1e-15,
-     "Gauss collocation of order 12, symplectic: long times at the last digits", NULL, false, NULL, &qdot_gauss12},
+     "Gauss collocation of order 12, symplectic: long times at the last digits",
+     NULL, false, NULL, &qdot_gauss12},
 };
 
 size_t

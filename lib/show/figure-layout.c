@@ -219,6 +219,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     const qdot_panel *panel = &figure->panels[i];
     const int axes = qdot_figure_is_space(panel) ? 3 : 2;
     bool fixed[3] = {panel->range[0].set, panel->range[1].set, false};
+    const bool joined = !panel->marks && !panel->points;
     extent e;
 
     *view = (qdot_figure_view){.log = {panel->log[0], panel->log[1], false}};
@@ -230,7 +231,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     for (int k = 0; k < axes; k++) {
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
         view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
-        if (!fixed[k] && (k > 0 || !e.course || panel->marks || panel->points || !(e.most[0] > e.least[0])))
+        if (!fixed[k] && (k > 0 || !e.course || !joined || !(e.most[0] > e.least[0])))
             pad(&view->least[k], &view->most[k], view->log[k], 0.04);
     }
     if (panel->equal)

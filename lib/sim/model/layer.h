@@ -15,7 +15,7 @@
  * of time. What was left out is added up (sim/course/piece-layer.c): a run that leaves out more
  * than its tolerance ends.
  *
- * Tests  tests/script/broken-powers.lag, tests/sim/test_switch.c
+ * Tests  tests/script/broken-powers.lag, tests/bad/broken-power-*.lag
  */
 #ifndef QDOT_SIM_LAYER_H
 #define QDOT_SIM_LAYER_H

@@ -5,15 +5,15 @@
  *
  * without constraints.
  *
- * Tests  tests/script/longtime-methods.lag, tests/bad/geometric.lag
+ * Tests  tests/script/long-time-methods.lag, tests/bad/verlet-*.lag, gauss-mass.lag
  */
 #ifndef QDOT_SIM_GEOMETRIC_H
 #define QDOT_SIM_GEOMETRIC_H
 
 #include "sim/model/equations.h"
 
-/* Of a plan with M and f: set plan->halves or plan->phase_space. If its method is geometric and does not fit:
- * QDOT_ENOTBUILT, with the reason and a hint. */
+/* Of a plan with M and f: set plan->halves or plan->phase_space. If its method is geometric and does
+ * not fit: QDOT_ENOTBUILT, with the reason and a hint. */
 QDOT_MUST_CHECK qdot_status qdot_plan_check_geometric(qdot_plan *plan, qdot_scene *scene);
 
 #endif

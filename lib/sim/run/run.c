@@ -467,7 +467,6 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
                               .t0 = run->t0,
                               .t1 = run->t1,
                               .tol = tol};
-
     bool conserved = false;
 
     *better = tol;

@@ -89,7 +89,9 @@ qdot_slides_tell(qdot_run *run)
 
         for (size_t k = 0; k < run->course.tr.pieces.n; k++)
             slid = slid || slides(run, k, i);
-        run->plan->read_side[i] = slid && !run->stage.switches.surfaces.at[i].contact ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
+        if (run->stage.switches.surfaces.at[i].contact) /* no equation holds its side */
+            slid = false;
+        run->plan->read_side[i] = slid ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
         QDOT_TRY(tell(run, i));
     }
     return QDOT_OK;

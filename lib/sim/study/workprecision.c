@@ -275,7 +275,8 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
     w->course.stage = &w->run.stage;
     w->course.touch_tol = tol;
     w->course.most_looked = w->most_evaluations;
-    status = qdot_course_run(&w->course, w->run.plan->method, &options, w->run.t0, w->run.t1, w->run.start);
+    status = qdot_course_run(&w->course, w->run.plan->method, &options, w->run.t0, w->run.t1,
+                             w->run.start);
     *result = tr->result;
     if (tr->count == 0)
         return status == QDOT_OK ? qdot_fail(QDOT_EFAILED, "nothing was integrated") : status;
