@@ -198,6 +198,7 @@ library_sources = \
 	lib/mech/scene/scene.c \
 	lib/mech/study/chart-body.c \
 	lib/mech/study/chart-express.c \
+	lib/mech/study/chart-formulas.c \
 	lib/mech/study/chart.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
@@ -671,6 +672,7 @@ library_headers = \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
 	lib/mech/study/chart-body.h \
+	lib/mech/study/chart-formulas.h \
 	lib/mech/study/chart.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
@@ -1148,6 +1150,8 @@ script_tests = \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
+	tests/script/chart-coordinates.lag \
+	tests/script/chart-roots.lag \
 	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1333,6 +1337,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart-root.lag \
 	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
@@ -1678,6 +1683,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart-root.out \
 	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
@@ -2035,6 +2041,8 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/chaos.out \
+	tests/script/chart-coordinates.out \
+	tests/script/chart-roots.out \
 	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \

@@ -13,11 +13,12 @@ typedef struct {
     size_t m;
     double t;             /* of the stretch */
     qdot_expr *exprs;     /* [m] */
-    bool turns;           /* one holds an angle outside of sin and cos */
+    bool turns;           /* one holds an angle outside of sin and cos, or a sign */
     const long *quarters; /* from which that is counted; borrowed */
 } qdot_in_chart;
 
-/* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading. */
+/* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading;
+ * QDOT_EDOMAIN: one is beyond a root (mech/study/chart.h). */
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);
