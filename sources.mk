@@ -465,6 +465,7 @@ library_sources = \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
+	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -911,6 +912,7 @@ library_headers = \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \
+	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -1224,6 +1226,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
 	tests/script/mechanism-cylinder.lag \
@@ -1414,6 +1417,10 @@ script_tests = \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
+	tests/bad/massless-corner.lag \
+	tests/bad/massless-digits.lag \
+	tests/bad/massless-odd.lag \
+	tests/bad/massless-others.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1759,6 +1766,10 @@ test_files = \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
+	tests/bad/massless-corner.out \
+	tests/bad/massless-digits.out \
+	tests/bad/massless-odd.out \
+	tests/bad/massless-others.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -2129,6 +2140,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
 	tests/script/mechanism-cylinder.out \
