@@ -1646,6 +1646,7 @@ script_tests = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag
 
 meta_tests = \
@@ -2438,6 +2439,7 @@ example_files = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag \
 	examples/wilberforce.svg
 
