@@ -1417,6 +1417,7 @@ script_tests = \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
+	tests/bad/massless-conserved.lag \
 	tests/bad/massless-corner.lag \
 	tests/bad/massless-digits.lag \
 	tests/bad/massless-odd.lag \
@@ -1767,6 +1768,7 @@ test_files = \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
+	tests/bad/massless-conserved.out \
 	tests/bad/massless-corner.out \
 	tests/bad/massless-digits.out \
 	tests/bad/massless-odd.out \
