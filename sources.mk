@@ -400,6 +400,7 @@ library_sources = \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
+	lib/sim/course/pulses.c \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
@@ -856,6 +857,7 @@ library_headers = \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
+	lib/sim/course/pulses.h \
 	lib/sim/course/reader.h \
 	lib/sim/course/report.h \
 	lib/sim/course/root.h \
@@ -1119,6 +1121,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
