@@ -314,6 +314,8 @@ library_sources = \
 	lib/ode/geometric/constant-steps.c \
 	lib/ode/geometric/gauss.c \
 	lib/ode/geometric/splitting.c \
+	lib/ode/geometric/stages.c \
+	lib/ode/geometric/variational.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
 	lib/ode/meter.c \
@@ -459,6 +461,7 @@ library_sources = \
 	lib/sim/form/tree-series.c \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
+	lib/sim/model/constrained-bonds.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
 	lib/sim/model/constrained-names.c \
@@ -792,6 +795,7 @@ library_headers = \
 	lib/ode/geometric/composition.def \
 	lib/ode/geometric/geometric.h \
 	lib/ode/geometric/splitting.h \
+	lib/ode/geometric/stages.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
 	lib/ode/meter.h \
@@ -1577,6 +1581,8 @@ script_tests = \
 	tests/bad/unknown-name.lag \
 	tests/bad/unset-many.lag \
 	tests/bad/unset.lag \
+	tests/bad/variational-baumgarte.lag \
+	tests/bad/variational-velocity.lag \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
@@ -1931,6 +1937,8 @@ test_files = \
 	tests/bad/unknown-name.out \
 	tests/bad/unset-many.out \
 	tests/bad/unset.out \
+	tests/bad/variational-baumgarte.out \
+	tests/bad/variational-velocity.out \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \

@@ -113,7 +113,7 @@ table(const qdot_workprecision *w, qdot_text *out)
                  {"energy err", "%.1e", 11, 8}, {"constr. err", "%.1e", 12, 9}};
     const size_t n = sizeof shown / sizeof *shown;
 
-    qdot_text_format(out, "%-8s", "method");
+    qdot_text_format(out, "%-12s", "method");
     for (size_t i = 0; i < n; i++)
         if (has_column(w, (size_t)shown[i].column + 1))
             qdot_text_format(out, QDOT_WRAP_CELL "%*s", shown[i].width, shown[i].head);
@@ -122,7 +122,7 @@ table(const qdot_workprecision *w, qdot_text *out)
         double x[COLUMNS - 2];
 
         numbers_of(w, &w->rows[k], x);
-        qdot_text_format(out, "%-8s", w->rows[k].method);
+        qdot_text_format(out, "%-12s", w->rows[k].method);
         for (size_t i = 0; i < n; i++)
             if (has_column(w, (size_t)shown[i].column + 1))
                 cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
