@@ -462,6 +462,7 @@ library_sources = \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
 	lib/sim/model/constrained-bonds.c \
+	lib/sim/model/constrained-implicit.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
 	lib/sim/model/constrained-names.c \
@@ -1295,6 +1296,7 @@ script_tests = \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
+	tests/script/radau-constraints.lag \
 	tests/script/radau.lag \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -2226,6 +2228,7 @@ test_files = \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
+	tests/script/radau-constraints.out \
 	tests/script/radau.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -2303,6 +2306,7 @@ other_files = \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
+	bench/peers/constrained.c \
 	bench/peers/constrained.cc \
 	bench/peers/constrained/car_axis.lag \
 	bench/peers/constrained/double.lag \

@@ -116,16 +116,21 @@ typedef struct {
 /* The same system without the inverse of what stands before the highest derivatives, for implicit
  * methods:
  *
- *     y = (q, v),   q' = v,   M(t, y) v' = f(t, y)
+ *     y = (q, v),   q' = v,   M(t, y) v' = f(t, y) + A^T z,   N v' = g(t, y)
  *
- * v the last m components, q the n - m before: m, or none. Failures are those of qdot_ode_system. */
+ * v the last m components, q the n - m before: m, or none; z [k] are multipliers, which the k rows
+ * of g determine (N = 0: constraints of velocities, index 2; N = A: index 1). Failures are those of
+ * qdot_ode_system. */
 typedef struct {
-    size_t m;
-    /* r [m] = f - M a, for any a [m] */
-    qdot_status (*residual)(double t, const double *y, const double *a, double *r, void *user);
-    /* Its slopes by q and v at a held, and M; each [m x m row-major]; dq is not touched without q */
-    qdot_status (*slopes)(double t, const double *y, const double *a, double *dq, double *dv,
-                          double *M, void *user);
+    size_t m, k;
+    /* r [m + k] = (f + A^T z - M a, g - N a), for any a [m], z [k] */
+    qdot_status (*residual)(double t, const double *y, const double *a, const double *z, double *r,
+                            void *user);
+    /* z [k] at the state; the slopes of r by q and (v, z) at a and z held, and (M, N); each
+     * [(m + k) x (m + k) row-major], with columns of zeros where there is nothing; dq is not touched
+     * without q */
+    qdot_status (*slopes)(double t, const double *y, const double *a, double *z, double *dq,
+                          double *dv, double *M, void *user);
     void *user; /* borrowed */
 } qdot_ode_mass_form;
 

@@ -39,7 +39,6 @@ struct qdot_bind {
     double *slopes;     /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
     double *slopes_work;
     qdot_ode_mass_form mass_form; /* where there are slopes */
-    double *all_slopes; /* [2n x 2n + 2n] with constraints: of the first order */
 
     /* Of a plan with a reduced one, which is what is integrated: */
     qdot_tape *reduced; /* a shaken copy; else NULL */

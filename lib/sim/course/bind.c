@@ -47,7 +47,6 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
-    qdot_free(b->all_slopes);
     qdot_pulses_clear(&b->pulses);
     qdot_free(b);
 }
