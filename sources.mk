@@ -1205,6 +1205,7 @@ script_tests = \
 	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
+	tests/script/event-doubles.lag \
 	tests/script/event-ends.sh \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
@@ -2121,6 +2122,7 @@ test_files = \
 	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
+	tests/script/event-doubles.out \
 	tests/script/event-ends.out \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \

@@ -190,8 +190,7 @@ look(qdot_ode_look *step, void *user)
                           .to = step->y_end};
 
     if (!b->pulses.tape)
-        QDOT_TRY(qdot_pulses_init(&b->pulses, qdot_bind_equations(b), b->plan->n,
-                                  QDOT_HIDES_QUOTIENTS,
+        QDOT_TRY(qdot_pulses_init(&b->pulses, b->plan, qdot_bind_equations(b), QDOT_HIDES_QUOTIENTS,
                                   b->plan->method->multistep ? 16 : QDOT_CHEBYSHEV_MOST));
     QDOT_TRY(qdot_pulses_look(&b->pulses, &s));
     step->evaluations += s.evaluations;

@@ -149,6 +149,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
+                                .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
@@ -166,7 +167,6 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         options.leading = true;
         options.carry = y + n;
         options.t0_low = run->t0_low;
-        options.t1_low = goal(run) == run->t1 ? run->t1_low : 0;
     }
     if (status != QDOT_OK) {
         qdot_free(y);
