@@ -125,6 +125,8 @@ library_sources = \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
+	lib/lang/runs/sensitivity.c \
+	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
@@ -512,6 +514,8 @@ library_sources = \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
+	lib/sim/study/variation-scene.c \
+	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
 	lib/tape/angle.c \
 	lib/tape/code.c \
@@ -617,6 +621,7 @@ library_headers = \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
+	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -952,6 +957,8 @@ library_headers = \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
+	lib/sim/study/variation-parts.h \
+	lib/sim/study/variation.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
 	lib/tape/code.h \
@@ -1125,6 +1132,7 @@ unit_tests = \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
+	tests/sim/test_variation \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
@@ -1285,6 +1293,7 @@ script_tests = \
 	tests/script/scale-found.lag \
 	tests/script/scale.lag \
 	tests/script/scene-file.sh \
+	tests/script/sensitivity.sh \
 	tests/script/series-removable.lag \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
@@ -1482,6 +1491,15 @@ script_tests = \
 	tests/bad/scale-of-nothing.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
+	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-jump.lag \
+	tests/bad/sensitivity-named.lag \
+	tests/bad/sensitivity-of.lag \
+	tests/bad/sensitivity-run.lag \
+	tests/bad/sensitivity-stop.lag \
+	tests/bad/sensitivity-twice.lag \
+	tests/bad/sensitivity-unknown.lag \
+	tests/bad/sensitivity-vector.lag \
 	tests/bad/series-none.sh \
 	tests/bad/set-circle.lag \
 	tests/bad/set-coordinate.lag \
@@ -1827,6 +1845,15 @@ test_files = \
 	tests/bad/scale-of-nothing.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
+	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-jump.out \
+	tests/bad/sensitivity-named.out \
+	tests/bad/sensitivity-of.out \
+	tests/bad/sensitivity-run.out \
+	tests/bad/sensitivity-stop.out \
+	tests/bad/sensitivity-twice.out \
+	tests/bad/sensitivity-unknown.out \
+	tests/bad/sensitivity-vector.out \
 	tests/bad/series-none.out \
 	tests/bad/set-circle.out \
 	tests/bad/set-coordinate.out \
@@ -2192,6 +2219,7 @@ test_files = \
 	tests/script/scale-found.out \
 	tests/script/scale.out \
 	tests/script/scene-file.out \
+	tests/script/sensitivity.out \
 	tests/script/series-removable.out \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
