@@ -402,6 +402,7 @@ library_sources = \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
+	lib/sim/course/pulses.c \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
@@ -467,6 +468,7 @@ library_sources = \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
+	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -860,6 +862,7 @@ library_headers = \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
+	lib/sim/course/pulses.h \
 	lib/sim/course/reader.h \
 	lib/sim/course/report.h \
 	lib/sim/course/root.h \
@@ -916,6 +919,7 @@ library_headers = \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \
+	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -1124,6 +1128,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
@@ -1232,6 +1237,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
 	tests/script/mechanism-cylinder.lag \
@@ -1423,6 +1429,11 @@ script_tests = \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
+	tests/bad/massless-conserved.lag \
+	tests/bad/massless-corner.lag \
+	tests/bad/massless-digits.lag \
+	tests/bad/massless-odd.lag \
+	tests/bad/massless-others.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1657,6 +1668,7 @@ script_tests = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag
 
 meta_tests = \
@@ -1777,6 +1789,11 @@ test_files = \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
+	tests/bad/massless-conserved.out \
+	tests/bad/massless-corner.out \
+	tests/bad/massless-digits.out \
+	tests/bad/massless-odd.out \
+	tests/bad/massless-others.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -2156,6 +2173,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
 	tests/script/mechanism-cylinder.out \
@@ -2454,6 +2472,7 @@ example_files = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag \
 	examples/wilberforce.svg
 
