@@ -121,6 +121,7 @@ library_sources = \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
+	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
@@ -512,10 +513,12 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/exponents.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
+	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
@@ -957,11 +960,13 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/exponents.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
 	lib/sim/study/variation-parts.h \
+	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
@@ -1120,6 +1125,7 @@ unit_tests = \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
+	tests/sim/test_exponents \
 	tests/sim/test_horizon \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
@@ -1237,6 +1243,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/lyapunov.sh \
 	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1426,6 +1433,13 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/lyapunov-domain.lag \
+	tests/bad/lyapunov-ending.lag \
+	tests/bad/lyapunov-jump.lag \
+	tests/bad/lyapunov-length.lag \
+	tests/bad/lyapunov-range.lag \
+	tests/bad/lyapunov-tol.lag \
+	tests/bad/lyapunov-word.lag \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
@@ -1786,6 +1800,13 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/lyapunov-domain.out \
+	tests/bad/lyapunov-ending.out \
+	tests/bad/lyapunov-jump.out \
+	tests/bad/lyapunov-length.out \
+	tests/bad/lyapunov-range.out \
+	tests/bad/lyapunov-tol.out \
+	tests/bad/lyapunov-word.out \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
@@ -2173,6 +2194,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/lyapunov.out \
 	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \

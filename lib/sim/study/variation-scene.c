@@ -1,9 +1,10 @@
 /* variation-scene.c -- the scene with its slopes: coordinates, constraints, events, the start. */
+#include "sim/study/variation-scene.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "expr/calculus.h"
-#include "sim/study/variation-parts.h"
 #include "tape/constant.h"
 
 /* A value of a start that is off by more has been moved. */
@@ -190,7 +191,8 @@ static qdot_status
 say_bound(const qdot_variation *v, size_t k)
 {
     (void)qdot_fail(QDOT_EINVAL,
-                    "the constraints do not let the start change with %.100s alone: it names all else",
+                    "the constraints do not let the start change with %.100s alone: it "
+                    "names all else",
                     v->by[k].name);
     return qdot_hint("leave a value unnamed in `start`, so that it follows");
 }
@@ -205,7 +207,8 @@ check_condition(const qdot_variation *v, qdot_expr e, size_t k)
     double value;
 
     for (size_t j = 0; j < 2 * all && e != QDOT_NIL; j++) {
-        const qdot_expr z = qdot_symbol_jet(pool, v->scene->coordinates.at[j % all], j >= all);
+        const qdot_expr z =
+            qdot_symbol_jet(pool, v->scene->coordinates.at[j % all], j >= all);
 
         if (v->named[j])
             e = qdot_subs(pool, e, 1, &z, &v->start[j]);
@@ -227,13 +230,31 @@ check_conditions(const qdot_variation *v)
             const qdot_constraint *of = &v->of->constraints.at[c];
             const qdot_expr e = qdot_variation_of(v, of->f, k);
 
-            if (of->kind == QDOT_ACCELERATION)
+            if (of->kind == QDOT_ACCELERATION || !v->by[k].start)
                 continue;
             QDOT_TRY(check_condition(v, e, k));
             if (of->kind == QDOT_HOLONOMIC)
                 QDOT_TRY(check_condition(v, qdot_ddt(v->of->pool, e), k));
         }
     return QDOT_OK;
+}
+
+/* A number of the size 1e-6: directions that are drawn. Constraints move the start by its square only. */
+static qdot_expr
+drawn(qdot_pool *pool, size_t k, size_t i)
+{
+    uint64_t x = (k * 1000 + i + 1) * 6364136223846793005u;
+
+    x = (x ^ x >> 31) * 1442695040888963407u;
+    return qdot_div(pool, qdot_expr_int(pool, (long)(x >> 40) - (1L << 23)),
+                    qdot_expr_int(pool, 8388608L * 1000000));
+}
+
+/* Component i < 2n of direction k at the start. */
+static qdot_expr
+start_of(const qdot_variation *v, size_t k, size_t i)
+{
+    return v->by[k].start ? v->by[k].start[i] : drawn(v->of->pool, k, i);
 }
 
 /* q, y, q', y'; what a start solves for is solved for in all directions. */
@@ -245,8 +266,8 @@ put_start(const qdot_variation *v)
 
     for (size_t k = 0; k <= v->k; k++)
         for (size_t i = 0; i < n; i++) {
-            v->start[k * n + i] = k == 0 ? r->q0[i] : v->by[k - 1].start[i];
-            v->start[all + k * n + i] = k == 0 ? r->v0[i] : v->by[k - 1].start[n + i];
+            v->start[k * n + i] = k == 0 ? r->q0[i] : start_of(v, k - 1, i);
+            v->start[all + k * n + i] = k == 0 ? r->v0[i] : start_of(v, k - 1, n + i);
             v->named[k * n + i] = k == 0 || !r->q_named || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }

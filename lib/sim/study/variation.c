@@ -1,5 +1,5 @@
 /* variation.c -- the equations of motion solved for q'' in symbols, and their slopes. */
-#include "sim/study/variation-parts.h"
+#include "sim/study/variation.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,87 +18,6 @@ qdot_variation_clear(qdot_variation *v)
     qdot_free(v->start);
     qdot_free(v->named);
     *v = (qdot_variation){0};
-}
-
-/* --- symbols and numbers --------------------------------------------------------------- */
-
-qdot_expr
-qdot_variation_jet(const qdot_variation *v, size_t i, uint32_t order)
-{
-    return qdot_symbol_jet(v->of->pool, v->of->coordinates.at[i], order);
-}
-
-qdot_expr
-qdot_variation_slope_jet(const qdot_variation *v, size_t k, size_t i, uint32_t order)
-{
-    return qdot_symbol_jet(v->of->pool, v->y[k * v->n + i], order);
-}
-
-qdot_expr
-qdot_variation_with_numbers(const qdot_variation *v, qdot_expr e)
-{
-    const qdot_run_request *r = v->request;
-
-    return qdot_substitute(v->of->pool, e, r->n_values, r->symbols, r->values);
-}
-
-/* de/ds by a parameter, with numbers put in; 0 if s moves the start alone. */
-static qdot_expr
-by_parameter(const qdot_variation *v, qdot_expr e, size_t k)
-{
-    const qdot_variation_by *by = v->by + k;
-    const qdot_run_request *r = v->request;
-    qdot_pool *pool = v->of->pool;
-
-    if (by->parameter == QDOT_NIL)
-        return QDOT_ZERO;
-    e = qdot_substitute(pool, e, r->n_values, r->symbols, by->values);
-    e = qdot_diff(pool, e, by->parameter);
-    return e == QDOT_NIL ? e : qdot_variation_with_numbers(v, e);
-}
-
-qdot_expr
-qdot_variation_with_motion(const qdot_variation *v, qdot_expr e)
-{
-    for (size_t i = 0; i < v->n && e != QDOT_NIL; i++) {
-        const qdot_expr from = qdot_variation_jet(v, i, 2);
-
-        e = qdot_subs(v->of->pool, e, 1, &from, &v->a[i]);
-    }
-    return e;
-}
-
-/* sum over q and q' (and q'', to order 2) of de/dz times the same of y, of an e with numbers. */
-static qdot_expr
-by_state(const qdot_variation *v, qdot_expr e, size_t k, uint32_t order)
-{
-    qdot_pool *pool = v->of->pool;
-    qdot_expr sum = QDOT_ZERO;
-
-    for (uint32_t o = 0; o <= order; o++)
-        for (size_t i = 0; i < v->n && e != QDOT_NIL; i++) {
-            const qdot_expr slope = qdot_diff(pool, e, qdot_variation_jet(v, i, o));
-
-            if (slope != QDOT_ZERO)
-                sum =
-                    qdot_add(pool, sum,
-                             qdot_mul(pool, slope, qdot_variation_slope_jet(v, k, i, o)));
-        }
-    return sum;
-}
-
-qdot_expr
-qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k)
-{
-    return qdot_add(v->of->pool, by_state(v, qdot_variation_with_numbers(v, e), k, 2),
-                    by_parameter(v, e, k));
-}
-
-qdot_expr
-qdot_variation_rate(const qdot_variation *v, qdot_expr e)
-{
-    return qdot_variation_with_motion(
-        v, qdot_ddt(v->of->pool, qdot_variation_with_numbers(v, e)));
 }
 
 /* --- what is not carried --------------------------------------------------------------- */
@@ -400,27 +319,30 @@ add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
     const size_t n = e->n;
 
     for (size_t i = 0; i < n; i++) {
-        x[i] =
-            qdot_add(pool, x[i], by_parameter(v, qdot_expr_arg(pool, f, (uint32_t)i), k));
+        x[i] = qdot_add(
+            pool, x[i],
+            qdot_variation_by_parameter(v, qdot_expr_arg(pool, f, (uint32_t)i), k));
         for (size_t j = 0; j < n; j++)
             x[i] = qdot_sub(
                 pool, x[i],
-                qdot_mul(
-                    pool,
-                    by_parameter(v, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), k),
-                    v->a[j]));
+                qdot_mul(pool,
+                         qdot_variation_by_parameter(
+                             v, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), k),
+                         v->a[j]));
     }
     for (size_t c = 0; c < e->m; c++) {
         const qdot_expr F = second_rate(e, c);
 
-        z[c] = qdot_sub(pool, z[c], qdot_variation_with_motion(v, by_parameter(v, F, k)));
+        z[c] =
+            qdot_sub(pool, z[c],
+                     qdot_variation_with_motion(v, qdot_variation_by_parameter(v, F, k)));
         for (size_t i = 0; i < n; i++)
             x[i] = qdot_add(
                 pool, x[i],
-                qdot_mul(
-                    pool,
-                    by_parameter(v, qdot_diff(pool, F, qdot_variation_jet(v, i, 2)), k),
-                    v->lambda[c]));
+                qdot_mul(pool,
+                         qdot_variation_by_parameter(
+                             v, qdot_diff(pool, F, qdot_variation_jet(v, i, 2)), k),
+                         v->lambda[c]));
     }
 }
 

@@ -22,28 +22,7 @@
 #ifndef QDOT_SIM_VARIATION_H
 #define QDOT_SIM_VARIATION_H
 
-#include "mech/scene/scene.h"
-#include "sim/run/run.h"
-
-/* What s is. */
-typedef struct {
-    const char *name;
-    qdot_expr parameter; /* nil: s moves the start alone */
-    const qdot_expr
-        *values; /* [n_values] of the request with that parameter free; NULL: as there */
-    const qdot_expr *start; /* [2n] dq/ds, dq'/ds at the start: exact constants */
-} qdot_variation_by;
-
-typedef struct {
-    qdot_scene *of, *scene;          /* borrowed; owned */
-    const qdot_run_request *request; /* borrowed */
-    size_t n, m, k;                  /* coordinates, constraints, directions */
-    const qdot_variation_by *by;     /* [k] borrowed */
-    qdot_expr *y;                    /* [k x n] */
-    qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */
-    qdot_expr *start;                /* [2 (k + 1) n] q, y, q', y' at the start */
-    bool *named;                     /* [2 (k + 1) n] of these, which the start names */
-} qdot_variation;
+#include "sim/study/variation-scene.h"
 
 /* The scene for `request`, which is borrowed; its start keeps the constraints, and q_named, v_named say which
  * values of it follow from them. Clear it in any case. Errors: QDOT_ENOTBUILT: what is not
@@ -53,18 +32,5 @@ QDOT_MUST_CHECK qdot_status qdot_variation_make(qdot_scene *scene,
                                                 const qdot_variation_by *by,
                                                 qdot_variation *v);
 void qdot_variation_clear(qdot_variation *v);
-
-/* The request of its run: that given, with its start. Borrows from both. */
-qdot_run_request qdot_variation_request(const qdot_variation *v);
-
-/* QDOT_EINVAL if its run had to move slopes of values that the start names: constraints let no such value
- * change alone. */
-QDOT_MUST_CHECK qdot_status qdot_variation_check_start(const qdot_variation *v, qdot_run *run);
-
-/* De/Ds in direction k of an expression in q, q', q'', t and parameters, with numbers put in: an
- * expression of the new scene. Nil: the pool keeps the failure. */
-qdot_expr qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k);
-/* de/dt along the motion, likewise. */
-qdot_expr qdot_variation_rate(const qdot_variation *v, qdot_expr e);
 
 #endif
