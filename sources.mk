@@ -122,12 +122,15 @@ library_sources = \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
+	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
 	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
+	lib/lang/runs/sensitivity.c \
+	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
@@ -521,10 +524,14 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/exponents.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
+	lib/sim/study/variation-parts.c \
+	lib/sim/study/variation-scene.c \
+	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
 	lib/tape/angle.c \
 	lib/tape/code.c \
@@ -633,6 +640,7 @@ library_headers = \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
 	lib/lang/runs/run.h \
+	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -971,10 +979,14 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/exponents.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
+	lib/sim/study/variation-parts.h \
+	lib/sim/study/variation-scene.h \
+	lib/sim/study/variation.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
 	lib/tape/code.h \
@@ -1132,6 +1144,7 @@ unit_tests = \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
+	tests/sim/test_exponents \
 	tests/sim/test_horizon \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
@@ -1149,6 +1162,7 @@ unit_tests = \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
+	tests/sim/test_variation \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
@@ -1251,6 +1265,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/lyapunov.sh \
 	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1315,6 +1330,7 @@ script_tests = \
 	tests/script/scale-found.lag \
 	tests/script/scale.lag \
 	tests/script/scene-file.sh \
+	tests/script/sensitivity.sh \
 	tests/script/series-removable.lag \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
@@ -1442,6 +1458,13 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/lyapunov-domain.lag \
+	tests/bad/lyapunov-ending.lag \
+	tests/bad/lyapunov-jump.lag \
+	tests/bad/lyapunov-length.lag \
+	tests/bad/lyapunov-range.lag \
+	tests/bad/lyapunov-tol.lag \
+	tests/bad/lyapunov-word.lag \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
@@ -1519,6 +1542,15 @@ script_tests = \
 	tests/bad/scale-of-nothing.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
+	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-jump.lag \
+	tests/bad/sensitivity-named.lag \
+	tests/bad/sensitivity-of.lag \
+	tests/bad/sensitivity-run.lag \
+	tests/bad/sensitivity-stop.lag \
+	tests/bad/sensitivity-twice.lag \
+	tests/bad/sensitivity-unknown.lag \
+	tests/bad/sensitivity-vector.lag \
 	tests/bad/series-none.sh \
 	tests/bad/set-circle.lag \
 	tests/bad/set-coordinate.lag \
@@ -1798,6 +1830,13 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/lyapunov-domain.out \
+	tests/bad/lyapunov-ending.out \
+	tests/bad/lyapunov-jump.out \
+	tests/bad/lyapunov-length.out \
+	tests/bad/lyapunov-range.out \
+	tests/bad/lyapunov-tol.out \
+	tests/bad/lyapunov-word.out \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
@@ -1875,6 +1914,15 @@ test_files = \
 	tests/bad/scale-of-nothing.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
+	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-jump.out \
+	tests/bad/sensitivity-named.out \
+	tests/bad/sensitivity-of.out \
+	tests/bad/sensitivity-run.out \
+	tests/bad/sensitivity-stop.out \
+	tests/bad/sensitivity-twice.out \
+	tests/bad/sensitivity-unknown.out \
+	tests/bad/sensitivity-vector.out \
 	tests/bad/series-none.out \
 	tests/bad/set-circle.out \
 	tests/bad/set-coordinate.out \
@@ -2182,6 +2230,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/lyapunov.out \
 	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
@@ -2248,6 +2297,7 @@ test_files = \
 	tests/script/scale-found.out \
 	tests/script/scale.out \
 	tests/script/scene-file.out \
+	tests/script/sensitivity.out \
 	tests/script/series-removable.out \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
