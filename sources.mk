@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/workers.c \
 	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
@@ -377,6 +378,7 @@ library_sources = \
 	lib/show/figure-image.c \
 	lib/show/figure-label.c \
 	lib/show/figure-layout.c \
+	lib/show/figure-map.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
 	lib/show/formulas.c \
@@ -546,6 +548,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
@@ -1020,6 +1023,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_workers \
 	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
@@ -1319,6 +1323,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
@@ -2242,6 +2247,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
