@@ -91,6 +91,7 @@ library_sources = \
 	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
 	lib/lang/files/row-file.c \
+	lib/lang/files/sweep-file.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
@@ -130,6 +131,7 @@ library_sources = \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
 	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
@@ -383,6 +385,7 @@ library_sources = \
 	lib/show/formula-page.c \
 	lib/show/formulas.c \
 	lib/show/gnuplot.c \
+	lib/show/hdf5-read.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
 	lib/show/page-curves.c \
@@ -600,6 +603,7 @@ library_headers = \
 	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
 	lib/lang/files/row-file.h \
+	lib/lang/files/sweep-file.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
 	lib/lang/functions/entry.h \
@@ -632,6 +636,7 @@ library_headers = \
 	lib/lang/runs/run-options.h \
 	lib/lang/runs/run.h \
 	lib/lang/runs/sweep-axis.h \
+	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -853,6 +858,7 @@ library_headers = \
 	lib/show/formula-page.h \
 	lib/show/formulas.h \
 	lib/show/gnuplot.h \
+	lib/show/hdf5-read.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
 	lib/show/page.h \
@@ -1323,6 +1329,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
@@ -2247,6 +2254,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
 	tests/script/switch-nested.out \

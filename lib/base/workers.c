@@ -168,12 +168,30 @@ end(worker *w, bool at_once)
 
 /* --- here ----------------------------------------------------------------------------- */
 
+/* The next items that nobody has, at most so many in a row; count 0: there are none. */
+static request
+next_chunk(crew *c, double most)
+{
+    const qdot_workers_job *job = c->job;
+    request r = {.count = 0};
+
+    while (c->next < job->end && job->skip && job->skip[c->next])
+        c->next++;
+    r.first = c->next;
+    while (c->next < job->end && !(job->skip && job->skip[c->next])
+           && (r.count == 0 || (double)r.count + 1 <= most)) {
+        c->next++;
+        r.count++;
+    }
+    return r;
+}
+
 /* A chunk for an idle worker: items of a dead one first, one by one. false: there is none. */
 static bool
 hand_out(crew *c, worker *w)
 {
     const qdot_workers_job *job = c->job;
-    request r = {.first = c->next, .count = 1};
+    request r = {.count = 1};
 
     if (c->again.n > 0) {
         r.first = c->again.at[--c->again.n];
@@ -181,10 +199,9 @@ hand_out(crew *c, worker *w)
         const double share = (double)(job->end - c->next) / (2 * (double)job->workers);
         const double few = job->seconds > 0 ? chunk_seconds / job->seconds : 1;
 
-        if (c->next == job->end)
+        r = next_chunk(c, fmin(fmin(few, share), MOST_CHUNK));
+        if (r.count == 0)
             return false;
-        r.count = (uint64_t)fmax(1, fmin(fmin(few, share), MOST_CHUNK));
-        c->next += (size_t)r.count;
     }
     w->next = (size_t)r.first;
     w->end = w->next + (size_t)r.count;
@@ -278,13 +295,15 @@ carry_out(crew *c, struct pollfd *polled)
 qdot_status
 qdot_workers_run(const qdot_workers_job *job)
 {
-    crew c = {.job = job, .next = job->first, .left = job->end - job->first};
+    crew c = {.job = job, .next = job->first};
     struct pollfd *polled = qdot_calloc(job->workers, sizeof *polled);
     void (*before)(int) = signal(SIGPIPE, SIG_IGN);
     qdot_status status;
 
+    for (size_t k = job->first; k < job->end; k++)
+        c.left += !(job->skip && job->skip[k]);
     c.workers = qdot_calloc(job->workers, sizeof *c.workers);
-    c.failed = qdot_calloc(c.left + 1, sizeof *c.failed);
+    c.failed = qdot_calloc(job->end - job->first + 1, sizeof *c.failed);
     status = polled && c.workers && c.failed ? QDOT_OK : QDOT_ENOMEM;
     fflush(NULL); /* what waits to be written is written once */
     for (size_t i = 0; i < job->workers && status == QDOT_OK; i++)

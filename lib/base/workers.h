@@ -14,6 +14,7 @@
 
 typedef struct {
     size_t first, end; /* the items first ... end - 1 */
+    const bool *skip;  /* [end] items that are not to be done; NULL: all are */
     size_t workers;    /* at least 1 */
     double seconds;    /* that an item takes, about; 0: unknown */
     void *user;
