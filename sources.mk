@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/workers.c \
 	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
@@ -90,6 +91,7 @@ library_sources = \
 	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
 	lib/lang/files/row-file.c \
+	lib/lang/files/sweep-file.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
@@ -132,6 +134,7 @@ library_sources = \
 	lib/lang/runs/sensitivity.c \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
@@ -383,10 +386,12 @@ library_sources = \
 	lib/show/figure-image.c \
 	lib/show/figure-label.c \
 	lib/show/figure-layout.c \
+	lib/show/figure-map.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
 	lib/show/formulas.c \
 	lib/show/gnuplot.c \
+	lib/show/hdf5-read.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
 	lib/show/page-curves.c \
@@ -558,6 +563,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
@@ -609,6 +615,7 @@ library_headers = \
 	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
 	lib/lang/files/row-file.h \
+	lib/lang/files/sweep-file.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
 	lib/lang/functions/entry.h \
@@ -642,6 +649,7 @@ library_headers = \
 	lib/lang/runs/run.h \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
+	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -865,6 +873,7 @@ library_headers = \
 	lib/show/formula-page.h \
 	lib/show/formulas.h \
 	lib/show/gnuplot.h \
+	lib/show/hdf5-read.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
 	lib/show/page.h \
@@ -1039,6 +1048,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_workers \
 	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
@@ -1346,6 +1356,8 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-resume.sh \
+	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
@@ -2313,6 +2325,8 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-resume.out \
+	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
