@@ -91,7 +91,6 @@ library_sources = \
 	lib/lang/files/report-run.c \
 	lib/lang/files/report-work.c \
 	lib/lang/files/row-file.c \
-	lib/lang/files/sweep-file.c \
 	lib/lang/files/table.c \
 	lib/lang/functions/algebra.c \
 	lib/lang/functions/builtin.c \
@@ -134,6 +133,7 @@ library_sources = \
 	lib/lang/runs/sensitivity.c \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep-file.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
@@ -615,7 +615,6 @@ library_headers = \
 	lib/lang/files/report-run.h \
 	lib/lang/files/report-work.h \
 	lib/lang/files/row-file.h \
-	lib/lang/files/sweep-file.h \
 	lib/lang/functions/algebra.h \
 	lib/lang/functions/builtin.h \
 	lib/lang/functions/entry.h \
@@ -649,6 +648,7 @@ library_headers = \
 	lib/lang/runs/run.h \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
+	lib/lang/runs/sweep-file.h \
 	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \

@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "base/workers.h"
 #include "lang/answer/row-answer.h"
-#include "lang/files/sweep-file.h"
+#include "lang/runs/sweep-file.h"
 #include "lang/runs/sweep-parts.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"

@@ -13,7 +13,6 @@
 #include "lang/commands/statement.h"
 #include "lang/declare/scene-file.h"
 #include "lang/figures/figure-file.h"
-#include "lang/files/data-file.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/sweep-parts.h"

@@ -1,5 +1,5 @@
 /* sweep-file.c -- the rows of a sweep that are done, in a file. */
-#include "lang/files/sweep-file.h"
+#include "lang/runs/sweep-file.h"
 
 #include <errno.h>
 #include <math.h>
