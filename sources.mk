@@ -494,6 +494,7 @@ library_sources = \
 	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
+	lib/sim/read/passage.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
@@ -683,7 +684,6 @@ library_headers = \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
 	lib/mech/study/chart-body.h \
-	lib/mech/study/chart-formulas.h \
 	lib/mech/study/chart.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
@@ -949,6 +949,7 @@ library_headers = \
 	lib/sim/plan/tree-alone.h \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
+	lib/sim/read/passage.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
