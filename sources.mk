@@ -1639,6 +1639,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -2424,6 +2425,7 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
