@@ -506,6 +506,7 @@ library_sources = \
 	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
+	lib/sim/read/passage.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
@@ -703,7 +704,6 @@ library_headers = \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
 	lib/mech/study/chart-body.h \
-	lib/mech/study/chart-formulas.h \
 	lib/mech/study/chart.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
@@ -971,6 +971,7 @@ library_headers = \
 	lib/sim/plan/tree-alone.h \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
+	lib/sim/read/passage.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
@@ -1691,6 +1692,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -2501,6 +2503,7 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \

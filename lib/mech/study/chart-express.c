@@ -400,7 +400,7 @@ put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
 
         if (!qdot_expr_contains(pool, e, s->symbol))
             continue;
-        *turns |= !s->fixed;
+        *turns = true;
         if (!s->branch)
             e = qdot_subs(pool, e, 1, &s->symbol, &value);
     }

@@ -1,5 +1,5 @@
 /* chart-formulas.c -- the groups of chart.h by their formulas. */
-#include "mech/study/chart-formulas.h"
+#include "mech/study/chart.h"
 
 #include <stdio.h>
 
@@ -152,7 +152,8 @@ add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *si
 
     *signed_N = times(c, s, N);
     QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){.symbol = N, .square = square})));
-    return qdot_vec_push(&c->signs, ((qdot_chart_sign){.symbol = s, .start = start}));
+    return qdot_vec_push(
+        &c->signs, ((qdot_chart_sign){.symbol = s, .start = start, .distance = *signed_N}));
 }
 
 /* x, y = `across` times cos and sin of angle i. *R = across, with its sign. */

@@ -9,7 +9,6 @@
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 #include "mech/study/chart-body.h"
-#include "mech/study/chart-formulas.h"
 
 /* With more coordinates groups are not looked for. */
 enum { MOST_COORDINATES = 12 };

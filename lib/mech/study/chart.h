@@ -114,6 +114,7 @@ typedef struct {
     bool branch; /* it is of w, the square root of `square` */
     bool fixed;
     qdot_expr square;
+    qdot_expr distance; /* of a sign: s N */
 } qdot_chart_sign;
 
 typedef struct {
@@ -144,14 +145,21 @@ void qdot_chart_clear(qdot_chart *chart);
 /* An expression of the scene given in the new coordinates. An angle outside of sin and cos is
  * counted from so many quarter turns, of which it is within half a turn; quarters [moved], and
  * behind them the signs [signs]; NULL: no quarters, and the signs of the start. *turns (may be
- * NULL): whether it holds such an angle, or a sign that may change. Nil: the pool keeps the
- * failure. */
+ * NULL): whether it holds such an angle, or a sign. Nil: the pool keeps the failure. */
 qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const long *quarters,
                              bool *turns);
 
 /* A root w that e, in new coordinates, holds where it is negative by `quarters`; NULL: none. */
 const qdot_chart_sign *qdot_chart_beyond(const qdot_chart *chart, qdot_expr e,
                                          const long *quarters);
+
+/* Inside (chart-formulas.c): how many coordinates a group has; what is 0 at its singular place, in
+ * the coordinates given. */
+size_t qdot_chart_size(qdot_chart_kind kind);
+qdot_expr qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g);
+/* Put the group into the chart: its new coordinates, what it is made of, its constraints. `sign`:
+ * of its distance at the start. Errors: the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_group *g, int sign);
 
 /* Inside: in new coordinates and roots, angles outside of sin and cos as their symbols. */
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);

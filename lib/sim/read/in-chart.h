@@ -6,6 +6,7 @@
 #define QDOT_SIM_IN_CHART_H
 
 #include "sim/run/chart-run.h"
+#include "sim/run/run.h"
 
 /* Expressions in the coordinates of the run, as they hold over one stretch of its angles. */
 typedef struct {
@@ -25,6 +26,11 @@ QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *r
 /* Whether they hold at another time, too: it is in the same stretch. */
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
+
+/* Values, with errors, of expressions in the coordinates of the run itself. */
+QDOT_MUST_CHECK qdot_status qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs,
+                                                 const qdot_exact_times *times, double *values,
+                                                 double *errors);
 
 /* The end of the stretch of `from` on the way to `to`, or `to` if that is nearer. */
 double qdot_in_chart_end(const qdot_in_chart *in, double from, double to);

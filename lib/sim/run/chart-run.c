@@ -46,6 +46,7 @@ typedef struct {
     double *next; /* [m] and those read */
     double *most; /* [m + n] the largest distance so far, or slope of a root */
     long *signs;  /* [n] at `t` */
+    uint64_t passed; /* those whose place is passed, at the next point */
     double t;
 } following;
 
@@ -109,7 +110,7 @@ look(following *f, double t, double *change)
 static qdot_status
 begin_stretch(following *f, double t, const double *angles)
 {
-    const qdot_chart_stretch s = {t, f->x->quarters.n};
+    const qdot_chart_stretch s = {t, f->passed, f->x->quarters.n};
 
     for (size_t i = 0; i < f->m; i++)
         QDOT_TRY(qdot_vec_push(&f->x->quarters, lround(4 * angles[i] / turn)));
@@ -125,7 +126,7 @@ go(following *f, double t, bool jumps)
 {
     const qdot_chart_stretch *s = &f->x->stretches.at[f->x->stretches.n - 1];
     const long *quarters = f->x->quarters.at + s->quarters;
-    bool beyond = false;
+    bool beyond = f->passed != 0;
 
     for (size_t i = 0; i < f->m; i++)
         beyond = beyond || (turns(f->x->chart.moved.at + i)
@@ -149,12 +150,15 @@ change_signs(following *f)
     for (size_t i = 0; i < f->m; i++) {
         const size_t k = c->moved.at[i].sign;
 
-        if (k > 0 && !c->signs.at[k - 1].fixed
-            && fabs(f->next[i] - f->now[i]) > turn / 2 * (1 - 1e-3)) {
-            f->signs[k - 1] = -f->signs[k - 1];
-            f->x->changes = true;
-            (void)turn_all(f);
-        }
+        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 2 * (1 - 1e-3)))
+            continue;
+        if (k <= 64)
+            f->passed |= (uint64_t)1 << (k - 1);
+        if (c->signs.at[k - 1].fixed)
+            continue;
+        f->signs[k - 1] = -f->signs[k - 1];
+        f->x->changes = true;
+        (void)turn_all(f);
     }
 }
 
@@ -204,6 +208,7 @@ follow_to(following *f, double end)
             half_turns(f);
         }
         QDOT_TRY(go(f, t, jumps));
+        f->passed = 0;
         t = end;
     }
     return QDOT_OK;

@@ -10,6 +10,8 @@
 #ifndef QDOT_SIM_CHART_RUN_H
 #define QDOT_SIM_CHART_RUN_H
 
+#include <stdint.h>
+
 #include "mech/study/chart.h"
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
@@ -17,6 +19,7 @@
 /* A time from which on angles are counted from so many quarters, with the same signs. */
 typedef struct {
     double t;
+    uint64_t passed; /* signs whose place is passed exactly at t, bit by bit */
     size_t quarters; /* index of the first of qdot_run_chart.quarters, then the signs */
 } qdot_chart_stretch;
 
