@@ -2291,7 +2291,9 @@ other_files = \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
 	bench/hard/cases.py \
+	bench/hard/references \
 	bench/hard/run \
+	bench/hard/second.py \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
