@@ -1614,6 +1614,7 @@ script_tests = \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
@@ -1666,6 +1667,7 @@ script_tests = \
 	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
@@ -1960,6 +1962,7 @@ test_files = \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
 	tests/examples/export.out \
+	tests/examples/fermi-pasta-ulam.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \
@@ -1996,6 +1999,7 @@ test_files = \
 	tests/examples/stated-lagrangian.out \
 	tests/examples/static-equilibrium.out \
 	tests/examples/swinging-atwood.out \
+	tests/examples/toda.out \
 	tests/examples/vector-operators.out \
 	tests/examples/velocity.out \
 	tests/examples/virtual-work.out \
@@ -2390,6 +2394,7 @@ example_files = \
 	examples/embed.py \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
 	examples/flexing-wire.lag \
@@ -2467,6 +2472,7 @@ example_files = \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/torus-geodesic.svg \
 	examples/undo.lag \

@@ -52,6 +52,16 @@ growth(const qdot_longtime_row *r, qdot_text *out)
     qdot_text_format(out, QDOT_WRAP_CELL "%17s", text);
 }
 
+/* What `auto` would take, and why. */
+static void
+chosen(const qdot_longtime *l, qdot_text *out)
+{
+    qdot_text_format(out, "auto would take %s, tol %.0e%s", l->chosen, l->chosen_tol,
+                     l->chosen_long ? ": more than 20000 steps are foreseen, and truncation is to "
+                                      "stay below rounding"
+                                    : "");
+}
+
 static void
 table(const void *study, qdot_text *out)
 {
@@ -75,6 +85,10 @@ table(const void *study, qdot_text *out)
     qdot_text_add(out, "error: the largest |E - E0| / max(1, |E0|) met; growth: of its root mean square in "
                        "windows of time,\nfitted to the later half of them, with twice the standard "
                        "error\n");
+    if (l->chosen != NULL) {
+        chosen(l, out);
+        qdot_text_char(out, '\n');
+    }
 }
 
 /* A row for each window; the growth as a number for each method. */
@@ -106,6 +120,11 @@ rows_json(qdot_session *session, const void *study)
         qdot_text_format(&text, "growth[%s]", r->method);
         if (status == QDOT_OK)
             status = qdot_answer_number(session, qdot_text_str(&text), r->growth, r->growth_error);
+    }
+    qdot_text_clear(&text);
+    if (status == QDOT_OK && l->chosen != NULL) {
+        chosen(l, &text);
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
     }
     qdot_text_clear(&text);
     return status;
