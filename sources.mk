@@ -1667,6 +1667,7 @@ script_tests = \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
@@ -1720,6 +1721,7 @@ script_tests = \
 	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
@@ -2031,6 +2033,7 @@ test_files = \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
 	tests/examples/export.out \
+	tests/examples/fermi-pasta-ulam.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \
@@ -2067,6 +2070,7 @@ test_files = \
 	tests/examples/stated-lagrangian.out \
 	tests/examples/static-equilibrium.out \
 	tests/examples/swinging-atwood.out \
+	tests/examples/toda.out \
 	tests/examples/vector-operators.out \
 	tests/examples/velocity.out \
 	tests/examples/virtual-work.out \
@@ -2370,7 +2374,9 @@ other_files = \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
 	bench/hard/cases.py \
+	bench/hard/references \
 	bench/hard/run \
+	bench/hard/second.py \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
@@ -2468,6 +2474,7 @@ example_files = \
 	examples/embed.py \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
 	examples/flexing-wire.lag \
@@ -2546,6 +2553,7 @@ example_files = \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/torus-geodesic.svg \
 	examples/undo.lag \
