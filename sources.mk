@@ -118,9 +118,12 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/columns.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
+	lib/lang/runs/members.c \
+	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
@@ -391,6 +394,7 @@ library_sources = \
 	lib/sim/course/bind-slopes.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
+	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-contact.c \
@@ -424,6 +428,7 @@ library_sources = \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
+	lib/sim/error/partner.c \
 	lib/sim/error/singular-places.c \
 	lib/sim/error/standstill.c \
 	lib/sim/error/touches.c \
@@ -466,6 +471,7 @@ library_sources = \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
+	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -491,6 +497,7 @@ library_sources = \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/section.c \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/change-chart.c \
@@ -615,9 +622,12 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
+	lib/lang/runs/members.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
+	lib/lang/runs/run.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -852,6 +862,7 @@ library_headers = \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
+	lib/sim/course/crossings.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
@@ -876,6 +887,7 @@ library_headers = \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
+	lib/sim/error/partner.h \
 	lib/sim/error/singular-places.h \
 	lib/sim/error/standstill.h \
 	lib/sim/error/touches.h \
@@ -913,6 +925,7 @@ library_headers = \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \
+	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -935,6 +948,7 @@ library_headers = \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
 	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
@@ -1228,6 +1242,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
 	tests/script/mechanism-cylinder.lag \
@@ -1267,6 +1282,7 @@ script_tests = \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
 	tests/script/plot-two-runs.sh \
+	tests/script/poincare.sh \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
@@ -1418,6 +1434,11 @@ script_tests = \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
+	tests/bad/massless-conserved.lag \
+	tests/bad/massless-corner.lag \
+	tests/bad/massless-digits.lag \
+	tests/bad/massless-odd.lag \
+	tests/bad/massless-others.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1452,6 +1473,7 @@ script_tests = \
 	tests/bad/pi-parameter.lag \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
+	tests/bad/poincare.sh \
 	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
 	tests/bad/race-methods.lag \
@@ -1583,6 +1605,7 @@ script_tests = \
 	examples/double-pendulum.lag \
 	examples/driven-pendulum.lag \
 	examples/dry-friction.lag \
+	examples/duffing.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
@@ -1643,6 +1666,7 @@ script_tests = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag
 
 meta_tests = \
@@ -1763,6 +1787,11 @@ test_files = \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
+	tests/bad/massless-conserved.out \
+	tests/bad/massless-corner.out \
+	tests/bad/massless-digits.out \
+	tests/bad/massless-odd.out \
+	tests/bad/massless-others.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -1797,6 +1826,7 @@ test_files = \
 	tests/bad/pi-parameter.out \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
+	tests/bad/poincare.out \
 	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
 	tests/bad/race-methods.out \
@@ -2134,6 +2164,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
 	tests/script/mechanism-cylinder.out \
@@ -2174,6 +2205,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/plot-two-runs.out \
+	tests/script/poincare.out \
 	tests/script/poisson.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
@@ -2341,6 +2373,8 @@ example_files = \
 	examples/driven-pendulum.svg \
 	examples/dry-friction.lag \
 	examples/dry-friction.svg \
+	examples/duffing.lag \
+	examples/duffing.svg \
 	examples/effective-potential.svg \
 	examples/elastic-pendulum.lag \
 	examples/elastic-pendulum.svg \
@@ -2431,6 +2465,7 @@ example_files = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag \
 	examples/wilberforce.svg
 

@@ -159,7 +159,7 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
     qdot_bind *b = system->user;
 
     if (b->held)
-        return qdot_constrained_solve(b->held, t, y, a, a + b->plan->n);
+        return qdot_constrained_accelerate(b->held, t, y, a);
     qdot_bind_load(b, t, y);
     return qdot_bind_accelerate(b, a);
 }
