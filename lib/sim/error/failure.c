@@ -29,10 +29,7 @@ qdot_failure_explain(const qdot_plan *plan, const qdot_ode_system *system, doubl
             }
         }
     if (worst < n && left < nothing * fabs(length))
-        qdot_text_format(reason, "; a singularity%s: %s = %.6g there, %s'' = %.3g",
-                         system->look && !plan->method->series
-                             ? ", or a force too brief for the doubles of t, which method taylor follows"
-                             : "",
+        qdot_text_format(reason, "; a singularity: %s = %.6g there, %s'' = %.3g",
                          plan->names[worst], y[worst], plan->names[worst],
                          slope[n + worst]);
     qdot_free(slope);
