@@ -191,6 +191,17 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
     return qdot_grave(status);
 }
 
+/* Whether an extremum counts as a touch by the tolerance. Where none does, none should in a companion,
+ * which may see the same two crossings a little nearer to each other. */
+static bool
+has_touches(const qdot_course *c)
+{
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        if (c->occurrences.at[i].within > 0)
+            return true;
+    return false;
+}
+
 static qdot_status
 follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
@@ -204,7 +215,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
-    c->touch_tol = run->course.touch_tol;
+    c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     for (; status == QDOT_OK; way++) {
