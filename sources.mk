@@ -514,6 +514,7 @@ library_sources = \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
+	lib/sim/study/extremum.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
@@ -961,6 +962,7 @@ library_headers = \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
+	lib/sim/study/extremum.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
@@ -1517,6 +1519,7 @@ script_tests = \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
 	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-corner.lag \
 	tests/bad/sensitivity-jump.lag \
 	tests/bad/sensitivity-named.lag \
 	tests/bad/sensitivity-of.lag \
@@ -1884,6 +1887,7 @@ test_files = \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
 	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-corner.out \
 	tests/bad/sensitivity-jump.out \
 	tests/bad/sensitivity-named.out \
 	tests/bad/sensitivity-of.out \
