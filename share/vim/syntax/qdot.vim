@@ -19,10 +19,10 @@ syntax keyword qdotWord contained abbreviate animate assume body check constrain
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
 syntax keyword qdotWord contained events export force forces function gravity help include
 syntax keyword qdotWord contained lagrangian longtime lyapunov modes param particle plan
-syntax keyword qdotWord contained plot potential print quit race reactions redo remove
-syntax keyword qdotWord contained report reset run save scale scene sensitivity set show
-syntax keyword qdotWord contained spring start style sweep table timing torque undo vars
-syntax keyword qdotWord contained workprecision
+syntax keyword qdotWord contained plot poincare potential print quit race reactions redo
+syntax keyword qdotWord contained remove report reset run save scale scene sensitivity set
+syntax keyword qdotWord contained show spring start style sweep table timing torque undo
+syntax keyword qdotWord contained vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor
