@@ -1535,6 +1535,7 @@ script_tests = \
 	tests/bad/sensitivity-changed.lag \
 	tests/bad/sensitivity-corner.lag \
 	tests/bad/sensitivity-jump.lag \
+	tests/bad/sensitivity-member.lag \
 	tests/bad/sensitivity-named.lag \
 	tests/bad/sensitivity-of.lag \
 	tests/bad/sensitivity-run.lag \
@@ -1906,6 +1907,7 @@ test_files = \
 	tests/bad/sensitivity-changed.out \
 	tests/bad/sensitivity-corner.out \
 	tests/bad/sensitivity-jump.out \
+	tests/bad/sensitivity-member.out \
 	tests/bad/sensitivity-named.out \
 	tests/bad/sensitivity-of.out \
 	tests/bad/sensitivity-run.out \

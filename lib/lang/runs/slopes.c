@@ -12,6 +12,7 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/member.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
 #include "sim/study/extremum.h"
@@ -431,6 +432,10 @@ qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *s
     const size_t n = s->session->measured.n;
     qdot_expr sum = QDOT_ZERO;
 
+    if (qdot_member_any(s->session, e)) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of RUN.EXPR");
+        return qdot_hint("value(RUN.x, T), max(RUN.x, A..B)");
+    }
     if (s->by[k].parameter != QDOT_NIL) {
         sum = qdot_diff(
             pool,
