@@ -531,6 +531,7 @@ library_sources = \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
+	lib/sim/study/extremum.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
@@ -990,6 +991,7 @@ library_headers = \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
+	lib/sim/study/extremum.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
@@ -1556,7 +1558,9 @@ script_tests = \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
 	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-corner.lag \
 	tests/bad/sensitivity-jump.lag \
+	tests/bad/sensitivity-member.lag \
 	tests/bad/sensitivity-named.lag \
 	tests/bad/sensitivity-of.lag \
 	tests/bad/sensitivity-run.lag \
@@ -1709,6 +1713,7 @@ script_tests = \
 	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
+	examples/sensitivity.lag \
 	examples/slider-crank.lag \
 	examples/snakeboard.lag \
 	examples/spherical-pendulum.lag \
@@ -1931,7 +1936,9 @@ test_files = \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
 	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-corner.out \
 	tests/bad/sensitivity-jump.out \
+	tests/bad/sensitivity-member.out \
 	tests/bad/sensitivity-named.out \
 	tests/bad/sensitivity-of.out \
 	tests/bad/sensitivity-run.out \
@@ -2534,6 +2541,7 @@ example_files = \
 	examples/rotating-hoop.lag \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
+	examples/sensitivity.lag \
 	examples/slider-crank.lag \
 	examples/snakeboard.lag \
 	examples/snakeboard.svg \

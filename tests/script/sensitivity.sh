@@ -39,10 +39,13 @@ sensitivity value(y, 1) of e, g, x, y'
 sensitivity bounce[2] of e, g
 sensitivity value(y', bounce[1] + 0.1) - e*g*bounce[1] of e
 sensitivity mean(y, 0..1) of g
+# a largest or least value: within the range, at its end
+sensitivity max(y, 0.5..1) of e, g
+sensitivity max(y) - min(y^2*g, 0..0.2) of g, y
 run 0..1 as p with g = 10.0001
 run 0..1 as n with g = 9.9999
 print (value(p.y, 1) - value(n.y, 1))/0.0002, (p.bounce[2] - n.bounce[2])/0.0002
-print (mean(p.y, 0..1) - mean(n.y, 0..1))/0.0002
+print (mean(p.y, 0..1) - mean(n.y, 0..1))/0.0002, (max(p.y, 0.5..1) - max(n.y, 0.5..1))/0.0002
 END
 # constraints: what the start leaves open follows
 cat >rod.lag <<'END'

@@ -12,8 +12,10 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/member.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
+#include "sim/study/extremum.h"
 
 /* The name of the run with slopes. */
 static const char slopes_name[] = "the slopes";
@@ -195,7 +197,8 @@ find_start(qdot_slopes *s, const char *name)
             qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
 
         QDOT_TRY(qdot_runs_measure_one(session, name, jet, s->conditions->t0, &m));
-        s->settled[i] = m.digits > 0 ? m.exact : qdot_measured_rational(session->pool, m.value);
+        s->settled[i] =
+            m.digits > 0 ? m.exact : qdot_measured_rational(session->pool, m.value);
     }
     s->request.q0 = s->settled;
     s->request.v0 = s->settled + n;
@@ -235,6 +238,7 @@ qdot_slopes_make(qdot_slopes *s, const char *name)
 {
     qdot_run_request request;
     qdot_run *run = NULL;
+    qdot_status status;
 
     QDOT_TRY(find_run(s, name));
     QDOT_TRY(find_directions(s));
@@ -242,7 +246,11 @@ qdot_slopes_make(qdot_slopes *s, const char *name)
     QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by,
                                  &s->variation));
     request = qdot_variation_request(&s->variation);
-    QDOT_TRY(qdot_run_new(s->variation.scene, &request, &run));
+    status = qdot_run_new(s->variation.scene, &request, &run);
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
     QDOT_TRY(qdot_runs_keep(s->session, slopes_name, "", &request, run));
     if (qdot_run_get_report(run)->status == QDOT_RUN_FAILED)
         return qdot_fail(QDOT_EFAILED, "the run with slopes failed: %.300s",
@@ -353,17 +361,41 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     return qdot_pool_check(pool);
 }
 
+/* max, min: De where e is largest or least. */
+static qdot_status
+slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t k,
+                  qdot_expr *slope)
+{
+    qdot_extremum x = {.run = run,
+                       .kind = m->origin.range,
+                       .from = m->origin.ends[0],
+                       .to = m->origin.ends[1]};
+    double t;
+
+    x.e = qdot_substitute(s->session->pool, m->origin.e, s->request.n_values,
+                          s->request.symbols, s->request.values);
+    x.rate = qdot_variation_rate(&s->variation, m->origin.e);
+    x.bend = qdot_variation_rate(&s->variation, x.rate);
+    QDOT_TRY(qdot_pool_check(s->session->pool));
+    QDOT_TRY(qdot_extremum_time(&x, &t));
+    return at_time(s, slope_along(s, m->origin.e, k),
+                   qdot_measured_rational(s->session->pool, t), slope);
+}
+
 static qdot_status
 slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
 {
-    const qdot_expr e = slope_along(s, m->origin.e, k);
     double value, error;
     qdot_named_run *named;
+    qdot_expr e;
 
-    QDOT_TRY(qdot_pool_check(s->session->pool));
-    if (m->origin.range != QDOT_RANGE_MEAN)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of max, min and drift");
+    if (m->origin.range == QDOT_RANGE_DRIFT)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of drift");
     QDOT_TRY(qdot_runs_find(s->session, slopes_name, &named));
+    if (m->origin.range != QDOT_RANGE_MEAN)
+        return slope_of_extremum(s, m, named->run, k, slope);
+    e = slope_along(s, m->origin.e, k);
+    QDOT_TRY(qdot_pool_check(s->session->pool));
     QDOT_TRY(qdot_run_range(named->run, QDOT_RANGE_MEAN, e, m->origin.ends[0],
                             m->origin.ends[1], &value, &error));
     *slope = qdot_measured_new(s->session, value, error);
@@ -378,9 +410,8 @@ slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slo
     qdot_named_run *named;
 
     if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)
-        return qdot_fail(
-            QDOT_ENOTBUILT,
-            "not built yet: slopes of numbers other than value, mean and event times");
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of numbers other than "
+                                         "value, max, min, mean and event times");
     if (m.origin.run != NULL) {
         QDOT_TRY(qdot_runs_find(s->session, m.origin.run, &named));
         if (named->run != s->run)
@@ -401,6 +432,10 @@ qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *s
     const size_t n = s->session->measured.n;
     qdot_expr sum = QDOT_ZERO;
 
+    if (qdot_member_any(s->session, e)) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of RUN.EXPR");
+        return qdot_hint("value(RUN.x, T), max(RUN.x, A..B)");
+    }
     if (s->by[k].parameter != QDOT_NIL) {
         sum = qdot_diff(
             pool,
