@@ -244,6 +244,20 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     return e;
 }
 
+qdot_expr
+qdot_chart_given(const qdot_chart *c, qdot_expr e)
+{
+    for (uint32_t order = 2; order-- > 0;)
+        for (size_t i = 0; i < c->fresh.n; i++) {
+            const qdot_expr given = c->fresh.at[i].given;
+            const qdot_expr from = qdot_symbol_jet(c->pool, c->fresh.at[i].q, order);
+            const qdot_expr to = order ? qdot_ddt(c->pool, given) : given;
+
+            e = qdot_subs(c->pool, e, 1, &from, &to);
+        }
+    return e;
+}
+
 /* --- what is regular -------------------------------------------------------------------- */
 
 /* Base and exponent of factor k of a product. */

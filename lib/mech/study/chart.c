@@ -258,6 +258,13 @@ regular(qdot_expr e, void *user)
 
     if (now != QDOT_NIL || qdot_pool_failed(c->pool))
         return now;
+    if (c->open) {
+        bool turns;
+        const qdot_expr singular = qdot_chart_express(c, e, NULL, &turns);
+
+        if (!turns)
+            return qdot_mech_tidy(c->of, singular);
+    }
     if (qdot_print(c->pool, e, QDOT_PLAIN, &text) == QDOT_OK)
         snprintf(c->hindrance, sizeof c->hindrance, "%.140s is not smooth there",
                  qdot_text_str(&text));
@@ -329,6 +336,17 @@ copy_event(qdot_chart *c, const qdot_event *event)
     return status;
 }
 
+/* Nor are those that hold a root N. */
+static void
+check_places(qdot_chart *c)
+{
+    for (size_t k = 0; k < c->distances.n && c->open; k++)
+        for (size_t i = 0; i < c->scene->particles.n; i++)
+            if (qdot_expr_contains(c->pool, c->scene->particles.at[i].position,
+                                   qdot_sqrt(c->pool, c->distances.at[k].square)))
+                snprintf(c->hindrance, sizeof c->hindrance, "a place is not smooth");
+}
+
 /* Places that hold the length of a group itself are not smooth where it is 0. */
 static void
 check_lengths(qdot_chart *c)
@@ -355,6 +373,7 @@ complete(work *w)
         check_domain(w, c->moved.at + i);
     QDOT_TRY(qdot_scene_map(c->scene, regular, c));
     check_lengths(c);
+    check_places(c);
     for (size_t i = 0; i < c->unit.n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(qdot_scene_constraint(c->scene, NULL, c->unit.at[i], QDOT_ONE));
     for (size_t i = 0; i < s->events.n && c->hindrance[0] == '\0'; i++)
@@ -394,11 +413,12 @@ begin_scene(work *w, const qdot_chart_groups *groups)
 
 qdot_status
 qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
-                qdot_chart *c)
+                bool open, qdot_chart *c)
 {
     work w = {c, s, s->pool, s->coordinates.at};
 
-    *c = (qdot_chart){.pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool)};
+    *c = (qdot_chart){
+        .pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool), .open = open};
     if (!c->scene)
         return QDOT_ENOMEM;
     QDOT_TRY(begin_scene(&w, groups));
@@ -434,7 +454,7 @@ distance_of(const qdot_scene *s, const qdot_chart_group *g)
 
 /* Take the group if the scene is regular without it. */
 static qdot_status
-try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
+try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *groups)
 {
     const qdot_chart_groups one = {.n = 1, .at = &g};
     qdot_chart chart = {0};
@@ -444,7 +464,7 @@ try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
     for (size_t k = 0; k < size_of(g.kind); k++)
         if (is_taken(groups, g.index[k]))
             return QDOT_OK;
-    status = qdot_chart_make(s, &one, NULL, &chart);
+    status = qdot_chart_make(s, &one, NULL, open, &chart);
     good = chart.scene != NULL;
     qdot_chart_clear(&chart);
     if (status == QDOT_EINVAL || status == QDOT_ETYPE || status == QDOT_EDOMAIN)
@@ -459,7 +479,7 @@ typedef struct {
 } joined;
 
 static void
-join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
+join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
 {
     const size_t n = s->coordinates.n;
 
@@ -468,13 +488,20 @@ join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
         const qdot_expr slope =
             qdot_expr_contains(s->pool, e, q) ? qdot_diff(s->pool, e, q) : QDOT_NIL;
 
-        for (size_t j = 0; j < n && slope != QDOT_NIL; j++)
-            pairs->at[i][j] |= qdot_expr_contains(s->pool, slope, s->coordinates.at[j]);
+        for (size_t j = 0; j < n && slope != QDOT_NIL; j++) {
+            const qdot_expr with = s->coordinates.at[j];
+
+            if (qdot_expr_contains(s->pool, slope, with) ||
+                (rates &&
+                 qdot_expr_contains(s->pool, slope, qdot_symbol_jet(s->pool, with, 1))))
+                pairs->at[i][j] = pairs->at[j][i] = true;
+        }
     }
 }
 
+/* rates: those in one term with the rate of another, too. */
 static joined
-find_pairs(const qdot_scene *s)
+find_pairs(const qdot_scene *s, bool rates)
 {
     joined pairs = {0};
 
@@ -484,9 +511,9 @@ find_pairs(const qdot_scene *s)
                                 : s->bodies.at[i - s->particles.n].position;
 
         for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, r); d++)
-            join_pairs(s, qdot_mech_component(s->pool, r, d), &pairs);
+            join_pairs(s, qdot_mech_component(s->pool, r, d), false, &pairs);
     }
-    join_pairs(s, s->lagrangian, &pairs);
+    join_pairs(s, s->lagrangian, rates, &pairs);
     return pairs;
 }
 
@@ -502,7 +529,7 @@ may_be(const joined *pairs, const size_t *index, size_t n)
 }
 
 static qdot_status
-try_kind(qdot_scene *s, qdot_chart_kind kind, const joined *pairs,
+try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, const joined *pairs,
          qdot_chart_groups *groups)
 {
     const size_t n = s->coordinates.n, third = size_of(kind) == 3 ? n : 1;
@@ -516,16 +543,17 @@ try_kind(qdot_scene *s, qdot_chart_kind kind, const joined *pairs,
                 if (i != j && (third == 1 || (k != i && k != j)) &&
                     (kind == QDOT_CHART_BODY ? qdot_chart_body_fits(s, g.index)
                                              : may_be(pairs, g.index, size_of(kind))))
-                    QDOT_TRY(try_group(s, g, groups));
+                    QDOT_TRY(try_group(s, open, g, groups));
             }
     return QDOT_OK;
 }
 
 qdot_status
-qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
+qdot_chart_find(qdot_scene *s, bool open, qdot_chart_groups *groups)
 {
     static const qdot_chart_kind order[] = {QDOT_CHART_BODY, QDOT_CHART_SPACE,
                                             QDOT_CHART_PLANE, QDOT_CHART_SPHERE};
+    const size_t first = open ? 1 : 0, end = open ? 3 : sizeof order / sizeof *order;
     joined pairs;
     uint64_t rest;
     qdot_status status = QDOT_OK, pending;
@@ -533,9 +561,9 @@ qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
     if (s->constraints.n > 0 || s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
     rest = qdot_pool_budget(s->pool, most_work);
-    pairs = find_pairs(s);
-    for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
-        status = try_kind(s, order[k], &pairs, groups);
+    pairs = find_pairs(s, open);
+    for (size_t k = first; k < end && status == QDOT_OK; k++)
+        status = try_kind(s, open, order[k], &pairs, groups);
     pending = qdot_pool_check(s->pool);
     status = status == QDOT_OK ? pending : status;
     (void)qdot_pool_budget(s->pool, rest);

@@ -22,12 +22,21 @@ qdot_run_chart_free(qdot_run_chart *x)
     if (!x)
         return;
     qdot_chart_clear(&x->chart);
+    qdot_collision_clear(&x->collision);
     qdot_free(x->coordinates);
     qdot_free(x->angles);
     qdot_free(x->end);
     qdot_free(x->stretches.at);
     qdot_free(x->quarters.at);
     qdot_free(x);
+}
+
+qdot_expr
+qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
+                       bool *turns)
+{
+    e = qdot_chart_express(&x->chart, e, quarters, turns);
+    return x->collision.scene ? qdot_collision_express(&x->collision, e) : e;
 }
 
 /* --- following the angles ------------------------------------------------------------------ */
@@ -161,9 +170,9 @@ follow(qdot_run *run)
         const qdot_chart_moved *moved = x->chart.moved.at + i;
 
         xy[2 * i] =
-            moved->angle ? qdot_chart_express(&x->chart, moved->x, NULL, NULL) : QDOT_ONE;
-        xy[2 * i + 1] = moved->angle ? qdot_chart_express(&x->chart, moved->y, NULL, NULL)
-                                     : QDOT_ZERO;
+            moved->angle ? qdot_run_chart_express(x, moved->x, NULL, NULL) : QDOT_ONE;
+        xy[2 * i + 1] =
+            moved->angle ? qdot_run_chart_express(x, moved->y, NULL, NULL) : QDOT_ZERO;
         status = qdot_pool_check(x->chart.pool);
     }
     if (status == QDOT_OK)
@@ -272,7 +281,9 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     r->coordinates = x->coordinates;
     r->q = x->end;
     r->v = x->end + x->n;
+    r->drifts = run->drifts.at;
     r->n_drifts = run->drifts.energy ? 1 : 0;
+    r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
     r->m = r->independent = 0; /* those of the chart alone */
     r->constraint_drift = r->velocity_drift = NAN;
     return QDOT_OK;

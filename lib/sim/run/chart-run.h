@@ -10,6 +10,7 @@
 #define QDOT_SIM_CHART_RUN_H
 
 #include "mech/study/chart.h"
+#include "mech/study/collision.h"
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
@@ -20,7 +21,9 @@ typedef struct {
 } qdot_chart_stretch;
 
 typedef struct qdot_run_chart {
-    qdot_chart chart;       /* its scene is that of the run */
+    qdot_chart chart;       /* its scene is that of the run, without a collision; else it may be */
+                            /* one in which nothing is moved */
+    qdot_collision collision; /* its scene, if there is one, is that of the run */
     size_t n;               /* coordinates of the scene given */
     qdot_expr *coordinates; /* [n] */
     double *angles;         /* [moved] at the start, as given */
@@ -32,6 +35,10 @@ typedef struct qdot_run_chart {
 } qdot_run_chart;
 
 void qdot_run_chart_free(qdot_run_chart *x);
+
+/* An expression of the scene given in the coordinates of the run (as qdot_chart_express). */
+qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
+                                 bool *turns);
 
 /* The quarters [moved] for the stretch of time t; follows the run if that was not done yet, and
  * limits the comparison with companions to the stretch. */
