@@ -118,9 +118,12 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/columns.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
+	lib/lang/runs/members.c \
+	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
@@ -394,6 +397,7 @@ library_sources = \
 	lib/sim/course/bind-slopes.c \
 	lib/sim/course/bind.c \
 	lib/sim/course/course.c \
+	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
 	lib/sim/course/piece-contact.c \
@@ -403,6 +407,7 @@ library_sources = \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
+	lib/sim/course/pulses.c \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
@@ -426,6 +431,7 @@ library_sources = \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
+	lib/sim/error/partner.c \
 	lib/sim/error/singular-places.c \
 	lib/sim/error/standstill.c \
 	lib/sim/error/touches.c \
@@ -468,6 +474,7 @@ library_sources = \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
 	lib/sim/model/layer.c \
+	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
@@ -493,6 +500,7 @@ library_sources = \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
 	lib/sim/read/range.c \
+	lib/sim/read/section.c \
 	lib/sim/read/stretches.c \
 	lib/sim/read/value.c \
 	lib/sim/run/change-chart.c \
@@ -619,9 +627,12 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
+	lib/lang/runs/members.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
+	lib/lang/runs/run.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -857,10 +868,12 @@ library_headers = \
 	lib/sim/course/bind.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
+	lib/sim/course/crossings.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
 	lib/sim/course/polynomial-bounds.h \
+	lib/sim/course/pulses.h \
 	lib/sim/course/reader.h \
 	lib/sim/course/report.h \
 	lib/sim/course/root.h \
@@ -880,6 +893,7 @@ library_headers = \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
+	lib/sim/error/partner.h \
 	lib/sim/error/singular-places.h \
 	lib/sim/error/standstill.h \
 	lib/sim/error/touches.h \
@@ -917,6 +931,7 @@ library_headers = \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
 	lib/sim/model/layer.h \
+	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
@@ -939,6 +954,7 @@ library_headers = \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
 	lib/sim/read/range-parts.h \
+	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
 	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
@@ -1126,6 +1142,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
 	tests/sim/test_run \
@@ -1234,6 +1251,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
 	tests/script/mechanism-cylinder.lag \
@@ -1273,6 +1291,7 @@ script_tests = \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
 	tests/script/plot-two-runs.sh \
+	tests/script/poincare.sh \
 	tests/script/poisson.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
@@ -1424,6 +1443,11 @@ script_tests = \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
+	tests/bad/massless-conserved.lag \
+	tests/bad/massless-corner.lag \
+	tests/bad/massless-digits.lag \
+	tests/bad/massless-odd.lag \
+	tests/bad/massless-others.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -1458,6 +1482,7 @@ script_tests = \
 	tests/bad/pi-parameter.lag \
 	tests/bad/pi-redefined.lag \
 	tests/bad/picture-kind.lag \
+	tests/bad/poincare.sh \
 	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
 	tests/bad/race-methods.lag \
@@ -1590,6 +1615,7 @@ script_tests = \
 	examples/double-pendulum.lag \
 	examples/driven-pendulum.lag \
 	examples/dry-friction.lag \
+	examples/duffing.lag \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
@@ -1650,6 +1676,7 @@ script_tests = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag
 
 meta_tests = \
@@ -1770,6 +1797,11 @@ test_files = \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
+	tests/bad/massless-conserved.out \
+	tests/bad/massless-corner.out \
+	tests/bad/massless-digits.out \
+	tests/bad/massless-odd.out \
+	tests/bad/massless-others.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -1804,6 +1836,7 @@ test_files = \
 	tests/bad/pi-parameter.out \
 	tests/bad/pi-redefined.out \
 	tests/bad/picture-kind.out \
+	tests/bad/poincare.out \
 	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
 	tests/bad/race-methods.out \
@@ -2141,6 +2174,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
 	tests/script/mechanism-cylinder.out \
@@ -2181,6 +2215,7 @@ test_files = \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
 	tests/script/plot-two-runs.out \
+	tests/script/poincare.out \
 	tests/script/poisson.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
@@ -2349,6 +2384,8 @@ example_files = \
 	examples/driven-pendulum.svg \
 	examples/dry-friction.lag \
 	examples/dry-friction.svg \
+	examples/duffing.lag \
+	examples/duffing.svg \
 	examples/effective-potential.svg \
 	examples/elastic-pendulum.lag \
 	examples/elastic-pendulum.svg \
@@ -2439,6 +2476,7 @@ example_files = \
 	examples/vector-operators.lag \
 	examples/velocity.lag \
 	examples/virtual-work.lag \
+	examples/vortices.lag \
 	examples/wilberforce.lag \
 	examples/wilberforce.svg
 

@@ -6,6 +6,7 @@
 #define QDOT_ODE_SYSTEM_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "num/two.h"
@@ -137,6 +138,14 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_phase;
 
+/* A step that is about to be accepted, under a tolerance. */
+typedef struct {
+    double t, t_end, tol;
+    const double *y, *y_end; /* [n] */
+    double until;         /* out: as far as it may go; t_end if it misses nothing */
+    uint64_t evaluations; /* out: of f, about */
+} qdot_ode_look;
+
 /* A part of a system that knows nothing of its other parts. */
 typedef struct {
     const struct qdot_ode_system *system; /* borrowed; without parts */
@@ -177,6 +186,9 @@ typedef struct qdot_ode_system {
     /* How far a state is from a place where the equations determine nothing, 0 there, in any unit:
      * asked for where steps are taken back. NULL if there are no such places. */
     double (*margin)(double t, const double *y, void *user);
+    /* Whether a step of a method without series goes over a part of f that acts for less than the
+     * step; NULL if there are no such parts. Errors end the run. */
+    qdot_status (*look)(qdot_ode_look *step, void *user);
     /* The same system once more as parts, all of its components in one of them, if there are
      * two or more; borrowed. Each then takes its own steps where nobody looks at those of
      * the whole (ode/apart.h). */

@@ -23,6 +23,9 @@ static const double aim = 0.1;
 /* A step grows by so much or not at all where another size is dear. */
 static const double worthwhile = 1.2;
 
+/* Steps of so few least ones are bounded by the doubles of t, not by stability. */
+static const double coarse = 64;
+
 /* Tries at one place that fail because f is undefined: each divides the step by 4, so
  * this many reach the spacing of doubles from any step. */
 static const int max_undefined = 60;
@@ -45,6 +48,7 @@ typedef struct {
     double longest;            /* step taken */
     double work;               /* that has been counted (meter.h) */
     qdot_ode_stiffness stiffness;
+    uint64_t looked;           /* evaluations to see what a step goes over */
     int crawled;               /* how often in a row steps were nothing beside what is ahead */
 } run;
 
@@ -251,10 +255,36 @@ take(run *r, double h, double ratio, bool last, bool *stop)
     return QDOT_OK;
 }
 
+/* Whether the step tried goes over nothing that acts for less than it; else it is shortened. */
+static qdot_status
+look(run *r, double h, double end, bool *clear)
+{
+    const qdot_ode_system *system = r->s->system;
+    qdot_ode_look step = {.t = r->t,
+                          .t_end = end,
+                          .tol = r->s->tol,
+                          .y = r->s->y,
+                          .y_end = r->s->trial,
+                          .until = end};
+
+    *clear = true;
+    if (!system->look || r->options->h_fixed > 0)
+        return QDOT_OK;
+    QDOT_TRY(system->look(&step, system->user));
+    r->looked += step.evaluations;
+    if (step.until == end || fmin(fabs(step.until - r->t), 0.5 * h) < floor_of_step(r))
+        return QDOT_OK;
+    *clear = false;
+    r->result->stats.rejected++;
+    r->just_rejected = true;
+    r->h = fmin(fabs(step.until - r->t), 0.5 * h);
+    return QDOT_OK;
+}
+
 static qdot_status
 advance(run *r, bool *stop)
 {
-    bool last;
+    bool last, clear;
     double h = choose(r, &last), ratio;
     qdot_status status;
 
@@ -275,6 +305,9 @@ advance(run *r, bool *stop)
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
     if (ratio <= 1) {
+        QDOT_TRY(look(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
+        if (!clear)
+            return QDOT_OK;
         QDOT_TRY(take(r, h, ratio, last, stop));
         return r->result->stats.steps % seldom == 0 && crawls(r) ? too_small(r) : QDOT_OK;
     }
@@ -290,7 +323,7 @@ advance(run *r, bool *stop)
 static qdot_status
 count_work(run *r)
 {
-    const qdot_ode_stats stats = {.evaluations = r->s->evaluations,
+    const qdot_ode_stats stats = {.evaluations = r->s->evaluations + r->looked,
                                   .jacobians = r->s->jacobians,
                                   .factorisations = r->s->factorisations};
     const double now = qdot_ode_work(r->s->system, &stats), more = now - r->work;
@@ -345,7 +378,7 @@ loop(run *r)
         QDOT_TRY(advance(r, &stop));
         if (r->options->meter)
             QDOT_TRY(count_work(r));
-        if (qdot_ode_stiffness_is_due(&r->stiffness))
+        if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * floor_of_step(r))
             QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
         if (stop) {
@@ -398,6 +431,7 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
         status = loop(&r);
         memcpy(y, r.s->y, system->n * sizeof *y);
         collect(result, r.s, cpu_start);
+        result->stats.evaluations += r.looked;
         qdot_ode_stepper_free(r.s);
         qdot_ode_stiffness_clear(&r.stiffness);
     }

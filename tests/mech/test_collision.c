@@ -209,10 +209,21 @@ space_body(kit *k)
     coords(k, "x y z");
     particle(k, "p", "3", "(x, y, z)");
     potential(k, "0 - 1/sqrt(x^2 + y^2 + z^2) + x*z");
-    force(k, "(t, 2*y', 0 - 2*y)", "(x, y, z)");
-    no_scene(k, 1); /* a force along the velocity is not smooth there */
+    force(k, "(t - t*x', 2*z - t*y', 0 - t*z')", "(x, y, z)");
+    same_motion(k, 1, 0);
 }
 TEST(space)
+
+static void
+crooked_body(kit *k)
+{
+    coords(k, "x y z");
+    particle(k, "p", "3", "(x, y, z)");
+    potential(k, "0 - 1/sqrt(x^2 + y^2 + z^2)");
+    force(k, "(0, 2*y', 0 - 2*y)", "(x, y, z)");
+    no_scene(k, 1); /* a force along one component of the velocity is not smooth there */
+}
+TEST(crooked)
 
 static void
 field_body(kit *k)
@@ -310,7 +321,7 @@ main(void)
         cmocka_unit_test(line),       cmocka_unit_test(side),
         cmocka_unit_test(two_points), cmocka_unit_test(three_points),
         cmocka_unit_test(none),       cmocka_unit_test(steep),
-        cmocka_unit_test(repelled),
+        cmocka_unit_test(repelled),     cmocka_unit_test(crooked),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

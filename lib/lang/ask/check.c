@@ -415,7 +415,8 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
 }
 
 /* dE/dt = 0 along the motion, where that needs no accelerations; *done: it was decided so.
- * Where multipliers are left, which the state tells, only a proof counts. */
+ * Where multipliers are left, which the state tells, or a coordinate has no mass, only a proof
+ * counts. */
 static qdot_status
 answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
 {
@@ -439,7 +440,8 @@ answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(decide_scalars(session, rate, QDOT_ZERO, EQUAL, &known, &decision));
     *done = decision.verdict == QDOT_PROVED ||
-            (qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0;
+            ((qdot_expr_node(pool, rate)->holds & QDOT_HAS_MULTIPLIER) == 0 &&
+             !qdot_mech_lacks_mass(session->scene));
     if (!*done)
         return QDOT_OK;
     if (decision.verdict == QDOT_PROVED)

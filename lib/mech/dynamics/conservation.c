@@ -103,12 +103,29 @@ rest_beside(qdot_scene *s, qdot_expr E, qdot_expr known)
     return is_free_of_velocities(s, rest) ? rest : QDOT_NIL;
 }
 
+bool
+qdot_mech_lacks_mass(qdot_scene *s)
+{
+    const qdot_expr M = qdot_mech_mass_matrix(s);
+    const uint32_t n = (uint32_t)s->coordinates.n;
+
+    for (uint32_t i = 0; i < n && M != QDOT_NIL; i++) {
+        bool none = true;
+
+        for (uint32_t j = 0; j < n && none; j++)
+            none = qdot_expr_arg(s->pool, M, i * n + j) == QDOT_ZERO;
+        if (none)
+            return true;
+    }
+    return false;
+}
+
 qdot_expr
 qdot_mech_rate(qdot_scene *s, qdot_expr E)
 {
     qdot_expr rest;
 
-    if (is_free_of_velocities(s, E))
+    if (is_free_of_velocities(s, E) && !qdot_mech_lacks_mass(s))
         return qdot_ddt(s->pool, E);
     rest = rest_beside(s, E, qdot_mech_energy(s));
     if (rest != QDOT_NIL)

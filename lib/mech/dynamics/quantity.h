@@ -89,6 +89,9 @@ QDOT_MUST_CHECK qdot_status qdot_mech_energy_conserved(qdot_scene *s, bool *cons
  * is the energy h, a momentum p_i or 0, plus a function of q and t. Nil without a failure: E is
  * none of these. */
 qdot_expr qdot_mech_rate(qdot_scene *s, qdot_expr E);
+/* Whether a row of M is 0: the equation of such a coordinate ties velocities or positions, which
+ * rates as above do not know. */
+bool qdot_mech_lacks_mass(qdot_scene *s);
 typedef struct {
     size_t coordinates, constraints, independent; /* independent by symbolic rank */
     size_t freedom;                               /* coordinates - independent */

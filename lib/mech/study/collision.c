@@ -320,23 +320,34 @@ express_coordinates(work *k)
     }
 }
 
-/* e, in the coordinates given beside x and R, in new coordinates beside R. */
+/* e, in the coordinates given beside x and R, in x, dx/dt and the others' Q and w', beside R. */
 static qdot_expr
-in_new(const work *k, qdot_expr e)
+in_rates(const work *k, qdot_expr e)
 {
-    qdot_pool *pool = k->pool;
     const qdot_expr now = QDOT_T;
 
     for (size_t i = 0; i < k->of->n; i++) {
         const qdot_expr from[] = {k->of->q[i], velocity(k, k->of->q[i])};
         const qdot_expr to[] = {k->value[i], k->speed[i]};
 
-        e = qdot_subs(pool, e, 2, from, to);
+        e = qdot_subs(k->pool, e, 2, from, to);
     }
-    e = qdot_subs(pool, e, 1, &now, &k->c->time);
+    return qdot_subs(k->pool, e, 1, &now, &k->c->time);
+}
+
+static qdot_expr
+in_u(const work *k, qdot_expr e)
+{
     if (k->d > 1)
-        e = qdot_subs(pool, e, k->d, k->x, k->in_u);
-    return qdot_subs(pool, e, k->d, k->rate, k->rate_u);
+        e = qdot_subs(k->pool, e, k->d, k->x, k->in_u);
+    return qdot_subs(k->pool, e, k->d, k->rate, k->rate_u);
+}
+
+/* e, in the coordinates given beside x and R, in new coordinates beside R. */
+static qdot_expr
+in_new(const work *k, qdot_expr e)
+{
+    return in_u(k, in_rates(k, e));
 }
 
 /* e as a polynomial in R, which is put as |u|^2; hinders where it is divided by R. */
@@ -391,17 +402,36 @@ start_of_u(const work *k, qdot_expr *u)
         u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], times(k, two, u[main]));
 }
 
+/* Take b dx/dt, a force along the velocity, out of P, in rates: b. As u'.(L^T L u') = R u'.u', for 4
+ * components along the motion alone, it is smooth. */
+static qdot_expr
+take_along(const work *k, qdot_expr *P)
+{
+    const qdot_expr b = qdot_expand(k->pool, qdot_diff(k->pool, P[0], k->rate[0]));
+
+    for (size_t i = 0; i < k->d; i++)
+        if (qdot_expand(k->pool, qdot_diff(k->pool, P[i], k->rate[i])) != b ||
+            qdot_expr_contains(k->pool, b, k->rate[i]))
+            return QDOT_ZERO;
+    for (size_t i = 0; i < k->d; i++)
+        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], times(k, b, k->rate[i])));
+    return b;
+}
+
 static qdot_status
 add_pair(work *k)
 {
     const qdot_expr h = velocity(k, k->energy), two = qdot_expr_int(k->pool, 2);
-    qdot_expr RP[MOST], u0[PARTS], v[PARTS], rate0[MOST], power = QDOT_ZERO;
+    qdot_expr RP[MOST], u0[PARTS], v[PARTS], rate0[MOST], power = QDOT_ZERO, along;
     work at_start = *k;
 
     for (size_t j = 0; j < k->m; j++)
         v[j] = velocity(k, k->u[j]);
+    for (size_t i = 0; i < k->d; i++)
+        RP[i] = in_rates(k, k->P[i]);
+    along = regular(k, in_u(k, take_along(k, RP)));
     for (size_t i = 0; i < k->d; i++) {
-        RP[i] = qdot_expand(k->pool, times(k, k->R, in_new(k, k->P[i])));
+        RP[i] = qdot_expand(k->pool, times(k, k->R, in_u(k, RP[i])));
         rate0[i] = qdot_ddt(k->pool, k->c->pair.x[i]);
         power = qdot_add(k->pool, power, times(k, row(k, i, v), RP[i]));
     }
@@ -410,6 +440,8 @@ add_pair(work *k)
     for (size_t j = 0; j < k->m; j++) {
         qdot_expr push = regular(k, times(k, QDOT_HALF, column(k, j, RP)));
 
+        push = qdot_add(k->pool, push,
+                        times(k, along, times(k, dot(k, k->m, k->u, k->u), v[j])));
         push = qdot_add(k->pool, times(k, QDOT_HALF, times(k, h, k->u[j])), push);
         QDOT_TRY(add_equation(k, k->u[j], push, u0[j],
                               times(k, QDOT_HALF, column(&at_start, j, rate0))));
@@ -417,6 +449,8 @@ add_pair(work *k)
     QDOT_TRY(add_equation(k, k->c->time, times(k, two, dot(k, k->m, k->u, v)), QDOT_T,
                           k->c->pair.distance));
     power = regular(k, qdot_div(k->pool, times(k, two, power), k->R));
+    power = qdot_add(k->pool, power,
+                     times(k, qdot_expr_int(k->pool, 4), times(k, along, dot(k, k->m, v, v))));
     return add_equation(k, k->energy, power, QDOT_ZERO,
                         qdot_sub(k->pool, times(k, QDOT_HALF, dot(k, k->d, rate0, rate0)),
                                  qdot_div(k->pool, k->strength, k->c->pair.distance)));
@@ -496,12 +530,7 @@ express_energy(work *k)
     qdot_expr e = qdot_collision_put_distance(k->pool, k->of->energy, &k->c->pair, k->R),
               m, pole;
 
-    for (size_t i = 0; i < k->of->n; i++) {
-        const qdot_expr from[] = {k->of->q[i], velocity(k, k->of->q[i])};
-        const qdot_expr to[] = {k->value[i], k->speed[i]};
-
-        e = qdot_subs(k->pool, e, 2, from, to);
-    }
+    e = in_rates(k, e);
     pole = qdot_expand(k->pool, times(k, e, k->R));
     if (pole == QDOT_NIL || divides_by(k->pool, pole, k->R))
         return;
@@ -510,7 +539,7 @@ express_energy(work *k)
     e = qdot_sub(k->pool, e, qdot_div(k->pool, pole, k->R));
     e = qdot_add(k->pool, e,
                  times(k, times(k, minus_half, m), dot(k, k->d, k->rate, k->rate)));
-    e = in_new(k, qdot_expand(k->pool, e));
+    e = in_u(k, qdot_expand(k->pool, e));
     k->c->energy =
         qdot_subs(k->pool, qdot_add(k->pool, e, times(k, m, velocity(k, k->energy))), 1,
                   &k->R, (qdot_expr[]){dot(k, k->m, k->u, k->u)});

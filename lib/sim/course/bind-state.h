@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "ode/system.h"
+#include "sim/course/pulses.h"
 #include "sim/form/blocks.h"
 #include "sim/form/guarded.h"
 #include "sim/form/leading.h"
@@ -51,6 +52,8 @@ struct qdot_bind {
     size_t *index;            /* [2n] what `listed` has */
     double *part_scales;      /* [2n] theirs, one after another; NULL */
     const double *scales;
+
+    qdot_pulses pulses; /* what looks at steps of methods without series; made when first asked for */
 };
 
 /* The tape of M and f. */

@@ -48,6 +48,7 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
     qdot_free(b->all_slopes);
+    qdot_pulses_clear(&b->pulses);
     qdot_free(b);
 }
 
@@ -158,7 +159,7 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
     qdot_bind *b = system->user;
 
     if (b->held)
-        return qdot_constrained_solve(b->held, t, y, a, a + b->plan->n);
+        return qdot_constrained_accelerate(b->held, t, y, a);
     qdot_bind_load(b, t, y);
     return qdot_bind_accelerate(b, a);
 }
@@ -176,6 +177,33 @@ static double
 margin(double t, const double *y, void *user)
 {
     return qdot_constrained_independence(((qdot_bind *)user)->held, t, y);
+}
+
+/* Whether a step goes over forces that act for less than it (sim/course/pulses.h). */
+static qdot_status
+look(qdot_ode_look *step, void *user)
+{
+    qdot_bind *b = user;
+    qdot_pulses_step s = {.a = step->t,
+                          .b = step->t_end,
+                          .tol = step->tol,
+                          .from = step->y,
+                          .to = step->y_end};
+
+    if (!b->pulses.tape)
+        QDOT_TRY(qdot_pulses_init(&b->pulses, qdot_bind_equations(b), b->plan->n,
+                                  QDOT_HIDES_QUOTIENTS,
+                                  b->plan->method->multistep ? 16 : QDOT_CHEBYSHEV_MOST));
+    QDOT_TRY(qdot_pulses_look(&b->pulses, &s));
+    step->evaluations += s.evaluations;
+    step->until = !s.missed ? s.b : s.begins != s.a ? s.begins : s.a + (s.b > s.a ? s.part : -s.part);
+    return QDOT_OK;
+}
+
+static bool
+may_hide(const qdot_bind *b)
+{
+    return b->plan->tape && qdot_disc_may_hide(b->plan->tape, QDOT_HIDES_QUOTIENTS);
 }
 
 qdot_constrained *
@@ -198,6 +226,7 @@ qdot_bind_system(qdot_bind *b)
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
+        .look = may_hide(b) ? look : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
         .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,

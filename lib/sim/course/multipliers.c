@@ -154,6 +154,6 @@ qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *p, qdot_run_
     r->lambda_error = b->error;
     r->constraint_drift = isnan(b->position) ? b->velocity : b->position;
     r->velocity_drift = b->velocity;
-    r->independent = b->independent;
+    r->independent = b->independent < p->n_massless ? 0 : b->independent - p->n_massless;
     r->treatment = p->treatment;
 }

@@ -147,9 +147,9 @@ turns_a_corner(qdot_piece *x, bool *corners)
     row = now->plan->constraints->rows +
           (r.position > enough ? r.worst_position : r.worst_velocity);
     snprintf(x->c->reason, sizeof x->c->reason,
-             "stopped at t = %.15g: constraint %.60s %s where %.100s, and nothing says how the "
+             "stopped at t = %.15g: %s %.60s %s where %.100s, and nothing says how the "
              "motion goes on",
-             x->start.t, row->name,
+             x->start.t, row->multiplier == QDOT_NIL ? "the" : "constraint", row->name,
              r.position > enough || row->kind != QDOT_HOLONOMIC ? "jumps" : "has a corner",
              qdot_text_str(&text));
     qdot_text_clear(&text);

@@ -58,6 +58,7 @@ qdot_plan_free(qdot_plan *p)
     qdot_free(p->inputs);
     qdot_free(p->M);
     qdot_free(p->f);
+    qdot_free(p->massless);
     qdot_free(p->symbols);
     qdot_free(p->values);
     qdot_tape_free(p->tape);

@@ -30,16 +30,18 @@ void
 qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to)
 {
     enum { many = 4 };
-    size_t count = 0, names = 0;
+    size_t count = 0, names = 0, of_scene = 0;
 
-    for (size_t k = 0; k < c->m; k++)
+    for (size_t k = 0; k < c->m; k++) {
         count += rows[k];
+        of_scene += rows[k] && c->rows[k].multiplier != QDOT_NIL;
+    }
     for (int pass = 0; pass < 2; pass++) {
         const char *before = NULL;
         size_t said = 0;
 
         if (pass == 1)
-            qdot_text_add(to, names == 1 ? "constraint " : "constraints ");
+            qdot_text_add(to, of_scene == 0 ? "the " : names == 1 ? "constraint " : "constraints ");
         for (size_t k = 0; k < c->m; k++) {
             const char *name = c->rows[k].name;
             const size_t n = length_of_name(name, count > many);
@@ -64,7 +66,8 @@ qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
 
     add_name(&name, c->rows[row].name, strlen(c->rows[row].name), false);
     if (qdot_text_status(&name) == QDOT_OK)
-        qdot_fail(QDOT_ESINGULAR, "constraint %.300s has no direction here",
+        qdot_fail(QDOT_ESINGULAR, "%s %.300s has no direction here",
+                  c->rows[row].multiplier == QDOT_NIL ? "the" : "constraint",
                   qdot_text_str(&name));
     qdot_text_clear(&name);
     return QDOT_ESINGULAR;

@@ -311,8 +311,8 @@ check_place(qdot_constrained *h, double t, const double *y)
 static qdot_status
 broken(const qdot_constrained *h, size_t row, double residual, const char *what)
 {
-    qdot_fail(QDOT_EINVAL, "the start breaks the constraint %s: %s is %.3g, not 0",
-              h->c->rows[row].name, what, residual);
+    qdot_fail(QDOT_EINVAL, "the start breaks the %s%s: %s is %.3g, not 0",
+              h->c->rows[row].multiplier == QDOT_NIL ? "" : "constraint ", h->c->rows[row].name, what, residual);
     return qdot_hint("start values that fulfil it");
 }
 

@@ -240,6 +240,16 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     return QDOT_OK;
 }
 
+qdot_status
+qdot_constrained_accelerate(qdot_constrained *h, double t, const double *y, double *a)
+{
+    const size_t n = h->plan->n;
+
+    QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, h->a + n));
+    memcpy(a, h->a, (n + h->plan->m) * sizeof *a);
+    return QDOT_OK;
+}
+
 /* A q'' - gamma of row k; *size: its largest term. */
 static double
 left_of(const qdot_constrained *h, size_t k, double *size)

@@ -45,6 +45,10 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_solve(qdot_constrained *constrained
                                                    double t, const double *y, double *a,
                                                    double *lambda);
 
+/* a [n + plan->m]: q'' and the multipliers of the scene's constraints. Errors likewise. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_accelerate(qdot_constrained *constrained, double t,
+                                                        const double *y, double *a);
+
 /* dfdy [2n x 2n row-major] and dfdt [2n] of f = (q', q''), for a plan whose method needs them.
  * The changes of q'' and lambda follow from those of the equations and of gamma (with its
  * damping):

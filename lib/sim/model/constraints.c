@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "sim/model/massless.h"
 #include "sim/model/rates.h"
 #include "sim/model/switch.h"
 
@@ -13,7 +14,7 @@ typedef qdot_vec(qdot_expr) expressions;
 typedef struct {
     const qdot_plan *plan;
     qdot_constraints *c;
-    expressions positions, velocities, slopes, gamma, masses;
+    expressions positions, velocities, slopes, gamma, masses, metric;
 } builder;
 
 void
@@ -136,7 +137,7 @@ read_rows(builder *b, const qdot_scene *scene)
     const qdot_plan *p = b->plan;
     qdot_constraints *c = b->c;
 
-    c->rows = qdot_calloc(scene->constraints.n, sizeof *c->rows);
+    c->rows = qdot_calloc(scene->constraints.n + p->n_massless, sizeof *c->rows);
     if (!c->rows)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < scene->constraints.n; k++) {
@@ -160,21 +161,57 @@ read_rows(builder *b, const qdot_scene *scene)
     return QDOT_OK;
 }
 
+/* The equations of coordinates without mass. */
+static qdot_status
+read_massless(builder *b)
+{
+    const qdot_plan *p = b->plan;
+    qdot_constraints *c = b->c;
+
+    for (size_t i = 0; i < p->n && p->massless; i++) {
+        const size_t k = c->m;
+        qdot_constraints_row *row = c->rows + k;
+        qdot_text name = {0};
+
+        if (!p->massless[i])
+            continue;
+        c->m++;
+        qdot_text_format(&name, "equation of %s", p->names[i]);
+        row->name = qdot_strdup(qdot_text_str(&name));
+        qdot_text_clear(&name);
+        row->kind = qdot_massless_kind(p, i);
+        row->multiplier = QDOT_NIL;
+        c->count[row->kind]++;
+        row->f = p->f[i];
+        if (!row->name)
+            return QDOT_ENOMEM;
+        QDOT_TRY(add_slopes(b, k));
+        QDOT_TRY(add_derivatives(b, k));
+    }
+    return QDOT_OK;
+}
+
+/* In the metric massless coordinates are so light that they alone are moved onto their equations. */
 static qdot_status
 read_masses(builder *b)
 {
     const qdot_plan *p = b->plan;
+    const qdot_expr light = qdot_expr_ratio(p->pool, 1, 1L << 60);
     size_t capacity = 0;
 
     for (size_t i = 0; i < p->n; i++)
         for (size_t j = 0; j <= i; j++) {
-            if (p->M[i * p->n + j] == QDOT_ZERO)
+            const qdot_expr entry = p->M[i * p->n + j];
+            const bool massless = i == j && p->massless && p->massless[i];
+
+            if (entry == QDOT_ZERO && !massless)
                 continue;
             QDOT_TRY(qdot_grow(&b->c->masses, &capacity, b->c->n_masses + 1,
                                sizeof *b->c->masses));
             b->c->masses[b->c->n_masses++] =
                 (qdot_constraints_entry){(uint32_t)i, (uint32_t)j};
-            QDOT_TRY(qdot_vec_push(&b->masses, p->M[i * p->n + j]));
+            QDOT_TRY(qdot_vec_push(&b->masses, entry));
+            QDOT_TRY(qdot_vec_push(&b->metric, massless ? light : entry));
         }
     return QDOT_OK;
 }
@@ -200,7 +237,7 @@ lower_index_1(builder *b)
 {
     const qdot_plan *p = b->plan;
     expressions out = {0};
-    qdot_status status = push_all(&out, b->masses.n, b->masses.at);
+    qdot_status status = push_all(&out, b->metric.n, b->metric.at);
 
     if (status == QDOT_OK)
         status = push_all(&out, b->slopes.n, b->slopes.at);
@@ -285,6 +322,7 @@ static qdot_status
 build(builder *b, const qdot_scene *scene)
 {
     QDOT_TRY(read_rows(b, scene));
+    QDOT_TRY(read_massless(b));
     QDOT_TRY(keep_expressions(b));
     QDOT_TRY(read_masses(b));
     QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
@@ -302,7 +340,7 @@ qdot_constraints_new(const qdot_scene *scene, const qdot_plan *plan,
     qdot_status status;
 
     *constraints = NULL;
-    if (scene->constraints.n == 0)
+    if (scene->constraints.n + plan->n_massless == 0)
         return QDOT_OK;
     b.c = qdot_calloc(1, sizeof *b.c);
     status = b.c ? build(&b, scene) : QDOT_ENOMEM;
@@ -311,6 +349,7 @@ qdot_constraints_new(const qdot_scene *scene, const qdot_plan *plan,
     qdot_free(b.slopes.at);
     qdot_free(b.gamma.at);
     qdot_free(b.masses.at);
+    qdot_free(b.metric.at);
     if (status != QDOT_OK) {
         qdot_constraints_free(b.c);
         return status;

@@ -25,7 +25,7 @@ typedef struct {
     char *name;           /* "rod", "pin, 1"; owned */
     qdot_constraint_kind kind;
     qdot_expr f;          /* with parameter values */
-    qdot_expr multiplier; /* the symbol lambda[name] */
+    qdot_expr multiplier; /* the symbol lambda[name]; QDOT_NIL: an equation of a massless one */
 } qdot_constraints_row;
 
 /* An entry that is not zero: of M (row >= column) or of A (a constraint, a coordinate).
@@ -33,10 +33,10 @@ typedef struct {
 typedef qdot_saddle_entry qdot_constraints_entry;
 
 struct qdot_constraints {
-    size_t m; /* rows */
+    size_t m; /* rows: those of the scene, then plan->n_massless equations */
     size_t count[3]; /* of each kind */
     qdot_constraints_row *rows;
-    qdot_constraints_entry *masses; /* [n_masses] of M */
+    qdot_constraints_entry *masses; /* [n_masses] of M, with the diagonal of massless coordinates */
     size_t n_masses;
     qdot_constraints_entry *slopes; /* [n_slopes] of A, row by row */
     size_t n_slopes;
@@ -48,7 +48,7 @@ struct qdot_constraints {
     qdot_tape *positions;  /* f of the holonomic rows, in their order */
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
                               order of all rows without those on accelerations */
-    qdot_tape *metric;     /* M [n_masses], A [n_slopes] */
+    qdot_tape *metric;     /* M [n_masses], 2^-60 for massless coordinates; A [n_slopes] */
     qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; moved to plan->tape,
                               then NULL */
 
@@ -59,7 +59,8 @@ struct qdot_constraints {
     qdot_motion motion;
 };
 
-/* For a scene whose plan has its values, M and f; *constraints is NULL for a scene without.
+/* For a scene whose plan has its values, M, f and massless coordinates; *constraints is NULL where
+ * there are neither constraints nor those.
  * Errors: those of lowering. */
 QDOT_MUST_CHECK qdot_status qdot_constraints_new(const qdot_scene *scene,
                                                  const qdot_plan *plan,

@@ -53,7 +53,7 @@ struct qdot_plan {
     unsigned uses;   /* users besides the first (sim/plan/kept.h) */
     qdot_pool *pool; /* borrowed */
     size_t n;        /* coordinates */
-    size_t m;        /* constraints, one a component */
+    size_t m;        /* constraints of the scene, one a component */
     size_t n_states; /* the last coordinates: parameters that events set
                         (sim/model/parameter-states.h) */
     size_t n_sides;  /* surfaces at which the equations switch */
@@ -63,6 +63,9 @@ struct qdot_plan {
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] M, f and tape are NULL if only the tree is used */
     qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */
+    bool *massless; /* [n] coordinates without mass, whose equations stand among the constraints
+                       behind those of the scene (sim/model/massless.h); NULL: there are none */
+    size_t n_massless;
     bool indefinite;   /* a stated Lagrangian, a potential with velocities: LDL^T */
     qdot_structure structure;
     qdot_plan_block *blocks; /* [structure.blocks] */

@@ -7,6 +7,7 @@
 #include "ode/leading.h"
 #include "sim/form/motion-of-constraints.h"
 #include "sim/model/constraints.h"
+#include "sim/model/massless.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
@@ -171,7 +172,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     const char *hindrance;
 
     QDOT_TRY(qdot_constraints_new(scene, p, &p->constraints));
-    p->m = p->constraints->m;
+    p->m = p->constraints->m - p->n_massless;
     p->tape = p->constraints->equations;
     p->constraints->equations = NULL;
     p->treatment = request->treatment;
@@ -186,6 +187,24 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_of_constraints(p));
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
+}
+
+/* What has no equations of its own for coordinates without mass. */
+static qdot_status
+check_massless(const qdot_plan *p, const qdot_run_request *request)
+{
+    size_t i = 0;
+
+    if (p->n_massless == 0 || (request->digits == 0 && !request->lanes && !p->method->geometric))
+        return QDOT_OK;
+    while (!p->massless[i])
+        i++;
+    qdot_fail(QDOT_ENOTBUILT, "not built yet: %s where no mass moves with a coordinate (%s)",
+              request->digits > 0 ? "digits"
+              : request->lanes    ? "ensembles"
+                                  : p->method->name,
+              p->names[i]);
+    return qdot_hint("method taylor, radau, dop853");
 }
 
 /* --- ensembles ---------------------------------------------------------------------- */
@@ -232,8 +251,10 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     if (p->residual)
         return QDOT_OK;
     QDOT_TRY(derive(p, scene));
+    QDOT_TRY(qdot_massless_find(scene, p));
+    QDOT_TRY(check_massless(p, request));
     QDOT_TRY(qdot_plan_check_geometric(p, scene));
-    if (scene->constraints.n > 0)
+    if (scene->constraints.n + p->n_massless > 0)
         return constrain(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));
     QDOT_TRY(qdot_plan_lower(p, 2 * p->n + 1, 0, NULL));

@@ -35,6 +35,11 @@ qdot_expr
 qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
                        bool *turns)
 {
+    if (e == x->energy && e != QDOT_NIL) {
+        if (turns)
+            *turns = false;
+        return x->collision.energy;
+    }
     e = qdot_chart_express(&x->chart, e, quarters, turns);
     return x->collision.scene ? qdot_collision_express(&x->collision, e) : e;
 }

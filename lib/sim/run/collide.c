@@ -490,6 +490,8 @@ pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_
     QDOT_TRY(qdot_collision_make(g->scene, &g->of, pair, sign, &x->collision));
     if (!x->collision.scene)
         return say_hindrance(g, run);
+    if (x->collision.energy != QDOT_NIL)
+        x->energy = qdot_mech_energy(x->chart.of);
     QDOT_TRY(add_end(g));
     QDOT_TRY(run_in_s(g, by, out));
     if (!*out)

@@ -134,6 +134,13 @@ say_constraints(const qdot_plan *p, qdot_text *out)
                      "residual-corrected\n",
                      c->n_slopes);
     qdot_text_format(out, "drift: %s\n", treatments[p->treatment]);
+    if (p->n_massless == 0)
+        return;
+    qdot_text_add(out, "without mass:");
+    for (size_t i = 0, said = 0; i < p->n; i++)
+        if (p->massless[i])
+            qdot_text_format(out, "%s %s", said++ > 0 ? "," : "", p->names[i]);
+    qdot_text_add(out, "; their equations stand among the constraints\n");
 }
 
 static void

@@ -71,7 +71,7 @@ settle_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request,
 {
     bool anew;
 
-    if (scene->constraints.n == 0)
+    if (!run->plan->constraints)
         return QDOT_OK;
     QDOT_TRY(qdot_start_settle(scene, run->plan, request, domains, run->start,
                                run->start_low, &run->notice));

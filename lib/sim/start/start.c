@@ -7,6 +7,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "num/row-space.h"
+#include "sim/model/constraints.h"
 #include "sim/start/nearest.h"
 
 static const double breaks = 1e-14; /* relative to max(1, |x|) */
@@ -19,6 +20,8 @@ typedef struct {
     const qdot_plan *plan;
     const qdot_run_request *request;
     bool velocities;
+    bool massless; /* the equations of coordinates without mass, which move alone; else the
+                      scene's constraints */
     size_t n;
     size_t m;
     qdot_expr *F;        /* [m] */
@@ -49,7 +52,8 @@ static qdot_status
 level_init(level *l)
 {
     const qdot_scene *scene = l->scene;
-    size_t c = scene->constraints.n;
+    const qdot_constraints_row *rows = l->plan->constraints->rows;
+    size_t c = l->plan->constraints->m;
 
     l->F = qdot_calloc(c + 1, sizeof *l->F);
     l->constraint = qdot_calloc(c + 1, sizeof *l->constraint);
@@ -58,12 +62,15 @@ level_init(level *l)
     if (!l->F || !l->constraint || !l->distance || !l->free)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < c; k++) {
-        const qdot_constraint *one = &scene->constraints.at[k];
+        if (l->massless != (k >= scene->constraints.n))
+            continue;
+        const qdot_expr f =
+            k < scene->constraints.n ? scene->constraints.at[k].f : rows[k].f;
 
-        if (one->kind == QDOT_HOLONOMIC)
-            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, one->f) : one->f));
-        else if (one->kind == QDOT_VELOCITY && l->velocities)
-            QDOT_TRY(push(l, k, one->f));
+        if (rows[k].kind == QDOT_HOLONOMIC)
+            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, f) : f));
+        else if (rows[k].kind == QDOT_VELOCITY && l->velocities)
+            QDOT_TRY(push(l, k, f));
     }
     return QDOT_OK;
 }
@@ -77,11 +84,18 @@ level_clear(level *l)
     qdot_free(l->free);
 }
 
+/* Whether the level is that of coordinate i. */
+static bool
+is_own(const level *l, size_t i)
+{
+    return l->massless == (l->plan->massless && l->plan->massless[i]);
+}
+
 /* Not a parameter that events set. */
 static bool
 is_moving(const level *l, size_t i)
 {
-    return i < l->n - l->plan->n_states;
+    return i < l->n - l->plan->n_states && is_own(l, i);
 }
 
 /* The search over the equations F [m]. */
@@ -114,9 +128,9 @@ print_constraints(const level *l, const bool *which, qdot_text *out)
 
     for (size_t k = 0; k < l->m; k++)
         count += which[k];
-    qdot_text_add(out, count == 1 ? "constraint " : "constraints ");
+    qdot_text_add(out, l->massless ? "the " : count == 1 ? "constraint " : "constraints ");
     for (size_t k = 0; k < l->m; k++) {
-        const char *name = l->scene->constraints.at[l->constraint[k]].name;
+        const char *name = l->plan->constraints->rows[l->constraint[k]].name;
         const char *comma = strchr(name, ',');
 
         if (!which[k])
@@ -161,7 +175,7 @@ fail(qdot_text *text, qdot_status built)
 static qdot_status
 refuse(const level *l, const double *residual)
 {
-    const qdot_constraint *row;
+    const qdot_constraints_row *row;
     qdot_text text = {0};
     qdot_status status;
     size_t worst = 0, broken = 0;
@@ -169,7 +183,7 @@ refuse(const level *l, const double *residual)
     for (size_t k = 1; k < l->m; k++)
         if (!(l->distance[k] <= l->distance[worst]))
             worst = k;
-    row = &l->scene->constraints.at[l->constraint[worst]];
+    row = &l->plan->constraints->rows[l->constraint[worst]];
     qdot_text_add(&text, "the start breaks ");
     status = print_broken(l, &text);
     for (size_t k = 0; k < l->m; k++)
@@ -245,7 +259,7 @@ say_moved(const level *l, const double *at, qdot_text *notice)
         qdot_text_add(notice, "\n");
     qdot_text_add(notice, "the start breaks ");
     QDOT_TRY(print_broken(l, notice));
-    qdot_text_add(notice, "; moved least, in the metric of M:");
+    qdot_text_add(notice, l->massless ? "; moved:" : "; moved least, in the metric of M:");
     for (size_t i = 0; i < l->n; i++) {
         double from = l->before[first + i], by = at[first + i] - from;
 
@@ -327,8 +341,10 @@ blame(const level *l, const qdot_domains *domains, const double *start)
         status = fail(&text, status);
     }
     if (status == QDOT_EINVAL)
-        status = qdot_hint("check their parameters%s",
-                           count > 1 ? ", or remove one of them" : "");
+        status = l->massless
+                     ? qdot_hint("no mass moves with these coordinates: masses or damping")
+                     : qdot_hint("check their parameters%s",
+                                 count > 1 ? ", or remove one of them" : "");
     qdot_free(kept);
     return status;
 }
@@ -376,9 +392,12 @@ metric(const level *l, const double *y, double *W)
                                       : QDOT_ZERO;
     if (status == QDOT_OK)
         status = evaluate(l, n * n, entries, y, W);
-    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
-        if (!isfinite(W[i]))
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++) {
+        const bool massless = l->plan->massless && l->plan->massless[i / n];
+
+        if (!isfinite(W[i]) || (massless && i % (n + 1) == 0))
             W[i] = i % (n + 1) == 0;
+    }
     qdot_free(entries);
     return status;
 }
@@ -417,7 +436,7 @@ solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
     qdot_status status = other ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < l->n; i++)
-        l->free[i] = named && !named[i];
+        l->free[i] = named && !named[i] && is_own(l, i);
     if (status == QDOT_OK)
         status = qdot_nearest_find(&l->near, l->free, NULL, y, other, &outcome);
     if (status == QDOT_OK && outcome == QDOT_NEAREST_SEVERAL)
@@ -451,7 +470,8 @@ check_left_alone(const level *l, const qdot_domains *domains, const double *y)
         double x = y[d->coordinate];
         bool held = named[d->coordinate];
 
-        if ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi))
+        if (!is_own(l, d->coordinate) ||
+            ((d->lo_open ? x > d->lo : x >= d->lo) && (d->hi_open ? x < d->hi : x <= d->hi)))
             continue;
         for (size_t k = 0; k < l->m && !held; k++)
             held = qdot_expr_contains(l->plan->pool, l->F[k],
@@ -572,11 +592,12 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
 
     if (status == QDOT_OK)
         memcpy(before, y, 2 * n * sizeof *before);
-    for (int velocities = 0; velocities < 2 && status == QDOT_OK; velocities++) {
+    for (int part = 0; part < 4 && status == QDOT_OK; part++) {
         level l = {.scene = scene,
                    .plan = plan,
                    .request = request,
-                   .velocities = velocities,
+                   .velocities = part > 1,
+                   .massless = part % 2,
                    .n = n,
                    .before = before};
 

@@ -10,6 +10,9 @@
  *        says how far;
  *     3. two solutions equally near are an error that asks for one more value.
  *
+ * Then the equations of coordinates without mass (sim/model/massless.h) likewise, where these alone
+ * move.
+ *
  * A start breaks a constraint if it is further from it than 1e-14 max(1, |x|). Nearer ones are
  * refined too, so that F is 0 to the precision of two doubles for each value.
  *

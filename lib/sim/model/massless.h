@@ -1,0 +1,30 @@
+/* massless.h -- coordinates with which no mass moves, where their own equations determine them.
+ *
+ * If row i of M is 0, the equation of coordinate i is f_i(q, q', t) = 0. One that holds q' of such
+ * coordinates determines these velocities (damping without mass, L = a(q) q' - V: index 1); one
+ * without any velocity determines positions (index 2). Both are taken as constraints beside those
+ * of the scene, differentiated once or twice, with the multiplier mu:
+ *
+ *     M q'' = f + A^T mu,   A q'' = gamma,   row i: 0 = f_i + (A^T mu)_i,
+ *
+ * so that mu is 0 on f_i = 0. [M A^T; A 0] is regular, if M is not, where A is regular among the
+ * massless coordinates (num/saddle.h).
+ *
+ * A coordinate that a constraint of the scene holds is left to it.
+ *
+ * Tests  tests/script/massless.lag, tests/bad/massless-*.lag
+ */
+#ifndef QDOT_SIM_MASSLESS_H
+#define QDOT_SIM_MASSLESS_H
+
+#include "mech/scene/scene.h"
+#include "sim/model/equations.h"
+
+/* Find them, into p->massless and p->n_massless, once M and f are there. QDOT_ESINGULAR: an equation
+ * determines nothing. */
+QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
+
+/* Of which kind the equation of coordinate i is, as a constraint. */
+qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);
+
+#endif
