@@ -596,6 +596,8 @@ make(work *k)
     QDOT_TRY(qdot_pool_check(k->pool));
     if (is_hindered(k))
         return QDOT_OK;
+    k->c->parts = k->m;
+    k->c->strength = k->strength;
     express_coordinates(k);
     for (size_t i = 0; i < to->coordinates.n; i++)
         kinetic =

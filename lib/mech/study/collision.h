@@ -61,12 +61,14 @@ QDOT_MUST_CHECK qdot_status qdot_collision_find(const qdot_collision_equations *
 typedef struct {
     qdot_pool *pool;
     qdot_scene *scene; /* owned, in s; NULL: it is not regular, `hindrance` says why */
+    size_t parts;      /* of u, its first coordinates; then come t, the integral of h, and Q and w of
+                          each coordinate that stays */
     qdot_expr time;    /* its coordinate t */
+    qdot_expr strength; /* k */
     char hindrance[200];
     qdot_collision_pair pair;
     qdot_expr R; /* a symbol for R while the scene is made */
-    qdot_expr
-        energy; /* in its coordinates, by h, so that nothing is divided by R; or nil */
+    qdot_expr energy; /* in its coordinates, by h: nothing is divided by R; or nil */
     qdot_vec(qdot_expr) q0, v0;   /* the start of its coordinates, in q, q', t given */
     qdot_vec(qdot_expr) from, to; /* q, q', q'', t, R in its coordinates */
 } qdot_collision;

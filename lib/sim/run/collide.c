@@ -238,30 +238,68 @@ at_start(const ground *g, qdot_expr e)
                                          &g->request->t0));
 }
 
+/* The run in s: its length, start and scales. */
+typedef struct {
+    size_t n;         /* coordinates */
+    double T, R, k;   /* the time, R at the start */
+    double length;    /* of s */
+    qdot_expr *start; /* [2n] q, then q' */
+    double *scales;   /* [2n] */
+} attempt;
+
+/* What the motion is about: u at the start and at the collision, the times, velocities and energies of
+ * an orbit of size R. Coordinates that are integrals alone are as large as they become. */
 static qdot_status
-make(const ground *g, const qdot_run_maker *by, double length, qdot_expr *q0,
-     qdot_run **out)
+find_scales(const ground *g, attempt *a)
 {
     const qdot_collision *c = &g->x->collision;
-    const size_t n = c->scene->coordinates.n;
+    const size_t n = a->n, m = c->parts;
+    double *s = a->scales, fast = sqrt(a->k), speed, energy;
+
+    for (size_t i = 0; i < 2 * n; i++) {
+        QDOT_TRY(qdot_tape_constant(c->pool, a->start[i], s + i));
+        s[i] = fabs(s[i]);
+    }
+    for (size_t i = 0; i < m; i++)
+        fast = fmax(fast, s[n + i]);
+    speed = 2 * fast / sqrt(a->R);
+    energy = speed * speed;
+    for (size_t i = 0; i < m; i++) {
+        s[i] = sqrt(a->R);
+        s[n + i] = fast;
+    }
+    s[m] = fabs(a->T);
+    s[n + m] = a->R;
+    s[m + 1] = energy * fabs(a->length);
+    s[n + m + 1] = energy;
+    for (size_t i = m + 2; i + 1 < n; i += 2) {
+        s[n + i + 1] = fmax(s[n + i + 1], speed);
+        s[i] = fmax(s[i], a->R);
+        s[n + i] = a->R * s[n + i + 1];
+        s[i + 1] = s[n + i + 1] * fabs(a->length);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
+{
+    const qdot_collision *c = &g->x->collision;
     const bool by_series = strcmp(g->request->method, "auto") == 0 ||
                            strcmp(g->request->method, "taylor") == 0;
     qdot_run_request other = *g->request;
     char text[40];
 
-    for (size_t i = 0; i < n; i++) {
-        q0[i] = at_start(g, c->q0.at[i]);
-        q0[n + i] = at_start(g, c->v0.at[i]);
-    }
-    snprintf(text, sizeof text, "%.3g", fabs(length));
+    QDOT_TRY(find_scales(g, a));
+    snprintf(text, sizeof text, "%.3g", fabs(a->length));
     other.t0 = QDOT_ZERO;
     other.t1 = qdot_expr_decimal(c->pool, text, strlen(text));
-    if (length < 0)
+    if (a->length < 0)
         other.t1 = qdot_neg(c->pool, other.t1);
-    other.q0 = q0;
-    other.v0 = q0 + n;
+    other.q0 = a->start;
+    other.v0 = a->start + a->n;
     other.q_named = other.v_named = NULL;
-    other.scales = NULL;
+    other.scales = a->scales;
     other.tol = fmin(other.tol, by_series ? tight : tight_by_points);
     other.by_clock = true;
     QDOT_TRY(qdot_pool_check(c->pool));
@@ -277,28 +315,43 @@ arrives(const qdot_run *run)
 }
 
 static qdot_status
-run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
+prepare(const ground *g, attempt *a)
 {
     const qdot_collision *c = &g->x->collision;
-    const size_t n = c->scene->coordinates.n;
-    qdot_expr *q0 = qdot_calloc(2 * n + 1, sizeof *q0);
-    double t0, t1, R = 0;
-    qdot_status status =
-        q0 ? qdot_tape_constant(c->pool, g->request->t0, &t0) : QDOT_ENOMEM;
+    double t0, t1;
 
-    if (status == QDOT_OK)
-        status = qdot_tape_constant(c->pool, g->request->t1, &t1);
-    if (status == QDOT_OK)
-        status = qdot_tape_constant(c->pool, at_start(g, c->pair.distance), &R);
+    a->start = qdot_calloc(2 * a->n + 1, sizeof *a->start);
+    a->scales = qdot_calloc(2 * a->n + 1, sizeof *a->scales);
+    if (!a->start || !a->scales)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < a->n; i++) {
+        a->start[i] = at_start(g, c->q0.at[i]);
+        a->start[a->n + i] = at_start(g, c->v0.at[i]);
+    }
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t0, &t0));
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t1, &t1));
+    QDOT_TRY(qdot_tape_constant(c->pool, c->strength, &a->k));
+    a->T = t1 - t0;
+    return qdot_tape_constant(c->pool, at_start(g, c->pair.distance), &a->R);
+}
+
+static qdot_status
+run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
+{
+    attempt a = {.n = g->x->collision.scene->coordinates.n};
+    qdot_status status = prepare(g, &a);
+
     for (size_t k = 0; status == QDOT_OK && !*out && k < sizeof lengths / sizeof *lengths;
          k++) {
-        status = make(g, by, lengths[k] * 2 * (t1 - t0) / R, q0, out);
+        a.length = lengths[k] * 2 * a.T / a.R;
+        status = make(g, by, &a, out);
         if (status == QDOT_OK && arrives(*out))
             break;
         by->free(*out);
         *out = NULL;
     }
-    qdot_free(q0);
+    qdot_free(a.start);
+    qdot_free(a.scales);
     return status;
 }
 
