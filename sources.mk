@@ -201,6 +201,7 @@ library_sources = \
 	lib/mech/scene/scene.c \
 	lib/mech/study/chart-body.c \
 	lib/mech/study/chart-express.c \
+	lib/mech/study/chart-formulas.c \
 	lib/mech/study/chart.c \
 	lib/mech/study/collision-pairs.c \
 	lib/mech/study/collision.c \
@@ -496,6 +497,7 @@ library_sources = \
 	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
+	lib/sim/read/passage.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
@@ -953,6 +955,7 @@ library_headers = \
 	lib/sim/plan/tree-alone.h \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
+	lib/sim/read/passage.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
@@ -1174,6 +1177,8 @@ script_tests = \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
+	tests/script/chart-coordinates.lag \
+	tests/script/chart-roots.lag \
 	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1362,6 +1367,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart-root.lag \
 	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
@@ -1716,6 +1722,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart-root.out \
 	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
@@ -2079,6 +2086,8 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/chaos.out \
+	tests/script/chart-coordinates.out \
+	tests/script/chart-roots.out \
 	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \

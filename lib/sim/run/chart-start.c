@@ -22,7 +22,7 @@ qdot_chart_at_start(const qdot_scene *s, const qdot_run_request *request, qdot_e
 }
 
 qdot_status
-qdot_chart_sign(const qdot_scene *s, const qdot_run_request *request, qdot_expr e,
+qdot_chart_start_sign(const qdot_scene *s, const qdot_run_request *request, qdot_expr e,
                 int *sign, double *value)
 {
     QDOT_TRY(qdot_tape_constant(s->pool, qdot_chart_at_start(s, request, e), value));
@@ -35,10 +35,15 @@ find_angles(const qdot_run_request *request, qdot_run_chart *x)
 {
     const qdot_chart *c = &x->chart;
 
-    for (size_t i = 0; i < c->moved.n; i++)
-        QDOT_TRY(qdot_tape_constant(c->of->pool,
-                                    qdot_chart_at_start(c->of, request, c->moved.at[i].q),
-                                    x->angles + i));
+    for (size_t i = 0; i < c->moved.n; i++) {
+        const qdot_status status = qdot_tape_constant(
+            c->of->pool, qdot_chart_at_start(c->of, request, c->moved.at[i].given), x->angles + i);
+
+        if (status == QDOT_EDOMAIN)
+            x->angles[i] = 0; /* it has no direction there */
+        else
+            QDOT_TRY(status);
+    }
     return QDOT_OK;
 }
 
@@ -77,7 +82,7 @@ qdot_run_chart_open(qdot_scene *s, const qdot_run_request *request, qdot_run_cha
         status = sign ? QDOT_OK : QDOT_ENOMEM;
     }
     for (size_t i = 0; i < groups.n && status == QDOT_OK; i++)
-        status = qdot_chart_sign(s, request, groups.at[i].distance, sign + i, &value);
+        status = qdot_chart_start_sign(s, request, groups.at[i].distance, sign + i, &value);
     if (status == QDOT_OK)
         status = qdot_run_chart_new(s, request, &groups, sign, true, out);
     if (status == QDOT_OK && groups.n == 0) {

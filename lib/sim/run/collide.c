@@ -538,7 +538,7 @@ pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_
     double first;
     int sign;
 
-    QDOT_TRY(qdot_chart_sign(x->chart.of, g->request,
+    QDOT_TRY(qdot_chart_start_sign(x->chart.of, g->request,
                              qdot_chart_given(&x->chart, pair->x[0]), &sign, &first));
     QDOT_TRY(qdot_collision_make(g->scene, &g->of, pair, sign, &x->collision));
     if (!x->collision.scene)
