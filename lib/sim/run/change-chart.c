@@ -43,8 +43,13 @@ static qdot_status
 measure_at(qdot_reader *r, double t, double *before, nearness *x)
 {
     double value;
+    const qdot_status status = qdot_reader_at(r, SIZE_MAX, t, &value);
 
-    QDOT_TRY(qdot_reader_at(r, SIZE_MAX, t, &value));
+    if (qdot_reader_has_nothing(status)) {
+        x->least = 0; /* M is singular just there */
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
     x->least = !(value * *before > 0) ? 0 : fmin(x->least, fabs(value));
     x->most = fmax(x->most, fabs(value));
     *before = value;
