@@ -209,6 +209,8 @@ library_sources = \
 	lib/mech/study/chart-express.c \
 	lib/mech/study/chart-formulas.c \
 	lib/mech/study/chart.c \
+	lib/mech/study/collision-pairs.c \
+	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-equations.c \
@@ -337,6 +339,7 @@ library_sources = \
 	lib/ode/taylor-series.c \
 	lib/ode/taylor.c \
 	lib/ode/trajectory-apart.c \
+	lib/ode/trajectory-points.c \
 	lib/ode/trajectory.c \
 	lib/ode/whole.c \
 	lib/ode/written.c \
@@ -517,6 +520,8 @@ library_sources = \
 	lib/sim/run/change-chart.c \
 	lib/sim/run/change-over.c \
 	lib/sim/run/chart-run.c \
+	lib/sim/run/chart-start.c \
+	lib/sim/run/collide.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/long-run.c \
 	lib/sim/run/run-doubts.c \
@@ -706,6 +711,7 @@ library_headers = \
 	lib/mech/scene/things.h \
 	lib/mech/study/chart-body.h \
 	lib/mech/study/chart.h \
+	lib/mech/study/collision.h \
 	lib/mech/study/distance-ends.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
@@ -979,6 +985,8 @@ library_headers = \
 	lib/sim/run/change-chart.h \
 	lib/sim/run/change-over.h \
 	lib/sim/run/chart-run.h \
+	lib/sim/run/chart-start.h \
+	lib/sim/run/collide.h \
 	lib/sim/run/long-run.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-report.h \
@@ -1083,6 +1091,7 @@ unit_tests = \
 	tests/machine/test_vector \
 	tests/machine/test_x86 \
 	tests/mech/test_chart \
+	tests/mech/test_collision \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
@@ -1205,6 +1214,7 @@ script_tests = \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
+	tests/script/collisions.lag \
 	tests/script/components.lag \
 	tests/script/conserved.lag \
 	tests/script/constraint-ends.sh \
@@ -1654,6 +1664,7 @@ script_tests = \
 	examples/cart-pendulum.lag \
 	examples/chain.lag \
 	examples/chaplygin-sleigh.lag \
+	examples/collision.lag \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \
@@ -2164,6 +2175,7 @@ test_files = \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \
+	tests/script/collisions.out \
 	tests/script/components.out \
 	tests/script/conserved.out \
 	tests/script/constraint-ends.out \
@@ -2453,6 +2465,7 @@ example_files = \
 	examples/chain.svg \
 	examples/chaplygin-sleigh.lag \
 	examples/chaplygin-sleigh.svg \
+	examples/collision.lag \
 	examples/conserved.lag \
 	examples/consistent-start.lag \
 	examples/coupled-oscillators.lag \

@@ -71,6 +71,7 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     qdot_free(tr->t);
     qdot_free(tr->y);
     qdot_free(tr->low);
+    qdot_free(tr->s);
     qdot_free(tr->pieces.at);
     *tr = (qdot_trajectory){0};
 }
@@ -252,20 +253,6 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     return status;
 }
 
-void
-qdot_trajectory_shorten(qdot_trajectory *tr, double t, const double *y)
-{
-    size_t last = tr->count - 1;
-
-    if (last > tr->pieces.at[tr->pieces.n - 1].first && t == tr->t[last - 1]) {
-        tr->count = last;
-    } else {
-        tr->t[last] = t;
-        memcpy(tr->y + last * tr->n, y, tr->n * sizeof *y);
-    }
-    tr->result.t = t;
-}
-
 /* Is a at or before b, in the direction of the run? */
 static bool
 not_beyond(const qdot_trajectory *tr, double a, double b)
@@ -299,6 +286,13 @@ qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
     return low;
 }
 
+/* The variable of integration at the points. */
+static const double *
+steps_of(const qdot_trajectory *tr)
+{
+    return tr->s ? tr->s : tr->t;
+}
+
 static qdot_status
 open_stepper(qdot_trajectory_cursor *c)
 {
@@ -321,7 +315,7 @@ enter(qdot_trajectory_cursor *c, size_t piece)
     c->piece = piece;
     if (system->following && !c->tr->entered) /* others may have followed it elsewhere */
         QDOT_TRY(system->following->enter(
-            c->tr->t[first], c->tr->y + first * c->tr->n,
+            steps_of(c->tr)[first], c->tr->y + first * c->tr->n,
             c->tr->leading ? c->tr->low + first * c->tr->n : NULL,
             system->following->user));
     if (system == c->system)
@@ -403,7 +397,7 @@ walk(qdot_trajectory_cursor *c, double t)
 {
     enum { most = 2000 }; /* of a step of the run: few will do, but before a singular place */
     qdot_ode_stepper *s = c->s;
-    double now = c->tr->t[c->at], h = t - now;
+    double now = steps_of(c->tr)[c->at], h = t - now;
 
     for (int tries = 0;; tries++) {
         double ratio, factor = 0.25;
@@ -443,7 +437,7 @@ read_series(qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
     const double *y0 = tr->y + c->at * tr->n;
-    double t0 = tr->t[c->at], h = tr->t[c->at + 1] - t0;
+    const double *at = steps_of(tr) + c->at, t0 = at[0], h = at[1] - t0;
 
     if (!c->fresh)
         QDOT_TRY(qdot_ode_taylor_expand(c->system, c->order, t0, h, y0));
@@ -464,15 +458,16 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
 {
     const qdot_trajectory *tr = c->tr;
     const size_t from = c->at + second;
+    const double *at = steps_of(tr);
     const double part = tr->method->kernel->forward ? 1 : 0.5;
-    const double h = part * (tr->t[c->at + 1 - second] - tr->t[from]);
+    const double h = part * (at[c->at + 1 - second] - at[from]);
     double ratio;
     qdot_status status;
 
     qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
-    status = qdot_ode_stepper_try(c->s, tr->t[from], h, &ratio);
+    status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
     if (status == QDOT_OK && ratio <= 1)
-        status = c->s->method->kernel->dense(c->s, tr->t[from], h, c->F);
+        status = c->s->method->kernel->dense(c->s, at[from], h, c->F);
     c->fresh = false;
     c->known = true;
     c->second = second;
@@ -485,7 +480,7 @@ static qdot_status
 read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_trajectory *tr = c->tr;
-    const double start = tr->t[c->at], end = tr->t[c->at + 1];
+    const double start = steps_of(tr)[c->at], end = steps_of(tr)[c->at + 1];
     const bool forward = tr->method->kernel->forward;
     const bool second = !forward && fabs(t - start) > fabs(end - t);
     const double x = second ? (t - end) / (start - end) : (t - start) / (end - start);
@@ -520,6 +515,58 @@ qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
     return QDOT_OK;
 }
 
+/* The state within the step from point c->at on. */
+static qdot_status
+read_step(qdot_trajectory_cursor *c, double t, double *y)
+{
+    if (c->tracks)
+        return qdot_trajectory_read_tracks(c, t, y);
+    if (!c->s) {
+        QDOT_TRY(read_series(c, t, y));
+        return derive(c, t, y);
+    }
+    if (c->F) {
+        QDOT_TRY(read_polynomial(c, t, y));
+        if (c->good)
+            return derive(c, t, y);
+    }
+    if (!c->fresh)
+        qdot_ode_stepper_start(c->s, c->tr->y + c->at * c->tr->n);
+    c->fresh = true;
+    QDOT_TRY(walk(c, t));
+    memcpy(y, c->s->trial, c->tr->n * sizeof *y);
+    return QDOT_OK;
+}
+
+/* The same where t is a component: its root by Newton's steps, halving where they leave what is
+ * left. */
+static qdot_status
+read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
+{
+    enum { most = 200 };
+    const qdot_trajectory *tr = c->tr;
+    const double *time = tr->t + c->at;
+    double a = tr->s[c->at], b = tr->s[c->at + 1];
+    double s = a + (b - a) * ((t - time[0]) / (time[1] - time[0]));
+
+    for (int tries = 0; tries < most; tries++) {
+        double gap, next;
+
+        QDOT_TRY(read_step(c, s, y));
+        gap = y[tr->clock] - t;
+        if (gap == 0)
+            break;
+        *((gap > 0) == (time[1] > time[0]) ? &b : &a) = s;
+        next = s - gap / y[tr->clock + tr->n / 2];
+        if (!((next - a) * (b - next) > 0))
+            next = a + 0.5 * (b - a);
+        if (fabs(next - s) <= DBL_EPSILON * fabs(s) || next == a || next == b)
+            break;
+        s = next;
+    }
+    return QDOT_OK;
+}
+
 /* The state at t, which lies in the step from point k on or is that point. */
 static qdot_status
 read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
@@ -533,23 +580,7 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
     }
-    if (c->tracks)
-        return qdot_trajectory_read_tracks(c, t, y);
-    if (!c->s) {
-        QDOT_TRY(read_series(c, t, y));
-        return derive(c, t, y);
-    }
-    if (c->F) {
-        QDOT_TRY(read_polynomial(c, t, y));
-        if (c->good)
-            return derive(c, t, y);
-    }
-    if (!c->fresh)
-        qdot_ode_stepper_start(c->s, tr->y + k * tr->n);
-    c->fresh = true;
-    QDOT_TRY(walk(c, t));
-    memcpy(y, c->s->trial, tr->n * sizeof *y);
-    return QDOT_OK;
+    return tr->s ? read_by_clock(c, t, y) : read_step(c, t, y);
 }
 
 qdot_status
@@ -646,33 +677,4 @@ qdot_trajectory_at(const qdot_trajectory *tr, const qdot_ode_system *system, dou
     status = qdot_trajectory_read(c, t, y);
     qdot_trajectory_close(c);
     return status;
-}
-
-size_t
-qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k)
-{
-    size_t low = 0, high = tr->pieces.n;
-
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-
-        if (tr->pieces.at[middle].first <= k)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-size_t
-qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece)
-{
-    return (piece + 1 < tr->pieces.n ? tr->pieces.at[piece + 1].first : tr->count) - 1;
-}
-
-void
-qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high)
-{
-    *low = fmax(*low, fmin(tr->t[0], tr->t[tr->count - 1]));
-    *high = fmin(*high, fmax(tr->t[0], tr->t[tr->count - 1]));
 }

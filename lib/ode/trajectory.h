@@ -52,6 +52,10 @@ typedef struct qdot_trajectory {
      * above are those of the part with the most. One piece only. */
     struct qdot_trajectory *tracks; /* [n_tracks] */
     size_t n_tracks;
+    /* Of a run by another variable s, in which t is a component of the state
+     * (qdot_trajectory_by_clock): */
+    double *s;    /* [count] at the points; NULL: s is t itself */
+    size_t clock; /* that component */
 } qdot_trajectory;
 
 /* Start from {0}; release with qdot_trajectory_clear. */
@@ -132,6 +136,17 @@ QDOT_MUST_CHECK qdot_status qdot_trajectory_store(qdot_trajectory *tr, double t,
                                                   const double *y);
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_tracks(qdot_trajectory_cursor *c,
                                                         double t, double *y);
+
+/* Put points between those that are stored, so that each step is of so many equal ones. Nothing is
+ * done to a run in parts, or with points in two doubles. Errors: those of reading. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_refine(qdot_trajectory *tr,
+                                                   const qdot_ode_system *system,
+                                                   size_t parts);
+
+/* From here on the time of a run that was made by another variable s is component `clock`, which is
+ * monotone; its rate stands n/2 components behind it. Points are found, and read, by it: t of the
+ * points is that component, s what t was. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_trajectory_by_clock(qdot_trajectory *tr, size_t clock);
 
 /* Tell the cursor that the points have been changed. */
 void qdot_trajectory_renew(qdot_trajectory_cursor *c);

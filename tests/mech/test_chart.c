@@ -74,7 +74,7 @@ groups_of(kit *k)
 {
     qdot_chart_groups groups = {0};
 
-    must(qdot_chart_find(k->scene, &groups));
+    must(qdot_chart_find(k->scene, false, &groups));
     return groups;
 }
 
@@ -89,7 +89,7 @@ same_motion(kit *k, qdot_chart_kind kind)
 
     assert_int_equal(groups.n, 1);
     assert_int_equal(groups.at[0].kind, kind);
-    must(qdot_chart_make(k->scene, &groups, NULL, &c));
+    must(qdot_chart_make(k->scene, &groups, NULL, false, &c));
     assert_non_null(c.scene);
     h = qdot_mech_energy(k->scene);
     same_number(number_in_chart(k, &s, &c, qdot_mech_energy(c.scene)), number(k, &s, h));

@@ -222,6 +222,65 @@ a_stiff_run_is_read_cheaply(void **state)
     }
 }
 
+/* t = s + sin s, which stands still at s = pi. */
+static qdot_status
+clock_rhs(double s, const double *y, double *dydt, void *user)
+{
+    (void)user;
+    dydt[0] = y[1];
+    dydt[1] = -sin(s);
+    return QDOT_OK;
+}
+
+/* s where t = s + sin s. */
+static double
+true_s(double t)
+{
+    double a = 0, b = 10;
+
+    for (int i = 0; i < 100; i++) {
+        const double middle = (a + b) / 2;
+
+        *(middle + sin(middle) < t ? &a : &b) = middle;
+    }
+    return a;
+}
+
+static void
+a_run_is_timed_by_a_component(void **state)
+{
+    const qdot_ode_system s = {.n = 2, .rhs = clock_rhs};
+    const double y0[2] = {0, 2};
+    static const char *const methods[] = {"rk8pd", "dop853"};
+
+    (void)state;
+    for (size_t m = 0; m < 2; m++) {
+        qdot_trajectory tr = {0};
+        qdot_trajectory_cursor *c;
+        size_t count;
+
+        assert_int_equal(qdot_trajectory_run(&tr, &s, method(methods[m]), NULL, 0, 10, y0),
+                         QDOT_OK);
+        count = tr.count;
+        assert_int_equal(qdot_trajectory_refine(&tr, &s, 3), QDOT_OK);
+        assert_int_equal(tr.count, 3 * (count - 1) + 1);
+        assert_int_equal(qdot_trajectory_by_clock(&tr, 0), QDOT_OK);
+        assert_int_equal(qdot_trajectory_open(&tr, &s, &c), QDOT_OK);
+        for (int i = 0; i <= 1000; i++) {
+            const double t = 9.4 * i / 1000, wanted = 1 + cos(true_s(t));
+            double y[2];
+
+            assert_int_equal(qdot_trajectory_read(c, t, y), QDOT_OK);
+            /* dt = s^2 ds/2 about s = pi */
+            assert_true(fabs(y[0] - t) < 1e-14 && fabs(y[1] - wanted) < 1e-8);
+            if (fabs(t - 3.14) > 0.5)
+                assert_true(fabs(y[1] - wanted) < 1e-10);
+        }
+        qdot_trajectory_close(c);
+        qdot_trajectory_clear(&tr);
+    }
+}
+
 static void
 every_failed_allocation_is_told(void **state)
 {
@@ -242,6 +301,7 @@ main(void)
         cmocka_unit_test(an_interrupted_run_can_be_looked_at),
         cmocka_unit_test(a_run_goes_on_from_its_own_end),
         cmocka_unit_test(a_stiff_run_is_read_cheaply),
+        cmocka_unit_test(a_run_is_timed_by_a_component),
         cmocka_unit_test(every_failed_allocation_is_told),
     };
 

@@ -27,7 +27,7 @@ run 0..1 digits 25 as h
 reset
 coord r > 0, phi
 particle p mass 1 at (r*cos(phi), r*sin(phi))
-potential -1/r
+potential -1/r^2
 start r = 1
 run 0..2 as e
 SCENE

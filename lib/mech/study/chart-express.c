@@ -514,3 +514,17 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     }
     return QDOT_NIL;
 }
+
+qdot_expr
+qdot_chart_given(const qdot_chart *c, qdot_expr e)
+{
+    for (uint32_t order = 2; order-- > 0;)
+        for (size_t i = 0; i < c->fresh.n; i++) {
+            const qdot_expr given = c->fresh.at[i].given;
+            const qdot_expr from = qdot_symbol_jet(c->pool, c->fresh.at[i].q, order);
+            const qdot_expr to = order ? qdot_ddt(c->pool, given) : given;
+
+            e = qdot_subs(c->pool, e, 1, &from, &to);
+        }
+    return e;
+}

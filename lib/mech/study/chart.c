@@ -41,6 +41,19 @@ is_moved(const qdot_chart *c, qdot_expr q)
     return false;
 }
 
+/* Whether e, of the scene given, holds an angle outside of sin and cos. */
+static bool
+holds_angle(const qdot_chart *c, qdot_expr e)
+{
+    const qdot_expr now = qdot_chart_put(c, e);
+
+    for (size_t i = 0; i < c->moved.n && now != QDOT_NIL; i++)
+        if (c->moved.at[i].bare != QDOT_NIL &&
+            qdot_expr_contains(c->pool, now, c->moved.at[i].bare))
+            return true;
+    return false;
+}
+
 static qdot_expr
 regular(qdot_expr e, void *user)
 {
@@ -50,6 +63,8 @@ regular(qdot_expr e, void *user)
 
     if (now != QDOT_NIL || qdot_pool_failed(c->pool))
         return now;
+    if (c->open && !holds_angle(c, e))
+        return qdot_mech_tidy(c->of, qdot_chart_express(c, e, NULL, NULL));
     if (qdot_print(c->pool, e, QDOT_PLAIN, &text) == QDOT_OK)
         snprintf(c->hindrance, sizeof c->hindrance, "%.140s is not smooth there",
                  qdot_text_str(&text));
@@ -133,6 +148,17 @@ copy_event(qdot_chart *c, const qdot_event *event)
     return status;
 }
 
+/* Nor are those that hold a root N. */
+static void
+check_places(qdot_chart *c)
+{
+    for (size_t k = 0; k < c->roots.n && c->open; k++)
+        for (size_t i = 0; i < c->scene->particles.n; i++)
+            if (qdot_expr_contains(c->pool, c->scene->particles.at[i].position,
+                                   qdot_sqrt(c->pool, c->roots.at[k].square)))
+                snprintf(c->hindrance, sizeof c->hindrance, "a place is not smooth");
+}
+
 /* Places that hold the length of a group itself are not smooth where it is 0. */
 static void
 check_lengths(qdot_chart *c)
@@ -158,6 +184,7 @@ complete(qdot_chart *c)
         check_domain(c, c->moved.at + i);
     QDOT_TRY(qdot_scene_map(c->scene, regular, c));
     check_lengths(c);
+    check_places(c);
     for (size_t i = 0; i < c->unit.n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(qdot_scene_constraint(c->scene, NULL, c->unit.at[i], QDOT_ZERO));
     for (size_t i = 0; i < s->events.n && c->hindrance[0] == '\0'; i++)
@@ -215,9 +242,10 @@ begin_scene(qdot_chart *c, const qdot_chart_groups *groups)
 
 qdot_status
 qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
-                qdot_chart *c)
+                bool open, qdot_chart *c)
 {
-    *c = (qdot_chart){.pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool)};
+    *c = (qdot_chart){
+        .pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool), .open = open};
     if (!c->scene)
         return QDOT_ENOMEM;
     QDOT_TRY(begin_scene(c, groups));
@@ -237,7 +265,7 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
 
 /* Take the group if the scene is regular without it. */
 static qdot_status
-try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
+try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *groups)
 {
     const qdot_chart_groups one = {.n = 1, .at = &g};
     qdot_chart chart = {0};
@@ -247,7 +275,7 @@ try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
     for (size_t k = 0; k < qdot_chart_size(g.kind); k++)
         if (is_taken(groups, g.index[k]))
             return QDOT_OK;
-    status = qdot_chart_make(s, &one, NULL, &chart);
+    status = qdot_chart_make(s, &one, NULL, open, &chart);
     good = chart.scene != NULL;
     qdot_chart_clear(&chart);
     if (status == QDOT_EINVAL || status == QDOT_ETYPE || status == QDOT_EDOMAIN)
@@ -295,7 +323,7 @@ holds_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
 }
 
 static void
-join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
+join_pairs(const qdot_scene *s, qdot_expr e, bool rates, joined *pairs)
 {
     const size_t n = s->coordinates.n;
 
@@ -304,22 +332,28 @@ join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
         const qdot_expr slope =
             qdot_expr_contains(s->pool, e, q) ? qdot_diff(s->pool, e, q) : QDOT_NIL;
 
-        for (size_t j = 0; j < n && slope != QDOT_NIL; j++)
-            pairs->at[i][j] |= qdot_expr_contains(s->pool, slope, s->coordinates.at[j]);
+        for (size_t j = 0; j < n && slope != QDOT_NIL; j++) {
+            const qdot_expr with = s->coordinates.at[j];
+
+            pairs->at[i][j] |= qdot_expr_contains(s->pool, slope, with);
+            if (rates && qdot_expr_contains(s->pool, slope, qdot_symbol_jet(s->pool, with, 1)))
+                pairs->at[i][j] = pairs->at[j][i] = true;
+        }
         pairs->hyperbolic[i] |= holds_function(s->pool, e, QDOT_COSH, q);
         pairs->square[i] |= holds_function(s->pool, e, 0, q);
     }
 }
 
+/* rates: those in one term of L with the rate of another, too. */
 static joined
-find_pairs(const qdot_scene *s)
+find_pairs(const qdot_scene *s, bool rates)
 {
     joined pairs = {0};
 
     for (size_t i = 0; i < s->particles.n + s->bodies.n; i++)
         for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, position_of(s, i)); d++)
-            join_pairs(s, qdot_mech_component(s->pool, position_of(s, i), d), &pairs);
-    join_pairs(s, s->lagrangian, &pairs);
+            join_pairs(s, qdot_mech_component(s->pool, position_of(s, i), d), false, &pairs);
+    join_pairs(s, s->lagrangian, rates, &pairs);
     return pairs;
 }
 
@@ -362,7 +396,7 @@ fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
 }
 
 static qdot_status
-try_kind(qdot_scene *s, qdot_chart_kind kind, bool turned, const joined *pairs,
+try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const joined *pairs,
          qdot_chart_groups *groups)
 {
     const size_t n = s->coordinates.n, third = qdot_chart_size(kind) == 3 ? n : 1;
@@ -375,7 +409,7 @@ try_kind(qdot_scene *s, qdot_chart_kind kind, bool turned, const joined *pairs,
                     .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 
                 if (fits(s, &g, pairs))
-                    QDOT_TRY(try_group(s, g, groups));
+                    QDOT_TRY(try_group(s, open, g, groups));
             }
     return QDOT_OK;
 }
@@ -411,14 +445,14 @@ try_roots(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
             known = known || groups->at[k].square == found.at[i];
         if (!known)
             status = try_group(
-                s, (qdot_chart_group){.kind = QDOT_CHART_ROOT, .square = found.at[i]}, groups);
+                s, false, (qdot_chart_group){.kind = QDOT_CHART_ROOT, .square = found.at[i]}, groups);
     }
     qdot_free(found.at);
     return status;
 }
 
 qdot_status
-qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
+qdot_chart_find(qdot_scene *s, bool open, qdot_chart_groups *groups)
 {
     static const struct {
         qdot_chart_kind kind;
@@ -437,10 +471,11 @@ qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
     if (s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
     rest = qdot_pool_budget(s->pool, most_work);
-    pairs = find_pairs(s);
+    pairs = find_pairs(s, open);
     for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
-        status = try_kind(s, order[k].kind, order[k].turned, &pairs, groups);
-    for (size_t i = 0; i < s->particles.n + s->bodies.n && status == QDOT_OK; i++)
+        if (!open || order[k].kind == QDOT_CHART_PLANE || order[k].kind == QDOT_CHART_SPACE)
+            status = try_kind(s, open, order[k].kind, order[k].turned, &pairs, groups);
+    for (size_t i = 0; i < s->particles.n + s->bodies.n && status == QDOT_OK && !open; i++)
         status = try_roots(s, position_of(s, i), groups);
     pending = qdot_pool_check(s->pool);
     status = status == QDOT_OK ? pending : status;

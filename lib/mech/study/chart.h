@@ -122,6 +122,7 @@ typedef struct {
     qdot_scene *of;    /* the scene given, while the chart is made */
     qdot_scene *scene; /* owned; NULL: it is not regular, `hindrance` says where */
     char hindrance[200];
+    bool open;          /* forces may hold roots: they are singular where these are 0 */
     bool signed_events; /* events hold a sign: none may change */
     qdot_vec(qdot_chart_moved) moved;
     qdot_vec(qdot_chart_fresh) fresh;
@@ -131,16 +132,20 @@ typedef struct {
     qdot_text names;          /* "x = r*cos(phi), y = r*sin(phi)" of what is new */
 } qdot_chart;
 
-/* All groups of the scene that can be replaced one by one, no coordinate in two of them. `groups`
- * starts from {0}; free its `at`. Errors: the pool's. */
-QDOT_MUST_CHECK qdot_status qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups);
+/* All groups of the scene that can be replaced one by one, no coordinate in two of them. open: those
+ * of the plane and of space alone, where forces may be singular at N = 0. `groups` starts from {0};
+ * free its `at`. Errors: the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_chart_find(qdot_scene *s, bool open, qdot_chart_groups *groups);
 
 /* The scene with these groups replaced. `sign` [n]: of each distance at the start, 1 or -1. The
  * chart starts from {0}; clear it in any case. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_chart_make(qdot_scene *s,
                                             const qdot_chart_groups *groups,
-                                            const int *sign, qdot_chart *chart);
+                                            const int *sign, bool open, qdot_chart *chart);
 void qdot_chart_clear(qdot_chart *chart);
+
+/* An expression of c->scene in the coordinates given. */
+qdot_expr qdot_chart_given(const qdot_chart *c, qdot_expr e);
 
 /* An expression of the scene given in the new coordinates. An angle outside of sin and cos is
  * counted from so many quarter turns, of which it is within half a turn; quarters [moved], and

@@ -19,6 +19,22 @@ qdot_drifts_clear(qdot_drifts *d)
     *d = (qdot_drifts){0};
 }
 
+qdot_status
+qdot_drifts_set(qdot_drifts *d, const qdot_drift *energy)
+{
+    qdot_drifts_clear(d);
+    d->at = qdot_calloc(1, sizeof *d->at);
+    if (!d->at)
+        return QDOT_ENOMEM;
+    *d->at = *energy;
+    d->at->name = qdot_strdup(energy->name);
+    if (!d->at->name)
+        return QDOT_ENOMEM;
+    d->n = 1;
+    d->energy = true;
+    return QDOT_OK;
+}
+
 /* Whether the equations switch at a point, which is stored twice: there sign(0) is 0, on
  * neither side. */
 static bool

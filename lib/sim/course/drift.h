@@ -22,6 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_drifts_measure(qdot_scene *scene, const qdot_pl
                                                 qdot_drifts *drifts);
 void qdot_drifts_clear(qdot_drifts *drifts);
 
+/* Let the energy, which was measured elsewhere, be all of it; its name is copied. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_drifts_set(qdot_drifts *drifts, const qdot_drift *energy);
+
 /* Whether the energy of a run by tolerance drifts by far more than its steps can make it,
  *
  *     |E - E_0| > 100 tol steps max(1, sum of its terms' sizes):

@@ -192,6 +192,17 @@ is_beyond(const qdot_run *run, double t)
                 && t <= fmax(run->within[0], run->within[1]));
 }
 
+/* Whether the clock of a run that is timed by one goes twice as fast, or half as fast, at point k as
+ * at another: values that are singular where it stands still are not alike there. */
+static bool
+is_unlike(const qdot_trajectory *tr, size_t k, size_t other)
+{
+    const double *rate = tr->y + tr->clock + tr->n / 2;
+    const double ratio = tr->s ? fabs(rate[k * tr->n] / rate[other * tr->n]) : 1;
+
+    return !(0.5 <= ratio && ratio <= 2);
+}
+
 /* The largest over the points on one side, from k on in steps of `way`, into out [m];
  * *cut: a neighbouring piece, or what may be compared, ends it early. */
 static qdot_status
@@ -199,6 +210,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
+    const size_t begin = k;
     double turned = 0;
 
     for (size_t j = 0; j < d->m; j++)
@@ -208,7 +220,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
         const double *at;
 
         *cut = is_beyond(d->run, tr->t[k]);
-        if (*cut)
+        if (*cut || is_unlike(tr, k, begin))
             return QDOT_OK;
         QDOT_TRY(at_point(d, piece, k, &at));
         for (size_t j = 0; j < d->m; j++)

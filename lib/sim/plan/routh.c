@@ -569,9 +569,9 @@ qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *re
                .pool = plan->pool,
                .facts = qdot_scene_facts(scene),
                .n = plan->n};
-    qdot_status status = routh_init(&e);
+    qdot_status status = request->by_clock ? QDOT_OK : routh_init(&e);
 
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !request->by_clock)
         status = reduce(&e);
     routh_clear(&e);
     /* a pivot vanishes, or an expression is not defined at 0: keep the full equations */

@@ -28,7 +28,7 @@
 /* Coordinates that are eliminated are coupled with fewer others in M, which elimination fills. */
 enum { QDOT_ROUTH_COUPLED = 6 };
 
-/* Into plan->reduced; NULL where nothing is cyclic or nothing is gained. The plan is made
+/* Into plan->reduced; NULL where nothing is cyclic or nothing is gained, or by a clock. The plan is made
  * but for this, without constraints. */
 QDOT_MUST_CHECK qdot_status qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene,
                                               const qdot_run_request *request);

@@ -42,16 +42,16 @@ check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 static qdot_status
 express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
 {
-    const qdot_chart *c = &in->run->chart->chart;
+    const qdot_run_chart *x = in->run->chart;
 
     in->turns = false;
     for (size_t j = 0; j < in->m; j++) {
         bool turns;
 
-        in->exprs[j] = qdot_chart_express(c, exprs[j], quarters, &turns);
+        in->exprs[j] = qdot_run_chart_express(x, exprs[j], quarters, &turns);
         in->turns = in->turns || turns;
     }
-    return qdot_pool_check(c->pool);
+    return qdot_pool_check(x->chart.pool);
 }
 
 qdot_status

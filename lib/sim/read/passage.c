@@ -42,7 +42,7 @@ side_of(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
     for (size_t i = 0; i < c->signs.n && !own; i++)
         if (x->stretches.at[k].passed >> i & 1)
             signed_ones[c->moved.n + i] *= -1;
-    now = qdot_chart_express(c, e, signed_ones, NULL);
+    now = qdot_run_chart_express(x, e, signed_ones, NULL);
     qdot_free(signed_ones);
     return now;
 }

@@ -5,11 +5,10 @@
 #include <string.h>
 
 #include "expr/calculus.h"
-#include "expr/print.h"
 #include "sim/course/reader.h"
-#include "sim/model/substitute.h"
 #include "sim/run/chart-run.h"
-#include "tape/constant.h"
+#include "sim/run/chart-start.h"
+#include "sim/run/collide.h"
 
 /* A run came near a singular place if N falls below so much of its largest value, or of 1. */
 static const double near_place = 0.05;
@@ -29,28 +28,13 @@ typedef struct {
     double least, most;
 } nearness;
 
-static qdot_expr
-at_start(const qdot_scene *s, const qdot_run_request *request, qdot_expr e)
-{
-    qdot_pool *pool = s->pool;
-
-    for (size_t i = 0; i < s->coordinates.n; i++) {
-        const qdot_expr v = qdot_symbol_jet(pool, s->coordinates.at[i], 1);
-
-        e = qdot_subs(pool, e, 1, &v, &request->v0[i]);
-    }
-    e = qdot_subs(pool, e, s->coordinates.n, s->coordinates.at, request->q0);
-    return qdot_substitute(pool, e, request->n_values, request->symbols, request->values);
-}
-
 static qdot_status
 measure_start(const qdot_scene *s, const qdot_run_request *request, qdot_expr distance,
               nearness *x)
 {
     double value;
 
-    QDOT_TRY(qdot_tape_constant(s->pool, at_start(s, request, distance), &value));
-    x->sign = value < 0 ? -1 : 1;
+    QDOT_TRY(qdot_chart_start_sign(s, request, distance, &x->sign, &value));
     x->least = x->most = fabs(value);
     return QDOT_OK;
 }
@@ -136,47 +120,10 @@ put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
         for (size_t k = 0; k < c->fresh.n; k++)
             if (c->fresh.at[k].q == given)
                 given = c->fresh.at[k].given;
-        q0[i] = at_start(s, request, given);
-        v0[i] = at_start(s, request, qdot_ddt(s->pool, given));
+        q0[i] = qdot_chart_at_start(s, request, given);
+        v0[i] = qdot_chart_at_start(s, request, qdot_ddt(s->pool, given));
     }
     return qdot_pool_check(s->pool);
-}
-
-static qdot_status
-find_angles(const qdot_run_request *request, qdot_run_chart *x)
-{
-    const qdot_chart *c = &x->chart;
-
-    for (size_t i = 0; i < c->moved.n; i++) {
-        const qdot_status status = qdot_tape_constant(
-            c->of->pool, at_start(c->of, request, c->moved.at[i].given), x->angles + i);
-
-        if (status == QDOT_EDOMAIN)
-            x->angles[i] = 0; /* it has no direction there */
-        else
-            QDOT_TRY(status);
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-make_chart(qdot_scene *s, const qdot_run_request *request,
-           const qdot_chart_groups *groups, const int *sign, qdot_run_chart **out)
-{
-    qdot_run_chart *x = *out = qdot_calloc(1, sizeof *x);
-
-    if (!x)
-        return QDOT_ENOMEM;
-    QDOT_TRY(qdot_chart_make(s, groups, sign, &x->chart));
-    if (!x->chart.scene)
-        return QDOT_OK;
-    x->n = s->coordinates.n;
-    x->coordinates = qdot_calloc(x->n + 1, sizeof *x->coordinates);
-    x->angles = qdot_calloc(x->chart.moved.n + 1, sizeof *x->angles);
-    if (!x->coordinates || !x->angles)
-        return QDOT_ENOMEM;
-    memcpy(x->coordinates, s->coordinates.at, x->n * sizeof *x->coordinates);
-    return find_angles(request, x);
 }
 
 /* Make the run; *run NULL where it does not arrive. */
@@ -267,7 +214,7 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
             qdot_run **out)
 {
     qdot_run_chart *x = NULL;
-    qdot_status status = make_chart(s, request, groups, sign, &x);
+    qdot_status status = qdot_run_chart_new(s, request, groups, sign, false, &x);
 
     if (status == QDOT_OK && x->chart.scene)
         status = run_in(x, request, by, out);
@@ -299,7 +246,7 @@ change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
     qdot_chart_groups groups = {0};
     size_t near = 0;
     int *sign = NULL;
-    qdot_status status = qdot_chart_find(s, &groups);
+    qdot_status status = qdot_chart_find(s, false, &groups);
 
     *out = NULL;
     if (status == QDOT_OK && groups.n > 0) {
@@ -356,7 +303,7 @@ is_better(const qdot_run *other, const qdot_run *run)
 /* `change` from the start that the run has settled on the constraints, if it has one. */
 static qdot_status
 change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
-               const qdot_run *run, qdot_run **out)
+               qdot_run *run, qdot_run **out)
 {
     const size_t n = s->coordinates.n;
     qdot_run_request settled = *request;
@@ -380,28 +327,42 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     return status;
 }
 
+/* Put `other` in the place of *run if it is better. */
+static void
+take_better(const qdot_run_maker *by, qdot_run *other, qdot_run **run)
+{
+    qdot_run *worse = other;
+
+    if (other && is_better(other, *run)) {
+        worse = *run;
+        *run = other;
+    }
+    by->free(worse);
+}
+
 qdot_status
 qdot_run_change_chart(qdot_scene *s, const qdot_run_request *request,
                       const qdot_run_maker *by, qdot_status began, qdot_run **run)
 {
     const qdot_error before = *qdot_last_error();
-    qdot_run *other = NULL;
-    qdot_status status;
 
     if (request->n_states > 0 || (*run ? began != QDOT_OK || !is_poor(*run, request->tol)
                                        : began != QDOT_ESINGULAR))
         return began;
-    status = change_settled(s, request, by, *run, &other);
-    if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
-        by->free(other);
-        return status;
+    for (int way = 0; way < 2 && (way == 0 || (*run && is_poor(*run, request->tol))); way++) {
+        qdot_run *other = NULL;
+        const qdot_status status =
+            (way == 0 ? change_settled : qdot_run_collide)(s, request, by, *run, &other);
+
+        if (status == QDOT_OK)
+            take_better(by, other, run);
+        else
+            by->free(other);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
     }
-    if (!other || status != QDOT_OK || !is_better(other, *run)) {
-        by->free(other);
-        qdot_fail_again(&before);
-        return began;
-    }
-    by->free(*run);
-    *run = other;
-    return QDOT_OK;
+    if (*run && (*run)->chart)
+        return QDOT_OK;
+    qdot_fail_again(&before);
+    return began;
 }

@@ -26,12 +26,25 @@ qdot_run_chart_free(qdot_run_chart *x)
     if (!x)
         return;
     qdot_chart_clear(&x->chart);
+    qdot_collision_clear(&x->collision);
     qdot_free(x->coordinates);
     qdot_free(x->angles);
     qdot_free(x->end);
     qdot_free(x->stretches.at);
     qdot_free(x->quarters.at);
     qdot_free(x);
+}
+
+qdot_expr
+qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters, bool *turns)
+{
+    if (e == x->energy && e != QDOT_NIL) {
+        if (turns)
+            *turns = false;
+        return x->collision.energy;
+    }
+    e = qdot_chart_express(&x->chart, e, quarters, turns);
+    return x->collision.scene ? qdot_collision_express(&x->collision, e) : e;
 }
 
 /* --- following the angles ------------------------------------------------------------------ */
@@ -236,14 +249,14 @@ follow_run(following *f, const qdot_trajectory *tr)
 
 /* Expressions of angle i with signs +1 and -1: x, and y or what it is sin of half an angle times. */
 static void
-express_angle(const qdot_chart *c, size_t i, const long *quarters, qdot_expr *xy)
+express_angle(const qdot_run_chart *x, size_t i, const long *quarters, qdot_expr *xy)
 {
-    const qdot_chart_moved *m = c->moved.at + i;
+    const qdot_chart_moved *m = x->chart.moved.at + i;
 
-    xy[0] = turns(m) ? qdot_chart_express(c, m->x, quarters, NULL) : QDOT_ONE;
+    xy[0] = turns(m) ? qdot_run_chart_express(x, m->x, quarters, NULL) : QDOT_ONE;
     xy[1] = !turns(m) ? QDOT_ZERO
-                      : qdot_chart_express(c, m->factor != QDOT_NIL ? m->factor : m->y, quarters,
-                                           NULL);
+                      : qdot_run_chart_express(x, m->factor != QDOT_NIL ? m->factor : m->y,
+                                               quarters, NULL);
 }
 
 /* The square of the slope of P. */
@@ -261,8 +274,9 @@ slope_of(const qdot_chart *c, const qdot_chart_sign *s)
 
 /* exprs [4 m + 2 n], as following.xy. */
 static qdot_status
-express_all(const qdot_chart *c, qdot_expr *exprs)
+express_all(const qdot_run_chart *x, qdot_expr *exprs)
 {
+    const qdot_chart *c = &x->chart;
     const size_t m = c->moved.n, n = c->signs.n;
     long *quarters = qdot_calloc(m + n + 1, sizeof *quarters);
 
@@ -272,7 +286,7 @@ express_all(const qdot_chart *c, qdot_expr *exprs)
         for (size_t i = 0; i < n; i++)
             quarters[m + i] = minus ? -1 : 1;
         for (size_t i = 0; i < m; i++)
-            express_angle(c, i, quarters, exprs + 4 * i + 2 * minus);
+            express_angle(x, i, quarters, exprs + 4 * i + 2 * minus);
     }
     for (size_t i = 0; i < n; i++) {
         const qdot_chart_sign *s = c->signs.at + i;
@@ -296,7 +310,7 @@ follow(qdot_run *run)
 
     f.xy = qdot_calloc(size + 3 * f.m + f.n + 1, sizeof *f.xy);
     f.signs = qdot_calloc(f.n + 1, sizeof *f.signs);
-    status = f.xy && f.signs && exprs ? express_all(&x->chart, exprs) : QDOT_ENOMEM;
+    status = f.xy && f.signs && exprs ? express_all(x, exprs) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_reader_lower(run->plan, size, exprs, &of);
     if (status == QDOT_OK)
@@ -414,7 +428,9 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     r->coordinates = x->coordinates;
     r->q = x->end;
     r->v = x->end + x->n;
+    r->drifts = run->drifts.at;
     r->n_drifts = run->drifts.energy ? 1 : 0;
+    r->energy_drift = run->drifts.energy ? run->drifts.at[0].drift : NAN;
     r->m = r->independent = 0; /* those of the chart alone */
     r->constraint_drift = r->velocity_drift = NAN;
     return QDOT_OK;

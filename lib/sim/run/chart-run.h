@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "mech/study/chart.h"
+#include "mech/study/collision.h"
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
@@ -24,7 +25,10 @@ typedef struct {
 } qdot_chart_stretch;
 
 typedef struct qdot_run_chart {
-    qdot_chart chart;       /* its scene is that of the run */
+    qdot_chart chart;         /* its scene is that of the run, without a collision; else it may be one in
+                                 which nothing is moved */
+    qdot_collision collision; /* its scene, if there is one, is that of the run */
+    qdot_expr energy;       /* of the scene given, read as collision.energy; or nil */
     size_t n;               /* coordinates of the scene given */
     qdot_expr *coordinates; /* [n] */
     double *angles;         /* [moved] at the start, as given */
@@ -38,6 +42,10 @@ typedef struct qdot_run_chart {
 } qdot_run_chart;
 
 void qdot_run_chart_free(qdot_run_chart *x);
+
+/* An expression of the scene given in the coordinates of the run (as qdot_chart_express). */
+qdot_expr qdot_run_chart_express(const qdot_run_chart *x, qdot_expr e, const long *quarters,
+                                 bool *turns);
 
 /* Follow the angles and signs of the run, if that was not done yet. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);

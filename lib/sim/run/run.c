@@ -438,13 +438,13 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     if (status == QDOT_OK && run->course.tr.result.unfit)
         status = run_in_doubles(run, tol, notice, interrupted);
     run->report.tol = tol;
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !run->by_clock)
         status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_places(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
-    if (status == QDOT_OK && !*interrupted)
+    if (status == QDOT_OK && !*interrupted && !run->by_clock)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
                                      run->stage.scales != NULL, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
@@ -508,6 +508,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
     if (!run)
         return QDOT_ENOMEM;
     run->report.horizon = run->report.standstill = NAN;
+    run->by_clock = request->by_clock;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
     run->course.touch_tol = touch_tol;

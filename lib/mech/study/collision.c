@@ -1,0 +1,647 @@
+/* collision.c -- the scene in which a collision is regular, and expressions in it. */
+#include "mech/study/collision.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/scene/access.h"
+#include "mech/scene/scene.h"
+
+enum { MOST = QDOT_COLLISION_MOST, PARTS = 4 };
+
+void
+qdot_collision_clear(qdot_collision *c)
+{
+    qdot_scene_free(c->scene);
+    qdot_free(c->q0.at);
+    qdot_free(c->v0.at);
+    qdot_free(c->from.at);
+    qdot_free(c->to.at);
+    *c = (qdot_collision){0};
+}
+
+/* What the scene is made from: symbols, and the equations of the pair. */
+typedef struct {
+    qdot_collision *c;
+    qdot_pool *pool;
+    qdot_scene *s;
+    const qdot_collision_equations *of;
+    size_t d, m; /* components of x, of u */
+    int sign;    /* x = sign L(u) u: of d = 1 alone -1 */
+    int side;    /* of x[0] at the start */
+    qdot_expr u[PARTS], energy, R;
+    qdot_expr x[MOST], rate[MOST];      /* symbols for x, dx/dt */
+    qdot_expr in_u[MOST], rate_u[MOST]; /* L u, 2 L u'/R */
+    qdot_expr strength;                 /* k */
+    qdot_expr P[MOST];                  /* in x, dx/dt, R */
+    /* of each coordinate given: [n] */
+    qdot_expr *Q, *w; /* QDOT_NIL where it is a pivot */
+    qdot_expr *value; /* in x and Q */
+    qdot_expr *speed; /* dq/dt in dx/dt and w' */
+    qdot_expr *pull;  /* [n d] c: d2q/dt2 = c.x/R^3 + rest */
+    qdot_expr *rest;  /* [n] */
+} work;
+
+/* --- small formulas -------------------------------------------------------------------------------- */
+
+static qdot_expr
+times(const work *k, qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(k->pool, a, b);
+}
+
+static qdot_expr
+velocity(const work *k, qdot_expr q)
+{
+    return qdot_symbol_jet(k->pool, q, 1);
+}
+
+static qdot_expr
+dot(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < n; i++)
+        sum = qdot_add(k->pool, sum, times(k, a[i], b[i]));
+    return sum;
+}
+
+/* L(u), row i and column j: +-u of that index, from 1. */
+static qdot_expr
+entry(const work *k, size_t i, size_t j)
+{
+    static const int index[MOST][PARTS] = {{1, -2, -3, 4}, {2, 1, -4, -3}, {3, 4, 1, 2}};
+    const int at = index[i][j];
+    const qdot_expr u = k->u[(at < 0 ? -at : at) - 1];
+
+    return at * k->sign < 0 ? qdot_neg(k->pool, u) : u;
+}
+
+static qdot_expr
+row(const work *k, size_t i, const qdot_expr *b)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t j = 0; j < k->m; j++)
+        sum = qdot_add(k->pool, sum, times(k, entry(k, i, j), b[j]));
+    return sum;
+}
+
+static qdot_expr
+column(const work *k, size_t j, const qdot_expr *b)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < k->d; i++)
+        sum = qdot_add(k->pool, sum, times(k, entry(k, i, j), b[i]));
+    return sum;
+}
+
+static void
+hinder(work *k, const char *why)
+{
+    if (k->c->hindrance[0] == '\0')
+        snprintf(k->c->hindrance, sizeof k->c->hindrance, "%.180s", why);
+}
+
+static bool
+is_hindered(const work *k)
+{
+    return k->c->hindrance[0] != '\0';
+}
+
+/* Whether e holds a power of `base` below 0. */
+static bool
+divides_by(qdot_pool *pool, qdot_expr e, qdot_expr base)
+{
+    bool found = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return true;
+    for (size_t i = 0; i < w.n; i++)
+        for (uint32_t f = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD &&
+                             f + 1 < qdot_expr_count(pool, w.at[i]);
+             f += 2)
+            found |= qdot_expr_arg(pool, w.at[i], f) == base &&
+                     qdot_expr_is_negative(pool, qdot_expr_arg(pool, w.at[i], f + 1));
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* --- new coordinates ------------------------------------------------------------------------------- */
+
+static qdot_expr
+fresh(work *k, const char *what, const char *of)
+{
+    char name[120];
+    qdot_expr q;
+
+    snprintf(name, sizeof name, "%s#%.80s", what, of);
+    q = qdot_symbol_get(k->pool, QDOT_COORD, name);
+    if (q != QDOT_NIL && qdot_scene_coordinate(k->c->scene, q) != QDOT_OK)
+        return qdot_pool_fail(k->pool);
+    return q;
+}
+
+static qdot_expr
+formal(const work *k, const char *what, size_t i)
+{
+    char name[40];
+
+    snprintf(name, sizeof name, "%s#%zu", what, i);
+    return qdot_symbol_get(k->pool, QDOT_FORMAL, name);
+}
+
+static bool
+is_pivot(const work *k, size_t i)
+{
+    for (size_t j = 0; j < k->d; j++)
+        if (k->c->pair.pivot[j] == i)
+            return true;
+    return false;
+}
+
+static void
+make_symbols(work *k)
+{
+    char number[20];
+
+    k->d = k->c->pair.d;
+    k->m = k->d == 3 ? 4 : k->d;
+    for (size_t j = 0; j < k->m; j++) {
+        snprintf(number, sizeof number, "%zu", j + 1);
+        k->u[j] = fresh(k, "u", number);
+    }
+    k->c->time = fresh(k, "t", "");
+    k->energy = fresh(k, "h", "");
+    k->R = k->c->R = formal(k, "distance", 0);
+    qdot_symbol_domain(k->pool, k->R, QDOT_ZERO, true, QDOT_NIL, false);
+    for (size_t i = 0; i < k->d; i++) {
+        qdot_expr v[PARTS];
+
+        for (size_t j = 0; j < k->m; j++)
+            v[j] = velocity(k, k->u[j]);
+        k->x[i] = k->d > 1 ? formal(k, "x", i)
+                           : times(k, qdot_expr_int(k->pool, k->sign), k->R);
+        k->rate[i] = formal(k, "rate", i);
+        k->in_u[i] = qdot_expand(k->pool, row(k, i, k->u));
+        k->rate_u[i] =
+            qdot_div(k->pool, times(k, qdot_expr_int(k->pool, 2), row(k, i, v)), k->R);
+    }
+    for (size_t i = 0; i < k->of->n; i++) {
+        const char *name = qdot_expr_symbol(k->pool, k->of->q[i])->name;
+
+        if (is_pivot(k, i))
+            continue;
+        k->Q[i] = fresh(k, "free", name);
+        k->w[i] = fresh(k, "way", name);
+    }
+}
+
+/* e with the coordinates given in x and in themselves: pivots are solved for, the last one first. */
+static qdot_expr
+without_pivots(const work *k, qdot_expr e)
+{
+    const qdot_collision_pair *pair = &k->c->pair;
+    qdot_expr from[MOST], to[MOST];
+
+    for (size_t j = k->d; j-- > 0;) {
+        from[j] = k->of->q[pair->pivot[j]];
+        to[j] = qdot_add(k->pool, from[j], qdot_sub(k->pool, k->x[j], pair->x[j]));
+        to[j] = qdot_expand(
+            k->pool, qdot_subs(k->pool, to[j], k->d - j - 1, from + j + 1, to + j + 1));
+    }
+    return qdot_subs(k->pool, e, k->d, from, to);
+}
+
+/* --- the equations --------------------------------------------------------------------------------- */
+
+/* The accelerations in x and R: c of each, and what is left. */
+static void
+split_accelerations(work *k)
+{
+    const long power = k->d > 1 ? 3 : 2;
+
+    for (size_t i = 0; i < k->of->n && !is_hindered(k); i++) {
+        qdot_expr e =
+            qdot_collision_put_distance(k->pool, k->of->accels[i], &k->c->pair, k->R);
+        qdot_expr most, left;
+
+        e = without_pivots(k, e);
+        e = qdot_expand(k->pool, times(k, e, qdot_pow_int(k->pool, k->R, power)));
+        if (e == QDOT_NIL || divides_by(k->pool, e, k->R)) {
+            hinder(k, "the forces grow faster than 1/r^2");
+            return;
+        }
+        left = most = qdot_subs(k->pool, e, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
+        for (size_t j = 0; j < k->d; j++) {
+            qdot_expr *c = k->pull + i * k->d + j;
+
+            *c = k->d > 1 ? qdot_diff(k->pool, most, k->x[j])
+                          : times(k, qdot_expr_int(k->pool, k->sign), most);
+            if (k->d > 1)
+                left = qdot_sub(k->pool, left, times(k, *c, k->x[j]));
+            if (qdot_expr_kind(k->pool, *c) != QDOT_NUM)
+                hinder(k, "the force between the points is not -k/r^2");
+        }
+        if (k->d > 1 && qdot_expand(k->pool, left) != QDOT_ZERO)
+            hinder(k, "the force between the points is not -k/r^2");
+        k->rest[i] = qdot_expand(k->pool, times(k, qdot_sub(k->pool, e, most),
+                                                qdot_pow_int(k->pool, k->R, -power)));
+    }
+}
+
+/* k and P of the pair. */
+static void
+find_pair(work *k)
+{
+    const qdot_collision_pair *pair = &k->c->pair;
+
+    for (size_t i = 0; i < k->d && !is_hindered(k); i++) {
+        k->P[i] = QDOT_ZERO;
+        for (size_t l = 0; l < k->d; l++) {
+            qdot_expr c = QDOT_ZERO;
+
+            for (size_t j = 0; j < k->of->n; j++)
+                c = qdot_add(k->pool, c,
+                             times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]),
+                                   k->pull[j * k->d + l]));
+            if (i == 0 && l == 0)
+                k->strength = qdot_neg(k->pool, c);
+            if (c != (i == l ? qdot_neg(k->pool, k->strength) : QDOT_ZERO))
+                hinder(k, "the force between the points is not -k/r^2");
+        }
+        for (size_t j = 0; j < k->of->n; j++)
+            k->P[i] = qdot_add(
+                k->pool, k->P[i],
+                times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]), k->rest[j]));
+    }
+    if (!is_hindered(k) &&
+        (k->strength == QDOT_ZERO || qdot_expr_is_negative(k->pool, k->strength)))
+        hinder(k, "the points do not attract each other");
+}
+
+/* What a coordinate lags behind its Q: c.x/k. */
+static qdot_expr
+lag(const work *k, size_t i, const qdot_expr *x)
+{
+    return qdot_div(k->pool, dot(k, k->d, k->pull + i * k->d, x), k->strength);
+}
+
+/* q and dq/dt of the coordinates given. */
+static void
+express_coordinates(work *k)
+{
+    const qdot_collision_pair *pair = &k->c->pair;
+
+    for (size_t i = 0; i < k->of->n; i++)
+        if (!is_pivot(k, i)) {
+            k->value[i] = qdot_sub(k->pool, k->Q[i], lag(k, i, k->x));
+            k->speed[i] = qdot_sub(k->pool, velocity(k, k->w[i]), lag(k, i, k->rate));
+        }
+    for (size_t j = k->d; j-- > 0;) {
+        const size_t p = pair->pivot[j];
+        qdot_expr value = qdot_sub(k->pool, k->x[j], pair->x[j]), speed = k->rate[j];
+
+        value = qdot_add(k->pool, value, k->of->q[p]);
+        for (size_t i = 0; i < k->of->n; i++) {
+            const qdot_expr slope =
+                i == p ? QDOT_ZERO : qdot_diff(k->pool, pair->x[j], k->of->q[i]);
+
+            if (slope == QDOT_ZERO)
+                continue;
+            value = qdot_subs(k->pool, value, 1, k->of->q + i, k->value + i);
+            speed = qdot_sub(k->pool, speed, times(k, slope, k->speed[i]));
+        }
+        k->value[p] = qdot_expand(k->pool, value);
+        k->speed[p] = qdot_expand(k->pool, speed);
+    }
+}
+
+/* e, in the coordinates given beside x and R, in x, dx/dt and the others' Q and w', beside R. */
+static qdot_expr
+in_rates(const work *k, qdot_expr e)
+{
+    const qdot_expr now = QDOT_T;
+
+    for (size_t i = 0; i < k->of->n; i++) {
+        const qdot_expr from[] = {k->of->q[i], velocity(k, k->of->q[i])};
+        const qdot_expr to[] = {k->value[i], k->speed[i]};
+
+        e = qdot_subs(k->pool, e, 2, from, to);
+    }
+    return qdot_subs(k->pool, e, 1, &now, &k->c->time);
+}
+
+static qdot_expr
+in_u(const work *k, qdot_expr e)
+{
+    if (k->d > 1)
+        e = qdot_subs(k->pool, e, k->d, k->x, k->in_u);
+    return qdot_subs(k->pool, e, k->d, k->rate, k->rate_u);
+}
+
+/* e, in the coordinates given beside x and R, in new coordinates beside R. */
+static qdot_expr
+in_new(const work *k, qdot_expr e)
+{
+    return in_u(k, in_rates(k, e));
+}
+
+/* e as a polynomial in R, which is put as |u|^2; hinders where it is divided by R. */
+static qdot_expr
+regular(work *k, qdot_expr e)
+{
+    const qdot_expr square = dot(k, k->m, k->u, k->u);
+
+    e = qdot_expand(k->pool, e);
+    if (e != QDOT_NIL && divides_by(k->pool, e, k->R)) {
+        e = qdot_expand(k->pool, qdot_subs(k->pool, e, 1, &k->R, &square));
+        e = qdot_mech_tidy(k->s, e);
+        if (e == QDOT_NIL || divides_by(k->pool, e, k->d > 1 ? square : k->u[0]))
+            hinder(k, "another force is not smooth there");
+        return e;
+    }
+    return qdot_subs(k->pool, e, 1, &k->R, &square);
+}
+
+static qdot_status
+add_equation(work *k, qdot_expr q, qdot_expr second, qdot_expr q0, qdot_expr v0)
+{
+    const qdot_torque force = {
+        .torque = second, .coordinate = q, .force = true, .body = -1};
+
+    QDOT_TRY(qdot_pool_check(k->pool));
+    if (second != QDOT_ZERO && !is_hindered(k))
+        QDOT_TRY(qdot_scene_torque(k->c->scene, &force));
+    QDOT_TRY(qdot_vec_push(&k->c->q0, q0));
+    return qdot_vec_push(&k->c->v0, v0);
+}
+
+/* The start of u: of two roots that which does not cancel. */
+static void
+start_of_u(const work *k, qdot_expr *u)
+{
+    const qdot_collision_pair *pair = &k->c->pair;
+    const size_t main = k->d > 1 && k->side < 0 ? 1 : 0;
+    const qdot_expr two = qdot_expr_int(k->pool, 2);
+    qdot_expr x = main ? qdot_neg(k->pool, pair->x[0]) : pair->x[0];
+
+    for (size_t j = 0; j < PARTS; j++)
+        u[j] = QDOT_ZERO;
+    if (k->d == 1) {
+        u[0] = qdot_sqrt(k->pool, pair->distance);
+        return;
+    }
+    u[main] =
+        qdot_sqrt(k->pool, times(k, QDOT_HALF, qdot_add(k->pool, pair->distance, x)));
+    u[1 - main] = qdot_div(k->pool, pair->x[1], times(k, two, u[main]));
+    if (k->d == 3)
+        u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], times(k, two, u[main]));
+}
+
+/* Take b dx/dt, a force along the velocity, out of P, in rates: b. As u'.(L^T L u') = R u'.u', for 4
+ * components along the motion alone, it is smooth. */
+static qdot_expr
+take_along(const work *k, qdot_expr *P)
+{
+    const qdot_expr b = qdot_expand(k->pool, qdot_diff(k->pool, P[0], k->rate[0]));
+
+    for (size_t i = 0; i < k->d; i++)
+        if (qdot_expand(k->pool, qdot_diff(k->pool, P[i], k->rate[i])) != b ||
+            qdot_expr_contains(k->pool, b, k->rate[i]))
+            return QDOT_ZERO;
+    for (size_t i = 0; i < k->d; i++)
+        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], times(k, b, k->rate[i])));
+    return b;
+}
+
+static qdot_status
+add_pair(work *k)
+{
+    const qdot_expr h = velocity(k, k->energy), two = qdot_expr_int(k->pool, 2);
+    qdot_expr RP[MOST], u0[PARTS], v[PARTS], rate0[MOST], power = QDOT_ZERO, along;
+    work at_start = *k;
+
+    for (size_t j = 0; j < k->m; j++)
+        v[j] = velocity(k, k->u[j]);
+    for (size_t i = 0; i < k->d; i++)
+        RP[i] = in_rates(k, k->P[i]);
+    along = regular(k, in_u(k, take_along(k, RP)));
+    for (size_t i = 0; i < k->d; i++) {
+        RP[i] = qdot_expand(k->pool, times(k, k->R, in_u(k, RP[i])));
+        rate0[i] = qdot_ddt(k->pool, k->c->pair.x[i]);
+        power = qdot_add(k->pool, power, times(k, row(k, i, v), RP[i]));
+    }
+    start_of_u(k, u0);
+    memcpy(at_start.u, u0, sizeof u0);
+    for (size_t j = 0; j < k->m; j++) {
+        qdot_expr push = regular(k, times(k, QDOT_HALF, column(k, j, RP)));
+
+        push = qdot_add(k->pool, push,
+                        times(k, along, times(k, dot(k, k->m, k->u, k->u), v[j])));
+        push = qdot_add(k->pool, times(k, QDOT_HALF, times(k, h, k->u[j])), push);
+        QDOT_TRY(add_equation(k, k->u[j], push, u0[j],
+                              times(k, QDOT_HALF, column(&at_start, j, rate0))));
+    }
+    QDOT_TRY(add_equation(k, k->c->time, times(k, two, dot(k, k->m, k->u, v)), QDOT_T,
+                          k->c->pair.distance));
+    power = regular(k, qdot_div(k->pool, times(k, two, power), k->R));
+    power = qdot_add(k->pool, power,
+                     times(k, qdot_expr_int(k->pool, 4), times(k, along, dot(k, k->m, v, v))));
+    return add_equation(k, k->energy, power, QDOT_ZERO,
+                        qdot_sub(k->pool, times(k, QDOT_HALF, dot(k, k->d, rate0, rate0)),
+                                 qdot_div(k->pool, k->strength, k->c->pair.distance)));
+}
+
+static qdot_status
+add_others(work *k)
+{
+    const qdot_collision_pair *pair = &k->c->pair;
+    qdot_expr v[PARTS], change, rate0[MOST];
+
+    for (size_t j = 0; j < k->m; j++)
+        v[j] = velocity(k, k->u[j]);
+    for (size_t i = 0; i < k->d; i++)
+        rate0[i] = qdot_ddt(k->pool, pair->x[i]);
+    change = times(k, qdot_expr_int(k->pool, 2), dot(k, k->m, k->u, v));
+    for (size_t i = 0; i < k->of->n && !is_hindered(k); i++) {
+        const qdot_expr q = k->of->q[i];
+        qdot_expr second, free;
+
+        if (is_pivot(k, i))
+            continue;
+        free = qdot_add(k->pool, velocity(k, q), lag(k, i, rate0));
+        second = qdot_add(k->pool, k->rest[i], lag(k, i, k->P));
+        second = regular(k, times(k, k->R, in_new(k, second)));
+        QDOT_TRY(add_equation(k, k->Q[i],
+                              qdot_add(k->pool, times(k, change, velocity(k, k->w[i])),
+                                       times(k, dot(k, k->m, k->u, k->u), second)),
+                              qdot_add(k->pool, q, lag(k, i, pair->x)),
+                              times(k, pair->distance, free)));
+        QDOT_TRY(add_equation(k, k->w[i], second, QDOT_ZERO, free));
+    }
+    return qdot_pool_check(k->pool);
+}
+
+/* --- expressions ----------------------------------------------------------------------------------- */
+
+static qdot_status
+replace(work *k, qdot_expr from, qdot_expr to)
+{
+    const qdot_expr square = dot(k, k->m, k->u, k->u);
+
+    to = qdot_subs(k->pool, to, 1, &k->R, &square);
+    QDOT_TRY(qdot_vec_push(&k->c->from, from));
+    return qdot_vec_push(&k->c->to, to);
+}
+
+static qdot_status
+list_replacements(work *k)
+{
+    for (size_t i = 0; i < k->of->n; i++) {
+        qdot_expr e =
+            qdot_collision_put_distance(k->pool, k->of->accels[i], &k->c->pair, k->R);
+
+        QDOT_TRY(replace(k, k->of->q[i], in_new(k, k->of->q[i])));
+        QDOT_TRY(
+            replace(k, velocity(k, k->of->q[i]), in_new(k, velocity(k, k->of->q[i]))));
+        QDOT_TRY(replace(k, qdot_symbol_jet(k->pool, k->of->q[i], 2), in_new(k, e)));
+    }
+    QDOT_TRY(replace(k, QDOT_T, k->c->time));
+    QDOT_TRY(replace(k, k->R, k->R));
+    return qdot_pool_check(k->pool);
+}
+
+qdot_expr
+qdot_collision_express(const qdot_collision *c, qdot_expr e)
+{
+    e = qdot_collision_put_distance(c->pool, e, &c->pair, c->R);
+    return qdot_subs(c->pool, e, c->from.n, c->from.at, c->to.at);
+}
+
+/* The energy, T + V = rest + m (dx/dt . dx/dt/2 - k/R), as rest + m h. */
+static void
+express_energy(work *k)
+{
+    const qdot_expr minus_half = qdot_neg(k->pool, QDOT_HALF);
+    qdot_expr e = qdot_collision_put_distance(k->pool, k->of->energy, &k->c->pair, k->R),
+              m, pole;
+
+    e = in_rates(k, e);
+    pole = qdot_expand(k->pool, times(k, e, k->R));
+    if (pole == QDOT_NIL || divides_by(k->pool, pole, k->R))
+        return;
+    pole = qdot_subs(k->pool, pole, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
+    m = qdot_neg(k->pool, qdot_div(k->pool, pole, k->strength));
+    e = qdot_sub(k->pool, e, qdot_div(k->pool, pole, k->R));
+    e = qdot_add(k->pool, e,
+                 times(k, times(k, minus_half, m), dot(k, k->d, k->rate, k->rate)));
+    e = in_u(k, qdot_expand(k->pool, e));
+    k->c->energy =
+        qdot_subs(k->pool, qdot_add(k->pool, e, times(k, m, velocity(k, k->energy))), 1,
+                  &k->R, (qdot_expr[]){dot(k, k->m, k->u, k->u)});
+}
+
+/* Events set nothing that moves. */
+static qdot_status
+copy_events(work *k)
+{
+    qdot_collision *c = k->c;
+
+    for (size_t i = 0; i < k->s->events.n && !is_hindered(k); i++) {
+        qdot_event own = k->s->events.at[i];
+
+        if (own.targets.n > 0) {
+            hinder(k, "an event sets coordinates");
+            return QDOT_OK;
+        }
+        own.left = qdot_collision_express(c, own.left);
+        own.right = qdot_collision_express(c, own.right);
+        QDOT_TRY(qdot_pool_check(c->pool));
+        QDOT_TRY(qdot_scene_event(c->scene, &own));
+    }
+    return QDOT_OK;
+}
+
+/* A domain ends at the collision or nowhere. */
+static void
+check_domains(work *k)
+{
+    for (size_t i = 0; i < k->of->n; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(k->pool, k->of->q[i]);
+        const bool ends = q->lo != QDOT_NIL || q->hi != QDOT_NIL;
+
+        if (ends && !(k->d == 1 && k->c->pair.x[0] == k->of->q[i] && q->hi == QDOT_NIL &&
+                      q->lo == QDOT_ZERO))
+            hinder(k, "a coordinate has a domain");
+    }
+}
+
+/* --- all of it --------------------------------------------------------------------------------------- */
+
+static qdot_status
+make(work *k)
+{
+    qdot_expr kinetic = QDOT_ZERO;
+    qdot_scene *to = k->c->scene;
+
+    make_symbols(k);
+    QDOT_TRY(qdot_pool_check(k->pool));
+    check_domains(k);
+    split_accelerations(k);
+    find_pair(k);
+    QDOT_TRY(qdot_pool_check(k->pool));
+    if (is_hindered(k))
+        return QDOT_OK;
+    k->c->parts = k->m;
+    k->c->strength = k->strength;
+    express_coordinates(k);
+    for (size_t i = 0; i < to->coordinates.n; i++)
+        kinetic =
+            qdot_add(k->pool, kinetic,
+                     times(k, QDOT_HALF,
+                           qdot_pow_int(k->pool, velocity(k, to->coordinates.at[i]), 2)));
+    QDOT_TRY(qdot_scene_lagrangian(to, kinetic));
+    QDOT_TRY(add_pair(k));
+    QDOT_TRY(add_others(k));
+    QDOT_TRY(list_replacements(k));
+    if (k->of->energy != QDOT_NIL)
+        express_energy(k);
+    return copy_events(k);
+}
+
+qdot_status
+qdot_collision_make(qdot_scene *s, const qdot_collision_equations *of,
+                    const qdot_collision_pair *pair, int sign, qdot_collision *c)
+{
+    const size_t n = of->n, d = pair->d;
+    qdot_expr *room = qdot_calloc((6 + d) * n + 1, sizeof *room);
+    work k = {.c = c,
+              .pool = of->pool,
+              .s = s,
+              .of = of,
+              .sign = d > 1 ? 1 : sign,
+              .side = sign};
+    qdot_status status;
+
+    *c = (qdot_collision){
+        .pool = of->pool, .pair = *pair, .scene = qdot_scene_new(of->pool)};
+    if (room) {
+        k.Q = room;
+        k.w = k.Q + n;
+        k.value = k.w + n;
+        k.speed = k.value + n;
+        k.rest = k.speed + n;
+        k.pull = k.rest + n;
+    }
+    status = room && c->scene ? make(&k) : QDOT_ENOMEM;
+    qdot_free(room);
+    if (status == QDOT_OK && c->hindrance[0] != '\0') {
+        qdot_scene_free(c->scene);
+        c->scene = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,587 @@
+/* collide.c -- which pair a run came near to, and the run in the coordinates of its collision. */
+#include "sim/run/collide.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/print.h"
+#include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/scene.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/linear.h"
+#include "sim/run/chart-run.h"
+#include "sim/run/chart-start.h"
+#include "sim/model/substitute.h"
+#include "tape/constant.h"
+
+/* A run came near if R falls below so much of its largest value; one that arrived, if it was nearly
+ * a collision. */
+static const double near_place = 0.05, nearly = 1e-3;
+
+/* The tolerance in s, of series and of other methods: u and R are small where velocities are large,
+ * and steps are few. */
+static const double tight = 1e-15, tight_by_points = 1e-13;
+
+/* Steps in s are long in t: they are stored in so many parts, if they are fewer than these, so that
+ * what is near in time is near among the points. */
+enum { parts = 8, most_refined = 20000 };
+
+/* The event at which the run has come to its end. */
+static const char *const at_end = "end#";
+
+/* Lengths of s that are tried, in units of 2 (t1 - t0)/R at the start, what a bound motion takes
+ * at most. */
+static const double lengths[] = {8, 1e5};
+
+/* --- which pair -------------------------------------------------------------------------------- */
+
+/* A scene without polar coordinates, in which pairs are looked for. */
+typedef struct {
+    qdot_run_chart *x;
+    qdot_scene *scene; /* x->chart.scene, or the one given */
+    const qdot_run_request *request;
+    qdot_expr *accels;
+    qdot_collision_equations of;
+} ground;
+
+typedef qdot_vec(qdot_expr) causes;
+
+/* Potentials and forces of a scene, with numbers for parameters. */
+static qdot_status
+list_causes(const ground *g, const qdot_scene *s, causes *list)
+{
+    const qdot_run_request *r = g->request;
+
+    QDOT_TRY(qdot_vec_push(list, s->lagrangian));
+    for (size_t i = 0; i < s->potentials.n; i++)
+        QDOT_TRY(qdot_vec_push(list, s->potentials.at[i].e));
+    for (size_t i = 0; i < s->forces.n; i++)
+        QDOT_TRY(qdot_vec_push(list, s->forces.at[i].force));
+    for (size_t i = 0; i < s->torques.n; i++)
+        QDOT_TRY(qdot_vec_push(list, s->torques.at[i].torque));
+    for (size_t i = 0; i < list->n; i++)
+        if (list->at[i] != QDOT_NIL)
+            list->at[i] =
+                qdot_substitute(s->pool, list->at[i], r->n_values, r->symbols, r->values);
+    return qdot_pool_check(s->pool);
+}
+
+/* Whether anything is divided by coordinates: if not, no chart has to be looked for. */
+static qdot_status
+may_collide(const ground *g, const qdot_scene *s, bool *may)
+{
+    const qdot_collision_equations of = {
+        .pool = s->pool, .n = s->coordinates.n, .q = s->coordinates.at};
+    causes list = {0};
+    qdot_status status = list_causes(g, s, &list);
+
+    *may = false;
+    for (size_t i = 0; i < list.n && status == QDOT_OK && !*may; i++)
+        *may = list.at[i] != QDOT_NIL && qdot_collision_may(&of, list.at[i]);
+    qdot_free(list.at);
+    return status;
+}
+
+static qdot_expr
+release(qdot_pool *pool, qdot_expr node, void *user)
+{
+    (void)user;
+    return qdot_expr_node(pool, node)->op == QDOT_HOLD ? qdot_expr_arg(pool, node, 0)
+                                                       : node;
+}
+
+static qdot_expr
+with_numbers(const ground *g, qdot_expr e)
+{
+    qdot_pool *pool = g->scene->pool;
+
+    e = qdot_substitute(pool, e, g->request->n_values, g->request->symbols,
+                        g->request->values);
+    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, release, NULL);
+}
+
+/* Solve M q'' = f, M numbers, for symbols in the place of f, which may be long. */
+static qdot_status
+solve(const ground *g, qdot_expr M, qdot_expr f)
+{
+    qdot_pool *pool = g->scene->pool;
+    const uint32_t n = (uint32_t)g->of.n;
+    qdot_expr *A = qdot_calloc((size_t)n * n + 2 * n + 1, sizeof *A);
+    qdot_expr *b = A ? A + (size_t)n * n : NULL;
+    uint32_t pivot;
+    qdot_status status = A ? QDOT_OK : QDOT_ENOMEM;
+
+    for (uint32_t i = 0; i < n && A; i++) {
+        char name[20];
+
+        for (uint32_t j = 0; j < n; j++)
+            A[i * n + j] = qdot_expr_arg(pool, M, i * n + j);
+        snprintf(name, sizeof name, "f#%u", i);
+        b[i] = qdot_symbol_get(pool, QDOT_FORMAL, name);
+        b[n + i] = qdot_expr_arg(pool, f, i);
+    }
+    if (status == QDOT_OK)
+        status = qdot_solve_linear(pool, n, A, b, g->accels, &pivot, NULL);
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++)
+        g->accels[i] = qdot_subs(pool, g->accels[i], n, b, b + n);
+    qdot_free(A);
+    return status;
+}
+
+static qdot_status
+find_equations(ground *g)
+{
+    qdot_scene *s = g->scene;
+    const size_t n = s->coordinates.n;
+    const qdot_expr M = with_numbers(g, qdot_mech_numeric_mass(s));
+    bool numbers = true, conserved = false;
+
+    g->accels = qdot_calloc(n + 1, sizeof *g->accels);
+    if (!g->accels)
+        return QDOT_ENOMEM;
+    g->of =
+        (qdot_collision_equations){s->pool, n, s->coordinates.at, g->accels, QDOT_NIL};
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(qdot_mech_energy_conserved(g->x->chart.of, &conserved));
+    if (conserved)
+        g->of.energy = with_numbers(g, qdot_mech_numeric_energy(s));
+    for (uint32_t i = 0; i < n * n; i++)
+        numbers =
+            numbers && qdot_expr_kind(s->pool, qdot_expr_arg(s->pool, M, i)) == QDOT_NUM;
+    if (numbers)
+        return solve(g, M, with_numbers(g, qdot_mech_numeric_forcing(s)));
+    for (size_t i = 0; i < n; i++)
+        g->accels[i] = with_numbers(g, qdot_mech_accel(s, s->coordinates.at[i]));
+    return qdot_pool_check(s->pool);
+}
+
+/* The least R along the run, of its largest. */
+static qdot_status
+measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
+        double *near)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const qdot_expr e = qdot_chart_given(&g->x->chart, distance);
+    double least = INFINITY, most = 0, *values = qdot_calloc(tr->count, sizeof *values);
+    qdot_status status = values ? qdot_pool_check(g->x->chart.pool) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = by->values(run, 1, &e, tr->count, tr->t, values, NULL);
+    for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
+        least = fmin(least, fabs(values[k]));
+        most = fmax(most, fabs(values[k]));
+    }
+    qdot_free(values);
+    *near = status == QDOT_EDOMAIN
+                ? 0
+                : least / most; /* it cannot be said at the place itself */
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* The pair that the run came nearest to; *found. */
+static qdot_status
+choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
+       qdot_collision_pair *pair, bool *found)
+{
+    const qdot_scene *s = g->scene;
+    const qdot_collision_equations of = {
+        .pool = s->pool, .n = s->coordinates.n, .q = s->coordinates.at};
+    qdot_collision_pairs pairs = {0};
+    causes list = {0};
+    double nearest = run->report.status == QDOT_RUN_FAILED ? near_place : nearly;
+    qdot_status status = list_causes(g, s, &list);
+
+    if (status == QDOT_OK)
+        status = qdot_collision_find(&of, list.n, list.at, &pairs);
+    *found = false;
+    for (size_t i = 0; i < pairs.n && status == QDOT_OK; i++) {
+        double near;
+
+        status = measure(g, run, by, pairs.at[i].distance, &near);
+        if (status != QDOT_OK || !(near < nearest))
+            continue;
+        nearest = near;
+        *pair = pairs.at[i];
+        *found = true;
+    }
+    qdot_free(pairs.at);
+    qdot_free(list.at);
+    return status;
+}
+
+/* --- the run in s ------------------------------------------------------------------------------ */
+
+/* The end of the run as an event of the scene in s. */
+static qdot_status
+add_end(const ground *g)
+{
+    const qdot_collision *c = &g->x->collision;
+    const qdot_event end = {.name = (char *)(uintptr_t)at_end,
+                            .left = c->time,
+                            .right = g->request->t1,
+                            .stop = true};
+
+    return qdot_scene_event(c->scene, &end);
+}
+
+/* The start, an exact constant, of an expression in coordinates of g->scene and t. */
+static qdot_expr
+at_start(const ground *g, qdot_expr e)
+{
+    const qdot_expr now = QDOT_T;
+
+    return qdot_chart_at_start(g->x->chart.of, g->request,
+                               qdot_subs(g->scene->pool,
+                                         qdot_chart_given(&g->x->chart, e), 1, &now,
+                                         &g->request->t0));
+}
+
+/* The run in s: its length, start and scales. */
+typedef struct {
+    size_t n;         /* coordinates */
+    double T, R, k;   /* the time, R at the start */
+    double length;    /* of s */
+    qdot_expr *start; /* [2n] q, then q' */
+    double *scales;   /* [2n] */
+} attempt;
+
+/* What the motion is about: u at the start and at the collision, the times, velocities and energies of
+ * an orbit of size R. Coordinates that are integrals alone are as large as they become. */
+static qdot_status
+find_scales(const ground *g, attempt *a)
+{
+    const qdot_collision *c = &g->x->collision;
+    const size_t n = a->n, m = c->parts;
+    double *s = a->scales, fast = sqrt(a->k), speed, energy;
+
+    for (size_t i = 0; i < 2 * n; i++) {
+        QDOT_TRY(qdot_tape_constant(c->pool, a->start[i], s + i));
+        s[i] = fabs(s[i]);
+    }
+    for (size_t i = 0; i < m; i++)
+        fast = fmax(fast, s[n + i]);
+    speed = 2 * fast / sqrt(a->R);
+    energy = speed * speed;
+    for (size_t i = 0; i < m; i++) {
+        s[i] = sqrt(a->R);
+        s[n + i] = fast;
+    }
+    s[m] = fabs(a->T);
+    s[n + m] = a->R;
+    s[m + 1] = energy * fabs(a->length);
+    s[n + m + 1] = energy;
+    for (size_t i = m + 2; i + 1 < n; i += 2) {
+        s[n + i + 1] = fmax(s[n + i + 1], speed);
+        s[i] = fmax(s[i], a->R);
+        s[n + i] = a->R * s[n + i + 1];
+        s[i + 1] = s[n + i + 1] * fabs(a->length);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
+{
+    const qdot_collision *c = &g->x->collision;
+    const bool by_series = strcmp(g->request->method, "auto") == 0 ||
+                           strcmp(g->request->method, "taylor") == 0;
+    qdot_run_request other = *g->request;
+    char text[40];
+
+    QDOT_TRY(find_scales(g, a));
+    snprintf(text, sizeof text, "%.3g", fabs(a->length));
+    other.t0 = QDOT_ZERO;
+    other.t1 = qdot_expr_decimal(c->pool, text, strlen(text));
+    if (a->length < 0)
+        other.t1 = qdot_neg(c->pool, other.t1);
+    other.q0 = a->start;
+    other.v0 = a->start + a->n;
+    other.q_named = other.v_named = NULL;
+    other.scales = a->scales;
+    other.tol = fmin(other.tol, by_series ? tight : tight_by_points);
+    other.by_clock = true;
+    QDOT_TRY(qdot_pool_check(c->pool));
+    return by->make(c->scene, &other, out);
+}
+
+/* Whether the run in s came to its end, or an event of the scene given stopped it. */
+static bool
+arrives(const qdot_run *run)
+{
+    return run->report.status == QDOT_RUN_STOPPED && run->course.stopped_by != SIZE_MAX &&
+           run->has_companion && run->has_twin;
+}
+
+static qdot_status
+prepare(const ground *g, attempt *a)
+{
+    const qdot_collision *c = &g->x->collision;
+    double t0, t1;
+
+    a->start = qdot_calloc(2 * a->n + 1, sizeof *a->start);
+    a->scales = qdot_calloc(2 * a->n + 1, sizeof *a->scales);
+    if (!a->start || !a->scales)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < a->n; i++) {
+        a->start[i] = at_start(g, c->q0.at[i]);
+        a->start[a->n + i] = at_start(g, c->v0.at[i]);
+    }
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t0, &t0));
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t1, &t1));
+    QDOT_TRY(qdot_tape_constant(c->pool, c->strength, &a->k));
+    a->T = t1 - t0;
+    return qdot_tape_constant(c->pool, at_start(g, c->pair.distance), &a->R);
+}
+
+static qdot_status
+run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
+{
+    attempt a = {.n = g->x->collision.scene->coordinates.n};
+    qdot_status status = prepare(g, &a);
+
+    for (size_t k = 0; status == QDOT_OK && !*out && k < sizeof lengths / sizeof *lengths;
+         k++) {
+        a.length = lengths[k] * 2 * a.T / a.R;
+        status = make(g, by, &a, out);
+        if (status == QDOT_OK && arrives(*out))
+            break;
+        by->free(*out);
+        *out = NULL;
+    }
+    qdot_free(a.start);
+    qdot_free(a.scales);
+    return status;
+}
+
+/* --- the run in t ------------------------------------------------------------------------------ */
+
+static qdot_status
+time_occurrences(qdot_course *c, size_t clock, size_t end)
+{
+    qdot_trajectory_cursor *cursor;
+    size_t left = 0;
+    double *y = qdot_calloc(c->tr.n + 1, sizeof *y);
+    qdot_status status =
+        y ? qdot_trajectory_open(&c->tr, qdot_course_systems(c), &cursor) : QDOT_ENOMEM;
+
+    if (status != QDOT_OK) {
+        qdot_free(y);
+        return status;
+    }
+    for (size_t i = 0; i < c->occurrences.n && status == QDOT_OK; i++) {
+        qdot_occurrence o = c->occurrences.at[i];
+
+        status = qdot_trajectory_read(cursor, o.t, y);
+        o.t = y[clock];
+        if (o.event != end)
+            c->occurrences.at[left++] = o;
+    }
+    c->occurrences.n = left;
+    qdot_trajectory_close(cursor);
+    qdot_free(y);
+    return status;
+}
+
+/* Time a course by component `clock`; `end` is the event of the end, at t1. */
+static qdot_status
+time_course(qdot_course *c, size_t clock, size_t end, double t1)
+{
+    if (c->tr.count == 0)
+        return QDOT_OK;
+    QDOT_TRY(time_occurrences(c, clock, end));
+    if (c->tr.count < most_refined)
+        QDOT_TRY(qdot_trajectory_refine(&c->tr, qdot_course_systems(c), parts));
+    QDOT_TRY(qdot_trajectory_by_clock(&c->tr, clock));
+    if (c->stopped_by == end)
+        c->tr.t[c->tr.count - 1] = t1;
+    return QDOT_OK;
+}
+
+/* The horizon, and other times of the report. */
+static qdot_status
+time_of(const qdot_run *run, size_t clock, double *t)
+{
+    double *y;
+    qdot_status status;
+
+    if (isnan(*t))
+        return QDOT_OK;
+    y = qdot_calloc(run->course.tr.n + 1, sizeof *y);
+    status =
+        y ? qdot_trajectory_at(&run->course.tr, qdot_course_systems(&run->course), *t, y)
+          : QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        *t = y[clock];
+    qdot_free(y);
+    return status;
+}
+
+/* What an event of the scene given says of its time. */
+static qdot_status
+say_stop(qdot_run *run, double t)
+{
+    static const char begin[] = "stopped at t = ";
+    const char *rest = run->reason ? strchr(run->reason, ':') : NULL;
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (!rest || strncmp(run->reason, begin, sizeof begin - 1) != 0)
+        return QDOT_OK;
+    qdot_text_format(&text, "%s%.15g%s", begin, t, rest);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_run_say_why(run, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Make the run in s one in t. */
+static qdot_status
+put_in_time(const ground *g, qdot_run *run)
+{
+    const qdot_collision *c = &g->x->collision;
+    qdot_run_report *r = &run->report;
+    size_t clock = 0, end = 0;
+
+    while (run->plan->inputs[clock] != c->time)
+        clock++;
+    while (strcmp(run->stage.events.at[end].name, at_end) != 0)
+        end++;
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t0, &run->t0));
+    QDOT_TRY(qdot_tape_constant(c->pool, g->request->t1, &run->t1));
+    QDOT_TRY(time_of(run, clock, &r->horizon));
+    QDOT_TRY(time_of(run, clock, &r->standstill));
+    QDOT_TRY(time_course(&run->course, clock, end, run->t1));
+    QDOT_TRY(time_course(&run->companion, clock, end, run->t1));
+    QDOT_TRY(time_course(&run->twin, clock, end, run->t1));
+    run->t0_low = run->t1_low = 0;
+    run->t0_side = run->t1_side = 0;
+    r->tol = g->request->tol;
+    r->t0 = run->t0;
+    r->t1 = run->course.tr.t[run->course.tr.count - 1];
+    if (run->course.stopped_by != end)
+        return say_stop(run, r->t1);
+    r->status = QDOT_RUN_DONE;
+    r->reason = NULL;
+    run->course.tr.result.outcome = QDOT_ODE_DONE;
+    return QDOT_OK;
+}
+
+/* The drift of the energy, if it is conserved. */
+static qdot_status
+measure_energy(const ground *g, const qdot_run_maker *by, qdot_run *run)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_drift drift = {.name = "energy", .quantity = g->x->collision.energy};
+    double *values;
+    qdot_status status;
+
+    if (drift.quantity == QDOT_NIL)
+        return QDOT_OK;
+    values = qdot_calloc(tr->count, sizeof *values);
+    if (!values)
+        return QDOT_ENOMEM;
+    status = by->values(run, 1, &drift.quantity, tr->count, tr->t, values, NULL);
+    for (size_t k = 0; k < tr->count; k++)
+        drift.drift =
+            fmax(drift.drift, fabs(values[k] - values[0]) / fmax(1, fabs(values[0])));
+    drift.start = values[0];
+    drift.kept = drift.drift == 0;
+    qdot_free(values);
+    return status == QDOT_OK ? qdot_drifts_set(&run->drifts, &drift) : qdot_grave(status);
+}
+
+static qdot_status
+say_collision(const ground *g, qdot_run *run)
+{
+    static const char *const names[] = {"u, R = u^2", "Levi-Civita's coordinates",
+                                        "Kustaanheimo and Stiefel's coordinates"};
+    const qdot_collision_pair *pair = &g->x->collision.pair;
+    qdot_pool *pool = g->scene->pool;
+    const qdot_facts facts = qdot_scene_facts(g->x->chart.of);
+    const qdot_expr R =
+        qdot_simplify(pool, qdot_chart_given(&g->x->chart, pair->distance), &facts);
+    qdot_text distance = {0};
+    qdot_status status = qdot_print(pool, R, QDOT_PLAIN, &distance);
+
+    if (status == QDOT_OK)
+        qdot_text_format(
+            qdot_run_next_notice(run),
+            "two points collide, or nearly: the run passes R = %s = 0 in %s, with "
+            "dt = R ds, and values are given in the coordinates of the scene",
+            qdot_text_str(&distance), names[pair->d - 1]);
+    qdot_text_clear(&distance);
+    return status == QDOT_OK ? qdot_text_status(&run->notice) : status;
+}
+
+/* Why the run that failed was not carried through. */
+static qdot_status
+say_hindrance(const ground *g, qdot_run *run)
+{
+    if (run->report.status != QDOT_RUN_FAILED)
+        return QDOT_OK;
+    qdot_text_format(qdot_run_next_notice(run), "the collision is not passed: %s",
+                     g->x->collision.hindrance);
+    return qdot_text_status(&run->notice);
+}
+
+/* --- all of it ----------------------------------------------------------------------------------- */
+
+/* The run with that pair; *out NULL where it does not arrive. */
+static qdot_status
+pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
+     qdot_run **out)
+{
+    qdot_run_chart *x = g->x;
+    double first;
+    int sign;
+
+    QDOT_TRY(qdot_chart_start_sign(x->chart.of, g->request,
+                             qdot_chart_given(&x->chart, pair->x[0]), &sign, &first));
+    QDOT_TRY(qdot_collision_make(g->scene, &g->of, pair, sign, &x->collision));
+    if (!x->collision.scene)
+        return say_hindrance(g, run);
+    if (x->collision.energy != QDOT_NIL)
+        x->energy = qdot_mech_energy(x->chart.of);
+    QDOT_TRY(add_end(g));
+    QDOT_TRY(run_in_s(g, by, out));
+    if (!*out)
+        return QDOT_OK;
+    QDOT_TRY(put_in_time(g, *out));
+    (*out)->chart = x;
+    QDOT_TRY(measure_energy(g, by, *out));
+    QDOT_TRY(qdot_run_chart_report(*out, by));
+    return say_collision(g, *out);
+}
+
+qdot_status
+qdot_run_collide(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+                 qdot_run *run, qdot_run **out)
+{
+    ground g = {.request = request};
+    qdot_collision_pair pair;
+    bool found = false;
+    qdot_status status;
+
+    *out = NULL;
+    if (s->constraints.n > 0 || !run)
+        return QDOT_OK;
+    QDOT_TRY(may_collide(&g, s, &found));
+    if (!found)
+        return QDOT_OK;
+    status = qdot_run_chart_open(s, request, &g.x);
+    if (status == QDOT_OK) {
+        g.scene = g.x->chart.scene ? g.x->chart.scene : s;
+        status = choose(&g, run, by, &pair, &found);
+    }
+    if (status == QDOT_OK && found)
+        status = find_equations(&g);
+    if (status == QDOT_OK && found)
+        status = pass(&g, by, &pair, run, out);
+    if (!*out || (*out)->chart != g.x)
+        qdot_run_chart_free(g.x);
+    qdot_free(g.accels);
+    return status;
+}
