@@ -345,6 +345,15 @@ add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_a
     qdot_text_char(d->script, ')');
 }
 
+/* Of marks that stand by themselves: smaller where there are more than FEW, so that all are seen. */
+static double
+point_size(size_t rows)
+{
+    enum { FEW = 600 };
+
+    return rows <= FEW ? 0.3 : fmax(0.08, 0.3 * sqrt((double)FEW / (double)rows));
+}
+
 static void
 add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
 {
@@ -363,7 +372,8 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
         qdot_text_add(d->script, k == 0 ? "" : ", ");
         add_source(d, i, k, axes, false);
         if (panel->points && !point)
-            qdot_text_add(d->script, " with points pointtype 7 pointsize 0.3");
+            qdot_text_format(d->script, " with points pointtype 7 pointsize %.3g",
+                             point_size(panel->curves[k].rows));
         else if (point || panel->marks)
             qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8",
                              point ? "" : "lines", marks[k % MARKS]);

@@ -11,7 +11,6 @@ force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
 sweep mu = 0..1 count 3 run 0..1 : x threads 4
-poincare x = 0 rising : y
 lyapunov 0..10
 sensitivity value(x, 1) of mu
 find x = 0..1 such that value(x, 1) = 0

@@ -17,12 +17,12 @@ qdot_plot_rows_is(const qdot_cursor *c)
            && qdot_row_tables_find(c->session, c->at->text) != NULL;
 }
 
-/* The column that is the abscissa: what was swept; of draws with several numbers the first of these,
- * so that they are a cloud. */
+/* The column that is the abscissa: what was swept; of points with several numbers the first of these,
+ * so that they are a cloud, or a section. */
 static size_t
 abscissa(const qdot_row_table *t)
 {
-    return t->drawn && t->n - t->n_swept > 1 ? t->n_swept : 0;
+    return t->scattered && t->n - t->n_swept > 1 ? t->n_swept : 0;
 }
 
 /* The curves, of the rows that have numbers; x and y [columns x rows]; how many curves. */
@@ -79,7 +79,7 @@ qdot_plot_rows(qdot_cursor *c)
     QDOT_TRY(qdot_figure_option_read(c, &choice, &of_panel));
     if (!qdot_cursor_is_end(c))
         return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
-    if (t->n_swept > 1 && !t->drawn)
+    if (t->n_swept > 1 && !t->scattered)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure of what was swept over %zu names",
                          t->n_swept);
     curves = qdot_calloc(t->n, sizeof *curves);
@@ -88,7 +88,7 @@ qdot_plot_rows(qdot_cursor *c)
     if (status == QDOT_OK) {
         panel.n = fill(t, curves, x, x + t->n * t->rows);
         panel.curves = curves;
-        panel.points = !is_ordered(t);
+        panel.points = t->scattered || !is_ordered(t);
         if (panel.n == 1)
             panel.axis[1] = curves[0].label;
         qdot_figure_option_apply(&of_panel, &panel);

@@ -137,6 +137,42 @@ qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options 
     return QDOT_OK;
 }
 
+/* The next `:` outside of brackets; NULL: there is none. */
+static qdot_token *
+find_colon(const qdot_cursor *c)
+{
+    const qdot_token *t = c->at;
+    int depth = 0;
+
+    for (; t->kind != QDOT_TOKEN_END && (depth > 0 || !qdot_token_is(t, ":")); t++)
+        depth += qdot_token_bracket(t);
+    return t->kind == QDOT_TOKEN_END ? NULL : (qdot_token *)t;
+}
+
+qdot_status
+qdot_run_options_read_to_colon(qdot_cursor *c, const qdot_token *start, qdot_run_options *o)
+{
+    qdot_token *colon = find_colon(c);
+    uint8_t kind;
+    qdot_status status;
+
+    if (colon == NULL) {
+        while (!qdot_cursor_is_end(c))
+            c->at++;
+        (void)qdot_cursor_expected(c, "`:` and what is asked of each run");
+        return qdot_hint("run 0..20 : max(theta), energy as curve");
+    }
+    kind = colon->kind;
+    colon->kind = QDOT_TOKEN_END; /* meanwhile */
+    status = qdot_read_range(c, &o->from, &o->to);
+    if (status == QDOT_OK)
+        status = qdot_run_options_read(c, start, o);
+    colon->kind = kind;
+    QDOT_TRY(status);
+    c->at++;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_request *request)
 {

@@ -21,6 +21,10 @@ typedef struct {
  * 1e-12}; free it in any case. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_read(qdot_cursor *c, const qdot_token *start,
                                                   qdot_run_options *o);
+/* Behind `run`: limits and options up to a colon and over it; start: the word `run`. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_read_to_colon(qdot_cursor *c,
+                                                           const qdot_token *start,
+                                                           qdot_run_options *o);
 /* The request of the present values, those of `with` in place of them, and of these options; its
  * limits are left to the caller. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session,

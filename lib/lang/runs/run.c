@@ -5,7 +5,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/report.h"
-#include "lang/runs/run-options.h"
+#include "lang/runs/run.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/language/read.h"
@@ -23,7 +23,7 @@ names_start(const qdot_session *session, const qdot_pairs *with)
 
 /* Integrate, keep the run, tell how it went. */
 static qdot_status
-carry_out(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
+integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 {
     qdot_session *session = c->session;
     const qdot_run_report *report;
@@ -65,28 +65,37 @@ carry_out(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 }
 
 qdot_status
+qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_options *o)
+{
+    qdot_request request = {0};
+    qdot_status status = qdot_text_status(&o->text);
+
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = qdot_run_options_fill(c->session, o, &request);
+    }
+    if (status == QDOT_OK)
+        status = qdot_request_limits(c->session, o->from, o->to, &request);
+    if (status == QDOT_OK)
+        status = qdot_request_explain(c->session, &request, integrate(c, o, &request));
+    qdot_run_options_place(c, o, status);
+    qdot_request_free(&request);
+    return status;
+}
+
+qdot_status
 qdot_run_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
     qdot_run_options o = {.tol = 1e-12};
-    qdot_request request = {0};
-    qdot_status status;
+    qdot_status status = qdot_read_range(c, &o.from, &o.to);
 
-    status = qdot_read_range(c, &o.from, &o.to);
     if (status == QDOT_OK)
         status = qdot_run_options_read(c, start, &o);
     if (status == QDOT_OK)
-        status = qdot_text_status(&o.text);
-    if (status == QDOT_OK)
-        c->error_at = start->start;
-    if (status == QDOT_OK)
-        status = qdot_run_options_fill(c->session, &o, &request);
-    if (status == QDOT_OK)
-        status = qdot_request_limits(c->session, o.from, o.to, &request);
-    if (status == QDOT_OK)
-        status = qdot_request_explain(c->session, &request, carry_out(c, &o, &request));
-    qdot_run_options_place(c, &o, status);
-    qdot_request_free(&request);
+        status = qdot_run_carry_out(c, start, &o);
+    else
+        qdot_run_options_place(c, &o, status);
     qdot_run_options_free(&o);
     return status;
 }

@@ -1,11 +1,12 @@
 /* row-table.c -- rows of numbers of many runs. */
 #include "lang/session/row-table.h"
 
+#include <math.h>
+
 #include "base/memory.h"
 
 qdot_row_table *
-qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const *labels,
-                   size_t most)
+qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const *labels)
 {
     qdot_row_table *t = qdot_calloc(1, sizeof *t);
     bool good;
@@ -17,10 +18,7 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
     t->n_swept = n_swept;
     t->name = qdot_strdup(name);
     t->labels = qdot_calloc(n + 1, sizeof *t->labels);
-    t->values = qdot_calloc(most * n + 1, sizeof *t->values);
-    t->errors = qdot_calloc(most * n + 1, sizeof *t->errors);
-    t->reasons = qdot_calloc(most + 1, sizeof *t->reasons);
-    good = t->name && t->labels && t->values && t->errors && t->reasons;
+    good = t->name && t->labels;
     for (size_t i = 0; i < n && good; i++) {
         t->labels[i] = qdot_strdup(labels[i]);
         good = t->labels[i] != NULL;
@@ -29,6 +27,29 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
         return t;
     qdot_row_table_release(t);
     return NULL;
+}
+
+qdot_status
+qdot_row_table_add(qdot_row_table *t)
+{
+    if (t->rows == t->room) {
+        const size_t room = t->room == 0 ? 16 : 2 * t->room;
+        double *values = qdot_realloc(t->values, room * t->n * sizeof *values), *errors;
+        char **reasons;
+
+        t->values = values ? values : t->values;
+        errors = qdot_realloc(t->errors, room * t->n * sizeof *errors);
+        t->errors = errors ? errors : t->errors;
+        reasons = qdot_realloc(t->reasons, room * sizeof *reasons);
+        t->reasons = reasons ? reasons : t->reasons;
+        if (!values || !errors || !reasons)
+            return QDOT_ENOMEM;
+        t->room = room;
+    }
+    for (size_t i = t->rows * t->n; i < (t->rows + 1) * t->n; i++)
+        t->values[i] = t->errors[i] = NAN;
+    t->reasons[t->rows++] = NULL;
+    return QDOT_OK;
 }
 
 void
@@ -40,6 +61,7 @@ qdot_row_table_release(qdot_row_table *t)
         qdot_free(t->labels[i]);
     for (size_t i = 0; t->reasons != NULL && i < t->rows; i++)
         qdot_free(t->reasons[i]);
+    qdot_function_body_release(t->members);
     qdot_free(t->name);
     qdot_free(t->labels);
     qdot_free(t->values);

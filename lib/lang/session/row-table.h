@@ -1,8 +1,9 @@
-/* row-table.h -- rows of numbers of many runs.
+/* row-table.h -- rows of numbers of many runs, or of one run at many times.
  *
- * A row has what was swept, then what was asked for, each number with its error.
+ * A row has what was swept, then what was asked for, each number with its error. That of a section
+ * (poincare) counts its time among what was swept.
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweep.sh, poincare.sh
  */
 #ifndef QDOT_LANG_ROW_TABLE_H
 #define QDOT_LANG_ROW_TABLE_H
@@ -10,20 +11,25 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "lang/session/function-body.h"
+
 typedef struct qdot_row_table {
     char *name;
     size_t n, n_swept;       /* columns, those swept first */
-    bool drawn;              /* what was swept is random */
+    bool scattered;          /* rows are points by themselves: random draws, a section */
+    qdot_function_body *members; /* of a sweep: what it ran over, and its run, up to the colon */
     char **labels;           /* [n] */
-    size_t rows;
+    size_t rows, room;
     double *values, *errors; /* [rows x n]; NaN: there is no number; its error is unknown */
     char **reasons;          /* [rows] why a row failed; NULL: it did not */
     unsigned uses;
 } qdot_row_table;
 
-/* A table without rows, with room for `most`; labels are copied. NULL: no memory. */
+/* A table without rows; labels are copied. NULL: no memory. */
 qdot_row_table *qdot_row_table_new(const char *name, size_t n_swept, size_t n,
-                                   const char *const *labels, size_t most);
+                                   const char *const *labels);
+/* One more row, of NaN. QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_row_table_add(qdot_row_table *table);
 /* One use less; the last frees it. NULL is nothing. */
 void qdot_row_table_release(qdot_row_table *table);
 

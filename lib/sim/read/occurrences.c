@@ -6,6 +6,7 @@
 #include "ode/companion.h"
 #include "sim/digits/digits.h"
 #include "sim/error/companion.h"
+#include "sim/error/partner.h"
 #include "sim/error/touches.h"
 #include "sim/run/run.h"
 
@@ -18,11 +19,11 @@ qdot_run_has_event(const qdot_run *run, const char *name)
     return false;
 }
 
-/* The occurrences of a course event by event: those of event e are at[first[e]] to
- * at[first[e + 1] - 1], in their order. */
+/* The times of a course's occurrences event by event: those of event e are t[first[e]] to
+ * t[first[e + 1] - 1], in their order. */
 typedef struct {
-    size_t *first;             /* [events + 1] */
-    const qdot_occurrence **at;
+    size_t *first; /* [events + 1] */
+    double *t;
 } by_event;
 
 static qdot_status
@@ -31,8 +32,8 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
     size_t n = c->occurrences.n, *next;
 
     out->first = qdot_calloc(2 * events + 2, sizeof *out->first);
-    out->at = qdot_calloc(n + 1, sizeof *out->at);
-    if (!out->first || !out->at)
+    out->t = qdot_calloc(n + 1, sizeof *out->t);
+    if (!out->first || !out->t)
         return QDOT_ENOMEM;
     next = out->first + events + 1;
     for (size_t i = 0; i < n; i++)
@@ -42,58 +43,20 @@ sort_by_event(const qdot_course *c, size_t events, by_event *out)
         next[e] = out->first[e];
     }
     for (size_t i = 0; i < n; i++)
-        out->at[next[c->occurrences.at[i].event]++] = &c->occurrences.at[i];
+        out->t[next[c->occurrences.at[i].event]++] = c->occurrences.at[i].t;
     return QDOT_OK;
 }
 
-/* The occurrence of at [n], ascending or descending in time, that is nearest to t; NULL if n is
- * 0. */
-static const qdot_occurrence *
-nearest(const qdot_occurrence *const *at, size_t n, double t)
-{
-    size_t low = 0, high = n;
-    bool down = n > 1 && at[n - 1]->t < at[0]->t;
-
-    if (n == 0)
-        return NULL;
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-
-        if (down ? at[middle]->t >= t : at[middle]->t <= t)
-            low = middle;
-        else
-            high = middle;
-    }
-    return high < n && fabs(at[high]->t - t) < fabs(at[low]->t - t) ? at[high] : at[low];
-}
-
-/* The occurrence of the companion that is the k-th one of the run's event: the k-th too,
- * or, where one of them has more (at the very end of the run), the nearest, if it is much
- * nearer than the next one of the run. */
-static const qdot_occurrence *
-partner(const by_event *own, const by_event *other, size_t event, size_t k)
-{
-    const qdot_occurrence *const *of = own->at + own->first[event];
-    size_t n = own->first[event + 1] - own->first[event];
-    size_t m = other->first[event + 1] - other->first[event];
-    const qdot_occurrence *best;
-
-    if (n == m)
-        return other->at[other->first[event] + k];
-    best = nearest(other->at + other->first[event], m, of[k]->t);
-    if (!best || (k > 0 && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k - 1]->t - of[k]->t))
-        || (k + 1 < n && fabs(best->t - of[k]->t) > 0.1 * fabs(of[k + 1]->t - of[k]->t)))
-        return NULL;
-    return best;
-}
-
-/* t*; NaN without a partner. */
+/* The time of the companion's occurrence that is the k-th of the run's event; NaN: none. */
 static double
 time_of_partner(const by_event *own, const by_event *other, size_t event, size_t k)
 {
-    const qdot_occurrence *p = partner(own, other, event, k);
+    const double *of = other->t + other->first[event];
+    const size_t i = qdot_partner_of(own->t + own->first[event],
+                                     own->first[event + 1] - own->first[event], k, of,
+                                     other->first[event + 1] - other->first[event]);
 
-    return p ? p->t : NAN;
+    return i == SIZE_MAX ? NAN : of[i];
 }
 
 static qdot_status
@@ -145,7 +108,7 @@ find_errors(qdot_run *run)
     qdot_free(widths);
     for (size_t i = 0; i < 3; i++) {
         qdot_free(sorted[i].first);
-        qdot_free(sorted[i].at);
+        qdot_free(sorted[i].t);
     }
     return status;
 }

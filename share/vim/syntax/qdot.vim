@@ -19,9 +19,9 @@ syntax keyword qdotWord contained abbreviate animate assume body check constrain
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
 syntax keyword qdotWord contained events export force forces function gravity help include
 syntax keyword qdotWord contained lagrangian longtime modes param particle plan plot
-syntax keyword qdotWord contained potential print quit race reactions redo remove report
-syntax keyword qdotWord contained reset run save scale scene set show spring start style
-syntax keyword qdotWord contained sweep table timing torque undo vars workprecision
+syntax keyword qdotWord contained poincare potential print quit race reactions redo remove
+syntax keyword qdotWord contained report reset run save scale scene set show spring start
+syntax keyword qdotWord contained style sweep table timing torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

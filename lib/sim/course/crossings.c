@@ -1,0 +1,113 @@
+/* crossings.c -- the roots of a function along a course that is stored. */
+#include "sim/course/crossings.h"
+
+#include "sim/course/watch.h"
+
+typedef struct {
+    const qdot_course *c;
+    qdot_expr g;
+    const double *limits;
+    double direction;
+    qdot_trajectory_cursor *cursor;
+    qdot_watch **watches; /* [modes] made when met */
+    size_t piece;
+    int sign;   /* so far, since the last root */
+    int before; /* that at the end of the piece before, which tells whether a zero at the start of the
+                   next is a root; 0: unknown, or the state jumped */
+    qdot_crossings *out;
+} search;
+
+static qdot_status
+read_stored(double t, double *y, void *user)
+{
+    const search *s = user;
+
+    return qdot_trajectory_read_piece(s->cursor, s->piece, t, y);
+}
+
+static qdot_status
+take(search *s, double t, int way)
+{
+    const qdot_trajectory *tr = &s->c->tr;
+    const double *const limits = s->limits;
+    const bool to_end = limits[1] == tr->t[tr->count - 1];
+
+    if (s->direction * (t - limits[0]) < 0
+        || (to_end ? s->direction * (t - limits[1]) > 0 : s->direction * (t - limits[1]) >= 0))
+        return QDOT_OK;
+    return qdot_vec_push(s->out, ((qdot_crossing){t, s->piece, s->direction > 0 ? way : -way}));
+}
+
+/* The roots of the step from stored point k; `last`: the next piece does not go on from its end. */
+static qdot_status
+search_step(search *s, qdot_watch *w, size_t k, bool last)
+{
+    const qdot_trajectory *tr = &s->c->tr;
+    const qdot_root *roots;
+    size_t n;
+
+    QDOT_TRY(qdot_watch_step(w, tr->t[k + 1], tr->y + (k + 1) * tr->n, last, NULL, &roots, &n));
+    if (qdot_watch_first(w)[0] != 0)
+        s->sign = qdot_watch_first(w)[0];
+    for (size_t i = 0; i < n; i++) {
+        s->sign = roots[i].way != 0 ? roots[i].way : s->sign;
+        QDOT_TRY(take(s, roots[i].t, roots[i].way));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+search_piece(search *s)
+{
+    const qdot_trajectory *tr = &s->c->tr;
+    const size_t mode = tr->pieces.at[s->piece].mode;
+    const size_t last = qdot_trajectory_last_of(tr, s->piece);
+    const bool final = s->piece + 1 == tr->pieces.n,
+               jumps = !final && tr->pieces.at[s->piece + 1].jumped;
+    const qdot_watch_reader reader = {read_stored, s, qdot_course_systems(s->c) + mode};
+    size_t k = tr->pieces.at[s->piece].first;
+    qdot_watch *w = s->watches[mode];
+    bool on;
+
+    while (k + 1 < last && s->direction * (tr->t[k + 1] - s->limits[0]) < 0) {
+        k++;
+        s->before = 0;
+    }
+    if (k >= last || s->direction * (tr->t[k] - s->limits[1]) > 0)
+        return QDOT_OK;
+    if (w == NULL) {
+        QDOT_TRY(qdot_watch_new(s->c->stage->modes.at[mode]->plan, 1, &s->g, s->c->shaken,
+                                s->c->touch_tol, &s->watches[mode]));
+        w = s->watches[mode];
+    }
+    QDOT_TRY(qdot_watch_begin(w, &reader, tr->t[k], tr->y + k * tr->n,
+                              &(qdot_watch_known){0, &s->before, NULL}, &on));
+    s->sign = 0;
+    for (; k < last; k++) {
+        if (s->direction * (tr->t[k] - s->limits[1]) > 0)
+            return QDOT_OK;
+        QDOT_TRY(search_step(s, w, k, k + 1 == last && (final || jumps)));
+        qdot_watch_take(w);
+    }
+    s->before = jumps ? 0 : s->sign;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdot_crossings *out)
+{
+    const qdot_trajectory *tr = &c->tr;
+    search s = {.c = c, .g = g, .limits = limits, .out = out};
+    qdot_status status;
+
+    s.direction = qdot_trajectory_is_backward(tr) ? -1 : 1;
+    s.watches = qdot_calloc(c->systems.n + 1, sizeof *s.watches);
+    status = s.watches ? qdot_trajectory_open(tr, qdot_course_systems(c), &s.cursor) : QDOT_ENOMEM;
+    for (; s.piece < tr->pieces.n && status == QDOT_OK; s.piece++)
+        status = search_piece(&s);
+    qdot_trajectory_close(s.cursor);
+    for (size_t i = 0; i < c->systems.n && s.watches; i++)
+        qdot_watch_free(s.watches[i]);
+    qdot_free(s.watches);
+    return status;
+}

@@ -1,0 +1,27 @@
+/* crossings.h -- the roots of a function along a course that is stored.
+ *
+ * Its steps are searched one by one as those of events are while a run is made (watch.h): no root is
+ * missed. A motion that starts on a zero has none there.
+ *
+ * Tests  tests/script/poincare.sh
+ */
+#ifndef QDOT_SIM_CROSSINGS_H
+#define QDOT_SIM_CROSSINGS_H
+
+#include "sim/course/course.h"
+
+typedef struct {
+    double t; /* the first double at which the function has changed its sign */
+    size_t piece;
+    int way;  /* 1, -1: it rises, falls as t grows; 0: it touches 0 */
+} qdot_crossing;
+
+typedef qdot_vec(qdot_crossing) qdot_crossings;
+
+/* Append the roots of g from limits[0] up to, but not at, limits[1], in the order of the course; an
+ * end of the course is within. Errors: QDOT_EDOMAIN where g is undefined, those of reading,
+ * QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_crossings_find(const qdot_course *c, qdot_expr g,
+                                                const double *limits, qdot_crossings *out);
+
+#endif
