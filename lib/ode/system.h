@@ -143,6 +143,22 @@ typedef struct {
     void *user; /* borrowed */
 } qdot_ode_phase;
 
+/* Constraints g(t, q) = 0 beside such momenta: p' = F + A^T lambda, A = dg/dq. For methods that hold
+ * them themselves; others take the accelerations under them from f. Failures as those of f. */
+typedef struct {
+    size_t m;
+    /* g [m] at (t, q); dg/dt [m] at (t, q, v) */
+    qdot_status (*positions)(double t, const double *q, double *g, void *user);
+    qdot_status (*velocities)(double t, const double *q, const double *v, double *w, void *user);
+    /* F [n] += A^T lambda */
+    qdot_status (*pull)(double t, const double *q, const double *lambda, double *F, void *user);
+    /* S = A M^-1 A^T at (t, q), until the next call; with it nu [m] = S^-1 c [m], of least norm where
+     * rows are redundant, and x [n] = M^-1 A^T nu: A x = c. c is lost. */
+    qdot_status (*prepare)(double t, const double *q, void *user);
+    void (*solve)(double *c, double *nu, double *x, void *user);
+    void *user; /* borrowed */
+} qdot_ode_bonds;
+
 /* A step that is about to be accepted, under a tolerance. */
 typedef struct {
     double t, t_end, tol;
@@ -177,6 +193,7 @@ typedef struct qdot_ode_system {
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
     const qdot_ode_phase *phase; /* else, for these: its momenta; NULL: there are none; borrowed */
+    const qdot_ode_bonds *bonds; /* what holds them; NULL: nothing does; borrowed */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

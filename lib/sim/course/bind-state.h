@@ -28,6 +28,7 @@ struct qdot_bind {
     qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
+    qdot_ode_bonds bonds;  /* and the constraints beside them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */

@@ -88,6 +88,10 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constraine
 QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
                                                      double *moved, void *constrained);
 
+/* The constraints, all of them holonomic, as methods take them that hold them themselves
+ * (ode/geometric/variational.c). Valid while `constrained` lives; whose user it is. */
+qdot_ode_bonds qdot_constrained_bonds(qdot_constrained *constrained);
+
 /* The event `who` has set the values of y [2n] marked in q_set and v_set [n]. They stay; the
  * others move least in the metric of M until the constraints hold, first on positions, then on
  * velocities, as under an impulse. q_set or v_set NULL: no position or velocity was set that
