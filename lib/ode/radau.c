@@ -315,6 +315,7 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
 {
     radau *r = s->own;
     const int most = 7 + (int)(b->stages - 3) * 5 / 2;
+    const int judged = r->m > r->v ? 3 : 2; /* the first change hardly knows the multipliers' error */
     const double enough = fmax(newton_roundings * DBL_EPSILON / s->tol, newton);
     double before = 0;
 
@@ -330,10 +331,10 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
         size = change(r, b, h);
         if (!isfinite(size))
             return QDOT_OK;
-        if (r->iterations > 1) {
+        if (r->iterations >= judged) {
             const double rate = size / before;
 
-            r->rate = r->iterations == 2 ? rate : sqrt(rate * r->rate_before);
+            r->rate = r->iterations == judged ? rate : sqrt(rate * r->rate_before);
             r->rate_before = rate;
             if (size > enough && rate > stagnates && size <= noise_of(s, h)) {
                 *converged = true; /* as far as rounding lets it */

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <cmocka.h>
 
 #include "ode/radau-basis.h"
@@ -285,6 +286,89 @@ polynomials_of_steps_keep_the_tolerance(void **state)
     assert_true(worst < 3e-9);
 }
 
+/* --- a multiplier: free on a circle, x u + y v = 0 at the stages, nothing projected ----------- */
+
+static qdot_status
+circle_residual(double t, const double *y, const double *a, const double *z, double *r, void *user)
+{
+    (void)t;
+    (void)user;
+    r[0] = y[0] * z[0] - a[0];
+    r[1] = y[1] * z[0] - a[1];
+    r[2] = y[0] * y[2] + y[1] * y[3];
+    return QDOT_OK;
+}
+
+static qdot_status
+circle_slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv,
+              double *M, void *user)
+{
+    static const double mass[9] = {1, 0, 0, 0, 1};
+
+    (void)t;
+    (void)a;
+    (void)user;
+    z[0] = -(y[2] * y[2] + y[3] * y[3]) / (y[0] * y[0] + y[1] * y[1]);
+    memcpy(dq, (double[9]){z[0], 0, 0, 0, z[0], 0, y[2], y[3], 0}, 9 * sizeof *dq);
+    memcpy(dv, (double[9]){0, 0, y[0], 0, 0, y[1], y[0], y[1], 0}, 9 * sizeof *dv);
+    memcpy(M, mass, sizeof mass);
+    return QDOT_OK;
+}
+
+static qdot_status
+circle_rhs(double t, const double *y, double *dydt, void *user)
+{
+    const double z = -(y[2] * y[2] + y[3] * y[3]) / (y[0] * y[0] + y[1] * y[1]);
+
+    (void)t;
+    (void)user;
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    dydt[2] = z * y[0];
+    dydt[3] = z * y[1];
+    return QDOT_OK;
+}
+
+/* There is one, but the form with M is what is read. */
+static qdot_status
+circle_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    (void)t;
+    (void)y;
+    (void)dfdy;
+    (void)dfdt;
+    (void)user;
+    return QDOT_EINVAL;
+}
+
+/* The error of the state at t = 2, and by how much the constraint is broken there. */
+static double
+circle_error(size_t stages, int steps, double *broken)
+{
+    static const qdot_ode_mass_form form = {2, 1, circle_residual, circle_slopes, NULL};
+    const qdot_ode_system system = {
+        .n = 4, .rhs = circle_rhs, .jacobian = circle_jacobian, .mass_form = &form};
+    double y[] = {1, 0, 0, 1};
+
+    march(&system, stages, 2, steps, y);
+    *broken = fabs(y[0] * y[2] + y[1] * y[3]);
+    return hypot(hypot(y[0] - cos(2), y[1] - sin(2)), hypot(y[2] + sin(2), y[3] - cos(2)));
+}
+
+/* Order 2s - 1 with multipliers too (Hairer & Wanner II, VII.4). */
+static void
+multipliers_keep_the_order(void **state)
+{
+    double broken, wide, narrow;
+
+    (void)state;
+    wide = circle_error(3, 60, &broken);
+    assert_true(broken < 1e-13);
+    narrow = circle_error(3, 120, &broken);
+    assert_true(log2(wide / narrow) > 4.6);
+    assert_true(circle_error(5, 12, &broken) < 1e-12);
+}
+
 /* A^-1 = sum_k lambda_k u_k w_k^T */
 static void
 eigenvectors_make_the_matrix(void **state)
@@ -316,6 +400,7 @@ main(void)
         cmocka_unit_test(eigenvectors_make_the_matrix),
         cmocka_unit_test(orders_are_2s_less_1),
         cmocka_unit_test(polynomials_are_met),
+        cmocka_unit_test(multipliers_keep_the_order),
         cmocka_unit_test(the_form_with_mass_is_the_same),
         cmocka_unit_test(tolerances_are_kept_where_it_is_stiff),
         cmocka_unit_test(polynomials_of_steps_keep_the_tolerance),

@@ -9,7 +9,8 @@
 static bool
 is_of_velocities(const qdot_constrained *h, size_t k)
 {
-    return h->plan->treatment == QDOT_RUN_PROJECT && h->c->rows[k].kind != QDOT_ACCELERATION;
+    return h->plan->treatment == QDOT_RUN_PROJECT &&
+           h->c->rows[k].kind != QDOT_ACCELERATION;
 }
 
 /* Which rows are not redundant; the multipliers of others are 0. Once chosen they stay while they are
@@ -38,7 +39,8 @@ qdot_constrained_implicit(qdot_constrained *h, double t, const double *y, const 
     if (h->plan->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_positions(h);
     qdot_constrained_velocities(h);
-    qdot_tape_eval(qdot_constrained_tape(h->equations, h->plan->tape), h->in, h->out, h->work);
+    qdot_tape_eval(qdot_constrained_tape(h->equations, h->plan->tape), h->in, h->out,
+                   h->work);
     memcpy(r, h->out, n * sizeof *r);
     out = h->out + n;
     for (size_t e = 0; e < c->n_masses; e++, out++) {
@@ -68,8 +70,8 @@ put_rows(qdot_constrained *h, double *dq, double *dv, double *M)
     const size_t n = h->plan->n, m = h->c->m, columns = 2 * n + 1, all = n + m;
     const double *from = h->slopes;
 
-    qdot_derivative_eval(qdot_constrained_tape(h->velocities, h->c->velocities), h->in, 0, columns,
-                         h->out, h->slopes, h->slopes_work);
+    qdot_derivative_eval(qdot_constrained_tape(h->velocities, h->c->velocities), h->in, 0,
+                         columns, h->out, h->slopes, h->slopes_work);
     for (size_t k = 0; k < m; k++) {
         const size_t at = (n + k) * all;
 
@@ -90,8 +92,8 @@ put_rows(qdot_constrained *h, double *dq, double *dv, double *M)
 }
 
 qdot_status
-qdot_constrained_implicit_slopes(qdot_constrained *h, double t, const double *y, double *z,
-                                 double *dq, double *dv, double *M)
+qdot_constrained_implicit_slopes(qdot_constrained *h, double t, const double *y,
+                                 double *z, double *dq, double *dv, double *M)
 {
     const size_t n = h->plan->n, m = h->c->m, columns = 2 * n + 1, all = n + m;
     const qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;

@@ -51,10 +51,11 @@ check(const qdot_plan *p, size_t i)
 
     if (held(p, i, p->n, true) > 0 || (!velocities && held(p, i, 0, true) > 0))
         return QDOT_OK;
-    (void)qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular: no mass moves with %s%s",
-                    p->names[i],
-                    velocities ? ", and its equation holds velocities of other coordinates alone"
-                               : "");
+    (void)qdot_fail(QDOT_ESINGULAR,
+                    "the mass matrix is singular: no mass moves with %s%s", p->names[i],
+                    velocities
+                        ? ", and its equation holds velocities of other coordinates alone"
+                        : "");
     return qdot_hint("a mass, damping or a potential that determines %s", p->names[i]);
 }
 

@@ -34,6 +34,18 @@ typedef struct {
 
 /* --- the equations ------------------------------------------------------------------ */
 
+/* Row k: a constraint of the scene, as it stands there; behind these the equations of the plan. */
+static qdot_constraints_row
+row_at(const level *l, size_t k)
+{
+    const qdot_constraint *of_scene = l->scene->constraints.at + k;
+
+    return k < l->scene->constraints.n
+               ? (qdot_constraints_row){of_scene->name, of_scene->kind, of_scene->f,
+                                        of_scene->multiplier}
+               : l->plan->constraints->rows[k];
+}
+
 static qdot_status
 push(level *l, size_t k, qdot_expr F)
 {
@@ -52,8 +64,7 @@ static qdot_status
 level_init(level *l)
 {
     const qdot_scene *scene = l->scene;
-    const qdot_constraints_row *rows = l->plan->constraints->rows;
-    size_t c = l->plan->constraints->m;
+    size_t c = scene->constraints.n + l->plan->n_massless;
 
     l->F = qdot_calloc(c + 1, sizeof *l->F);
     l->constraint = qdot_calloc(c + 1, sizeof *l->constraint);
@@ -62,15 +73,14 @@ level_init(level *l)
     if (!l->F || !l->constraint || !l->distance || !l->free)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < c; k++) {
+        const qdot_constraints_row row = row_at(l, k);
+
         if (l->massless != (k >= scene->constraints.n))
             continue;
-        const qdot_expr f =
-            k < scene->constraints.n ? scene->constraints.at[k].f : rows[k].f;
-
-        if (rows[k].kind == QDOT_HOLONOMIC)
-            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, f) : f));
-        else if (rows[k].kind == QDOT_VELOCITY && l->velocities)
-            QDOT_TRY(push(l, k, f));
+        if (row.kind == QDOT_HOLONOMIC)
+            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, row.f) : row.f));
+        else if (row.kind == QDOT_VELOCITY && l->velocities)
+            QDOT_TRY(push(l, k, row.f));
     }
     return QDOT_OK;
 }
@@ -130,7 +140,7 @@ print_constraints(const level *l, const bool *which, qdot_text *out)
         count += which[k];
     qdot_text_add(out, l->massless ? "the " : count == 1 ? "constraint " : "constraints ");
     for (size_t k = 0; k < l->m; k++) {
-        const char *name = l->plan->constraints->rows[l->constraint[k]].name;
+        const char *name = row_at(l, l->constraint[k]).name;
         const char *comma = strchr(name, ',');
 
         if (!which[k])
@@ -175,7 +185,7 @@ fail(qdot_text *text, qdot_status built)
 static qdot_status
 refuse(const level *l, const double *residual)
 {
-    const qdot_constraints_row *row;
+    qdot_constraints_row row;
     qdot_text text = {0};
     qdot_status status;
     size_t worst = 0, broken = 0;
@@ -183,16 +193,16 @@ refuse(const level *l, const double *residual)
     for (size_t k = 1; k < l->m; k++)
         if (!(l->distance[k] <= l->distance[worst]))
             worst = k;
-    row = &l->plan->constraints->rows[l->constraint[worst]];
+    row = row_at(l, l->constraint[worst]);
     qdot_text_add(&text, "the start breaks ");
     status = print_broken(l, &text);
     for (size_t k = 0; k < l->m; k++)
         broken += !(l->distance[k] <= breaks);
-    qdot_text_add(&text, l->velocities && row->kind == QDOT_HOLONOMIC
+    qdot_text_add(&text, l->velocities && row.kind == QDOT_HOLONOMIC
                              ? ": the rate of left - right"
                              : ": left - right");
     if (broken > 1)
-        qdot_text_format(&text, " of %.100s", row->name);
+        qdot_text_format(&text, " of %.100s", row.name);
     qdot_text_format(&text, " is %.6g, not 0", residual[worst]);
     status = fail(&text, status);
     return status == QDOT_EINVAL
