@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/workers.c \
 	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
@@ -122,13 +123,18 @@ library_sources = \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
+	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
 	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
+	lib/lang/runs/sensitivity.c \
+	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep-file.c \
+	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
@@ -201,6 +207,7 @@ library_sources = \
 	lib/mech/scene/scene.c \
 	lib/mech/study/chart-body.c \
 	lib/mech/study/chart-express.c \
+	lib/mech/study/chart-formulas.c \
 	lib/mech/study/chart.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
@@ -313,6 +320,8 @@ library_sources = \
 	lib/ode/geometric/constant-steps.c \
 	lib/ode/geometric/gauss.c \
 	lib/ode/geometric/splitting.c \
+	lib/ode/geometric/stages.c \
+	lib/ode/geometric/variational.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
 	lib/ode/meter.c \
@@ -377,10 +386,12 @@ library_sources = \
 	lib/show/figure-image.c \
 	lib/show/figure-label.c \
 	lib/show/figure-layout.c \
+	lib/show/figure-map.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
 	lib/show/formulas.c \
 	lib/show/gnuplot.c \
+	lib/show/hdf5-read.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
 	lib/show/page-curves.c \
@@ -458,6 +469,8 @@ library_sources = \
 	lib/sim/form/tree-series.c \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
+	lib/sim/model/constrained-bonds.c \
+	lib/sim/model/constrained-implicit.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
 	lib/sim/model/constrained-names.c \
@@ -493,6 +506,7 @@ library_sources = \
 	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
+	lib/sim/read/passage.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
@@ -516,10 +530,15 @@ library_sources = \
 	lib/sim/start/start.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
+	lib/sim/study/exponents.c \
+	lib/sim/study/extremum.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
+	lib/sim/study/variation-parts.c \
+	lib/sim/study/variation-scene.c \
+	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
 	lib/tape/angle.c \
 	lib/tape/code.c \
@@ -546,6 +565,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
@@ -628,7 +648,10 @@ library_headers = \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
 	lib/lang/runs/run.h \
+	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
+	lib/lang/runs/sweep-file.h \
+	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -790,6 +813,7 @@ library_headers = \
 	lib/ode/geometric/composition.def \
 	lib/ode/geometric/geometric.h \
 	lib/ode/geometric/splitting.h \
+	lib/ode/geometric/stages.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
 	lib/ode/meter.h \
@@ -850,6 +874,7 @@ library_headers = \
 	lib/show/formula-page.h \
 	lib/show/formulas.h \
 	lib/show/gnuplot.h \
+	lib/show/hdf5-read.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
 	lib/show/page.h \
@@ -947,6 +972,7 @@ library_headers = \
 	lib/sim/plan/tree-alone.h \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
+	lib/sim/read/passage.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
@@ -964,10 +990,15 @@ library_headers = \
 	lib/sim/start/start.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
+	lib/sim/study/exponents.h \
+	lib/sim/study/extremum.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
+	lib/sim/study/variation-parts.h \
+	lib/sim/study/variation-scene.h \
+	lib/sim/study/variation.h \
 	lib/sim/study/workprecision.h \
 	lib/tape/angle.h \
 	lib/tape/code.h \
@@ -1020,6 +1051,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_workers \
 	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
@@ -1125,6 +1157,7 @@ unit_tests = \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
+	tests/sim/test_exponents \
 	tests/sim/test_horizon \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
@@ -1142,6 +1175,7 @@ unit_tests = \
 	tests/sim/test_switch \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
+	tests/sim/test_variation \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
@@ -1165,6 +1199,8 @@ script_tests = \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
+	tests/script/chart-coordinates.lag \
+	tests/script/chart-roots.lag \
 	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1242,6 +1278,7 @@ script_tests = \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
+	tests/script/lyapunov.sh \
 	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1288,6 +1325,7 @@ script_tests = \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
+	tests/script/radau-constraints.lag \
 	tests/script/radau.lag \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1305,6 +1343,7 @@ script_tests = \
 	tests/script/scale-found.lag \
 	tests/script/scale.lag \
 	tests/script/scene-file.sh \
+	tests/script/sensitivity.sh \
 	tests/script/series-removable.lag \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
@@ -1320,6 +1359,8 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-resume.sh \
+	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
@@ -1353,6 +1394,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart-root.lag \
 	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
@@ -1431,6 +1473,13 @@ script_tests = \
 	tests/bad/loop-half.lag \
 	tests/bad/loop-limit.lag \
 	tests/bad/loop-too-long.lag \
+	tests/bad/lyapunov-domain.lag \
+	tests/bad/lyapunov-ending.lag \
+	tests/bad/lyapunov-jump.lag \
+	tests/bad/lyapunov-length.lag \
+	tests/bad/lyapunov-range.lag \
+	tests/bad/lyapunov-tol.lag \
+	tests/bad/lyapunov-word.lag \
 	tests/bad/mass-negative-inertia.lag \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
@@ -1508,6 +1557,17 @@ script_tests = \
 	tests/bad/scale-of-nothing.lag \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
+	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-corner.lag \
+	tests/bad/sensitivity-jump.lag \
+	tests/bad/sensitivity-member.lag \
+	tests/bad/sensitivity-named.lag \
+	tests/bad/sensitivity-of.lag \
+	tests/bad/sensitivity-run.lag \
+	tests/bad/sensitivity-stop.lag \
+	tests/bad/sensitivity-twice.lag \
+	tests/bad/sensitivity-unknown.lag \
+	tests/bad/sensitivity-vector.lag \
 	tests/bad/series-none.sh \
 	tests/bad/set-circle.lag \
 	tests/bad/set-coordinate.lag \
@@ -1573,6 +1633,8 @@ script_tests = \
 	tests/bad/unknown-name.lag \
 	tests/bad/unset-many.lag \
 	tests/bad/unset.lag \
+	tests/bad/variational-baumgarte.lag \
+	tests/bad/variational-velocity.lag \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
@@ -1609,6 +1671,7 @@ script_tests = \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
@@ -1634,6 +1697,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -1649,6 +1713,7 @@ script_tests = \
 	examples/rotating-body.lag \
 	examples/rotating-hoop.lag \
 	examples/routh.lag \
+	examples/sensitivity.lag \
 	examples/slider-crank.lag \
 	examples/snakeboard.lag \
 	examples/spherical-pendulum.lag \
@@ -1661,6 +1726,7 @@ script_tests = \
 	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
@@ -1706,6 +1772,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart-root.out \
 	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
@@ -1784,6 +1851,13 @@ test_files = \
 	tests/bad/loop-half.out \
 	tests/bad/loop-limit.out \
 	tests/bad/loop-too-long.out \
+	tests/bad/lyapunov-domain.out \
+	tests/bad/lyapunov-ending.out \
+	tests/bad/lyapunov-jump.out \
+	tests/bad/lyapunov-length.out \
+	tests/bad/lyapunov-range.out \
+	tests/bad/lyapunov-tol.out \
+	tests/bad/lyapunov-word.out \
 	tests/bad/mass-negative-inertia.out \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
@@ -1861,6 +1935,17 @@ test_files = \
 	tests/bad/scale-of-nothing.out \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
+	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-corner.out \
+	tests/bad/sensitivity-jump.out \
+	tests/bad/sensitivity-member.out \
+	tests/bad/sensitivity-named.out \
+	tests/bad/sensitivity-of.out \
+	tests/bad/sensitivity-run.out \
+	tests/bad/sensitivity-stop.out \
+	tests/bad/sensitivity-twice.out \
+	tests/bad/sensitivity-unknown.out \
+	tests/bad/sensitivity-vector.out \
 	tests/bad/series-none.out \
 	tests/bad/set-circle.out \
 	tests/bad/set-coordinate.out \
@@ -1926,6 +2011,8 @@ test_files = \
 	tests/bad/unknown-name.out \
 	tests/bad/unset-many.out \
 	tests/bad/unset.out \
+	tests/bad/variational-baumgarte.out \
+	tests/bad/variational-velocity.out \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \
@@ -1953,6 +2040,7 @@ test_files = \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
 	tests/examples/export.out \
+	tests/examples/fermi-pasta-ulam.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \
@@ -1989,6 +2077,7 @@ test_files = \
 	tests/examples/stated-lagrangian.out \
 	tests/examples/static-equilibrium.out \
 	tests/examples/swinging-atwood.out \
+	tests/examples/toda.out \
 	tests/examples/vector-operators.out \
 	tests/examples/velocity.out \
 	tests/examples/virtual-work.out \
@@ -2069,6 +2158,8 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/chaos.out \
+	tests/script/chart-coordinates.out \
+	tests/script/chart-roots.out \
 	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
@@ -2164,6 +2255,7 @@ test_files = \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
 	tests/script/loops.out \
+	tests/script/lyapunov.out \
 	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \
@@ -2212,6 +2304,7 @@ test_files = \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
+	tests/script/radau-constraints.out \
 	tests/script/radau.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -2229,6 +2322,7 @@ test_files = \
 	tests/script/scale-found.out \
 	tests/script/scale.out \
 	tests/script/scene-file.out \
+	tests/script/sensitivity.out \
 	tests/script/series-removable.out \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
@@ -2244,6 +2338,8 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-resume.out \
+	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
@@ -2285,10 +2381,13 @@ other_files = \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
 	bench/hard/cases.py \
+	bench/hard/references \
 	bench/hard/run \
+	bench/hard/second.py \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
+	bench/peers/constrained.c \
 	bench/peers/constrained.cc \
 	bench/peers/constrained/car_axis.lag \
 	bench/peers/constrained/double.lag \
@@ -2382,6 +2481,7 @@ example_files = \
 	examples/embed.py \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
 	examples/flexing-wire.lag \
@@ -2417,6 +2517,7 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -2440,6 +2541,7 @@ example_files = \
 	examples/rotating-hoop.lag \
 	examples/rotating-hoop.svg \
 	examples/routh.lag \
+	examples/sensitivity.lag \
 	examples/slider-crank.lag \
 	examples/snakeboard.lag \
 	examples/snakeboard.svg \
@@ -2459,6 +2561,7 @@ example_files = \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/torus-geodesic.svg \
 	examples/undo.lag \

@@ -40,6 +40,24 @@ any_member(const qdot_session *session, const qdot_runs_columns *columns)
     return false;
 }
 
+/* Note what the columns are of the run, from the arguments as they were written. */
+static void
+note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
+             qdot_expr time, qdot_measured *m)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        const bool scalar = qdot_expr_is_scalar(session->pool, args[i]);
+        const uint32_t parts = scalar ? 1 : qdot_expr_count(session->pool, args[i]);
+
+        for (uint32_t k = 0; k < parts; k++, m++)
+            m->origin = (qdot_origin){
+                .kind = QDOT_ORIGIN_VALUE,
+                .e = scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k),
+                .time = time,
+                .run = run};
+    }
+}
+
 /* The columns at a time: numbers m [columns], or values [columns] of such numbers, not nil. */
 static qdot_status
 measure_columns(qdot_session *session, const char *run, const qdot_runs_columns *columns,
@@ -138,6 +156,8 @@ qdot_along_value(qdot_session *session, const char *run, uint32_t n,
         status = measure_columns(session, run, &columns, args[n - 1], measured, values);
     if (status == QDOT_OK)
         status = add_errors_within(session, run, n - 1, args, args[n - 1], measured);
+    if (status == QDOT_OK && !any_member(session, &columns))
+        note_origins(session, run, n - 1, args, args[n - 1], measured);
     for (size_t i = 0; i < columns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&symbols, values[i] != QDOT_NIL
                                              ? values[i]

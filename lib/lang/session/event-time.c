@@ -49,7 +49,10 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
                                                              .error = list[i].error,
                                                              .digits = qdot_event_digits(
                                                                  named->run, &list[i]),
-                                                             .exact = list[i].exact}));
+                                                             .exact = list[i].exact,
+                                                             .origin = {.kind = QDOT_ORIGIN_EVENT,
+                                                                        .run = run,
+                                                                        .event = list[i].event}}));
     }
     if (status == QDOT_OK && k == 0) {
         *value = qdot_list(session->pool, (uint32_t)all.n, all.at);

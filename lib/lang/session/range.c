@@ -42,10 +42,10 @@ measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot
     return qdot_pool_check(session->pool);
 }
 
-/* The value of one expression, a new symbol. */
+/* The value of one expression, a new symbol; plain: it, and the range, hold no other numbers of runs. */
 static qdot_status
 measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
-        const double *range, qdot_expr *value)
+        const double *range, bool plain, qdot_expr *value)
 {
     const qdot_run_report *report;
     qdot_named_run *named;
@@ -59,7 +59,16 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
     report = qdot_run_get_report(named->run);
     QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,
                             range != NULL ? range[1] : report->t1, &x, &error));
-    *value = qdot_measured_new(session, x, error);
+    *value = qdot_measured_add(
+        session,
+        (qdot_measured){.value = x,
+                        .error = error,
+                        .origin = {.kind = plain ? QDOT_ORIGIN_RANGE : QDOT_ORIGIN_OTHER,
+                                   .range = kind,
+                                   .e = e,
+                                   .ends = {range != NULL ? range[0] : report->t0,
+                                            range != NULL ? range[1] : report->t1},
+                                   .run = run}});
     return qdot_pool_check(session->pool);
 }
 
@@ -71,8 +80,13 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
     qdot_vec(qdot_expr) results = {0};
     qdot_range_kind kind = QDOT_RANGE_MAX;
     double ends[2];
+    bool plain = true;
     qdot_status status = QDOT_OK;
 
+    for (uint32_t i = 0; i < n; i++)
+        plain = plain && !qdot_measured_occurs(session, args[i]);
+    for (int k = 0; k < 2 && range != NULL; k++)
+        plain = plain && !qdot_measured_occurs(session, range[k]);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(words[i].word, word) == 0)
             kind = words[i].kind;
@@ -86,7 +100,7 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
         qdot_expr one = QDOT_NIL;
 
         status = measure(session, run, kind, columns.at[i], range != NULL ? ends : NULL,
-                         &one);
+                         plain, &one);
         if (status == QDOT_OK)
             status = qdot_vec_push(&results, one);
     }

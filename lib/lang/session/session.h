@@ -16,6 +16,22 @@
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
+/* What a number is of a run: where its slopes are to be found (lang/runs/slopes.h). */
+typedef enum {
+    QDOT_ORIGIN_OTHER, /* of several runs, or of none */
+    QDOT_ORIGIN_VALUE, /* e at a time */
+    QDOT_ORIGIN_RANGE, /* e over a range: `range`, between ends */
+    QDOT_ORIGIN_EVENT  /* the time of an event */
+} qdot_origin_kind;
+
+typedef struct {
+    qdot_origin_kind kind;
+    qdot_range_kind range;
+    qdot_expr e, time; /* as they were written, numbers of runs in them as symbols */
+    double ends[2];
+    const char *run, *event; /* borrowed, for the statement; run NULL: the latest */
+} qdot_origin;
+
 /* A number from a run; a FORMAL symbol represents it in expressions. */
 typedef struct {
     qdot_expr symbol;
@@ -23,6 +39,7 @@ typedef struct {
     int digits;          /* > 0: of a run with `digits`, whose number is */
     qdot_expr exact;     /* ... this rational */
     bool plain;          /* without requested digits: a number with --json, not a string */
+    qdot_origin origin;
 } qdot_measured;
 
 /* a.EXPR within an expression, represented by a FORMAL symbol. */

@@ -47,7 +47,6 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
-    qdot_free(b->all_slopes);
     qdot_pulses_clear(&b->pulses);
     qdot_free(b);
 }
@@ -222,6 +221,7 @@ qdot_bind_system(qdot_bind *b)
         .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
         .halves = b->plan->halves,
         .phase = b->phase ? qdot_phase_get(b->phase) : NULL,
+        .bonds = b->phase && b->held ? &b->bonds : NULL,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
@@ -333,6 +333,7 @@ make_held(qdot_bind *b, bool shaken)
     const qdot_plan *p = b->plan;
 
     QDOT_TRY(qdot_constrained_new(p, shaken, &b->held));
+    b->bonds = qdot_constrained_bonds(b->held);
     if (!p->smooth)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_series_of_constraints(p, shaken, &b->tied));

@@ -1,0 +1,174 @@
+/* lyapunov.c -- the statement `lyapunov [spectrum] T0..T1`: exponents, and how they settled as a figure. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/interrupt.h"
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/figures/figure-option.h"
+#include "lang/language/read.h"
+#include "lang/runs/error-time.h"
+#include "lang/runs/request.h"
+#include "sim/study/exponents.h"
+
+/* As of a run. */
+static const double tol_default = 1e-12;
+
+typedef struct {
+    double tol; /* 0: not said */
+    qdot_figure_choice figure;
+    qdot_panel_choice panel;
+} choices;
+
+/* --- what is told ------------------------------------------------------------------------ */
+
+/* "lyapunov" of the largest alone, else "lyapunov[k]". */
+static void
+name_of(const qdot_exponents *x, size_t k, char *name, size_t size)
+{
+    if (x->spectrum)
+        snprintf(name, size, "lyapunov[%zu]", k + 1);
+    else
+        snprintf(name, size, "lyapunov");
+}
+
+static qdot_status
+answer(qdot_session *session, const qdot_exponents *x)
+{
+    for (size_t k = 0; k < x->n; k++) {
+        char name[40];
+
+        name_of(x, k, name, sizeof name);
+        QDOT_TRY(qdot_answer_number(session, name, x->value[k], x->error[k]));
+    }
+    return QDOT_OK;
+}
+
+/* A row for each time: t, then the exponents up to there. */
+static void
+course(const qdot_exponents *x, bool csv, qdot_text *out)
+{
+    qdot_text_add(out, csv ? "t" : "# t");
+    for (size_t k = 0; k < x->n; k++) {
+        char name[40];
+
+        name_of(x, k, name, sizeof name);
+        qdot_text_format(out, csv ? ",%s" : "  %s", name);
+    }
+    qdot_text_char(out, '\n');
+    for (size_t w = 0; w < x->windows; w++) {
+        qdot_text_double(out, x->t[w], 17);
+        for (size_t k = 0; k < x->n; k++) {
+            qdot_text_add(out, csv ? "," : "  ");
+            qdot_text_double(out, x->course[w * x->n + k], 17);
+        }
+        qdot_text_char(out, '\n');
+    }
+}
+
+static qdot_status
+figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
+{
+    qdot_error_point *points = qdot_calloc(x->n * x->windows + 1, sizeof *points);
+    char(*names)[40] = qdot_calloc(x->n + 1, sizeof *names);
+    qdot_text note = {0};
+    qdot_error_time of = {.title = x->spectrum
+                                       ? "Lyapunov exponents, up to a time"
+                                       : "the largest Lyapunov exponent, up to a time",
+                          .abscissa = "time",
+                          .ordinate = "|lambda|",
+                          .note = &note,
+                          .none = "the run did not come far enough",
+                          .points = points,
+                          .figure = &chosen->figure,
+                          .panel = &chosen->panel};
+    qdot_status status = points && names ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
+        name_of(x, k, names[k], sizeof names[k]);
+        for (size_t w = 0; w < x->windows; w++)
+            points[of.n++] =
+                (qdot_error_point){names[k], x->t[w], fabs(x->course[w * x->n + k])};
+    }
+    qdot_text_add(&note, "sums of the growth since the start, by the time");
+    if (status == QDOT_OK)
+        status = qdot_error_time_show(session, &of);
+    qdot_text_clear(&note);
+    qdot_free(names);
+    qdot_free(points);
+    return status;
+}
+
+/* The numbers; a figure or data where a file is named, or a person looks on. */
+static qdot_status
+tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
+{
+    const char *path = chosen->figure.path;
+    const bool csv = path != NULL && qdot_ends_in(path, ".csv");
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(answer(session, x));
+    if (path == NULL)
+        return QDOT_OK;
+    if (!csv && !qdot_ends_in(path, ".txt"))
+        return figure(session, x, chosen);
+    course(x, csv, &text);
+    status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* --- the statement --------------------------------------------------------------------------- */
+
+static qdot_status
+read_tolerance(qdot_cursor *c, choices *chosen)
+{
+    const qdot_token *start;
+
+    if (!qdot_cursor_accept_word(c, "tol"))
+        return QDOT_OK;
+    start = c->at;
+    QDOT_TRY(qdot_read_number(c, &chosen->tol));
+    c->error_at = start->start;
+    return chosen->tol >= 1e-16 && chosen->tol < 1
+               ? QDOT_OK
+               : qdot_fail(QDOT_EINVAL, "a tolerance lies between 1e-16 and 1");
+}
+
+qdot_status
+qdot_lyapunov_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_session *session = c->session;
+    qdot_request order = {0};
+    qdot_exponents x = {.spectrum = qdot_cursor_accept_word(c, "spectrum")};
+    choices chosen = {0};
+    qdot_expr from, to;
+    qdot_status status;
+
+    QDOT_TRY(qdot_read_range(c, &from, &to));
+    QDOT_TRY(read_tolerance(c, &chosen));
+    QDOT_TRY(qdot_error_time_read(c, "`tol`, " QDOT_FIGURE_OPTIONS, &chosen.figure,
+                                  &chosen.panel));
+    c->error_at = start->start;
+    status = qdot_request_fill(session, &order);
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, &order);
+    order.request.tol = chosen.tol > 0 ? chosen.tol : tol_default;
+    order.request.method = "auto";
+    if (status == QDOT_OK)
+        status = qdot_exponents_find(session->scene, &order.request, &x);
+    if (x.interrupted)
+        qdot_interrupt_clear(); /* heard: what is known so far is told */
+    if (status == QDOT_OK)
+        status = tell(session, &x, &chosen);
+    if (status == QDOT_OK && x.interrupted)
+        status =
+            qdot_fail(QDOT_EINTR, "interrupted: the exponents are those up to t = %.6g",
+                      x.t[x.windows - 1]);
+    status = qdot_request_explain(session, &order, status);
+    qdot_exponents_clear(&x);
+    qdot_request_free(&order);
+    return status;
+}

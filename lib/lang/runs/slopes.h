@@ -1,0 +1,51 @@
+/* slopes.h -- derivatives of numbers of a run by parameters and initial values.
+ *
+ * The run is made once more together with its variational equations (sim/study/variation.h), and kept
+ * meanwhile under a name that nobody can write. A number of the run then has the slope
+ *
+ *     value(e, tau)        De + de/dt dtau/ds
+ *     mean(e, A..B)        the mean of De
+ *     max, min(e, A..B)    De where it is
+ *     an event's time      -Dg/(dg/dt) there
+ *
+ * and an expression of such numbers and parameters that of the chain rule.
+ *
+ * Tests  tests/script/sensitivity.lag, tests/bad/sensitivity-*.lag
+ */
+#ifndef QDOT_LANG_SLOPES_H
+#define QDOT_LANG_SLOPES_H
+
+#include "lang/language/cursor.h"
+#include "sim/study/variation.h"
+
+/* What is differentiated by. */
+typedef struct {
+    const qdot_token *place;
+    char *label;
+    qdot_expr symbol; /* a parameter, a coordinate, a velocity */
+} qdot_slope_name;
+
+typedef struct {
+    qdot_session *session; /* borrowed */
+    qdot_vec(qdot_slope_name) names;
+    qdot_conditions *conditions; /* borrowed: of the run */
+    qdot_run *run;               /* borrowed */
+    qdot_run_request request;
+    qdot_variation_by *by;     /* [names] */
+    qdot_expr *values, *start; /* [names x values], [names x 2n] */
+    qdot_expr *settled;    /* [2n] the run's start, on its constraints */
+    qdot_variation variation;
+} qdot_slopes;
+
+/* Read `NAME, ...` into slopes from {0}. Free them in any case. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_read(qdot_cursor *c, qdot_slopes *s);
+/* Make the run with its slopes, of the run of that name (NULL: the latest). Errors: those of
+ * qdot_variation_make and of the run. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run);
+/* The slope by name k of e, an expression of numbers of that run and of parameters: of numbers measured
+ * before the first-th nothing is known. QDOT_ENOTBUILT: of something in it there is no slope. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first,
+                                           size_t k, qdot_expr *slope);
+void qdot_slopes_free(qdot_slopes *s);
+
+#endif

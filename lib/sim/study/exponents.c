@@ -1,0 +1,419 @@
+/* exponents.c -- integrates slopes, orthonormalises them, gathers their growth by windows. */
+#include "sim/study/exponents.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/progress.h"
+#include "expr/rational.h"
+#include "ode/integrate.h"
+#include "sim/course/course.h"
+#include "sim/study/method-run.h"
+#include "sim/study/variation.h"
+
+/* Directions are made orthonormal where one, without its parts along those before it, has grown or shrunk
+ * so much. */
+static const double most_growth = 1e4;
+
+/* A run without an end of its own. */
+static const uint64_t no_bound = UINT64_MAX / 2;
+
+typedef struct {
+    qdot_exponents *x;
+    const qdot_variation *v;
+    const qdot_run_request *request;
+    qdot_method_run m;
+    size_t n, k, all;      /* coordinates of the scene; directions; coordinates of both */
+    double *y, *look;      /* [2 all]; room for `look` */
+    double t, *sum, *size; /* [k] */
+    double *growth;        /* [windows x k] */
+    bool alone;            /* steps end nowhere but where the integration says */
+    bool stopped;
+    char reason[400]; /* why it ended early */
+} pursuit;
+
+void
+qdot_exponents_clear(qdot_exponents *x)
+{
+    qdot_free(x->value);
+    qdot_free(x->t);
+    *x = (qdot_exponents){.spectrum = x->spectrum};
+}
+
+/* --- directions ---------------------------------------------------------------------------- */
+
+/* Component i < 2n of direction k. */
+static double *
+component(const pursuit *p, double *y, size_t k, size_t i)
+{
+    return y + (i < p->n ? 0 : p->all) + (k + 1) * p->n + i % p->n;
+}
+
+static double
+product(const pursuit *p, double *y, size_t k, size_t l)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < 2 * p->n; i++)
+        sum += *component(p, y, k, i) * *component(p, y, l, i);
+    return sum;
+}
+
+/* y = Q R, Q in place of y, R_kk into `size` [k]. Each is done twice, as once leaves what has
+ * cancelled. */
+static void
+orthonormalise(const pursuit *p, double *y, double *size)
+{
+    for (size_t k = 0; k < p->k; k++) {
+        for (int twice = 0; twice < 2; twice++)
+            for (size_t l = 0; l < k; l++) {
+                const double part = product(p, y, k, l);
+
+                for (size_t i = 0; i < 2 * p->n; i++)
+                    *component(p, y, k, i) -= part * *component(p, y, l, i);
+            }
+        size[k] = sqrt(product(p, y, k, k));
+        for (size_t i = 0; i < 2 * p->n; i++)
+            *component(p, y, k, i) /= size[k];
+    }
+}
+
+/* The same of the state; ln R_kk are added to the sums. */
+static qdot_status
+gather(pursuit *p)
+{
+    orthonormalise(p, p->y, p->size);
+    for (size_t k = 0; k < p->k; k++) {
+        if (!(p->size[k] > 0) || !isfinite(p->size[k]))
+            return qdot_fail(QDOT_EFAILED, "a direction has no length at t = %.9g", p->t);
+        p->sum[k] += log(p->size[k]);
+    }
+    return QDOT_OK;
+}
+
+/* Stop where a direction, without its parts along those before it, is far from length 1. */
+static qdot_status
+look(double t, const double *y, bool *stop, void *user)
+{
+    pursuit *p = user;
+
+    (void)t;
+    memcpy(p->look, y, 2 * p->all * sizeof *y);
+    orthonormalise(p, p->look, p->size);
+    for (size_t k = 0; k < p->k; k++)
+        if (!(p->size[k] < most_growth) || !(p->size[k] * most_growth > 1))
+            *stop = true;
+    return QDOT_OK;
+}
+
+/* --- the way --------------------------------------------------------------------------------- */
+
+/* To `end`, or to where a direction has grown too long. */
+static qdot_status
+advance(pursuit *p, double end)
+{
+    const qdot_ode_system system = qdot_bind_system(p->m.bind);
+    const qdot_ode_options options = {
+        .tol = p->request->tol, .accepted = look, .user = p, .max_steps = no_bound};
+    qdot_ode_result result;
+    qdot_status status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
+                                            end, p->y, &result);
+
+    p->t = result.t;
+    p->x->steps += (double)result.stats.steps;
+    p->x->cpu += result.stats.cpu;
+    return status;
+}
+
+static qdot_expr
+exact(qdot_pool *pool, double x)
+{
+    int exponent;
+    const double mantissa = ldexp(frexp(x, &exponent), 53);
+
+    if (mantissa == 0)
+        return QDOT_ZERO;
+    return qdot_mul(pool, qdot_expr_int(pool, (long)mantissa),
+                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
+}
+
+/* The same where events, switches or domains may divide it: a course from the state that is there. */
+static qdot_status
+advance_in_pieces(pursuit *p, double end)
+{
+    qdot_pool *pool = p->v->of->pool;
+    qdot_run_request request = qdot_variation_request(p->v);
+    qdot_method_run m = {0};
+    qdot_course course = {.stage = &m.stage};
+    const qdot_ode_options options = {
+        .tol = p->request->tol, .accepted = look, .user = p, .max_steps = no_bound};
+    qdot_expr *start = qdot_calloc(2 * p->all + 1, sizeof *start);
+    qdot_status status = start ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < 2 * p->all && start; i++)
+        start[i] = exact(pool, p->y[i]);
+    request.q0 = start;
+    request.v0 = start + p->all;
+    request.q_named = request.v_named = NULL;
+    request.t0 = exact(pool, p->t);
+    request.t1 = exact(pool, end);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status =
+            qdot_method_run_init(&m, p->v->scene, &request, request.method, request.tol);
+    if (status == QDOT_OK)
+        status = qdot_course_run(&course, m.plan->method, &options, p->t, end, m.start);
+    if (status == QDOT_OK) {
+        const qdot_trajectory *tr = &course.tr;
+
+        memcpy(p->y, tr->y + (tr->count - 1) * tr->n, 2 * p->all * sizeof *p->y);
+        p->t = tr->t[tr->count - 1];
+        p->x->steps += (double)tr->result.stats.steps;
+        p->x->cpu += tr->result.stats.cpu;
+        p->stopped = course.reason[0] != '\0';
+        memcpy(p->reason, course.reason, sizeof p->reason);
+    }
+    qdot_course_clear(&course);
+    qdot_method_run_clear(&m);
+    qdot_free(start);
+    return status;
+}
+
+/* Through one window. */
+static qdot_status
+pass_window(pursuit *p, double end)
+{
+    while (p->t != end && !p->stopped) {
+        QDOT_TRY(p->alone ? advance(p, end) : advance_in_pieces(p, end));
+        QDOT_TRY(gather(p));
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+follow(pursuit *p)
+{
+    qdot_exponents *x = p->x;
+    const double t0 = p->m.t0, t1 = p->m.t1;
+
+    for (size_t w = 0; w < QDOT_EXPONENTS_WINDOWS; w++) {
+        const double end =
+            w + 1 == QDOT_EXPONENTS_WINDOWS
+                ? t1
+                : t0 + (t1 - t0) * (double)(w + 1) / QDOT_EXPONENTS_WINDOWS;
+        const double before = w > 0 ? x->t[w - 1] : 0;
+        qdot_status status = pass_window(p, end);
+
+        if (status == QDOT_EINTR && w > 0) {
+            x->interrupted = true;
+            return QDOT_OK;
+        }
+        QDOT_TRY(status);
+        if (p->stopped)
+            return QDOT_OK;
+        x->t[w] = fabs(end - t0);
+        for (size_t k = 0; k < p->k; k++) {
+            p->growth[w * p->k + k] = p->sum[k] / (x->t[w] - before);
+            x->course[w * p->k + k] =
+                ((w > 0 ? x->course[(w - 1) * p->k + k] * before : 0) + p->sum[k]) /
+                x->t[w];
+            p->sum[k] = 0;
+        }
+        x->windows++;
+    }
+    return QDOT_OK;
+}
+
+/* --- the numbers ---------------------------------------------------------------------------- */
+
+/* The standard error of the mean of x [n] in blocks of `size`. */
+static double
+error_of_blocks(size_t n, const double *x, size_t size)
+{
+    const size_t blocks = n / size;
+    double mean = 0, square = 0;
+
+    for (size_t i = 0; i < blocks * size; i++)
+        mean += x[i] / (double)(blocks * size);
+    for (size_t b = 0; b < blocks; b++) {
+        double block = 0;
+
+        for (size_t i = 0; i < size; i++)
+            block += x[b * size + i] / (double)size;
+        square += (block - mean) * (block - mean);
+    }
+    return sqrt(square / (double)(blocks - 1) / (double)blocks);
+}
+
+void
+qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
+{
+    double half[2] = {0, 0}, most = 0;
+
+    *mean = 0;
+    *error = NAN;
+    for (size_t i = 0; i < n; i++) {
+        *mean += x[i] / (double)n;
+        if (i < n / 2 || i >= n - n / 2)
+            half[i >= n / 2] += x[i] / (double)(n / 2);
+    }
+    if (n < 20)
+        return;
+    for (size_t size = 1; size <= 8 && n / size >= 8; size *= 2)
+        most = fmax(most, error_of_blocks(n, x, size));
+    *error = 3 * most + fabs(half[1] - half[0]);
+}
+
+/* In descending order. */
+static void
+sort(qdot_exponents *x)
+{
+    for (size_t i = 1; i < x->n; i++)
+        for (size_t j = i; j > 0 && x->value[j] > x->value[j - 1]; j--) {
+            const double value = x->value[j], error = x->error[j];
+
+            x->value[j] = x->value[j - 1];
+            x->error[j] = x->error[j - 1];
+            x->value[j - 1] = value;
+            x->error[j - 1] = error;
+            for (size_t w = 0; w < x->windows; w++) {
+                const double of = x->course[w * x->n + j];
+
+                x->course[w * x->n + j] = x->course[w * x->n + j - 1];
+                x->course[w * x->n + j - 1] = of;
+            }
+        }
+}
+
+static qdot_status
+conclude(pursuit *p)
+{
+    qdot_exponents *x = p->x;
+    const size_t first = x->windows / 10, n = x->windows - first;
+    double *of = qdot_malloc((n + 1) * sizeof *of);
+
+    if (!of)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < x->n; k++) {
+        for (size_t w = 0; w < n; w++)
+            of[w] = p->growth[(first + w) * x->n + k];
+        qdot_exponents_mean(n, of, x->value + k, x->error + k);
+    }
+    qdot_free(of);
+    sort(x);
+    if (p->stopped)
+        return qdot_fail(QDOT_EFAILED, "the run ended: %.300s", p->reason);
+    return QDOT_OK;
+}
+
+/* --- all ---------------------------------------------------------------------------------- */
+
+static qdot_status
+make_room(pursuit *p)
+{
+    qdot_exponents *x = p->x;
+    const size_t w = QDOT_EXPONENTS_WINDOWS;
+
+    x->n = p->k;
+    x->value = qdot_calloc(2 * p->k + 1, sizeof *x->value);
+    x->t = qdot_calloc(w * (p->k + 1), sizeof *x->t);
+    p->y = qdot_calloc(4 * p->all + 2 * p->k + w * p->k + 1, sizeof *p->y);
+    if (!x->value || !x->t || !p->y)
+        return QDOT_ENOMEM;
+    x->error = x->value + p->k;
+    x->course = x->t + w;
+    p->look = p->y + 2 * p->all;
+    p->sum = p->look + 2 * p->all;
+    p->size = p->sum + p->k;
+    p->growth = p->size + p->k;
+    return QDOT_OK;
+}
+
+static qdot_status
+pursue(pursuit *p)
+{
+    const qdot_run_request request = qdot_variation_request(p->v);
+
+    QDOT_TRY(make_room(p));
+    QDOT_TRY(
+        qdot_method_run_init(&p->m, p->v->scene, &request, request.method, request.tol));
+    if (p->m.t0 == p->m.t1)
+        return qdot_fail(QDOT_EINVAL, "the run has no length");
+    p->alone = !p->m.pieces && p->m.stage.domains.n == 0;
+    memcpy(p->y, p->m.start, 2 * p->all * sizeof *p->y);
+    p->t = p->m.t0;
+    QDOT_TRY(gather(p));
+    memset(p->sum, 0, p->k * sizeof *p->sum);
+    qdot_progress_begin(p->m.t0, p->m.t1, "lyapunov");
+    QDOT_TRY(follow(p));
+    return conclude(p);
+}
+
+/* The start as the constraints of the scene leave it, exact constants [2n]. */
+static qdot_status
+settle(qdot_scene *scene, const qdot_run_request *request, qdot_expr *start)
+{
+    const size_t n = scene->coordinates.n;
+    qdot_method_run m = {0};
+    qdot_status status = qdot_method_run_init(&m, scene, request, "auto", request->tol);
+
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
+        start[i] = exact(scene->pool, m.start[i]);
+    qdot_method_run_clear(&m);
+    return status == QDOT_OK ? qdot_pool_check(scene->pool) : status;
+}
+
+/* How many directions there are on the constraints. */
+static size_t
+count_directions(const qdot_scene *s)
+{
+    size_t n = 2 * s->coordinates.n;
+
+    for (size_t c = 0; c < s->constraints.n; c++)
+        n -= s->constraints.at[c].kind == QDOT_HOLONOMIC  ? 2
+             : s->constraints.at[c].kind == QDOT_VELOCITY ? 1
+                                                          : 0;
+    return n;
+}
+
+qdot_status
+qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_exponents *x)
+{
+    const size_t n = scene->coordinates.n, k = x->spectrum ? count_directions(scene) : 1;
+    qdot_run_request request = *asked;
+    qdot_variation v = {0};
+    qdot_variation_by *by = qdot_calloc(k + 1, sizeof *by);
+    char(*names)[24] = qdot_calloc(k + 1, sizeof *names);
+    qdot_expr *start = qdot_calloc(2 * n + 1, sizeof *start);
+    qdot_status status = by && names && start ? QDOT_OK : QDOT_ENOMEM;
+
+    request.digits = 0;
+    if (status == QDOT_OK && scene->constraints.n > 0) {
+        status = settle(scene, &request, start);
+        request.q0 = start;
+        request.v0 = start + n;
+        request.q_named = request.v_named = NULL;
+    }
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        snprintf(names[i], sizeof names[i], "s%zu", i + 1);
+        by[i] = (qdot_variation_by){.name = names[i]};
+    }
+    if (status == QDOT_OK)
+        status = qdot_variation_make(scene, &request, k, by, &v);
+    if (status == QDOT_OK) {
+        pursuit p = {
+            .x = x, .v = &v, .request = &request, .n = n, .k = k, .all = (k + 1) * n};
+
+        status = pursue(&p);
+        qdot_method_run_clear(&p.m);
+        qdot_free(p.y);
+    }
+    qdot_variation_clear(&v);
+    qdot_free(by);
+    qdot_free(names);
+    qdot_free(start);
+    return status;
+}

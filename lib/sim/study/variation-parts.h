@@ -1,0 +1,44 @@
+/* variation-parts.h -- a scene with its slopes as data, and derivatives along it (variation.h). */
+#ifndef QDOT_SIM_VARIATION_PARTS_H
+#define QDOT_SIM_VARIATION_PARTS_H
+
+#include "sim/run/run.h"
+
+/* What s is. */
+typedef struct {
+    const char *name;
+    qdot_expr parameter; /* nil: s moves the start alone */
+    const qdot_expr
+        *values; /* [n_values] of the request with that parameter free; NULL: as there */
+    const qdot_expr *
+        start; /* [2n] dq/ds, dq'/ds at the start: exact constants; NULL: any, of size 1e-6 */
+} qdot_variation_by;
+
+typedef struct {
+    qdot_scene *of, *scene;          /* borrowed; owned */
+    const qdot_run_request *request; /* borrowed */
+    size_t n, m, k;                  /* coordinates, constraints, directions */
+    const qdot_variation_by *by;     /* [k] borrowed */
+    qdot_expr *y;                    /* [k x n] */
+    qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */
+    qdot_expr *start;                /* [2 (k + 1) n] q, y, q', y' at the start */
+    bool *named;                     /* [2 (k + 1) n] of these, which the start names */
+} qdot_variation;
+
+/* q, q', q'' of coordinate i of the scene given, and of its slope in direction k: order 0, 1, 2. */
+qdot_expr qdot_variation_jet(const qdot_variation *v, size_t i, uint32_t order);
+qdot_expr qdot_variation_slope_jet(const qdot_variation *v, size_t k, size_t i,
+                                   uint32_t order);
+/* e with the numbers of the request; with q'' as it is along the motion. Nil: the pool failed. */
+qdot_expr qdot_variation_with_numbers(const qdot_variation *v, qdot_expr e);
+qdot_expr qdot_variation_with_motion(const qdot_variation *v, qdot_expr e);
+/* de/ds by the parameter of direction k, with numbers put in; 0 if s moves the start alone. */
+qdot_expr qdot_variation_by_parameter(const qdot_variation *v, qdot_expr e, size_t k);
+
+/* De/Ds in direction k of an expression in q, q', q'', t and parameters, with numbers put in: an
+ * expression of the new scene. Nil: the pool keeps the failure. */
+qdot_expr qdot_variation_of(const qdot_variation *v, qdot_expr e, size_t k);
+/* de/dt along the motion, likewise. */
+qdot_expr qdot_variation_rate(const qdot_variation *v, qdot_expr e);
+
+#endif

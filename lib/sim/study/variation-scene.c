@@ -1,0 +1,341 @@
+/* variation-scene.c -- the scene with its slopes: coordinates, constraints, events, the start. */
+#include "sim/study/variation-scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "tape/constant.h"
+
+/* A value of a start that is off by more has been moved. */
+static const double moved = 1e-9;
+
+/* A coordinate that moves with q'' = acceleration; *T: 1/2 q'^2 is added. */
+static qdot_status
+add_coordinate(qdot_scene *to, qdot_expr q, qdot_expr *T)
+{
+    qdot_pool *pool = to->pool;
+    const qdot_expr v = qdot_symbol_jet(pool, q, 1);
+
+    *T = qdot_add(pool, *T, qdot_mul(pool, QDOT_HALF, qdot_mul(pool, v, v)));
+    return qdot_scene_coordinate(to, q);
+}
+
+static qdot_status
+add_acceleration(qdot_scene *to, qdot_expr q, qdot_expr acceleration)
+{
+    const qdot_torque torque = {.torque = acceleration, .coordinate = q, .force = true};
+
+    return acceleration == QDOT_ZERO ? QDOT_OK : qdot_scene_torque(to, &torque);
+}
+
+static qdot_status
+add_constraints(const qdot_variation *v)
+{
+    const qdot_scene *s = v->of;
+
+    for (size_t c = 0; c < v->m; c++) {
+        const qdot_expr f = s->constraints.at[c].f;
+
+        QDOT_TRY(qdot_scene_constraint(v->scene, NULL, qdot_variation_with_numbers(v, f),
+                                       QDOT_ZERO));
+        for (size_t k = 0; k < v->k; k++) {
+            const qdot_expr slope = qdot_variation_of(v, f, k);
+
+            QDOT_TRY(qdot_pool_check(s->pool));
+            QDOT_TRY(qdot_scene_constraint(v->scene, NULL, slope, QDOT_ZERO));
+        }
+    }
+    return QDOT_OK;
+}
+
+/* What `then` makes of component i of (q, q'). */
+static qdot_expr
+value_after(const qdot_variation *v, const qdot_event *event, size_t i)
+{
+    const qdot_expr z = qdot_variation_jet(v, i % v->n, i >= v->n);
+
+    for (size_t j = 0; j < event->targets.n; j++)
+        if (event->targets.at[j] == z)
+            return event->values.at[j];
+    return z;
+}
+
+/* q'' after the event, from the state before it. */
+static qdot_expr
+acceleration_after(const qdot_variation *v, const qdot_expr *after, size_t i)
+{
+    qdot_pool *pool = v->of->pool;
+    qdot_expr *z = qdot_malloc(2 * v->n * sizeof *z), e = QDOT_NIL;
+
+    for (size_t j = 0; z && j < 2 * v->n; j++)
+        z[j] = qdot_variation_jet(v, j % v->n, j >= v->n);
+    if (z)
+        e = qdot_subs(pool, v->a[i], 2 * v->n, z, after);
+    else
+        (void)qdot_pool_fail(pool);
+    qdot_free(z);
+    return e;
+}
+
+/* The event with the saltation of y; after [2n]. */
+static qdot_status
+add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *after,
+              qdot_event *own)
+{
+    qdot_pool *pool = v->of->pool;
+    const qdot_expr g = qdot_sub(pool, event->left, event->right);
+    const size_t n = v->n;
+
+    for (size_t i = 0; i < 2 * n; i++) {
+        after[i] = qdot_variation_with_motion(
+            v, qdot_variation_with_numbers(v, value_after(v, event, i)));
+        QDOT_TRY(qdot_vec_push(&own->targets, qdot_variation_jet(v, i % n, i >= n)));
+        QDOT_TRY(qdot_vec_push(&own->values, after[i]));
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t k = 0; k < v->k; k++) {
+        const qdot_expr slope = qdot_variation_with_motion(v, qdot_variation_of(v, g, k));
+        const qdot_expr time = qdot_hold(
+            pool, qdot_neg(pool, qdot_div(pool, slope, qdot_variation_rate(v, g))));
+
+        for (size_t i = 0; i < 2 * n; i++) {
+            const qdot_expr h = value_after(v, event, i);
+            const qdot_expr then =
+                i < n ? after[n + i] : acceleration_after(v, after, i - n);
+            const qdot_expr along = qdot_sub(pool, qdot_variation_rate(v, h), then);
+
+            QDOT_TRY(qdot_vec_push(&own->targets,
+                                   qdot_variation_slope_jet(v, k, i % n, i >= n)));
+            QDOT_TRY(
+                qdot_vec_push(&own->values, qdot_add(pool, qdot_variation_of(v, h, k),
+                                                     qdot_mul(pool, along, time))));
+        }
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Events that change the state; others only look. */
+static qdot_status
+add_events(const qdot_variation *v)
+{
+    qdot_expr *after = qdot_malloc((2 * v->n + 1) * sizeof *after);
+    qdot_status status = after ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < v->of->events.n && status == QDOT_OK; i++) {
+        const qdot_event *event = &v->of->events.at[i];
+        qdot_event own = {.name = event->name, .way = event->way, .stop = event->stop};
+
+        if (event->targets.n == 0)
+            continue;
+        own.left = qdot_variation_with_numbers(v, event->left);
+        own.right = qdot_variation_with_numbers(v, event->right);
+        status = add_saltation(v, event, after, &own);
+        if (status == QDOT_OK)
+            status = qdot_scene_event(v->scene, &own);
+        qdot_free(own.targets.at);
+        qdot_free(own.values.at);
+    }
+    qdot_free(after);
+    return status;
+}
+
+/* --- the start ---------------------------------------------------------------------------- */
+
+/* How many constraints hold coordinates (velocities: them too), and how many of these the start leaves
+ * open. */
+static void
+count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
+{
+    const bool *named = velocities ? v->request->v_named : v->request->q_named;
+
+    *held = *open = 0;
+    for (size_t c = 0; c < v->m; c++)
+        *held += v->of->constraints.at[c].kind == QDOT_HOLONOMIC ||
+                 (velocities && v->of->constraints.at[c].kind == QDOT_VELOCITY);
+    for (size_t i = 0; i < v->n; i++)
+        *open += named && !named[i];
+}
+
+static bool
+starts_at_rest(const qdot_variation *v)
+{
+    for (size_t i = 0; i < v->n; i++)
+        if (v->request->v0[i] != QDOT_ZERO || !v->request->v_named ||
+            v->request->v_named[i])
+            return false;
+    return true;
+}
+
+/* A start that leaves more values open than the constraints solve for takes those nearest to 0: their
+ * slopes are known only where all velocities are 0. */
+static qdot_status
+check_open(const qdot_variation *v)
+{
+    size_t held, open;
+
+    for (int velocities = 0; velocities < 2 && v->m > 0; velocities++) {
+        count_open(v, velocities, &held, &open);
+        if (open <= held || (velocities && starts_at_rest(v)))
+            continue;
+        (void)qdot_fail(
+            QDOT_ENOTBUILT,
+            "not built yet: slopes of a start that leaves %zu %s to %zu constraints",
+            open, velocities ? "velocities" : "coordinates", held);
+        return qdot_hint("`start` may name all but %zu of them", held);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+say_bound(const qdot_variation *v, size_t k)
+{
+    (void)qdot_fail(QDOT_EINVAL,
+                    "the constraints do not let the start change with %.100s alone: it "
+                    "names all else",
+                    v->by[k].name);
+    return qdot_hint("leave a value unnamed in `start`, so that it follows");
+}
+
+/* Whether a condition on slopes, which is 0, is broken at the start whatever the open ones are. */
+static qdot_status
+check_condition(const qdot_variation *v, qdot_expr e, size_t k)
+{
+    qdot_pool *pool = v->of->pool;
+    const size_t all = (v->k + 1) * v->n;
+    const qdot_expr t = QDOT_T;
+    double value;
+
+    for (size_t j = 0; j < 2 * all && e != QDOT_NIL; j++) {
+        const qdot_expr z =
+            qdot_symbol_jet(pool, v->scene->coordinates.at[j % all], j >= all);
+
+        if (v->named[j])
+            e = qdot_subs(pool, e, 1, &z, &v->start[j]);
+    }
+    e = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &v->request->t0);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_node(pool, e)->holds & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY))
+        return QDOT_OK;
+    QDOT_TRY(qdot_tape_constant(pool, e, &value));
+    return fabs(value) <= moved ? QDOT_OK : say_bound(v, k);
+}
+
+/* Df = 0 and, of holonomic constraints, its rate. */
+static qdot_status
+check_conditions(const qdot_variation *v)
+{
+    for (size_t c = 0; c < v->m; c++)
+        for (size_t k = 0; k < v->k; k++) {
+            const qdot_constraint *of = &v->of->constraints.at[c];
+            const qdot_expr e = qdot_variation_of(v, of->f, k);
+
+            if (of->kind == QDOT_ACCELERATION || !v->by[k].start)
+                continue;
+            QDOT_TRY(check_condition(v, e, k));
+            if (of->kind == QDOT_HOLONOMIC)
+                QDOT_TRY(check_condition(v, qdot_ddt(v->of->pool, e), k));
+        }
+    return QDOT_OK;
+}
+
+/* A number of the size 1e-6: directions that are drawn. Constraints move the start by its square only. */
+static qdot_expr
+drawn(qdot_pool *pool, size_t k, size_t i)
+{
+    uint64_t x = (k * 1000 + i + 1) * 6364136223846793005u;
+
+    x = (x ^ x >> 31) * 1442695040888963407u;
+    return qdot_div(pool, qdot_expr_int(pool, (long)(x >> 40) - (1L << 23)),
+                    qdot_expr_int(pool, 8388608L * 1000000));
+}
+
+/* Component i < 2n of direction k at the start. */
+static qdot_expr
+start_of(const qdot_variation *v, size_t k, size_t i)
+{
+    return v->by[k].start ? v->by[k].start[i] : drawn(v->of->pool, k, i);
+}
+
+/* q, y, q', y'; what a start solves for is solved for in all directions. */
+static void
+put_start(const qdot_variation *v)
+{
+    const qdot_run_request *r = v->request;
+    const size_t n = v->n, all = (v->k + 1) * n;
+
+    for (size_t k = 0; k <= v->k; k++)
+        for (size_t i = 0; i < n; i++) {
+            v->start[k * n + i] = k == 0 ? r->q0[i] : start_of(v, k - 1, i);
+            v->start[all + k * n + i] = k == 0 ? r->v0[i] : start_of(v, k - 1, n + i);
+            v->named[k * n + i] = k == 0 || !r->q_named || r->q_named[i];
+            v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
+        }
+}
+
+qdot_run_request
+qdot_variation_request(const qdot_variation *v)
+{
+    qdot_run_request r = *v->request;
+
+    r.q0 = v->start;
+    r.v0 = v->start + (v->k + 1) * v->n;
+    r.q_named = v->named;
+    r.v_named = v->named + (v->k + 1) * v->n;
+    r.exactly = false;
+    r.scales = NULL;
+    r.n_values = 0;
+    r.symbols = r.values = NULL;
+    r.method = "auto";
+    return r;
+}
+
+qdot_status
+qdot_variation_check_start(const qdot_variation *v, qdot_run *run)
+{
+    const double t0 = qdot_run_get_report(run)->t0;
+    const size_t all = (v->k + 1) * v->n;
+
+    for (size_t j = v->n; j < 2 * all && v->m > 0; j++) {
+        const size_t i = j % all;
+        const qdot_expr z =
+            qdot_symbol_jet(v->of->pool, v->scene->coordinates.at[i], j >= all);
+        double is, wanted;
+
+        if (!v->named[j] || i < v->n)
+            continue;
+        QDOT_TRY(qdot_tape_constant(v->of->pool, v->start[j], &wanted));
+        QDOT_TRY(qdot_run_values(run, 1, &z, 1, &t0, &is, NULL));
+        if (fabs(is - wanted) <= moved * fmax(1, fabs(wanted)))
+            continue;
+        return say_bound(v, i / v->n - 1);
+    }
+    return QDOT_OK;
+}
+
+/* --- all ------------------------------------------------------------------------------------ */
+
+qdot_status
+qdot_variation_write(qdot_variation *v, const qdot_expr *b)
+{
+    qdot_expr T = QDOT_ZERO;
+
+    QDOT_TRY(check_open(v));
+    put_start(v);
+    v->scene = qdot_scene_new(v->of->pool);
+    if (!v->scene)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < v->n; i++)
+        QDOT_TRY(add_coordinate(v->scene, qdot_variation_jet(v, i, 0), &T));
+    for (size_t i = 0; i < v->k * v->n; i++)
+        QDOT_TRY(add_coordinate(v->scene, v->y[i], &T));
+    QDOT_TRY(qdot_pool_check(v->of->pool));
+    QDOT_TRY(qdot_scene_lagrangian(v->scene, T));
+    for (size_t i = 0; i < v->n; i++)
+        QDOT_TRY(add_acceleration(v->scene, qdot_variation_jet(v, i, 0), v->a[i]));
+    for (size_t i = 0; i < v->k * v->n; i++)
+        QDOT_TRY(add_acceleration(v->scene, v->y[i], b[i]));
+    QDOT_TRY(check_conditions(v));
+    QDOT_TRY(add_constraints(v));
+    return add_events(v);
+}

@@ -1,0 +1,18 @@
+/* variation-scene.h -- the scene with slopes, written from their equations, and its start (variation.h). */
+#ifndef QDOT_SIM_VARIATION_SCENE_H
+#define QDOT_SIM_VARIATION_SCENE_H
+
+#include "sim/study/variation-parts.h"
+
+/* Write the scene and its start, y'' = b [k x n]. */
+QDOT_MUST_CHECK qdot_status qdot_variation_write(qdot_variation *v, const qdot_expr *b);
+
+/* The request of its run: that given, with its start. Borrows from both. */
+qdot_run_request qdot_variation_request(const qdot_variation *v);
+
+/* QDOT_EINVAL if its run had to move slopes of values that the start names: constraints let no such value
+ * change alone. */
+QDOT_MUST_CHECK qdot_status qdot_variation_check_start(const qdot_variation *v,
+                                                       qdot_run *run);
+
+#endif

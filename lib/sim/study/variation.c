@@ -1,0 +1,446 @@
+/* variation.c -- the equations of motion solved for q'' in symbols, and their slopes. */
+#include "sim/study/variation.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "sim/model/quotient.h"
+#include "sim/model/substitute.h"
+
+void
+qdot_variation_clear(qdot_variation *v)
+{
+    qdot_scene_free(v->scene);
+    qdot_free(v->y);
+    qdot_free(v->a);
+    qdot_free(v->start);
+    qdot_free(v->named);
+    *v = (qdot_variation){0};
+}
+
+/* --- what is not carried --------------------------------------------------------------- */
+
+/* Whether what decides a jump of this function holds the motion, or the parameter (may be nil). */
+static bool
+jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
+{
+    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
+    uint32_t n = qdot_expr_count(pool, e);
+
+    switch (qdot_expr_node(pool, e)->op) {
+    case QDOT_IF: n = 1; break;
+    case QDOT_SIGN:
+    case QDOT_FLOOR:
+    case QDOT_MOD: break;
+    default: return false;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        const qdot_expr x = qdot_expr_arg(pool, e, i);
+
+        if (qdot_expr_node(pool, x)->holds & moving ||
+            (parameter != QDOT_NIL && qdot_expr_contains(pool, x, parameter)))
+            return true;
+    }
+    return false;
+}
+
+/* Refuse equations that jump where the motion or a parameter decides. */
+static qdot_status
+refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_text text = {0};
+    qdot_walk w;
+    qdot_status status;
+
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
+        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && jumps(pool, w.at[i], parameter))
+            found = w.at[i];
+    qdot_walk_end(&w);
+    if (found == QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_print((qdot_pool *)pool, found, QDOT_PLAIN, &text);
+    if (status == QDOT_OK)
+        status =
+            qdot_fail(QDOT_ENOTBUILT,
+                      "not built yet: slopes through jumps of the equations, of %.100s",
+                      qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+refuse_events(const qdot_scene *s)
+{
+    for (size_t i = 0; i < s->events.n; i++) {
+        const qdot_event *e = &s->events.at[i];
+
+        for (size_t j = 0; j < e->targets.n; j++)
+            if (qdot_expr_is_class(s->pool, e->targets.at[j], QDOT_PARAM))
+                return qdot_fail(
+                    QDOT_ENOTBUILT,
+                    "not built yet: slopes where the event %.100s sets a parameter",
+                    e->name);
+        if (e->targets.n > 0 && s->constraints.n > 0)
+            return qdot_fail(
+                QDOT_ENOTBUILT,
+                "not built yet: slopes through the event %.100s of a scene with "
+                "constraints",
+                e->name);
+    }
+    return QDOT_OK;
+}
+
+/* M and f as a LIST, checked; values: of a direction, or of the request. */
+static qdot_status
+check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *values,
+                qdot_expr parameter)
+{
+    const qdot_run_request *r = v->request;
+    qdot_pool *pool = v->of->pool;
+    const qdot_expr e = qdot_substitute(pool, whole, r->n_values, r->symbols, values);
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_node(pool, e)->holds & QDOT_HAS_MULTIPLIER)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: slopes of friction by multipliers");
+    return refuse_jumps(pool, e, parameter);
+}
+
+/* --- the elimination -------------------------------------------------------------------- */
+
+/* M = L D L^T, B = M^-1 A^T, S = A B = L D L^T; entries held. */
+typedef struct {
+    qdot_variation *v;
+    qdot_pool *pool;
+    size_t n, m;
+    qdot_expr whole;      /* M and f as derived */
+    qdot_expr *M, *f;     /* [n x n], [n] with numbers */
+    qdot_expr *F, *A;     /* [m] second rates of constraints, [m x n] */
+    qdot_expr *L, *B, *S; /* [n x n], [m x n], [m x m] */
+    qdot_expr *x, *z;     /* [n], [m] work space */
+} elimination;
+
+static qdot_status
+factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
+{
+    for (size_t k = 0; k < n; k++) {
+        const qdot_expr d = L[k * n + k];
+
+        *pivot = k;
+        if (d == QDOT_ZERO)
+            return QDOT_ESINGULAR;
+        for (size_t i = k + 1; i < n; i++)
+            for (size_t j = k + 1; j <= i; j++)
+                if (L[i * n + k] != QDOT_ZERO && L[j * n + k] != QDOT_ZERO)
+                    L[i * n + j] = qdot_hold(
+                        pool,
+                        qdot_sub(pool, L[i * n + j],
+                                 qdot_mul(pool, qdot_quotient(pool, L[i * n + k], d),
+                                          L[j * n + k])));
+        for (size_t i = k + 1; i < n; i++)
+            L[i * n + k] = qdot_hold(pool, qdot_quotient(pool, L[i * n + k], d));
+    }
+    return qdot_pool_check(pool);
+}
+
+static void
+solve(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
+{
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++)
+            b[i] = qdot_sub(pool, b[i], qdot_mul(pool, L[i * n + k], b[k]));
+        b[i] = qdot_hold(pool, b[i]);
+    }
+    for (size_t k = n; k-- > 0;) {
+        b[k] = qdot_quotient(pool, b[k], L[k * n + k]);
+        for (size_t i = k + 1; i < n; i++)
+            b[k] = qdot_sub(pool, b[k], qdot_mul(pool, L[i * n + k], b[i]));
+        b[k] = qdot_hold(pool, b[k]);
+    }
+}
+
+/* M x - A^T z = r, A x = g: x [n] from r, z [m] from g, in their places. */
+static void
+solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
+{
+    qdot_pool *pool = e->pool;
+
+    solve(pool, e->n, e->L, x);
+    if (e->m == 0)
+        return;
+    for (size_t c = 0; c < e->m; c++) {
+        for (size_t i = 0; i < e->n; i++)
+            z[c] = qdot_sub(pool, z[c], qdot_mul(pool, e->A[c * e->n + i], x[i]));
+        z[c] = qdot_hold(pool, z[c]);
+    }
+    solve(pool, e->m, e->S, z);
+    for (size_t i = 0; i < e->n; i++) {
+        for (size_t c = 0; c < e->m; c++)
+            x[i] = qdot_add(pool, x[i], qdot_mul(pool, e->B[c * e->n + i], z[c]));
+        x[i] = qdot_hold(pool, x[i]);
+    }
+}
+
+/* F of constraint c: differentiated until it holds q''. */
+static qdot_expr
+second_rate(const elimination *e, size_t c)
+{
+    const qdot_constraint *of = &e->v->of->constraints.at[c];
+    qdot_expr f = of->f;
+
+    for (int order = of->kind; order < QDOT_ACCELERATION; order++)
+        f = qdot_ddt(e->pool, f);
+    return f;
+}
+
+static qdot_status
+say_singular(const elimination *e, size_t pivot, bool constraint)
+{
+    const qdot_scene *s = e->v->of;
+
+    if (constraint)
+        return qdot_fail(QDOT_ESINGULAR,
+                         "constraint %.100s repeats others: there are no slopes",
+                         s->constraints.at[pivot].name);
+    return qdot_fail(QDOT_ESINGULAR,
+                     "%.100s'' is not determined: the mass matrix is singular",
+                     qdot_expr_symbol(s->pool, s->coordinates.at[pivot])->name);
+}
+
+/* Derive M, f, the constraints, and factor them. */
+static qdot_status
+prepare(elimination *e)
+{
+    qdot_variation *v = e->v;
+    qdot_scene *s = v->of;
+    qdot_pool *pool = e->pool;
+    const size_t n = e->n, m = e->m;
+    const qdot_expr M = qdot_mech_numeric_mass(s), f = qdot_mech_numeric_forcing(s);
+    size_t pivot = 0;
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    e->whole = qdot_list(pool, 2, (qdot_expr[]){M, f});
+    QDOT_TRY(check_equations(v, e->whole, v->request->values, QDOT_NIL));
+    for (size_t k = 0; k < v->k; k++)
+        if (v->by[k].parameter != QDOT_NIL)
+            QDOT_TRY(check_equations(v, e->whole, v->by[k].values, v->by[k].parameter));
+    for (size_t i = 0; i < n * n; i++)
+        e->M[i] = e->L[i] =
+            qdot_variation_with_numbers(v, qdot_expr_arg(pool, M, (uint32_t)i));
+    for (size_t i = 0; i < n; i++)
+        e->f[i] = qdot_variation_with_numbers(v, qdot_expr_arg(pool, f, (uint32_t)i));
+    QDOT_TRY(qdot_pool_check(pool));
+    status = factor(pool, n, e->L, &pivot);
+    if (status == QDOT_ESINGULAR)
+        return say_singular(e, pivot, false);
+    for (size_t c = 0; c < m && status == QDOT_OK; c++) {
+        e->F[c] = qdot_variation_with_numbers(v, second_rate(e, c));
+        for (size_t i = 0; i < n; i++)
+            e->A[c * n + i] = e->B[c * n + i] =
+                qdot_diff(pool, e->F[c], qdot_variation_jet(v, i, 2));
+        status = qdot_pool_check(pool);
+        solve(pool, n, e->L, e->B + c * n);
+    }
+    for (size_t c = 0; c < m && status == QDOT_OK; c++)
+        for (size_t d = 0; d < m; d++) {
+            qdot_expr sum = QDOT_ZERO;
+
+            for (size_t i = 0; i < n; i++)
+                sum =
+                    qdot_add(pool, sum, qdot_mul(pool, e->A[c * n + i], e->B[d * n + i]));
+            e->S[c * m + d] = qdot_hold(pool, sum);
+        }
+    if (status == QDOT_OK && m > 0)
+        status = factor(pool, m, e->S, &pivot);
+    return status == QDOT_ESINGULAR ? say_singular(e, pivot, true) : status;
+}
+
+/* q'' and lambda. */
+static qdot_status
+solve_motion(const elimination *e)
+{
+    qdot_variation *v = e->v;
+
+    memcpy(v->a, e->f, e->n * sizeof *v->a);
+    for (size_t c = 0; c < e->m; c++) {
+        qdot_expr rest = e->F[c];
+
+        for (size_t i = 0; i < e->n; i++) {
+            const qdot_expr from = qdot_variation_jet(v, i, 2), to = QDOT_ZERO;
+
+            rest = rest == QDOT_NIL ? rest : qdot_subs(e->pool, rest, 1, &from, &to);
+        }
+        v->lambda[c] = qdot_neg(e->pool, rest);
+    }
+    solve_both(e, v->a, v->lambda);
+    return qdot_pool_check(e->pool);
+}
+
+/* --- slopes ------------------------------------------------------------------------------ */
+
+/* By z (coordinate or velocity): the right sides of the slopes, into e->x, e->z. */
+static void
+slope_by(const elimination *e, qdot_expr z)
+{
+    qdot_pool *pool = e->pool;
+    const qdot_variation *v = e->v;
+    const size_t n = e->n;
+
+    for (size_t i = 0; i < n; i++) {
+        e->x[i] = qdot_diff(pool, e->f[i], z);
+        for (size_t j = 0; j < n; j++)
+            e->x[i] =
+                qdot_sub(pool, e->x[i],
+                         qdot_mul(pool, qdot_diff(pool, e->M[i * n + j], z), v->a[j]));
+        for (size_t c = 0; c < e->m; c++)
+            e->x[i] = qdot_add(
+                pool, e->x[i],
+                qdot_mul(pool, qdot_diff(pool, e->A[c * n + i], z), v->lambda[c]));
+        e->x[i] = qdot_hold(pool, e->x[i]);
+    }
+    for (size_t c = 0; c < e->m; c++)
+        e->z[c] = qdot_hold(pool, qdot_neg(pool, qdot_variation_with_motion(
+                                                     v, qdot_diff(pool, e->F[c], z))));
+}
+
+/* The same by the parameter of direction k, added to x, z. */
+static void
+add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
+{
+    const qdot_variation *v = e->v;
+    qdot_pool *pool = e->pool;
+    const qdot_expr M = qdot_expr_arg(pool, e->whole, 0),
+                    f = qdot_expr_arg(pool, e->whole, 1);
+    const size_t n = e->n;
+
+    for (size_t i = 0; i < n; i++) {
+        x[i] = qdot_add(
+            pool, x[i],
+            qdot_variation_by_parameter(v, qdot_expr_arg(pool, f, (uint32_t)i), k));
+        for (size_t j = 0; j < n; j++)
+            x[i] = qdot_sub(
+                pool, x[i],
+                qdot_mul(pool,
+                         qdot_variation_by_parameter(
+                             v, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), k),
+                         v->a[j]));
+    }
+    for (size_t c = 0; c < e->m; c++) {
+        const qdot_expr F = second_rate(e, c);
+
+        z[c] =
+            qdot_sub(pool, z[c],
+                     qdot_variation_with_motion(v, qdot_variation_by_parameter(v, F, k)));
+        for (size_t i = 0; i < n; i++)
+            x[i] = qdot_add(
+                pool, x[i],
+                qdot_mul(pool,
+                         qdot_variation_by_parameter(
+                             v, qdot_diff(pool, F, qdot_variation_jet(v, i, 2)), k),
+                         v->lambda[c]));
+    }
+}
+
+/* y'' of all directions, b [k x n]. */
+static qdot_status
+solve_slopes(const elimination *e, qdot_expr *b)
+{
+    const qdot_variation *v = e->v;
+    qdot_pool *pool = e->pool;
+    const size_t n = e->n, m = e->m;
+    qdot_expr *mu = qdot_calloc(v->k * m + 1, sizeof *mu);
+
+    if (!mu)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < v->k * n; i++)
+        b[i] = QDOT_ZERO;
+    for (size_t i = 0; i < v->k * m; i++)
+        mu[i] = QDOT_ZERO;
+    for (uint32_t order = 0; order < 2; order++)
+        for (size_t j = 0; j < n && !qdot_pool_failed(pool); j++) {
+            slope_by(e, qdot_variation_jet(v, j, order));
+            for (size_t k = 0; k < v->k; k++) {
+                const qdot_expr y = qdot_variation_slope_jet(v, k, j, order);
+
+                for (size_t i = 0; i < n; i++)
+                    b[k * n + i] =
+                        qdot_add(pool, b[k * n + i], qdot_mul(pool, e->x[i], y));
+                for (size_t c = 0; c < m; c++)
+                    mu[k * m + c] =
+                        qdot_add(pool, mu[k * m + c], qdot_mul(pool, e->z[c], y));
+            }
+        }
+    for (size_t k = 0; k < v->k && !qdot_pool_failed(pool); k++) {
+        if (v->by[k].parameter != QDOT_NIL)
+            add_parameter(e, k, b + k * n, mu + k * m);
+        solve_both(e, b + k * n, mu + k * m);
+    }
+    qdot_free(mu);
+    return qdot_pool_check(pool);
+}
+
+/* --- all --------------------------------------------------------------------------------- */
+
+static qdot_status
+name_slopes(qdot_variation *v)
+{
+    for (size_t k = 0; k < v->k; k++)
+        for (size_t i = 0; i < v->n; i++) {
+            char name[200];
+
+            snprintf(name, sizeof name, "d(%.80s)/d(%.80s)",
+                     qdot_expr_symbol(v->of->pool, qdot_variation_jet(v, i, 0))->name,
+                     v->by[k].name);
+            v->y[k * v->n + i] = qdot_symbol_get(v->of->pool, QDOT_COORD, name);
+        }
+    return qdot_pool_check(v->of->pool);
+}
+
+static qdot_status
+make(elimination *e, qdot_expr *b)
+{
+    QDOT_TRY(name_slopes(e->v));
+    QDOT_TRY(refuse_events(e->v->of));
+    QDOT_TRY(prepare(e));
+    QDOT_TRY(solve_motion(e));
+    QDOT_TRY(solve_slopes(e, b));
+    return qdot_variation_write(e->v, b);
+}
+
+qdot_status
+qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k,
+                    const qdot_variation_by *by, qdot_variation *v)
+{
+    const size_t n = scene->coordinates.n, m = scene->constraints.n;
+    elimination e = {.v = v, .pool = scene->pool, .n = n, .m = m};
+    qdot_expr *work = qdot_calloc(
+        2 * n * n + 3 * n + 2 * m * n + m * m + 2 * m + k * n + 1, sizeof *work);
+    qdot_status status = QDOT_ENOMEM;
+
+    *v = (qdot_variation){
+        .of = scene, .request = request, .n = n, .m = m, .k = k, .by = by};
+    v->y = qdot_calloc(k * n + 1, sizeof *v->y);
+    v->a = qdot_calloc(n + m + 1, sizeof *v->a);
+    v->start = qdot_calloc(2 * (k + 1) * n + 1, sizeof *v->start);
+    v->named = qdot_calloc(2 * (k + 1) * n + 1, sizeof *v->named);
+    if (work && v->y && v->a && v->start && v->named) {
+        v->lambda = v->a + n;
+        e.M = work;
+        e.L = e.M + n * n;
+        e.f = e.L + n * n;
+        e.x = e.f + n;
+        e.F = e.x + n;
+        e.z = e.F + m;
+        e.A = e.z + m;
+        e.B = e.A + m * n;
+        e.S = e.B + m * n;
+        status = make(&e, e.S + m * m);
+    }
+    qdot_free(work);
+    return status;
+}
