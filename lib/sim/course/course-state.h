@@ -29,6 +29,8 @@ typedef struct qdot_course {
     int early;        /* of companions, +-1: the sign in qdot_piece_make_up; 0: the run itself */
     double touch_tol; /* an extremum within this tolerance touches 0: that of the run, or less if
                          the run is more exact (sim/error/touches.h) */
+    double passed_over; /* the least tolerance by which a touch of an event with a direction was one,
+                           and so nothing; 0: there was none */
     /* evaluations for states within steps, and the number that ends the run with QDOT_ELIMIT;
      * 0: no limit */
     uint64_t looked, most_looked;

@@ -211,8 +211,12 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             return QDOT_OK;
     }
     for (size_t i = 0; i < n; i++) {
-        if (!is_occurrence(x, &roots[i]))
+        if (!is_occurrence(x, &roots[i])) {
+            if (roots[i].within > 0) /* of an event that rises or falls: it may be two crossings */
+                x->c->passed_over = fmin(x->c->passed_over > 0 ? x->c->passed_over : INFINITY,
+                                         roots[i].within);
             continue;
+        }
         if (x->intent == QDOT_PIECE_ENDS && x->direction * (roots[i].t - x->t_act) > 0)
             break;
         if (x->intent != QDOT_PIECE_ENDS && is_action(x, &roots[i])) {

@@ -86,6 +86,8 @@ qdot_run_decide_touches(qdot_run *run, double *tol)
 {
     qdot_status status = QDOT_OK;
 
+    if (run->course.passed_over > 0)
+        *tol = fmin(*tol, 0.5 * run->course.passed_over);
     for (size_t i = 0; i < run->stage.events.n && status == QDOT_OK; i++)
         status = qdot_touches_look(run, i, NULL, tol);
     return qdot_grave(status);
