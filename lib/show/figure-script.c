@@ -25,7 +25,7 @@ static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"
 
 /* Of several curves each has a pattern, too: they differ on grey paper. */
 static const char *const dashes[] = {"1", "(12,5)", "(3,4)", "(12,4,3,4)", "(12,4,3,4,3,4)"};
-static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15};
+static const int marks[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3, 15, 14};
 
 enum {
     COLOURS = sizeof colours / sizeof *colours,
