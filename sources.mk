@@ -14,6 +14,7 @@ library_sources = \
 	lib/base/terminal.c \
 	lib/base/text.c \
 	lib/base/utf8.c \
+	lib/base/workers.c \
 	lib/base/wrap.c \
 	lib/expr/abbreviate.c \
 	lib/expr/bounds.c \
@@ -133,6 +134,8 @@ library_sources = \
 	lib/lang/runs/slope-numbers.c \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
+	lib/lang/runs/sweep-file.c \
+	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
@@ -205,6 +208,7 @@ library_sources = \
 	lib/mech/scene/scene.c \
 	lib/mech/study/chart-body.c \
 	lib/mech/study/chart-express.c \
+	lib/mech/study/chart-formulas.c \
 	lib/mech/study/chart.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
@@ -317,6 +321,8 @@ library_sources = \
 	lib/ode/geometric/constant-steps.c \
 	lib/ode/geometric/gauss.c \
 	lib/ode/geometric/splitting.c \
+	lib/ode/geometric/stages.c \
+	lib/ode/geometric/variational.c \
 	lib/ode/integrate.c \
 	lib/ode/leading.c \
 	lib/ode/meter.c \
@@ -381,10 +387,12 @@ library_sources = \
 	lib/show/figure-image.c \
 	lib/show/figure-label.c \
 	lib/show/figure-layout.c \
+	lib/show/figure-map.c \
 	lib/show/figure-script.c \
 	lib/show/formula-page.c \
 	lib/show/formulas.c \
 	lib/show/gnuplot.c \
+	lib/show/hdf5-read.c \
 	lib/show/hdf5.c \
 	lib/show/layout.c \
 	lib/show/page-curves.c \
@@ -462,6 +470,8 @@ library_sources = \
 	lib/sim/form/tree-series.c \
 	lib/sim/form/work.c \
 	lib/sim/model/absent.c \
+	lib/sim/model/constrained-bonds.c \
+	lib/sim/model/constrained-implicit.c \
 	lib/sim/model/constrained-jacobian.c \
 	lib/sim/model/constrained-lanes.c \
 	lib/sim/model/constrained-names.c \
@@ -497,6 +507,7 @@ library_sources = \
 	lib/sim/read/in-chart.c \
 	lib/sim/read/joint.c \
 	lib/sim/read/occurrences.c \
+	lib/sim/read/passage.c \
 	lib/sim/read/range-poles.c \
 	lib/sim/read/range-seek.c \
 	lib/sim/read/range-step.c \
@@ -555,6 +566,7 @@ library_headers = \
 	lib/base/terminal.h \
 	lib/base/text.h \
 	lib/base/utf8.h \
+	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
@@ -639,6 +651,8 @@ library_headers = \
 	lib/lang/runs/run.h \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
+	lib/lang/runs/sweep-file.h \
+	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -800,6 +814,7 @@ library_headers = \
 	lib/ode/geometric/composition.def \
 	lib/ode/geometric/geometric.h \
 	lib/ode/geometric/splitting.h \
+	lib/ode/geometric/stages.h \
 	lib/ode/integrate.h \
 	lib/ode/leading.h \
 	lib/ode/meter.h \
@@ -860,6 +875,7 @@ library_headers = \
 	lib/show/formula-page.h \
 	lib/show/formulas.h \
 	lib/show/gnuplot.h \
+	lib/show/hdf5-read.h \
 	lib/show/layout.h \
 	lib/show/page-curves.h \
 	lib/show/page.h \
@@ -957,6 +973,7 @@ library_headers = \
 	lib/sim/plan/tree-alone.h \
 	lib/sim/read/in-chart.h \
 	lib/sim/read/joint.h \
+	lib/sim/read/passage.h \
 	lib/sim/read/range-parts.h \
 	lib/sim/read/section.h \
 	lib/sim/read/stretches.h \
@@ -1035,6 +1052,7 @@ unit_tests = \
 	tests/base/test_progress \
 	tests/base/test_text \
 	tests/base/test_utf8 \
+	tests/base/test_workers \
 	tests/base/test_wrap \
 	tests/expr/test_abbreviate \
 	tests/expr/test_calculus \
@@ -1182,6 +1200,8 @@ script_tests = \
 	tests/script/broken-powers.lag \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
+	tests/script/chart-coordinates.lag \
+	tests/script/chart-roots.lag \
 	tests/script/charts.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
@@ -1213,6 +1233,7 @@ script_tests = \
 	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
+	tests/script/event-doubles.lag \
 	tests/script/event-ends.sh \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
@@ -1305,6 +1326,7 @@ script_tests = \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
+	tests/script/radau-constraints.lag \
 	tests/script/radau.lag \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
@@ -1338,6 +1360,8 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-resume.sh \
+	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
@@ -1371,6 +1395,7 @@ script_tests = \
 	tests/bad/bound-coordinate.lag \
 	tests/bad/broken-power-digits.lag \
 	tests/bad/broken-power-rest.lag \
+	tests/bad/chart-root.lag \
 	tests/bad/chart.lag \
 	tests/bad/christoffel-index.lag \
 	tests/bad/compare-run.lag \
@@ -1609,6 +1634,8 @@ script_tests = \
 	tests/bad/unknown-name.lag \
 	tests/bad/unset-many.lag \
 	tests/bad/unset.lag \
+	tests/bad/variational-baumgarte.lag \
+	tests/bad/variational-velocity.lag \
 	tests/bad/vector-functions.sh \
 	tests/bad/vector-mass.lag \
 	tests/bad/vector-vs-scalar-check.lag \
@@ -1645,6 +1672,7 @@ script_tests = \
 	examples/elastic-pendulum.lag \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
@@ -1670,6 +1698,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -1698,6 +1727,7 @@ script_tests = \
 	examples/through-the-pole.lag \
 	examples/tippe-top.lag \
 	examples/toda-chain.lag \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/undo.lag \
 	examples/vector-operators.lag \
@@ -1743,6 +1773,7 @@ test_files = \
 	tests/bad/bound-coordinate.out \
 	tests/bad/broken-power-digits.out \
 	tests/bad/broken-power-rest.out \
+	tests/bad/chart-root.out \
 	tests/bad/chart.out \
 	tests/bad/christoffel-index.out \
 	tests/bad/compare-run.out \
@@ -1981,6 +2012,8 @@ test_files = \
 	tests/bad/unknown-name.out \
 	tests/bad/unset-many.out \
 	tests/bad/unset.out \
+	tests/bad/variational-baumgarte.out \
+	tests/bad/variational-velocity.out \
 	tests/bad/vector-functions.out \
 	tests/bad/vector-mass.out \
 	tests/bad/vector-vs-scalar-check.out \
@@ -2008,6 +2041,7 @@ test_files = \
 	tests/examples/elastic-pendulum.out \
 	tests/examples/equilibria.out \
 	tests/examples/export.out \
+	tests/examples/fermi-pasta-ulam.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \
@@ -2044,6 +2078,7 @@ test_files = \
 	tests/examples/stated-lagrangian.out \
 	tests/examples/static-equilibrium.out \
 	tests/examples/swinging-atwood.out \
+	tests/examples/toda.out \
 	tests/examples/vector-operators.out \
 	tests/examples/velocity.out \
 	tests/examples/virtual-work.out \
@@ -2124,6 +2159,8 @@ test_files = \
 	tests/script/cases.json \
 	tests/script/cases.out \
 	tests/script/chaos.out \
+	tests/script/chart-coordinates.out \
+	tests/script/chart-roots.out \
 	tests/script/charts.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
@@ -2159,6 +2196,7 @@ test_files = \
 	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \
+	tests/script/event-doubles.out \
 	tests/script/event-ends.out \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
@@ -2267,6 +2305,7 @@ test_files = \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
+	tests/script/radau-constraints.out \
 	tests/script/radau.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
@@ -2300,6 +2339,8 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-resume.out \
+	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
@@ -2341,10 +2382,13 @@ other_files = \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
 	bench/hard/cases.py \
+	bench/hard/references \
 	bench/hard/run \
+	bench/hard/second.py \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
+	bench/peers/constrained.c \
 	bench/peers/constrained.cc \
 	bench/peers/constrained/car_axis.lag \
 	bench/peers/constrained/double.lag \
@@ -2438,6 +2482,7 @@ example_files = \
 	examples/embed.py \
 	examples/equilibria.lag \
 	examples/export.lag \
+	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
 	examples/flexing-wire.lag \
@@ -2473,6 +2518,7 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
 	examples/pendulum-period.lag \
@@ -2516,6 +2562,7 @@ example_files = \
 	examples/tippe-top.svg \
 	examples/toda-chain.lag \
 	examples/toda-chain.svg \
+	examples/toda.lag \
 	examples/torus-geodesic.lag \
 	examples/torus-geodesic.svg \
 	examples/undo.lag \

@@ -4,21 +4,13 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <time.h>
+
+#include "base/clock.h"
 
 _Thread_local qdot_progress *qdot_progress_open;
 
 /* Seconds: before a line is shown; between two lines; between two looks at the clock. */
 static const double patience = 0.5, show_every = 0.1, look_every = 0.05;
-
-static double
-now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void
 qdot_progress_begin(double t0, double t1, const char *format, ...)
@@ -36,7 +28,7 @@ qdot_progress_begin(double t0, double t1, const char *format, ...)
     p->t1 = t1;
     p->steps = 0;
     p->pause = p->until = 1;
-    p->begun = now();
+    p->begun = qdot_wall_now();
     if (!p->shown && p->opened == 0)
         p->opened = p->begun;
     p->speed = 0;
@@ -59,7 +51,7 @@ qdot_progress_within(const char *format, ...)
 void
 qdot_progress_look(qdot_progress *p)
 {
-    const double at = now(), spent = at - p->begun;
+    const double at = qdot_wall_now(), spent = at - p->begun;
     const double done = (p->t - p->t0) / (p->t1 - p->t0);
 
     /* as many steps as take look_every, but no sudden change */

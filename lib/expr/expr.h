@@ -171,6 +171,8 @@ qdot_expr qdot_expr_ratio(qdot_pool *pool, long n, long d);
 qdot_expr qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x);
 /* "9.81" is 981/100, "1e-3" is 1/1000; more than 10^6 digits: QDOT_ELIMIT. */
 qdot_expr qdot_expr_decimal(qdot_pool *pool, const char *text, size_t length);
+/* The rational that a finite double is. */
+qdot_expr qdot_expr_of_double(qdot_pool *pool, double x);
 
 /* --- symbols -------------------------------------------------------------------------- */
 

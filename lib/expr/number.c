@@ -1,6 +1,7 @@
 /* number.c -- numbers by their value: quotients, integers, decimals. */
 #include "expr/pool.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include <flint/fmpz.h>
@@ -62,6 +63,16 @@ small_decimal(qdot_pool *pool, const char *digits, size_t n, long exponent, qdot
     qdot_rational_make(&x, top, bottom);
     *e = qdot_expr_fmpq(pool, &x);
     return true;
+}
+
+qdot_expr
+qdot_expr_of_double(qdot_pool *pool, double x)
+{
+    int exponent;
+    const long mantissa = (long)ldexp(frexp(x, &exponent), 53);
+
+    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
+                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
 }
 
 qdot_expr

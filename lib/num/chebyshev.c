@@ -13,9 +13,17 @@ enum { deepest = 45 };
 /* The fit is good if the last coefficients are below this fraction of the largest. */
 static const double unfitted = 0x1p-36;
 
-/* cos(m pi / (2 most)) */
+/* cos(m pi / (2 most)); and T_k at the nodes, row by row */
 static double cosine[quarters];
+static double at_node[2 * most][most];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+/* The row of node j of n, n entries: rows of most nodes come first, then those of half as many. */
+static const double *
+row(int n, int j)
+{
+    return at_node[2 * most - 2 * n + j];
+}
 
 static void
 fill_cosines(void)
@@ -23,6 +31,11 @@ fill_cosines(void)
     for (int m = 0; m < quarters; m++)
         cosine[m] = cos(m * M_PI / (2 * most));
     cosine[most] = cosine[3 * most] = 0;
+    for (int n = most; n >= 1; n /= 2)
+        for (int j = 0; j < n; j++)
+            for (int k = 0; k < n; k++)
+                at_node[2 * most - 2 * n + j][k] =
+                    cosine[(2 * j + 1) * k * (most / n) % quarters];
 }
 
 double
@@ -35,16 +48,17 @@ qdot_chebyshev_node(int n, int j)
 void
 qdot_chebyshev_fit(int n, const double *values, double *c)
 {
-    int stride = most / n;
+    double sum[most] = {0};
 
     pthread_once(&once, fill_cosines);
-    for (int k = 0; k < n; k++) {
-        double sum = 0;
+    for (int j = 0; j < n; j++) {
+        const double *T = row(n, j);
 
-        for (int j = 0; j < n; j++)
-            sum += values[j] * cosine[(2 * j + 1) * k * stride % quarters];
-        c[k] = (k == 0 ? 1.0 : 2.0) / n * sum;
+        for (int k = 0; k < n; k++)
+            sum[k] += values[j] * T[k];
     }
+    for (int k = 0; k < n; k++)
+        c[k] = (k == 0 ? 1.0 : 2.0) / n * sum[k];
 }
 
 double

@@ -3,77 +3,80 @@
 
 #include <stdbool.h>
 
-/* P_s(x) - by P_(s-1)(x), s >= 1 */
+/* Nodes are the zeros of P_s, of P_s - P_(s-1), of P_s - P_(s-2): the number says how far back. */
+typedef enum { GAUSS, RADAU, LOBATTO } family;
+
+/* P_s(x) less the other polynomial, s >= 1, of Lobatto's s >= 2 */
 static qdot_two
-legendre(int s, double by, qdot_two x)
+legendre(int s, family of, qdot_two x)
 {
-    qdot_two before = {1, 0}, p = x;
+    qdot_two p[3] = {x, {1, 0}, {0, 0}}; /* P_k, and those before */
 
     for (int k = 1; k < s; k++) {
-        const qdot_two next = qdot_two_div_double(
-            qdot_two_sub(qdot_two_mul_double(qdot_two_mul(x, p), 2 * k + 1),
-                         qdot_two_mul_double(before, k)),
+        p[2] = p[1];
+        p[1] = p[0];
+        p[0] = qdot_two_div_double(
+            qdot_two_sub(qdot_two_mul_double(qdot_two_mul(x, p[1]), 2 * k + 1),
+                         qdot_two_mul_double(p[2], k)),
             k + 1);
-
-        before = p;
-        p = next;
     }
-    return qdot_two_sub(p, qdot_two_mul_double(before, by));
+    return of == GAUSS ? p[0] : qdot_two_sub(p[0], p[of]);
 }
 
 /* The same in doubles. */
 static double
-legendre_near(int s, double by, double x)
+legendre_near(int s, family of, double x)
 {
-    double before = 1, p = x;
+    double p[3] = {x, 1, 0};
 
     for (int k = 1; k < s; k++) {
-        const double next = ((2 * k + 1) * x * p - k * before) / (k + 1);
-
-        before = p;
-        p = next;
+        p[2] = p[1];
+        p[1] = p[0];
+        p[0] = ((2 * k + 1) * x * p[1] - k * p[2]) / (k + 1);
     }
-    return p - by * before;
+    return of == GAUSS ? p[0] : p[0] - p[of];
 }
 
 /* Its zero between low and high, where its sign changes: by bisection, then with a constant slope. */
 static qdot_two
-zero_between(int s, double by, double low, double high)
+zero_between(int s, family of, double low, double high)
 {
-    const bool rises = legendre_near(s, by, high) > 0;
+    const bool rises = legendre_near(s, of, high) > 0;
     qdot_two x;
     double slope;
 
     for (int k = 0; k < 40; k++) {
         const double middle = 0.5 * (low + high);
 
-        *((legendre_near(s, by, middle) > 0) == rises ? &high : &low) = middle;
+        *((legendre_near(s, of, middle) > 0) == rises ? &high : &low) = middle;
     }
     x = (qdot_two){0.5 * (low + high), 0};
     slope =
-        (legendre_near(s, by, x.hi + 1e-6) - legendre_near(s, by, x.hi - 1e-6)) / 2e-6;
+        (legendre_near(s, of, x.hi + 1e-6) - legendre_near(s, of, x.hi - 1e-6)) / 2e-6;
     for (int k = 0; k < 4; k++)
-        x = qdot_two_sub(x, qdot_two_div_double(legendre(s, by, x), slope));
+        x = qdot_two_sub(x, qdot_two_div_double(legendre(s, of, x), slope));
     return x;
 }
 
-/* The zeros of P_s(2c - 1) - by P_(s-1)(2c - 1), by 0 or 1, into c [s]. A cell of the grid holds
- * one at most for so few, and no zero lies on an edge. */
+/* The nodes into c [s]. A cell of the grid holds one zero at most for so few, and no zero but an
+ * end lies on an edge. */
 static void
-find_nodes(int s, double by, qdot_two *c)
+find_nodes(int s, family of, qdot_two *c)
 {
     enum { CELLS = 150 };
-    const int most = by != 0 ? s - 1 : s;
+    const int most = of == GAUSS ? s : s - 1;
     int found = 0;
 
     for (int k = 0; k < CELLS && found < most; k++) {
         const double low = -1 + 2 * (k - 0.317) / CELLS, high = low + 2.0 / CELLS;
 
-        if ((legendre_near(s, by, low) > 0) != (legendre_near(s, by, high) > 0))
+        if ((legendre_near(s, of, low) > 0) != (legendre_near(s, of, high) > 0))
             c[found++] = qdot_two_scale(
-                qdot_two_add_double(zero_between(s, by, low, high), 1), 0.5);
+                qdot_two_add_double(zero_between(s, of, low, high), 1), 0.5);
     }
-    if (by != 0)
+    if (of == LOBATTO)
+        c[0] = (qdot_two){0, 0};
+    if (of != GAUSS)
         c[s - 1] = (qdot_two){1, 0};
 }
 
@@ -113,10 +116,10 @@ qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w)
 }
 
 static void
-make(int stages, int order, double by, qdot_collocation *m)
+make(int stages, family of, qdot_collocation *m)
 {
-    *m = (qdot_collocation){.stages = stages, .order = order};
-    find_nodes(stages, by, m->c);
+    *m = (qdot_collocation){.stages = stages, .order = 2 * stages - (int)of};
+    find_nodes(stages, of, m->c);
     for (int j = 0; j < stages; j++)
         find_lagrange(m, j);
     for (int i = 0; i < stages; i++)
@@ -127,11 +130,17 @@ make(int stages, int order, double by, qdot_collocation *m)
 void
 qdot_collocation_gauss(int stages, qdot_collocation *m)
 {
-    make(stages, 2 * stages, 0, m);
+    make(stages, GAUSS, m);
 }
 
 void
 qdot_collocation_radau(int stages, qdot_collocation *m)
 {
-    make(stages, 2 * stages - 1, 1, m);
+    make(stages, RADAU, m);
+}
+
+void
+qdot_collocation_lobatto(int stages, qdot_collocation *m)
+{
+    make(stages, LOBATTO, m);
 }

@@ -1,4 +1,4 @@
-/* collocation.h -- methods of collocation: Gauss, and Radau IIA.
+/* collocation.h -- methods of collocation: Gauss, Radau IIA, and Lobatto IIIA.
  *
  * The solution of y' = f(t, y) over a step from t to t + h is a polynomial u of degree s with
  *
@@ -11,6 +11,7 @@
  *
  * Gauss:     c_i are the zeros of P_s(2c - 1),               order 2s
  * Radau IIA: c_i are the zeros of P_s(2c - 1) - P_(s-1)(2c - 1), order 2s - 1; the last one is 1
+ * Lobatto IIIA: those of P_s(2c - 1) - P_(s-2)(2c - 1),      order 2s - 2; 0 and 1 are among them
  *
  * in ascending order, P_s Legendre's polynomial. Numbers are sums of two doubles, right to about
  * 26 digits; .hi alone is the number rounded to a double.
@@ -38,6 +39,7 @@ typedef struct {
 /* stages 1 .. QDOT_COLLOCATION_MOST, which the caller sees to. */
 void qdot_collocation_gauss(int stages, qdot_collocation *m);
 void qdot_collocation_radau(int stages, qdot_collocation *m);
+void qdot_collocation_lobatto(int stages, qdot_collocation *m); /* stages >= 2 */
 
 /* w_j(x) into w [stages]. */
 void qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w);

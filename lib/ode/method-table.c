@@ -52,6 +52,9 @@ static const qdot_ode_method methods[] = {
     {"gauss12", 12, false, false, false, 13, "rk8pd", 1e-2, 1e-15,
      "Gauss collocation of order 12, symplectic: long times at the last digits",
      NULL, false, NULL, &qdot_gauss12},
+    {"variational", 10, false, false, false, 11, "rk8pd", 1e-2, 1e-15,
+     "variational of order 10, symplectic: long times, also with constraints on positions",
+     NULL, false, NULL, &qdot_variational},
 };
 
 size_t

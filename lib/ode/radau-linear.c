@@ -32,10 +32,11 @@ qdot_radau_linear_clear(qdot_radau_linear *l)
 qdot_status
 qdot_radau_linear_init(qdot_radau_linear *l, const qdot_ode_system *system)
 {
-    const size_t m = system->mass_form ? system->mass_form->m : system->n, cells = m * m;
+    const qdot_ode_mass_form *form = system->mass_form;
+    const size_t v = form ? form->m : system->n, m = v + (form ? form->k : 0), cells = m * m;
     bool all;
 
-    *l = (qdot_radau_linear){.system = system, .m = m, .p = system->n - m};
+    *l = (qdot_radau_linear){.system = system, .m = m, .v = v, .p = system->n - v};
     l->dq = qdot_calloc(cells, sizeof *l->dq);
     l->dv = qdot_calloc(cells, sizeof *l->dv);
     l->mass = qdot_calloc(cells, sizeof *l->mass);
@@ -67,12 +68,12 @@ check_finite(const double *x, size_t n, const char *what)
 
 qdot_status
 qdot_radau_residual(const qdot_radau_linear *l, double t, const double *y,
-                    const double *a, double *r)
+                    const double *a, const double *z, double *r)
 {
     const qdot_ode_mass_form *form = l->system->mass_form;
 
     if (form) {
-        QDOT_TRY(form->residual(t, y, a, r, form->user));
+        QDOT_TRY(form->residual(t, y, a, z, r, form->user));
     } else {
         QDOT_TRY(l->system->rhs(t, y, r, l->system->user));
         for (size_t i = 0; i < l->m; i++)
@@ -102,13 +103,13 @@ look_at_pattern(qdot_radau_linear *l)
 }
 
 qdot_status
-qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double *a)
+qdot_radau_slopes(qdot_radau_linear *l, double t, const double *y, const double *a, double *z)
 {
     const qdot_ode_mass_form *form = l->system->mass_form;
     const size_t m = l->m;
 
     if (form) {
-        QDOT_TRY(form->slopes(t, y, a, l->dq, l->dv, l->mass, form->user));
+        QDOT_TRY(form->slopes(t, y, a, z, l->dq, l->dv, l->mass, form->user));
     } else {
         QDOT_TRY(l->system->jacobian(t, y, l->dv, l->dt, l->system->user));
         for (size_t i = 0; i < m; i++)
@@ -181,21 +182,24 @@ qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q, d
     for (size_t i = 0; i < m; i++) {
         double sum = 0;
 
-        for (size_t j = 0; j < m; j++)
+        for (size_t j = 0; j < l->v; j++)
             sum += l->mass[i * m + j] * v[j] + (q ? l->dq[i * m + j] * q[j] : 0);
         b[i] = sum;
     }
 }
 
 void
-qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a, double *b)
+qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a, const double *z,
+                 double *b)
 {
     const size_t m = l->m;
 
     for (size_t i = 0; i < m; i++) {
         double sum = 0;
 
-        for (size_t j = 0; j < m; j++) {
+        for (size_t j = l->v; j < m; j++)
+            sum += fabs(l->dv[i * m + j] * z[j - l->v]);
+        for (size_t j = 0; j < l->v; j++) {
             const size_t at = i * m + j;
 
             sum += fabs(l->dv[at] * y[l->p + j]) + fabs(l->mass[at] * a[j]) +

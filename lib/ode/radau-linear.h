@@ -1,7 +1,7 @@
 /* radau-linear.h -- slopes of a system, and the linear equations of a step by Radau IIA.
  *
- * The unknowns of a stage are its velocities, m of them (system.h, qdot_ode_mass_form); positions
- * follow from these. In the eigenvectors of the basis the equations of all stages come apart into
+ * The unknowns of a stage are its velocities and multipliers, m of them (system.h,
+ * qdot_ode_mass_form); positions follow from these. In the eigenvectors of the basis the equations of all stages come apart into
  *
  *     (lambda_k/h M - Dv - h/lambda_k Dq) x = b,
  *
@@ -20,7 +20,7 @@
 
 typedef struct {
     const qdot_ode_system *system; /* borrowed */
-    size_t m, p;                   /* velocities; positions, m or 0 */
+    size_t m, v, p; /* unknowns; velocities among them, the first; positions, v or 0 */
     double *dq, *dv, *mass;        /* [m x m] slopes of f - M a; M */
     double *dt;                    /* [m] scratch */
     double *re[QDOT_RADAU_SPACES],
@@ -38,14 +38,15 @@ QDOT_MUST_CHECK qdot_status qdot_radau_linear_init(qdot_radau_linear *l,
                                                    const qdot_ode_system *system);
 void qdot_radau_linear_clear(qdot_radau_linear *l);
 
-/* r [m] = f - M a at (t, y). Errors: those of f; QDOT_EDOMAIN if it is not finite. */
+/* r [m] = f - M a at (t, y), with multipliers z. Errors: those of f; QDOT_EDOMAIN if it is not
+ * finite. */
 QDOT_MUST_CHECK qdot_status qdot_radau_residual(const qdot_radau_linear *l, double t,
                                                 const double *y, const double *a,
-                                                double *r);
+                                                const double *z, double *r);
 
-/* Take the slopes at (t, y, a). Errors likewise. */
+/* Take the slopes at (t, y, a), and the multipliers there. Errors likewise. */
 QDOT_MUST_CHECK qdot_status qdot_radau_slopes(qdot_radau_linear *l, double t,
-                                              const double *y, const double *a);
+                                              const double *y, const double *a, double *z);
 
 /* Factor for a step h. False if a matrix is singular. */
 bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, double h);
@@ -53,9 +54,9 @@ bool qdot_radau_factor(qdot_radau_linear *l, const qdot_radau_basis *basis, doub
 /* Solve with space k; im is not read for k = 0. */
 void qdot_radau_solve(const qdot_radau_linear *l, size_t k, double *re, double *im);
 
-/* b [m]: about what rounding of y and a makes of f - M a, of one sign or the other. */
+/* b [m]: about what rounding of y, a and z makes of f - M a, of one sign or the other. */
 void qdot_radau_noise(const qdot_radau_linear *l, const double *y, const double *a,
-                      double *b);
+                      const double *z, double *b);
 
 /* b = M v + Dq q; q NULL: no such term. */
 void qdot_radau_weigh(const qdot_radau_linear *l, const double *v, const double *q,

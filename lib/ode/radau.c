@@ -22,23 +22,29 @@ enum { steady = 10, dear = 2 };
 /* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. */
 static const double bounds = 0.02, fair = 0.1;
 
+/* Velocities that changes of multipliers make within h count by this: those of the step keep the
+ * constraints, whatever these are. */
+static const double by_multipliers = 0.05;
+
 /* After a step whose iteration failed: those that follow, beside it. */
-static const double shorter = 0.6;
+static const double shorter = 0.6, half = 0.5;
 
 /* An estimate is of so many roundings of f; where it is no more, a step may grow a little. */
 static const double stagnates = 0.3, several = 6, grows = 0.03;
 
 typedef struct {
     qdot_radau_linear linear;
-    size_t n, m, p;  /* y = (q [p], v [m]) */
+    size_t n, p, v; /* y = (q [p], v [v]) */
+    size_t m, w;    /* unknowns (v, z); of a stage, (q, v, z) */
     size_t kind;     /* of radau-basis.h */
     bool kept;       /* it does not change */
-    double *Z;       /* [MOST x n] the stages less y */
+    double *Z;       /* [MOST x w] the stages less y and z */
+    double *z;       /* multipliers about which those of the stages are */
     double *a;       /* [MOST x m] */
     double *R;       /* [MOST x m] residuals */
     double *re, *im; /* [m] */
-    double *weight;  /* [n] 1/(tol max(scale, |y|)) */
-    double *before;  /* [MOST x n] the stages of the last step accepted */
+    double *weight;  /* [w] 1/(tol max(scale, |y|)) */
+    double *before;  /* [MOST x w] the stages of the last step accepted */
     const qdot_radau_basis *before_basis; /* NULL: there is none */
     double before_h, h;
     bool slopes, fresh;             /* there are slopes; at the present y */
@@ -62,6 +68,7 @@ drop(qdot_ode_stepper *s)
         return;
     qdot_radau_linear_clear(&r->linear);
     qdot_free(r->Z);
+    qdot_free(r->z);
     qdot_free(r->a);
     qdot_free(r->R);
     qdot_free(r->re);
@@ -82,17 +89,20 @@ make(qdot_ode_stepper *s)
     QDOT_TRY(qdot_radau_linear_init(&r->linear, s->system));
     r->n = s->system->n;
     r->m = r->linear.m;
+    r->v = r->linear.v;
     r->p = r->linear.p;
+    r->w = r->p + r->m;
     r->kind = s->tol > 1e-4 ? 0 : s->tol > 1e-8 ? 1 : 2;
-    r->Z = qdot_calloc(MOST * r->n, sizeof *r->Z);
+    r->Z = qdot_calloc(MOST * r->w, sizeof *r->Z);
+    r->z = qdot_calloc(r->m, sizeof *r->z); /* more than there are */
     r->a = qdot_calloc(MOST * r->m, sizeof *r->a);
     r->R = qdot_calloc(MOST * r->m, sizeof *r->R);
     r->re = qdot_calloc(r->m, sizeof *r->re);
     r->im = qdot_calloc(r->m, sizeof *r->im);
-    r->weight = qdot_calloc(r->n, sizeof *r->weight);
-    r->before = qdot_calloc(MOST * r->n, sizeof *r->before);
-    return r->Z && r->a && r->R && r->re && r->im && r->weight && r->before ? QDOT_OK
-                                                                            : QDOT_ENOMEM;
+    r->weight = qdot_calloc(r->w, sizeof *r->weight);
+    r->before = qdot_calloc(MOST * r->w, sizeof *r->before);
+    return r->Z && r->z && r->a && r->R && r->re && r->im && r->weight && r->before ? QDOT_OK
+                                                                                    : QDOT_ENOMEM;
 }
 
 static void
@@ -132,8 +142,8 @@ follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
             double sum = 0;
 
             for (size_t j = 0; j < b->stages; j++)
-                sum += b->a[i][j] * r->Z[j * r->n + r->p + l];
-            r->Z[i * r->n + l] =
+                sum += b->a[i][j] * r->Z[j * r->w + r->p + l];
+            r->Z[i * r->w + l] =
                 h * (b->c[i] * s->y[r->p + l] + (sum + b->c[i] * s->carry[r->p + l]));
         }
 }
@@ -146,15 +156,15 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
     const qdot_radau_basis *old = r->before_basis;
     double w[MOST];
 
-    memset(r->Z, 0, MOST * r->n * sizeof *r->Z);
+    memset(r->Z, 0, MOST * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
-        double *Z = r->Z + i * r->n;
+        double *Z = r->Z + i * r->w;
 
         qdot_radau_interpolate(old, 1 + b->c[i] * h / r->before_h, w);
         w[old->stages - 1] -= 1; /* less its end */
         for (size_t j = 0; j < old->stages; j++)
-            for (size_t l = r->p; l < r->n; l++)
-                Z[l] += w[j] * r->before[j * r->n + l];
+            for (size_t l = r->p; l < r->w; l++)
+                Z[l] += w[j] * r->before[j * r->w + l];
     }
     follow(s, b, h);
 }
@@ -164,11 +174,11 @@ static void
 accelerate(radau *r, const qdot_radau_basis *b, double h)
 {
     for (size_t i = 0; i < b->stages; i++)
-        for (size_t l = 0; l < r->m; l++) {
+        for (size_t l = 0; l < r->v; l++) {
             double sum = 0;
 
             for (size_t j = 0; j < b->stages; j++)
-                sum += b->inverse[i][j] * r->Z[j * r->n + r->p + l];
+                sum += b->inverse[i][j] * r->Z[j * r->w + r->p + l];
             r->a[i * r->m + l] = sum / h;
         }
 }
@@ -180,13 +190,15 @@ residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
 
     accelerate(r, b, h);
     for (size_t i = 0; i < b->stages; i++) {
-        const double *Z = r->Z + i * r->n;
+        const double *Z = r->Z + i * r->w;
 
         for (size_t l = 0; l < r->n; l++)
             s->trial[l] = s->y[l] + (s->carry[l] + Z[l]);
+        for (size_t l = r->v; l < r->m; l++)
+            r->re[l - r->v] = r->z[l - r->v] + Z[r->p + l];
         s->evaluations++;
         QDOT_TRY(qdot_radau_residual(&r->linear, t + b->c[i] * h, s->trial,
-                                     r->a + i * r->m, r->R + i * r->m));
+                                     r->a + i * r->m, r->re, r->R + i * r->m));
     }
     return QDOT_OK;
 }
@@ -222,7 +234,7 @@ change(radau *r, const qdot_radau_basis *b, double h)
     double size = 0;
 
     for (size_t i = 0; i < b->stages; i++) {
-        double *Z = r->Z + i * r->n;
+        double *Z = r->Z + i * r->w;
 
         for (size_t l = 0; l < r->p; l++) {
             double sum = 0;
@@ -252,14 +264,48 @@ noise_of(const qdot_ode_stepper *s, double h)
     const double part = h / r->linear.basis->lambda_re[0];
     double noise = 0;
 
-    qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->re);
+    qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->z, r->re);
     qdot_radau_solve(&r->linear, 0, r->re, NULL);
-    for (size_t l = 0; l < r->m; l++) {
+    for (size_t l = 0; l < r->v; l++) {
         noise = fmax(noise, fabs(r->re[l]) * r->weight[r->p + l]);
         if (r->p)
             noise = fmax(noise, fabs(part * r->re[l]) * r->weight[l]);
     }
     return several * noise;
+}
+
+/* Whether no mass moves with the velocity j: it has no past, and follows at every moment. */
+static bool
+is_algebraic(const qdot_radau_linear *l, size_t j)
+{
+    for (size_t i = 0; i < l->m; i++)
+        if (l->mass[i * l->m + j] != 0)
+            return false;
+    return true;
+}
+
+/* What follows at every moment counts by what it does within h: such velocities by positions,
+ * multipliers by velocities (they are no results of a step, but the iteration goes on while they are
+ * wrong). */
+static void
+weigh_algebraic(radau *r, double h)
+{
+    const qdot_radau_linear *l = &r->linear;
+
+    for (size_t j = 0; j < r->p; j++)
+        if (is_algebraic(l, j))
+            r->weight[r->p + j] = fmin(r->weight[r->p + j], fabs(h) * r->weight[j]);
+    for (size_t k = r->v; k < r->m; k++) {
+        double most = 0;
+
+        for (size_t i = 0; i < r->v; i++) {
+            const double mass = fabs(l->mass[i * r->m + i]);
+
+            if (mass > 0)
+                most = fmax(most, fabs(l->dv[i * r->m + k]) / mass * r->weight[r->p + i]);
+        }
+        r->weight[r->p + k] = by_multipliers * fabs(h) * most;
+    }
 }
 
 /* Whether it converged; the stages, and `a` by them. */
@@ -273,6 +319,7 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
     double before = 0;
 
     *converged = false;
+    weigh_algebraic(r, h);
     predict(s, b, h);
     r->left = pow(fmax(r->left, DBL_EPSILON), 0.8);
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
@@ -325,15 +372,15 @@ estimate(qdot_ode_stepper *s, const qdot_radau_basis *b, double h, const double 
         double sum = slope[l];
 
         for (size_t i = 0; i < b->stages; i++)
-            sum -= b->first[i] * (l < r->p ? s->y[r->p + l] + r->Z[i * r->n + r->p + l]
+            sum -= b->first[i] * (l < r->p ? s->y[r->p + l] + r->Z[i * r->w + r->p + l]
                                            : r->a[i * r->m + l - r->p]);
         s->error[l] = part * sum;
     }
-    for (size_t l = 0; l < r->m; l++)
+    for (size_t l = 0; l < r->v; l++)
         v[l] /= part;
     qdot_radau_weigh(&r->linear, v, r->p ? q : NULL, r->re);
     qdot_radau_solve(&r->linear, 0, r->re, NULL);
-    for (size_t l = 0; l < r->m; l++)
+    for (size_t l = 0; l < r->v; l++)
         v[l] = r->re[l];
     for (size_t l = 0; l < r->p; l++)
         q[l] += part * v[l];
@@ -391,7 +438,8 @@ prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool
 
     if (!r->slopes) {
         s->jacobians++;
-        QDOT_TRY(qdot_radau_slopes(&r->linear, t, s->y, s->dydt + r->p));
+        QDOT_TRY(qdot_radau_slopes(&r->linear, t, s->y, s->dydt + r->p,
+                                   r->before_basis ? r->re : r->z));
         r->slopes = r->fresh = true;
         r->factored = 0;
     }
@@ -427,7 +475,9 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
         QDOT_TRY(judge(s, b, t, h, ratio));
     else
         r->most = shorter * fabs(h), r->cautious = steady;
-    if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds)
+    if (!converged && regular && r->rate < 1) /* as the loop aims at a tenth (whole.c) */
+        *ratio = fmax(1.01, 0.1 * pow(0.9 / half, (double)b->stages + 1));
+    if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
     r->rejected = !(*ratio <= 1);
     if (!r->rejected)
@@ -435,7 +485,7 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
     if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
         *ratio = fmin(
             1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
-    memcpy(s->z, r->Z + (b->stages - 1) * r->n, r->n * sizeof *s->z);
+    memcpy(s->z, r->Z + (b->stages - 1) * r->w, r->n * sizeof *s->z);
     for (size_t l = 0; l < r->n; l++)
         s->trial[l] = s->y[l] + (s->carry[l] + s->z[l]);
     return QDOT_OK;
@@ -470,6 +520,8 @@ accepted(qdot_ode_stepper *s)
     r->before = r->Z;
     r->Z = Z;
     r->before_basis = r->linear.basis;
+    for (size_t l = r->n; l < r->w; l++)
+        r->z[l - r->n] += r->before[(r->before_basis->stages - 1) * r->w + l];
     r->before_h = r->h;
     r->fresh = false;
     if (r->rate > (r->m > dear * r->before_basis->stages ? reuse_dear : reuse))
@@ -494,7 +546,8 @@ dense(qdot_ode_stepper *s, double t, double h, double *F)
 
     (void)t;
     (void)h;
-    memcpy(F, r->Z, stages * r->n * sizeof *F);
+    for (size_t i = 0; i < stages; i++)
+        memcpy(F + i * r->n, r->Z + i * r->w, r->n * sizeof *F);
     F[MOST * r->n] = (double)((stages - 3) / 2);
     return QDOT_OK;
 }

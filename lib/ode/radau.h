@@ -10,6 +10,12 @@
  * converges fast; M is not inverted. The last stage is the end of the step: such methods damp what is
  * stiff at once (L-stable, stiffly accurate). Equations of order one are the case without q.
  *
+ * Multipliers of constraints are further unknowns of each stage, with the constraints of velocities
+ * (index 2), which the stages keep; positions are projected between steps. M may be singular where the
+ * matrices of the iteration are not. The iteration goes on while multipliers change velocities within
+ * h; their errors are not tested, since no step takes anything from the multipliers before it. Errors
+ * of velocities with which no mass moves, which follow at every moment, count h-fold, as positions.
+ *
  * The iteration begins with the polynomial of the step before and ends when what is missing is below
  * NEWTON of a tolerance. The error is that of the formula with a stage more at the beginning of the
  * step: the defect there, filtered,
@@ -22,7 +28,7 @@
  *
  * Between the ends of a step stands the polynomial of its stages, with an error of h^(s+1).
  *
- * Source  Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), IV.8;
+ * Source  Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), IV.8, VII.4;
  *         Hairer & Wanner, J. Comput. Appl. Math. 111 (1999) 93.
  * Tests   tests/ode/test_radau.c: orders measured, polynomials, stiff problems
  */

@@ -66,10 +66,12 @@ typedef struct {
      * t_end nearer. The step is accepted when `accepted` is called for that end. Failures as
      * those of `accepted`. */
     qdot_status (*expanded)(qdot_ode_expanded *step, void *user);
-    /* taylor only: the exact initial state less y [n], borrowed; the exact t1 less t1 (the run
-     * ends at the sum); orders added to those that the tolerance needs. */
+    bool at_doubles; /* steps that may be of any length end at doubles of t exactly, so that states
+                        within them can be located to less than a double */
+    double t1_low; /* the exact t1 less t1: the run ends at the sum; not by steps of one length */
+    /* taylor only: the exact initial state less y [n], borrowed; orders added to those that the
+     * tolerance needs. */
     const double *carry;
-    double t1_low;
     int order_more;
     /* taylor only: whether the first orders of every step are in two doubles (leading.h), which
      * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a

@@ -116,16 +116,21 @@ typedef struct {
 /* The same system without the inverse of what stands before the highest derivatives, for implicit
  * methods:
  *
- *     y = (q, v),   q' = v,   M(t, y) v' = f(t, y)
+ *     y = (q, v),   q' = v,   M(t, y) v' = f(t, y) + A^T z,   N v' = g(t, y)
  *
- * v the last m components, q the n - m before: m, or none. Failures are those of qdot_ode_system. */
+ * v the last m components, q the n - m before: m, or none; z [k] are multipliers, which the k rows
+ * of g determine (N = 0: constraints of velocities, index 2; N = A: index 1). Failures are those of
+ * qdot_ode_system. */
 typedef struct {
-    size_t m;
-    /* r [m] = f - M a, for any a [m] */
-    qdot_status (*residual)(double t, const double *y, const double *a, double *r, void *user);
-    /* Its slopes by q and v at a held, and M; each [m x m row-major]; dq is not touched without q */
-    qdot_status (*slopes)(double t, const double *y, const double *a, double *dq, double *dv,
-                          double *M, void *user);
+    size_t m, k;
+    /* r [m + k] = (f + A^T z - M a, g - N a), for any a [m], z [k] */
+    qdot_status (*residual)(double t, const double *y, const double *a, const double *z, double *r,
+                            void *user);
+    /* z [k] at the state; the slopes of r by q and (v, z) at a and z held, and (M, N); each
+     * [(m + k) x (m + k) row-major], with columns of zeros where there is nothing; dq is not touched
+     * without q */
+    qdot_status (*slopes)(double t, const double *y, const double *a, double *z, double *dq,
+                          double *dv, double *M, void *user);
     void *user; /* borrowed */
 } qdot_ode_mass_form;
 
@@ -137,6 +142,22 @@ typedef struct {
     qdot_status (*force)(double t, const double *q, const double *v, double *F, void *user);
     void *user; /* borrowed */
 } qdot_ode_phase;
+
+/* Constraints g(t, q) = 0 beside such momenta: p' = F + A^T lambda, A = dg/dq. For methods that hold
+ * them themselves; others take the accelerations under them from f. Failures as those of f. */
+typedef struct {
+    size_t m;
+    /* g [m] at (t, q); dg/dt [m] at (t, q, v) */
+    qdot_status (*positions)(double t, const double *q, double *g, void *user);
+    qdot_status (*velocities)(double t, const double *q, const double *v, double *w, void *user);
+    /* F [n] += A^T lambda */
+    qdot_status (*pull)(double t, const double *q, const double *lambda, double *F, void *user);
+    /* S = A M^-1 A^T at (t, q), until the next call; with it nu [m] = S^-1 c [m], of least norm where
+     * rows are redundant, and x [n] = M^-1 A^T nu: A x = c. c is lost. */
+    qdot_status (*prepare)(double t, const double *q, void *user);
+    void (*solve)(double *c, double *nu, double *x, void *user);
+    void *user; /* borrowed */
+} qdot_ode_bonds;
 
 /* A step that is about to be accepted, under a tolerance. */
 typedef struct {
@@ -172,6 +193,7 @@ typedef struct qdot_ode_system {
     bool halves; /* y = (q, v) with q' = v and v' = F(t, q, v), what else momenta are made of being
                     constant: geometric methods take v for p */
     const qdot_ode_phase *phase; /* else, for these: its momenta; NULL: there are none; borrowed */
+    const qdot_ode_bonds *bonds; /* what holds them; NULL: nothing does; borrowed */
     /* Taylor coefficients; NULL if there are none; borrowed */
     const qdot_ode_series *series;
     /* What is not integrated; NULL if all is; borrowed. f and the coefficients read nothing

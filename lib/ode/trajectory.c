@@ -10,6 +10,7 @@
 #include "ode/integrate.h"
 #include "ode/leading.h"
 #include "ode/stepper.h"
+#include "ode/taylor-numbers.h"
 #include "ode/taylor.h"
 
 static const size_t most_bytes = (size_t)2 << 30;
@@ -585,6 +586,9 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
         return read_from(c, low, tr->t[low], y);
     if (not_beyond(tr, tr->t[last], t))
         return read_from(c, last, tr->t[last], y);
+    if (c->at >= low && c->at < last && not_beyond(tr, tr->t[c->at], t)
+        && !not_beyond(tr, tr->t[c->at + 1], t))
+        return read_from(c, c->at, t, y);
     for (size_t high = last; high - low > 1;) {
         size_t middle = low + (high - low) / 2;
 
@@ -594,6 +598,23 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
             high = middle;
     }
     return read_from(c, low, t, y);
+}
+
+bool
+qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
+                         qdot_ode_expanded *step)
+{
+    const qdot_trajectory *tr = c->tr;
+
+    if (c->tracks || c->s || !c->fresh)
+        return false;
+    *of = c->system;
+    *step = (qdot_ode_expanded){.t = tr->t[c->at],
+                                .t_end = tr->t[c->at + 1],
+                                .unit = qdot_step_unit(tr->t[c->at + 1] - tr->t[c->at]),
+                                .order = c->order,
+                                .y = tr->y + c->at * tr->n};
+    return true;
 }
 
 uint64_t

@@ -111,6 +111,11 @@ uint64_t qdot_trajectory_evaluations(const qdot_trajectory_cursor *c);
 /* The mode of the piece that the state just read belongs to. */
 size_t qdot_trajectory_mode_read(const qdot_trajectory_cursor *c);
 
+/* The series of the step that the last read was within, of the system *of; false: it was by none, or at
+ * a stored point. step->t_end is the end of the step. */
+bool qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
+                              qdot_ode_expanded *step);
+
 /* The state of the piece at t, or at its end nearest to t. */
 QDOT_MUST_CHECK qdot_status qdot_trajectory_read_piece(qdot_trajectory_cursor *c,
                                                        size_t piece, double t, double *y);

@@ -120,11 +120,24 @@ first_step(run *r, double distance)
     return QDOT_OK;
 }
 
-/* The time left to t1, exact near the end. */
+/* The time left to t1 + t1_low, exact near the end. */
 static double
 remaining(const run *r)
 {
-    return r->direction * ((r->t1 - r->t) - r->t_carry);
+    return r->direction * ((r->t1 - r->t) - r->t_carry + r->options->t1_low);
+}
+
+/* A step of about h that ends on a double of t, where a little more or less costs nothing: what is
+ * stored there belongs to that t, and not to one half a double beside it. */
+static double
+to_a_double(const run *r, double h)
+{
+    const qdot_ode_method *method = r->s->method;
+
+    if (!r->options->at_doubles || method->multistep
+        || (method->kernel && method->kernel->keeps_step) || r->options->h_fixed > 0)
+        return h;
+    return fabs((r->t + (r->t_carry + r->direction * h)) - r->t);
 }
 
 /* The step to try now. If the rest after it would be too short for a step, the step includes it
@@ -138,8 +151,8 @@ choose(const run *r, bool *last)
     if (*last)
         return rest;
     if (!r->s->method->multistep && !(r->options->h_fixed > 0) && r->h > 0.5 * rest)
-        return 0.5 * rest;
-    return r->h;
+        return to_a_double(r, 0.5 * rest);
+    return to_a_double(r, r->h);
 }
 
 static void
@@ -159,7 +172,7 @@ control(run *r, double h, double ratio, bool accepted)
         && factor < worthwhile)
         factor = 1;
     /* a step cut short to land on t1 says nothing against the larger one */
-    r->h = accepted ? fmax(h * factor, h < r->h ? fmin(r->h, 5 * h) : 0) : h * factor;
+    r->h = accepted ? fmax(h * factor, h < r->h * (1 - 1e-9) ? fmin(r->h, 5 * h) : 0) : h * factor;
 }
 
 /* Handle a step in which f is undefined somewhere. */

@@ -133,7 +133,7 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     qdot_status status;
 
     for (size_t i = 0; i < figure->n; i++)
-        if (figure->panels[i].n == 0)
+        if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
     if (path != NULL) {
         d.kind = kind_of(path);

@@ -55,6 +55,11 @@ measure(const qdot_panel *panel, extent *e)
     double from = INFINITY, to = -INFINITY; /* of x, wherever y is */
 
     *e = (extent){.course = true};
+    if (panel->map != NULL) {
+        for (int k = 0; k < 2; k++)
+            qdot_figure_map_edges(panel->map, k, &e->least[k], &e->most[k]);
+        return QDOT_OK;
+    }
     for (size_t i = 0; i < panel->n; i++) {
         const qdot_curve *c = &panel->curves[i];
         bool up = true, down = true;
@@ -231,7 +236,7 @@ view_without_length(const qdot_figure *figure, size_t i, qdot_figure_view *view)
     for (int k = 0; k < axes; k++) {
         view->least[k] = fixed[k] ? panel->range[k].least : e.least[k];
         view->most[k] = fixed[k] ? panel->range[k].most : e.most[k];
-        if (!fixed[k] && (k > 0 || !e.course || !joined || !(e.most[0] > e.least[0])))
+        if (!fixed[k] && panel->map == NULL && (k > 0 || !e.course || !joined || !(e.most[0] > e.least[0])))
             pad(&view->least[k], &view->most[k], view->log[k], 0.04);
     }
     if (panel->equal)

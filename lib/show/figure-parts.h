@@ -71,6 +71,19 @@ void qdot_figure_see_box(const double *side, const qdot_figure_room *room, doubl
 QDOT_MUST_CHECK qdot_status qdot_figure_size(const qdot_figure *figure, double *width,
                                              double *height, double *points);
 
+/* --- maps (figure-map.c) ------------------------------------------------------------- */
+
+/* Where column or row i stands; what the cells cover along an axis. */
+double qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i);
+void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most);
+/* Lines "x y value". Errors: QDOT_EINTR, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
+/* Palette, range and scale of the colours. */
+void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
+/* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
+ * greater the number. */
+bool qdot_figure_map_dot(const qdot_figure_map *map, const double *part, size_t i, size_t j);
+
 /* --- the script --------------------------------------------------------------------- */
 
 /* A kind of image. */

@@ -67,31 +67,48 @@ add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
 static qdot_status
 add_blocks(const qdot_figure_drawing *d)
 {
-    for (size_t i = 0; i < d->figure->n; i++)
+    for (size_t i = 0; i < d->figure->n; i++) {
+        if (d->figure->panels[i].map != NULL) {
+            qdot_text_format(d->script, "$p%zuc0 << END\n", i);
+            QDOT_TRY(qdot_figure_map_add_data(d->figure->panels[i].map, d->script));
+            qdot_text_add(d->script, "END\n");
+        }
         for (size_t k = 0; k < d->figure->panels[i].n; k++) {
             qdot_text_format(d->script, "$p%zuc%zu << END\n", i, k);
             QDOT_TRY(add_points(d->script, &d->figure->panels[i],
                                 &d->figure->panels[i].curves[k]));
             qdot_text_add(d->script, "END\n");
         }
+    }
     return QDOT_OK;
 }
 
-/* All curves as gnuplot's indices: two blank lines between them, their names as comments. */
+/* The head of index i of gnuplot's data. */
+static void
+begin_index(qdot_text *out, bool first, const char *label)
+{
+    qdot_text_add(out, first ? "# " : "\n\n# ");
+    for (; label != NULL && *label != '\0'; label++)
+        qdot_text_char(out, (unsigned char)*label < 0x20 ? ' ' : *label);
+    qdot_text_char(out, '\n');
+}
+
+/* All curves and maps as gnuplot's indices: two blank lines between them, their names as comments. */
 qdot_status
 qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
 {
-    for (size_t i = 0; i < figure->n; i++)
-        for (size_t k = 0; k < figure->panels[i].n; k++) {
-            const qdot_curve *c = &figure->panels[i].curves[k];
-            const char *label = c->label.text != NULL ? c->label.text : "";
+    for (size_t i = 0; i < figure->n; i++) {
+        const qdot_panel *panel = &figure->panels[i];
 
-            qdot_text_add(out, i + k > 0 ? "\n\n# " : "# ");
-            for (; *label != '\0'; label++)
-                qdot_text_char(out, (unsigned char)*label < 0x20 ? ' ' : *label);
-            qdot_text_char(out, '\n');
-            QDOT_TRY(add_points(out, &figure->panels[i], c));
+        if (panel->map != NULL) {
+            begin_index(out, i == 0, panel->map->label.text);
+            QDOT_TRY(qdot_figure_map_add_data(panel->map, out));
         }
+        for (size_t k = 0; k < panel->n; k++) {
+            begin_index(out, i + k == 0, panel->curves[k].label.text);
+            QDOT_TRY(add_points(out, panel, &panel->curves[k]));
+        }
+    }
     return qdot_text_status(out);
 }
 
@@ -322,7 +339,7 @@ add_source(const qdot_figure_drawing *d, size_t i, size_t k, const qdot_figure_a
     size_t index = k;
 
     for (size_t j = 0; j < i; j++)
-        index += d->figure->panels[j].n;
+        index += d->figure->panels[j].map != NULL ? 1 : d->figure->panels[j].n;
     if (d->data != NULL) {
         qdot_figure_add_quoted(d->script, d->data);
         qdot_text_format(d->script, " index %zu", index);
@@ -360,6 +377,14 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
     const qdot_panel *panel = &d->figure->panels[i];
     const bool space = qdot_figure_is_space(panel);
 
+    if (panel->map != NULL) {
+        qdot_figure_map_add_colours(panel->map, d->script);
+        qdot_text_add(d->script, "plot ");
+        add_source(d, i, 0, axes, false);
+        qdot_text_add(d->script, ":3 with image notitle\n"
+                                 "unset colorbox\nset datafile missing 'NaN'\n");
+        return;
+    }
     qdot_text_add(d->script, space ? "splot " : "plot ");
     for (size_t k = 0; space && k < panel->n; k++) {
         add_source(d, i, k, axes, true);
@@ -429,10 +454,12 @@ has_power(const qdot_figure_label *label)
     return found;
 }
 
-/* Letters right of the axes: half of the last number, or a key. */
+/* Letters right of the axes: half of the last number, or a key, or the scale of colours. */
 static double
 letters_right(const qdot_figure_drawing *d, const qdot_panel *panel)
 {
+    if (panel->map != NULL)
+        return 11;
     return has_key_beside(d, panel) ? 1 + 0.62 * (double)key_width(panel) : 1;
 }
 

@@ -33,6 +33,14 @@ typedef struct {
     bool set;
 } qdot_figure_range;
 
+/* Numbers over a grid, drawn as colours. */
+typedef struct {
+    qdot_figure_label label; /* of the numbers */
+    size_t n[2];             /* columns, rows */
+    double least[2], most[2]; /* where the first and last of them stand; even between */
+    const double *value;     /* [n[1] x n[0]] borrowed, along x the fastest; NaN: blank */
+} qdot_figure_map;
+
 /* One pair of axes; in space three, if its first curve is. */
 typedef struct {
     qdot_figure_label title, axis[3]; /* what is written along x, y, z */
@@ -44,6 +52,7 @@ typedef struct {
     bool equal;                 /* one scale for all axes: paths */
     bool marks;                 /* a mark at every point, joined by lines */
     bool points;                /* points that are not joined */
+    const qdot_figure_map *map; /* in place of curves; NULL: curves */
 } qdot_panel;
 
 typedef struct {

@@ -92,6 +92,24 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
     }
 }
 
+/* Halftones; in ASCII a whole character is black or not. */
+static void
+draw_map(grid *g, const qdot_figure_map *map, bool ascii)
+{
+    const size_t across = ACROSS * g->columns, down = DOWN * g->rows;
+
+    g->solid = true;
+    for (size_t j = 0; j < down; j++)
+        for (size_t i = 0; i < across; i++) {
+            const size_t x = ascii ? i / ACROSS * ACROSS : i, y = ascii ? j / DOWN * DOWN : j;
+            const double part[2] = {((double)x + 0.5) / (double)across,
+                                    1 - ((double)y + 0.5) / (double)down};
+
+            if (qdot_figure_map_dot(map, part, ascii ? x / ACROSS : x, ascii ? y / DOWN : y))
+                put(g, (double)i, (double)j);
+        }
+}
+
 static void
 add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
 {
@@ -185,13 +203,15 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
     if (g.cells == NULL)
         return QDOT_ENOMEM;
     g.looks = g.cells + g.columns * g.rows;
+    if (panel->map != NULL)
+        draw_map(&g, panel->map, ascii);
     for (size_t k = 0; k < panel->n; k++) {
         g.look = k % LOOKS;
         g.along = 0;
         g.last[0] = g.last[1] = -1;
         draw_curve(&g, panel, &view, &panel->curves[k]);
     }
-    if (panel->n > 1 || figure->n > 1)
+    if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
         write_key(panel, ascii, out);
     write_grid(&g, panel, &view, ascii, out);
     qdot_free(g.cells);

@@ -94,15 +94,16 @@ same_motion(kit *k, qdot_chart_kind kind)
     h = qdot_mech_energy(k->scene);
     same_number(number_in_chart(k, &s, &c, qdot_mech_energy(c.scene)), number(k, &s, h));
     for (size_t i = 0; i < 3 * s.n; i++) {
-        long quarters[MOST] = {0};
+        long quarters[3 * MOST] = {0};
         bool turns;
 
         for (size_t j = 0; j < c.moved.n;
              j++) /* two quarters off, less than half a turn */
-            for (size_t m = 0; m < s.n; m++)
-                if (s.from[m] == c.moved.at[j].q)
-                    quarters[j] =
-                        lround(s.number[m] / 1.5707963267948966) + (long)(i % 3) - 1;
+            if (c.moved.at[j].bare != QDOT_NIL)
+                quarters[j] = lround(number(k, &s, c.moved.at[j].given) / 1.5707963267948966)
+                              + (long)(i % 3) - 1;
+        for (size_t j = 0; j < c.signs.n; j++)
+            quarters[c.moved.n + j] = 1;
         same_number(number_in_chart(k, &s, &c,
                                     qdot_chart_express(&c, s.from[i], quarters, &turns)),
                     s.number[i]);
@@ -191,6 +192,110 @@ tilted_body(kit *k)
 }
 TEST(tilted)
 
+/* --- other groups ---------------------------------------------------------------------------- */
+
+static void
+latitude_body(kit *k)
+{
+    coords(k, "b phi");
+    particle(k, "p", "3", "(2*cos(b)*cos(phi), 2*cos(b)*sin(phi), 2*sin(b))");
+    gravity(k, "(0, 0, 0 - 9)");
+    same_motion(k, QDOT_CHART_SPHERE);
+}
+TEST(latitude)
+
+static void
+parabolic_body(kit *k)
+{
+    coords(k, "xi eta");
+    particle(k, "p", "3", "(xi*eta, (xi^2 - eta^2)/2)");
+    gravity(k, "(0, 0 - 9)");
+    must(qdot_scene_potential(k->scene, E(k, "(xi^2 + eta^2)^2 + xi^3*eta^3")));
+    same_motion(k, QDOT_CHART_PARABOLIC);
+}
+TEST(parabolic)
+
+static void
+paraboloids_body(kit *k)
+{
+    coords(k, "xi eta phi");
+    particle(k, "p", "3", "(xi*eta*cos(phi), xi*eta*sin(phi), (xi^2 - eta^2)/2)");
+    must(qdot_scene_potential(k->scene, E(k, "(xi^2 + eta^2)^2 + xi*eta*cos(phi)")));
+    same_motion(k, QDOT_CHART_PARABOLOIDS);
+}
+TEST(paraboloids)
+
+static void
+elliptic_body(kit *k)
+{
+    coords(k, "u v");
+    particle(k, "p", "3", "(2*cosh(u)*cos(v), 2*sinh(u)*sin(v))");
+    must(qdot_scene_potential(k->scene,
+                              E(k, "cosh(u)^2 - sin(v)^2 + (sinh(u)^2 + sin(v)^2)^2")));
+    same_motion(k, QDOT_CHART_ELLIPTIC);
+}
+TEST(elliptic)
+
+static void
+turned_elliptic_body(kit *k)
+{
+    coords(k, "v u");
+    particle(k, "p", "3", "(2*cosh(u)*sin(v), 2*sinh(u)*cos(v))");
+    gravity(k, "(0, 0 - 9)");
+    same_motion(k, QDOT_CHART_ELLIPTIC);
+}
+TEST(turned_elliptic)
+
+static void
+prolate_body(kit *k)
+{
+    coords(k, "u v phi");
+    particle(k, "p", "3",
+             "(sinh(u)*sin(v)*cos(phi), sinh(u)*sin(v)*sin(phi), cosh(u)*cos(v))");
+    gravity(k, "(0, 0, 0 - 9)");
+    same_motion(k, QDOT_CHART_PROLATE);
+}
+TEST(prolate)
+
+static void
+oblate_body(kit *k)
+{
+    coords(k, "u v phi");
+    particle(k, "p", "3",
+             "(cosh(u)*cos(v)*cos(phi), cosh(u)*cos(v)*sin(phi), sinh(u)*sin(v))");
+    must(qdot_scene_potential(k->scene, E(k, "cosh(u)^2 - sin(v)^2")));
+    same_motion(k, QDOT_CHART_OBLATE);
+}
+TEST(oblate)
+
+static void
+root_body(kit *k)
+{
+    coords(k, "phi x");
+    particle(k, "p", "3", "(4 + x, 0 - 2*sqrt(9 - x^2), phi)");
+    gravity(k, "(0, 0 - 9, 0)");
+    same_motion(k, QDOT_CHART_ROOT);
+}
+TEST(root)
+
+/* Constraints go along, with their names and multipliers. */
+static void
+constrained_body(kit *k)
+{
+    coords(k, "r phi z");
+    particle(k, "p", "3", "(r*cos(phi), r*sin(phi), z)");
+    must(qdot_scene_constraint(k->scene, "cup", E(k, "z"), E(k, "r^2*cos(phi)^2 + 2*r^2")));
+    same_motion(k, QDOT_CHART_PLANE);
+    must(qdot_scene_constraint(k->scene, "ring", E(k, "r"), E(k, "1 + z")));
+    {
+        qdot_chart_groups groups = groups_of(k);
+
+        assert_int_equal(groups.n, 0);
+        qdot_free(groups.at);
+    }
+}
+TEST(constrained)
+
 static size_t
 count_groups(kit *k)
 {
@@ -259,7 +364,11 @@ main(void)
         cmocka_unit_test(space),      cmocka_unit_test(sphere),
         cmocka_unit_test(body),       cmocka_unit_test(tilted),
         cmocka_unit_test(no_chart),   cmocka_unit_test(collision),
-        cmocka_unit_test(two_groups),
+        cmocka_unit_test(two_groups), cmocka_unit_test(latitude),
+        cmocka_unit_test(parabolic),  cmocka_unit_test(paraboloids),
+        cmocka_unit_test(elliptic),   cmocka_unit_test(turned_elliptic),
+        cmocka_unit_test(prolate),    cmocka_unit_test(oblate),
+        cmocka_unit_test(root),       cmocka_unit_test(constrained),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

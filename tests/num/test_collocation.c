@@ -65,6 +65,12 @@ orders_are_met(void **state)
         qdot_collocation_radau(s, &m);
         assert_int_equal(m.order, 2 * s - 1);
         check(&m);
+        if (s < 2)
+            continue;
+        qdot_collocation_lobatto(s, &m);
+        assert_int_equal(m.order, 2 * s - 2);
+        check(&m);
+        assert_true(m.c[0].hi == 0 && m.c[0].lo == 0 && m.c[s - 1].hi == 1);
     }
 }
 

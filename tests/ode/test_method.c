@@ -11,7 +11,7 @@ static void
 every_row_is_found_by_its_name(void **state)
 {
     (void)state;
-    assert_int_equal(qdot_ode_method_count(), 14);
+    assert_int_equal(qdot_ode_method_count(), 15);
     for (size_t i = 0; i < qdot_ode_method_count(); i++) {
         const qdot_ode_method *m = qdot_ode_method_at(i), *partner;
 
@@ -22,7 +22,7 @@ every_row_is_found_by_its_name(void **state)
         assert_true(!partner->needs_jacobian || m->needs_jacobian);
         assert_string_not_equal(m->fits, "");
     }
-    assert_null(qdot_ode_method_at(14));
+    assert_null(qdot_ode_method_at(15));
     assert_null(qdot_ode_method_find("rk9"));
 }
 

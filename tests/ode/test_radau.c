@@ -150,19 +150,22 @@ polynomials_are_met(void **state)
 
 /* (2 + cos q) q'' = sin(q) q'^2/2 - sin q - 1e3 q', with M; and divided by it. */
 static qdot_status
-heavy_residual(double t, const double *y, const double *a, double *r, void *user)
+heavy_residual(double t, const double *y, const double *a, const double *z, double *r,
+               void *user)
 {
     (void)t;
+    (void)z;
     (void)user;
     r[0] = sin(y[0]) * y[1] * y[1] / 2 - sin(y[0]) - 1e3 * y[1] - (2 + cos(y[0])) * a[0];
     return QDOT_OK;
 }
 
 static qdot_status
-heavy_slopes(double t, const double *y, const double *a, double *dq, double *dv,
+heavy_slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv,
              double *M, void *user)
 {
     (void)t;
+    (void)z;
     (void)user;
     dq[0] = cos(y[0]) * y[1] * y[1] / 2 - cos(y[0]) + sin(y[0]) * a[0];
     dv[0] = sin(y[0]) * y[1] - 1e3;
@@ -176,7 +179,7 @@ heavy_rhs(double t, const double *y, double *dydt, void *user)
     const double none = 0;
 
     dydt[0] = y[1];
-    QDOT_TRY(heavy_residual(t, y, &none, dydt + 1, user));
+    QDOT_TRY(heavy_residual(t, y, &none, NULL, dydt + 1, user));
     dydt[1] /= 2 + cos(y[0]);
     return QDOT_OK;
 }
@@ -187,7 +190,7 @@ heavy_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user
     double dydt[2], M;
 
     QDOT_TRY(heavy_rhs(t, y, dydt, user));
-    QDOT_TRY(heavy_slopes(t, y, dydt + 1, dfdy + 2, dfdy + 3, &M, user));
+    QDOT_TRY(heavy_slopes(t, y, dydt + 1, NULL, dfdy + 2, dfdy + 3, &M, user));
     dfdy[2] /= M;
     dfdy[3] /= M;
     dfdy[0] = dfdt[0] = dfdt[1] = 0;
@@ -198,7 +201,7 @@ heavy_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user
 static void
 the_form_with_mass_is_the_same(void **state)
 {
-    static const qdot_ode_mass_form form = {1, heavy_residual, heavy_slopes, NULL};
+    static const qdot_ode_mass_form form = {1, 0, heavy_residual, heavy_slopes, NULL};
     const qdot_ode_system with = {.n = 2,
                                   .rhs = heavy_rhs,
                                   .mass_form = &form,

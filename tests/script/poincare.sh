@@ -1,5 +1,5 @@
 # Sections of runs: every crossing, with numbers there and their errors.
-six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/cpu [0-9.e-]* s/cpu S/; s/  */ /g; s/^ //' # what is compared
+six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
 cat >two.lag <<'END'
 param w = 2
 coord x, y

@@ -1,5 +1,5 @@
 # A run for each value: numbers of it as rows, with their errors.
-six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/cpu [0-9.e-]* s/cpu S/; s/  */ /g; s/^ //' # what is compared
+six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
 cat >scene.lag <<'END'
 param m > 0, k = 4, c = 0.2, F = 1, omega
 coord x
@@ -67,3 +67,14 @@ gravity (0, -9.81)
 start b = 2
 sweep a = 2..3 step 1 run 0..100 : a, energy as chaos
 END
+echo '# numbers over two names are a map; over uneven values, or three names, not yet'
+qdot -q scene.lag - <<'END' 2>&1 | sed "$six" | grep -v rows
+set omega = 2
+sweep k = 1..2 count 2, x = -1..1 count 3 run 0..1 tol 1e-9 : k*value(x, 0), x as map
+plot map keep to "map.svg"
+sweep k = [1, 2, 4], x = -1..1 count 3 run 0..1 tol 1e-9 : x as uneven
+plot uneven to "uneven.svg"
+sweep k = [1, 2], x = [0, 1], c = [0, 1] run 0..1 tol 1e-9 : x as cube
+plot cube to "cube.svg"
+END
+sed -n '1,/^$/p' map.dat

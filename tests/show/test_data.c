@@ -13,6 +13,7 @@
 
 #include "base/memory.h"
 #include "show/data.h"
+#include "show/hdf5-read.h"
 
 static const double t[3] = {0, 0.5, 1}, x[3] = {2.385, NAN, -1e-300};
 static const qdot_column columns[3] = {{"t", t}, {"a/b < c", x}, {"t", x}};
@@ -101,6 +102,65 @@ hdf5_ends_where_it_says(void **state)
     free(bytes);
 }
 
+static qdot_status
+read_columns(qdot_data_columns *c)
+{
+    *c = (qdot_data_columns){0};
+    return qdot_data_read_hdf5(path, "program", c);
+}
+
+static void
+put(const char *bytes, size_t n)
+{
+    FILE *f = fopen(path, "wb");
+
+    assert_non_null(f);
+    assert_int_equal(fwrite(bytes, 1, n, f), n);
+    fclose(f);
+}
+
+static void
+hdf5_is_read_back(void **state)
+{
+    qdot_data_columns c;
+    size_t n;
+    char *bytes;
+
+    (void)state;
+    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    assert_int_equal(read_columns(&c), QDOT_OK);
+    assert_int_equal(c.at.n, data.columns);
+    assert_int_equal(c.rows, data.rows);
+    for (size_t j = 0; j < c.at.n; j++)
+        for (size_t i = 0; i < c.rows; i++) {
+            const double x = qdot_data_read_number(&c.at.at[j], i), y = data.column[j].at[i];
+
+            assert_memory_equal(&x, &y, sizeof x);
+        }
+    assert_string_equal(qdot_text_str(&c.text), facts[0].text);
+    qdot_data_columns_clear(&c);
+
+    /* cut anywhere it is refused; with any byte changed it is read or refused */
+    bytes = read_back(&n);
+    for (size_t k = 0; k < n; k++) {
+        put(bytes, k);
+        assert_int_equal(read_columns(&c), QDOT_EINVAL);
+        qdot_data_columns_clear(&c);
+    }
+    for (size_t k = 0; k < n; k++)
+        for (int bit = 0; bit < 8; bit += 7) {
+            qdot_status status;
+
+            bytes[k] ^= (char)(1 << bit);
+            put(bytes, n);
+            status = read_columns(&c);
+            assert_true(status == QDOT_OK || status == QDOT_EINVAL || status == QDOT_ENOMEM);
+            qdot_data_columns_clear(&c);
+            bytes[k] ^= (char)(1 << bit);
+        }
+    free(bytes);
+}
+
 static void
 failing_memory_is_told(void **state)
 {
@@ -141,6 +201,7 @@ main(void)
         cmocka_unit_test(json_has_facts_and_rows),
         cmocka_unit_test(html_is_escaped),
         cmocka_unit_test(hdf5_ends_where_it_says),
+        cmocka_unit_test(hdf5_is_read_back),
         cmocka_unit_test(failing_memory_is_told),
         cmocka_unit_test(files_that_cannot_be_written_are_told),
     };

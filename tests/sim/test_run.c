@@ -444,8 +444,6 @@ requests_without_sense_are_refused(void **state)
     f.request.method = "euler";
     refuse(&f, QDOT_ENAME, "there is no method euler");
     assert_non_null(strstr(qdot_last_error()->hint, "rk8pd"));
-    f.request.method = "variational";
-    refuse(&f, QDOT_ENOTBUILT, "not built yet: method variational");
     f.request.method = NULL;
     f.request.n_values = 1;
     refuse(&f, QDOT_EUNSET, "parameter");

@@ -63,41 +63,122 @@ is_ordered(const qdot_row_table *t)
     return up || down;
 }
 
+/* --- over two names ------------------------------------------------------------------- */
+
+/* Whether axis k of what was swept has n values, evenly, the rows of each value of the first together;
+ * its ends. */
+static bool
+is_even(const qdot_row_table *t, int k, size_t n, size_t fast, double *least, double *most)
+{
+    const size_t stride = k == 0 ? fast : 1;
+    const double *v = t->values + k;
+
+    *least = v[0];
+    *most = v[(n - 1) * stride * t->n];
+    for (size_t i = 0; i < t->rows; i++) {
+        const double part = n > 1 ? (double)(i / stride % n) / ((double)n - 1) : 0;
+
+        if (!(fabs(v[i * t->n] - (*least + part * (*most - *least)))
+              <= 1e-9 * fabs(*most - *least)))
+            return false;
+    }
+    return true;
+}
+
+/* A map for each number: maps and panels [columns], values [columns x rows]. */
+static qdot_status
+fill_maps(const qdot_row_table *t, qdot_figure_map *maps, qdot_panel *panels, double *values)
+{
+    size_t fast = 1, slow; /* values of the second name, of the first */
+
+    while (fast < t->rows && t->values[fast * t->n] == t->values[0])
+        fast++;
+    slow = t->rows / fast;
+    if (slow * fast != t->rows)
+        return qdot_fail(QDOT_EINVAL, "%s is interrupted: it has no rectangle of rows", t->name);
+    for (size_t j = 0; j < t->n - 2; j++) {
+        qdot_figure_map *m = &maps[j];
+        double *v = values + j * t->rows;
+
+        *m = (qdot_figure_map){.label = {t->labels[2 + j], true}, .n = {slow, fast}, .value = v};
+        if (!is_even(t, 0, slow, fast, &m->least[0], &m->most[0])
+            || !is_even(t, 1, fast, fast, &m->least[1], &m->most[1]))
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure over two names with uneven "
+                                             "values");
+        for (size_t k = 0; k < t->rows; k++)
+            v[k % fast * slow + k / fast] = t->values[k * t->n + 2 + j];
+        panels[j].axis[0] = (qdot_figure_label){t->labels[0], true};
+        panels[j].axis[1] = (qdot_figure_label){t->labels[1], true};
+        panels[j].map = m;
+    }
+    return QDOT_OK;
+}
+
+/* --- the figure ----------------------------------------------------------------------- */
+
+/* Panels [t->n] and what they need; *n of them. */
+typedef struct {
+    qdot_panel *panels;
+    qdot_curve *curves;
+    qdot_figure_map *maps;
+    double *numbers;
+    size_t n;
+} drawing;
+
+static qdot_status
+draw(const qdot_row_table *t, drawing *d)
+{
+    d->panels = qdot_calloc(t->n, sizeof *d->panels);
+    d->curves = qdot_calloc(t->n, sizeof *d->curves);
+    d->maps = qdot_calloc(t->n, sizeof *d->maps);
+    d->numbers = qdot_calloc(2 * t->n * t->rows + 1, sizeof *d->numbers);
+    if (!d->panels || !d->curves || !d->maps || !d->numbers)
+        return QDOT_ENOMEM;
+    if (t->n_swept == 2 && !t->scattered && t->rows > 0) {
+        d->n = t->n - 2;
+        return fill_maps(t, d->maps, d->panels, d->numbers);
+    }
+    if (t->n_swept > 1 && !t->scattered)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure of what was swept over %zu names",
+                         t->n_swept);
+    d->n = 1;
+    d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa(t)], true}, {"", false}},
+                                .curves = d->curves,
+                                .points = t->scattered || !is_ordered(t)};
+    d->panels[0].n = fill(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
+    if (d->panels[0].n == 1)
+        d->panels[0].axis[1] = d->curves[0].label;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_plot_rows(qdot_cursor *c)
 {
     const qdot_row_table *t = qdot_row_tables_find(c->session, c->at->text);
     qdot_figure_choice choice = {0};
     qdot_panel_choice of_panel = {0};
-    qdot_curve *curves;
-    double *x;
-    qdot_panel panel = {.axis = {{t->labels[abscissa(t)], true}, {"", false}}};
-    qdot_figure figure = {.panels = &panel, .n = 1};
+    drawing d = {0};
     qdot_status status;
 
     c->at++;
     QDOT_TRY(qdot_figure_option_read(c, &choice, &of_panel));
     if (!qdot_cursor_is_end(c))
         return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
-    if (t->n_swept > 1 && !t->scattered)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure of what was swept over %zu names",
-                         t->n_swept);
-    curves = qdot_calloc(t->n, sizeof *curves);
-    x = qdot_calloc(2 * t->n * t->rows + 1, sizeof *x);
-    status = curves && x ? QDOT_OK : QDOT_ENOMEM;
+    status = draw(t, &d);
     if (status == QDOT_OK) {
-        panel.n = fill(t, curves, x, x + t->n * t->rows);
-        panel.curves = curves;
-        panel.points = t->scattered || !is_ordered(t);
-        if (panel.n == 1)
-            panel.axis[1] = curves[0].label;
-        qdot_figure_option_apply(&of_panel, &panel);
-        figure.width = choice.width;
-        figure.height = choice.height;
-        figure.keep = choice.keep;
+        const qdot_figure figure = {.panels = d.panels,
+                                    .n = d.n,
+                                    .width = choice.width,
+                                    .height = choice.height,
+                                    .keep = choice.keep};
+
+        for (size_t i = 0; i < d.n; i++)
+            qdot_figure_option_apply(&of_panel, &d.panels[i]);
         status = qdot_figure_file_show(c->session, &figure, choice.path);
     }
-    qdot_free(curves);
-    qdot_free(x);
+    qdot_free(d.panels);
+    qdot_free(d.curves);
+    qdot_free(d.maps);
+    qdot_free(d.numbers);
     return status;
 }

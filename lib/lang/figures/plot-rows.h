@@ -10,8 +10,8 @@
 /* Whether the cursor stands before the name of a table of rows, with options of a figure or nothing
  * behind it. */
 bool qdot_plot_rows_is(const qdot_cursor *c);
-/* `NAME` with options: a curve for each number, over the one thing swept; of random draws, points:
- * the other numbers over the first. */
+/* `NAME` with options: a curve for each number, over the one thing swept; over two, a map for each; of
+ * random draws and of sections, points: the other numbers over the first. */
 QDOT_MUST_CHECK qdot_status qdot_plot_rows(qdot_cursor *c);
 
 #endif

@@ -83,11 +83,62 @@ qdot_error_time_read(qdot_cursor *c, const char *expected, qdot_figure_choice *f
     return qdot_hint("end its name in .csv, .txt, .svg, .png or .pdf");
 }
 
-qdot_status
-qdot_error_time_say_left_out(qdot_session *session, const qdot_methods_left_out *list)
+static qdot_status
+say_left_out(qdot_session *session, const qdot_methods_left_out *list)
 {
     for (size_t i = 0; i < list->n; i++)
         QDOT_TRY(qdot_answer_notice(session, "method %s is left out: %s", list->at[i].method,
                                     list->at[i].reason));
     return QDOT_OK;
+}
+
+static qdot_status
+tell_table(qdot_session *session, const qdot_error_study *of)
+{
+    qdot_text text = {0};
+
+    if (session->json)
+        return of->rows(session, of->study);
+    of->table(of->study, &text);
+    return qdot_answer_written(session, of->name, QDOT_OK, &text);
+}
+
+static qdot_status
+tell_figure(qdot_session *session, const qdot_error_study *of)
+{
+    qdot_error_point *points = qdot_calloc(of->most_points + 1, sizeof *points);
+    qdot_text note = {0};
+    qdot_error_time figure = of->figure;
+    qdot_status status;
+
+    if (points == NULL)
+        return QDOT_ENOMEM;
+    figure.points = points;
+    figure.note = &note;
+    figure.n = of->points(of->study, points);
+    of->note(of->study, &note);
+    status = qdot_error_time_show(session, &figure);
+    qdot_text_clear(&note);
+    qdot_free(points);
+    return status;
+}
+
+qdot_status
+qdot_error_time_tell(qdot_session *session, const qdot_error_study *of)
+{
+    const char *path = of->figure.figure->path;
+    qdot_text text = {0};
+    qdot_status status;
+
+    QDOT_TRY(say_left_out(session, of->left_out));
+    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
+        QDOT_TRY(tell_table(session, of));
+        if (of->interrupted && path == NULL)
+            return QDOT_OK; /* who stopped it does not wait for a figure */
+        return tell_figure(session, of);
+    }
+    (qdot_ends_in(path, ".csv") ? of->csv : of->table)(of->study, &text);
+    status = qdot_answer_in_file(session, path, &text);
+    qdot_text_clear(&text);
+    return status;
 }

@@ -29,9 +29,21 @@ QDOT_MUST_CHECK qdot_status qdot_error_time_read(qdot_cursor *c, const char *exp
                                                  qdot_figure_choice *figure,
                                                  qdot_panel_choice *panel);
 
-/* A notice for each method that the study left out. */
-QDOT_MUST_CHECK qdot_status qdot_error_time_say_left_out(qdot_session *session,
-                                                         const qdot_methods_left_out *list);
+/* What `workprecision` and `longtime` answer: methods left out, then a table and a figure, or a file. */
+typedef struct {
+    const char *name; /* of the answer */
+    const void *study; /* what the functions take */
+    const qdot_methods_left_out *left_out;
+    bool interrupted;
+    void (*table)(const void *study, qdot_text *out);
+    void (*csv)(const void *study, qdot_text *out);
+    qdot_status (*rows)(qdot_session *session, const void *study); /* as JSON */
+    qdot_error_time figure; /* without n, points, note, which these write: */
+    size_t most_points;
+    size_t (*points)(const void *study, qdot_error_point *points); /* how many */
+    void (*note)(const void *study, qdot_text *out);
+} qdot_error_study;
+QDOT_MUST_CHECK qdot_status qdot_error_time_tell(qdot_session *session, const qdot_error_study *of);
 
 /* Draw it, into its file or a window. Errors: QDOT_EFAILED with `none`, those of the file. */
 QDOT_MUST_CHECK qdot_status qdot_error_time_show(qdot_session *session,

@@ -24,8 +24,10 @@ typedef struct {
 /* --- what is told ------------------------------------------------------------------- */
 
 static void
-csv(const qdot_longtime *l, qdot_text *out)
+csv(const void *study, qdot_text *out)
 {
+    const qdot_longtime *l = study;
+
     qdot_text_add(out, "method,tol,t,error\n");
     for (size_t k = 0; k < l->n; k++)
         for (size_t i = 0; i < l->rows[k].n; i++) {
@@ -50,9 +52,21 @@ growth(const qdot_longtime_row *r, qdot_text *out)
     qdot_text_format(out, QDOT_WRAP_CELL "%17s", text);
 }
 
+/* What `auto` would take, and why. */
 static void
-table(const qdot_longtime *l, qdot_text *out)
+chosen(const qdot_longtime *l, qdot_text *out)
 {
+    qdot_text_format(out, "auto would take %s, tol %.0e%s", l->chosen, l->chosen_tol,
+                     l->chosen_long ? ": more than 20000 steps are foreseen, and truncation is to "
+                                      "stay below rounding"
+                                    : "");
+}
+
+static void
+table(const void *study, qdot_text *out)
+{
+    const qdot_longtime *l = study;
+
     qdot_text_format(out, "%-12s" QDOT_WRAP_CELL "%7s" QDOT_WRAP_CELL "%10s" QDOT_WRAP_CELL
                           "%12s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL "%9s" QDOT_WRAP_CELL
                           "%17s" QDOT_WRAP_CELL "  status\n",
@@ -71,12 +85,17 @@ table(const qdot_longtime *l, qdot_text *out)
     qdot_text_add(out, "error: the largest |E - E0| / max(1, |E0|) met; growth: of its root mean square in "
                        "windows of time,\nfitted to the later half of them, with twice the standard "
                        "error\n");
+    if (l->chosen != NULL) {
+        chosen(l, out);
+        qdot_text_char(out, '\n');
+    }
 }
 
 /* A row for each window; the growth as a number for each method. */
 static qdot_status
-rows_json(qdot_session *session, const qdot_longtime *l)
+rows_json(qdot_session *session, const void *study)
 {
+    const qdot_longtime *l = study;
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
 
@@ -103,66 +122,54 @@ rows_json(qdot_session *session, const qdot_longtime *l)
             status = qdot_answer_number(session, qdot_text_str(&text), r->growth, r->growth_error);
     }
     qdot_text_clear(&text);
+    if (status == QDOT_OK && l->chosen != NULL) {
+        chosen(l, &text);
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+    }
+    qdot_text_clear(&text);
     return status;
 }
 
-static qdot_status
-answer_table(qdot_session *session, const qdot_longtime *l)
+static size_t
+points_of(const void *study, qdot_error_point *points)
 {
-    qdot_text text = {0};
+    const qdot_longtime *l = study;
+    size_t n = 0;
 
-    if (session->json)
-        return rows_json(session, l);
-    table(l, &text);
-    return qdot_answer_written(session, "longtime", QDOT_OK, &text);
-}
-
-static qdot_status
-figure(qdot_session *session, const qdot_longtime *l, const choices *chosen)
-{
-    qdot_error_point *points = qdot_calloc(l->n * QDOT_LONGTIME_WINDOWS + 1, sizeof *points);
-    qdot_text note = {0};
-    qdot_error_time of = {.title = "error of the energy over long times",
-                          .abscissa = "time",
-                          .ordinate = "|E - E0| / max(1, |E0|)",
-                          .note = &note,
-                          .none = "no method came far enough",
-                          .points = points,
-                          .figure = &chosen->figure,
-                          .panel = &chosen->panel};
-    qdot_status status;
-
-    if (points == NULL)
-        return QDOT_ENOMEM;
     for (size_t k = 0; k < l->n; k++)
         for (size_t i = 0; i < l->rows[k].n; i++)
-            points[of.n++] = (qdot_error_point){l->rows[k].method, l->rows[k].t[i],
-                                                l->rows[k].error[i]};
-    qdot_text_add(&note, "root mean squares in windows of time");
-    status = qdot_error_time_show(session, &of);
-    qdot_text_clear(&note);
-    qdot_free(points);
-    return status;
+            points[n++] = (qdot_error_point){l->rows[k].method, l->rows[k].t[i], l->rows[k].error[i]};
+    return n;
+}
+
+static void
+note(const void *study, qdot_text *out)
+{
+    (void)study;
+    qdot_text_add(out, "root mean squares in windows of time");
 }
 
 static qdot_status
 tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
 {
-    const char *path = chosen->figure.path;
-    qdot_text text = {0};
-    qdot_status status;
+    const qdot_error_study of = {.name = "longtime",
+                                 .study = l,
+                                 .left_out = &l->left_out,
+                                 .interrupted = l->interrupted,
+                                 .table = table,
+                                 .csv = csv,
+                                 .rows = rows_json,
+                                 .figure = {.title = "error of the energy over long times",
+                                            .abscissa = "time",
+                                            .ordinate = "|E - E0| / max(1, |E0|)",
+                                            .none = "no method came far enough",
+                                            .figure = &chosen->figure,
+                                            .panel = &chosen->panel},
+                                 .most_points = l->n * QDOT_LONGTIME_WINDOWS,
+                                 .points = points_of,
+                                 .note = note};
 
-    QDOT_TRY(qdot_error_time_say_left_out(session, &l->left_out));
-    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
-        QDOT_TRY(answer_table(session, l));
-        if (l->interrupted && path == NULL)
-            return QDOT_OK; /* who stopped it does not wait for a figure */
-        return figure(session, l, chosen);
-    }
-    (qdot_ends_in(path, ".csv") ? csv : table)(l, &text);
-    status = qdot_answer_in_file(session, path, &text);
-    qdot_text_clear(&text);
-    return status;
+    return qdot_error_time_tell(session, &of);
 }
 
 /* --- the statement ------------------------------------------------------------------ */

@@ -6,53 +6,70 @@
  */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
-#include "base/interrupt.h"
+#include "base/clock.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
 #include "lang/commands/statement.h"
+#include "lang/declare/scene-file.h"
+#include "lang/figures/figure-file.h"
 #include "lang/language/read.h"
-#include "lang/runs/columns.h"
-#include "lang/runs/members.h"
-#include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "lang/session/row-tables.h"
-#include "lang/session/runs.h"
+#include "lang/language/token-text.h"
+#include "lang/runs/sweep-parts.h"
 
 /* A table of so many rows is printed; of more, how it went. */
-enum { MOST_PRINTED = 24 };
-
-typedef struct {
-    qdot_members members;
-    qdot_columns columns;
-    const char *name;
-    qdot_row_table *table;
-    size_t failed;
-    bool interrupted;
-} sweep;
+enum { MOST_PRINTED = 24, MOST_THREADS = 1024 };
 
 /* --- reading ---------------------------------------------------------------------------- */
 
 static qdot_status
-read_rest(qdot_cursor *c, sweep *s)
+read_threads(qdot_cursor *c, qdot_sweep *s)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_cursor_once(c, "threads", s->threads != 0));
+    QDOT_TRY(qdot_read_integer(c, &s->threads));
+    if (s->threads >= 1 && s->threads <= MOST_THREADS)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
+}
+
+/* The file that rows are kept in. */
+static qdot_status
+read_file(qdot_cursor *c, qdot_sweep *s)
+{
+    s->path_at = c->at;
+    QDOT_TRY(qdot_cursor_once(c, "resume", s->path != NULL));
+    QDOT_TRY(qdot_figure_file_read(c, &s->path));
+    if (qdot_ends_in(s->path, ".h5"))
+        return QDOT_OK;
+    c->error_at = s->path_at->start;
+    (void)qdot_fail(QDOT_EINVAL, "rows are kept in a file whose name ends in .h5");
+    return qdot_hint("resume \"rows.h5\"");
+}
+
+static qdot_status
+read_rest(qdot_cursor *c, qdot_sweep *s)
 {
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "as")) {
             QDOT_TRY(qdot_cursor_once(c, "as", s->name != NULL));
             QDOT_TRY(qdot_read_name(c, &s->name));
-        } else if (qdot_cursor_is_word(c, "threads") || qdot_cursor_is_word(c, "resume")) {
-            c->error_at = c->at->start;
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: sweep ... %s", c->at->text);
+        } else if (qdot_cursor_accept_word(c, "threads")) {
+            QDOT_TRY(read_threads(c, s));
+        } else if (qdot_cursor_accept_word(c, "resume")) {
+            QDOT_TRY(read_file(c, s));
         } else {
-            return qdot_cursor_expected(c, "`as NAME` or the end of the statement");
+            return qdot_cursor_expected(c, "`as NAME`, `threads N`, `resume \"FILE.h5\"` or the end "
+                                           "of the statement");
         }
     }
     return QDOT_OK;
 }
 
 static qdot_status
-read_sweep(qdot_cursor *c, sweep *s)
+read_sweep(qdot_cursor *c, qdot_sweep *s)
 {
     const qdot_token *start;
 
@@ -66,92 +83,24 @@ read_sweep(qdot_cursor *c, sweep *s)
     return qdot_fail(QDOT_ENAME, "`%s` means something else already", s->name);
 }
 
-/* --- a row ------------------------------------------------------------------------------ */
-
-/* A number, or an expression at the end of the run. */
+/* What the sweep says, and of which scene: a hash (FNV-1a) of all that would be saved of it. */
 static qdot_status
-measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
+say_what(qdot_sweep *s, const qdot_token *from, const qdot_token *to)
 {
-    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
-                            | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
-    qdot_measured m;
+    qdot_text scene = {0};
+    uint64_t hash = 0xcbf29ce484222325;
+    qdot_status status = qdot_scene_file_text(s->c->session, QDOT_FILE_SCENE, &scene);
 
-    if (!(qdot_expr_node(session->pool, e)->holds & moving))
-        return qdot_session_number(session, e, value, error);
-    QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,
-                                   &m));
-    *value = m.value;
-    *error = m.error;
-    return QDOT_OK;
-}
-
-/* The columns of the latest run, behind what was swept in the last row. */
-static qdot_status
-fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
-{
-    const sweep *s = user;
-    qdot_row_table *t = s->table;
-    const size_t first = (t->rows - 1) * t->n + t->n_swept;
-
-    (void)run;
-    for (size_t i = 0; i < s->columns.at.n; i++) {
-        qdot_expr e;
-
-        QDOT_TRY(qdot_columns_read(c, &s->columns, i, &e));
-        QDOT_TRY(measure(c->session, e, end, &t->values[first + i], &t->errors[first + i]));
-    }
-    return QDOT_OK;
+    for (size_t i = 0; i < scene.n; i++)
+        hash = (hash ^ (unsigned char)scene.at[i]) * 0x100000001b3;
+    qdot_token_text(s->c->session, from, to, &s->said);
+    qdot_text_format(&s->said, "\nscene %016llx", (unsigned long long)hash);
+    qdot_text_clear(&scene);
+    return status == QDOT_OK ? qdot_text_status(&s->said) : status;
 }
 
 static qdot_status
-fill_row(qdot_cursor *c, sweep *s, size_t k)
-{
-    qdot_row_table *t = s->table;
-
-    QDOT_TRY(qdot_row_table_add(t));
-    for (size_t i = 0; i < t->n_swept; i++)
-        t->errors[k * t->n + i] = 0;
-    return qdot_members_run(c, &s->members, k, t->values + k * t->n, fill_columns, s);
-}
-
-/* --- the sweep -------------------------------------------------------------------------- */
-
-/* Why row k failed. */
-static qdot_status
-note_failure(sweep *s, size_t k)
-{
-    s->failed++;
-    s->table->reasons[k] = qdot_strdup(qdot_last_error()->message);
-    return s->table->reasons[k] != NULL ? QDOT_OK : QDOT_ENOMEM;
-}
-
-static qdot_status
-run_all(qdot_cursor *c, sweep *s)
-{
-    const size_t start = c->error_at;
-
-    for (size_t k = 0; k < s->members.axes.members; k++) {
-        qdot_status status = fill_row(c, s, k);
-
-        if (status == QDOT_EINTR && k > 0) {
-            qdot_interrupt_clear(); /* heard: the rows that are done are kept */
-            s->interrupted = true;
-            s->table->rows = k;
-            break;
-        }
-        if (qdot_members_all_fail(status))
-            return status;
-        if (status != QDOT_OK)
-            QDOT_TRY(note_failure(s, k));
-        if (c->session->json)
-            QDOT_TRY(qdot_row_answer_json(c->session, s->table, k));
-    }
-    c->error_at = start;
-    return QDOT_OK;
-}
-
-static qdot_status
-make_table(qdot_session *session, sweep *s)
+make_table(qdot_session *session, qdot_sweep *s)
 {
     const qdot_sweep_axes *axes = &s->members.axes;
     const char **swept = qdot_calloc(axes->at.n + 1, sizeof *swept);
@@ -173,7 +122,7 @@ make_table(qdot_session *session, sweep *s)
 }
 
 static qdot_status
-tell(qdot_session *session, const sweep *s, double cpu)
+tell(qdot_session *session, const qdot_sweep *s, double seconds)
 {
     const qdot_row_table *t = s->table;
     qdot_text text = {0};
@@ -185,7 +134,9 @@ tell(qdot_session *session, const sweep *s, double cpu)
         qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
     if (s->failed > 0)
         qdot_text_format(&text, ", %zu failed", s->failed);
-    qdot_text_format(&text, ", cpu %.3g s", cpu);
+    if (s->resumed > 0)
+        qdot_text_format(&text, ", %zu of them from %s", s->resumed, s->path);
+    qdot_text_format(&text, ", in %.3g s", seconds);
     qdot_text_char(&text, '\n');
     QDOT_TRY(qdot_answer_written(session, t->name, QDOT_OK, &text));
     return t->rows <= MOST_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
@@ -204,10 +155,10 @@ is_empty(const qdot_row_table *t)
 }
 
 static qdot_status
-carry_out(qdot_cursor *c, sweep *s)
+carry_out(qdot_cursor *c, qdot_sweep *s)
 {
-    const clock_t begun = clock();
-    qdot_status status = run_all(c, s);
+    const double begun = qdot_wall_now();
+    qdot_status status = qdot_sweep_make_rows(s);
     qdot_row_table *table = s->table;
 
     if (status != QDOT_OK)
@@ -215,11 +166,11 @@ carry_out(qdot_cursor *c, sweep *s)
     s->table = NULL;
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
     s->table = table;
-    status = tell(c->session, s, (double)(clock() - begun) / CLOCKS_PER_SEC);
+    status = tell(c->session, s, qdot_wall_now() - begun);
     s->table = NULL;
     QDOT_TRY(status);
     if (s->interrupted)
-        return qdot_fail(QDOT_EINTR, "interrupted: %s has the first %zu of %zu rows", table->name,
+        return qdot_fail(QDOT_EINTR, "interrupted: %s has %zu of %zu rows", table->name,
                          table->rows, s->members.axes.members);
     if (is_empty(table))
         return qdot_fail(QDOT_EFAILED, "all rows failed: %s", table->reasons[0]);
@@ -230,13 +181,15 @@ qdot_status
 qdot_sweep_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
-    sweep s = {.members.run.tol = 1e-12};
+    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
     qdot_status status = read_sweep(c, &s);
 
     if (status == QDOT_OK) {
         c->error_at = start->start;
         status = make_table(c->session, &s);
     }
+    if (status == QDOT_OK && s.path != NULL)
+        status = say_what(&s, start, s.columns.end);
     if (status == QDOT_OK) {
         s.table->members = qdot_function_body_new(c->source, start, s.columns.at.at[0]);
         status = s.table->members ? carry_out(c, &s) : QDOT_ENOMEM;
@@ -245,5 +198,7 @@ qdot_sweep_statement(qdot_cursor *c)
     qdot_row_table_release(s.table);
     qdot_members_free(&s.members);
     qdot_columns_free(&s.columns);
+    qdot_text_clear(&s.said);
+    qdot_free(s.done);
     return status;
 }

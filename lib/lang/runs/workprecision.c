@@ -64,8 +64,10 @@ csv_field(qdot_text *out, const char *field)
 }
 
 static void
-csv(const qdot_workprecision *w, qdot_text *out)
+csv(const void *study, qdot_text *out)
 {
+    const qdot_workprecision *w = study;
+
     for (size_t i = 0; i < COLUMNS; i++)
         if (has_column(w, i))
             qdot_text_format(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
@@ -101,8 +103,9 @@ cell(qdot_text *out, int width, const char *format, double x)
 }
 
 static void
-table(const qdot_workprecision *w, qdot_text *out)
+table(const void *study, qdot_text *out)
 {
+    const qdot_workprecision *w = study;
     static const struct {
         const char *head, *format;
         int width, column;
@@ -113,7 +116,7 @@ table(const qdot_workprecision *w, qdot_text *out)
                  {"energy err", "%.1e", 11, 8}, {"constr. err", "%.1e", 12, 9}};
     const size_t n = sizeof shown / sizeof *shown;
 
-    qdot_text_format(out, "%-8s", "method");
+    qdot_text_format(out, "%-12s", "method");
     for (size_t i = 0; i < n; i++)
         if (has_column(w, (size_t)shown[i].column + 1))
             qdot_text_format(out, QDOT_WRAP_CELL "%*s", shown[i].width, shown[i].head);
@@ -122,7 +125,7 @@ table(const qdot_workprecision *w, qdot_text *out)
         double x[COLUMNS - 2];
 
         numbers_of(w, &w->rows[k], x);
-        qdot_text_format(out, "%-8s", w->rows[k].method);
+        qdot_text_format(out, "%-12s", w->rows[k].method);
         for (size_t i = 0; i < n; i++)
             if (has_column(w, (size_t)shown[i].column + 1))
                 cell(out, shown[i].width, shown[i].format, x[shown[i].column]);
@@ -136,8 +139,10 @@ table(const qdot_workprecision *w, qdot_text *out)
 }
 
 static qdot_status
-rows_json(qdot_session *session, const qdot_workprecision *w)
+rows_json(qdot_session *session, const void *study)
 {
+    const qdot_workprecision *w = study;
+
     for (size_t k = 0; k < w->n; k++) {
         qdot_text values = {0};
         double x[COLUMNS - 2];
@@ -160,45 +165,26 @@ rows_json(qdot_session *session, const qdot_workprecision *w)
     return QDOT_OK;
 }
 
-static qdot_status
-answer_table(qdot_session *session, const qdot_workprecision *w)
-{
-    qdot_text text = {0};
-
-    if (session->json)
-        return rows_json(session, w);
-    table(w, &text);
-    return qdot_answer_written(session, "workprecision", QDOT_OK, &text);
-}
-
 /* --- a figure ------------------------------------------------------------------------ */
 
-static qdot_status
-figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+static size_t
+points_of(const void *study, qdot_error_point *points)
 {
-    qdot_error_point *points = qdot_calloc(w->n + 1, sizeof *points);
-    qdot_text note = {0};
-    const qdot_error_time of = {.title = "work and precision",
-                       .abscissa = "CPU time in s",
-                       .ordinate = "error at the end",
-                                .note = &note,
-                                .none = "no method came to the end",
-                                .n = w->n,
-                                .points = points,
-                                .figure = &chosen->figure,
-                                .panel = &chosen->panel};
-    qdot_status status;
+    const qdot_workprecision *w = study;
 
-    if (points == NULL)
-        return QDOT_ENOMEM;
     for (size_t i = 0; i < w->n; i++)
-        points[i] = (qdot_error_point){w->rows[i].method, w->rows[i].time_median, w->rows[i].err};
-    qdot_text_add(&note, "medians of several runs; error of the reference ");
-    qdot_number_text_bound(&note, w->ref_err);
-    status = qdot_error_time_show(session, &of);
-    qdot_text_clear(&note);
-    qdot_free(points);
-    return status;
+        points[i] =
+            (qdot_error_point){w->rows[i].method, w->rows[i].time_median, w->rows[i].err};
+    return w->n;
+}
+
+static void
+note(const void *study, qdot_text *out)
+{
+    const qdot_workprecision *w = study;
+
+    qdot_text_add(out, "medians of several runs; error of the reference ");
+    qdot_number_text_bound(out, w->ref_err);
 }
 
 /* --- the statement ------------------------------------------------------------------- */
@@ -206,21 +192,24 @@ figure(qdot_session *session, const qdot_workprecision *w, const choices *chosen
 static qdot_status
 tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
 {
-    const char *path = chosen->figure.path;
-    qdot_text text = {0};
-    qdot_status status;
+    const qdot_error_study of = {.name = "workprecision",
+                                 .study = w,
+                                 .left_out = &w->left_out,
+                                 .interrupted = w->interrupted,
+                                 .table = table,
+                                 .csv = csv,
+                                 .rows = rows_json,
+                                 .figure = {.title = "work and precision",
+                                            .abscissa = "CPU time in s",
+                                            .ordinate = "error at the end",
+                                            .none = "no method came to the end",
+                                            .figure = &chosen->figure,
+                                            .panel = &chosen->panel},
+                                 .most_points = w->n,
+                                 .points = points_of,
+                                 .note = note};
 
-    QDOT_TRY(qdot_error_time_say_left_out(session, &w->left_out));
-    if (path == NULL || (!qdot_ends_in(path, ".csv") && !qdot_ends_in(path, ".txt"))) {
-        QDOT_TRY(answer_table(session, w));
-        if (w->interrupted && path == NULL)
-            return QDOT_OK; /* who stopped it does not wait for a figure */
-        return figure(session, w, chosen);
-    }
-    (qdot_ends_in(path, ".csv") ? csv : table)(w, &text);
-    status = qdot_answer_in_file(session, path, &text);
-    qdot_text_clear(&text);
-    return status;
+    return qdot_error_time_tell(session, &of);
 }
 
 /* A whole study is kept for reports (lang/files/report-work.h). */

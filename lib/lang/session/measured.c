@@ -10,18 +10,11 @@
 qdot_expr
 qdot_measured_rational(qdot_pool *pool, double x)
 {
-    int exponent;
-    long mantissa;
-
     if (!isfinite(x)) {
         (void)qdot_fail(QDOT_EDOMAIN, "a number of the run is not finite");
         return qdot_pool_fail(pool);
     }
-    mantissa = (long)ldexp(frexp(x, &exponent), 53);
-    if (mantissa == 0)
-        return QDOT_ZERO;
-    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
-                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
+    return qdot_expr_of_double(pool, x);
 }
 
 qdot_expr

@@ -26,225 +26,7 @@ replace(rewriting *r, qdot_expr from, qdot_expr to)
     return qdot_vec_push(&r->to, to);
 }
 
-/* --- sines and cosines ---------------------------------------------------------------- */
-
-typedef struct {
-    qdot_expr cosine, sine;
-} direction;
-
-/* Of the sum of two angles. */
-static direction
-turned(qdot_pool *pool, direction a, direction b)
-{
-    return (direction){qdot_sub(pool, qdot_mul(pool, a.cosine, b.cosine),
-                                qdot_mul(pool, a.sine, b.sine)),
-                       qdot_add(pool, qdot_mul(pool, a.sine, b.cosine),
-                                qdot_mul(pool, a.cosine, b.sine))};
-}
-
-/* Of `angle`, whose multiples of moved angles are whole numbers; false if one is not. */
-static bool
-find_direction(const rewriting *r, qdot_expr angle, direction *d)
-{
-    qdot_pool *pool = r->pool;
-    direction sum = {QDOT_ONE, QDOT_ZERO};
-
-    for (size_t i = 0; i < r->c->moved.n; i++) {
-        const qdot_chart_moved *m = r->c->moved.at + i;
-        direction one = {m->cosine, m->sine};
-        long times;
-
-        if (!m->angle || !qdot_expr_contains(pool, angle, m->q))
-            continue;
-        if (!qdot_expr_to_int(pool, qdot_diff(pool, angle, m->q), &times) ||
-            labs(times) > MOST_MULTIPLE)
-            return false;
-        if (times < 0)
-            one.sine = qdot_neg(pool, one.sine);
-        for (long k = 0; k < labs(times); k++)
-            sum = turned(pool, sum, one);
-        angle = qdot_subs(pool, angle, 1, &m->q, (qdot_expr[]){QDOT_ZERO});
-    }
-    for (size_t i = 0; i < r->c->moved.n; i++)
-        if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
-            return false; /* a length is left in it */
-    *d = turned(
-        pool, sum,
-        (direction){qdot_fun1(pool, QDOT_COS, angle), qdot_fun1(pool, QDOT_SIN, angle)});
-    return true;
-}
-
-static qdot_expr
-of_direction(qdot_pool *pool, uint16_t function, direction d)
-{
-    switch (function) {
-    case QDOT_SIN: return d.sine;
-    case QDOT_COS: return d.cosine;
-    case QDOT_TAN: return qdot_div(pool, d.sine, d.cosine);
-    case QDOT_COT: return qdot_div(pool, d.cosine, d.sine);
-    case QDOT_SEC: return qdot_div(pool, QDOT_ONE, d.cosine);
-    case QDOT_CSC: return qdot_div(pool, QDOT_ONE, d.sine);
-    default: return QDOT_NIL;
-    }
-}
-
-static bool
-is_trigonometric(const qdot_pool *pool, qdot_expr e)
-{
-    const qdot_node *node = qdot_expr_node(pool, e);
-
-    return node->kind == QDOT_FUN &&
-           (node->op == QDOT_SIN || node->op == QDOT_COS || node->op == QDOT_TAN ||
-            node->op == QDOT_COT || node->op == QDOT_SEC || node->op == QDOT_CSC);
-}
-
-static bool
-holds_moved_angle(const rewriting *r, qdot_expr e)
-{
-    for (size_t i = 0; i < r->c->moved.n; i++)
-        if (r->c->moved.at[i].angle &&
-            qdot_expr_contains(r->pool, e, r->c->moved.at[i].q))
-            return true;
-    return false;
-}
-
-static qdot_status
-replace_trigonometric(rewriting *r, qdot_expr e)
-{
-    expressions found = {0};
-    qdot_status status;
-    qdot_walk w;
-
-    QDOT_TRY(qdot_walk_begin(r->pool, e, &w));
-    status = QDOT_OK;
-    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
-        if (is_trigonometric(r->pool, w.at[i]))
-            status = qdot_vec_push(&found, w.at[i]);
-    qdot_walk_end(&w);
-    for (size_t i = 0; i < found.n && status == QDOT_OK; i++) {
-        const qdot_expr f = found.at[i], angle = qdot_expr_arg(r->pool, f, 0);
-        direction d;
-
-        if (holds_moved_angle(r, angle) && find_direction(r, angle, &d))
-            status =
-                replace(r, f, of_direction(r->pool, qdot_expr_node(r->pool, f)->op, d));
-    }
-    qdot_free(found.at);
-    return status;
-}
-
-/* --- coordinates and their rates ------------------------------------------------------- */
-
-/* de/dt, where N' = (N^2)'/(2 N). */
-static qdot_expr
-rate(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
-{
-    qdot_expr sum = qdot_ddt(pool, e);
-
-    for (size_t i = 0; i < c->distances.n; i++) {
-        const qdot_chart_distance *d = c->distances.at + i;
-        const qdot_expr change = qdot_div(
-            pool, qdot_mul(pool, QDOT_HALF, qdot_ddt(pool, d->square)), d->symbol);
-
-        if (qdot_expr_contains(pool, e, d->symbol))
-            sum = qdot_add(pool, sum,
-                           qdot_mul(pool, qdot_diff(pool, e, d->symbol), change));
-    }
-    return sum;
-}
-
-/* d atan2(y, x)/dt */
-static qdot_expr
-angle_rate(const qdot_chart *c, qdot_pool *pool, const qdot_chart_moved *m)
-{
-    const qdot_expr turn = qdot_sub(pool, qdot_mul(pool, m->x, rate(c, pool, m->y)),
-                                    qdot_mul(pool, m->y, rate(c, pool, m->x)));
-
-    return qdot_div(
-        pool, turn,
-        qdot_add(pool, qdot_mul(pool, m->x, m->x), qdot_mul(pool, m->y, m->y)));
-}
-
-static qdot_status
-replace_coordinates(rewriting *r, uint32_t holds)
-{
-    const qdot_chart *c = r->c;
-    qdot_pool *pool = r->pool;
-
-    for (size_t i = 0; i < c->moved.n; i++) {
-        const qdot_chart_moved *m = c->moved.at + i;
-        qdot_expr first;
-
-        QDOT_TRY(replace(r, m->q, m->angle ? m->bare : m->value));
-        if (!(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION)))
-            continue;
-        first = m->angle ? angle_rate(c, pool, m) : rate(c, pool, m->value);
-        QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 1), first));
-        if (holds & QDOT_HAS_ACCELERATION)
-            QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 2), rate(c, pool, first)));
-    }
-    return QDOT_OK;
-}
-
-qdot_expr
-qdot_chart_put(const qdot_chart *c, qdot_expr e)
-{
-    rewriting r = {.c = c, .pool = c->pool};
-    qdot_status status;
-
-    if (e == QDOT_NIL)
-        return QDOT_NIL;
-    status = replace_trigonometric(&r, e);
-    if (status == QDOT_OK)
-        status = replace_coordinates(&r, qdot_expr_node(r.pool, e)->holds);
-    e = status == QDOT_OK ? qdot_subs(r.pool, e, r.from.n, r.from.at, r.to.at)
-                          : qdot_pool_fail(r.pool);
-    qdot_free(r.from.at);
-    qdot_free(r.to.at);
-    return e;
-}
-
-/* The angle of m, within half a turn of so many quarters. */
-static qdot_expr
-angle_from(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
-{
-    const qdot_expr x[] = {m->x, m->y, qdot_neg(pool, m->x), qdot_neg(pool, m->y)};
-    const size_t k = (size_t)(((quarters % 4) + 4) % 4);
-    /* y, then x, turned back by k quarters */
-    const qdot_expr sides[] = {x[(k + 1) % 4], x[k]};
-
-    return qdot_add(pool, qdot_mul(pool, qdot_expr_ratio(pool, quarters, 2), QDOT_PI),
-                    qdot_fun(pool, QDOT_ATAN2, 2, sides));
-}
-
-qdot_expr
-qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
-{
-    qdot_pool *pool = c->pool;
-
-    if (turns)
-        *turns = false;
-    e = qdot_chart_put(c, e);
-    for (size_t i = 0; i < c->moved.n && e != QDOT_NIL; i++) {
-        const qdot_chart_moved *m = c->moved.at + i;
-        qdot_expr angle;
-
-        if (!m->angle || !qdot_expr_contains(pool, e, m->bare))
-            continue;
-        angle = angle_from(pool, m, quarters ? quarters[i] : 0);
-        e = qdot_subs(pool, e, 1, &m->bare, &angle);
-        if (turns)
-            *turns = true;
-    }
-    for (size_t i = 0; i < c->distances.n && e != QDOT_NIL; i++) {
-        const qdot_expr N = qdot_sqrt(pool, c->distances.at[i].square);
-
-        e = qdot_subs(pool, e, 1, &c->distances.at[i].symbol, &N);
-    }
-    return e;
-}
-
-/* --- what is regular -------------------------------------------------------------------- */
+/* --- products ------------------------------------------------------------------------------ */
 
 /* Base and exponent of factor k of a product. */
 static qdot_expr
@@ -265,36 +47,403 @@ factors_of(const qdot_pool *pool, qdot_expr product)
     return (qdot_expr_count(pool, product) - 1) / 2;
 }
 
-/* Even powers of N as powers of N^2. */
+/* --- sines and cosines ---------------------------------------------------------------- */
+
+typedef struct {
+    qdot_expr cosine, sine;
+} direction;
+
+/* Whether m is known by cosh and sinh, or by cos and sin. */
+static bool
+is_of(const qdot_chart_moved *m, bool hyperbolic)
+{
+    return m->sort == (hyperbolic ? QDOT_CHART_HYPERBOLIC : QDOT_CHART_ANGLE);
+}
+
+/* Of the sum of two angles; or of two lengths, by cosh and sinh. */
+static direction
+turned(qdot_pool *pool, direction a, direction b, bool hyperbolic)
+{
+    const qdot_expr sines = qdot_mul(pool, a.sine, b.sine);
+
+    return (direction){qdot_add(pool, qdot_mul(pool, a.cosine, b.cosine),
+                                hyperbolic ? sines : qdot_neg(pool, sines)),
+                       qdot_add(pool, qdot_mul(pool, a.sine, b.cosine),
+                                qdot_mul(pool, a.cosine, b.sine))};
+}
+
+/* Of `angle`, whose multiples of moved angles, or lengths, are whole numbers; false if one is not. */
+static bool
+find_direction(const rewriting *r, qdot_expr angle, bool hyperbolic, direction *d)
+{
+    qdot_pool *pool = r->pool;
+    direction sum = {QDOT_ONE, QDOT_ZERO};
+
+    for (size_t i = 0; i < r->c->moved.n; i++) {
+        const qdot_chart_moved *m = r->c->moved.at + i;
+        direction one = {m->cosine, m->sine};
+        long times;
+
+        if (!is_of(m, hyperbolic) || !qdot_expr_contains(pool, angle, m->q))
+            continue;
+        if (!qdot_expr_to_int(pool, qdot_diff(pool, angle, m->q), &times) ||
+            labs(times) > MOST_MULTIPLE)
+            return false;
+        if (times < 0)
+            one.sine = qdot_neg(pool, one.sine);
+        for (long k = 0; k < labs(times); k++)
+            sum = turned(pool, sum, one, hyperbolic);
+        angle = qdot_subs(pool, angle, 1, &m->q, (qdot_expr[]){QDOT_ZERO});
+    }
+    for (size_t i = 0; i < r->c->moved.n; i++)
+        if (qdot_expr_contains(pool, angle, r->c->moved.at[i].q))
+            return false; /* a length is left in it */
+    *d = turned(pool, sum,
+                (direction){qdot_fun1(pool, hyperbolic ? QDOT_COSH : QDOT_COS, angle),
+                            qdot_fun1(pool, hyperbolic ? QDOT_SINH : QDOT_SIN, angle)},
+                hyperbolic);
+    return true;
+}
+
 static qdot_expr
-put_squares(qdot_pool *pool, qdot_expr node, void *user)
+of_direction(qdot_pool *pool, uint16_t function, direction d)
+{
+    switch (function) {
+    case QDOT_SINH:
+    case QDOT_SIN: return d.sine;
+    case QDOT_COSH:
+    case QDOT_COS: return d.cosine;
+    case QDOT_TANH:
+    case QDOT_TAN: return qdot_div(pool, d.sine, d.cosine);
+    case QDOT_COT: return qdot_div(pool, d.cosine, d.sine);
+    case QDOT_SEC: return qdot_div(pool, QDOT_ONE, d.cosine);
+    case QDOT_CSC: return qdot_div(pool, QDOT_ONE, d.sine);
+    default: return QDOT_NIL;
+    }
+}
+
+static bool
+is_hyperbolic(uint16_t function)
+{
+    return function == QDOT_SINH || function == QDOT_COSH || function == QDOT_TANH;
+}
+
+static bool
+holds_moved(const rewriting *r, qdot_expr e, bool hyperbolic)
+{
+    for (size_t i = 0; i < r->c->moved.n; i++)
+        if (is_of(r->c->moved.at + i, hyperbolic) &&
+            qdot_expr_contains(r->pool, e, r->c->moved.at[i].q))
+            return true;
+    return false;
+}
+
+static qdot_status
+replace_functions(rewriting *r, qdot_expr e)
+{
+    expressions found = {0};
+    qdot_status status;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(r->pool, e, &w));
+    status = QDOT_OK;
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++)
+        if (qdot_expr_kind(r->pool, w.at[i]) == QDOT_FUN)
+            status = qdot_vec_push(&found, w.at[i]);
+    qdot_walk_end(&w);
+    for (size_t i = 0; i < found.n && status == QDOT_OK; i++) {
+        const uint16_t function = qdot_expr_node(r->pool, found.at[i])->op;
+        const bool hyperbolic = is_hyperbolic(function);
+        qdot_expr angle, now = QDOT_NIL;
+        direction d = {QDOT_ONE, QDOT_ZERO};
+
+        if (of_direction(r->pool, function, d) == QDOT_NIL)
+            continue;
+        angle = qdot_expr_arg(r->pool, found.at[i], 0);
+        if (holds_moved(r, angle, hyperbolic) && find_direction(r, angle, hyperbolic, &d))
+            now = of_direction(r->pool, function, d);
+        if (now != QDOT_NIL)
+            status = replace(r, found.at[i], now);
+    }
+    qdot_free(found.at);
+    return status;
+}
+
+/* --- coordinates and their rates ------------------------------------------------------- */
+
+qdot_expr
+qdot_chart_rate(const qdot_chart *c, qdot_expr e)
+{
+    qdot_pool *pool = c->pool;
+    qdot_expr sum = qdot_ddt(pool, e);
+
+    for (size_t i = 0; i < c->roots.n; i++) {
+        const qdot_chart_root *root = c->roots.at + i;
+        qdot_expr change = root->rate;
+
+        if (!qdot_expr_contains(pool, e, root->symbol))
+            continue;
+        if (change == QDOT_NIL) /* N' = (N^2)'/(2 N) */
+            change = qdot_div(
+                pool, qdot_mul(pool, QDOT_HALF, qdot_chart_rate(c, root->square)), root->symbol);
+        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, root->symbol), change));
+    }
+    return sum;
+}
+
+/* The rate of a coordinate of a group. */
+static qdot_expr
+moved_rate(const qdot_chart *c, const qdot_chart_moved *m)
+{
+    qdot_pool *pool = c->pool;
+    qdot_expr turn, size;
+
+    if (m->rate != QDOT_NIL)
+        return m->rate;
+    if (m->sort != QDOT_CHART_ANGLE)
+        return qdot_chart_rate(c, m->value);
+    /* d atan2(y, x)/dt */
+    turn = qdot_sub(pool, qdot_mul(pool, m->x, qdot_chart_rate(c, m->y)),
+                    qdot_mul(pool, m->y, qdot_chart_rate(c, m->x)));
+    size = qdot_add(pool, qdot_mul(pool, m->x, m->x), qdot_mul(pool, m->y, m->y));
+    return qdot_div(pool, turn, size);
+}
+
+static qdot_status
+replace_coordinates(rewriting *r, uint32_t holds)
+{
+    const qdot_chart *c = r->c;
+    qdot_pool *pool = r->pool;
+
+    for (size_t i = 0; i < c->moved.n; i++) {
+        const qdot_chart_moved *m = c->moved.at + i;
+        qdot_expr first;
+
+        QDOT_TRY(replace(r, m->q, m->bare != QDOT_NIL ? m->bare : m->value));
+        if (!(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
+            || qdot_expr_symbol(pool, m->q)->class != QDOT_COORD)
+            continue;
+        first = moved_rate(c, m);
+        QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 1), first));
+        if (holds & QDOT_HAS_ACCELERATION)
+            QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 2), qdot_chart_rate(c, first)));
+    }
+    return QDOT_OK;
+}
+
+/* P^(k/2) as w^k. */
+static qdot_expr
+put_branches(qdot_pool *pool, qdot_expr node, void *user)
 {
     const qdot_chart *c = user;
+    const qdot_expr two = qdot_expr_int(pool, 2);
     qdot_expr factor = QDOT_ONE;
 
     for (uint32_t f = 0; f < factors_of(pool, node); f++) {
-        const qdot_expr base = base_of(pool, node, f),
-                        exponent = exponent_of(pool, node, f);
-        long k;
+        const qdot_expr base = base_of(pool, node, f), exponent = exponent_of(pool, node, f);
+        long twice;
 
-        if (!qdot_expr_to_int(pool, exponent, &k) || k % 2 != 0)
+        if (!qdot_expr_to_int(pool, qdot_mul(pool, two, exponent), &twice) || twice % 2 == 0)
             continue;
-        for (size_t i = 0; i < c->distances.n; i++)
-            if (base == c->distances.at[i].symbol)
+        for (size_t i = 0; i < c->signs.n; i++)
+            if (base == c->signs.at[i].square)
                 factor = qdot_mul(
                     pool, factor,
-                    qdot_mul(pool, qdot_pow_int(pool, base, -k),
-                             qdot_pow_int(pool, c->distances.at[i].square, k / 2)));
+                    qdot_mul(pool, qdot_pow(pool, base, qdot_neg(pool, exponent)),
+                             qdot_pow_int(pool, c->signs.at[i].symbol, twice)));
     }
     return factor == QDOT_ONE ? node : qdot_mul(pool, node, factor);
 }
 
-/* Whether `e` is N^2 of a group, or a factor of it. */
+qdot_expr
+qdot_chart_put(const qdot_chart *c, qdot_expr e)
+{
+    rewriting r = {.c = c, .pool = c->pool};
+    qdot_status status;
+    bool branches = false;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    for (size_t i = 0; i < c->signs.n; i++)
+        branches = branches || c->signs.at[i].branch;
+    if (branches)
+        e = qdot_walk_replace(r.pool, e, QDOT_PROD, put_branches, (void *)(uintptr_t)c);
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    status = replace_functions(&r, e);
+    if (status == QDOT_OK)
+        status = replace_coordinates(&r, qdot_expr_node(r.pool, e)->holds);
+    e = status == QDOT_OK ? qdot_subs(r.pool, e, r.from.n, r.from.at, r.to.at)
+                          : qdot_pool_fail(r.pool);
+    qdot_free(r.from.at);
+    qdot_free(r.to.at);
+    return e;
+}
+
+/* The exponent of `symbol` in a product, if it is a whole number. */
+static long
+power_in(const qdot_pool *pool, qdot_expr product, qdot_expr symbol)
+{
+    long k = 0;
+
+    for (uint32_t f = 0; f < factors_of(pool, product); f++)
+        if (base_of(pool, product, f) == symbol
+            && !qdot_expr_to_int(pool, exponent_of(pool, product, f), &k))
+            return 0;
+    return k;
+}
+
+/* Multiply by (what/(symbol^a other^b))^times. */
+static qdot_expr
+exchanged(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, long times)
+{
+    return qdot_mul(pool, e,
+                    qdot_mul(pool, qdot_pow_int(pool, from, -times),
+                             qdot_pow_int(pool, to, times)));
+}
+
+/* Products of two roots, then even powers of roots and signs, by what they are. */
+static qdot_expr
+put_squares(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const qdot_chart *c = user;
+
+    for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
+        const qdot_chart_root *root = c->roots.at + i;
+        const long own = power_in(pool, node, root->symbol);
+        const long both =
+            root->partner == QDOT_NIL ? 0 : power_in(pool, node, root->partner);
+
+        if (own > 0 && both > 0)
+            node = exchanged(pool, node, qdot_mul(pool, root->symbol, root->partner),
+                             root->product, own < both ? own : both);
+    }
+    for (size_t i = 0; i < c->roots.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
+        const qdot_chart_root *root = c->roots.at + i;
+        const long half = power_in(pool, node, root->symbol) / 2;
+
+        if (half != 0)
+            node = exchanged(pool, node, qdot_pow_int(pool, root->symbol, 2), root->square, half);
+    }
+    for (size_t i = 0; i < c->signs.n && qdot_expr_kind(pool, node) == QDOT_PROD; i++) {
+        const qdot_chart_sign *s = c->signs.at + i;
+        const long half = s->branch ? 0 : power_in(pool, node, s->symbol) / 2;
+
+        if (half != 0)
+            node = exchanged(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
+    }
+    return node;
+}
+
+/* The angle of m less so many quarter turns. */
+static qdot_expr
+angle_beyond(qdot_pool *pool, const qdot_chart_moved *m, long quarters)
+{
+    const qdot_expr x[] = {m->x, m->y, qdot_neg(pool, m->x), qdot_neg(pool, m->y)};
+    const size_t k = (size_t)(((quarters % 4) + 4) % 4);
+    /* y, then x, turned back by k quarters */
+    const qdot_expr sides[] = {x[(k + 1) % 4], x[k]};
+
+    return qdot_fun(pool, QDOT_ATAN2, 2, sides);
+}
+
+static direction
+direction_of(qdot_pool *pool, qdot_expr angle)
+{
+    return (direction){qdot_fun1(pool, QDOT_COS, angle), qdot_fun1(pool, QDOT_SIN, angle)};
+}
+
+/* The angle of m in e, within half a turn of so many quarters. Of its half, which may be at a zero of
+ * sin or cos, the quarters are taken apart: no rounding of pi is left there. */
+static qdot_expr
+put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters)
+{
+    const qdot_expr turns = qdot_mul(pool, qdot_expr_ratio(pool, quarters, 2), QDOT_PI);
+    const qdot_expr beyond = angle_beyond(pool, m, quarters);
+    const direction bare = direction_of(pool, qdot_mul(pool, QDOT_HALF, m->bare));
+    const direction half =
+        turned(pool, direction_of(pool, qdot_mul(pool, QDOT_HALF, turns)),
+               direction_of(pool, qdot_mul(pool, QDOT_HALF, beyond)), false);
+
+    return qdot_subs(pool, e, 3, (qdot_expr[]){bare.cosine, bare.sine, m->bare},
+                     (qdot_expr[]){half.cosine, half.sine, qdot_add(pool, turns, beyond)});
+}
+
+/* The angles, roots and signs that e holds, once: values hold others. */
+static qdot_expr
+put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+{
+    qdot_pool *pool = c->pool;
+
+    for (size_t i = 0; i < c->moved.n && e != QDOT_NIL; i++) {
+        const qdot_chart_moved *m = c->moved.at + i;
+
+        if (m->bare == QDOT_NIL || !qdot_expr_contains(pool, e, m->bare))
+            continue;
+        e = put_angle(pool, e, m, quarters ? quarters[i] : 0);
+        *turns = true;
+    }
+    for (size_t i = 0; i < c->roots.n && e != QDOT_NIL; i++) {
+        const qdot_chart_root *root = c->roots.at + i;
+        qdot_expr value = root->value;
+
+        if (!qdot_expr_contains(pool, e, root->symbol))
+            continue;
+        if (value == QDOT_NIL)
+            value = qdot_sqrt(pool, root->square);
+        e = qdot_subs(pool, e, 1, &root->symbol, &value);
+    }
+    for (size_t i = 0; i < c->signs.n && e != QDOT_NIL; i++) {
+        const qdot_chart_sign *s = c->signs.at + i;
+        const long now = quarters ? quarters[c->moved.n + i] : s->start;
+        const qdot_expr value = qdot_expr_int(pool, now);
+
+        if (!qdot_expr_contains(pool, e, s->symbol))
+            continue;
+        *turns = true;
+        if (!s->branch)
+            e = qdot_subs(pool, e, 1, &s->symbol, &value);
+    }
+    return e;
+}
+
+qdot_expr
+qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+{
+    bool some = false;
+
+    e = qdot_chart_put(c, e);
+    if (e != QDOT_NIL)
+        e = qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
+    /* v holds sinh u, that an angle, that a distance */
+    for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
+        e = put_values(c, e, quarters, &some);
+    if (turns)
+        *turns = some;
+    return e;
+}
+
+const qdot_chart_sign *
+qdot_chart_beyond(const qdot_chart *c, qdot_expr e, const long *quarters)
+{
+    for (size_t i = 0; i < c->signs.n; i++)
+        if (c->signs.at[i].branch && quarters[c->moved.n + i] < 0
+            && qdot_expr_contains(c->pool, e, c->signs.at[i].symbol))
+            return c->signs.at + i;
+    return NULL;
+}
+
+/* --- what is regular -------------------------------------------------------------------- */
+
+/* Whether `e` is the square of a root, or a factor of it; or a root w that is a coordinate. */
 static bool
 is_of_square(const qdot_chart *c, const qdot_pool *pool, qdot_expr e)
 {
-    for (size_t i = 0; i < c->distances.n; i++) {
-        const qdot_expr square = c->distances.at[i].square;
+    for (size_t i = 0; i < c->signs.n; i++)
+        if (c->signs.at[i].branch && c->signs.at[i].symbol == e)
+            return true;
+    for (size_t i = 0; i < c->roots.n; i++) {
+        const qdot_expr square = c->roots.at[i].square;
 
         if (e == square)
             return true;
@@ -312,20 +461,24 @@ static bool
 holds_bare(const qdot_chart *c, qdot_expr e)
 {
     for (size_t i = 0; i < c->moved.n; i++)
-        if (c->moved.at[i].angle && qdot_expr_contains(c->pool, e, c->moved.at[i].bare))
+        if (c->moved.at[i].bare != QDOT_NIL &&
+            qdot_expr_contains(c->pool, e, c->moved.at[i].bare))
             return true;
     return false;
 }
 
-/* Whether e holds N, a power of N^2 that is not smooth, or an angle outside of sin and cos. */
+/* Whether e holds a root, a power of its square that is not smooth, or an angle outside of sin and cos. */
 static bool
 is_singular(const qdot_chart *c, qdot_pool *pool, qdot_expr e)
 {
     bool singular = holds_bare(c, e);
     qdot_walk w;
 
-    for (size_t i = 0; i < c->distances.n; i++)
-        singular = singular || qdot_expr_contains(pool, e, c->distances.at[i].symbol);
+    for (size_t i = 0; i < c->roots.n; i++)
+        singular = singular || qdot_expr_contains(pool, e, c->roots.at[i].symbol);
+    for (size_t i = 0; i < c->signs.n; i++)
+        singular =
+            singular || (!c->signs.at[i].branch && qdot_expr_contains(pool, e, c->signs.at[i].symbol));
     if (singular || qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return true;
     for (size_t i = 0; i < w.n; i++)
@@ -351,13 +504,13 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     e = qdot_chart_put(c, e);
     if (e == QDOT_NIL || holds_bare(c, e)) /* no simplification would help */
         return QDOT_NIL;
-    for (int tries = 0; tries < 3; tries++) {
+    for (int tries = 0; tries < 4; tries++) {
         e = qdot_walk_replace(pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
         if (e == QDOT_NIL)
             return QDOT_NIL;
         if (!is_singular(c, pool, e))
             return e;
-        e = tries == 0 ? qdot_expand(pool, e) : qdot_mech_tidy(c->of, e);
+        e = tries < 2 ? qdot_expand(pool, e) : qdot_mech_tidy(c->of, e);
     }
     return QDOT_NIL;
 }

@@ -23,209 +23,11 @@ qdot_chart_clear(qdot_chart *c)
     qdot_scene_free(c->scene);
     qdot_free(c->moved.at);
     qdot_free(c->fresh.at);
-    qdot_free(c->distances.at);
+    qdot_free(c->roots.at);
+    qdot_free(c->signs.at);
     qdot_free(c->unit.at);
     qdot_text_clear(&c->names);
     *c = (qdot_chart){0};
-}
-
-/* --- the formulas of a group ------------------------------------------------------------- */
-
-/* A chart that is being made. */
-typedef struct {
-    qdot_chart *c;
-    qdot_scene *s;
-    qdot_pool *pool;
-    const qdot_expr *q; /* of the scene given */
-} work;
-
-static const char *
-name_of(const work *w, size_t i)
-{
-    return qdot_expr_symbol(w->pool, w->q[i])->name;
-}
-
-static qdot_expr
-sine(const work *w, qdot_expr e)
-{
-    return qdot_fun1(w->pool, QDOT_SIN, e);
-}
-
-static qdot_expr
-cosine(const work *w, qdot_expr e)
-{
-    return qdot_fun1(w->pool, QDOT_COS, e);
-}
-
-static qdot_expr
-times(const work *w, qdot_expr a, qdot_expr b)
-{
-    return qdot_mul(w->pool, a, b);
-}
-
-static qdot_expr
-square_sum(const work *w, size_t n, const qdot_expr *x)
-{
-    qdot_expr sum = QDOT_ZERO;
-
-    for (size_t i = 0; i < n; i++)
-        sum = qdot_add(w->pool, sum, times(w, x[i], x[i]));
-    return sum;
-}
-
-/* A symbol of its own for coordinate i. */
-static qdot_expr
-own_symbol(const work *w, const char *what, size_t i)
-{
-    char name[120];
-
-    snprintf(name, sizeof name, "%s#%.80s", what, name_of(w, i));
-    return qdot_symbol_get(w->pool, QDOT_FORMAL, name);
-}
-
-/* Say that the group is written in its new coordinates k ..., or in `what`. */
-static void
-add_name(work *w, size_t k, const char *what)
-{
-    qdot_text *names = &w->c->names;
-
-    if (what)
-        qdot_text_format(names, "%s%s", names->n > 0 ? ", " : "", what);
-    for (; !what && k < w->c->fresh.n; k++)
-        qdot_text_format(names, "%s%s", names->n > 0 ? ", " : "",
-                         qdot_expr_symbol(w->pool, w->c->fresh.at[k].q)->name);
-}
-
-/* A new coordinate: it is called by what it is in those given. */
-static qdot_status
-add_fresh(work *w, qdot_expr given, qdot_expr *q)
-{
-    qdot_text name = {0};
-    qdot_status status = qdot_print(w->pool, given, QDOT_PLAIN, &name);
-
-    if (status == QDOT_OK)
-        *q = qdot_symbol_get(w->pool, QDOT_COORD, qdot_text_str(&name));
-    qdot_text_clear(&name);
-    QDOT_TRY(status);
-    return qdot_vec_push(&w->c->fresh, ((qdot_chart_fresh){*q, given}));
-}
-
-static qdot_status
-add_length(work *w, size_t i, qdot_expr value)
-{
-    return qdot_vec_push(&w->c->moved,
-                         ((qdot_chart_moved){.q = w->q[i], .value = value}));
-}
-
-/* The angle i = atan2(y, x), where x^2 + y^2 = norm^2. */
-static qdot_status
-add_angle(work *w, size_t i, qdot_expr x, qdot_expr y, qdot_expr norm)
-{
-    return qdot_vec_push(&w->c->moved,
-                         ((qdot_chart_moved){.q = w->q[i],
-                                             .angle = true,
-                                             .cosine = qdot_div(w->pool, x, norm),
-                                             .sine = qdot_div(w->pool, y, norm),
-                                             .x = x,
-                                             .y = y,
-                                             .bare = own_symbol(w, "angle", i)}));
-}
-
-static qdot_status
-put_plane(work *w, const size_t *index, qdot_expr sign)
-{
-    const qdot_expr r = w->q[index[0]], phi = w->q[index[1]];
-    const qdot_expr N = own_symbol(w, "distance", index[1]);
-    qdot_expr x[2];
-
-    QDOT_TRY(add_fresh(w, times(w, r, cosine(w, phi)), x));
-    QDOT_TRY(add_fresh(w, times(w, r, sine(w, phi)), x + 1));
-    QDOT_TRY(
-        qdot_vec_push(&w->c->distances, ((qdot_chart_distance){N, square_sum(w, 2, x)})));
-    QDOT_TRY(add_length(w, index[0], times(w, sign, N)));
-    return add_angle(w, index[1], times(w, sign, x[0]), times(w, sign, x[1]), N);
-}
-
-/* r is 1 on a sphere: index [2] is then of theta, phi. */
-static qdot_status
-put_space(work *w, const size_t *index, qdot_expr sign, bool sphere)
-{
-    const size_t i = index[sphere ? 0 : 1], j = index[sphere ? 1 : 2];
-    const qdot_expr theta = w->q[i], phi = w->q[j],
-                    r = sphere ? QDOT_ONE : w->q[index[0]];
-    const qdot_expr N = own_symbol(w, "distance", j);
-    qdot_expr x[3], across = times(w, r, sine(w, theta)), R;
-
-    QDOT_TRY(add_fresh(w, times(w, across, cosine(w, phi)), x));
-    QDOT_TRY(add_fresh(w, times(w, across, sine(w, phi)), x + 1));
-    QDOT_TRY(add_fresh(w, times(w, r, cosine(w, theta)), x + 2));
-    QDOT_TRY(
-        qdot_vec_push(&w->c->distances, ((qdot_chart_distance){N, square_sum(w, 2, x)})));
-    R = sphere ? QDOT_ONE : qdot_sqrt(w->pool, square_sum(w, 3, x));
-    if (sphere)
-        QDOT_TRY(qdot_vec_push(&w->c->unit, square_sum(w, 3, x)));
-    else
-        QDOT_TRY(add_length(w, index[0], R));
-    QDOT_TRY(add_angle(w, i, x[2], times(w, sign, N), R));
-    return add_angle(w, j, times(w, sign, x[0]), times(w, sign, x[1]), N);
-}
-
-static qdot_status
-put_body(work *w, const size_t *index, qdot_expr sign)
-{
-    const qdot_expr phi = w->q[index[0]], theta = w->q[index[1]], psi = w->q[index[2]];
-    const qdot_expr tilt = times(w, QDOT_HALF, theta);
-    const qdot_expr sum = times(w, QDOT_HALF, qdot_add(w->pool, phi, psi));
-    const qdot_expr difference = times(w, QDOT_HALF, qdot_sub(w->pool, phi, psi));
-    const qdot_expr N = own_symbol(w, "distance", index[1]);
-    const qdot_expr given[] = {times(w, cosine(w, tilt), cosine(w, sum)),
-                               times(w, sine(w, tilt), cosine(w, difference)),
-                               times(w, sine(w, tilt), sine(w, difference)),
-                               times(w, cosine(w, tilt), sine(w, sum))};
-    qdot_expr e[4], R[9];
-
-    for (size_t k = 0; k < 4; k++)
-        QDOT_TRY(add_fresh(w, given[k], e + k));
-    QDOT_TRY(qdot_vec_push(&w->c->unit, square_sum(w, 4, e)));
-    qdot_chart_body_axes(w->pool, e, R);
-    QDOT_TRY(qdot_vec_push(
-        &w->c->distances,
-        ((qdot_chart_distance){
-            N, times(w, qdot_expr_int(w->pool, 4),
-                     times(w, square_sum(w, 2, e + 1),
-                           square_sum(w, 2, (qdot_expr[]){e[0], e[3]})))})));
-    QDOT_TRY(add_angle(w, index[0], qdot_neg(w->pool, times(w, sign, R[5])),
-                       times(w, sign, R[2]), N));
-    QDOT_TRY(add_angle(w, index[1], R[8], times(w, sign, N), QDOT_ONE));
-    QDOT_TRY(add_angle(w, index[2], times(w, sign, R[7]), times(w, sign, R[6]), N));
-    return qdot_chart_body_replace(w->s, w->c->scene,
-                                   qdot_scene_euler(w->pool, phi, theta, psi), R,
-                                   w->c->hindrance, sizeof w->c->hindrance);
-}
-
-static size_t
-size_of(qdot_chart_kind kind)
-{
-    return kind == QDOT_CHART_PLANE || kind == QDOT_CHART_SPHERE ? 2 : 3;
-}
-
-static qdot_status
-put_group(work *w, const qdot_chart_group *g, int sign)
-{
-    const qdot_expr way = sign < 0 ? QDOT_MINUS_ONE : QDOT_ONE;
-    const size_t before = w->c->fresh.n;
-    char what[200];
-
-    switch (g->kind) {
-    case QDOT_CHART_PLANE: QDOT_TRY(put_plane(w, g->index, way)); break;
-    case QDOT_CHART_SPACE: QDOT_TRY(put_space(w, g->index, way, false)); break;
-    case QDOT_CHART_SPHERE: QDOT_TRY(put_space(w, g->index, way, true)); break;
-    default: QDOT_TRY(put_body(w, g->index, way));
-    }
-    snprintf(what, sizeof what, "the unit quaternion of %.50s, %.50s, %.50s",
-             name_of(w, g->index[0]), name_of(w, g->index[1]), name_of(w, g->index[2]));
-    add_name(w, before, g->kind == QDOT_CHART_BODY ? what : NULL);
-    return QDOT_OK;
 }
 
 /* --- the scene anew ------------------------------------------------------------------------ */
@@ -235,16 +37,6 @@ is_moved(const qdot_chart *c, qdot_expr q)
 {
     for (size_t i = 0; i < c->moved.n; i++)
         if (c->moved.at[i].q == q)
-            return true;
-    return false;
-}
-
-/* Whether the angle is singular at 0 and pi, as it lies between N and an axis. */
-static bool
-is_tilt(const qdot_chart *c, const qdot_chart_moved *m)
-{
-    for (size_t i = 0; i < c->distances.n; i++)
-        if (qdot_expr_contains(c->pool, m->y, c->distances.at[i].symbol))
             return true;
     return false;
 }
@@ -265,33 +57,45 @@ regular(qdot_expr e, void *user)
     return e;
 }
 
-/* A domain ends at singular places alone, which are none of the new coordinates. */
+/* A domain ends at singular places alone, which are none of the new coordinates. Where one does
+ * the sign of the coordinate stays. */
 static void
-check_domain(work *w, const qdot_chart_moved *m)
+check_domain(qdot_chart *c, qdot_chart_moved *m)
 {
-    const qdot_symbol *x = qdot_expr_symbol(w->pool, m->q);
-    const bool within = !m->angle
-                            ? x->lo == QDOT_ZERO && x->hi == QDOT_NIL
-                            : x->lo == QDOT_ZERO && x->hi == QDOT_PI && is_tilt(w->c, m);
+    const qdot_symbol *x = qdot_expr_symbol(c->pool, m->q);
 
-    if ((x->lo != QDOT_NIL || x->hi != QDOT_NIL) && !within)
-        snprintf(w->c->hindrance, sizeof w->c->hindrance,
-                 "the domain of %.80s ends elsewhere", x->name);
+    if ((x->lo != QDOT_NIL && x->lo != m->ends[0]) || (x->hi != QDOT_NIL && x->hi != m->ends[1]))
+        snprintf(c->hindrance, sizeof c->hindrance, "the domain of %.80s ends elsewhere", x->name);
+    if (x->lo == QDOT_NIL && x->hi == QDOT_NIL)
+        return;
+    m->between = x->lo != QDOT_NIL && x->hi != QDOT_NIL;
+    if (m->sign > 0)
+        c->signs.at[m->sign - 1].fixed = true;
 }
 
-/* Whether e holds an angle outside of sin and cos that would jump after a turn; in a domain between
- * singular places it has no turns. */
+/* Whether e holds an angle outside of sin and cos that would jump after a turn, in a domain between
+ * singular places it has no turns; or a root that may change its sign. */
 static bool
-jumps(const qdot_chart *c, qdot_expr e)
+jumps(qdot_chart *c, qdot_expr e)
 {
-    const qdot_expr now = qdot_chart_put(c, e);
+    qdot_expr now = qdot_chart_put(c, e);
 
+    for (size_t i = 0; i < c->roots.n && now != QDOT_NIL; i++)
+        if (c->roots.at[i].value != QDOT_NIL)
+            now = qdot_subs(c->pool, now, 1, &c->roots.at[i].symbol, &c->roots.at[i].value);
     for (size_t i = 0; i < c->moved.n && now != QDOT_NIL; i++) {
         const qdot_chart_moved *m = c->moved.at + i;
 
-        if (m->angle && qdot_expr_symbol(c->pool, m->q)->lo == QDOT_NIL &&
-            qdot_expr_contains(c->pool, now, m->bare))
+        if (m->bare != QDOT_NIL && !m->between && qdot_expr_contains(c->pool, now, m->bare))
             return true;
+    }
+    for (size_t i = 0; i < c->signs.n && now != QDOT_NIL; i++) {
+        const qdot_chart_sign *s = c->signs.at + i;
+        const bool holds = !s->fixed && qdot_expr_contains(c->pool, now, s->symbol);
+
+        if (holds && s->branch)
+            return true;
+        c->signed_events |= holds;
     }
     return false;
 }
@@ -334,7 +138,7 @@ static void
 check_lengths(qdot_chart *c)
 {
     for (size_t k = 0; k < c->moved.n; k++)
-        for (size_t i = 0; i < c->scene->particles.n && !c->moved.at[k].angle; i++)
+        for (size_t i = 0; i < c->scene->particles.n && c->moved.at[k].sort == QDOT_CHART_LENGTH; i++)
             if (qdot_expr_contains(
                     c->pool, c->scene->particles.at[i].position,
                     qdot_mul(c->pool, c->moved.at[k].value, c->moved.at[k].value)))
@@ -344,68 +148,83 @@ check_lengths(qdot_chart *c)
 }
 
 static qdot_status
-complete(work *w)
+complete(qdot_chart *c)
 {
-    qdot_chart *c = w->c;
-    const qdot_scene *s = w->s;
+    const qdot_scene *s = c->of;
 
     for (size_t i = 0; i < c->fresh.n; i++)
         QDOT_TRY(qdot_scene_coordinate(c->scene, c->fresh.at[i].q));
     for (size_t i = 0; i < c->moved.n; i++)
-        check_domain(w, c->moved.at + i);
+        check_domain(c, c->moved.at + i);
     QDOT_TRY(qdot_scene_map(c->scene, regular, c));
     check_lengths(c);
     for (size_t i = 0; i < c->unit.n && c->hindrance[0] == '\0'; i++)
-        QDOT_TRY(qdot_scene_constraint(c->scene, NULL, c->unit.at[i], QDOT_ONE));
+        QDOT_TRY(qdot_scene_constraint(c->scene, NULL, c->unit.at[i], QDOT_ZERO));
     for (size_t i = 0; i < s->events.n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(copy_event(c, &s->events.at[i]));
-    return qdot_pool_check(w->pool);
+    return qdot_pool_check(c->pool);
 }
 
 static bool
 is_taken(const qdot_chart_groups *groups, size_t i)
 {
     for (size_t k = 0; k < groups->n; k++)
-        for (size_t j = 0; j < size_of(groups->at[k].kind); j++)
+        for (size_t j = 0; j < qdot_chart_size(groups->at[k].kind); j++)
             if (groups->at[k].index[j] == i)
                 return true;
     return false;
 }
 
+/* The constraints of s as they are, with their names and multipliers. */
+static qdot_status
+copy_constraints(const qdot_scene *s, qdot_scene *to)
+{
+    for (size_t i = 0; i < s->constraints.n; i++) {
+        qdot_constraint own = s->constraints.at[i];
+
+        QDOT_TRY(qdot_scene_copy_text(to, own.name, &own.name));
+        QDOT_TRY(qdot_scene_copy_text(to, own.label, &own.label));
+        QDOT_TRY(qdot_vec_push(&to->constraints, own));
+    }
+    return QDOT_OK;
+}
+
 /* The coordinates that stay, and the things; a generalized force on one that goes has no place. */
 static qdot_status
-begin_scene(work *w, const qdot_chart_groups *groups)
+begin_scene(qdot_chart *c, const qdot_chart_groups *groups)
 {
-    const qdot_scene *s = w->s;
-    qdot_chart *c = w->c;
+    const qdot_scene *s = c->of;
 
     for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr q = s->coordinates.at[i];
+
         if (!is_taken(groups, i)) {
-            QDOT_TRY(qdot_scene_coordinate(c->scene, w->q[i]));
+            QDOT_TRY(qdot_scene_coordinate(c->scene, q));
             continue;
         }
         for (size_t k = 0; k < s->torques.n; k++)
-            if (s->torques.at[k].coordinate == w->q[i])
-                snprintf(c->hindrance, sizeof c->hindrance,
-                         "a generalized force acts on %.60s", name_of(w, i));
+            if (s->torques.at[k].coordinate == q)
+                snprintf(c->hindrance, sizeof c->hindrance, "a generalized force acts on %.60s",
+                         qdot_expr_symbol(c->pool, q)->name);
     }
-    return c->hindrance[0] == '\0' ? qdot_scene_copy_things(s, c->scene) : QDOT_OK;
+    if (c->hindrance[0] != '\0')
+        return QDOT_OK;
+    QDOT_TRY(qdot_scene_copy_things(s, c->scene));
+    return copy_constraints(s, c->scene);
 }
 
 qdot_status
 qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
                 qdot_chart *c)
 {
-    work w = {c, s, s->pool, s->coordinates.at};
-
     *c = (qdot_chart){.pool = s->pool, .of = s, .scene = qdot_scene_new(s->pool)};
     if (!c->scene)
         return QDOT_ENOMEM;
-    QDOT_TRY(begin_scene(&w, groups));
+    QDOT_TRY(begin_scene(c, groups));
     for (size_t i = 0; i < groups->n && c->hindrance[0] == '\0'; i++)
-        QDOT_TRY(put_group(&w, groups->at + i, sign ? sign[i] : 1));
+        QDOT_TRY(qdot_chart_add(c, groups->at + i, sign ? sign[i] : 1));
     if (c->hindrance[0] == '\0')
-        QDOT_TRY(complete(&w));
+        QDOT_TRY(complete(c));
     QDOT_TRY(qdot_text_status(&c->names));
     if (c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);
@@ -416,22 +235,6 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
 
 /* --- which groups there are ------------------------------------------------------------------ */
 
-/* The distance from the singular place, in the coordinates given. */
-static qdot_expr
-distance_of(const qdot_scene *s, const qdot_chart_group *g)
-{
-    const qdot_expr *q = s->coordinates.at;
-    const size_t *i = g->index;
-
-    switch (g->kind) {
-    case QDOT_CHART_PLANE: return q[i[0]];
-    case QDOT_CHART_SPACE:
-        return qdot_mul(s->pool, q[i[0]], qdot_fun1(s->pool, QDOT_SIN, q[i[1]]));
-    case QDOT_CHART_SPHERE: return qdot_fun1(s->pool, QDOT_SIN, q[i[0]]);
-    default: return qdot_fun1(s->pool, QDOT_SIN, q[i[1]]);
-    }
-}
-
 /* Take the group if the scene is regular without it. */
 static qdot_status
 try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
@@ -441,7 +244,7 @@ try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
     qdot_status status;
     bool good;
 
-    for (size_t k = 0; k < size_of(g.kind); k++)
+    for (size_t k = 0; k < qdot_chart_size(g.kind); k++)
         if (is_taken(groups, g.index[k]))
             return QDOT_OK;
     status = qdot_chart_make(s, &one, NULL, &chart);
@@ -449,14 +252,47 @@ try_group(qdot_scene *s, qdot_chart_group g, qdot_chart_groups *groups)
     qdot_chart_clear(&chart);
     if (status == QDOT_EINVAL || status == QDOT_ETYPE || status == QDOT_EDOMAIN)
         return QDOT_OK;
-    g.distance = distance_of(s, &g);
+    g.distance = qdot_chart_distance(s, &g);
     return status == QDOT_OK && good ? qdot_vec_push(groups, g) : status;
 }
 
-/* Which pairs of coordinates stand in one term of a place, or of the Lagrangian. */
+/* Which pairs of coordinates stand in one term of a place, or of the Lagrangian; and which
+ * coordinates stand there in cosh or sinh, or outside of functions. */
 typedef struct {
     bool at[MOST_COORDINATES][MOST_COORDINATES];
+    bool hyperbolic[MOST_COORDINATES], square[MOST_COORDINATES];
 } joined;
+
+/* Particles, then bodies. */
+static qdot_expr
+position_of(const qdot_scene *s, size_t i)
+{
+    return i < s->particles.n ? s->particles.at[i].position
+                              : s->bodies.at[i - s->particles.n].position;
+}
+
+/* Whether e holds f(q); function 0: q in a product, or by itself. */
+static bool
+holds_function(qdot_pool *pool, qdot_expr e, uint16_t function, qdot_expr q)
+{
+    bool holds = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && !holds; i++) {
+        const qdot_node *node = qdot_expr_node(pool, w.at[i]);
+
+        if (function)
+            holds = node->kind == QDOT_FUN && node->op == function &&
+                    qdot_expr_arg(pool, w.at[i], 0) == q;
+        else
+            for (uint32_t k = 0; node->kind == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k++)
+                holds = holds || qdot_expr_arg(pool, w.at[i], k) == q;
+    }
+    qdot_walk_end(&w);
+    return holds;
+}
 
 static void
 join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
@@ -470,6 +306,8 @@ join_pairs(const qdot_scene *s, qdot_expr e, joined *pairs)
 
         for (size_t j = 0; j < n && slope != QDOT_NIL; j++)
             pairs->at[i][j] |= qdot_expr_contains(s->pool, slope, s->coordinates.at[j]);
+        pairs->hyperbolic[i] |= holds_function(s->pool, e, QDOT_COSH, q);
+        pairs->square[i] |= holds_function(s->pool, e, 0, q);
     }
 }
 
@@ -478,14 +316,9 @@ find_pairs(const qdot_scene *s)
 {
     joined pairs = {0};
 
-    for (size_t i = 0; i < s->particles.n + s->bodies.n; i++) {
-        const qdot_expr r = i < s->particles.n
-                                ? s->particles.at[i].position
-                                : s->bodies.at[i - s->particles.n].position;
-
-        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, r); d++)
-            join_pairs(s, qdot_mech_component(s->pool, r, d), &pairs);
-    }
+    for (size_t i = 0; i < s->particles.n + s->bodies.n; i++)
+        for (uint32_t d = 0; d < qdot_mech_dimension(s->pool, position_of(s, i)); d++)
+            join_pairs(s, qdot_mech_component(s->pool, position_of(s, i), d), &pairs);
     join_pairs(s, s->lagrangian, &pairs);
     return pairs;
 }
@@ -501,41 +334,114 @@ may_be(const joined *pairs, const size_t *index, size_t n)
     return true;
 }
 
+/* What can be seen of coordinates at once: not one is of a kind that needs functions of it. */
+static bool
+fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
+{
+    const size_t n = qdot_chart_size(g->kind);
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < i; j++)
+            if (g->index[i] == g->index[j])
+                return false;
+    if (g->kind == QDOT_CHART_BODY)
+        return qdot_chart_body_fits(s, g->index);
+    if (n == 0)
+        return true;
+    if (!may_be(pairs, g->index, n))
+        return false;
+    switch (g->kind) {
+    case QDOT_CHART_ELLIPTIC:
+    case QDOT_CHART_PROLATE:
+    case QDOT_CHART_OBLATE:
+        return pairs->hyperbolic[g->index[0]] && !pairs->hyperbolic[g->index[1]];
+    case QDOT_CHART_PARABOLIC:
+    case QDOT_CHART_PARABOLOIDS: return pairs->square[g->index[0]] && pairs->square[g->index[1]];
+    default: return true;
+    }
+}
+
 static qdot_status
-try_kind(qdot_scene *s, qdot_chart_kind kind, const joined *pairs,
+try_kind(qdot_scene *s, qdot_chart_kind kind, bool turned, const joined *pairs,
          qdot_chart_groups *groups)
 {
-    const size_t n = s->coordinates.n, third = size_of(kind) == 3 ? n : 1;
+    const size_t n = s->coordinates.n, third = qdot_chart_size(kind) == 3 ? n : 1;
 
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t k = 0; k < third; k++) {
-                const qdot_chart_group g = {.kind = kind,
-                                            .index = {i, j, third > 1 ? k : 0}};
+                /* what is not in the group is no index of it, for `fits` */
+                const qdot_chart_group g = {
+                    .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 
-                if (i != j && (third == 1 || (k != i && k != j)) &&
-                    (kind == QDOT_CHART_BODY ? qdot_chart_body_fits(s, g.index)
-                                             : may_be(pairs, g.index, size_of(kind))))
+                if (fits(s, &g, pairs))
                     QDOT_TRY(try_group(s, g, groups));
             }
     return QDOT_OK;
 }
 
+/* Square roots of coordinates in a place. */
+static qdot_status
+try_roots(qdot_scene *s, qdot_expr r, qdot_chart_groups *groups)
+{
+    qdot_pool *pool = s->pool;
+    qdot_vec(qdot_expr) found = {0};
+    qdot_status status;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(pool, r, &w));
+    status = QDOT_OK;
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        const qdot_node *node = qdot_expr_node(pool, w.at[i]);
+
+        for (uint32_t f = 1; node->kind == QDOT_PROD && f + 1 < qdot_expr_count(pool, w.at[i])
+                             && status == QDOT_OK; f += 2) {
+            const qdot_expr base = qdot_expr_arg(pool, w.at[i], f);
+
+            if (qdot_expr_arg(pool, w.at[i], f + 1) == QDOT_HALF
+                && qdot_expr_node(pool, base)->holds & QDOT_HAS_COORD)
+                status = qdot_vec_push(&found, base);
+        }
+    }
+    qdot_walk_end(&w);
+    for (size_t i = 0; i < found.n && status == QDOT_OK; i++) {
+        bool known = false;
+
+        for (size_t k = 0; k < groups->n; k++)
+            known = known || groups->at[k].square == found.at[i];
+        if (!known)
+            status = try_group(
+                s, (qdot_chart_group){.kind = QDOT_CHART_ROOT, .square = found.at[i]}, groups);
+    }
+    qdot_free(found.at);
+    return status;
+}
+
 qdot_status
 qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups)
 {
-    static const qdot_chart_kind order[] = {QDOT_CHART_BODY, QDOT_CHART_SPACE,
-                                            QDOT_CHART_PLANE, QDOT_CHART_SPHERE};
+    static const struct {
+        qdot_chart_kind kind;
+        bool turned;
+    } order[] = {{QDOT_CHART_BODY, false},       {QDOT_CHART_SPACE, false},
+                 {QDOT_CHART_SPACE, true},       {QDOT_CHART_PARABOLOIDS, false},
+                 {QDOT_CHART_PROLATE, false},    {QDOT_CHART_PROLATE, true},
+                 {QDOT_CHART_OBLATE, false},     {QDOT_CHART_OBLATE, true},
+                 {QDOT_CHART_PLANE, false},      {QDOT_CHART_PARABOLIC, false},
+                 {QDOT_CHART_ELLIPTIC, false},   {QDOT_CHART_ELLIPTIC, true},
+                 {QDOT_CHART_SPHERE, false},     {QDOT_CHART_SPHERE, true}};
     joined pairs;
     uint64_t rest;
     qdot_status status = QDOT_OK, pending;
 
-    if (s->constraints.n > 0 || s->coordinates.n > MOST_COORDINATES)
+    if (s->coordinates.n > MOST_COORDINATES)
         return QDOT_OK;
     rest = qdot_pool_budget(s->pool, most_work);
     pairs = find_pairs(s);
     for (size_t k = 0; k < sizeof order / sizeof *order && status == QDOT_OK; k++)
-        status = try_kind(s, order[k], &pairs, groups);
+        status = try_kind(s, order[k].kind, order[k].turned, &pairs, groups);
+    for (size_t i = 0; i < s->particles.n + s->bodies.n && status == QDOT_OK; i++)
+        status = try_roots(s, position_of(s, i), groups);
     pending = qdot_pool_check(s->pool);
     status = status == QDOT_OK ? pending : status;
     (void)qdot_pool_budget(s->pool, rest);

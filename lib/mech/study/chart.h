@@ -3,18 +3,33 @@
  * A group of coordinates is replaced where all positions and forces are smooth functions of the
  * new ones:
  *
- *     plane   r, phi           x = r cos phi, y = r sin phi
- *     space   r, theta, phi    x = r sin theta cos phi, y = r sin theta sin phi, z = r cos theta
- *     sphere  theta, phi       the same with r = 1, and x^2 + y^2 + z^2 = 1
- *     body    phi, theta, psi  e_0 = cos(theta/2) cos((phi + psi)/2),
- *                              e_1 = sin(theta/2) cos((phi - psi)/2),
- *                              e_2 = sin(theta/2) sin((phi - psi)/2),
- *                              e_3 = cos(theta/2) sin((phi + psi)/2), and |e|^2 = 1
+ *     plane      r, phi          x = r cos phi, y = r sin phi
+ *     space      r, theta, phi   x = r sin theta cos phi, y = r sin theta sin phi, z = r cos theta
+ *     sphere     theta, phi      the same with r = 1, and x^2 + y^2 + z^2 = 1
+ *     body       phi, theta, psi e_0 = cos(theta/2) cos((phi + psi)/2),
+ *                                e_1 = sin(theta/2) cos((phi - psi)/2),
+ *                                e_2 = sin(theta/2) sin((phi - psi)/2),
+ *                                e_3 = cos(theta/2) sin((phi + psi)/2), and |e|^2 = 1
+ *     parabolic  xi, eta         x = xi eta, y = (xi^2 - eta^2)/2
+ *     elliptic   u, v            x = cosh u cos v, y = sinh u sin v
+ *     these about an axis, phi   one of x, y is the distance from it
+ *     root       none            w = sqrt(P(q)), and w^2 = P(q): the q stay
  *
- * Let N be the distance from the singular place: (x^2 + y^2)^(1/2), or of a body
- * |sin theta|. The coordinates given are written in x, y, z (or e) and N: r = N, cos phi = x/N,
- * sin phi = y/N, sin theta = N. In a regular scene N is left in even powers alone, and no angle
- * outside sin and cos.
+ * What the coordinates given are made of, beside x, y, z (or e), are roots: of the first four groups
+ * N, the distance from the singular place, N = (x^2 + y^2)^(1/2), or of a body |sin theta|, and a
+ * sign s: r = s N, cos phi = s x/N, sin phi = s y/N, sin theta = s N. Of the others they are xi and
+ * eta, or cosh u, sinh u, cos v, sin v, themselves. Products of two of them, and their squares, are
+ * functions of the new coordinates; in a regular scene no root is left, and no angle outside sin and
+ * cos. So (r, phi) and (-r, phi + pi), or (xi, eta) and (-xi, -eta), are one place. Of a root w it
+ * is not the sign that is lost: where w < 0 the motion has left the places that sqrt(P) can write.
+ *
+ * xi, eta and u, v are read by an angle that no coordinate is: with rho = (x^2 + y^2)^(1/2),
+ * alpha = atan2(x, y),
+ *
+ *     xi = (2 rho)^(1/2) cos(alpha/2),      eta = (2 rho)^(1/2) sin(alpha/2)
+ *     sinh u = S^(1/2) cos(beta/2),         sin v = S^(1/2) sin(beta/2)
+ *
+ * where S = sinh^2 u + sin^2 v, S^2 = (x^2 + y^2 - 1)^2 + 4 y^2, beta = atan2(2 y, x^2 + y^2 - 1).
  *
  * A body whose axes are R = Rz(phi) Rx(theta) Rz(psi) becomes masses at its centre and at the
  * columns c_j of R(e):
@@ -35,26 +50,47 @@ typedef enum {
     QDOT_CHART_PLANE,
     QDOT_CHART_SPACE,
     QDOT_CHART_SPHERE,
-    QDOT_CHART_BODY
+    QDOT_CHART_BODY,
+    QDOT_CHART_PARABOLIC,
+    QDOT_CHART_PARABOLOIDS, /* about an axis, x from it */
+    QDOT_CHART_ELLIPTIC,
+    QDOT_CHART_PROLATE, /* about an axis, y from it, */
+    QDOT_CHART_OBLATE,  /* x from it */
+    QDOT_CHART_ROOT
 } qdot_chart_kind;
 
 /* A group that can be replaced: the indices of its coordinates, in the order of the table. */
 typedef struct {
     qdot_chart_kind kind;
     size_t index[3];
-    qdot_expr distance; /* N in the coordinates given, with its sign */
+    bool turned;        /* sin and cos of the angle theta, or v, change places */
+    qdot_expr square;   /* of a root: P */
+    qdot_expr distance; /* 0 at the singular place, in the coordinates given, with its sign */
 } qdot_chart_group;
 
 typedef qdot_vec(qdot_chart_group) qdot_chart_groups;
 
-/* A coordinate of a group, in new coordinates and N. */
+typedef enum {
+    QDOT_CHART_LENGTH,
+    QDOT_CHART_ANGLE,     /* known by its direction, to whole turns */
+    QDOT_CHART_HYPERBOLIC /* known by cosh and sinh */
+} qdot_chart_sort;
+
+/* A coordinate of a group, or an angle by which some are read, in new coordinates and roots. */
 typedef struct {
-    qdot_expr q;
-    bool angle;
-    qdot_expr value;        /* of a length */
-    qdot_expr cosine, sine; /* of an angle */
-    qdot_expr x, y;         /* the angle is atan2(y, x), to whole turns */
-    qdot_expr bare;         /* a symbol for it outside of sin and cos */
+    qdot_expr q; /* of an angle that is no coordinate a symbol of its own */
+    qdot_chart_sort sort;
+    qdot_expr value;        /* where it is no angle */
+    qdot_expr cosine, sine; /* of an angle; or cosh, sinh */
+    qdot_expr x, y;         /* the angle is atan2(y, x), to whole turns; */
+    qdot_expr factor;       /* or nil: y = factor sin(half of the angle `half` of these) */
+    size_t half;
+    qdot_expr bare;  /* a symbol for the angle outside of sin and cos */
+    qdot_expr rate;  /* q', or nil: that of value, of x and y */
+    qdot_expr given; /* in the coordinates given */
+    qdot_expr ends[2]; /* where its domain may end: singular places; nil: nowhere */
+    size_t sign;       /* it holds sign `sign` - 1; 0: none */
+    bool between;      /* its domain ends there: it has no turns */
 } qdot_chart_moved;
 
 /* A new coordinate, in those given. */
@@ -62,42 +98,74 @@ typedef struct {
     qdot_expr q, given;
 } qdot_chart_fresh;
 
+/* A root: N, xi, cosh u ... */
 typedef struct {
-    qdot_expr symbol, square; /* N, and N^2 in new coordinates */
-} qdot_chart_distance;
+    qdot_expr symbol, square;   /* symbol^2, in new coordinates and roots */
+    qdot_expr partner, product; /* symbol partner = product; or nil */
+    qdot_expr rate;             /* symbol', or nil: that of its square */
+    qdot_expr value;            /* or nil: the positive root of its square */
+} qdot_chart_root;
+
+/* What is 1 or -1 along the run: it changes where a singular place is passed exactly, if no domain
+ * forbids that. Of a root w that is its sign. */
+typedef struct {
+    qdot_expr symbol; /* or w */
+    int start;
+    bool branch; /* it is of w, the square root of `square` */
+    bool fixed;
+    qdot_expr square;
+    qdot_expr distance; /* of a sign: s N */
+} qdot_chart_sign;
 
 typedef struct {
     qdot_pool *pool;
     qdot_scene *of;    /* the scene given, while the chart is made */
     qdot_scene *scene; /* owned; NULL: it is not regular, `hindrance` says where */
     char hindrance[200];
+    bool signed_events; /* events hold a sign: none may change */
     qdot_vec(qdot_chart_moved) moved;
     qdot_vec(qdot_chart_fresh) fresh;
-    qdot_vec(qdot_chart_distance) distances;
-    qdot_vec(qdot_expr) unit; /* each is 1: constraints of `scene` */
+    qdot_vec(qdot_chart_root) roots; /* values hold later ones alone */
+    qdot_vec(qdot_chart_sign) signs;
+    qdot_vec(qdot_expr) unit; /* each is 0: constraints of `scene` */
     qdot_text names;          /* "x = r*cos(phi), y = r*sin(phi)" of what is new */
 } qdot_chart;
 
-/* All groups of the scene that can be replaced one by one, no coordinate in two of them; none in
- * a scene with constraints. `groups` starts from {0}; free its `at`. Errors: the pool's. */
+/* All groups of the scene that can be replaced one by one, no coordinate in two of them. `groups`
+ * starts from {0}; free its `at`. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_chart_find(qdot_scene *s, qdot_chart_groups *groups);
 
-/* The scene with these groups replaced. `sign` [n]: of each N at the start, 1 or -1. The chart
- * starts from {0}; clear it in any case. Errors: the pool's. */
+/* The scene with these groups replaced. `sign` [n]: of each distance at the start, 1 or -1. The
+ * chart starts from {0}; clear it in any case. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_chart_make(qdot_scene *s,
                                             const qdot_chart_groups *groups,
                                             const int *sign, qdot_chart *chart);
 void qdot_chart_clear(qdot_chart *chart);
 
 /* An expression of the scene given in the new coordinates. An angle outside of sin and cos is
- * counted from so many quarter turns, of which it is within half a turn; quarters
- * [moved]. *turns (may be NULL): whether there is one. Nil: the pool keeps the failure. */
+ * counted from so many quarter turns, of which it is within half a turn; quarters [moved], and
+ * behind them the signs [signs]; NULL: no quarters, and the signs of the start. *turns (may be
+ * NULL): whether it holds such an angle, or a sign. Nil: the pool keeps the failure. */
 qdot_expr qdot_chart_express(const qdot_chart *chart, qdot_expr e, const long *quarters,
                              bool *turns);
 
-/* Inside: in new coordinates and N, angles outside of sin and cos as their symbols. */
+/* A root w that e, in new coordinates, holds where it is negative by `quarters`; NULL: none. */
+const qdot_chart_sign *qdot_chart_beyond(const qdot_chart *chart, qdot_expr e,
+                                         const long *quarters);
+
+/* Inside (chart-formulas.c): how many coordinates a group has; what is 0 at its singular place, in
+ * the coordinates given. */
+size_t qdot_chart_size(qdot_chart_kind kind);
+qdot_expr qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g);
+/* Put the group into the chart: its new coordinates, what it is made of, its constraints. `sign`:
+ * of its distance at the start. Errors: the pool's. */
+QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_group *g, int sign);
+
+/* Inside: in new coordinates and roots, angles outside of sin and cos as their symbols. */
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
-/* Inside: that without N, if it is regular; else nil, with no failure. */
+/* Inside: de/dt, e in new coordinates and roots. */
+qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);
+/* Inside: that without roots, if it is regular; else nil, with no failure. */
 qdot_expr qdot_chart_regular(const qdot_chart *chart, qdot_expr e);
 
 #endif

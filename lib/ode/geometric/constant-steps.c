@@ -362,6 +362,8 @@ check(const run *r, double t0, const double *y)
 {
     if (!r->g.system->halves && (!r->g.system->phase || r->g.kernel->separable))
         return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
+    if (r->g.system->bonds && !r->g.kernel->of_bonds)
+        return qdot_fail(QDOT_EINVAL, "this method is for systems without constraints");
     QDOT_TRY(qdot_ode_check_tolerance(r->tol));
     return qdot_ode_check_limits(r->g.system, t0, r->t1, y);
 }
@@ -371,7 +373,8 @@ static qdot_status
 allocate(run *r, double **all)
 {
     const size_t n = r->g.n;
-    const size_t own = r->g.kernel->rows * n + r->g.kernel->more;
+    const size_t m = r->g.system->bonds ? r->g.system->bonds->m : 0;
+    const size_t own = r->g.kernel->rows * n + r->g.kernel->more + r->g.kernel->of_bonds * m;
     double *x = qdot_calloc(16 * n + own + 1, sizeof *x);
 
     *all = x;

@@ -4,6 +4,8 @@
  *
  * Either p = v = q', where M and what else belongs to the momenta are constant (`halves` of
  * ode/system.h): then F are the accelerations. Or p are the canonical momenta dL/dq' (`phase` there).
+ * One of them holds constraints g(t, q) = 0 (`bonds`), with A^T lambda in p', A = dg/dq.
+ *
  * In these variables the methods are symplectic and symmetric, if forces come from a potential. So
  * the error of the energy stays bounded for times far beyond the length of a step, as long as that
  * length is constant (Hairer, Lubich & Wanner, Geometric Numerical Integration, 2nd ed. 2006, IX.8).
@@ -39,6 +41,7 @@ struct qdot_geometric_kernel {
     bool separable;    /* F must not depend on v */
     int stages;        /* of a method of collocation; else 0 */
     size_t rows, more; /* work space: rows of n doubles, and doubles */
+    size_t of_bonds;   /* and doubles for each constraint; 0: it knows none */
     /* Fill what g->work holds all along; NULL: nothing. */
     void (*begin)(qdot_geometric *g);
     /* Advance g->y + g->low from t by h; on a failure they are undefined. QDOT_EDOMAIN where an
@@ -76,5 +79,6 @@ QDOT_MUST_CHECK qdot_status qdot_geometric_integrate(const qdot_ode_system *syst
 /* The rows of method.h. */
 extern const qdot_geometric_kernel qdot_verlet, qdot_composition8; /* splitting.c */
 extern const qdot_geometric_kernel qdot_gauss4, qdot_gauss6, qdot_gauss8, qdot_gauss12; /* gauss.c */
+extern const qdot_geometric_kernel qdot_variational; /* variational.c */
 
 #endif

@@ -77,5 +77,5 @@ composition8(qdot_geometric *g, double t, double h)
     return split(g, t, QDOT_COMPOSITION_STAGES, length, rest);
 }
 
-const qdot_geometric_kernel qdot_verlet = {2, true, 0, 1, 0, NULL, verlet};
-const qdot_geometric_kernel qdot_composition8 = {8, true, 0, 1, 0, NULL, composition8};
+const qdot_geometric_kernel qdot_verlet = {2, true, 0, 1, 0, 0, NULL, verlet};
+const qdot_geometric_kernel qdot_composition8 = {8, true, 0, 1, 0, 0, NULL, composition8};

@@ -85,25 +85,20 @@ qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *
 
 /* --- the form with M: f - M a, or q'' - a where a block is solved ---------------------------- */
 
-/* With constraints: q'' by them, less a. */
 static qdot_status
-held_residual(double t, const double *y, const double *a, double *r, void *user)
+held_residual(double t, const double *y, const double *a, const double *z, double *r, void *user)
 {
-    const qdot_bind *b = user;
-
-    QDOT_TRY(qdot_constrained_solve(b->held, t, y, r, NULL));
-    for (size_t i = 0; i < b->plan->n; i++)
-        r[i] -= a[i];
-    return QDOT_OK;
+    return qdot_constrained_implicit(((qdot_bind *)user)->held, t, y, a, z, r);
 }
 
 static qdot_status
-residual(double t, const double *y, const double *a, double *r, void *user)
+residual(double t, const double *y, const double *a, const double *z, double *r, void *user)
 {
     qdot_bind *b = user;
     const qdot_plan *p = b->plan;
     const double *out = b->out;
 
+    (void)z;
     qdot_bind_load(b, t, y);
     qdot_tape_eval(qdot_bind_equations(b), b->in, b->out, b->work);
     for (size_t k = 0; k < p->structure.blocks; k++) {
@@ -127,21 +122,11 @@ residual(double t, const double *y, const double *a, double *r, void *user)
 }
 
 static qdot_status
-held_slopes(double t, const double *y, const double *a, double *dq, double *dv, double *M,
-            void *user)
+held_slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv,
+            double *M, void *user)
 {
-    const qdot_bind *b = user;
-    const size_t n = b->plan->n;
-    double *all = b->all_slopes;
-
     (void)a;
-    QDOT_TRY(qdot_constrained_jacobian(b->held, t, y, all, all + 4 * n * n));
-    for (size_t i = 0; i < n; i++) {
-        memcpy(dq + i * n, all + (n + i) * 2 * n, n * sizeof *dq);
-        memcpy(dv + i * n, all + (n + i) * 2 * n + n, n * sizeof *dv);
-        M[i * n + i] = 1;
-    }
-    return QDOT_OK;
+    return qdot_constrained_implicit_slopes(((qdot_bind *)user)->held, t, y, z, dq, dv, M);
 }
 
 /* M of block k from its outputs, which begin at `out`. */
@@ -158,7 +143,7 @@ put_mass(const qdot_plan *p, const qdot_plan_block *block, const double *out, do
 }
 
 static qdot_status
-slopes(double t, const double *y, const double *a, double *dq, double *dv, double *M,
+slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv, double *M,
        void *user)
 {
     qdot_bind *b = user;
@@ -166,6 +151,7 @@ slopes(double t, const double *y, const double *a, double *dq, double *dv, doubl
     const size_t n = p->n, columns = 2 * n + 1;
     size_t row = 0;
 
+    (void)z;
     qdot_bind_load(b, t, y);
     memcpy(b->in + columns, a, n * sizeof *a);
     qdot_derivative_eval(qdot_bind_equations(b), b->in, 0, columns, b->out, b->slopes,
@@ -196,12 +182,11 @@ qdot_bind_make_slopes(qdot_bind *b)
 
     if (!qdot_plan_needs_jacobian(p))
         return QDOT_OK;
-    b->mass_form = (qdot_ode_mass_form){p->n, p->constraints ? held_residual : residual,
-                                        p->constraints ? held_slopes : slopes, b};
     if (p->constraints) {
-        b->all_slopes = qdot_calloc(4 * p->n * p->n + 2 * p->n, sizeof *b->all_slopes);
-        return b->all_slopes ? QDOT_OK : QDOT_ENOMEM;
+        b->mass_form = (qdot_ode_mass_form){p->n, p->constraints->m, held_residual, held_slopes, b};
+        return QDOT_OK;
     }
+    b->mass_form = (qdot_ode_mass_form){p->n, 0, residual, slopes, b};
     b->slopes_work =
         qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);
     b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1) *

@@ -28,6 +28,7 @@ struct qdot_bind {
     qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
     const qdot_ode_series *series; /* its callbacks; else NULL */
     qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
+    qdot_ode_bonds bonds;  /* and the constraints beside them */
     qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
     /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
      * when that is first asked for. */
@@ -38,7 +39,6 @@ struct qdot_bind {
     double *slopes;     /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
     double *slopes_work;
     qdot_ode_mass_form mass_form; /* where there are slopes */
-    double *all_slopes; /* [2n x 2n + 2n] with constraints: of the first order */
 
     /* Of a plan with a reduced one, which is what is integrated: */
     qdot_tape *reduced; /* a shaken copy; else NULL */

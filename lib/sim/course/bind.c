@@ -47,7 +47,6 @@ qdot_bind_free(qdot_bind *b)
     qdot_free(b->work);
     qdot_free(b->slopes);
     qdot_free(b->slopes_work);
-    qdot_free(b->all_slopes);
     qdot_pulses_clear(&b->pulses);
     qdot_free(b);
 }
@@ -191,8 +190,7 @@ look(qdot_ode_look *step, void *user)
                           .to = step->y_end};
 
     if (!b->pulses.tape)
-        QDOT_TRY(qdot_pulses_init(&b->pulses, qdot_bind_equations(b), b->plan->n,
-                                  QDOT_HIDES_QUOTIENTS,
+        QDOT_TRY(qdot_pulses_init(&b->pulses, b->plan, qdot_bind_equations(b), QDOT_HIDES_QUOTIENTS,
                                   b->plan->method->multistep ? 16 : QDOT_CHEBYSHEV_MOST));
     QDOT_TRY(qdot_pulses_look(&b->pulses, &s));
     step->evaluations += s.evaluations;
@@ -223,6 +221,7 @@ qdot_bind_system(qdot_bind *b)
         .mass_form = b->mass_form.residual ? &b->mass_form : NULL,
         .halves = b->plan->halves,
         .phase = b->phase ? qdot_phase_get(b->phase) : NULL,
+        .bonds = b->phase && b->held ? &b->bonds : NULL,
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
@@ -334,6 +333,7 @@ make_held(qdot_bind *b, bool shaken)
     const qdot_plan *p = b->plan;
 
     QDOT_TRY(qdot_constrained_new(p, shaken, &b->held));
+    b->bonds = qdot_constrained_bonds(b->held);
     if (!p->smooth)
         return QDOT_OK;
     QDOT_TRY(qdot_motion_series_of_constraints(p, shaken, &b->tied));

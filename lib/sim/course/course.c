@@ -17,7 +17,7 @@ make_room(qdot_piece *x)
     x->before = qdot_calloc(m, sizeof *x->before);
     x->residual = qdot_calloc(m, sizeof *x->residual);
     x->signs = qdot_calloc(m, sizeof *x->signs);
-    x->y = qdot_calloc(4 * x->n, sizeof *x->y);
+    x->y = qdot_calloc(5 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
                                 .method = x->method,
@@ -32,6 +32,7 @@ make_room(qdot_piece *x)
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
     x->rim = x->start.y + x->n;
+    x->bare = x->rim + x->n;
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
 
@@ -88,6 +89,7 @@ loop(qdot_piece *x, const double *y0)
         x->start.t = c->tr.t[c->tr.count - 1];
         memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
         status = qdot_piece_keep(x, NULL);
+        qdot_piece_find_delay(x);
         if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x))
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)

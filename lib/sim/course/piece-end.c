@@ -205,11 +205,28 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     return QDOT_OK;
 }
 
-/* A root that is not a double lies between the doubles around it. */
+/* What is uncertain of the time of a root, or all that it is late by, if that is not made up for. */
 static double
-lateness(const qdot_root *root, double t)
+lateness(const qdot_piece *x, const qdot_root *root)
 {
-    return fabs(t - root->t) + (root->exact ? 0 : 0x1p-53 * fabs(t));
+    return qdot_piece_makes_up(x) ? root->blur
+                                  : fabs(x->t_act - root->t) + fmax(root->late, root->blur);
+}
+
+void
+qdot_piece_find_delay(qdot_piece *x)
+{
+    bool found = false;
+
+    x->late = x->blur = 0;
+    for (size_t i = 0; i < x->roots.n; i++) {
+        const qdot_root *root = &x->roots.at[i];
+        const double late = fabs(x->t_act - root->t) + root->late;
+
+        x->late = found ? fmin(x->late, late) : late;
+        x->blur = fmax(x->blur, root->blur);
+        found = true;
+    }
 }
 
 qdot_status
@@ -239,7 +256,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
             status = qdot_vec_push(
                 &x->c->ends,
                 ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
-                                   lateness(root, t)}));
+                                   lateness(x, root)}));
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {

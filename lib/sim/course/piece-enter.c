@@ -223,16 +223,25 @@ check_level(qdot_piece *x)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
+/* The piece that just ended keeps its delay. */
+static void
+leave_late(qdot_piece *x)
 {
-    const size_t modes[] = {by, instead_of};
+    for (size_t k = x->c->ends.n; k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
+        x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, x->late);
+}
+
+qdot_status
+qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
+{
+    const size_t modes[] = {behind, before};
     const size_t surfaces = x->c->stage->switches.surfaces.n;
-    const double t = x->start.t, late = x->direction * x->c->early * 0x1p-53 * fabs(t);
+    const double t = x->start.t, late = x->direction * (x->late + x->c->early * x->blur);
     double *y = x->start.y;
     double *moved = qdot_malloc(2 * x->n * sizeof *moved), *rate = moved + x->n;
     long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
     qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
+    bool alike = false;
 
     if (status == QDOT_OK)
         memcpy(moved, y, x->n * sizeof *y);
@@ -249,8 +258,12 @@ qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
         status = qdot_stage_sides(x->c->stage, t, y, NULL, sides);
     if (status == QDOT_OK)
         status = qdot_stage_sides(x->c->stage, t, moved, NULL, sides + surfaces);
-    if (status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0)
+    if (status == QDOT_OK)
+        alike = memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0;
+    if (alike)
         memcpy(y, moved, x->n * sizeof *y);
+    else
+        leave_late(x);
     qdot_free(moved);
     qdot_free(sides);
     return qdot_grave(status);
@@ -259,13 +272,13 @@ qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of)
 bool
 qdot_piece_makes_up(const qdot_piece *x)
 {
-    return x->c->early != 0 && !x->c->systems.at[x->mode].project;
+    return !x->c->systems.at[x->mode].project;
 }
 
 /* --- the whole ----------------------------------------------------------------------- */
 
 qdot_status
-qdot_piece_cross(qdot_piece *x, bool first)
+qdot_piece_cross(qdot_piece *x)
 {
     bool corners;
 
@@ -280,8 +293,9 @@ qdot_piece_cross(qdot_piece *x, bool first)
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
     qdot_piece_carry(x);
-    if (first && (x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
+    if ((x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
         QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));
-    x->put_aside |= first && qdot_piece_makes_up(x);
+    QDOT_TRY(qdot_piece_keep(x, NULL));
+    x->put_aside |= qdot_piece_makes_up(x);
     return QDOT_OK;
 }

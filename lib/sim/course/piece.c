@@ -402,6 +402,7 @@ qdot_piece_integrate(qdot_piece *x)
     options.expanded =
         qdot_piece_mode(x)->m > 0 && x->method->series ? look_at_expanded : NULL;
     options.user = x;
+    options.at_doubles = qdot_piece_mode(x)->m > 0;
     options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
     if (c->tr.count > 1 || x->start.t != c->tr.t[0])
         options.carry = NULL;

@@ -54,6 +54,7 @@ typedef struct {
     int *signs;         /* [functions] of the mode before, where its piece ended */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
+    double *bare;  /* [n] the start, before a try has moved it */
     double *rim;   /* [n] of the rates, what the layer entered last leaves out at its rim */
     bool entered;  /* `rim` is of this piece; else it began within the layer */
     bool first_step;
@@ -66,6 +67,7 @@ typedef struct {
     /* Results of the present step. */
     qdot_piece_intent intent;
     double t_act;
+    double late, blur; /* the end is at t_act - late, uncertain by `blur` */
     double *y_act;             /* [n] the state at t_act, for methods without series */
     bool broken_off;           /* the integration was stopped on purpose: no failure */
     qdot_vec(qdot_root) roots; /* those at t_act */
@@ -134,18 +136,21 @@ QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
 void qdot_piece_carry(qdot_piece *x);
 
 /* Check a mode before it is integrated; c->reason if it cannot be entered. */
-QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x, bool first);
+QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 
 /* Part of it: what the layers that are left have left out, and whether one is entered for good where
  * its power makes that one motion of many (sim/model/layer.h). */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_layers(qdot_piece *x);
 
-/* A piece ends at the first double after its root, in all courses alike: late and never early, so
- * these errors add up. To show their effect one companion continues as if it had left half an ulp
- * of t earlier, the other as if half an ulp later: over this time it moves in mode `by` and
- * undoes the motion in mode `instead_of` (SIZE_MAX: none). */
-QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t by, size_t instead_of);
-/* Whether that is done: for companions, if the system does not project onto constraints. */
+/* A piece ends at the first double after its root, x->late behind it. The motion goes on as if it
+ * had ended there: over this time it undoes the motion in mode `before` and moves in mode `behind`
+ * (SIZE_MAX: none), exact but for the square of a double of t. To show what is uncertain of it, one
+ * companion takes the root for earlier by that, the other for later. If other switches are on other
+ * sides then, nothing is done. */
+QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
+/* x->late and x->blur of the piece that ended, by its roots. */
+void qdot_piece_find_delay(qdot_piece *x);
+/* Whether that is done: if the system does not project onto constraints. */
 bool qdot_piece_makes_up(const qdot_piece *x);
 
 /* Begin the watch of x->mode at the start of a piece, from x->before and x->residual; fills

@@ -111,6 +111,27 @@ qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b)
     evaluate(h);
 }
 
+void
+qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *series,
+                              const qdot_ode_expanded *step)
+{
+    const double s = (step->t_end - step->t) / step->unit;
+
+    for (size_t k = 0; k < h->n_used; k++) {
+        const double *x = series->x + h->used[k] * series->stride;
+        double power = 1, centre = x[0], radius = 0;
+
+        for (int j = 1; j <= step->order; j++) {
+            power *= s;
+            centre += 0.5 * x[j] * power;
+            radius += 0.5 * fabs(x[j] * power);
+        }
+        h->centre[h->used[k]] = centre;
+        h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
+    }
+    qdot_polynomial_bounds_span(h, step->t, step->t_end);
+}
+
 /* Outputs on the ellipse of rho about a ... b; false where an input is not known there. */
 static bool
 go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)

@@ -24,6 +24,7 @@
 #include <stdbool.h>
 
 #include "num/chebyshev.h"
+#include "ode/run.h"
 #include "tape/interval.h"
 
 typedef struct {
@@ -90,5 +91,10 @@ void qdot_polynomial_bounds_enclose(qdot_polynomial_bounds *h, double a, double 
 /* h->out -+ h->out_radius contain the outputs if each input i except t lies in h->centre[i] -+
  * h->radius[i] and t in a ... b. */
 void qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b);
+
+/* The same for the states of a step by the series that was computed for it: each term lies between 0
+ * and its value at the end. */
+void qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *series,
+                                   const qdot_ode_expanded *step);
 
 #endif

@@ -35,10 +35,12 @@ qdot_pulses_clear(qdot_pulses *p)
 }
 
 qdot_status
-qdot_pulses_init(qdot_pulses *p, const qdot_tape *tape, size_t n, qdot_disc_hiding hiding,
-                 int nodes)
+qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
+                 qdot_disc_hiding hiding, int nodes)
 {
-    const size_t m = qdot_tape_outputs(tape), inputs = qdot_tape_inputs(tape);
+    const size_t n = plan->n, outputs = qdot_tape_outputs(tape),
+                 inputs = qdot_tape_inputs(tape);
+    const size_t m = plan->constraints ? n : outputs;
     double *at;
 
     *p = (qdot_pulses){.tape = tape,
@@ -48,7 +50,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_tape *tape, size_t n, qdot_disc_hidi
                        .nodes = nodes,
                        .most = MOST_PARTS};
     QDOT_TRY(qdot_polynomial_bounds_init(&p->bounds, tape, 2 * n));
-    at = qdot_calloc(inputs + qdot_tape_work(tape) + (2 * MOST + 4) * m +
+    at = qdot_calloc(inputs + qdot_tape_work(tape) + outputs + (2 * MOST + 4) * m +
                          (MOST_PARTS + DEEPEST + 1) * (m + 1),
                      sizeof *at);
     if (!at)
@@ -56,7 +58,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_tape *tape, size_t n, qdot_disc_hidi
     p->in = at;
     p->work = p->in + inputs;
     p->out = p->work + qdot_tape_work(tape);
-    p->largest = p->out + m;
+    p->largest = p->out + outputs;
     p->beyond = p->largest + m;
     p->all = p->beyond + m;
     p->values = p->all + m;

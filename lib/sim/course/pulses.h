@@ -20,17 +20,18 @@
 #include <stdint.h>
 
 #include "sim/course/polynomial-bounds.h"
+#include "sim/model/equations.h"
 #include "tape/disc.h"
 
 /* Start from {0}. */
 typedef struct {
     const qdot_tape *tape; /* of M and f; NULL: none yet */
-    size_t n, m;           /* coordinates, outputs */
+    size_t n, m;           /* coordinates; outputs that are looked at */
     qdot_disc_hiding hiding;
     int nodes; /* 16; 64 of methods that look at a step within */
     qdot_polynomial_bounds bounds;
     double *in;      /* [2n + 1] q, q', t */
-    double *out;     /* [m] */
+    double *out;     /* [outputs] */
     double *work;    /* of the tape */
     double *largest; /* [m] met so far */
     double *values;  /* [m x QDOT_CHEBYSHEV_MOST] of a part */
@@ -56,11 +57,12 @@ typedef struct {
     uint64_t evaluations;
 } qdot_pulses_step;
 
-/* For a tape of 2n + 1 inputs q, q', t, borrowed, which may hide something (qdot_disc_may_hide).
- * QDOT_ENOMEM; clear it in any case. */
-QDOT_MUST_CHECK qdot_status qdot_pulses_init(qdot_pulses *p, const qdot_tape *tape,
-                                             size_t n, qdot_disc_hiding hiding,
-                                             int nodes);
+/* For the tape of a plan, or a shaken copy, borrowed, which may hide something (qdot_disc_may_hide);
+ * with constraints their rows are not looked at: they act through multipliers, and where they have
+ * no direction the run ends. QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan,
+                                             const qdot_tape *tape,
+                                             qdot_disc_hiding hiding, int nodes);
 void qdot_pulses_clear(qdot_pulses *p);
 
 /* Whether the step misses a force, by more than ten tolerances of the integral of its size over the

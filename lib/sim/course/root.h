@@ -11,6 +11,9 @@ typedef struct {
                         touches */
     double residual; /* |g| at the doubles on both sides of it, the larger */
     bool exact;      /* g is 0 at t */
+    /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
+     * run: not negative. */
+    double late, blur;
     /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
     double within, bend;
 } qdot_root;

@@ -234,10 +234,12 @@ search(qdot_piece *x)
     x->search = QDOT_SIDES_TRIED;
     x->hindrance[0] = '\0';
     x->put_aside = false;
-    for (bool first = true;; first = false) {
+    memcpy(x->bare, x->start.y, x->n * sizeof *x->bare);
+    for (;;) {
         bool over, can;
 
         QDOT_TRY(qdot_interrupt_check());
+        memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
         QDOT_TRY(next_sides(x, &combinations, &over));
         if (over) {
             say_slides(x);
@@ -246,7 +248,7 @@ search(qdot_piece *x)
         QDOT_TRY(enter(x, &can));
         if (!can)
             continue;
-        QDOT_TRY(qdot_piece_cross(x, first));
+        QDOT_TRY(qdot_piece_cross(x));
         if (x->c->reason[0] != '\0')
             return QDOT_OK;
         QDOT_TRY(go(x));

@@ -39,30 +39,13 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return worst;
 }
 
-/* On the step each term of a series lies between 0 and its value at the end. */
 void
 qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {
-    const qdot_ode_series *series = w->reader.system->series;
-    const double s = step ? (step->t_end - w->t) / step->unit : 0;
-    qdot_polynomial_bounds *h = &w->bounds;
-
     w->bound_at_step = false;
     if (!step || w->accelerations)
         return;
-    for (size_t k = 0; k < h->n_used; k++) {
-        const double *x = series->x + h->used[k] * series->stride;
-        double power = 1, centre = x[0], radius = 0;
-
-        for (int j = 1; j <= step->order; j++) {
-            power *= s;
-            centre += 0.5 * x[j] * power;
-            radius += 0.5 * fabs(x[j] * power);
-        }
-        h->centre[h->used[k]] = centre;
-        h->radius[h->used[k]] = radius + 4 * DBL_EPSILON * fabs(centre);
-    }
-    qdot_polynomial_bounds_span(h, w->t, step->t_end);
+    qdot_polynomial_bounds_series(&w->bounds, w->reader.system->series, step);
     w->bound_at_step = true;
 }
 

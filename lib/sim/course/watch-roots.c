@@ -106,6 +106,26 @@ narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
     return QDOT_OK;
 }
 
+/* Where between two neighbouring doubles the root is; the first may not have been evaluated. */
+static qdot_status
+refine(qdot_watch *w, end *ends, qdot_root *root)
+{
+    const double step = fabs(ends[1].t - ends[0].t);
+    double noise, rise;
+
+    if (ends[0].g == 0) {
+        QDOT_TRY(qdot_watch_value_at(w, ends[0].t, w->g));
+        ends[0].g = w->g[root->function];
+        root->residual = fmax(root->residual, fabs(ends[0].g));
+    }
+    rise = fabs(ends[1].g) + fabs(ends[0].g);
+    QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
+    root->late = step * (fabs(ends[1].g) / rise);
+    root->blur = noise < rise ? step * (noise / rise) : step;
+    return QDOT_OK;
+}
+
 /* Find the root between ends [2] of different signs, near guess; *found false if the signs are
  * equal, since a polynomial overshoots beside a jump. */
 static qdot_status
@@ -290,7 +310,11 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
             const double bend = within > 0 ? bend_at(p, d, x[e]) : 0;
 
             if (sign != 0 && !is_start_again(p, to))
-                QDOT_TRY(qdot_watch_push(w, (qdot_root){i, to, 0, fabs(v), false, within, bend}));
+                QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                        .t = to,
+                                                        .residual = fabs(v),
+                                                        .within = within,
+                                                        .bend = bend}));
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {
@@ -298,13 +322,17 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
             end ends[2] = {{from, 0}, {to, 0}};
 
             QDOT_TRY(locate(w, i, there, ends, guess, &found));
-            if (found && !is_start_again(p, ends[1].t))
-                QDOT_TRY(qdot_watch_push(
-                    w, (qdot_root){.function = i,
-                                   .t = ends[1].t,
-                                   .way = there,
-                                   .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
-                                   .exact = ends[1].g == 0}));
+            if (found && !is_start_again(p, ends[1].t)) {
+                qdot_root root = {.function = i,
+                                  .t = ends[1].t,
+                                  .way = there,
+                                  .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
+                                  .exact = ends[1].g == 0};
+
+                if (!root.exact)
+                    QDOT_TRY(refine(w, ends, &root));
+                QDOT_TRY(qdot_watch_push(w, root));
+            }
             there = found ? there : sign;
         }
         sign = there != 0 ? there : sign;

@@ -149,6 +149,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
+                                .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
@@ -166,7 +167,6 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         options.leading = true;
         options.carry = y + n;
         options.t0_low = run->t0_low;
-        options.t1_low = goal(run) == run->t1 ? run->t1_low : 0;
     }
     if (status != QDOT_OK) {
         qdot_free(y);
@@ -191,6 +191,17 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
     return qdot_grave(status);
 }
 
+/* Whether an extremum counts as a touch by the tolerance. Where none does, none should in a companion,
+ * which may see the same two crossings a little nearer to each other. */
+static bool
+has_touches(const qdot_course *c)
+{
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        if (c->occurrences.at[i].within > 0)
+            return true;
+    return false;
+}
+
 static qdot_status
 follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 {
@@ -204,7 +215,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
 
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
-    c->touch_tol = run->course.touch_tol;
+    c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
     for (; status == QDOT_OK; way++) {

@@ -25,7 +25,7 @@ take_plan(search *s, const qdot_plan *plan)
 {
     s->plan = plan;
     qdot_pulses_clear(&s->pulses);
-    return qdot_pulses_init(&s->pulses, plan->tape, plan->n, s->hiding,
+    return qdot_pulses_init(&s->pulses, plan, plan->tape, s->hiding,
                             QDOT_CHEBYSHEV_MOST);
 }
 

@@ -70,7 +70,7 @@ write_down(qdot_scene *scene, const qdot_plan *plan, qdot_expr *p, bool *needed)
     qdot_pool *pool = plan->pool;
     qdot_expr *force = p + n, *b = force + n, *M = b + n, *zero = M + n * (n + 1) / 2;
 
-    *needed = false;
+    *needed = scene->constraints.n > 0;
     QDOT_TRY(momenta_of(scene, plan, p));
     for (size_t i = 0; i < n; i++)
         zero[i] = QDOT_ZERO;

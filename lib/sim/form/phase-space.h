@@ -3,7 +3,8 @@
  *     p = dL/dq' = M(q, t) q' + b(q, t)          so   M q' = p - b
  *     p' = M q'' + sum_j dp/dq_j q_j' + dp/dt,    M q'' = f
  *
- * Where M is a matrix of numbers and b does not depend on q, q' itself will do.
+ * Where M is a matrix of numbers and b does not depend on q, q' itself will do. Constraints g(q, t) = 0
+ * add A^T lambda to p' (qdot_ode_bonds), and then p is always made.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1.
  * Tests   tests/sim/test_phase-space.c
@@ -23,7 +24,7 @@ struct qdot_phase_space {
     qdot_tape *forces;  /* p' [n] */
 };
 
-/* Of a plan with M and f and without constraints; *space NULL where q' itself will do. QDOT_ENOTBUILT:
+/* Of a plan with M and f; *space NULL where q' itself will do. QDOT_ENOTBUILT:
  * M depends on q'; those of the pool, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan,
                                                  qdot_phase_space **space);

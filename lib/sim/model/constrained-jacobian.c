@@ -64,6 +64,14 @@ find_damped_gains(qdot_constrained *h)
             gain(h, n + k, c->rows[k].kind == QDOT_HOLONOMIC ? -2 * a : -a, from++);
 }
 
+void
+qdot_constrained_gains(qdot_constrained *h)
+{
+    find_gains(h);
+    if (h->plan->treatment == QDOT_RUN_BAUMGARTE)
+        find_damped_gains(h);
+}
+
 qdot_status
 qdot_constrained_jacobian(qdot_constrained *h, double t, const double *y, double *dfdy,
                           double *dfdt)
@@ -72,9 +80,7 @@ qdot_constrained_jacobian(qdot_constrained *h, double t, const double *y, double
     qdot_saddle *s = &h->at[QDOT_ACCELERATION]->saddle;
 
     QDOT_TRY(qdot_constrained_solve(h, t, y, h->a, h->a + n));
-    find_gains(h);
-    if (h->plan->treatment == QDOT_RUN_BAUMGARTE)
-        find_damped_gains(h);
+    qdot_constrained_gains(h);
     memset(dfdy, 0, 4 * n * n * sizeof *dfdy);
     memset(dfdt, 0, 2 * n * sizeof *dfdt);
     for (size_t i = 0; i < n; i++)

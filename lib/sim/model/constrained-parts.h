@@ -34,6 +34,7 @@ struct qdot_constrained {
     double *slopes;      /* [outputs x (2n + 1)] of a tape */
     double *gains;       /* [(n + m) x (2n + 1)] of the equations */
     double *slopes_work; /* of the derivatives */
+    bool *used;          /* [m] rows that are not redundant, for implicit methods */
 };
 
 /* Set the state at which the tapes are evaluated next. */
@@ -41,6 +42,13 @@ void qdot_constrained_load(qdot_constrained *h, double t, const double *y);
 /* Evaluate f; w at the loaded state; 0 for rows without. */
 void qdot_constrained_positions(qdot_constrained *h);
 void qdot_constrained_velocities(qdot_constrained *h);
+
+/* Add the damping of Baumgarte's treatment to gamma [m]; f and w are evaluated. */
+void qdot_constrained_damp(const qdot_constrained *h, double *gamma);
+
+/* After qdot_constrained_solve into h->a: the slopes of f - M q'' + A^T lambda and gamma - A q'', with
+ * its damping, by q, q', t at q'' and lambda held, into h->gains. */
+void qdot_constrained_gains(qdot_constrained *h);
 
 /* Evaluate f and w. */
 void qdot_constrained_residuals(qdot_constrained *h);

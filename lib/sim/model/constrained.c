@@ -37,6 +37,7 @@ qdot_constrained_free(qdot_constrained *h)
     qdot_free(h->slopes);
     qdot_free(h->gains);
     qdot_free(h->slopes_work);
+    qdot_free(h->used);
     qdot_free(h);
 }
 
@@ -196,8 +197,8 @@ qdot_constrained_factor(const qdot_plan *plan, qdot_saddle *s)
     return qdot_constrained_factor_rows(plan, s, NULL);
 }
 
-static void
-damp(const qdot_constrained *h, double *gamma)
+void
+qdot_constrained_damp(const qdot_constrained *h, double *gamma)
 {
     const double a = QDOT_CONSTRAINED_RATE;
 
@@ -225,7 +226,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     memcpy(x, h->out, n * sizeof *x);
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
-        damp(h, x + n);
+        qdot_constrained_damp(h, x + n);
     QDOT_TRY(qdot_constrained_look_first(h, all));
     QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
@@ -427,7 +428,8 @@ make_slopes(qdot_constrained *h, size_t outputs)
     h->slopes = qdot_calloc(outputs * columns + 1, sizeof *h->slopes);
     h->gains = qdot_calloc((h->plan->n + h->c->m) * columns, sizeof *h->gains);
     h->slopes_work = qdot_calloc(work + 1, sizeof *h->slopes_work);
-    return h->slopes && h->gains && h->slopes_work ? QDOT_OK : QDOT_ENOMEM;
+    h->used = qdot_calloc(h->c->m + 1, sizeof *h->used);
+    return h->slopes && h->gains && h->slopes_work && h->used ? QDOT_OK : QDOT_ENOMEM;
 }
 
 static qdot_status

@@ -61,6 +61,21 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_jacobian(qdot_constrained *constrai
                                                       double t, const double *y,
                                                       double *dfdy, double *dfdt);
 
+/* For implicit methods, of all m rows, with nothing solved (ode/system.h, qdot_ode_mass_form):
+ *
+ *     r [n + m] = (f + A^T z - M a, g),
+ *
+ * g the rate of a holonomic constraint, or a velocity constraint itself, where states are projected
+ * (index 2); else gamma - A a, with its damping (index 1). The multiplier of a redundant row is 0. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_implicit(qdot_constrained *constrained, double t,
+                                                      const double *y, const double *a,
+                                                      const double *z, double *r);
+/* Its slopes by q and (v, z), and the matrix before a, [(n + m) x (n + m)] each, and the multipliers
+ * z [m] at y. For a plan whose method needs them. Errors: as _solve. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_implicit_slopes(qdot_constrained *constrained, double t,
+                                                             const double *y, double *z,
+                                                             double *dq, double *dv, double *M);
+
 /* A constraint on accelerations does not drift, because it is solved for. But one that is
  * redundant at the start may contradict the others later: QDOT_EDOMAIN names one that does not
  * hold at a state of the run. Test: tests/bad/constraint-leaves.lag. */
@@ -72,6 +87,10 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constraine
  * QDOT_EDOMAIN if it does not converge. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_project(double t, double *y, double *carry,
                                                      double *moved, void *constrained);
+
+/* The constraints, all of them holonomic, as methods take them that hold them themselves
+ * (ode/geometric/variational.c). Valid while `constrained` lives; whose user it is. */
+qdot_ode_bonds qdot_constrained_bonds(qdot_constrained *constrained);
 
 /* The event `who` has set the values of y [2n] marked in q_set and v_set [n]. They stay; the
  * others move least in the metric of M until the constraints hold, first on positions, then on

@@ -28,30 +28,48 @@ velocity_force(const qdot_plan *p)
 }
 
 static qdot_status
-refuse(const qdot_plan *p, const char *why, const char *name)
+refuse(const qdot_plan *p, const char *why, const char *name, const char *instead)
 {
     qdot_fail(QDOT_ENOTBUILT, "%s %s%s", p->method->name, why, name);
-    return qdot_hint("method taylor");
+    return qdot_hint("method %s", instead);
+}
+
+/* The constraints may be on positions alone, and the method must know them. */
+static qdot_status
+check_constraints(const qdot_plan *p, const qdot_scene *scene, qdot_run_treatment treatment)
+{
+    const bool holds = p->method->geometric->of_bonds > 0;
+
+    for (size_t k = 0; k < scene->constraints.n; k++)
+        if (scene->constraints.at[k].kind != QDOT_HOLONOMIC)
+            return refuse(p, holds ? "needs constraints on positions, but velocities are in "
+                                   : "is for scenes without constraints, unlike ",
+                          scene->constraints.at[k].name, "taylor");
+    if (scene->constraints.n > 0 && !holds)
+        return refuse(p, "is for scenes without constraints", "", "variational");
+    if (scene->constraints.n > 0 && treatment != QDOT_RUN_PROJECT)
+        return qdot_fail(QDOT_ENOTBUILT, "%s holds the constraints in every step: there is no drift "
+                                         "to be treated", p->method->name);
+    return QDOT_OK;
 }
 
 qdot_status
-qdot_plan_check_geometric(qdot_plan *p, qdot_scene *scene)
+qdot_plan_check_geometric(qdot_plan *p, qdot_scene *scene, qdot_run_treatment treatment)
 {
     size_t i;
 
     if (!p->method->geometric)
         return QDOT_OK;
-    if (scene->constraints.n > 0)
-        return refuse(p, "is for scenes without constraints", "");
+    QDOT_TRY(check_constraints(p, scene, treatment));
     if (p->method->geometric->separable) {
         i = varying_mass(p);
         if (i < p->n)
             return refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
-                          p->names[i]);
+                          p->names[i], "gauss8");
         i = velocity_force(p);
         if (i < p->n)
             return refuse(p, "needs forces without velocities, but there are some along ",
-                          p->names[i]);
+                          p->names[i], "gauss8");
     } else {
         QDOT_TRY(qdot_phase_space_new(scene, p, &p->phase_space));
     }

@@ -22,9 +22,6 @@
  * ode/method.h for when each fits. */
 static const char default_method[] = "taylor", switching_method[] = "rk8pd";
 
-/* Words of the language for methods that come later. */
-static const char *const later_methods[] = {"variational"};
-
 /* --- the scene ---------------------------------------------------------------------- */
 
 qdot_status
@@ -52,9 +49,6 @@ find_method(qdot_plan *p, const char *name)
     p->method = qdot_ode_method_find(p->chosen ? default_method : name);
     if (p->method)
         return QDOT_OK;
-    for (size_t i = 0; i < sizeof later_methods / sizeof *later_methods; i++)
-        if (strcmp(name, later_methods[i]) == 0)
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: method %s", name);
     qdot_spelling_begin(&nearest, name);
     for (size_t i = 0; i < qdot_ode_method_count(); i++) {
         qdot_text_format(&names, ", %s", qdot_ode_method_at(i)->name);
@@ -253,7 +247,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(derive(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
     QDOT_TRY(check_massless(p, request));
-    QDOT_TRY(qdot_plan_check_geometric(p, scene));
+    QDOT_TRY(qdot_plan_check_geometric(p, scene, request->treatment));
     if (scene->constraints.n + p->n_massless > 0)
         return constrain(p, scene, request);
     QDOT_TRY(qdot_plan_structure(p, NULL));

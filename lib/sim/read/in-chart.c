@@ -3,11 +3,39 @@
 
 #include <math.h>
 
+#include "expr/print.h"
+
 void
 qdot_in_chart_clear(qdot_in_chart *in)
 {
     qdot_free(in->exprs);
     *in = (qdot_in_chart){0};
+}
+
+/* What is written with a root has no value where the motion has left the places it can write. */
+static qdot_status
+check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
+{
+    const qdot_chart *c = &in->run->chart->chart;
+
+    for (size_t j = 0; j < in->m; j++) {
+        const qdot_chart_sign *s = qdot_chart_beyond(c, in->exprs[j], in->quarters);
+        qdot_text text = {0};
+        qdot_status status;
+
+        if (!s)
+            continue;
+        status = qdot_print(c->pool, exprs[j], QDOT_PLAIN, &text);
+        if (status == QDOT_OK)
+            status = qdot_fail(QDOT_EDOMAIN,
+                               "%.120s is undefined at t = %.15g: there the motion is beyond "
+                               "what %.100s can write",
+                               qdot_text_str(&text), in->t,
+                               qdot_expr_symbol(c->pool, s->symbol)->name);
+        qdot_text_clear(&text);
+        return status;
+    }
+    return QDOT_OK;
 }
 
 /* Express them, from no quarters where no angle stands by itself. */
@@ -42,7 +70,8 @@ qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_exp
     if (!in->turns)
         return QDOT_OK;
     QDOT_TRY(qdot_run_chart_quarters(run, t, &in->quarters));
-    return express(in, exprs, in->quarters);
+    QDOT_TRY(express(in, exprs, in->quarters));
+    return check_branches(in, exprs);
 }
 
 bool

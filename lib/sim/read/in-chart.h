@@ -6,6 +6,7 @@
 #define QDOT_SIM_IN_CHART_H
 
 #include "sim/run/chart-run.h"
+#include "sim/run/run.h"
 
 /* Expressions in the coordinates of the run, as they hold over one stretch of its angles. */
 typedef struct {
@@ -13,17 +14,23 @@ typedef struct {
     size_t m;
     double t;             /* of the stretch */
     qdot_expr *exprs;     /* [m] */
-    bool turns;           /* one holds an angle outside of sin and cos */
+    bool turns;           /* one holds an angle outside of sin and cos, or a sign */
     const long *quarters; /* from which that is counted; borrowed */
 } qdot_in_chart;
 
-/* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading. */
+/* Express exprs [m] for the stretch of time t. Start from {0}; errors: the pool's, of reading;
+ * QDOT_EDOMAIN: one is beyond a root (mech/study/chart.h). */
 QDOT_MUST_CHECK qdot_status qdot_in_chart_express(qdot_in_chart *in, qdot_run *run,
                                                   size_t m, const qdot_expr *exprs,
                                                   double t);
 /* Whether they hold at another time, too: it is in the same stretch. */
 bool qdot_in_chart_holds(const qdot_in_chart *in, double t);
 void qdot_in_chart_clear(qdot_in_chart *in);
+
+/* Values, with errors, of expressions in the coordinates of the run itself. */
+QDOT_MUST_CHECK qdot_status qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs,
+                                                 const qdot_exact_times *times, double *values,
+                                                 double *errors);
 
 /* The end of the stretch of `from` on the way to `to`, or `to` if that is nearer. */
 double qdot_in_chart_end(const qdot_in_chart *in, double from, double to);

@@ -100,8 +100,9 @@ judge_fit(scan *s, const part *p, bool *good)
 
     qdot_polynomial_bounds_look(&s->bounds, p->a, p->b, p->n, NULL, NULL);
     miss = s->bounds.miss[0];
-    if ((s->kind == QDOT_RANGE_MAX && p->c[0] + spread + miss <= s->largest)
-        || (s->kind == QDOT_RANGE_MIN && p->c[0] - spread - miss >= s->smallest))
+    if (s->kind != QDOT_RANGE_MEAN
+        && (s->kind == QDOT_RANGE_MIN || p->c[0] + spread + miss <= s->largest + s->rough)
+        && (s->kind == QDOT_RANGE_MAX || p->c[0] - spread - miss >= s->smallest - s->rough))
         return SURPASSED;
     rounded =
         s->parts < MANY_PARTS
@@ -188,6 +189,16 @@ bound_blurred(scan *s, const part *p, double low, double high)
     return QDOT_OK;
 }
 
+/* Whether the values of a part differ by no more than its polynomial may be off: extrema of that say
+ * nothing. */
+static bool
+is_level(const scan *s, const part *p)
+{
+    return s->kind != QDOT_RANGE_MEAN
+           && qdot_chebyshev_spread(p->n, p->c)
+                  <= fmax(QDOT_RANGE_NOISES * s->noise, tight * qdot_chebyshev_size(p->n, p->c));
+}
+
 /* Ends, extrema, integral of a part. */
 static qdot_status
 take_part(scan *s, const part *p, bool good, bool sure)
@@ -213,7 +224,11 @@ take_part(scan *s, const part *p, bool good, bool sure)
             s->first = x;
         s->begun = true;
     }
-    if (good) {
+    if (good && is_level(s, p)) {
+        for (int j = 0; j < p->n; j++)
+            qdot_range_meet(s, p->values[j]);
+        s->rough = fmax(s->rough, qdot_chebyshev_spread(p->n, p->c));
+    } else if (good) {
         qdot_chebyshev_derivative(p->n, p->c, d);
         if (qdot_chebyshev_size(p->n - 1, d) > 0)
             n = qdot_chebyshev_crossings(p->n - 1, d, at);
@@ -288,12 +303,41 @@ middling(const part *p)
     return (sum - largest) / (p->n - 1);
 }
 
+/* Whether bounds by the series of the step keep the expression within the values met so far. */
+static qdot_status
+is_surpassed(scan *s, double a, double b, bool *surpassed)
+{
+    const qdot_reader *r = &s->reader;
+    const qdot_ode_system *system;
+    qdot_ode_expanded step;
+    double x, above, below;
+
+    *surpassed = false;
+    if (!s->begun || s->kind == QDOT_RANGE_MEAN || r->n_courses != 1 || r->of.accelerations
+        || r->of.plan->read_side)
+        return QDOT_OK;
+    QDOT_TRY(qdot_grave(qdot_reader_read(&s->reader, s->pieces, 0.5 * (a + b), &x)));
+    if (!qdot_trajectory_expanded(r->courses[0].cursor, &system, &step))
+        return QDOT_OK;
+    step.t_end = b;
+    qdot_polynomial_bounds_series(&s->bounds, system->series, &step);
+    above = s->bounds.out[0] + (1 + 0x1p-20) * s->bounds.out_radius[0];
+    below = s->bounds.out[0] - (1 + 0x1p-20) * s->bounds.out_radius[0];
+    *surpassed = (s->kind == QDOT_RANGE_MIN || above <= s->largest)
+                 && (s->kind == QDOT_RANGE_MAX || below >= s->smallest);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_range_step(scan *s, double a, double b)
 {
     double ends[DEEPEST + 2], from = a;
     int depth = 1;
+    bool surpassed;
 
+    QDOT_TRY(is_surpassed(s, a, b, &surpassed));
+    if (surpassed)
+        return QDOT_OK;
     ends[0] = b;
     s->ends[0] = a;
     s->ends[1] = b;

@@ -13,6 +13,7 @@
 #include "sim/error/noise.h"
 #include "sim/read/in-chart.h"
 #include "sim/read/joint.h"
+#include "sim/read/passage.h"
 #include "sim/read/range-parts.h"
 #include "sim/read/stretches.h"
 
@@ -301,10 +302,46 @@ typedef struct {
     bool begun;
 } gathered;
 
-static qdot_status
-gather(const qdot_run_expression *x, qdot_range_kind kind, const double *range, gathered *g)
+static void
+meet_extrema(gathered *g, double most, double least, double error)
 {
-    double value, error;
+    g->most = g->begun ? fmax(g->most, most) : most;
+    g->least = g->begun ? fmin(g->least, least) : least;
+    g->error = isnan(g->error) || isnan(error) ? NAN : fmax(g->error, error);
+    g->begun = true;
+}
+
+/* The extrema next to places at the ends of range [2], which is narrowed to what is left. Not of
+ * several runs. */
+static qdot_status
+meet_places(const qdot_run_expression *given, double *range, gathered *g)
+{
+    qdot_run *run = given->runs[0];
+    const double whole[] = {range[0], range[1]};
+
+    if (given->n != 1 || !run->chart)
+        return QDOT_OK;
+    for (int end = 0; end < 2; end++) {
+        const size_t k = qdot_passage_at(run, whole[end]);
+        qdot_passage p;
+        bool found;
+
+        if (k == SIZE_MAX || whole[0] == whole[1])
+            continue;
+        QDOT_TRY(qdot_passage_extrema(run, given->e, k, end == 1, whole[!end], &p, &found));
+        if (!found)
+            continue;
+        meet_extrema(g, p.most, p.least, p.error);
+        range[end] = p.beyond;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+gather(const qdot_run_expression *x, const qdot_run_expression *given, qdot_range_kind kind,
+       double *range, gathered *g)
+{
+    double value, error, most = NAN;
 
     if (kind == QDOT_RANGE_MEAN) {
         const double length = range[0] == range[1] ? 1 : fabs(range[1] - range[0]);
@@ -315,16 +352,15 @@ gather(const qdot_run_expression *x, qdot_range_kind kind, const double *range, 
         g->length += length;
         return QDOT_OK;
     }
-    for (int way = 0; way < 2; way++) {
-        QDOT_TRY(range_along(x, way ? QDOT_RANGE_MIN : QDOT_RANGE_MAX, range, &value, &error));
-        g->most = way ? g->most : g->begun ? fmax(g->most, value) : value;
-        g->least = !way ? g->least : g->begun ? fmin(g->least, value) : value;
-        g->error = isnan(g->error) || isnan(error) ? NAN : fmax(g->error, error);
-    }
     if (!g->begun)
         QDOT_TRY(range_along(x, QDOT_RANGE_MEAN, (double[]){range[0], range[0]}, &g->first,
                              &error));
-    g->begun = true;
+    QDOT_TRY(meet_places(given, range, g));
+    for (int way = 0; way < 2; way++) {
+        QDOT_TRY(range_along(x, way ? QDOT_RANGE_MIN : QDOT_RANGE_MAX, range, &value, &error));
+        most = way ? most : value;
+        meet_extrema(g, most, way ? value : most, error);
+    }
     return QDOT_OK;
 }
 
@@ -382,7 +418,7 @@ range_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double 
             return status;
         }
         if (status == QDOT_OK)
-            status = gather(&own, kind, (double[]){from, end}, &g);
+            status = gather(&own, x, kind, (double[]){from, end}, &g);
         more = end != to;
         from = end;
     }

@@ -151,9 +151,8 @@ qdot_run_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
     return qdot_run_values_beyond(run, m, exprs, &all, values, errors);
 }
 
-/* Of expressions in the coordinates of the run. */
-static qdot_status
-values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+qdot_status
+qdot_in_chart_values(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
               double *values, double *errors)
 {
     const size_t k = times->n;
@@ -184,7 +183,7 @@ values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exac
         while (status == QDOT_OK && i + n < times->n && qdot_in_chart_holds(&in, times->at[i + n]))
             n++;
         if (status == QDOT_OK)
-            status = values_beyond(run, m, in.exprs,
+            status = qdot_in_chart_values(run, m, in.exprs,
                                    &(qdot_exact_times){n, times->at + i,
                                                        times->low ? times->low + i : NULL},
                                    values + i * m, errors ? errors + i * m : NULL);
@@ -200,7 +199,7 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
     if (run->precise)
         return qdot_precise_pair_sample_values(run->precise, m, exprs, times->n, times->at, values,
                                                errors);
-    return (run->chart ? values_in_chart : values_beyond)(run, m, exprs, times, values, errors);
+    return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
 }
 
 qdot_status

@@ -14,6 +14,9 @@
 /* A run came near a singular place if N falls below so much of its largest value, or of 1. */
 static const double near_place = 0.05;
 
+/* Looked at in so many parts of a step. */
+enum { parts = 8 };
+
 /* Rounding held the steps so far above their tolerance, or the error is so large, that other
  * coordinates may do better. */
 static const double poor = 100, poor_error = 1000;
@@ -52,23 +55,42 @@ measure_start(const qdot_scene *s, const qdot_run_request *request, qdot_expr di
     return QDOT_OK;
 }
 
-/* At the points of a run; where the sign changes it is 0 between two. */
+static qdot_status
+measure_at(qdot_reader *r, double t, double *before, nearness *x)
+{
+    double value;
+    const qdot_status status = qdot_reader_at(r, SIZE_MAX, t, &value);
+
+    if (qdot_reader_has_nothing(status)) {
+        x->least = 0; /* M is singular just there */
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
+    x->least = !(value * *before > 0) ? 0 : fmin(x->least, fabs(value));
+    x->most = fmax(x->most, fabs(value));
+    *before = value;
+    return QDOT_OK;
+}
+
+/* Along a run; where the sign changes it is 0 between two points. */
 static qdot_status
 measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
 {
+    const qdot_trajectory *tr = &run->course.tr;
     qdot_reader r = {0};
     qdot_reading of = {0};
-    double value, before = x->sign;
+    double before = x->sign;
     qdot_status status = qdot_reader_lower(run->plan, 1, &distance, &of);
 
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, &of, &run->course);
-    for (size_t k = 0; k < run->course.tr.count && status == QDOT_OK; k++) {
-        status = qdot_reader_at(&r, SIZE_MAX, run->course.tr.t[k], &value);
-        x->least = value * before <= 0 ? 0 : fmin(x->least, fabs(value));
-        x->most = fmax(x->most, fabs(value));
-        before = value;
-    }
+    if (status == QDOT_OK)
+        status = measure_at(&r, tr->t[0], &before, x);
+    for (size_t k = 1; k < tr->count; k++)
+        for (int j = 1; j <= parts && status == QDOT_OK; j++)
+            status = measure_at(
+                &r, j == parts ? tr->t[k] : tr->t[k - 1] + (tr->t[k] - tr->t[k - 1]) * j / parts,
+                &before, x);
     qdot_reader_clear(&r);
     qdot_tape_free(of.tape);
     return status;
@@ -125,9 +147,15 @@ find_angles(const qdot_run_request *request, qdot_run_chart *x)
 {
     const qdot_chart *c = &x->chart;
 
-    for (size_t i = 0; i < c->moved.n; i++)
-        QDOT_TRY(qdot_tape_constant(
-            c->of->pool, at_start(c->of, request, c->moved.at[i].q), x->angles + i));
+    for (size_t i = 0; i < c->moved.n; i++) {
+        const qdot_status status = qdot_tape_constant(
+            c->of->pool, at_start(c->of, request, c->moved.at[i].given), x->angles + i);
+
+        if (status == QDOT_EDOMAIN)
+            x->angles[i] = 0; /* it has no direction there */
+        else
+            QDOT_TRY(status);
+    }
     return QDOT_OK;
 }
 
@@ -176,6 +204,31 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     return status;
 }
 
+/* Where the run leaves the places that a root can write. */
+static qdot_status
+say_branches(qdot_run *run)
+{
+    const qdot_run_chart *x = run->chart;
+    const qdot_chart *c = &x->chart;
+
+    for (size_t i = 0; i < c->signs.n; i++) {
+        size_t k = 0;
+
+        if (!c->signs.at[i].branch)
+            continue;
+        while (k < x->stretches.n
+               && x->quarters.at[x->stretches.at[k].quarters + c->moved.n + i] > 0)
+            k++;
+        if (k < x->stretches.n)
+            qdot_text_format(
+                qdot_run_next_notice(run),
+                "at t = %.9g the motion passes the place where %.100s is 0 and goes on where "
+                "this cannot reach: what holds it has no value there",
+                x->stretches.at[k].t, qdot_expr_symbol(c->pool, c->signs.at[i].symbol)->name);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 say_chart(qdot_run *run)
 {
@@ -184,7 +237,26 @@ say_chart(qdot_run *run)
         "the coordinates become singular on the way: the run is in %s, and values "
         "are given in the coordinates of the scene",
         qdot_text_str(&run->chart->chart.names));
+    QDOT_TRY(say_branches(run));
     return qdot_text_status(&run->notice);
+}
+
+/* Whether the run is good for as long as signs, or roots, go as they may. */
+static bool
+depends_on_signs(const qdot_chart *c)
+{
+    bool depends = c->signed_events;
+
+    for (size_t i = 0; i < c->signs.n; i++)
+        depends = depends || c->signs.at[i].branch;
+    return depends;
+}
+
+/* Whether events saw a sign that has changed, or the motion went where it has no one way. */
+static bool
+is_lost(const qdot_run_chart *x)
+{
+    return x->crosses || (x->chart.signed_events && x->changes);
 }
 
 /* Make the run with these groups replaced; *out NULL where it does not arrive. at_place: it begins
@@ -204,8 +276,14 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
         (*out)->chart = x;
         x = NULL;
         status = qdot_run_chart_report(*out, by);
-        if (status == QDOT_OK)
+        if (status == QDOT_OK && depends_on_signs(&(*out)->chart->chart))
+            status = qdot_run_chart_follow(*out);
+        if (status == QDOT_OK && is_lost((*out)->chart)) {
+            by->free(*out);
+            *out = NULL;
+        } else if (status == QDOT_OK) {
             status = say_chart(*out);
+        }
     }
     qdot_run_chart_free(x);
     return status;
@@ -269,10 +347,37 @@ is_better(const qdot_run *other, const qdot_run *run)
 {
     if (!run || run->report.status == QDOT_RUN_FAILED)
         return true;
-    if (takes_another_way(other, run))
+    if (!isnan(run->report.error) && takes_another_way(other, run))
         return false;
     return other->report.error < run->report.error ||
            (isnan(run->report.error) && !isnan(other->report.error));
+}
+
+/* `change` from the start that the run has settled on the constraints, if it has one. */
+static qdot_status
+change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+               const qdot_run *run, qdot_run **out)
+{
+    const size_t n = s->coordinates.n;
+    qdot_run_request settled = *request;
+    qdot_expr *start;
+    qdot_status status;
+
+    if (s->constraints.n == 0 || !run || !run->start)
+        return change(s, request, by, run, out);
+    start = qdot_calloc(2 * n + 1, sizeof *start);
+    if (!start)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < 2 * n; i++)
+        start[i] = qdot_add(s->pool, qdot_expr_of_double(s->pool, run->start[i]),
+                            qdot_expr_of_double(s->pool, run->start_low[i]));
+    settled.q0 = start;
+    settled.v0 = start + n;
+    status = qdot_pool_check(s->pool);
+    if (status == QDOT_OK)
+        status = change(s, &settled, by, run, out);
+    qdot_free(start);
+    return status;
 }
 
 qdot_status
@@ -280,13 +385,13 @@ qdot_run_change_chart(qdot_scene *s, const qdot_run_request *request,
                       const qdot_run_maker *by, qdot_status began, qdot_run **run)
 {
     const qdot_error before = *qdot_last_error();
-    qdot_run *other;
+    qdot_run *other = NULL;
     qdot_status status;
 
     if (request->n_states > 0 || (*run ? began != QDOT_OK || !is_poor(*run, request->tol)
                                        : began != QDOT_ESINGULAR))
         return began;
-    status = change(s, request, by, *run, &other);
+    status = change_settled(s, request, by, *run, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
         by->free(other);
         return status;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "expr/calculus.h"
 #include "sim/course/reader.h"
 
 /* An angle is followed in steps below `sure`; a stretch ends where it is `far` from its quarters.
@@ -14,6 +15,9 @@ static const double sure = 0.8, far = 2.0, turn = 6.283185307179586;
 
 /* As near a singular place, of the largest distance so far, rounding decides the direction. */
 static const double no_direction = 1e-13;
+
+/* So small, of the largest so far, the square of a slope of P is 0: w^2 = P crosses itself there. */
+static const double no_slope = 1e-12;
 enum { parts = 16 };
 
 void
@@ -35,55 +39,100 @@ qdot_run_chart_free(qdot_run_chart *x)
 typedef struct {
     qdot_run_chart *x;
     qdot_reader reader;
-    size_t m;     /* moved coordinates */
-    double *xy;   /* [2 m] */
+    size_t m, n;  /* moved coordinates, signs */
+    double *xy;   /* [4 m + 2 n] x, y of the angles with all signs 1, -1; then the roots w, and
+                     the squares of their slopes */
     double *now;  /* [m] the angles at `t`, continued, */
     double *next; /* [m] and those read */
-    double *most; /* [m] the largest distance so far */
+    double *most; /* [m + n] the largest distance so far, or slope of a root */
+    long *signs;  /* [n] at `t` */
+    uint64_t passed; /* those whose place is passed, at the next point */
     double t;
 } following;
 
-/* Read the angles at t, each continued from those now; the largest change. */
+/* Whether m is followed, as an angle. */
+static bool
+turns(const qdot_chart_moved *m)
+{
+    return m->bare != QDOT_NIL;
+}
+
+/* Angle i from x and y as they were read. */
+static void
+turn_to(following *f, size_t i)
+{
+    const qdot_chart_moved *m = f->x->chart.moved.at + i;
+    const bool minus = m->sign > 0 && f->signs[m->sign - 1] < 0;
+    const double x = f->xy[4 * i + 2 * minus], size = f->xy[4 * i + 2 * minus + 1];
+    const double y = m->factor == QDOT_NIL ? size : size * sin(0.5 * f->next[m->half]);
+
+    f->next[i] = f->now[i];
+    if (!turns(m) || !isfinite(x) || !isfinite(y))
+        return;
+    f->most[i] = fmax(f->most[i], hypot(x, y));
+    if (hypot(x, y) > no_direction * f->most[i])
+        f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
+}
+
+/* Whether the sign of a root read at t is not that before. */
+static bool
+changes_branch(const following *f)
+{
+    for (size_t i = 0; i < f->n; i++)
+        if (f->x->chart.signs.at[i].branch && f->xy[4 * f->m + i] * (double)f->signs[i] < 0)
+            return true;
+    return false;
+}
+
+/* The angles that were read, each continued from those now; the largest change. */
+static double
+turn_all(following *f)
+{
+    double change = 0;
+
+    for (size_t i = 0; i < f->m; i++) {
+        turn_to(f, i);
+        change = fmax(change, fabs(f->next[i] - f->now[i]));
+    }
+    return change;
+}
+
 static qdot_status
 look(following *f, double t, double *change)
 {
     QDOT_TRY(qdot_reader_at(&f->reader, SIZE_MAX, t, f->xy));
-    *change = 0;
-    for (size_t i = 0; i < f->m; i++) {
-        const double x = f->xy[2 * i], y = f->xy[2 * i + 1];
-
-        f->next[i] = f->now[i];
-        if (!f->x->chart.moved.at[i].angle || !isfinite(x) || !isfinite(y))
-            continue;
-        f->most[i] = fmax(f->most[i], hypot(x, y));
-        if (!(hypot(x, y) > no_direction * f->most[i]))
-            continue;
-        f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
-        *change = fmax(*change, fabs(f->next[i] - f->now[i]));
-    }
+    *change = turn_all(f);
+    for (size_t i = 0; i < f->n; i++)
+        f->most[f->m + i] = fmax(f->most[f->m + i], f->xy[4 * f->m + f->n + i]);
     return QDOT_OK;
 }
 
 static qdot_status
 begin_stretch(following *f, double t, const double *angles)
 {
-    const qdot_chart_stretch s = {t, f->x->quarters.n};
+    const qdot_chart_stretch s = {t, f->passed, f->x->quarters.n};
 
     for (size_t i = 0; i < f->m; i++)
         QDOT_TRY(qdot_vec_push(&f->x->quarters, lround(4 * angles[i] / turn)));
+    for (size_t i = 0; i < f->n; i++)
+        QDOT_TRY(qdot_vec_push(&f->x->quarters, f->signs[i]));
     return qdot_vec_push(&f->x->stretches, s);
 }
 
-/* Go to t with the angles read there. They jump where a singular place is passed exactly. */
+/* Go to t with the angles read there. They, or signs, jump where a singular place is passed
+ * exactly. */
 static qdot_status
 go(following *f, double t, bool jumps)
 {
     const qdot_chart_stretch *s = &f->x->stretches.at[f->x->stretches.n - 1];
     const long *quarters = f->x->quarters.at + s->quarters;
-    bool beyond = false;
+    bool beyond = f->passed != 0;
 
     for (size_t i = 0; i < f->m; i++)
-        beyond = beyond || fabs(f->next[i] - quarters[i] * turn / 4) > far;
+        beyond = beyond || (turns(f->x->chart.moved.at + i)
+                            && fabs(f->next[i] - quarters[i] * turn / 4) > far);
+    for (size_t i = 0; i < f->n; i++)
+        beyond = beyond || f->signs[i] != quarters[f->m + i];
     if (beyond)
         QDOT_TRY(begin_stretch(f, jumps ? t : f->t, f->next));
     f->t = t;
@@ -91,8 +140,43 @@ go(following *f, double t, bool jumps)
     return QDOT_OK;
 }
 
-/* Where a singular place is passed exactly angles jump by half a turn: upward, whatever rounding
- * says. */
+/* Where a singular place is passed exactly the sign of the distance changes, and angles go on: r
+ * becomes -r. In a domain the sign stays, and angles jump by half a turn. */
+static void
+change_signs(following *f)
+{
+    const qdot_chart *c = &f->x->chart;
+
+    for (size_t i = 0; i < f->m; i++) {
+        const size_t k = c->moved.at[i].sign;
+
+        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 2 * (1 - 1e-3)))
+            continue;
+        if (k <= 64)
+            f->passed |= (uint64_t)1 << (k - 1);
+        if (c->signs.at[k - 1].fixed)
+            continue;
+        f->signs[k - 1] = -f->signs[k - 1];
+        f->x->changes = true;
+        (void)turn_all(f);
+    }
+}
+
+static void
+change_branches(following *f)
+{
+    for (size_t i = 0; i < f->n; i++) {
+        const int now = f->xy[4 * f->m + i] < 0 ? -1 : 1;
+
+        if (!f->x->chart.signs.at[i].branch || now == f->signs[i])
+            continue;
+        f->signs[i] = now;
+        if (!(f->xy[4 * f->m + f->n + i] > no_slope * f->most[f->m + i]))
+            f->x->crosses = true;
+    }
+}
+
+/* Angles that still jump by half a turn do so upward, whatever rounding says. */
 static void
 half_turns(following *f)
 {
@@ -113,14 +197,18 @@ follow_to(following *f, double end)
         bool jumps;
 
         QDOT_TRY(look(f, t, &change));
-        jumps = change > sure;
+        jumps = change > sure || changes_branch(f);
         if (jumps && fabs(t - f->t) > least) {
             t = f->t + 0.5 * (t - f->t);
             continue;
         }
-        if (jumps)
+        if (jumps) {
+            change_branches(f);
+            change_signs(f);
             half_turns(f);
+        }
         QDOT_TRY(go(f, t, jumps));
+        f->passed = 0;
         t = end;
     }
     return QDOT_OK;
@@ -146,40 +234,86 @@ follow_run(following *f, const qdot_trajectory *tr)
     return QDOT_OK;
 }
 
+/* Expressions of angle i with signs +1 and -1: x, and y or what it is sin of half an angle times. */
+static void
+express_angle(const qdot_chart *c, size_t i, const long *quarters, qdot_expr *xy)
+{
+    const qdot_chart_moved *m = c->moved.at + i;
+
+    xy[0] = turns(m) ? qdot_chart_express(c, m->x, quarters, NULL) : QDOT_ONE;
+    xy[1] = !turns(m) ? QDOT_ZERO
+                      : qdot_chart_express(c, m->factor != QDOT_NIL ? m->factor : m->y, quarters,
+                                           NULL);
+}
+
+/* The square of the slope of P. */
+static qdot_expr
+slope_of(const qdot_chart *c, const qdot_chart_sign *s)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < c->scene->coordinates.n; i++)
+        sum = qdot_add(
+            c->pool, sum,
+            qdot_pow_int(c->pool, qdot_diff(c->pool, s->square, c->scene->coordinates.at[i]), 2));
+    return sum;
+}
+
+/* exprs [4 m + 2 n], as following.xy. */
+static qdot_status
+express_all(const qdot_chart *c, qdot_expr *exprs)
+{
+    const size_t m = c->moved.n, n = c->signs.n;
+    long *quarters = qdot_calloc(m + n + 1, sizeof *quarters);
+
+    if (!quarters)
+        return QDOT_ENOMEM;
+    for (int minus = 0; minus < 2; minus++) {
+        for (size_t i = 0; i < n; i++)
+            quarters[m + i] = minus ? -1 : 1;
+        for (size_t i = 0; i < m; i++)
+            express_angle(c, i, quarters, exprs + 4 * i + 2 * minus);
+    }
+    for (size_t i = 0; i < n; i++) {
+        const qdot_chart_sign *s = c->signs.at + i;
+
+        exprs[4 * m + i] = s->branch ? s->symbol : QDOT_ONE;
+        exprs[4 * m + n + i] = s->branch ? slope_of(c, s) : QDOT_ONE;
+    }
+    qdot_free(quarters);
+    return qdot_pool_check(c->pool);
+}
+
 static qdot_status
 follow(qdot_run *run)
 {
     qdot_run_chart *x = run->chart;
-    following f = {.x = x, .m = x->chart.moved.n};
-    qdot_expr *xy = qdot_calloc(2 * f.m + 1, sizeof *xy);
+    following f = {.x = x, .m = x->chart.moved.n, .n = x->chart.signs.n};
+    const size_t size = 4 * f.m + 2 * f.n;
+    qdot_expr *exprs = qdot_calloc(size + 1, sizeof *exprs);
     qdot_reading of = {0};
     qdot_status status;
 
-    f.xy = qdot_calloc(5 * f.m + 1, sizeof *f.xy);
-    status = f.xy && xy ? QDOT_OK : QDOT_ENOMEM;
-    for (size_t i = 0; i < f.m && status == QDOT_OK; i++) {
-        const qdot_chart_moved *moved = x->chart.moved.at + i;
-
-        xy[2 * i] =
-            moved->angle ? qdot_chart_express(&x->chart, moved->x, NULL, NULL) : QDOT_ONE;
-        xy[2 * i + 1] = moved->angle ? qdot_chart_express(&x->chart, moved->y, NULL, NULL)
-                                     : QDOT_ZERO;
-        status = qdot_pool_check(x->chart.pool);
-    }
+    f.xy = qdot_calloc(size + 3 * f.m + f.n + 1, sizeof *f.xy);
+    f.signs = qdot_calloc(f.n + 1, sizeof *f.signs);
+    status = f.xy && f.signs && exprs ? express_all(&x->chart, exprs) : QDOT_ENOMEM;
     if (status == QDOT_OK)
-        status = qdot_reader_lower(run->plan, 2 * f.m, xy, &of);
+        status = qdot_reader_lower(run->plan, size, exprs, &of);
     if (status == QDOT_OK)
         status = qdot_reader_init(&f.reader, &of, &run->course);
     if (status == QDOT_OK) {
-        f.now = f.xy + 2 * f.m;
+        f.now = f.xy + size;
         f.next = f.now + f.m;
         f.most = f.next + f.m;
+        for (size_t i = 0; i < f.n; i++)
+            f.signs[i] = x->chart.signs.at[i].start;
         status = follow_run(&f, &run->course.tr);
     }
     qdot_reader_clear(&f.reader);
     qdot_tape_free(of.tape);
     qdot_free(f.xy);
-    qdot_free(xy);
+    qdot_free(f.signs);
+    qdot_free(exprs);
     x->followed = status == QDOT_OK;
     return status;
 }
@@ -202,16 +336,24 @@ qdot_run_chart_limit(qdot_run *run)
 }
 
 qdot_status
+qdot_run_chart_follow(qdot_run *run)
+{
+    qdot_run_chart *x = run->chart;
+
+    if (x->followed)
+        return QDOT_OK;
+    x->stretches.n = x->quarters.n = 0;
+    return follow(run);
+}
+
+qdot_status
 qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 {
     qdot_run_chart *x = run->chart;
     const bool back = qdot_trajectory_is_backward(&run->course.tr);
     size_t low = 0, high;
 
-    if (!x->followed) {
-        x->stretches.n = x->quarters.n = 0;
-        QDOT_TRY(follow(run));
-    }
+    QDOT_TRY(qdot_run_chart_follow(run));
     for (high = x->stretches.n; high - low > 1;) {
         const size_t middle = low + (high - low) / 2;
 

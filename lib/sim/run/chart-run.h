@@ -2,21 +2,25 @@
  *
  * An angle outside of sin and cos is continued along the run: it is followed from the start in
  * steps of less than 0.8, and counted from a number of quarter turns that stays the same over a
- * stretch of time, in which the angle is within 2.8 of it.
+ * stretch of time, in which the angle is within 2.8 of it. So are the signs of distances, which
+ * change where a singular place is passed exactly, and those of roots.
  *
  * Tests  tests/script/charts.lag
  */
 #ifndef QDOT_SIM_CHART_RUN_H
 #define QDOT_SIM_CHART_RUN_H
 
+#include <stdint.h>
+
 #include "mech/study/chart.h"
 #include "sim/course/run-state.h"
 #include "sim/run/change-over.h"
 
-/* A time from which on angles are counted from so many quarters. */
+/* A time from which on angles are counted from so many quarters, with the same signs. */
 typedef struct {
     double t;
-    size_t quarters; /* index of the first of qdot_run_chart.quarters */
+    uint64_t passed; /* signs whose place is passed exactly at t, bit by bit */
+    size_t quarters; /* index of the first of qdot_run_chart.quarters, then the signs */
 } qdot_chart_stretch;
 
 typedef struct qdot_run_chart {
@@ -26,14 +30,19 @@ typedef struct qdot_run_chart {
     double *angles;         /* [moved] at the start, as given */
     double *end;   /* [2n] the end state in the coordinates given; NaN: undefined there */
     bool at_place;         /* the run begins at a singular place */
-    bool followed; /* the stretches are known */
+    bool followed; /* the stretches are known: */
+    bool crosses;  /* a root passed a place where its surface w^2 = P crosses itself */
+    bool changes;  /* a sign has changed at a singular place passed exactly */
     qdot_vec(qdot_chart_stretch) stretches; /* in the direction of the run */
     qdot_vec(long) quarters;
 } qdot_run_chart;
 
 void qdot_run_chart_free(qdot_run_chart *x);
 
-/* The quarters [moved] for the stretch of time t; follows the run if that was not done yet, and
+/* Follow the angles and signs of the run, if that was not done yet. */
+QDOT_MUST_CHECK qdot_status qdot_run_chart_follow(qdot_run *run);
+
+/* The quarters [moved], and the signs behind them, for the stretch of time t; follows the run if that was not done yet, and
  * limits the comparison with companions to the stretch. */
 QDOT_MUST_CHECK qdot_status qdot_run_chart_quarters(qdot_run *run, double t,
                                                     const long **quarters);

@@ -313,7 +313,7 @@ start_companion(qdot_run *run, double tol, beside *b)
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
     QDOT_TRY(qdot_bind_scale(b->shaken, run->stage.scales));
     system = qdot_bind_system(b->shaken);
-    if (!system.series)
+    if (run->plan->method->geometric)
         request.t1 = qdot_shake_double(run->t1, run->t1_side);
     QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
     QDOT_TRY(qdot_bind_scale(b->twin, run->stage.scales));

@@ -10,6 +10,7 @@
 #include "ode/integrate.h"
 #include "ode/meter.h"
 #include "sim/model/parameter-states.h"
+#include "sim/run/long-run.h"
 #include "sim/study/method-run.h"
 
 /* Work of a run in nanoseconds; how much more than foretold it may take. */
@@ -273,13 +274,42 @@ one_method(qdot_scene *scene, const qdot_run_request *request, const char *metho
     return status == QDOT_OK ? push_row(out, &row) : status;
 }
 
+/* What `auto` would take: the plan and the run decide. */
+static qdot_status
+ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+{
+    const double tol = out->tol > 0 ? out->tol : tolerances[0];
+    qdot_method_run m = {0};
+    qdot_status status = qdot_method_run_init(&m, scene, request, "auto", tol);
+
+    if (status == QDOT_OK)
+        status = check(&m);
+    if (status == QDOT_OK) {
+        const qdot_ode_system system = qdot_bind_system(m.bind);
+        const qdot_long_run run = {.plan = m.plan,
+                                   .system = &system,
+                                   .start = m.start,
+                                   .low = m.low,
+                                   .t0 = m.t0,
+                                   .t1 = m.t1,
+                                   .tol = tol};
+
+        status = qdot_long_run_tolerance(&run, &out->chosen_tol);
+        out->chosen = m.plan->method->name;
+        out->chosen_long = out->chosen_tol < tol;
+    }
+    qdot_method_run_clear(&m);
+    return status;
+}
+
 static qdot_status
 measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     if (out->method)
         return one_method(scene, request, out->method, out);
+    status = ask_auto(scene, request, out);
     for (size_t i = 0; status == QDOT_OK && i < qdot_ode_method_count(); i++)
         status = one_method(scene, request, qdot_ode_method_at(i)->name, out);
     return status;

@@ -52,6 +52,11 @@ typedef struct {
     qdot_longtime_row *rows;
     qdot_methods_left_out left_out;
     bool interrupted;
+    /* What `auto` would take, of all methods: its name, NULL where it was not asked, the tolerance, and
+     * whether that is for a long run (sim/run/long-run.h). */
+    const char *chosen;
+    double chosen_tol;
+    bool chosen_long;
 } qdot_longtime;
 
 /* request: values, start and limits. Set method, tol, budget of *out, the rest 0; clear it in any

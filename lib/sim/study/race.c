@@ -137,17 +137,6 @@ run_lane(race *r, int which, qdot_scene *scene, qdot_run_request request,
 
 /* --- in minimal coordinates --------------------------------------------------------- */
 
-/* The rational that x + low is. */
-static qdot_expr
-exact(qdot_pool *pool, double x)
-{
-    int exponent;
-    long mantissa = (long)ldexp(frexp(x, &exponent), 53);
-
-    return qdot_mul(pool, qdot_expr_int(pool, mantissa),
-                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
-}
-
 /* An expression in the coordinates as given, at the settled start. */
 static qdot_expr
 at_start(const race *r, qdot_expr e)
@@ -159,8 +148,8 @@ at_start(const race *r, qdot_expr e)
     for (size_t i = 2 * r->n; i-- > 0;) {
         qdot_expr x = qdot_symbol_jet(pool, r->scene->coordinates.at[i % r->n],
                                       i < r->n ? 0 : 1);
-        qdot_expr value = qdot_add(pool, exact(pool, run->start[i]),
-                                   exact(pool, run->start_low[i]));
+        qdot_expr value = qdot_add(pool, qdot_expr_of_double(pool, run->start[i]),
+                                   qdot_expr_of_double(pool, run->start_low[i]));
 
         e = qdot_subs(pool, e, 1, &x, &value);
     }

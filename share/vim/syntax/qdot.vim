@@ -18,11 +18,10 @@ syntax keyword qdotTodo TODO FIXME contained
 syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
 syntax keyword qdotWord contained events export force forces function gravity help include
-syntax keyword qdotWord contained lagrangian longtime lyapunov modes param particle plan
-syntax keyword qdotWord contained plot poincare potential print quit race reactions redo
-syntax keyword qdotWord contained remove report reset run save scale scene sensitivity set
-syntax keyword qdotWord contained show spring start style sweep table timing torque undo
-syntax keyword qdotWord contained vars workprecision
+syntax keyword qdotWord contained lagrangian longtime modes param particle plan plot
+syntax keyword qdotWord contained poincare potential print quit race reactions redo remove
+syntax keyword qdotWord contained report reset run save scale scene set show spring start
+syntax keyword qdotWord contained style sweep table timing torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

@@ -1,0 +1,35 @@
+/* workers.h -- numbered items of work, divided among processes.
+ *
+ * Each worker is a copy of this process as it is when the work begins, so an item finds in it all that
+ * it needs, and leaves nothing behind but its answer: some bytes. Items are handed out in chunks that
+ * take about a fiftieth of a second. A worker that dies costs the items of its chunk that it had not
+ * answered yet; another does them, once.
+ *
+ * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh
+ */
+#ifndef QDOT_BASE_WORKERS_H
+#define QDOT_BASE_WORKERS_H
+
+#include "base/text.h"
+
+typedef struct {
+    size_t first, end; /* the items first ... end - 1 */
+    const bool *skip;  /* [end] items that are not to be done; NULL: all are */
+    size_t workers;    /* at least 1 */
+    double seconds;    /* that an item takes, about; 0: unknown */
+    void *user;
+    /* In a worker: do item k; its answer is appended. */
+    void (*work)(size_t k, qdot_text *answer, void *user);
+    /* Here: item k is answered, in whatever order; bytes NULL: two workers died of it. An error ends
+     * the work. */
+    qdot_status (*done)(size_t k, const char *bytes, size_t n, void *user);
+} qdot_workers_job;
+
+/* The processors that this process may use. */
+size_t qdot_workers_processors(void);
+
+/* Do all items. QDOT_EINTR: interrupted; QDOT_EIO: no worker can be started; QDOT_ENOMEM; or as
+ * `done` returns. All workers have ended when it returns. */
+QDOT_MUST_CHECK qdot_status qdot_workers_run(const qdot_workers_job *job);
+
+#endif

@@ -1,0 +1,544 @@
+/* chart-formulas.c -- the groups of chart.h by their formulas. */
+#include "mech/study/chart.h"
+
+#include <stdio.h>
+
+#include "expr/print.h"
+#include "expr/walk.h"
+#include "mech/scene/scene.h"
+#include "mech/study/chart-body.h"
+
+size_t
+qdot_chart_size(qdot_chart_kind kind)
+{
+    switch (kind) {
+    case QDOT_CHART_ROOT: return 0;
+    case QDOT_CHART_PLANE:
+    case QDOT_CHART_SPHERE:
+    case QDOT_CHART_PARABOLIC:
+    case QDOT_CHART_ELLIPTIC: return 2;
+    default: return 3;
+    }
+}
+
+static qdot_expr
+coordinate(const qdot_chart *c, size_t i)
+{
+    return c->of->coordinates.at[i];
+}
+
+static const char *
+name_of(const qdot_chart *c, size_t i)
+{
+    return qdot_expr_symbol(c->pool, coordinate(c, i))->name;
+}
+
+static qdot_expr
+apply(const qdot_chart *c, uint16_t function, qdot_expr e)
+{
+    return qdot_fun1(c->pool, function, e);
+}
+
+static qdot_expr
+times(const qdot_chart *c, qdot_expr a, qdot_expr b)
+{
+    return qdot_mul(c->pool, a, b);
+}
+
+static qdot_expr
+half_of(const qdot_chart *c, qdot_expr e)
+{
+    return times(c, QDOT_HALF, e);
+}
+
+static qdot_expr
+square_of(const qdot_chart *c, qdot_expr e)
+{
+    return qdot_pow_int(c->pool, e, 2);
+}
+
+static qdot_expr
+square_sum(const qdot_chart *c, size_t n, const qdot_expr *x)
+{
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < n; i++)
+        sum = qdot_add(c->pool, sum, square_of(c, x[i]));
+    return sum;
+}
+
+/* A symbol of its own for coordinate i. */
+static qdot_expr
+own_symbol(const qdot_chart *c, const char *what, size_t i)
+{
+    char name[120];
+
+    snprintf(name, sizeof name, "%s#%.80s", what, name_of(c, i));
+    return qdot_symbol_get(c->pool, QDOT_FORMAL, name);
+}
+
+/* Say that the group is written in its new coordinates k ..., or in `what`. */
+static void
+add_name(qdot_chart *c, size_t k, const char *what)
+{
+    qdot_text *names = &c->names;
+
+    if (what)
+        qdot_text_format(names, "%s%s", names->n > 0 ? ", " : "", what);
+    for (; !what && k < c->fresh.n; k++)
+        qdot_text_format(names, "%s%s", names->n > 0 ? ", " : "",
+                         qdot_expr_symbol(c->pool, c->fresh.at[k].q)->name);
+}
+
+/* A new coordinate: it is called by what it is in those given. */
+static qdot_status
+add_fresh(qdot_chart *c, qdot_expr given, qdot_expr *q)
+{
+    qdot_text name = {0};
+    qdot_status status = qdot_print(c->pool, given, QDOT_PLAIN, &name);
+
+    if (status == QDOT_OK)
+        *q = qdot_symbol_get(c->pool, QDOT_COORD, qdot_text_str(&name));
+    qdot_text_clear(&name);
+    QDOT_TRY(status);
+    return qdot_vec_push(&c->fresh, ((qdot_chart_fresh){*q, given}));
+}
+
+/* The place of coordinate i among those that are replaced, to be filled. */
+static qdot_status
+add_moved(qdot_chart *c, size_t i, qdot_chart_moved m)
+{
+    m.q = m.given = coordinate(c, i);
+    if (m.sort == QDOT_CHART_ANGLE && m.value == QDOT_NIL)
+        m.bare = own_symbol(c, "angle", i);
+    return qdot_vec_push(&c->moved, m);
+}
+
+static qdot_status
+add_length(qdot_chart *c, size_t i, qdot_expr value, size_t sign)
+{
+    return add_moved(c, i,
+                     (qdot_chart_moved){
+                         .value = value, .ends = {QDOT_ZERO, QDOT_NIL}, .sign = sign});
+}
+
+/* The angle i = atan2(y, x), where x^2 + y^2 = norm^2. */
+static qdot_chart_moved
+angle_of(const qdot_chart *c, qdot_expr x, qdot_expr y, qdot_expr norm, size_t sign)
+{
+    return (qdot_chart_moved){.sort = QDOT_CHART_ANGLE,
+                              .cosine = qdot_div(c->pool, x, norm),
+                              .sine = qdot_div(c->pool, y, norm),
+                              .x = x,
+                              .y = y,
+                              .sign = sign};
+}
+
+/* The ends of an angle between singular places: 0 and pi, or turned by a quarter. */
+static void
+end_angle(const qdot_chart *c, qdot_chart_moved *m, bool turned)
+{
+    const qdot_expr quarter = half_of(c, QDOT_PI);
+
+    m->ends[0] = turned ? qdot_neg(c->pool, quarter) : QDOT_ZERO;
+    m->ends[1] = turned ? quarter : QDOT_PI;
+}
+
+/* N, whose square is given, and its sign: *signed_N = s N. Its number, from 1. */
+static qdot_status
+add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *signed_N)
+{
+    const qdot_expr N = own_symbol(c, "distance", i), s = own_symbol(c, "sign", i);
+
+    *signed_N = times(c, s, N);
+    QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){.symbol = N, .square = square})));
+    return qdot_vec_push(
+        &c->signs, ((qdot_chart_sign){.symbol = s, .start = start, .distance = *signed_N}));
+}
+
+/* x, y = `across` times cos and sin of angle i. *R = across, with its sign. */
+static qdot_status
+add_axis(qdot_chart *c, size_t i, qdot_expr across, int start, qdot_expr *x, qdot_expr *R)
+{
+    const qdot_expr phi = coordinate(c, i);
+    qdot_expr s;
+
+    QDOT_TRY(add_fresh(c, times(c, across, apply(c, QDOT_COS, phi)), x));
+    QDOT_TRY(add_fresh(c, times(c, across, apply(c, QDOT_SIN, phi)), x + 1));
+    QDOT_TRY(add_distance(c, i, square_sum(c, 2, x), start, R));
+    s = c->signs.at[c->signs.n - 1].symbol;
+    return add_moved(c, i,
+                     angle_of(c, times(c, s, x[0]), times(c, s, x[1]),
+                              c->roots.at[c->roots.n - 1].symbol, c->signs.n));
+}
+
+static qdot_status
+put_plane(qdot_chart *c, const size_t *index, int start)
+{
+    qdot_expr x[2], R;
+
+    QDOT_TRY(add_axis(c, index[1], coordinate(c, index[0]), start, x, &R));
+    return add_length(c, index[0], R, c->signs.n);
+}
+
+/* r is 1 on a sphere: index [2] is then of theta, phi. Turned: theta is counted from the equator. */
+static qdot_status
+put_space(qdot_chart *c, const qdot_chart_group *g, int start)
+{
+    const bool sphere = g->kind == QDOT_CHART_SPHERE;
+    const size_t i = g->index[sphere ? 0 : 1], j = g->index[sphere ? 1 : 2];
+    const qdot_expr theta = coordinate(c, i);
+    const qdot_expr r = sphere ? QDOT_ONE : coordinate(c, g->index[0]);
+    const qdot_expr across = apply(c, g->turned ? QDOT_COS : QDOT_SIN, theta);
+    const qdot_expr along = apply(c, g->turned ? QDOT_SIN : QDOT_COS, theta);
+    qdot_expr x[3], R, norm;
+    qdot_chart_moved tilt;
+
+    QDOT_TRY(add_axis(c, j, times(c, r, across), start, x, &R));
+    QDOT_TRY(add_fresh(c, times(c, r, along), x + 2));
+    norm = sphere ? QDOT_ONE : qdot_sqrt(c->pool, square_sum(c, 3, x));
+    tilt = angle_of(c, g->turned ? R : x[2], g->turned ? x[2] : R, norm, c->signs.n);
+    end_angle(c, &tilt, g->turned);
+    QDOT_TRY(add_moved(c, i, tilt));
+    if (!sphere)
+        return add_length(c, g->index[0], norm, c->signs.n);
+    return qdot_vec_push(&c->unit, qdot_sub(c->pool, square_sum(c, 3, x), QDOT_ONE));
+}
+
+static qdot_status
+put_body(qdot_chart *c, const size_t *index, int start)
+{
+    const qdot_expr phi = coordinate(c, index[0]), theta = coordinate(c, index[1]),
+                    psi = coordinate(c, index[2]);
+    const qdot_expr tilt = half_of(c, theta);
+    const qdot_expr sum = half_of(c, qdot_add(c->pool, phi, psi));
+    const qdot_expr difference = half_of(c, qdot_sub(c->pool, phi, psi));
+    const qdot_expr C = apply(c, QDOT_COS, tilt), S = apply(c, QDOT_SIN, tilt);
+    const qdot_expr given[] = {times(c, C, apply(c, QDOT_COS, sum)),
+                               times(c, S, apply(c, QDOT_COS, difference)),
+                               times(c, S, apply(c, QDOT_SIN, difference)),
+                               times(c, C, apply(c, QDOT_SIN, sum))};
+    qdot_expr e[4], R[9], sN, s, N;
+    qdot_chart_moved lean;
+
+    for (size_t k = 0; k < 4; k++)
+        QDOT_TRY(add_fresh(c, given[k], e + k));
+    QDOT_TRY(qdot_vec_push(&c->unit, qdot_sub(c->pool, square_sum(c, 4, e), QDOT_ONE)));
+    qdot_chart_body_axes(c->pool, e, R);
+    QDOT_TRY(add_distance(c, index[1],
+                          times(c, qdot_expr_int(c->pool, 4),
+                                times(c, square_sum(c, 2, e + 1),
+                                      square_sum(c, 2, (qdot_expr[]){e[0], e[3]}))),
+                          start, &sN));
+    s = c->signs.at[c->signs.n - 1].symbol;
+    N = c->roots.at[c->roots.n - 1].symbol;
+    QDOT_TRY(add_moved(c, index[0],
+                       angle_of(c, qdot_neg(c->pool, times(c, s, R[5])), times(c, s, R[2]),
+                                N, c->signs.n)));
+    lean = angle_of(c, R[8], sN, QDOT_ONE, c->signs.n);
+    end_angle(c, &lean, false);
+    QDOT_TRY(add_moved(c, index[1], lean));
+    QDOT_TRY(add_moved(
+        c, index[2], angle_of(c, times(c, s, R[7]), times(c, s, R[6]), N, c->signs.n)));
+    return qdot_chart_body_replace(c->of, c->scene,
+                                   qdot_scene_euler(c->pool, phi, theta, psi), R,
+                                   c->hindrance, sizeof c->hindrance);
+}
+
+/* --- parabolic and elliptic coordinates --------------------------------------------------------- */
+
+/* X, Y of a plane, one of which may be the distance from an axis. */
+typedef struct {
+    qdot_expr X, Y, XX, YY, dX, dY; /* with their squares and rates */
+    size_t sign;
+} pair;
+
+/* What X and Y are in the coordinates given. */
+static void
+pair_given(const qdot_chart *c, const qdot_chart_group *g, qdot_expr *x)
+{
+    const qdot_expr u = coordinate(c, g->index[0]), v = coordinate(c, g->index[1]);
+
+    if (g->kind == QDOT_CHART_PARABOLIC || g->kind == QDOT_CHART_PARABOLOIDS) {
+        x[0] = times(c, u, v);
+        x[1] = half_of(c, qdot_sub(c->pool, square_of(c, u), square_of(c, v)));
+        return;
+    }
+    x[0] = times(c, apply(c, QDOT_COSH, u), apply(c, g->turned ? QDOT_SIN : QDOT_COS, v));
+    x[1] = times(c, apply(c, QDOT_SINH, u), apply(c, g->turned ? QDOT_COS : QDOT_SIN, v));
+}
+
+static qdot_status
+add_pair(qdot_chart *c, const qdot_chart_group *g, int start, pair *p)
+{
+    const bool round = qdot_chart_size(g->kind) == 3;
+    const size_t across = g->kind == QDOT_CHART_PROLATE ? 1 : 0;
+    qdot_expr given[2], now[2], squares[2], x[2];
+
+    pair_given(c, g, given);
+    for (size_t k = 0; k < 2; k++) {
+        if (round && k == across) {
+            QDOT_TRY(add_axis(c, g->index[2], given[k], start, x, now + k));
+            squares[k] = square_sum(c, 2, x);
+        } else {
+            QDOT_TRY(add_fresh(c, given[k], now + k));
+            squares[k] = square_of(c, now[k]);
+        }
+    }
+    *p = (pair){now[0],
+                now[1],
+                squares[0],
+                squares[1],
+                qdot_chart_rate(c, now[0]),
+                qdot_chart_rate(c, now[1]),
+                round ? c->signs.n : 0};
+    return QDOT_OK;
+}
+
+/* An angle atan2(y, x) that is no coordinate, by which those of the group are read. */
+static qdot_status
+add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, qdot_expr y,
+         qdot_expr given)
+{
+    const qdot_symbol *u = qdot_expr_symbol(c->pool, coordinate(c, g->index[0]));
+    const qdot_symbol *v = qdot_expr_symbol(c->pool, coordinate(c, g->index[1]));
+
+    return qdot_vec_push(
+        &c->moved,
+        ((qdot_chart_moved){.q = own_symbol(c, "turn", g->index[0]),
+                            .sort = QDOT_CHART_ANGLE,
+                            .x = x,
+                            .y = y,
+                            .bare = own_symbol(c, "angle of turn", g->index[0]),
+                            .given = given,
+                            .sign = p->sign,
+                            .between = p->sign > 0 && u->lo != QDOT_NIL && v->lo != QDOT_NIL}));
+}
+
+static qdot_status
+put_parabolic(qdot_chart *c, const qdot_chart_group *g, int start)
+{
+    qdot_pool *pool = c->pool;
+    const size_t i = g->index[0], j = g->index[1];
+    const qdot_expr xi = own_symbol(c, "root", i), eta = own_symbol(c, "root", j);
+    const qdot_expr rho = own_symbol(c, "distance", i);
+    qdot_expr angle, size, rate[2];
+    pair p;
+
+    QDOT_TRY(add_pair(c, g, start, &p));
+    size = qdot_sqrt(pool, times(c, qdot_expr_int(pool, 2), rho));
+    QDOT_TRY(add_turn(c, g, &p, p.Y, p.X,
+                      times(c, qdot_expr_int(pool, 2),
+                            qdot_fun(pool, QDOT_ATAN2, 2,
+                                     (qdot_expr[]){coordinate(c, j), coordinate(c, i)}))));
+    angle = half_of(c, c->moved.at[c->moved.n - 1].bare);
+    rate[0] = qdot_div(pool, half_of(c, qdot_add(pool, times(c, xi, p.dY), times(c, eta, p.dX))),
+                       rho);
+    rate[1] = qdot_div(pool, half_of(c, qdot_sub(pool, times(c, xi, p.dX), times(c, eta, p.dY))),
+                       rho);
+    QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){
+                                          .symbol = xi,
+                                          .square = qdot_add(pool, rho, p.Y),
+                                          .partner = eta,
+                                          .product = p.X,
+                                          .rate = rate[0],
+                                          .value = times(c, size, apply(c, QDOT_COS, angle))})));
+    QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){
+                                          .symbol = eta,
+                                          .square = qdot_sub(pool, rho, p.Y),
+                                          .rate = rate[1],
+                                          .value = times(c, size, apply(c, QDOT_SIN, angle))})));
+    QDOT_TRY(qdot_vec_push(
+        &c->roots, ((qdot_chart_root){.symbol = rho, .square = qdot_add(pool, p.XX, p.YY)})));
+    for (size_t k = 0; k < 2; k++)
+        QDOT_TRY(add_moved(c, g->index[k],
+                           (qdot_chart_moved){.value = k ? eta : xi,
+                                              .ends = {p.sign ? QDOT_ZERO : QDOT_NIL, QDOT_NIL},
+                                              .rate = rate[k],
+                                              .sign = p.sign}));
+    return QDOT_OK;
+}
+
+/* The roots of elliptic coordinates: cosh u, sinh u, cos v, sin v, and S; v not turned. */
+typedef struct {
+    qdot_expr cosh, sinh, cos, sin, S, du, dv;
+} ellipse;
+
+static qdot_status
+add_ellipse(qdot_chart *c, const pair *p, const ellipse *e)
+{
+    qdot_pool *pool = c->pool;
+    const qdot_expr sum = qdot_add(pool, qdot_add(pool, p->XX, p->YY), QDOT_ONE);
+    const qdot_expr less = qdot_sub(pool, qdot_add(pool, p->XX, p->YY), QDOT_ONE);
+    const qdot_expr angle = half_of(c, c->moved.at[c->moved.n - 1].bare);
+    const qdot_expr size = qdot_sqrt(pool, e->S);
+    const qdot_chart_root roots[] = {
+        {.symbol = e->cosh,
+         .square = half_of(c, qdot_add(pool, sum, e->S)),
+         .partner = e->cos,
+         .product = p->X,
+         .rate = times(c, e->sinh, e->du)},
+        {.symbol = e->sinh,
+         .square = half_of(c, qdot_add(pool, less, e->S)),
+         .partner = e->sin,
+         .product = p->Y,
+         .rate = times(c, e->cosh, e->du),
+         .value = times(c, size, apply(c, QDOT_COS, angle))},
+        {.symbol = e->cos,
+         .square = half_of(c, qdot_sub(pool, sum, e->S)),
+         .rate = qdot_neg(pool, times(c, e->sin, e->dv)),
+         .value = qdot_div(pool, p->X, e->cosh)},
+        {.symbol = e->sin,
+         .square = half_of(c, qdot_sub(pool, e->S, less)),
+         .rate = times(c, e->cos, e->dv),
+         .value = times(c, size, apply(c, QDOT_SIN, angle))},
+        {.symbol = e->S,
+         .square = qdot_add(pool, square_of(c, less), times(c, qdot_expr_int(pool, 4), p->YY))},
+    };
+
+    for (size_t k = 0; k < sizeof roots / sizeof *roots; k++)
+        QDOT_TRY(qdot_vec_push(&c->roots, roots[k]));
+    return QDOT_OK;
+}
+
+static qdot_status
+put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
+{
+    qdot_pool *pool = c->pool;
+    const size_t i = g->index[0], j = g->index[1];
+    const qdot_expr u = coordinate(c, i), v = coordinate(c, j), two = qdot_expr_int(pool, 2);
+    ellipse e = {.cosh = own_symbol(c, "cosh", i),
+                 .sinh = own_symbol(c, "sinh", i),
+                 .cos = own_symbol(c, "cos", j),
+                 .sin = own_symbol(c, "sin", j),
+                 .S = own_symbol(c, "distance", i)};
+    size_t turn;
+    qdot_expr bp, aq, bare;
+    qdot_chart_moved angle, own;
+    pair p;
+
+    QDOT_TRY(add_pair(c, g, start, &p));
+    QDOT_TRY(add_turn(c, g, &p,
+                      qdot_sub(pool, qdot_add(pool, p.XX, p.YY), QDOT_ONE), times(c, two, p.Y),
+                      times(c, two,
+                            qdot_fun(pool, QDOT_ATAN2, 2,
+                                     (qdot_expr[]){apply(c, g->turned ? QDOT_COS : QDOT_SIN, v),
+                                                   apply(c, QDOT_SINH, u)}))));
+    turn = c->moved.n - 1;
+    bp = times(c, e.sinh, e.cos);
+    aq = times(c, e.cosh, e.sin);
+    e.du = qdot_div(pool, qdot_add(pool, times(c, bp, p.dX), times(c, aq, p.dY)), e.S);
+    e.dv = qdot_div(pool, qdot_sub(pool, times(c, bp, p.dY), times(c, aq, p.dX)), e.S);
+    QDOT_TRY(add_ellipse(c, &p, &e));
+    QDOT_TRY(add_moved(c, i, (qdot_chart_moved){.sort = QDOT_CHART_HYPERBOLIC,
+                                                .value = apply(c, QDOT_ASINH, e.sinh),
+                                                .cosine = e.cosh,
+                                                .sine = e.sinh,
+                                                .ends = {g->kind == QDOT_CHART_PROLATE
+                                                             ? QDOT_ZERO
+                                                             : QDOT_NIL,
+                                                         QDOT_NIL},
+                                                .rate = e.du,
+                                                .sign = p.sign}));
+    bare = own_symbol(c, "angle", j);
+    own = (qdot_chart_moved){.q = g->turned ? own_symbol(c, "turn", j) : v,
+                             .sort = QDOT_CHART_ANGLE,
+                             .cosine = e.cos,
+                             .sine = e.sin,
+                             .x = p.X,
+                             .y = aq,
+                             .half = turn,
+                             .factor = times(c, e.cosh, qdot_sqrt(pool, e.S)),
+                             .bare = bare,
+                             .rate = e.dv,
+                             .given = g->turned ? qdot_sub(pool, half_of(c, QDOT_PI), v) : v,
+                             .sign = p.sign};
+    angle = own;
+    angle.q = v;
+    if (p.sign)
+        end_angle(c, g->turned ? &angle : &own, g->turned == (g->kind == QDOT_CHART_PROLATE));
+    if (!g->turned)
+        return qdot_vec_push(&c->moved, own);
+    angle.given = v;
+    angle.cosine = e.sin;
+    angle.sine = e.cos;
+    angle.rate = qdot_neg(pool, e.dv);
+    angle.value = qdot_sub(pool, half_of(c, QDOT_PI), bare);
+    angle.bare = QDOT_NIL;
+    QDOT_TRY(qdot_vec_push(&c->moved, own));
+    return qdot_vec_push(&c->moved, angle);
+}
+
+/* --- roots ------------------------------------------------------------------------------------------ */
+
+/* w^2 = P */
+static qdot_status
+put_root(qdot_chart *c, const qdot_chart_group *g)
+{
+    qdot_expr w;
+
+    QDOT_TRY(add_fresh(c, qdot_sqrt(c->pool, g->square), &w));
+    QDOT_TRY(qdot_vec_push(&c->unit, qdot_sub(c->pool, square_of(c, w), g->square)));
+    return qdot_vec_push(
+        &c->signs,
+        ((qdot_chart_sign){.symbol = w, .start = 1, .branch = true, .square = g->square}));
+}
+
+/* --- any ---------------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_chart_add(qdot_chart *c, const qdot_chart_group *g, int sign)
+{
+    const size_t before = c->fresh.n;
+    char what[200];
+
+    switch (g->kind) {
+    case QDOT_CHART_PLANE: QDOT_TRY(put_plane(c, g->index, sign)); break;
+    case QDOT_CHART_SPACE:
+    case QDOT_CHART_SPHERE: QDOT_TRY(put_space(c, g, sign)); break;
+    case QDOT_CHART_PARABOLIC:
+    case QDOT_CHART_PARABOLOIDS: QDOT_TRY(put_parabolic(c, g, sign)); break;
+    case QDOT_CHART_ELLIPTIC:
+    case QDOT_CHART_PROLATE:
+    case QDOT_CHART_OBLATE: QDOT_TRY(put_elliptic(c, g, sign)); break;
+    case QDOT_CHART_ROOT: QDOT_TRY(put_root(c, g)); break;
+    default:
+        QDOT_TRY(put_body(c, g->index, sign));
+        snprintf(what, sizeof what, "the unit quaternion of %.50s, %.50s, %.50s",
+                 name_of(c, g->index[0]), name_of(c, g->index[1]), name_of(c, g->index[2]));
+    }
+    add_name(c, before, g->kind == QDOT_CHART_BODY ? what : NULL);
+    return QDOT_OK;
+}
+
+/* Of the plane groups: the distance from their foci, u or v being turned. */
+static qdot_expr
+from_foci(qdot_pool *pool, const qdot_chart_group *g, qdot_expr u, qdot_expr v)
+{
+    return qdot_add(pool, qdot_pow_int(pool, qdot_fun1(pool, QDOT_SINH, u), 2),
+                    qdot_pow_int(pool, qdot_fun1(pool, g->turned ? QDOT_COS : QDOT_SIN, v), 2));
+}
+
+qdot_expr
+qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g)
+{
+    qdot_pool *pool = s->pool;
+    const qdot_expr a = s->coordinates.at[g->index[0]], b = s->coordinates.at[g->index[1]];
+    const uint16_t sine = g->turned ? QDOT_COS : QDOT_SIN, cosine = g->turned ? QDOT_SIN : QDOT_COS;
+
+    switch (g->kind) {
+    case QDOT_CHART_PLANE: return a;
+    case QDOT_CHART_SPACE: return qdot_mul(pool, a, qdot_fun1(pool, sine, b));
+    case QDOT_CHART_SPHERE: return qdot_fun1(pool, sine, a);
+    case QDOT_CHART_PARABOLIC:
+        return qdot_add(pool, qdot_pow_int(pool, a, 2), qdot_pow_int(pool, b, 2));
+    case QDOT_CHART_PARABOLOIDS: return qdot_mul(pool, a, b);
+    case QDOT_CHART_ELLIPTIC: return from_foci(pool, g, a, b);
+    case QDOT_CHART_PROLATE:
+        return qdot_mul(pool, qdot_fun1(pool, QDOT_SINH, a), qdot_fun1(pool, sine, b));
+    case QDOT_CHART_OBLATE:
+        return qdot_mul(pool, from_foci(pool, g, a, b), qdot_fun1(pool, cosine, b));
+    case QDOT_CHART_ROOT: return qdot_sqrt(pool, g->square);
+    default: return qdot_fun1(pool, QDOT_SIN, b);
+    }
+}

@@ -1,0 +1,114 @@
+/* figure-map.c -- numbers over a grid as colours: data, palette, and dots of a sketch. */
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "show/figure-parts.h"
+
+/* Dark to light: legible on grey paper and by eyes that do not see all colours. From Matplotlib's
+ * viridis (N. Smith, S. van der Walt, E. Firing, 2015; public domain), every eighth of it. */
+static const char palette[] =
+    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
+    "5 '#1f9e89', 6 '#35b779', 7 '#b4de2c', 8 '#fde725')\n";
+
+double
+qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
+{
+    const double n = (double)map->n[axis] - 1;
+
+    return n > 0 ? map->least[axis] + (map->most[axis] - map->least[axis]) * ((double)i / n)
+                 : map->least[axis];
+}
+
+/* Half of a cell. */
+static double
+half(const qdot_figure_map *map, int axis)
+{
+    return map->n[axis] > 1
+               ? (map->most[axis] - map->least[axis]) / (2 * ((double)map->n[axis] - 1))
+               : 0.5;
+}
+
+void
+qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most)
+{
+    *least = map->least[axis] - half(map, axis);
+    *most = map->most[axis] + half(map, axis);
+}
+
+qdot_status
+qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out)
+{
+    for (size_t j = 0; j < map->n[1]; j++) {
+        QDOT_TRY(qdot_interrupt_check());
+        for (size_t i = 0; i < map->n[0]; i++) {
+            const double v = map->value[j * map->n[0] + i];
+
+            qdot_text_double(out, qdot_figure_map_place(map, 0, i), 12);
+            qdot_text_char(out, ' ');
+            qdot_text_double(out, qdot_figure_map_place(map, 1, j), 12);
+            if (isfinite(v)) {
+                qdot_text_char(out, ' ');
+                qdot_text_double(out, v, 7);
+                qdot_text_char(out, '\n');
+            } else {
+                qdot_text_add(out, " NaN\n");
+            }
+        }
+    }
+    return qdot_text_status(out);
+}
+
+/* The least and greatest number; false: there is none. */
+static bool
+find_ends(const qdot_figure_map *map, double *least, double *most)
+{
+    bool any = false;
+
+    for (size_t k = 0; k < map->n[0] * map->n[1]; k++) {
+        const double v = map->value[k];
+
+        if (!isfinite(v))
+            continue;
+        *least = any ? fmin(*least, v) : v;
+        *most = any ? fmax(*most, v) : v;
+        any = true;
+    }
+    return any;
+}
+
+void
+qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script)
+{
+    double least = 0, most = 0;
+
+    qdot_text_add(script, palette);
+    if (!find_ends(map, &least, &most) || !(most > least)) {
+        most = least + 1;
+        least -= 1;
+    }
+    qdot_text_add(script, "set datafile missing\nset minussign\nset colorbox\nset cbtics nomirror\nset cbrange [");
+    qdot_text_double(script, least, 17);
+    qdot_text_char(script, ':');
+    qdot_text_double(script, most, 17);
+    qdot_text_add(script, "]\nset cblabel ");
+    qdot_figure_add_label(script, &map->label);
+    qdot_text_char(script, '\n');
+}
+
+/* Thresholds of an ordered dither, in sixteenths. */
+static const int thresholds[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+
+bool
+qdot_figure_map_dot(const qdot_figure_map *map, const double *part, size_t i, size_t j)
+{
+    double least = 0, most = 0, v;
+    size_t at[2];
+
+    for (int k = 0; k < 2; k++)
+        at[k] = (size_t)fmin(fmax(part[k], 0) * (double)map->n[k], (double)map->n[k] - 1);
+    v = map->value[at[1] * map->n[0] + at[0]];
+    if (!isfinite(v) || !find_ends(map, &least, &most))
+        return false;
+    v = most > least ? (v - least) / (most - least) : 1;
+    return 16 * v > thresholds[j % 4][i % 4] + 0.5;
+}

@@ -1,0 +1,210 @@
+/* hdf5-read.c -- columns of a file that hdf5.c has written.
+ *
+ * Only what that writes is understood: a superblock of version 2, object headers of version 2 in one
+ * block each, links, attributes, data sets in one block. Another file is refused.
+ *
+ * Source  as hdf5.c
+ */
+#include "show/hdf5-read.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { SUPERBLOCK = 48, DATASPACE = 1, DATATYPE = 3, LINK = 6, LAYOUT = 8, ATTRIBUTE = 12, HEAD = 4 };
+
+typedef struct {
+    const char *path;
+    const unsigned char *at; /* [n] the file */
+    size_t n;
+} file;
+
+static qdot_status
+strange(const file *f)
+{
+    return qdot_fail(QDOT_EINVAL, "%.200s is no file of rows that qdot has written", f->path);
+}
+
+static uint64_t
+number(const unsigned char *at, int bytes)
+{
+    uint64_t x = 0;
+
+    for (int i = 0; i < bytes; i++)
+        x |= (uint64_t)at[i] << 8 * i;
+    return x;
+}
+
+static qdot_status
+load(const char *path, qdot_text *out)
+{
+    FILE *from = fopen(path, "rb");
+    char bytes[65536];
+    size_t n;
+    bool whole;
+
+    if (from == NULL)
+        return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);
+    while ((n = fread(bytes, 1, sizeof bytes, from)) > 0)
+        qdot_text_add_n(out, bytes, n);
+    whole = !ferror(from);
+    fclose(from);
+    if (!whole)
+        return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);
+    return qdot_text_status(out);
+}
+
+/* --- messages ------------------------------------------------------------------------- */
+
+/* The messages of an object header, one after the other. */
+typedef struct {
+    const unsigned char *at, *end; /* the next one */
+    int type;
+    const unsigned char *body;
+    size_t size;
+} messages;
+
+static qdot_status
+open_object(const file *f, uint64_t address, messages *m)
+{
+    uint64_t n;
+
+    if (address > f->n || f->n - address < 10 || memcmp(f->at + address, "OHDR\2\2", 6) != 0)
+        return strange(f);
+    n = number(f->at + address + 6, 4);
+    if (n > f->n - address - 10)
+        return strange(f);
+    *m = (messages){.at = f->at + address + 10};
+    m->end = m->at + n;
+    return QDOT_OK;
+}
+
+static bool
+next(messages *m)
+{
+    if (m->end - m->at < HEAD)
+        return false;
+    m->type = m->at[0];
+    m->size = (size_t)number(m->at + 1, 2);
+    m->body = m->at + HEAD;
+    if ((size_t)(m->end - m->body) < m->size)
+        return false;
+    m->at = m->body + m->size;
+    return true;
+}
+
+/* --- columns -------------------------------------------------------------------------- */
+
+/* Read the data set at `address` as the next column. */
+static qdot_status
+read_column(const file *f, uint64_t address, const unsigned char *name, size_t length,
+            qdot_data_columns *out)
+{
+    qdot_data_read_column c = {.label = qdot_malloc(length + 1)};
+    uint64_t rows = 0, size = 0, where = 0;
+    bool texts = false;
+    messages m;
+
+    if (c.label == NULL)
+        return QDOT_ENOMEM;
+    memcpy(c.label, name, length);
+    c.label[length] = '\0';
+    QDOT_TRY(qdot_vec_push(&out->at, c));
+    QDOT_TRY(open_object(f, address, &m));
+    while (next(&m)) {
+        if (m.type == DATASPACE && m.size == 12)
+            rows = number(m.body + 4, 8);
+        if (m.type == DATATYPE && m.size >= 8) {
+            texts = m.body[0] == 0x13;
+            size = number(m.body + 4, 4);
+        }
+        if (m.type == LAYOUT && m.size == 18)
+            where = number(m.body + 2, 8);
+    }
+    if (size == 0 || (out->at.n > 1 && rows != out->rows) || (!texts && size != 8)
+        || (rows > 0 && (where > f->n || rows > (f->n - where) / size)))
+        return strange(f);
+    out->rows = (size_t)rows;
+    c.size = texts ? (size_t)size : 0;
+    c.bytes = qdot_malloc((size_t)(rows * size) + 1);
+    if (c.bytes == NULL)
+        return QDOT_ENOMEM;
+    if (rows > 0)
+        memcpy(c.bytes, f->at + where, (size_t)(rows * size));
+    out->at.at[out->at.n - 1] = c;
+    for (uint64_t i = 0; texts && i < rows; i++) /* each ends within its room */
+        if (c.bytes[(i + 1) * size - 1] != '\0')
+            return strange(f);
+    return QDOT_OK;
+}
+
+/* A link to a column, or an attribute that is a text. */
+static qdot_status
+take_message(const file *f, const messages *m, qdot_data_columns *out)
+{
+    const unsigned char *b = m->body;
+    size_t name, type;
+
+    if (m->type == LINK && m->size > 13) {
+        name = (size_t)number(b + 3, 2);
+        if (m->size != 13 + name)
+            return strange(f);
+        if (name == strlen("parameters") && memcmp(b + 5, "parameters", name) == 0)
+            return QDOT_OK;
+        return read_column(f, number(b + 5 + name, 8), b + 5, name, out);
+    }
+    if (m->type != ATTRIBUTE || m->size < 9)
+        return QDOT_OK;
+    name = (size_t)number(b + 2, 2);
+    type = (size_t)number(b + 4, 2);
+    if (name == 0 || 9 + name + type + 4 > m->size || b[9 + name - 1] != '\0')
+        return strange(f);
+    if (strcmp((const char *)b + 9, out->fact) == 0 && m->body[m->size - 1] == '\0')
+        qdot_text_add(&out->text, (const char *)b + 9 + name + type + 4);
+    return qdot_text_status(&out->text);
+}
+
+qdot_status
+qdot_data_read_hdf5(const char *path, const char *fact, qdot_data_columns *out)
+{
+    qdot_text bytes = {0};
+    qdot_status status = load(path, &bytes);
+    const file f = {path, (const unsigned char *)bytes.at, bytes.n};
+    messages m = {0};
+
+    out->fact = fact;
+    if (status == QDOT_OK
+        && (f.n < SUPERBLOCK || memcmp(f.at, "\211HDF\r\n\032\n\2\10\10", 11) != 0
+            || number(f.at + 28, 8) > f.n))
+        status = strange(&f);
+    if (status == QDOT_OK)
+        status = open_object(&f, number(f.at + 36, 8), &m);
+    while (status == QDOT_OK && next(&m))
+        status = take_message(&f, &m, out);
+    qdot_text_clear(&bytes);
+    return status;
+}
+
+void
+qdot_data_columns_clear(qdot_data_columns *c)
+{
+    for (size_t i = 0; i < c->at.n; i++) {
+        qdot_free(c->at.at[i].label);
+        qdot_free(c->at.at[i].bytes);
+    }
+    qdot_free(c->at.at);
+    qdot_text_clear(&c->text);
+    *c = (qdot_data_columns){0};
+}
+
+double
+qdot_data_read_number(const qdot_data_read_column *c, size_t row)
+{
+    const uint64_t bits = number((const unsigned char *)c->bytes + 8 * row, 8);
+    double x;
+
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}

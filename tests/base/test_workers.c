@@ -1,0 +1,121 @@
+/* test_workers.c -- items divided among processes, some of which die. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/interrupt.h"
+#include "base/workers.h"
+
+enum { ITEMS = 300 };
+
+typedef struct {
+    size_t squares[ITEMS], answers, lost;
+    size_t deadly;       /* an item of which each worker dies */
+    size_t once;         /* one of which the first dies */
+    char mark[64];       /* a file that says that it did */
+    size_t stop_after;   /* answers after which `done` fails, or is interrupted */
+    bool interrupts;
+} world;
+
+static void
+work(size_t k, qdot_text *answer, void *user)
+{
+    const world *w = user;
+    const size_t square = k * k;
+
+    if (k == w->deadly)
+        raise(SIGKILL);
+    if (k == w->once && access(w->mark, F_OK) != 0) {
+        fclose(fopen(w->mark, "w"));
+        raise(SIGKILL);
+    }
+    for (size_t i = 0; i < k; i++) /* answers of different lengths, some of several pipes */
+        qdot_text_add_n(answer, (const char *)&square, sizeof square);
+}
+
+static qdot_status
+done(size_t k, const char *bytes, size_t n, void *user)
+{
+    world *w = user;
+
+    if (bytes == NULL)
+        w->lost = w->lost * 1000 + k;
+    else if (n > 0)
+        memcpy(&w->squares[k], bytes + n - sizeof *w->squares, sizeof *w->squares);
+    if (++w->answers == w->stop_after && w->interrupts)
+        qdot_interrupt_set();
+    return w->answers == w->stop_after && !w->interrupts ? qdot_fail(QDOT_EINVAL, "enough")
+                                                         : QDOT_OK;
+}
+
+static qdot_status
+run(world *w, size_t workers, double seconds)
+{
+    const qdot_workers_job job = {.first = 1, .end = ITEMS, .workers = workers,
+                                  .seconds = seconds, .user = w, .work = work, .done = done};
+
+    return qdot_workers_run(&job);
+}
+
+static void
+all_items_are_answered_once(void **state)
+{
+    (void)state;
+    for (size_t workers = 1; workers < 6; workers++) {
+        world w = {.deadly = ITEMS, .once = ITEMS};
+
+        assert_int_equal(run(&w, workers, workers % 2 ? 1 : 1e-6), QDOT_OK);
+        assert_int_equal(w.answers, ITEMS - 1);
+        for (size_t k = 1; k < ITEMS; k++)
+            assert_int_equal(w.squares[k], k * k);
+    }
+}
+
+static void
+a_worker_that_dies_costs_one_item(void **state)
+{
+    world w = {.deadly = 17, .once = 40};
+
+    (void)state;
+    snprintf(w.mark, sizeof w.mark, "workers-%d", (int)getpid());
+    assert_int_equal(run(&w, 3, 1e-6), QDOT_OK);
+    unlink(w.mark);
+    assert_int_equal(w.answers, ITEMS - 1);
+    assert_int_equal(w.lost, 17);
+    for (size_t k = 1; k < ITEMS; k++)
+        assert_int_equal(w.squares[k], k == 17 ? 0 : k * k);
+}
+
+static void
+work_ends_early(void **state)
+{
+    world w = {.deadly = ITEMS, .once = ITEMS, .stop_after = 20};
+
+    (void)state;
+    assert_int_equal(run(&w, 2, 1), QDOT_EINVAL);
+    assert_int_equal(w.answers, 20);
+    w = (world){.deadly = ITEMS, .once = ITEMS, .stop_after = 20, .interrupts = true};
+    assert_int_equal(run(&w, 2, 1), QDOT_EINTR);
+    qdot_interrupt_clear();
+    assert_true(w.answers >= 20);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_items_are_answered_once),
+        cmocka_unit_test(a_worker_that_dies_costs_one_item),
+        cmocka_unit_test(work_ends_early),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

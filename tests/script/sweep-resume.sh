@@ -1,0 +1,29 @@
+# A sweep that is killed goes on from its file, with the same bits.
+cat >scene.lag <<'END'
+coord th1, th2
+particle a mass 1 at (sin(th1), -cos(th1))
+particle b mass 1 at (sin(th1) + sin(th2), -cos(th1) - cos(th2))
+gravity (0, -9.81)
+event flip: cos(th2) = -1 stop
+END
+sweep='sweep th1 = -3..3 count 60, th2 = 0..3 count 6 run 0..30 tol 1e-9 : th2, flip[1], energy'
+qdot -q --json scene.lag -e "$sweep as m" >whole 2>&1
+kills=0
+while :; do
+    timeout -s KILL 1.2 qdot -q --json scene.lag -e "$sweep as m threads 2 resume \"rows.h5\"" >pieces 2>&1 && break
+    kills=$((kills + 1))
+    [ $kills -gt 200 ] && break
+done
+cmp whole pieces && wc -l <pieces | tr -d ' '
+[ $kills -gt 0 ] && echo 'it was killed on the way'
+echo '# once more: all is there'
+qdot -q scene.lag -e "$sweep resume \"rows.h5\"" 2>&1 | sed 's/in [0-9.e-]* s/in S/'
+echo '# another sweep, another scene, another file'
+qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "rows.h5"' 2>&1
+qdot -q scene.lag -e 'gravity (0, -1)' -e "$sweep resume \"rows.h5\"" 2>&1
+echo no >no.h5
+qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "no.h5"' 2>&1
+head -c 3000 rows.h5 >short.h5
+qdot -q scene.lag -e "$sweep resume \"short.h5\"" 2>&1
+qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "rows.csv"' 2>&1
+qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "/nowhere/rows.h5"' 2>&1 | head -1

@@ -1,0 +1,33 @@
+# A sweep by several processes: the same bits, and what is left when some die or Ctrl-C is pressed.
+cat >scene.lag <<'END'
+coord th1, th2
+particle a mass 1 at (sin(th1), -cos(th1))
+particle b mass 1 at (sin(th1) + sin(th2), -cos(th1) - cos(th2))
+gravity (0, -9.81)
+event flip: cos(th2) = -1 stop
+END
+good='sweep th1 = -3..3 count 8, th2 = 0..3 count 5 run 0..20 tol 1e-9 : th2, max(abs(th1)), flip[1] as m'
+for n in 1 2 5; do
+    qdot -q --json scene.lag -e "$good threads $n" >"of-$n" 2>&1
+done
+cmp of-1 of-2 && cmp of-1 of-5 && wc -l <of-1 | tr -d ' '
+grep -c '"failed"' of-5
+echo '# workers are killed again and again'
+qdot -q --json scene.lag -e "$good threads 3" >of-killed 2>&1 &
+pid=$!
+while kill -0 $pid 2>/dev/null && [ "${kills:-0}" -lt 4 ]; do
+    sleep 0.05
+    read -r victim rest 2>/dev/null </proc/$pid/task/$pid/children || break
+    [ -n "$victim" ] && kill -9 $victim 2>/dev/null && kills=$((${kills:-0} + 1))
+done
+wait $pid
+grep -v 'process that made the run has ended' of-killed | sort >a
+sort of-1 | grep -F -x -f a | wc -l | tr -d ' ' >b
+[ "$(wc -l <a | tr -d ' ')" -ge 32 ] && [ "$(cat b)" = "$(wc -l <a | tr -d ' ')" ] && echo 'the rows are the same'
+echo '# Ctrl-C keeps what is done'
+sed -i.old 's/ stop$//' scene.lag
+cat >long.lag <<'END'
+sweep th1 = -3..3 count 4000 run 0..20 tol 1e-9 : th2 as m threads 2
+END
+timeout --foreground --preserve-status -k 20 -s INT 1.5 qdot -q scene.lag long.lag 2>&1 \
+    | grep -c 'interrupted: m has [0-9]* of 4000 rows'
