@@ -131,6 +131,7 @@ library_sources = \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
 	lib/lang/runs/sensitivity.c \
+	lib/lang/runs/slope-numbers.c \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep-file.c \

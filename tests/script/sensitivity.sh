@@ -47,6 +47,15 @@ run 0..1 as n with g = 9.9999
 print (value(p.y, 1) - value(n.y, 1))/0.0002, (p.bounce[2] - n.bounce[2])/0.0002
 print (mean(p.y, 0..1) - mean(n.y, 0..1))/0.0002, (max(p.y, 0.5..1) - max(n.y, 0.5..1))/0.0002
 END
+# a ball that comes to rest: before that there are slopes; a stiff scene: by radau, as the run
+sed 's/y = x\/10/y = 0/' ball.lag >level.lag
+qdot -q level.lag - <<'END' 2>&1 | sed "$six" | grep '^d(\|error:'
+run 0..9
+sensitivity value(y, 1) + bounce[4] of e
+sensitivity value(y, 9) of e
+END
+qdot -q -e 'coord x; param c = 1e6; particle p mass 1 at x; potential x^2/2; force -c*x'"'"' on p; start x = 1' \
+    -e 'run 0..10; sensitivity 1e12*value(x, 10) of c' 2>&1 | sed "$six" | grep '^d('
 # constraints: what the start leaves open follows
 cat >rod.lag <<'END'
 param m, L, g > 0, k = 0.3

@@ -195,7 +195,7 @@ carry_out(qdot_cursor *c, qdot_slopes *slopes, qdot_text *text)
     QDOT_TRY(at_end(c->session, &e));
     qdot_token_text(c->session, start, end, text);
     QDOT_TRY(qdot_text_status(text));
-    QDOT_TRY(qdot_slopes_make(slopes, run_of(c->session, first)));
+    QDOT_TRY(qdot_slopes_make(slopes, run_of(c->session, first), e, first));
     return tell_slopes(slopes, qdot_text_str(text), e, first);
 }
 

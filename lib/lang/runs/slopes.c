@@ -1,7 +1,6 @@
-/* slopes.c -- the run with its variational equations, and what its numbers give by the chain rule. */
+/* slopes.c -- directions of names, and the run with its variational equations. */
 #include "lang/runs/slopes.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,13 +11,14 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "lang/session/member.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
-#include "sim/study/extremum.h"
 
-/* The name of the run with slopes. */
-static const char slopes_name[] = "the slopes";
+/* A run with slopes goes beyond the last time that it is needed at by so much of the whole, since errors at
+ * its end may be unknown; its end is that of the run within so much of the values. */
+static const double beyond = 0.001, apart = 1e-6;
+
+const char qdot_slopes_run[] = "the slopes";
 
 /* --- names ------------------------------------------------------------------------------ */
 
@@ -225,6 +225,7 @@ find_run(qdot_slopes *s, const char *name)
     s->conditions = named->conditions;
     s->run = named->run;
     s->request = qdot_conditions_request(named->conditions);
+    s->request.method = report->method;
     s->request.tol = report->tol;
     s->request.digits = report->digits;
     s->request.treatment = report->treatment;
@@ -233,14 +234,121 @@ find_run(qdot_slopes *s, const char *name)
     return qdot_pool_check(s->session->pool);
 }
 
+/* The time up to which a number of the run needs it; nil: all of it. */
+static qdot_expr
+needed_time(qdot_slopes *s, const qdot_measured *m)
+{
+    qdot_pool *pool = s->session->pool;
+
+    switch (m->origin.kind) {
+    case QDOT_ORIGIN_VALUE:
+        return qdot_session_bind(s->session,
+                                 qdot_measured_as_rationals(s->session, m->origin.time));
+    case QDOT_ORIGIN_RANGE:
+        return qdot_measured_rational(
+            pool, qdot_run_get_report(s->run)->t1 < qdot_run_get_report(s->run)->t0
+                      ? fmin(m->origin.ends[0], m->origin.ends[1])
+                      : fmax(m->origin.ends[0], m->origin.ends[1]));
+    case QDOT_ORIGIN_EVENT:
+        return m->digits > 0 ? m->exact : qdot_measured_rational(pool, m->value);
+    default: return QDOT_NIL;
+    }
+}
+
+/* Whether the number stands in e, or in what other numbers from the first-th on are of. */
+static bool
+is_used(const qdot_slopes *s, qdot_expr e, size_t first, qdot_expr symbol)
+{
+    const qdot_pool *pool = s->session->pool;
+    bool used = qdot_expr_contains(pool, e, symbol);
+
+    for (size_t i = first; i < s->session->measured.n && !used; i++) {
+        const qdot_origin *of = &s->session->measured.at[i].origin;
+
+        used =
+            of->kind == QDOT_ORIGIN_VALUE && (qdot_expr_contains(pool, of->e, symbol) ||
+                                              qdot_expr_contains(pool, of->time, symbol));
+    }
+    return used;
+}
+
+/* End the run with slopes where the last number measured from the first-th on needs it. */
+static qdot_status
+shorten(qdot_slopes *s, qdot_expr e, size_t first)
+{
+    const qdot_run_report *report = qdot_run_get_report(s->run);
+    double furthest = 0;
+    qdot_expr end = QDOT_NIL;
+
+    for (size_t i = first; i < s->session->measured.n; i++) {
+        const qdot_measured m = s->session->measured.at[i];
+        const bool used = is_used(s, e, first, m.symbol);
+        const qdot_expr time = used ? needed_time(s, &m) : QDOT_NIL;
+        double t;
+
+        if (!used)
+            continue;
+        QDOT_TRY(qdot_pool_check(s->session->pool));
+        if (time == QDOT_NIL)
+            return QDOT_OK;
+        QDOT_TRY(qdot_session_number(s->session, time, &t, NULL));
+        if (fabs(t - report->t0) > furthest &&
+            fabs(t - report->t0) < fabs(report->t1 - report->t0)) {
+            furthest = fabs(t - report->t0);
+            end = time;
+        } else if (fabs(t - report->t0) >= fabs(report->t1 - report->t0)) {
+            return QDOT_OK;
+        }
+    }
+    furthest += beyond * fabs(report->t1 - report->t0);
+    if (end != QDOT_NIL && furthest < fabs(report->t1 - report->t0))
+        s->request.t1 = qdot_measured_rational(
+            s->session->pool, report->t0 + copysign(furthest, report->t1 - report->t0));
+    return qdot_pool_check(s->session->pool);
+}
+
+/* Whether two values of one coordinate, with their errors, may be of one motion. */
+static bool
+agree(const double *value, const double *error)
+{
+    const double size = fmax(fabs(value[0]), fabs(value[1])), off = error[0] + error[1];
+
+    return fabs(value[0] - value[1]) <= apart * size + (isnan(off) ? apart : 100 * off);
+}
+
+/* Both runs end at one place: where a run slides, rests, or has gone on in other coordinates, that with
+ * slopes may not. */
+static qdot_status
+compare_ends(qdot_slopes *s, qdot_run *run)
+{
+    const qdot_scene *scene = s->session->scene;
+    const double t = qdot_run_get_report(run)->t1;
+    double value[2], error[2];
+
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        const qdot_expr q = scene->coordinates.at[i];
+
+        QDOT_TRY(qdot_run_values(s->run, 1, &q, 1, &t, value, error));
+        QDOT_TRY(qdot_run_values(run, 1, &q, 1, &t, value + 1, error + 1));
+        if (!agree(value, error))
+            return qdot_fail(QDOT_EFAILED,
+                             "the run with slopes goes another way: %.80s = %.6g at t = "
+                             "%.6g, not %.6g",
+                             qdot_expr_symbol(scene->pool, q)->name, value[1], t,
+                             value[0]);
+    }
+    return QDOT_OK;
+}
+
 qdot_status
-qdot_slopes_make(qdot_slopes *s, const char *name)
+qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
 {
     qdot_run_request request;
     qdot_run *run = NULL;
     qdot_status status;
 
     QDOT_TRY(find_run(s, name));
+    QDOT_TRY(shorten(s, e, first));
     QDOT_TRY(find_directions(s));
     QDOT_TRY(find_start(s, name));
     QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by,
@@ -251,11 +359,12 @@ qdot_slopes_make(qdot_slopes *s, const char *name)
         qdot_run_free(run);
         return status;
     }
-    QDOT_TRY(qdot_runs_keep(s->session, slopes_name, "", &request, run));
+    QDOT_TRY(qdot_runs_keep(s->session, qdot_slopes_run, "", &request, run));
     if (qdot_run_get_report(run)->status == QDOT_RUN_FAILED)
         return qdot_fail(QDOT_EFAILED, "the run with slopes failed: %.300s",
                          qdot_run_get_report(run)->reason);
-    return qdot_variation_check_start(&s->variation, run);
+    QDOT_TRY(qdot_variation_check_start(&s->variation, run));
+    return compare_ends(s, run);
 }
 
 void
@@ -264,7 +373,7 @@ qdot_slopes_free(qdot_slopes *s)
     qdot_session *session = s->session;
 
     if (session && session->runs.n > 0 &&
-        strcmp(session->runs.at[session->runs.n - 1].name, slopes_name) == 0)
+        strcmp(session->runs.at[session->runs.n - 1].name, qdot_slopes_run) == 0)
         qdot_named_run_release(&session->runs.at[--session->runs.n]);
     qdot_variation_clear(&s->variation);
     for (size_t i = 0; i < s->names.n; i++)
@@ -275,185 +384,4 @@ qdot_slopes_free(qdot_slopes *s)
     qdot_free(s->start);
     qdot_free(s->settled);
     *s = (qdot_slopes){0};
-}
-
-/* --- numbers ------------------------------------------------------------------------------- */
-
-/* An expression of the scene with slopes at a time, as a number. */
-static qdot_status
-at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
-{
-    qdot_measured m = {0};
-
-    QDOT_TRY(qdot_pool_check(s->session->pool));
-    if (e == QDOT_ZERO) {
-        *value = e;
-        return QDOT_OK;
-    }
-    if (qdot_expr_node(s->session->pool, e)->holds & QDOT_HAS_MULTIPLIER)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of multipliers");
-    QDOT_TRY(qdot_runs_measure_one(s->session, slopes_name, e, time, &m));
-    *value = qdot_measured_add(s->session, m);
-    return qdot_pool_check(s->session->pool);
-}
-
-/* D of what is e in the scene given; numbers of runs in e are constants of it. */
-static qdot_expr
-slope_along(const qdot_slopes *s, qdot_expr e, size_t k)
-{
-    return qdot_variation_of(&s->variation, qdot_measured_as_rationals(s->session, e), k);
-}
-
-/* value(e, time) */
-static qdot_status
-slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
-               qdot_expr *slope)
-{
-    qdot_pool *pool = s->session->pool;
-    qdot_expr time, rate, sum = QDOT_ZERO;
-
-    QDOT_TRY(at_time(s, slope_along(s, m->origin.e, k), m->origin.time, slope));
-    QDOT_TRY(qdot_slopes_of(s, m->origin.time, first, k, &time));
-    if (time != QDOT_ZERO) {
-        rate = qdot_variation_rate(&s->variation,
-                                   qdot_measured_as_rationals(s->session, m->origin.e));
-        QDOT_TRY(at_time(s, rate, m->origin.time, &rate));
-        sum = qdot_mul(pool, rate, time);
-    }
-    for (size_t i = first;
-         i < s->session->measured.n && s->session->measured.at[i].symbol != m->symbol;
-         i++) {
-        const qdot_measured *inner = &s->session->measured.at[i];
-        qdot_expr by, one;
-
-        if (!qdot_expr_contains(pool, m->origin.e, inner->symbol))
-            continue;
-        by = qdot_measured_as_rationals(s->session,
-                                        qdot_diff(pool, m->origin.e, inner->symbol));
-        QDOT_TRY(at_time(s, by, m->origin.time, &by));
-        QDOT_TRY(qdot_slopes_of(s, s->session->measured.at[i].symbol, first, k, &one));
-        sum = qdot_add(pool, sum, qdot_mul(pool, by, one));
-    }
-    *slope = qdot_add(pool, *slope, sum);
-    return qdot_pool_check(pool);
-}
-
-static qdot_status
-slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
-{
-    qdot_pool *pool = s->session->pool;
-    const qdot_event *event = qdot_scene_find_event(s->session->scene, m->origin.event);
-    qdot_expr g, time, up, down;
-
-    if (event == NULL)
-        return qdot_fail(QDOT_ENAME, "there is no event %.100s any more",
-                         m->origin.event);
-    g = qdot_sub(pool, event->left, event->right);
-    /* just before it, where it changes the state */
-    time = m->digits > 0 ? m->exact
-           : event->targets.n > 0
-               ? qdot_measured_rational(pool, m->value - fmax(1, fabs(m->value)) * 4 *
-                                                             DBL_EPSILON)
-               : qdot_measured_rational(pool, m->value);
-    QDOT_TRY(at_time(s, qdot_variation_of(&s->variation, g, k), time, &up));
-    QDOT_TRY(at_time(s, qdot_variation_rate(&s->variation, g), time, &down));
-    *slope = qdot_neg(pool, qdot_div(pool, up, down));
-    return qdot_pool_check(pool);
-}
-
-/* max, min: De where e is largest or least. */
-static qdot_status
-slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t k,
-                  qdot_expr *slope)
-{
-    qdot_extremum x = {.run = run,
-                       .kind = m->origin.range,
-                       .from = m->origin.ends[0],
-                       .to = m->origin.ends[1]};
-    double t;
-
-    x.e = qdot_substitute(s->session->pool, m->origin.e, s->request.n_values,
-                          s->request.symbols, s->request.values);
-    x.rate = qdot_variation_rate(&s->variation, m->origin.e);
-    x.bend = qdot_variation_rate(&s->variation, x.rate);
-    QDOT_TRY(qdot_pool_check(s->session->pool));
-    QDOT_TRY(qdot_extremum_time(&x, &t));
-    return at_time(s, slope_along(s, m->origin.e, k),
-                   qdot_measured_rational(s->session->pool, t), slope);
-}
-
-static qdot_status
-slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
-{
-    double value, error;
-    qdot_named_run *named;
-    qdot_expr e;
-
-    if (m->origin.range == QDOT_RANGE_DRIFT)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of drift");
-    QDOT_TRY(qdot_runs_find(s->session, slopes_name, &named));
-    if (m->origin.range != QDOT_RANGE_MEAN)
-        return slope_of_extremum(s, m, named->run, k, slope);
-    e = slope_along(s, m->origin.e, k);
-    QDOT_TRY(qdot_pool_check(s->session->pool));
-    QDOT_TRY(qdot_run_range(named->run, QDOT_RANGE_MEAN, e, m->origin.ends[0],
-                            m->origin.ends[1], &value, &error));
-    *slope = qdot_measured_new(s->session, value, error);
-    return qdot_pool_check(s->session->pool);
-}
-
-/* The slope of the i-th number measured. */
-static qdot_status
-slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
-{
-    const qdot_measured m = s->session->measured.at[i]; /* the list grows */
-    qdot_named_run *named;
-
-    if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of numbers other than "
-                                         "value, max, min, mean and event times");
-    if (m.origin.run != NULL) {
-        QDOT_TRY(qdot_runs_find(s->session, m.origin.run, &named));
-        if (named->run != s->run)
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of several runs");
-    }
-    switch (m.origin.kind) {
-    case QDOT_ORIGIN_EVENT: return slope_of_event(s, &m, k, slope);
-    case QDOT_ORIGIN_RANGE: return slope_of_range(s, &m, k, slope);
-    default: return slope_of_value(s, &m, first, k, slope);
-    }
-}
-
-qdot_status
-qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *slope)
-{
-    const qdot_conditions *of = s->conditions;
-    qdot_pool *pool = s->session->pool;
-    const size_t n = s->session->measured.n;
-    qdot_expr sum = QDOT_ZERO;
-
-    if (qdot_member_any(s->session, e)) {
-        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of RUN.EXPR");
-        return qdot_hint("value(RUN.x, T), max(RUN.x, A..B)");
-    }
-    if (s->by[k].parameter != QDOT_NIL) {
-        sum = qdot_diff(
-            pool,
-            qdot_substitute(pool, e, of->symbols.n, of->symbols.at, s->by[k].values),
-            s->by[k].parameter);
-        sum = sum == QDOT_NIL ? sum
-                              : qdot_substitute(pool, sum, of->symbols.n, of->symbols.at,
-                                                of->values.at);
-    }
-    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
-        const qdot_expr symbol = s->session->measured.at[i].symbol;
-        qdot_expr one;
-
-        if (!qdot_expr_contains(pool, e, symbol))
-            continue;
-        QDOT_TRY(slope_of_number(s, i, first, k, &one));
-        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, symbol), one));
-    }
-    *slope = sum;
-    return qdot_pool_check(pool);
 }

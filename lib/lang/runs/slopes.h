@@ -33,15 +33,20 @@ typedef struct {
     qdot_run_request request;
     qdot_variation_by *by;     /* [names] */
     qdot_expr *values, *start; /* [names x values], [names x 2n] */
-    qdot_expr *settled;    /* [2n] the run's start, on its constraints */
+    qdot_expr *settled;        /* [2n] the run's start, on its constraints */
     qdot_variation variation;
 } qdot_slopes;
 
+/* The name under which that run is kept meanwhile. */
+extern const char qdot_slopes_run[];
+
 /* Read `NAME, ...` into slopes from {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_read(qdot_cursor *c, qdot_slopes *s);
-/* Make the run with its slopes, of the run of that name (NULL: the latest). Errors: those of
- * qdot_variation_make and of the run. */
-QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run);
+/* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,
+ * measured from the first-th on, need it. Errors: those of qdot_variation_make and of the run; QDOT_EFAILED
+ * where it does not end where the run is. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_make(qdot_slopes *s, const char *run, qdot_expr e,
+                                             size_t first);
 /* The slope by name k of e, an expression of numbers of that run and of parameters: of numbers measured
  * before the first-th nothing is known. QDOT_ENOTBUILT: of something in it there is no slope. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first,

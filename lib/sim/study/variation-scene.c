@@ -286,7 +286,7 @@ qdot_variation_request(const qdot_variation *v)
     r.scales = NULL;
     r.n_values = 0;
     r.symbols = r.values = NULL;
-    r.method = "auto";
+    r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto"; /* others may not fit */
     return r;
 }
 
