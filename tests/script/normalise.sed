@@ -41,3 +41,4 @@ s/^order: [0-9][0-9]*, by what/order: P, by what/
 s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/
 # What rounding leaves depends on the processor.
 s/steps were held to .*/steps were held to N/
+s/\( rows.*\), in [0-9.e+-]* s$/\1, in TIME/
