@@ -1332,6 +1332,7 @@ script_tests = \
 	tests/script/plot-two-runs.sh \
 	tests/script/poincare.sh \
 	tests/script/poisson.lag \
+	tests/script/poles.lag \
 	tests/script/processor.sh \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
@@ -2312,6 +2313,7 @@ test_files = \
 	tests/script/plot-two-runs.out \
 	tests/script/poincare.out \
 	tests/script/poisson.out \
+	tests/script/poles.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
 	tests/script/pulse-train.out \

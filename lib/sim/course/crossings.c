@@ -51,7 +51,8 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
         s->sign = qdot_watch_first(w)[0];
     for (size_t i = 0; i < n; i++) {
         s->sign = roots[i].way != 0 ? roots[i].way : s->sign;
-        QDOT_TRY(take(s, roots[i].t, roots[i].way));
+        if (!roots[i].pole)
+            QDOT_TRY(take(s, roots[i].t, roots[i].way));
     }
     return QDOT_OK;
 }

@@ -45,8 +45,8 @@ is_occurrence(const qdot_piece *x, const qdot_root *root)
     int way = x->direction > 0 ? root->way : -root->way;
 
     if (w->kind == QDOT_WATCH_EVENT)
-        return x->c->stage->events.at[w->index].way == 0 ||
-               x->c->stage->events.at[w->index].way == way;
+        return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
+                               x->c->stage->events.at[w->index].way == way);
     return root->way != 0 && root->way != w->inside;
 }
 

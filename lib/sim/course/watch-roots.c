@@ -156,6 +156,32 @@ locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
     return ends[1].t == hi ? narrow(w, i, way, hi, ends, found) : QDOT_OK;
 }
 
+/* Whether g changes its sign through infinity between neighbouring doubles: away from there it is
+ * much smaller. Only asked where its values are not small beside those of the part. */
+static qdot_status
+is_pole(qdot_watch *w, const qdot_watch_part *p, const end *ends, const qdot_root *root, bool *pole)
+{
+    const double away = 4096 * (ends[1].t - ends[0].t), low = fmin(p->a, p->b),
+                 high = fmax(p->a, p->b);
+    bool any = false;
+
+    *pole = false;
+    if (root->residual <= 1e-3 * qdot_chebyshev_size(p->n, p->c))
+        return QDOT_OK;
+    for (int side = 0; side < 2; side++) {
+        const double t = ends[side].t + (side == 0 ? -away : away);
+
+        if (t < low || t > high)
+            continue;
+        QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+        if (fabs(w->g[root->function]) >= root->residual / 4)
+            return QDOT_OK;
+        any = true;
+    }
+    *pole = any;
+    return QDOT_OK;
+}
+
 /* --- its roots ----------------------------------------------------------------------- */
 
 /* Whether an extremum of value v at x is a root; *within: as in qdot_root. */
@@ -329,8 +355,10 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
                                   .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
                                   .exact = ends[1].g == 0};
 
-                if (!root.exact)
+                if (!root.exact) {
                     QDOT_TRY(refine(w, ends, &root));
+                    QDOT_TRY(is_pole(w, p, ends, &root, &root.pole));
+                }
                 QDOT_TRY(qdot_watch_push(w, root));
             }
             there = found ? there : sign;
