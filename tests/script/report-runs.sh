@@ -15,7 +15,7 @@ cat >cart.lag <<'END'
 param m, k > 0
 coord x
 particle cart mass m at (x, 0)
-spring s between cart, (0, 0) stiffness k rest 1
+potential s: 0.5*k*(x - 1)^2
 set m = 1, k = 4
 start x = 2
 run 0..2 as a
@@ -35,7 +35,7 @@ echo '--- one: with the values of the run, not those of the moment'
 sed -n '/<h2>Work/,/<h2>Script/{/^<h\|earlier/p}' one.html
 
 # Changed in between: measured again.
-sed -e '/^run.*soft/d' -e '/^report/d' -e 's/^workprecision.*/&\nremove s\nspring s between cart, (0, 0) stiffness k rest 1\nreport b workprecision to "again.html"/' \
+sed -e '/^run.*soft/d' -e '/^report/d' -e 's/^workprecision.*/&\nremove s\npotential s: 0.5*k*(x - 1)^2\nreport b workprecision to "again.html"/' \
     cart.lag >again.lag
 qdot -q again.lag | grep again
 grep -c 'earlier' again.html

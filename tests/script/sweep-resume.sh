@@ -9,10 +9,9 @@ END
 sweep='sweep th1 = -3..3 count 60, th2 = 0..3 count 6 run 0..30 tol 1e-9 : th2, flip[1], energy'
 qdot -q --json scene.lag -e "$sweep as m" >whole 2>&1
 kills=0
-while :; do
-    timeout -s KILL 1.2 qdot -q --json scene.lag -e "$sweep as m threads 2 resume \"rows.h5\"" >pieces 2>&1 && break
+for wait in 0.05 0.3 0.6 $(seq 1.2 0.3 60); do
+    timeout -s KILL "$wait" qdot -q --json scene.lag -e "$sweep as m threads 2 resume \"rows.h5\"" >pieces 2>&1 && break
     kills=$((kills + 1))
-    [ $kills -gt 200 ] && break
 done
 cmp whole pieces && wc -l <pieces | tr -d ' '
 [ $kills -gt 0 ] && echo 'it was killed on the way'
