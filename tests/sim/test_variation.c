@@ -71,16 +71,14 @@ of_an_oscillator(void **state)
     set(&f, "k", "4");
     f.q0[0] = QDOT_ONE;
     f.request.t1 = qdot_expr_int(f.pool, 3);
-    {
-        const qdot_variation_by by[] = {
-            {"m", f.symbols[0], with_free(&f, by_m, 0), none},
-            {"k", f.symbols[1], with_free(&f, by_k, 1), none},
-            {"x", QDOT_NIL, NULL, place},
-            {"x'", QDOT_NIL, NULL, speed},
-        };
+    const qdot_variation_by by[] = {
+        {"m", f.symbols[0], with_free(&f, by_m, 0), none},
+        {"k", f.symbols[1], with_free(&f, by_k, 1), none},
+        {"x", QDOT_NIL, NULL, place},
+        {"x'", QDOT_NIL, NULL, speed},
+    };
 
-        must(qdot_variation_make(f.scene, &f.request, 4, by, &v));
-    }
+    must(qdot_variation_make(f.scene, &f.request, 4, by, &v));
     r = run_of(&v);
     is = slope(&v, r, x, 0, &error);
     same(is, error, t * sin(w * t) * w / 2);
@@ -128,15 +126,13 @@ through_a_bounce(void **state)
     must(qdot_scene_event(f.scene, &bounce));
     f.q0[0] = QDOT_ONE;
     f.request.t1 = number(&f, "0.6");
-    {
-        const qdot_variation_by by[] = {
-            {"e", f.symbols[0], with_free(&f, by_e, 0), none},
-            {"g", f.symbols[1], with_free(&f, by_g, 1), none},
-            {"y", QDOT_NIL, NULL, place},
-        };
+    const qdot_variation_by by[] = {
+        {"e", f.symbols[0], with_free(&f, by_e, 0), none},
+        {"g", f.symbols[1], with_free(&f, by_g, 1), none},
+        {"y", QDOT_NIL, NULL, place},
+    };
 
-        must(qdot_variation_make(f.scene, &f.request, 3, by, &v));
-    }
+    must(qdot_variation_make(f.scene, &f.request, 3, by, &v));
     r = run_of(&v);
     is = slope(&v, r, y, 0, &error);
     same(is, error, g * tau * s);
@@ -181,12 +177,10 @@ along_a_circle(void **state)
     f.request.q_named = open;
     f.request.v_named = open;
     f.request.t1 = number(&f, "0.7");
-    {
-        const qdot_variation_by by[] = {{"L", f.symbols[0], with_free(&f, by_L, 0), none},
-                                        {"x'", QDOT_NIL, NULL, speed}};
+    const qdot_variation_by by[] = {{"L", f.symbols[0], with_free(&f, by_L, 0), none},
+                                    {"x'", QDOT_NIL, NULL, speed}};
 
-        must(qdot_variation_make(f.scene, &f.request, 2, by, &v));
-    }
+    must(qdot_variation_make(f.scene, &f.request, 2, by, &v));
     r = run_of(&v);
     is = slope(&v, r, x, 0, &error);
     same(is, error, sin(t) - t * cos(t));
@@ -197,12 +191,10 @@ along_a_circle(void **state)
 
     /* a start that names all cannot change alone */
     f.request.q_named = whole;
-    {
-        const qdot_variation_by by[] = {{"y", QDOT_NIL, NULL, place}};
+    const qdot_variation_by by_y[] = {{"y", QDOT_NIL, NULL, place}};
 
-        assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, by, &v), QDOT_EINVAL);
-        qdot_variation_clear(&v);
-    }
+    assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, by_y, &v), QDOT_EINVAL);
+    qdot_variation_clear(&v);
     end(&f);
 }
 

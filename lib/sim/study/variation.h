@@ -24,7 +24,7 @@
 
 #include "sim/study/variation-scene.h"
 
-/* The scene for `request`, which is borrowed; its start keeps the constraints, and q_named, v_named say which
+/* The scene for `request`, borrowed like `by` [k]; its start keeps the constraints, and q_named, v_named say which
  * values of it follow from them. Clear it in any case. Errors: QDOT_ENOTBUILT: what is not
  * carried (equations that jump, parameters set by events, ...), QDOT_ESINGULAR. */
 QDOT_MUST_CHECK qdot_status qdot_variation_make(qdot_scene *scene,
