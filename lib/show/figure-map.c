@@ -58,38 +58,38 @@ qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* The least and greatest number; false: there is none. */
-static bool
-find_ends(const qdot_figure_map *map, double *least, double *most)
+void
+qdot_figure_map_ends(const qdot_figure_map *map, double *ends)
 {
     bool any = false;
 
+    ends[0] = ends[1] = 0;
     for (size_t k = 0; k < map->n[0] * map->n[1]; k++) {
         const double v = map->value[k];
 
         if (!isfinite(v))
             continue;
-        *least = any ? fmin(*least, v) : v;
-        *most = any ? fmax(*most, v) : v;
+        ends[0] = any ? fmin(ends[0], v) : v;
+        ends[1] = any ? fmax(ends[1], v) : v;
         any = true;
     }
-    return any;
 }
 
 void
 qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script)
 {
-    double least = 0, most = 0;
+    double ends[2];
 
     qdot_text_add(script, palette);
-    if (!find_ends(map, &least, &most) || !(most > least)) {
-        most = least + 1;
-        least -= 1;
+    qdot_figure_map_ends(map, ends);
+    if (ends[0] == ends[1]) {
+        ends[0] -= 1;
+        ends[1] += 1;
     }
     qdot_text_add(script, "set datafile missing\nset minussign\nset colorbox\nset cbtics nomirror\nset cbrange [");
-    qdot_text_double(script, least, 17);
+    qdot_text_double(script, ends[0], 17);
     qdot_text_char(script, ':');
-    qdot_text_double(script, most, 17);
+    qdot_text_double(script, ends[1], 17);
     qdot_text_add(script, "]\nset cblabel ");
     qdot_figure_add_label(script, &map->label);
     qdot_text_char(script, '\n');
@@ -99,16 +99,17 @@ qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script)
 static const int thresholds[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
 
 bool
-qdot_figure_map_dot(const qdot_figure_map *map, const double *part, size_t i, size_t j)
+qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const double *part, size_t i,
+                    size_t j)
 {
-    double least = 0, most = 0, v;
+    double v;
     size_t at[2];
 
     for (int k = 0; k < 2; k++)
         at[k] = (size_t)fmin(fmax(part[k], 0) * (double)map->n[k], (double)map->n[k] - 1);
     v = map->value[at[1] * map->n[0] + at[0]];
-    if (!isfinite(v) || !find_ends(map, &least, &most))
+    if (!isfinite(v))
         return false;
-    v = most > least ? (v - least) / (most - least) : 1;
+    v = ends[1] > ends[0] ? (v - ends[0]) / (ends[1] - ends[0]) : 1;
     return 16 * v > thresholds[j % 4][i % 4] + 0.5;
 }

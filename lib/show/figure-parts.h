@@ -80,9 +80,12 @@ void qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, 
 QDOT_MUST_CHECK qdot_status qdot_figure_map_add_data(const qdot_figure_map *map, qdot_text *out);
 /* Palette, range and scale of the colours. */
 void qdot_figure_map_add_colours(const qdot_figure_map *map, qdot_text *script);
+/* The least and the greatest number, ends [2]; 0 where there is none. */
+void qdot_figure_map_ends(const qdot_figure_map *map, double *ends);
 /* Whether dot (i, j) of a sketch, at these parts [2] of the axes, is black: the more often the
- * greater the number. */
-bool qdot_figure_map_dot(const qdot_figure_map *map, const double *part, size_t i, size_t j);
+ * greater the number is between the ends. */
+bool qdot_figure_map_dot(const qdot_figure_map *map, const double *ends, const double *part, size_t i,
+                         size_t j);
 
 /* --- the script --------------------------------------------------------------------- */
 

@@ -97,7 +97,9 @@ static void
 draw_map(grid *g, const qdot_figure_map *map, bool ascii)
 {
     const size_t across = ACROSS * g->columns, down = DOWN * g->rows;
+    double ends[2];
 
+    qdot_figure_map_ends(map, ends);
     g->solid = true;
     for (size_t j = 0; j < down; j++)
         for (size_t i = 0; i < across; i++) {
@@ -105,7 +107,7 @@ draw_map(grid *g, const qdot_figure_map *map, bool ascii)
             const double part[2] = {((double)x + 0.5) / (double)across,
                                     1 - ((double)y + 0.5) / (double)down};
 
-            if (qdot_figure_map_dot(map, part, ascii ? x / ACROSS : x, ascii ? y / DOWN : y))
+            if (qdot_figure_map_dot(map, ends, part, ascii ? x / ACROSS : x, ascii ? y / DOWN : y))
                 put(g, (double)i, (double)j);
         }
 }

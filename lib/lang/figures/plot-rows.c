@@ -90,21 +90,23 @@ static qdot_status
 fill_maps(const qdot_row_table *t, qdot_figure_map *maps, qdot_panel *panels, double *values)
 {
     size_t fast = 1, slow; /* values of the second name, of the first */
+    double least[2], most[2];
 
     while (fast < t->rows && t->values[fast * t->n] == t->values[0])
         fast++;
     slow = t->rows / fast;
     if (slow * fast != t->rows)
         return qdot_fail(QDOT_EINVAL, "%s is interrupted: it has no rectangle of rows", t->name);
+    if (!is_even(t, 0, slow, fast, &least[0], &most[0])
+        || !is_even(t, 1, fast, fast, &least[1], &most[1]))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure over two names with uneven values");
     for (size_t j = 0; j < t->n - 2; j++) {
         qdot_figure_map *m = &maps[j];
         double *v = values + j * t->rows;
 
-        *m = (qdot_figure_map){.label = {t->labels[2 + j], true}, .n = {slow, fast}, .value = v};
-        if (!is_even(t, 0, slow, fast, &m->least[0], &m->most[0])
-            || !is_even(t, 1, fast, fast, &m->least[1], &m->most[1]))
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure over two names with uneven "
-                                             "values");
+        *m = (qdot_figure_map){.label = {t->labels[2 + j], true}, .n = {slow, fast},
+                               .least = {least[0], least[1]}, .most = {most[0], most[1]},
+                               .value = v};
         for (size_t k = 0; k < t->rows; k++)
             v[k % fast * slow + k / fast] = t->values[k * t->n + 2 + j];
         panels[j].axis[0] = (qdot_figure_label){t->labels[0], true};
