@@ -149,6 +149,7 @@ library_sources = \
 	lib/lang/session/mixture.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
+	lib/lang/session/row-columns.c \
 	lib/lang/session/row-table.c \
 	lib/lang/session/row-tables.c \
 	lib/lang/session/runs.c \
@@ -669,6 +670,7 @@ library_headers = \
 	lib/lang/session/mixture.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
+	lib/lang/session/row-columns.h \
 	lib/lang/session/row-table.h \
 	lib/lang/session/row-tables.h \
 	lib/lang/session/runs.h \
