@@ -9,6 +9,9 @@
 
 #include "lang/session/row-tables.h"
 
+/* A table of so many rows is printed as an answer; of more, how many there are. */
+enum { QDOT_ROWS_PRINTED = 24 };
+
 /* Row k; JSON only. */
 QDOT_MUST_CHECK qdot_status qdot_row_answer_json(qdot_session *session, const qdot_row_table *table,
                                                  size_t k);

@@ -15,9 +15,6 @@
 #include "lang/session/runs.h"
 #include "sim/read/section.h"
 
-/* A table of so many points is printed; of more, how many there are. */
-enum { MOST_PRINTED = 24 };
-
 typedef struct {
     qdot_expr g; /* left - right */
     int way;
@@ -321,9 +318,8 @@ find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
 /* --- what is told ----------------------------------------------------------------------- */
 
 static qdot_status
-tell(qdot_session *session, const poincare *p)
+tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
 {
-    const qdot_row_table *t = p->table;
     qdot_text text = {0};
 
     if (p->beyond > 0)
@@ -339,7 +335,7 @@ tell(qdot_session *session, const poincare *p)
         qdot_text_char(&text, '\n');
         QDOT_TRY(qdot_answer_written(session, t->name, QDOT_OK, &text));
     }
-    return session->json || (t->rows > 0 && t->rows <= MOST_PRINTED)
+    return session->json || (t->rows > 0 && t->rows <= QDOT_ROWS_PRINTED)
                ? qdot_row_answer(session, t)
                : QDOT_OK;
 }
@@ -371,12 +367,10 @@ qdot_poincare_statement(qdot_cursor *c)
     if (status == QDOT_OK) {
         qdot_row_table *table = p.table;
 
-        p.table = NULL;
+        p.table = NULL; /* the session's from now on */
         status = qdot_row_tables_keep(c->session, table);
-        p.table = table;
         if (status == QDOT_OK)
-            status = tell(c->session, &p);
-        p.table = NULL;
+            status = tell(c->session, &p, table);
         if (status == QDOT_OK && interrupted)
             status = qdot_fail(QDOT_EINTR, "interrupted: %s has the points of the first runs alone",
                                table->name);

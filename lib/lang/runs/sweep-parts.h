@@ -19,7 +19,7 @@ typedef struct {
     qdot_row_table *table;
     bool *done;       /* [members] */
     size_t told;      /* rows that JSON has, the first of all */
-    size_t failed, resumed;
+    size_t n_done, failed, resumed; /* rows; of those that are done */
     bool interrupted;
     double kept_at, keeping; /* when the file was written last, how long that took */
     size_t row;              /* that is being made */

@@ -70,9 +70,12 @@ fill_row(qdot_sweep *s, size_t k)
 static qdot_status
 keep_rows(qdot_sweep *s, bool at_once)
 {
-    const double now = s->path != NULL ? qdot_wall_now() : 0;
+    double now;
 
-    if (s->path == NULL || (!at_once && now - s->kept_at < fmax(1, 20 * s->keeping)))
+    if (s->path == NULL)
+        return QDOT_OK;
+    now = qdot_wall_now();
+    if (!at_once && now - s->kept_at < fmax(1, 20 * s->keeping))
         return QDOT_OK;
     QDOT_TRY(qdot_sweep_file_keep(s->table, s->done, qdot_text_str(&s->said), s->path));
     s->kept_at = qdot_wall_now();
@@ -81,6 +84,15 @@ keep_rows(qdot_sweep *s, bool at_once)
 }
 
 /* --- a row that is done ----------------------------------------------------------------- */
+
+/* The next rows to JSON, while they are done; at the end all that are left. */
+static qdot_status
+tell_rows(qdot_sweep *s, bool all)
+{
+    for (; s->c->session->json && s->told < s->table->rows && (all || s->done[s->told]); s->told++)
+        QDOT_TRY(qdot_row_answer_json(s->c->session, s->table, s->told));
+    return QDOT_OK;
+}
 
 /* Row k has been made, or has failed with that status and the last error. */
 static qdot_status
@@ -97,8 +109,8 @@ take_row(qdot_sweep *s, size_t k, qdot_status status)
             return QDOT_ENOMEM;
     }
     s->done[k] = true;
-    for (; s->c->session->json && s->told < t->rows && s->done[s->told]; s->told++)
-        QDOT_TRY(qdot_row_answer_json(s->c->session, t, s->told));
+    s->n_done++;
+    QDOT_TRY(tell_rows(s, false));
     return keep_rows(s, false);
 }
 
@@ -229,41 +241,29 @@ begin_rows(qdot_sweep *s)
         s->failed += s->done[k] && s->table->reasons[k] != NULL;
         s->resumed += s->done[k];
     }
+    s->n_done = s->resumed;
     return keep_rows(s, true); /* a file that cannot be written is better known now */
-}
-
-/* The rows that JSON has not yet. */
-static qdot_status
-tell_rest(qdot_sweep *s)
-{
-    for (; s->c->session->json && s->told < s->table->rows; s->told++)
-        QDOT_TRY(qdot_row_answer_json(s->c->session, s->table, s->told));
-    return QDOT_OK;
 }
 
 qdot_status
 qdot_sweep_make_rows(qdot_sweep *s)
 {
     const size_t start = s->c->error_at;
-    bool any = false;
     qdot_status status;
 
     QDOT_TRY(begin_rows(s));
     s->c->error_at = start;
     s->kept_at = qdot_wall_now();
     status = run_all(s);
-    for (size_t k = 0; k < s->table->rows && !any; k++)
-        any = s->done[k];
-    if (status == QDOT_EINTR && any) {
+    if (status == QDOT_EINTR && s->n_done > 0) {
         qdot_interrupt_clear(); /* heard: the rows that are done are kept */
         s->interrupted = true;
         status = QDOT_OK;
     }
     QDOT_TRY(status);
     s->c->error_at = start;
-    if (s->path != NULL)
-        QDOT_TRY(keep_rows(s, true));
+    QDOT_TRY(keep_rows(s, true));
     if (s->interrupted)
         drop_others(s);
-    return tell_rest(s);
+    return tell_rows(s, true);
 }

@@ -17,8 +17,7 @@
 #include "lang/language/token-text.h"
 #include "lang/runs/sweep-parts.h"
 
-/* A table of so many rows is printed; of more, how it went. */
-enum { MOST_PRINTED = 24, MOST_THREADS = 1024 };
+enum { MOST_THREADS = 1024 };
 
 /* --- reading ---------------------------------------------------------------------------- */
 
@@ -122,9 +121,8 @@ make_table(qdot_session *session, qdot_sweep *s)
 }
 
 static qdot_status
-tell(qdot_session *session, const qdot_sweep *s, double seconds)
+tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
 {
-    const qdot_row_table *t = s->table;
     qdot_text text = {0};
 
     if (session->json)
@@ -139,7 +137,7 @@ tell(qdot_session *session, const qdot_sweep *s, double seconds)
     qdot_text_format(&text, ", in %.3g s", seconds);
     qdot_text_char(&text, '\n');
     QDOT_TRY(qdot_answer_written(session, t->name, QDOT_OK, &text));
-    return t->rows <= MOST_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
+    return t->rows <= QDOT_ROWS_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
 }
 
 /* Whether no row has a number that was asked for. */
@@ -163,12 +161,9 @@ carry_out(qdot_cursor *c, qdot_sweep *s)
 
     if (status != QDOT_OK)
         return status;
-    s->table = NULL;
+    s->table = NULL; /* the session's from now on */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
-    s->table = table;
-    status = tell(c->session, s, qdot_wall_now() - begun);
-    s->table = NULL;
-    QDOT_TRY(status);
+    QDOT_TRY(tell(c->session, s, table, qdot_wall_now() - begun));
     if (s->interrupted)
         return qdot_fail(QDOT_EINTR, "interrupted: %s has %zu of %zu rows", table->name,
                          table->rows, s->members.axes.members);
