@@ -26,8 +26,9 @@ read_stored(double t, double *y, void *user)
 }
 
 static qdot_status
-take(search *s, double t, int way)
+take(search *s, const qdot_root *root)
 {
+    const double t = root->t;
     const qdot_trajectory *tr = &s->c->tr;
     const double *const limits = s->limits;
     const bool to_end = limits[1] == tr->t[tr->count - 1];
@@ -35,7 +36,8 @@ take(search *s, double t, int way)
     if (s->direction * (t - limits[0]) < 0
         || (to_end ? s->direction * (t - limits[1]) > 0 : s->direction * (t - limits[1]) >= 0))
         return QDOT_OK;
-    return qdot_vec_push(s->out, ((qdot_crossing){t, s->piece, s->direction > 0 ? way : -way}));
+    return qdot_vec_push(s->out, ((qdot_crossing){t, -s->direction * root->late, s->piece,
+                                                  s->direction > 0 ? root->way : -root->way}));
 }
 
 /* The roots of the step from stored point k; `last`: the next piece does not go on from its end. */
@@ -52,7 +54,7 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     for (size_t i = 0; i < n; i++) {
         s->sign = roots[i].way != 0 ? roots[i].way : s->sign;
         if (!roots[i].pole)
-            QDOT_TRY(take(s, roots[i].t, roots[i].way));
+            QDOT_TRY(take(s, &roots[i]));
     }
     return QDOT_OK;
 }

@@ -11,7 +11,8 @@
 #include "sim/course/course.h"
 
 typedef struct {
-    double t; /* the first double at which the function has changed its sign */
+    double t; /* the first double at which the function has changed its sign; */
+    double low; /* the root itself is at t + low */
     size_t piece;
     int way;  /* 1, -1: it rises, falls as t grows; 0: it touches 0 */
 } qdot_crossing;

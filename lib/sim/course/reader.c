@@ -119,6 +119,21 @@ qdot_reader_at(qdot_reader *r, size_t piece, double t, double *out)
 }
 
 qdot_status
+qdot_reader_go_on(qdot_reader *r, size_t piece, double t, double h, double low, double *more,
+                  double *values)
+{
+    const qdot_status status = qdot_reader_at(r, piece, t + h, more);
+
+    if (qdot_reader_has_nothing(status))
+        return QDOT_OK;
+    QDOT_TRY(status);
+    for (size_t j = 0; j < r->of.m; j++)
+        if (isfinite(more[j]))
+            values[j] += (more[j] - values[j]) / h * low;
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_reader_lower_beside(const qdot_reading *other, size_t m, const qdot_expr *exprs,
                          qdot_reading *of)
 {

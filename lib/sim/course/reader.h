@@ -68,6 +68,11 @@ QDOT_MUST_CHECK qdot_status qdot_reader_read(qdot_reader *r, const size_t *piece
 QDOT_MUST_CHECK qdot_status qdot_reader_at(qdot_reader *r, size_t piece, double t,
                                            double *out);
 
+/* Take values [m], read at t, on to t + low by their slopes over h; where one is not finite at t + h it
+ * stays. more [m] is room. A failure of reading there (qdot_reader_has_nothing) leaves all. */
+QDOT_MUST_CHECK qdot_status qdot_reader_go_on(qdot_reader *r, size_t piece, double t, double h,
+                                              double low, double *more, double *values);
+
 /* Whether a failure of reading means that the expression is undefined there, or the course ended.
  *  */
 static inline bool

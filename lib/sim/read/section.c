@@ -18,9 +18,6 @@
 /* Step of t for slopes, relative to t and to the whole time. */
 static const double slope_over = 0x1p-28;
 
-/* A root lies within so many doubles of the one at which the sign has changed. */
-static const double doubles = 4;
-
 /* The crossings of the run, or of one of its companions. */
 typedef struct {
     const qdot_course *course;
@@ -32,10 +29,10 @@ typedef struct {
 typedef struct {
     qdot_run *run;
     const qdot_section_of *of;
-    qdot_reading reading; /* of the expressions, then g */
+    qdot_reading reading; /* of the expressions */
     side sides[3];        /* the run and its companions */
     size_t n_sides;
-    double *work; /* [3 (m + 1)] */
+    double *work; /* [3 m] */
 } section;
 
 void
@@ -68,36 +65,21 @@ find_crossings(section *x, side *s, const double *limits)
     return qdot_reader_init(&s->reader, &x->reading, s->course);
 }
 
-/* The numbers out [m + 1] at a crossing, the last that of g. */
+/* The numbers out [m] at a crossing. */
 static qdot_status
 read_at(section *x, side *s, const qdot_crossing *at, double *out)
 {
     const qdot_trajectory *tr = &s->course->tr;
-    const size_t m = x->of->m;
     const double from = tr->t[tr->pieces.at[at->piece].first],
                  to = tr->t[qdot_trajectory_last_of(tr, at->piece)];
-    double *moved = x->work;
-    double h = slope_over * fmax(fabs(at->t), fabs(tr->t[tr->count - 1] - tr->t[0])), low;
-    qdot_status status;
+    double h = slope_over * fmax(fabs(at->t), fabs(tr->t[tr->count - 1] - tr->t[0]));
 
     QDOT_TRY(qdot_reader_at(&s->reader, at->piece, at->t, out));
-    if (at->way == 0)
-        return QDOT_OK;
     if (at->t + h > fmax(from, to))
         h = -h;
-    if (at->t + h < fmin(from, to))
+    if (at->low == 0 || at->t + h < fmin(from, to))
         return QDOT_OK;
-    status = qdot_reader_at(&s->reader, at->piece, at->t + h, moved);
-    if (qdot_reader_has_nothing(status))
-        return QDOT_OK;
-    QDOT_TRY(status);
-    low = -out[m] * h / (moved[m] - out[m]);
-    if (!(fabs(low) <= doubles * DBL_EPSILON * fmax(fabs(at->t), DBL_MIN)))
-        return QDOT_OK;
-    for (size_t j = 0; j < m; j++)
-        if (isfinite(moved[j]))
-            out[j] += (moved[j] - out[j]) / h * low;
-    return QDOT_OK;
+    return qdot_reader_go_on(&s->reader, at->piece, at->t, h, at->low, x->work, out);
 }
 
 /* --- errors --------------------------------------------------------------------------- */
@@ -109,7 +91,7 @@ compare(section *x, size_t k, const double *values, double *t_error, double *err
 {
     const size_t m = x->of->m, others = x->n_sides - 1;
     const side *own = x->sides;
-    double times[2], theirs[2], *read = x->work + m + 1;
+    double times[2], theirs[2], *read = x->work + m;
 
     *t_error = NAN;
     for (size_t j = 0; j < m; j++)
@@ -121,14 +103,14 @@ compare(section *x, size_t k, const double *values, double *t_error, double *err
         if (p == SIZE_MAX)
             return QDOT_OK;
         times[i] = other->t[p];
-        QDOT_TRY(read_at(x, other, &other->at.at[p], read + i * (m + 1)));
+        QDOT_TRY(read_at(x, other, &other->at.at[p], read + i * m));
     }
     if (others == 0)
         return QDOT_OK;
     *t_error = qdot_companion_bound_of(own->t[k], others, times, 1) + DBL_EPSILON * fabs(own->t[k]);
     for (size_t j = 0; j < m; j++) {
         for (size_t i = 0; i < others; i++)
-            theirs[i] = read[i * (m + 1) + j];
+            theirs[i] = read[i * m + j];
         errors[j] = qdot_companion_bound_of(values[j], others, theirs, 1);
     }
     return QDOT_OK;
@@ -168,14 +150,12 @@ find_errors(section *x, qdot_section *s, size_t first)
     const bool whole = qdot_run_comparable(x->run);
     double *t = s->t + first, *values = s->values + first * m, *errors = s->errors + first * m;
     double *spread = qdot_calloc(m + n * m + 1, sizeof *spread), *roundings = spread + m;
-    qdot_reading own = {0};
-    qdot_status status =
-        spread ? qdot_reader_lower(x->reading.plan, m, x->of->exprs, &own) : QDOT_ENOMEM;
+    qdot_status status = spread ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_horizon_spread(x->run, &own, &course, 0, spread);
+        status = qdot_horizon_spread(x->run, &x->reading, &course, 0, spread);
     if (status == QDOT_OK)
-        status = qdot_noise_roundings(&own, &course, n, t, values, roundings);
+        status = qdot_noise_roundings(&x->reading, &course, n, t, values, roundings);
     for (size_t k = 0; k < n && status == QDOT_OK; k++)
         status = compare(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
     if (status == QDOT_OK)
@@ -193,7 +173,6 @@ find_errors(section *x, qdot_section *s, size_t first)
                                  : *e + roundings[k * m + j];
         }
     }
-    qdot_tape_free(own.tape);
     qdot_free(spread);
     return status;
 }
@@ -221,13 +200,13 @@ add_rows(section *x, qdot_section *s)
         || !grow(&s->errors, n * m))
         return QDOT_ENOMEM;
     for (size_t k = 0; k < own->at.n; k++, s->n++) {
-        double *out = x->work + m + 1;
+        double *out = s->values + s->n * m;
 
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(read_at(x, own, &own->at.at[k], out));
         s->t[s->n] = own->t[k];
         for (size_t j = 0; j < m; j++)
-            s->values[s->n * m + j] = isfinite(out[j]) ? out[j] : NAN;
+            out[j] = isfinite(out[j]) ? out[j] : NAN;
     }
     return find_errors(x, s, first);
 }
@@ -237,16 +216,12 @@ static qdot_status
 find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdot_section *s)
 {
     const qdot_course *courses[] = {&run->course, &run->companion, &run->twin};
-    qdot_expr *all = qdot_calloc(of->m + 1, sizeof *all);
     section x = {.run = run, .of = of};
     qdot_status status = QDOT_ENOMEM;
 
-    x.work = qdot_calloc(3 * (of->m + 1), sizeof *x.work);
-    if (all && x.work) {
-        memcpy(all, of->exprs, of->m * sizeof *all);
-        all[of->m] = of->g;
-        status = qdot_reader_lower(run->plan, of->m + 1, all, &x.reading);
-    }
+    x.work = qdot_calloc(3 * of->m + 1, sizeof *x.work);
+    if (x.work)
+        status = qdot_reader_lower(run->plan, of->m, of->exprs, &x.reading);
     for (size_t i = 0; i < 3 && status == QDOT_OK; i++) {
         if ((i == 1 && !run->has_companion) || (i == 2 && !run->has_twin))
             break;
@@ -268,7 +243,6 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
     }
     qdot_tape_free(x.reading.tape);
     qdot_free(x.work);
-    qdot_free(all);
     return status;
 }
 

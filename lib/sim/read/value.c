@@ -104,24 +104,17 @@ piece_at(const qdot_trajectory *tr, double t)
 /* Add the change of the values from t to t + low, by slopes over h within the piece. The ends of
  * a run are its exact limits already. */
 static qdot_status
-go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, size_t m,
-          double *moved, double *values)
+go_beyond(const qdot_run *run, qdot_reader *r, double t, double low, double *more,
+          double *values)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double end = tr->t[tr->count - 1], h = (end > t ? slope_over : -slope_over) * fabs(t);
-    qdot_status status;
 
     if (low == 0 || t == tr->t[0] || (t == end && t == run->t1)
         || !(fmin(tr->t[0], end) <= t + h && t + h <= fmax(tr->t[0], end))
         || piece_at(tr, t) != piece_at(tr, t + h))
         return QDOT_OK;
-    status = qdot_reader_at(r, SIZE_MAX, t + h, moved);
-    if (qdot_reader_has_nothing(status))
-        return QDOT_OK;
-    for (size_t j = 0; j < m && status == QDOT_OK; j++)
-        if (isfinite(moved[j]))
-            values[j] += (moved[j] - values[j]) / h * low;
-    return status;
+    return qdot_reader_go_on(r, SIZE_MAX, t, h, low, more, values);
 }
 
 static qdot_status
@@ -129,16 +122,16 @@ add_lows(qdot_run *run, const qdot_reading *of, size_t k, const double *times,
          const double *lows, double *values)
 {
     size_t m = of->m;
-    double *moved = qdot_malloc((m + 1) * sizeof *moved);
+    double *more = qdot_malloc((m + 1) * sizeof *more);
     qdot_reader r = {0};
-    qdot_status status = moved ? QDOT_OK : QDOT_ENOMEM;
+    qdot_status status = more ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_reader_init(&r, of, &run->course);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
-        status = go_beyond(run, &r, times[i], lows[i], m, moved, values + i * m);
+        status = go_beyond(run, &r, times[i], lows[i], more, values + i * m);
     qdot_reader_clear(&r);
-    qdot_free(moved);
+    qdot_free(more);
     return status;
 }
 
