@@ -69,6 +69,17 @@ qdot_text_format(qdot_text *s, const char *format, ...)
     s->n += (size_t)n;
 }
 
+bool
+qdot_text_add_stream(qdot_text *s, FILE *from, size_t most)
+{
+    char block[65536];
+    size_t n;
+
+    while (!s->failed && s->n <= most && (n = fread(block, 1, sizeof block, from)) > 0)
+        qdot_text_add_n(s, block, n);
+    return !ferror(from);
+}
+
 void
 qdot_text_truncate(qdot_text *s, size_t length)
 {

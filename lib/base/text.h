@@ -3,6 +3,7 @@
 #define QDOT_BASE_TEXT_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/status.h"
 
@@ -17,6 +18,8 @@ void qdot_text_add(qdot_text *s, const char *text);
 void qdot_text_add_n(qdot_text *s, const char *text, size_t length);
 void qdot_text_char(qdot_text *s, char c);
 void qdot_text_format(qdot_text *s, const char *format, ...) QDOT_PRINTF(2, 3);
+/* All that the file still has, or a block more than `most` bytes; false: it cannot be read. */
+bool qdot_text_add_stream(qdot_text *s, FILE *from, size_t most);
 void qdot_text_truncate(qdot_text *s, size_t length);
 void qdot_text_clear(qdot_text *s);
 

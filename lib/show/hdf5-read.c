@@ -41,15 +41,11 @@ static qdot_status
 load(const char *path, qdot_text *out)
 {
     FILE *from = fopen(path, "rb");
-    char bytes[65536];
-    size_t n;
     bool whole;
 
     if (from == NULL)
         return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);
-    while ((n = fread(bytes, 1, sizeof bytes, from)) > 0)
-        qdot_text_add_n(out, bytes, n);
-    whole = !ferror(from);
+    whole = qdot_text_add_stream(out, from, SIZE_MAX);
     fclose(from);
     if (!whole)
         return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);

@@ -6,6 +6,7 @@
 #include <ftw.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,15 +115,13 @@ copy(const char *from, const char *path)
 {
     FILE *file = fopen(from, "rbe");
     qdot_text bytes = {0};
-    char block[1 << 14];
     qdot_status status;
 
     if (file == NULL)
         return qdot_fail(QDOT_EIO, "Chromium wrote no report: %s", strerror(errno));
-    for (size_t n; (n = fread(block, 1, sizeof block, file)) > 0;)
-        qdot_text_add_n(&bytes, block, n);
-    status = ferror(file) ? qdot_fail(QDOT_EIO, "cannot read what Chromium wrote")
-                          : qdot_text_status(&bytes);
+    status = qdot_text_add_stream(&bytes, file, SIZE_MAX)
+                 ? qdot_text_status(&bytes)
+                 : qdot_fail(QDOT_EIO, "cannot read what Chromium wrote");
     fclose(file);
     if (status == QDOT_OK)
         status = qdot_sink_write(path, qdot_text_str(&bytes), bytes.n);

@@ -29,17 +29,10 @@ qdot_script_run_text(qdot_session *session, const char *name, const char *text,
 static qdot_status
 read_stream(FILE *file, const char *path, qdot_text *text)
 {
-    char block[65536];
-    size_t n;
-
-    while ((n = fread(block, 1, sizeof block, file)) > 0) {
-        qdot_text_add_n(text, block, n);
-        if (text->n > FILE_LIMIT)
-            return qdot_fail(QDOT_ELIMIT, "`%s` is larger than %d MB", path,
-                             FILE_LIMIT >> 20);
-    }
-    if (ferror(file))
+    if (!qdot_text_add_stream(text, file, FILE_LIMIT))
         return qdot_fail(QDOT_EIO, "`%s` cannot be read: %s", path, strerror(errno));
+    if (text->n > FILE_LIMIT)
+        return qdot_fail(QDOT_ELIMIT, "`%s` is larger than %d MB", path, FILE_LIMIT >> 20);
     return qdot_text_status(text);
 }
 
