@@ -41,17 +41,20 @@ typedef struct {
     size_t next;     /* item not handed out yet */
     size_t left;     /* items without answer */
     qdot_vec(size_t) again; /* items whose worker died */
-    bool *failed;    /* [items] they are done for the second time */
+    bool *failed;    /* [items] of which a worker has died */
 } crew;
 
 size_t
 qdot_workers_processors(void)
 {
-    cpu_set_t set;
     long n;
+
+#ifdef CPU_COUNT
+    cpu_set_t set;
 
     if (sched_getaffinity(0, sizeof set, &set) == 0)
         return (size_t)CPU_COUNT(&set);
+#endif
     n = sysconf(_SC_NPROCESSORS_ONLN);
     return n > 0 ? (size_t)n : 1;
 }
@@ -186,8 +189,9 @@ next_chunk(crew *c, double most)
     return r;
 }
 
-/* A chunk for an idle worker: items of a dead one first, one by one. false: there is none. */
-static bool
+/* A chunk for an idle worker, if there is one: items of a dead one first, one by one. That a worker is
+ * dead shows when it is read. */
+static void
 hand_out(crew *c, worker *w)
 {
     const qdot_workers_job *job = c->job;
@@ -201,11 +205,11 @@ hand_out(crew *c, worker *w)
 
         r = next_chunk(c, fmin(fmin(few, share), MOST_CHUNK));
         if (r.count == 0)
-            return false;
+            return;
     }
     w->next = (size_t)r.first;
     w->end = w->next + (size_t)r.count;
-    return write_all(w->ask, &r, sizeof r) || true; /* a dead one shows when it is read */
+    (void)write_all(w->ask, &r, sizeof r);
 }
 
 /* The answers that have come whole. */
@@ -236,24 +240,22 @@ take_answers(crew *c, worker *w)
 static qdot_status
 replace(crew *c, worker *w)
 {
-    const size_t next = w->next, last = w->end;
+    const size_t last = w->end;
+    size_t next = w->next;
 
     end(w, true);
-    for (size_t k = next; k < last; k++) {
-        bool *failed = &c->failed[k - c->job->first];
-
-        if (*failed && k == next) { /* it dies of this one */
-            QDOT_TRY(c->job->done(k, NULL, 0, c->job->user));
-            c->left--;
-            continue;
-        }
-        *failed = *failed || k == next;
-        QDOT_TRY(qdot_vec_push(&c->again, k));
+    if (next < last && c->failed[next - c->job->first]) { /* two have died of this one */
+        QDOT_TRY(c->job->done(next++, NULL, 0, c->job->user));
+        c->left--;
+    } else if (next < last) {
+        c->failed[next - c->job->first] = true;
     }
+    for (; next < last; next++)
+        QDOT_TRY(qdot_vec_push(&c->again, next));
     if (c->left > 0 && !start(c, w))
         return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     if (c->left > 0)
-        (void)!hand_out(c, w);
+        hand_out(c, w);
     return QDOT_OK;
 }
 
@@ -272,7 +274,7 @@ listen_to(crew *c, worker *w)
     QDOT_TRY(take_answers(c, w));
     qdot_progress_at((double)(c->job->end - c->job->first - c->left));
     if (w->next == w->end)
-        (void)!hand_out(c, w);
+        hand_out(c, w);
     return QDOT_OK;
 }
 
@@ -312,7 +314,7 @@ qdot_workers_run(const qdot_workers_job *job)
         if (!start(&c, &c.workers[i]))
             status = qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
         else
-            (void)!hand_out(&c, &c.workers[i]);
+            hand_out(&c, &c.workers[i]);
     }
     if (status == QDOT_OK)
         status = carry_out(&c, polled);
