@@ -106,7 +106,7 @@ blank_unknown(const qdot_operand *o, size_t rows, const double *times, double *c
 
     if (o->mixed || isnan(r->horizon))
         return QDOT_OK;
-    while (first < rows && !((times[first] - r->horizon) * (r->t1 - r->t0) > 0))
+    while (first < rows && !qdot_run_report_is_beyond(r, times[first]))
         first++;
     values = qdot_calloc(2 * m * (rows - first) + 1, sizeof *values);
     errors = values + m * (rows - first);

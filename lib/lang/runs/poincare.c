@@ -161,7 +161,7 @@ read_poincare(qdot_cursor *c, poincare *p)
 static qdot_status
 add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_section *s)
 {
-    const double horizon = qdot_run_get_report(run)->horizon;
+    const qdot_run_report *report = qdot_run_get_report(run);
     qdot_row_table *t = p->table;
     const size_t before = t->n_swept - 1;
 
@@ -189,7 +189,7 @@ add_points(poincare *p, const qdot_run *run, const double *swept, const qdot_sec
             if (t->reasons[t->rows - 1] == NULL)
                 return QDOT_ENOMEM;
         }
-        p->beyond += fabs(s->t[k]) > fabs(horizon); /* of a NaN: never */
+        p->beyond += qdot_run_report_is_beyond(report, s->t[k]);
     }
     return QDOT_OK;
 }

@@ -67,6 +67,13 @@ typedef struct {
                                        */
 } qdot_run_report;
 
+/* Whether t lies beyond the horizon, in the direction of the run; a run without one: never. */
+static inline bool
+qdot_run_report_is_beyond(const qdot_run_report *r, double t)
+{
+    return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* of a NaN: false */
+}
+
 /* An event that occurred. */
 typedef struct {
     const char *event;

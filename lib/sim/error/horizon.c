@@ -309,9 +309,7 @@ qdot_horizon_find(qdot_run *run)
 bool
 qdot_horizon_passed(const qdot_run *run, double t)
 {
-    const double way = run->t1 < run->t0 ? -1 : 1;
-
-    return way * (t - run->report.horizon) > 0; /* a NaN: none */
+    return qdot_run_report_is_beyond(&run->report, t);
 }
 
 /* --- expressions beyond it ----------------------------------------------------------- */
