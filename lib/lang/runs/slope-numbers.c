@@ -8,7 +8,6 @@
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/runs.h"
-#include "sim/model/substitute.h"
 #include "sim/study/extremum.h"
 
 /* An expression of the scene with slopes at a time, as a number. */
@@ -104,8 +103,7 @@ slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t 
                        .to = m->origin.ends[1]};
     double t;
 
-    x.e = qdot_substitute(s->session->pool, m->origin.e, s->request.n_values,
-                          s->request.symbols, s->request.values);
+    x.e = qdot_variation_with_numbers(&s->variation, m->origin.e);
     x.rate = qdot_variation_rate(&s->variation, m->origin.e);
     x.bend = qdot_variation_rate(&s->variation, x.rate);
     QDOT_TRY(qdot_pool_check(s->session->pool));
@@ -159,24 +157,15 @@ slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slo
 qdot_status
 qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *slope)
 {
-    const qdot_conditions *of = s->conditions;
     qdot_pool *pool = s->session->pool;
     const size_t n = s->session->measured.n;
-    qdot_expr sum = QDOT_ZERO;
+    qdot_expr sum;
 
     if (qdot_member_any(s->session, e)) {
         (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of RUN.EXPR");
         return qdot_hint("value(RUN.x, T), max(RUN.x, A..B)");
     }
-    if (s->by[k].parameter != QDOT_NIL) {
-        sum = qdot_diff(
-            pool,
-            qdot_substitute(pool, e, of->symbols.n, of->symbols.at, s->by[k].values),
-            s->by[k].parameter);
-        sum = sum == QDOT_NIL ? sum
-                              : qdot_substitute(pool, sum, of->symbols.n, of->symbols.at,
-                                                of->values.at);
-    }
+    sum = qdot_variation_by_parameter(&s->variation, e, k);
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
         const qdot_expr symbol = s->session->measured.at[i].symbol;
         qdot_expr one;

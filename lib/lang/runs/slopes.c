@@ -277,33 +277,27 @@ static qdot_status
 shorten(qdot_slopes *s, qdot_expr e, size_t first)
 {
     const qdot_run_report *report = qdot_run_get_report(s->run);
-    double furthest = 0;
-    qdot_expr end = QDOT_NIL;
+    const double whole = report->t1 - report->t0;
+    double furthest = 0, length;
 
     for (size_t i = first; i < s->session->measured.n; i++) {
         const qdot_measured m = s->session->measured.at[i];
-        const bool used = is_used(s, e, first, m.symbol);
-        const qdot_expr time = used ? needed_time(s, &m) : QDOT_NIL;
+        qdot_expr time;
         double t;
 
-        if (!used)
+        if (!is_used(s, e, first, m.symbol))
             continue;
+        time = needed_time(s, &m);
         QDOT_TRY(qdot_pool_check(s->session->pool));
         if (time == QDOT_NIL)
             return QDOT_OK;
         QDOT_TRY(qdot_session_number(s->session, time, &t, NULL));
-        if (fabs(t - report->t0) > furthest &&
-            fabs(t - report->t0) < fabs(report->t1 - report->t0)) {
-            furthest = fabs(t - report->t0);
-            end = time;
-        } else if (fabs(t - report->t0) >= fabs(report->t1 - report->t0)) {
-            return QDOT_OK;
-        }
+        furthest = fmax(furthest, fabs(t - report->t0));
     }
-    furthest += beyond * fabs(report->t1 - report->t0);
-    if (end != QDOT_NIL && furthest < fabs(report->t1 - report->t0))
-        s->request.t1 = qdot_measured_rational(
-            s->session->pool, report->t0 + copysign(furthest, report->t1 - report->t0));
+    length = furthest + beyond * fabs(whole);
+    if (furthest > 0 && length < fabs(whole))
+        s->request.t1 =
+            qdot_measured_rational(s->session->pool, report->t0 + copysign(length, whole));
     return qdot_pool_check(s->session->pool);
 }
 

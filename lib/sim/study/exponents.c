@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "expr/rational.h"
 #include "ode/integrate.h"
 #include "sim/course/course.h"
 #include "sim/study/method-run.h"
@@ -127,18 +126,6 @@ advance(pursuit *p, double end)
     return status;
 }
 
-static qdot_expr
-exact(qdot_pool *pool, double x)
-{
-    int exponent;
-    const double mantissa = ldexp(frexp(x, &exponent), 53);
-
-    if (mantissa == 0)
-        return QDOT_ZERO;
-    return qdot_mul(pool, qdot_expr_int(pool, (long)mantissa),
-                    qdot_pow_int(pool, qdot_expr_int(pool, 2), exponent - 53));
-}
-
 /* The same where events, switches or domains may divide it: a course from the state that is there. */
 static qdot_status
 advance_in_pieces(pursuit *p, double end)
@@ -153,12 +140,12 @@ advance_in_pieces(pursuit *p, double end)
     qdot_status status = start ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < 2 * p->all && start; i++)
-        start[i] = exact(pool, p->y[i]);
+        start[i] = qdot_expr_of_double(pool, p->y[i]);
     request.q0 = start;
     request.v0 = start + p->all;
     request.q_named = request.v_named = NULL;
-    request.t0 = exact(pool, p->t);
-    request.t1 = exact(pool, end);
+    request.t0 = qdot_expr_of_double(pool, p->t);
+    request.t1 = qdot_expr_of_double(pool, end);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
@@ -361,7 +348,7 @@ settle(qdot_scene *scene, const qdot_run_request *request, qdot_expr *start)
     qdot_status status = qdot_method_run_init(&m, scene, request, "auto", request->tol);
 
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
-        start[i] = exact(scene->pool, m.start[i]);
+        start[i] = qdot_expr_of_double(scene->pool, m.start[i]);
     qdot_method_run_clear(&m);
     return status == QDOT_OK ? qdot_pool_check(scene->pool) : status;
 }

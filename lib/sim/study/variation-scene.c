@@ -61,39 +61,26 @@ value_after(const qdot_variation *v, const qdot_event *event, size_t i)
     return z;
 }
 
-/* q'' after the event, from the state before it. */
-static qdot_expr
-acceleration_after(const qdot_variation *v, const qdot_expr *after, size_t i)
-{
-    qdot_pool *pool = v->of->pool;
-    qdot_expr *z = qdot_malloc(2 * v->n * sizeof *z), e = QDOT_NIL;
-
-    for (size_t j = 0; z && j < 2 * v->n; j++)
-        z[j] = qdot_variation_jet(v, j % v->n, j >= v->n);
-    if (z)
-        e = qdot_subs(pool, v->a[i], 2 * v->n, z, after);
-    else
-        (void)qdot_pool_fail(pool);
-    qdot_free(z);
-    return e;
-}
-
-/* The event with the saltation of y; after [2n]. */
+/* The event with the saltation of y. Room: z [2n] for (q, q') before it, after [3n] for (q, q', q'')
+ * after it as expressions of the state before. */
 static qdot_status
-add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *after,
-              qdot_event *own)
+add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z,
+              qdot_expr *after, qdot_event *own)
 {
     qdot_pool *pool = v->of->pool;
     const qdot_expr g = qdot_sub(pool, event->left, event->right);
     const size_t n = v->n;
 
     for (size_t i = 0; i < 2 * n; i++) {
+        z[i] = qdot_variation_jet(v, i % n, i >= n);
         after[i] = qdot_variation_with_motion(
             v, qdot_variation_with_numbers(v, value_after(v, event, i)));
-        QDOT_TRY(qdot_vec_push(&own->targets, qdot_variation_jet(v, i % n, i >= n)));
+        QDOT_TRY(qdot_vec_push(&own->targets, z[i]));
         QDOT_TRY(qdot_vec_push(&own->values, after[i]));
     }
     QDOT_TRY(qdot_pool_check(pool));
+    for (size_t i = 0; i < n; i++)
+        after[2 * n + i] = qdot_subs(pool, v->a[i], 2 * n, z, after);
     for (size_t k = 0; k < v->k; k++) {
         const qdot_expr slope = qdot_variation_with_motion(v, qdot_variation_of(v, g, k));
         const qdot_expr time = qdot_hold(
@@ -101,9 +88,8 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *after
 
         for (size_t i = 0; i < 2 * n; i++) {
             const qdot_expr h = value_after(v, event, i);
-            const qdot_expr then =
-                i < n ? after[n + i] : acceleration_after(v, after, i - n);
-            const qdot_expr along = qdot_sub(pool, qdot_variation_rate(v, h), then);
+            const qdot_expr along =
+                qdot_sub(pool, qdot_variation_rate(v, h), after[n + i]);
 
             QDOT_TRY(qdot_vec_push(&own->targets,
                                    qdot_variation_slope_jet(v, k, i % n, i >= n)));
@@ -119,8 +105,8 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *after
 static qdot_status
 add_events(const qdot_variation *v)
 {
-    qdot_expr *after = qdot_malloc((2 * v->n + 1) * sizeof *after);
-    qdot_status status = after ? QDOT_OK : QDOT_ENOMEM;
+    qdot_expr *room = qdot_malloc((5 * v->n + 1) * sizeof *room);
+    qdot_status status = room ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < v->of->events.n && status == QDOT_OK; i++) {
         const qdot_event *event = &v->of->events.at[i];
@@ -130,13 +116,13 @@ add_events(const qdot_variation *v)
             continue;
         own.left = qdot_variation_with_numbers(v, event->left);
         own.right = qdot_variation_with_numbers(v, event->right);
-        status = add_saltation(v, event, after, &own);
+        status = add_saltation(v, event, room, room + 2 * v->n, &own);
         if (status == QDOT_OK)
             status = qdot_scene_event(v->scene, &own);
         qdot_free(own.targets.at);
         qdot_free(own.values.at);
     }
-    qdot_free(after);
+    qdot_free(room);
     return status;
 }
 
@@ -228,10 +214,11 @@ check_conditions(const qdot_variation *v)
     for (size_t c = 0; c < v->m; c++)
         for (size_t k = 0; k < v->k; k++) {
             const qdot_constraint *of = &v->of->constraints.at[c];
-            const qdot_expr e = qdot_variation_of(v, of->f, k);
+            qdot_expr e;
 
             if (of->kind == QDOT_ACCELERATION || !v->by[k].start)
                 continue;
+            e = qdot_variation_of(v, of->f, k);
             QDOT_TRY(check_condition(v, e, k));
             if (of->kind == QDOT_HOLONOMIC)
                 QDOT_TRY(check_condition(v, qdot_ddt(v->of->pool, e), k));

@@ -17,7 +17,7 @@
  *
  * (saltation). Numbers of the request are put in exactly: the new scene has no parameters.
  *
- * Tests  tests/sim/test_variation.c, tests/script/sensitivity.lag
+ * Tests  tests/sim/test_variation.c, tests/script/sensitivity.sh
  */
 #ifndef QDOT_SIM_VARIATION_H
 #define QDOT_SIM_VARIATION_H
