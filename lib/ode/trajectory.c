@@ -637,7 +637,7 @@ qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system 
 {
     const qdot_trajectory *tr = c->tr;
 
-    if (c->tracks || c->s || !c->fresh)
+    if (c->tracks || c->s || tr->s || !c->fresh)
         return false;
     *of = c->system;
     *step = (qdot_ode_expanded){.t = tr->t[c->at],
