@@ -1258,6 +1258,7 @@ script_tests = \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
 	tests/script/flat-places.lag \
+	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
 	tests/script/force-material.lag \
@@ -2224,6 +2225,7 @@ test_files = \
 	tests/script/far-away.out \
 	tests/script/figures.out \
 	tests/script/flat-places.out \
+	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
 	tests/script/force-material.out \
