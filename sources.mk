@@ -77,6 +77,7 @@ library_sources = \
 	lib/lang/figures/animated.c \
 	lib/lang/figures/figure-file.c \
 	lib/lang/figures/figure-option.c \
+	lib/lang/figures/plot-branches.c \
 	lib/lang/figures/plot-over.c \
 	lib/lang/figures/plot-rows.c \
 	lib/lang/figures/plot-run.c \
@@ -119,7 +120,9 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/branches.c \
 	lib/lang/runs/columns.c \
+	lib/lang/runs/continue.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
@@ -217,6 +220,7 @@ library_sources = \
 	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
+	lib/mech/study/equilibrium-curve.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-twice.c \
@@ -537,6 +541,9 @@ library_sources = \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
+	lib/sim/study/bifurcation.c \
+	lib/sim/study/branch.c \
+	lib/sim/study/continuation.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
@@ -544,7 +551,9 @@ library_sources = \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
+	lib/sim/study/newton.c \
 	lib/sim/study/race.c \
+	lib/sim/study/rest-path.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -616,6 +625,7 @@ library_headers = \
 	lib/lang/figures/animated.h \
 	lib/lang/figures/figure-file.h \
 	lib/lang/figures/figure-option.h \
+	lib/lang/figures/plot-branches.h \
 	lib/lang/figures/plot-parts.h \
 	lib/lang/figures/plot-rows.h \
 	lib/lang/figures/solid.h \
@@ -651,6 +661,7 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/branches.h \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/members.h \
@@ -720,6 +731,7 @@ library_headers = \
 	lib/mech/study/chart.h \
 	lib/mech/study/collision.h \
 	lib/mech/study/distance-ends.h \
+	lib/mech/study/equilibrium-curve.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
@@ -1003,6 +1015,9 @@ library_headers = \
 	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
+	lib/sim/study/bifurcation.h \
+	lib/sim/study/branch.h \
+	lib/sim/study/continuation.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
@@ -1010,7 +1025,9 @@ library_headers = \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
+	lib/sim/study/newton.h \
 	lib/sim/study/race.h \
+	lib/sim/study/rest-path.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1169,6 +1186,7 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble \
@@ -1228,6 +1246,8 @@ script_tests = \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
+	tests/script/continue-files.sh \
+	tests/script/continue.lag \
 	tests/script/coordinates.lag \
 	tests/script/data-files.sh \
 	tests/script/declarations.lag \
@@ -1428,6 +1448,7 @@ script_tests = \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
+	tests/bad/continue.sh \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
@@ -1668,6 +1689,7 @@ script_tests = \
 	examples/bouncing-ball.lag \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
+	examples/branches.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/cart-pendulum.lag \
@@ -1807,6 +1829,7 @@ test_files = \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
+	tests/bad/continue.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
@@ -2044,6 +2067,7 @@ test_files = \
 	tests/examples/bead-on-wire.out \
 	tests/examples/bicycle.out \
 	tests/examples/bowling-ball.out \
+	tests/examples/branches.out \
 	tests/examples/bricard.out \
 	tests/examples/car-axis.out \
 	tests/examples/chain.out \
@@ -2191,6 +2215,8 @@ test_files = \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
+	tests/script/continue-files.out \
+	tests/script/continue.out \
 	tests/script/coordinates.out \
 	tests/script/data-files.out \
 	tests/script/declarations.out \
@@ -2468,6 +2494,8 @@ example_files = \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
 	examples/brachistochrone-bead.svg \
+	examples/branches.lag \
+	examples/branches.svg \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/cart-pendulum.lag \

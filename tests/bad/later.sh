@@ -12,5 +12,4 @@ dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
 find x = 0..1 such that value(x, 1) = 0
 fit mu to "data.csv" : t, x
-continue equilibria in mu = 0..1
 EOF
