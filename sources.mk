@@ -125,6 +125,8 @@ library_sources = \
 	lib/lang/runs/continue.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
+	lib/lang/runs/find-read.c \
+	lib/lang/runs/find.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
@@ -323,6 +325,7 @@ library_sources = \
 	lib/num/sparse.c \
 	lib/num/structure.c \
 	lib/num/two.c \
+	lib/num/zero.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
@@ -664,6 +667,7 @@ library_headers = \
 	lib/lang/runs/branches.h \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
+	lib/lang/runs/find-parts.h \
 	lib/lang/runs/members.h \
 	lib/lang/runs/own-run.h \
 	lib/lang/runs/request.h \
@@ -828,6 +832,7 @@ library_headers = \
 	lib/num/sum.h \
 	lib/num/two.def \
 	lib/num/two.h \
+	lib/num/zero.h \
 	lib/ode/apart.h \
 	lib/ode/batch.def \
 	lib/ode/batch.h \
@@ -1148,6 +1153,7 @@ unit_tests = \
 	tests/num/test_structure \
 	tests/num/test_sum \
 	tests/num/test_two \
+	tests/num/test_zero \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_geometric \
@@ -1281,6 +1287,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
+	tests/script/find.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
@@ -1476,6 +1483,21 @@ script_tests = \
 	tests/bad/export-nothing.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
+	tests/bad/find-after.lag \
+	tests/bad/find-domain.lag \
+	tests/bad/find-empty.lag \
+	tests/bad/find-equation.lag \
+	tests/bad/find-flat.lag \
+	tests/bad/find-jump.lag \
+	tests/bad/find-length.lag \
+	tests/bad/find-many.lag \
+	tests/bad/find-nothing.lag \
+	tests/bad/find-pole.lag \
+	tests/bad/find-short.lag \
+	tests/bad/find-such.lag \
+	tests/bad/find-twice.lag \
+	tests/bad/find-unknown.lag \
+	tests/bad/find-vector.lag \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1687,6 +1709,7 @@ script_tests = \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
+	examples/boundary-value.lag \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
 	examples/branches.lag \
@@ -1857,6 +1880,21 @@ test_files = \
 	tests/bad/export-nothing.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
+	tests/bad/find-after.out \
+	tests/bad/find-domain.out \
+	tests/bad/find-empty.out \
+	tests/bad/find-equation.out \
+	tests/bad/find-flat.out \
+	tests/bad/find-jump.out \
+	tests/bad/find-length.out \
+	tests/bad/find-many.out \
+	tests/bad/find-nothing.out \
+	tests/bad/find-pole.out \
+	tests/bad/find-short.out \
+	tests/bad/find-such.out \
+	tests/bad/find-twice.out \
+	tests/bad/find-unknown.out \
+	tests/bad/find-vector.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -2254,6 +2292,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/figures.out \
+	tests/script/find.out \
 	tests/script/flat-places.out \
 	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
@@ -2491,6 +2530,7 @@ example_files = \
 	examples/bicycle.svg \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
+	examples/boundary-value.lag \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
 	examples/brachistochrone-bead.svg \
