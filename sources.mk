@@ -122,6 +122,10 @@ library_sources = \
 	lib/lang/runs/columns.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
+	lib/lang/runs/fit-answer.c \
+	lib/lang/runs/fit-data.c \
+	lib/lang/runs/fit-model.c \
+	lib/lang/runs/fit.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
@@ -308,6 +312,7 @@ library_sources = \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
+	lib/num/least-squares.c \
 	lib/num/lu.c \
 	lib/num/real.c \
 	lib/num/row-space.c \
@@ -377,6 +382,7 @@ library_sources = \
 	lib/show/animation-gif.c \
 	lib/show/animation.c \
 	lib/show/box.c \
+	lib/show/csv-read.c \
 	lib/show/csv.c \
 	lib/show/data.c \
 	lib/show/draw.c \
@@ -543,6 +549,7 @@ library_sources = \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
+	lib/sim/study/response.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -651,6 +658,7 @@ library_headers = \
 	lib/lang/language/token-text.h \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
+	lib/lang/runs/fit-parts.h \
 	lib/lang/runs/members.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
@@ -799,6 +807,7 @@ library_headers = \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/least-move.h \
+	lib/num/least-squares.h \
 	lib/num/lu.h \
 	lib/num/real.h \
 	lib/num/row-space.h \
@@ -871,6 +880,7 @@ library_headers = \
 	lib/series/two.h \
 	lib/show/animation.h \
 	lib/show/box.h \
+	lib/show/csv-read.h \
 	lib/show/data.h \
 	lib/show/draw.h \
 	lib/show/export-language.h \
@@ -1007,6 +1017,7 @@ library_headers = \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
+	lib/sim/study/response.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1118,6 +1129,7 @@ unit_tests = \
 	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
+	tests/num/test_least-squares \
 	tests/num/test_lu \
 	tests/num/test_real \
 	tests/num/test_row-space \
@@ -1153,6 +1165,7 @@ unit_tests = \
 	tests/series/test_taylor \
 	tests/series/test_two \
 	tests/show/test_animation \
+	tests/show/test_csv-read \
 	tests/show/test_csv \
 	tests/show/test_data \
 	tests/show/test_export \
@@ -1180,6 +1193,7 @@ unit_tests = \
 	tests/sim/test_precise \
 	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
+	tests/sim/test_response \
 	tests/sim/test_routh \
 	tests/sim/test_run \
 	tests/sim/test_sliding \
