@@ -1271,6 +1271,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
+	tests/script/fit.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
@@ -1464,6 +1465,7 @@ script_tests = \
 	tests/bad/export-nothing.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
+	tests/bad/fit.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1702,6 +1704,7 @@ script_tests = \
 	examples/export.lag \
 	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
+	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
@@ -1843,6 +1846,7 @@ test_files = \
 	tests/bad/export-nothing.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
+	tests/bad/fit.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -2237,6 +2241,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/figures.out \
+	tests/script/fit.out \
 	tests/script/flat-places.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
@@ -2453,6 +2458,7 @@ other_files = \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \
+	examples/pendulum-data.csv \
 	share/_qdot \
 	share/emacs/qdot-mode.el \
 	share/qdot.bash \
@@ -2516,6 +2522,7 @@ example_files = \
 	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
+	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/flexing-wire.svg \
 	examples/foucault.lag \
@@ -2552,6 +2559,7 @@ example_files = \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
+	examples/pendulum-data.csv \
 	examples/pendulum-period.lag \
 	examples/pendulum.lag \
 	examples/pendulum.svg \

@@ -99,7 +99,7 @@ write_residuals(const qdot_fit *f, qdot_text *out)
     if (f->weighted) {
         qdot_text_format(out, "chi^2 = %.4g of %zu degrees of freedom", f->found.chi2, f->freedom);
         if (f->freedom > 0)
-            qdot_text_format(out, ": so much or more by chance in %.2g %%",
+            qdot_text_format(out, ": so much or more by chance in %.3g %%",
                              100 * gsl_cdf_chisq_Q(f->found.chi2, (double)f->freedom));
     } else {
         qdot_text_format(out, "residuals: %.3g root mean square, %zu degrees of freedom",
@@ -107,7 +107,7 @@ write_residuals(const qdot_fit *f, qdot_text *out)
     }
     qdot_text_char(out, '\n');
     if (f->freedom > 0 || f->weighted)
-        qdot_text_format(out, "± standard errors; 95 %% of intervals of ± %.3g times these hold the truth\n",
+        qdot_text_format(out, "± is the standard error: 95 %% of intervals of %.3g times it hold the truth\n",
                          interval(f));
 }
 
@@ -123,7 +123,7 @@ tell_text(qdot_fit *f, const char *residuals)
     if (f->unknowns.names.n > 1 && !isnan(f->error[0]) && f->error[0] > 0)
         write_correlations(f, &text);
     write_residuals(f, &text);
-    qdot_text_format(&text, "these values are set from now on (undo); %s: data less fit\n", residuals);
+    qdot_text_format(&text, "these values are set from now on (undo); %s holds data less fit\n", residuals);
     return qdot_answer_written(f->session, "fit", QDOT_OK, &text);
 }
 
@@ -198,17 +198,26 @@ static qdot_status
 make_residuals(const qdot_fit *f, const char *name, qdot_row_table **table)
 {
     const char **labels = qdot_calloc(1 + f->m, sizeof *labels);
-    size_t j = 1;
-    qdot_status status = labels ? QDOT_OK : QDOT_ENOMEM;
+    qdot_text *texts = qdot_calloc(f->m, sizeof *texts);
+    size_t j = 0;
+    qdot_status status = labels && texts ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t i = 0; i < f->columns.n && labels; i++)
-        if (f->columns.at[i].kind == QDOT_FIT_VALUE)
-            labels[j++] = f->columns.at[i].label;
-    if (labels) {
+    for (size_t i = 0; i < f->columns.n && status == QDOT_OK; i++) {
+        if (f->columns.at[i].kind != QDOT_FIT_VALUE)
+            continue;
+        qdot_text_format(&texts[j], "%s - fit", f->columns.at[i].label);
+        status = qdot_text_status(&texts[j]);
+        labels[1 + j] = qdot_text_str(&texts[j]);
+        j++;
+    }
+    if (status == QDOT_OK) {
         labels[0] = "t";
         *table = qdot_row_table_new(name, 1, 1 + f->m, labels);
         status = *table ? QDOT_OK : QDOT_ENOMEM;
     }
+    for (size_t i = 0; texts && i < f->m; i++)
+        qdot_text_clear(&texts[i]);
+    qdot_free(texts);
     qdot_free(labels);
     for (size_t i = 0; i < f->rows && status == QDOT_OK; i++) {
         status = qdot_row_table_add(*table);

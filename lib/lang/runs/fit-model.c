@@ -14,7 +14,7 @@
 static const double apart = 1e-6;
 
 /* Members of a direction that is not determined. */
-static const double least_part = 0.05;
+static const double least_part = 1e-3;
 
 typedef struct {
     qdot_fit *f;
@@ -267,21 +267,6 @@ check_converged(const qdot_fit *f)
 
 /* --- what is known of it ---------------------------------------------------------------------- */
 
-static void
-find_errors(qdot_fit *f)
-{
-    const size_t k = f->unknowns.names.n;
-    double scale = 1;
-
-    f->freedom = f->found.n - k;
-    if (!f->weighted)
-        scale = f->freedom > 0 ? f->found.chi2 / (double)f->freedom : NAN;
-    for (size_t i = 0; i < k * k; i++)
-        f->found.covariance[i] *= scale;
-    for (size_t i = 0; i < k; i++)
-        f->error[i] = sqrt(f->found.covariance[i * k + i]);
-}
-
 /* The numbers along an ordinary run at u, with their errors [rows x m]. */
 static qdot_status
 run_at_end(model *x, double *errors)
@@ -318,9 +303,9 @@ run_at_end(model *x, double *errors)
     return status;
 }
 
-/* du = C J^T df, C unscaled: its bound from errors of the numbers; and that both runs are one. */
+/* du = C J^T df: its bound from errors of the numbers; and that both runs are one. */
 static qdot_status
-compare(qdot_fit *f, const double *at, const double *errors, double scale)
+compare(qdot_fit *f, const double *at, const double *errors)
 {
     const size_t k = f->unknowns.names.n;
 
@@ -336,7 +321,7 @@ compare(qdot_fit *f, const double *at, const double *errors, double scale)
             double slope = 0;
 
             for (size_t l = 0; l < k; l++)
-                slope += f->found.covariance[j * k + l] / scale * f->found.J[i * k + l];
+                slope += f->found.covariance[j * k + l] * f->found.J[i * k + l];
             f->numerical[j] += fabs(slope) * (errors[i] + off) / f->sigma[i];
         }
     }
@@ -347,17 +332,31 @@ static qdot_status
 find_numerical(model *x)
 {
     qdot_fit *f = x->f;
-    const double scale =
-        f->weighted ? 1 : f->freedom > 0 ? f->found.chi2 / (double)f->freedom : 1;
     double *errors = qdot_calloc(f->rows * f->m + 1, sizeof *errors);
     qdot_status status = errors ? run_at_end(x, errors) : QDOT_ENOMEM;
 
     for (size_t i = 0; i < f->found.n && status == QDOT_OK; i++)
         x->at[i] = f->found.f[i] * f->sigma[i] + f->y[i];
     if (status == QDOT_OK)
-        status = compare(f, x->at, errors, scale > 0 ? scale : 1);
+        status = compare(f, x->at, errors);
     qdot_free(errors);
     return status;
+}
+
+/* The covariance of u, and standard errors. */
+static void
+find_errors(qdot_fit *f)
+{
+    const size_t k = f->unknowns.names.n;
+    double scale = 1;
+
+    f->freedom = f->found.n - k;
+    if (!f->weighted)
+        scale = f->freedom > 0 ? f->found.chi2 / (double)f->freedom : NAN;
+    for (size_t i = 0; i < k * k; i++)
+        f->found.covariance[i] *= scale;
+    for (size_t i = 0; i < k; i++)
+        f->error[i] = sqrt(f->found.covariance[i * k + i]);
 }
 
 /* --- all ---------------------------------------------------------------------------------------- */
@@ -397,8 +396,9 @@ find(model *x)
     QDOT_TRY(search(x));
     QDOT_TRY(check_determined(f));
     QDOT_TRY(check_converged(f));
+    QDOT_TRY(find_numerical(x));
     find_errors(f);
-    return find_numerical(x);
+    return QDOT_OK;
 }
 
 qdot_status
