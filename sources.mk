@@ -127,6 +127,10 @@ library_sources = \
 	lib/lang/runs/event.c \
 	lib/lang/runs/find-read.c \
 	lib/lang/runs/find.c \
+	lib/lang/runs/fit-answer.c \
+	lib/lang/runs/fit-data.c \
+	lib/lang/runs/fit-model.c \
+	lib/lang/runs/fit.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
@@ -316,6 +320,7 @@ library_sources = \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
+	lib/num/least-squares.c \
 	lib/num/lu.c \
 	lib/num/real.c \
 	lib/num/row-space.c \
@@ -386,6 +391,7 @@ library_sources = \
 	lib/show/animation-gif.c \
 	lib/show/animation.c \
 	lib/show/box.c \
+	lib/show/csv-read.c \
 	lib/show/csv.c \
 	lib/show/data.c \
 	lib/show/draw.c \
@@ -556,6 +562,7 @@ library_sources = \
 	lib/sim/study/method-run.c \
 	lib/sim/study/newton.c \
 	lib/sim/study/race.c \
+	lib/sim/study/response.c \
 	lib/sim/study/rest-path.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
@@ -668,6 +675,7 @@ library_headers = \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/find-parts.h \
+	lib/lang/runs/fit-parts.h \
 	lib/lang/runs/members.h \
 	lib/lang/runs/own-run.h \
 	lib/lang/runs/request.h \
@@ -819,6 +827,7 @@ library_headers = \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/least-move.h \
+	lib/num/least-squares.h \
 	lib/num/lu.h \
 	lib/num/real.h \
 	lib/num/row-space.h \
@@ -892,6 +901,7 @@ library_headers = \
 	lib/series/two.h \
 	lib/show/animation.h \
 	lib/show/box.h \
+	lib/show/csv-read.h \
 	lib/show/data.h \
 	lib/show/draw.h \
 	lib/show/export-language.h \
@@ -1032,6 +1042,7 @@ library_headers = \
 	lib/sim/study/method-run.h \
 	lib/sim/study/newton.h \
 	lib/sim/study/race.h \
+	lib/sim/study/response.h \
 	lib/sim/study/rest-path.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
@@ -1144,6 +1155,7 @@ unit_tests = \
 	tests/num/test_collocation \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
+	tests/num/test_least-squares \
 	tests/num/test_lu \
 	tests/num/test_real \
 	tests/num/test_row-space \
@@ -1180,6 +1192,7 @@ unit_tests = \
 	tests/series/test_taylor \
 	tests/series/test_two \
 	tests/show/test_animation \
+	tests/show/test_csv-read \
 	tests/show/test_csv \
 	tests/show/test_data \
 	tests/show/test_export \
@@ -1208,6 +1221,7 @@ unit_tests = \
 	tests/sim/test_precise \
 	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
+	tests/sim/test_response \
 	tests/sim/test_routh \
 	tests/sim/test_run \
 	tests/sim/test_sliding \
@@ -1288,6 +1302,7 @@ script_tests = \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
 	tests/script/find.sh \
+	tests/script/fit.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
@@ -1498,6 +1513,7 @@ script_tests = \
 	tests/bad/find-twice.lag \
 	tests/bad/find-unknown.lag \
 	tests/bad/find-vector.lag \
+	tests/bad/fit.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1738,6 +1754,7 @@ script_tests = \
 	examples/export.lag \
 	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
+	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
@@ -1895,6 +1912,7 @@ test_files = \
 	tests/bad/find-twice.out \
 	tests/bad/find-unknown.out \
 	tests/bad/find-vector.out \
+	tests/bad/fit.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -2293,6 +2311,7 @@ test_files = \
 	tests/script/far-away.out \
 	tests/script/figures.out \
 	tests/script/find.out \
+	tests/script/fit.out \
 	tests/script/flat-places.out \
 	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
@@ -2510,6 +2529,7 @@ other_files = \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \
+	examples/pendulum-data.csv \
 	share/_qdot \
 	share/emacs/qdot-mode.el \
 	share/qdot.bash \
@@ -2576,6 +2596,7 @@ example_files = \
 	examples/fermi-pasta-ulam.lag \
 	examples/figure-eight.lag \
 	examples/figure-eight.svg \
+	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/flexing-wire.svg \
 	examples/foucault.lag \
@@ -2612,6 +2633,7 @@ example_files = \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
+	examples/pendulum-data.csv \
 	examples/pendulum-period.lag \
 	examples/pendulum.lag \
 	examples/pendulum.svg \

@@ -1,10 +1,12 @@
 /* text.c -- a growing string. */
 #include "base/text.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "base/utf8.h"
@@ -78,6 +80,20 @@ qdot_text_add_stream(qdot_text *s, FILE *from, size_t most)
     while (!s->failed && s->n <= most && (n = fread(block, 1, sizeof block, from)) > 0)
         qdot_text_add_n(s, block, n);
     return !ferror(from);
+}
+
+qdot_status
+qdot_text_read(qdot_text *s, FILE *from, const char *path, size_t most)
+{
+    struct stat info;
+
+    if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode))
+        return qdot_fail(QDOT_EIO, "`%s` is a directory", path);
+    if (!qdot_text_add_stream(s, from, most))
+        return qdot_fail(QDOT_EIO, "`%s` cannot be read: %s", path, strerror(errno));
+    if (s->n > most)
+        return qdot_fail(QDOT_ELIMIT, "`%s` is larger than %zu MB", path, most >> 20);
+    return qdot_text_status(s);
 }
 
 void

@@ -10,5 +10,4 @@ hamiltonian p[x]^2/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
-fit mu to "data.csv" : t, x
 EOF

@@ -159,7 +159,7 @@ draw(const qdot_row_table *t, drawing *d)
     d->n = 1;
     d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa(t)], true}, {"", false}},
                                 .curves = d->curves,
-                                .points = t->scattered || !is_ordered(t)};
+                                .points = t->scattered || t->measured || !is_ordered(t)};
     d->panels[0].n = fill(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
     if (d->panels[0].n == 1)
         d->panels[0].axis[1] = d->curves[0].label;

@@ -17,6 +17,7 @@ typedef struct qdot_row_table {
     char *name;
     size_t n, n_swept;       /* columns, those swept first */
     bool scattered;          /* rows are points by themselves: random draws, a section */
+    bool measured;           /* rows are measured ones: drawn as points over the first column */
     qdot_function_body *members; /* of a sweep: what it ran over, and its run, up to the colon */
     char **labels;           /* [n] */
     size_t rows, room;

@@ -195,3 +195,15 @@ qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept)
     EACH_LIST(X)
 #undef X
 }
+
+void
+qdot_session_path(const qdot_session *session, const char *name, qdot_text *path)
+{
+    const char *own =
+        session->including.n > 0 ? session->including.at[session->including.n - 1] : "";
+    const char *slash = strrchr(own, '/');
+
+    if (name[0] != '/' && slash != NULL)
+        qdot_text_add_n(path, own, (size_t)(slash + 1 - own));
+    qdot_text_add(path, name);
+}

@@ -135,6 +135,9 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_session_keep_values(const qdot_session *session,
                                                      qdot_kept_values *kept);
 void qdot_session_restore_values(qdot_session *session, qdot_kept_values *kept);
+/* Append the path of a file that is read, `name` as the present script says it: "dir/other.lag" for
+ * "other.lag" in "dir/this.lag". */
+void qdot_session_path(const qdot_session *session, const char *name, qdot_text *path);
 /* Exchange all that `reset` forgets; what is no part of a scene stays: style, files ... */
 void qdot_session_exchange(qdot_session *session, qdot_session *other);
 

@@ -27,29 +27,15 @@ qdot_script_run_text(qdot_session *session, const char *name, const char *text,
 }
 
 static qdot_status
-read_stream(FILE *file, const char *path, qdot_text *text)
-{
-    if (!qdot_text_add_stream(text, file, FILE_LIMIT))
-        return qdot_fail(QDOT_EIO, "`%s` cannot be read: %s", path, strerror(errno));
-    if (text->n > FILE_LIMIT)
-        return qdot_fail(QDOT_ELIMIT, "`%s` is larger than %d MB", path, FILE_LIMIT >> 20);
-    return qdot_text_status(text);
-}
-
-static qdot_status
 read_file(const char *path, qdot_text *text)
 {
     bool standard = strcmp(path, "-") == 0;
     FILE *file = standard ? stdin : fopen(path, "rb");
     qdot_status status;
-    struct stat info;
 
     if (file == NULL)
         return qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
-    if (fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode))
-        status = qdot_fail(QDOT_EIO, "`%s` is a directory", path);
-    else
-        status = read_stream(file, path, text);
+    status = qdot_text_read(text, file, path, FILE_LIMIT);
     if (!standard)
         fclose(file);
     return status;

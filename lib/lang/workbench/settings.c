@@ -5,19 +5,6 @@
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 
-/* "dir/other.lag" for "other.lag" named by "dir/this.lag". */
-static void
-relative_path(const qdot_session *session, const char *name, qdot_text *path)
-{
-    const char *own =
-        session->including.n > 0 ? session->including.at[session->including.n - 1] : "";
-    const char *slash = strrchr(own, '/');
-
-    if (name[0] != '/' && slash != NULL)
-        qdot_text_add_n(path, own, (size_t)(slash + 1 - own));
-    qdot_text_add(path, name);
-}
-
 qdot_status
 qdot_settings_include(qdot_cursor *c)
 {
@@ -32,7 +19,7 @@ qdot_settings_include(qdot_cursor *c)
     QDOT_TRY(qdot_read_string(c, &name));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    relative_path(c->session, name, &path);
+    qdot_session_path(c->session, name, &path);
     status = qdot_text_status(&path);
     if (status == QDOT_OK) {
         status = qdot_script_carry_out_file(c->session, qdot_text_str(&path), &opened);

@@ -339,20 +339,6 @@ pursue(pursuit *p)
     return conclude(p);
 }
 
-/* The start as the constraints of the scene leave it, exact constants [2n]. */
-static qdot_status
-settle(qdot_scene *scene, const qdot_run_request *request, qdot_expr *start)
-{
-    const size_t n = scene->coordinates.n;
-    qdot_method_run m = {0};
-    qdot_status status = qdot_method_run_init(&m, scene, request, "auto", request->tol);
-
-    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
-        start[i] = qdot_expr_of_double(scene->pool, m.start[i]);
-    qdot_method_run_clear(&m);
-    return status == QDOT_OK ? qdot_pool_check(scene->pool) : status;
-}
-
 /* How many directions there are on the constraints. */
 static size_t
 count_directions(const qdot_scene *s)
@@ -379,7 +365,7 @@ qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_expon
 
     request.digits = 0;
     if (status == QDOT_OK && scene->constraints.n > 0) {
-        status = settle(scene, &request, start);
+        status = qdot_method_run_settled(scene, &request, start);
         request.q0 = start;
         request.v0 = start + n;
         request.q_named = request.v_named = NULL;

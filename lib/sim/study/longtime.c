@@ -229,6 +229,8 @@ try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_lon
 
     *done = false;
     if (status == QDOT_OK)
+        status = qdot_method_run_find_energy(&m, scene);
+    if (status == QDOT_OK)
         status = check(&m);
     if (status == QDOT_OK)
         status = foretell(&m, row->tol, &work);
@@ -282,6 +284,8 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
     qdot_method_run m = {0};
     qdot_status status = qdot_method_run_init(&m, scene, request, "auto", tol);
 
+    if (status == QDOT_OK)
+        status = qdot_method_run_find_energy(&m, scene);
     if (status == QDOT_OK)
         status = check(&m);
     if (status == QDOT_OK) {

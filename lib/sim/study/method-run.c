@@ -93,8 +93,8 @@ settle_start(qdot_method_run *m, qdot_scene *scene, const qdot_run_request *requ
     return status;
 }
 
-static qdot_status
-prepare_energy(qdot_method_run *m, qdot_scene *scene)
+qdot_status
+qdot_method_run_find_energy(qdot_method_run *m, qdot_scene *scene)
 {
     const qdot_plan *p = m->plan;
     const size_t n = 2 * p->n;
@@ -133,6 +133,18 @@ qdot_method_run_init(qdot_method_run *m, qdot_scene *scene, const qdot_run_reque
     QDOT_TRY(qdot_bind_new(m->plan, false, &m->bind));
     QDOT_TRY(qdot_bind_scale(m->bind, m->stage.scales));
     QDOT_TRY(read_start(m, request));
-    QDOT_TRY(settle_start(m, scene, request));
-    return prepare_energy(m, scene);
+    return settle_start(m, scene, request);
+}
+
+qdot_status
+qdot_method_run_settled(qdot_scene *scene, const qdot_run_request *request, qdot_expr *start)
+{
+    const size_t n = scene->coordinates.n;
+    qdot_method_run m = {0};
+    qdot_status status = qdot_method_run_init(&m, scene, request, "auto", request->tol);
+
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
+        start[i] = qdot_expr_of_double(scene->pool, m.start[i]);
+    qdot_method_run_clear(&m);
+    return status == QDOT_OK ? qdot_pool_check(scene->pool) : status;
 }

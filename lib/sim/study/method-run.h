@@ -1,6 +1,6 @@
 /* method-run.h -- a scene made ready for one method, without companions: for studies of methods.
  *
- * The plan, the system, the start (brought onto the constraints) and, where h is proved conserved,
+ * The plan, the system, the start (brought onto the constraints) and, if asked for, where h is proved conserved,
  *
  *     (h(t) - h(t0)) / max(1, |h(t0)|)
  *
@@ -22,7 +22,7 @@ typedef struct {
     bool pieces;            /* events or switches may divide the run */
     double t0, t1, t1_low;
     double *start, *low, *y; /* [2n] the exact start is start + low; y is work space */
-    qdot_tape *energy;       /* NULL: not conserved */
+    qdot_tape *energy;       /* NULL: not conserved, or not asked for */
     double *in, *work, energy0;
 } qdot_method_run;
 
@@ -32,6 +32,14 @@ QDOT_MUST_CHECK qdot_status qdot_method_run_init(qdot_method_run *m, qdot_scene 
                                                  const qdot_run_request *request,
                                                  const char *method, double tol);
 void qdot_method_run_clear(qdot_method_run *m);
+
+/* Find the energy, of the same scene. */
+QDOT_MUST_CHECK qdot_status qdot_method_run_find_energy(qdot_method_run *m, qdot_scene *scene);
+
+/* The start as the constraints of the scene leave it, exact constants [2n]. */
+QDOT_MUST_CHECK qdot_status qdot_method_run_settled(qdot_scene *scene,
+                                                    const qdot_run_request *request,
+                                                    qdot_expr *start);
 
 /* The error of the energy at (t, y), as above; there must be one. */
 double qdot_method_run_energy_error(qdot_method_run *m, double t, const double *y);

@@ -278,26 +278,41 @@ qdot_variation_request(const qdot_variation *v)
 }
 
 qdot_status
-qdot_variation_check_start(const qdot_variation *v, qdot_run *run)
+qdot_variation_check_state(const qdot_variation *v, const double *y)
 {
-    const double t0 = qdot_run_get_report(run)->t0;
     const size_t all = (v->k + 1) * v->n;
 
     for (size_t j = v->n; j < 2 * all && v->m > 0; j++) {
         const size_t i = j % all;
-        const qdot_expr z =
-            qdot_symbol_jet(v->of->pool, v->scene->coordinates.at[i], j >= all);
-        double is, wanted;
+        double wanted;
 
         if (!v->named[j] || i < v->n)
             continue;
         QDOT_TRY(qdot_tape_constant(v->of->pool, v->start[j], &wanted));
-        QDOT_TRY(qdot_run_values(run, 1, &z, 1, &t0, &is, NULL));
-        if (fabs(is - wanted) <= moved * fmax(1, fabs(wanted)))
-            continue;
-        return say_bound(v, i / v->n - 1);
+        if (!(fabs(y[j] - wanted) <= moved * fmax(1, fabs(wanted))))
+            return say_bound(v, i / v->n - 1);
     }
     return QDOT_OK;
+}
+
+qdot_status
+qdot_variation_check_start(const qdot_variation *v, qdot_run *run)
+{
+    const double t0 = qdot_run_get_report(run)->t0;
+    const size_t all = (v->k + 1) * v->n;
+    qdot_expr *z = qdot_calloc(2 * all + 1, sizeof *z);
+    double *y = qdot_calloc(2 * all + 1, sizeof *y);
+    qdot_status status = z && y ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t j = 0; j < 2 * all && z; j++)
+        z[j] = qdot_symbol_jet(v->of->pool, v->scene->coordinates.at[j % all], j >= all);
+    if (status == QDOT_OK && v->m > 0)
+        status = qdot_run_values(run, 2 * all, z, 1, &t0, y, NULL);
+    if (status == QDOT_OK)
+        status = qdot_variation_check_state(v, y);
+    qdot_free(z);
+    qdot_free(y);
+    return status;
 }
 
 /* --- all ------------------------------------------------------------------------------------ */

@@ -10,8 +10,10 @@ QDOT_MUST_CHECK qdot_status qdot_variation_write(qdot_variation *v, const qdot_e
 /* The request of its run: that given, with its start. Borrows from both. */
 qdot_run_request qdot_variation_request(const qdot_variation *v);
 
-/* QDOT_EINVAL if its run had to move slopes of values that the start names: constraints let no such value
- * change alone. */
+/* QDOT_EINVAL if y [2 (k + 1) n], its start brought onto the constraints, has moved slopes of values that the start
+ * names: constraints let no such value change alone. The same of its run. */
+QDOT_MUST_CHECK qdot_status qdot_variation_check_state(const qdot_variation *v,
+                                                       const double *y);
 QDOT_MUST_CHECK qdot_status qdot_variation_check_start(const qdot_variation *v,
                                                        qdot_run *run);
 

@@ -214,6 +214,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     double n, operations;
 
     QDOT_TRY(qdot_method_run_init(&w->run, scene, request, method, tol));
+    QDOT_TRY(qdot_method_run_find_energy(&w->run, scene));
     w->held = w->run.held;
     w->inner = w->system = qdot_bind_system(w->run.bind);
     w->system.rhs = counted_rhs;

@@ -1,0 +1,334 @@
+/* least-squares.c -- the search, and the covariance of what it found. */
+#include "num/least-squares.h"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Relative offsets: where trust regions are left, as chi2 no longer shows what a step is good for; where the
+ * search ends. How little of u a step may move. */
+static const double near_offset = 1e-4, least_offset = 1e-10, least_move = 4e-16;
+
+/* Where no step helps, what is left of the numbers by the slopes, over what u makes of them, that is rounding. */
+static const double rounding = 1e-9;
+
+/* Each number of a model that has none: no step leads there. */
+static const double nowhere = 1e150;
+
+typedef struct {
+    qdot_least_squares *x;
+    double *at;         /* [p] where x->f, x->J are of */
+    bool known;         /* there is such a place */
+    qdot_status status; /* a failure that ends the search */
+    gsl_matrix *U, *V;  /* [n x p], [p x p] */
+    gsl_vector *S, *work, *size, *along; /* [p] */
+} search;
+
+void
+qdot_least_squares_clear(qdot_least_squares *x)
+{
+    qdot_free(x->f);
+    x->f = x->J = x->covariance = x->left = x->undetermined = NULL;
+}
+
+/* --- the model ---------------------------------------------------------------------------- */
+
+static bool
+is_nowhere(qdot_status status)
+{
+    return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR
+           || status == QDOT_EINVAL || status == QDOT_ELIMIT;
+}
+
+static bool
+all_finite(size_t n, const double *x)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < n; i++)
+        sum += 0 * x[i];
+    return sum == 0;
+}
+
+/* x->f and x->J at u. */
+static qdot_status
+evaluate(search *s, const double *u)
+{
+    qdot_least_squares *x = s->x;
+    qdot_status status;
+
+    if (s->known && memcmp(s->at, u, x->p * sizeof *u) == 0)
+        return QDOT_OK;
+    s->known = false;
+    memcpy(s->at, u, x->p * sizeof *u);
+    x->models++;
+    status = x->model(u, x->f, x->J, x->user);
+    if (status == QDOT_OK && !(all_finite(x->n, x->f) && all_finite(x->n * x->p, x->J)))
+        status = qdot_fail(QDOT_EFAILED, "the numbers to be fitted are not finite");
+    s->known = status == QDOT_OK;
+    return status;
+}
+
+static int
+gsl_f(const gsl_vector *u, void *user, gsl_vector *f)
+{
+    search *s = user;
+    const qdot_status status = evaluate(s, u->data);
+
+    if (status != QDOT_OK && !is_nowhere(status)) {
+        s->status = status;
+        return GSL_EFAILED;
+    }
+    for (size_t i = 0; i < s->x->n; i++)
+        gsl_vector_set(f, i, status == QDOT_OK ? s->x->f[i] : nowhere);
+    return GSL_SUCCESS;
+}
+
+static int
+gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
+{
+    search *s = user;
+    const qdot_status status = evaluate(s, u->data);
+
+    if (status != QDOT_OK) {
+        s->status = status;
+        return GSL_EFAILED;
+    }
+    for (size_t i = 0; i < s->x->n; i++)
+        memcpy(J->data + i * J->tda, s->x->J + i * s->x->p, s->x->p * sizeof *J->data);
+    return GSL_SUCCESS;
+}
+
+/* --- J = U S V^T with columns of length 1 ---------------------------------------------------- */
+
+static qdot_status
+decompose(search *s)
+{
+    const qdot_least_squares *x = s->x;
+
+    for (size_t k = 0; k < x->p; k++) {
+        const gsl_vector_const_view column =
+            gsl_vector_const_view_array_with_stride(x->J + k, x->p, x->n);
+        const double size = gsl_blas_dnrm2(&column.vector);
+
+        gsl_vector_set(s->size, k, size > 0 ? size : 1);
+        for (size_t i = 0; i < x->n; i++)
+            gsl_matrix_set(s->U, i, k, x->J[i * x->p + k] / gsl_vector_get(s->size, k));
+    }
+    return gsl_linalg_SV_decomp(s->U, s->V, s->S, s->work) == GSL_SUCCESS
+               ? QDOT_OK
+               : qdot_fail(QDOT_EFAILED, "the slopes have no singular values");
+}
+
+/* |U^T f| / |f|. */
+static double
+offset(search *s)
+{
+    const gsl_vector_const_view f = gsl_vector_const_view_array(s->x->f, s->x->n);
+
+    gsl_blas_dgemv(CblasTrans, 1, s->U, &f.vector, 0, s->along);
+    return gsl_blas_dnrm2(s->along) / fmax(gsl_blas_dnrm2(&f.vector), 1e-300);
+}
+
+/* C J^T f. */
+static void
+find_left(const search *s)
+{
+    const qdot_least_squares *x = s->x;
+
+    for (size_t i = 0; i < x->p; i++) {
+        x->left[i] = 0;
+        for (size_t k = 0; k < x->p; k++)
+            if (gsl_vector_get(s->S, k) > x->least * gsl_vector_get(s->S, 0))
+                x->left[i] += gsl_matrix_get(s->V, i, k) * gsl_vector_get(s->along, k)
+                              / gsl_vector_get(s->S, k) / gsl_vector_get(s->size, i);
+    }
+}
+
+/* C = D V S^-2 V^T D and the step left, D V S^-1 U^T f, D = 1/size; the direction without slope. */
+static void
+conclude(search *s)
+{
+    qdot_least_squares *x = s->x;
+    const size_t p = x->p;
+    const bool lost = !(gsl_vector_get(s->S, p - 1) > x->least * gsl_vector_get(s->S, 0));
+
+    (void)offset(s);
+    for (size_t i = 0; i < p; i++) {
+        for (size_t j = 0; j < p; j++) {
+            double sum = lost ? NAN : 0;
+
+            for (size_t k = 0; k < p; k++)
+                sum += gsl_matrix_get(s->V, i, k) * gsl_matrix_get(s->V, j, k)
+                       / (gsl_vector_get(s->S, k) * gsl_vector_get(s->S, k));
+            x->covariance[i * p + j] =
+                sum / gsl_vector_get(s->size, i) / gsl_vector_get(s->size, j);
+        }
+    }
+    find_left(s);
+    for (size_t i = 0, most = 0; i < p && lost; i++) {
+        if (fabs(gsl_matrix_get(s->V, i, p - 1)) > fabs(gsl_matrix_get(s->V, most, p - 1)) + 1e-9)
+            most = i;
+        if (i + 1 == p)
+            for (size_t k = 0; k < p; k++)
+                x->undetermined[k] =
+                    copysign(1, gsl_matrix_get(s->V, most, p - 1)) * gsl_matrix_get(s->V, k, p - 1);
+    }
+}
+
+/* --- the search ------------------------------------------------------------------------------ */
+
+/* Whether u [p] is where the last step left it, to rounding. */
+static bool
+stands(const search *s, const gsl_vector *move, const gsl_vector *u)
+{
+    for (size_t k = 0; k < s->x->p; k++)
+        if (fabs(gsl_vector_get(move, k)) > least_move * fabs(gsl_vector_get(u, k)))
+            return false;
+    return true;
+}
+
+/* Whether the step left is nothing beside u, by what both change of the numbers. */
+static bool
+is_rounding(const search *s)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < s->x->p; k++)
+        most = fmax(most, gsl_vector_get(s->size, k) * fabs(s->x->u[k]));
+    return gsl_blas_dnrm2(s->along) <= rounding * most;
+}
+
+/* Steps of Gauss and Newton, as long as each makes the offset less. */
+static qdot_status
+polish(search *s)
+{
+    qdot_least_squares *x = s->x;
+    double before = offset(s);
+
+    x->converged = true;
+    while (before > least_offset && x->steps++ < 2 * x->most_steps) {
+        find_left(s);
+        for (size_t k = 0; k < x->p; k++)
+            x->u[k] -= x->left[k];
+        QDOT_TRY(evaluate(s, x->u));
+        QDOT_TRY(decompose(s));
+        if (!(offset(s) < before)) {
+            for (size_t k = 0; k < x->p; k++)
+                x->u[k] += x->left[k];
+            QDOT_TRY(evaluate(s, x->u));
+            return decompose(s);
+        }
+        before = offset(s);
+    }
+    return QDOT_OK;
+}
+
+/* Step until the search ends; x->u, f, J are those of its end. */
+static qdot_status
+step(search *s, gsl_multifit_nlinear_workspace *w)
+{
+    qdot_least_squares *x = s->x;
+    bool over = false;
+    int code = GSL_SUCCESS;
+
+    while (true) {
+        memcpy(x->u, gsl_multifit_nlinear_position(w)->data, x->p * sizeof *x->u);
+        QDOT_TRY(evaluate(s, x->u)); /* anew only after a step that was taken back */
+        QDOT_TRY(decompose(s));
+        x->converged = over && is_rounding(s);
+        if (offset(s) <= near_offset)
+            return polish(s);
+        if (over || x->steps == x->most_steps)
+            return QDOT_OK;
+        code = gsl_multifit_nlinear_iterate(w);
+        if (s->status != QDOT_OK)
+            return s->status;
+        if (code != GSL_SUCCESS && code != GSL_ENOPROG)
+            return qdot_fail(QDOT_EFAILED, "the search stopped: %s", gsl_strerror(code));
+        x->steps++;
+        over = code == GSL_ENOPROG || stands(s, w->dx, w->x);
+    }
+}
+
+static qdot_status
+run(search *s)
+{
+    qdot_least_squares *x = s->x;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_fdf model = {
+        .f = gsl_f, .df = gsl_J, .n = x->n, .p = x->p, .params = s};
+    const gsl_vector_view u = gsl_vector_view_array(x->u, x->p);
+    gsl_multifit_nlinear_workspace *w;
+    qdot_status status;
+
+    QDOT_TRY(evaluate(s, x->u)); /* it must have numbers where it begins */
+    how.scale = gsl_multifit_nlinear_scale_more;
+    how.solver = gsl_multifit_nlinear_solver_svd;
+    w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, x->n, x->p);
+    if (!w)
+        return QDOT_ENOMEM;
+    status = gsl_multifit_nlinear_init(&u.vector, &model, w) == GSL_SUCCESS
+                 ? QDOT_OK
+                 : qdot_fail(QDOT_EFAILED, "the squares have no finite sum");
+    if (status == QDOT_OK)
+        status = step(s, w);
+    gsl_multifit_nlinear_free(w);
+    if (status == QDOT_OK)
+        conclude(s);
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+        x->chi2 += x->f[i] * x->f[i];
+    return status;
+}
+
+static bool
+make_room(search *s)
+{
+    qdot_least_squares *x = s->x;
+    const size_t n = x->n, p = x->p;
+
+    x->f = qdot_calloc(n + n * p + p * p + 2 * p + 1, sizeof *x->f);
+    s->at = qdot_calloc(p, sizeof *s->at);
+    s->U = gsl_matrix_alloc(n, p);
+    s->V = gsl_matrix_alloc(p, p);
+    s->S = gsl_vector_alloc(p);
+    s->work = gsl_vector_alloc(p);
+    s->size = gsl_vector_alloc(p);
+    s->along = gsl_vector_alloc(p);
+    if (!x->f)
+        return false;
+    x->J = x->f + n;
+    x->covariance = x->J + n * p;
+    x->left = x->covariance + p * p;
+    x->undetermined = x->left + p;
+    return s->at && s->U && s->V && s->S && s->work && s->size && s->along;
+}
+
+qdot_status
+qdot_least_squares_find(qdot_least_squares *x)
+{
+    search s = {.x = x};
+    qdot_status status;
+
+    if (x->n < x->p || x->p == 0)
+        return qdot_fail(QDOT_EINVAL, "%zu numbers do not determine %zu unknowns", x->n, x->p);
+    gsl_set_error_handler_off();
+    x->least = x->least > 0 ? x->least : 1e-10;
+    x->most_steps = x->most_steps > 0 ? x->most_steps : 200;
+    x->steps = x->models = 0;
+    x->chi2 = 0;
+    status = make_room(&s) ? run(&s) : QDOT_ENOMEM;
+    gsl_matrix_free(s.U);
+    gsl_matrix_free(s.V);
+    gsl_vector_free(s.S);
+    gsl_vector_free(s.work);
+    gsl_vector_free(s.size);
+    gsl_vector_free(s.along);
+    qdot_free(s.at);
+    return status;
+}

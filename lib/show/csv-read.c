@@ -1,0 +1,336 @@
+/* csv-read.c -- reads rows of numbers, line by line. */
+#include "show/csv-read.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/utf8.h"
+
+enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
+
+/* A piece of a line. */
+typedef struct {
+    const char *at, *end;
+} piece;
+
+typedef struct {
+    const char *name;
+    piece line; /* without what ends it, and without its comment */
+    size_t number; /* of the line */
+    char separator; /* ',', ';' or ' ', blanks and tabs; 0: not known yet */
+    qdot_vec(double) values;
+    qdot_vec(qdot_csv_place) places;
+    size_t columns, rows;
+} reader;
+
+/* --- errors -------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format, ...)
+{
+    char message[300];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return qdot_fail(QDOT_EINVAL, "%.150s:%zu:%zu: %s", name, place->line, place->column, message);
+}
+
+static qdot_csv_place
+place_of(const reader *r, const char *at)
+{
+    return (qdot_csv_place){r->number,
+                            1 + qdot_utf8_columns(r->line.at, (size_t)(at - r->line.at))};
+}
+
+/* --- cells ---------------------------------------------------------------------------------- */
+
+static bool
+is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+static void
+strip(piece *p)
+{
+    while (p->at < p->end && is_blank(*p->at))
+        p->at++;
+    while (p->at < p->end && is_blank(p->end[-1]))
+        p->end--;
+}
+
+/* The next cell of the line from *at on, moved past it and its separator; whether there is one. */
+static bool
+next_cell(const reader *r, const char **at, piece *cell)
+{
+    const char *c = *at, *const end = r->line.end;
+    char quote = 0;
+
+    if (c > end)
+        return false;
+    if (r->separator == ' ') {
+        while (c < end && is_blank(*c))
+            c++;
+        if (c == end)
+            return false;
+    }
+    cell->at = c;
+    while (c < end && (quote || (r->separator == ' ' ? !is_blank(*c) : *c != r->separator))) {
+        if (*c == '"' || *c == '\'')
+            quote = quote == *c ? 0 : quote ? quote : *c;
+        c++;
+    }
+    cell->end = c;
+    *at = c + 1;
+    strip(cell);
+    if (cell->end - cell->at > 1 && (*cell->at == '"' || *cell->at == '\'')
+        && cell->end[-1] == *cell->at) {
+        cell->at++;
+        cell->end--;
+        strip(cell);
+    }
+    return true;
+}
+
+/* Whether it is written as a decimal number: 1, -.5, 2.5e-3. */
+static bool
+is_number(piece p)
+{
+    const char *c = p.at;
+    size_t digits = 0;
+
+    c += c < p.end && (*c == '+' || *c == '-');
+    for (; c < p.end && *c >= '0' && *c <= '9'; c++)
+        digits++;
+    c += c < p.end && *c == '.';
+    for (; c < p.end && *c >= '0' && *c <= '9'; c++)
+        digits++;
+    if (digits == 0)
+        return false;
+    if (c < p.end && (*c == 'e' || *c == 'E')) {
+        c++;
+        c += c < p.end && (*c == '+' || *c == '-');
+        if (c == p.end)
+            return false;
+        for (; c < p.end && *c >= '0' && *c <= '9'; c++)
+            continue;
+    }
+    return c == p.end;
+}
+
+/* Whether it holds a word as numbers that are none are written. */
+static bool
+is_no_number(piece p)
+{
+    static const char *const words[] = {"nan", "inf", "-inf", "+inf", "na", "n/a", "null", "none", "-"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == (size_t)(p.end - p.at)
+            && strncasecmp(words[i], p.at, strlen(words[i])) == 0)
+            return true;
+    return false;
+}
+
+static qdot_status
+say_cell(const reader *r, piece cell)
+{
+    const qdot_csv_place place = place_of(r, cell.at);
+    const int shown = cell.end - cell.at > SHOWN ? SHOWN : (int)(cell.end - cell.at);
+    piece before = {cell.at, memchr(cell.at, ',', (size_t)(cell.end - cell.at))};
+    piece behind = {before.end ? before.end + 1 : cell.end, cell.end};
+
+    if (cell.at == cell.end) {
+        (void)qdot_csv_fail(r->name, &place, "a number is missing");
+        return qdot_hint("take the row out: each has a number in every column");
+    }
+    (void)qdot_csv_fail(r->name, &place, "`%.*s` is not a number", shown, cell.at);
+    if (before.end && is_number(before) && is_number(behind))
+        return qdot_hint("numbers have a decimal point: %.*s.%.*s", (int)(before.end - before.at),
+                         before.at, (int)(behind.end - behind.at), behind.at);
+    if (is_no_number(cell))
+        return qdot_hint("take the row out: each has a number in every column");
+    return qdot_hint("`#` begins a comment; names of columns stand above the first row");
+}
+
+/* The number of a cell. */
+static qdot_status
+read_cell(const reader *r, piece cell, double *x)
+{
+    char buffer[64];
+    const size_t n = (size_t)(cell.end - cell.at);
+    char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL;
+    qdot_csv_place place;
+
+    if (!is_number(cell))
+        return say_cell(r, cell);
+    if (own == NULL)
+        own = allocated = qdot_malloc(n + 1);
+    if (own == NULL)
+        return QDOT_ENOMEM;
+    memcpy(own, cell.at, n);
+    own[n] = '\0';
+    *x = strtod(own, NULL);
+    qdot_free(allocated);
+    if (isfinite(*x))
+        return QDOT_OK;
+    place = place_of(r, cell.at);
+    return qdot_csv_fail(r->name, &place, "`%.*s` is too large for a double",
+                         n > SHOWN ? SHOWN : (int)n, cell.at);
+}
+
+/* --- lines ----------------------------------------------------------------------------------- */
+
+static char
+find_separator(piece line)
+{
+    static const char in_order[] = {';', ','};
+
+    for (size_t i = 0; i < sizeof in_order; i++)
+        if (memchr(line.at, in_order[i], (size_t)(line.end - line.at)))
+            return in_order[i];
+    return ' ';
+}
+
+/* Whether the line has a number in it, a cell by itself. */
+static bool
+has_number(reader *r)
+{
+    const char *at = r->line.at;
+    bool found = false;
+    piece cell;
+
+    r->separator = find_separator(r->line);
+    while (!found && next_cell(r, &at, &cell))
+        found = is_number(cell);
+    return found;
+}
+
+static qdot_status
+read_row(reader *r)
+{
+    const char *at = r->line.at;
+    size_t n = 0;
+    piece cell;
+
+    while (next_cell(r, &at, &cell)) {
+        double x = 0;
+
+        if (r->separator != ' ' && at > r->line.end && cell.at == cell.end && n > 0
+            && (r->rows == 0 || n == r->columns))
+            break; /* a separator ends the line */
+        if (r->rows > 0 && n == r->columns) {
+            const qdot_csv_place place = place_of(r, cell.at);
+
+            return qdot_csv_fail(r->name, &place, "the row has more than the %zu numbers of the first",
+                                 r->columns);
+        }
+        QDOT_TRY(read_cell(r, cell, &x));
+        QDOT_TRY(qdot_vec_push(&r->values, x));
+        QDOT_TRY(qdot_vec_push(&r->places, place_of(r, cell.at)));
+        n++;
+    }
+    if (r->rows == 0)
+        r->columns = n;
+    if (n < r->columns) {
+        const qdot_csv_place place = place_of(r, r->line.end);
+
+        return qdot_csv_fail(r->name, &place, "the row has %zu number%s, the first has %zu", n,
+                             n == 1 ? "" : "s", r->columns);
+    }
+    r->rows++;
+    return QDOT_OK;
+}
+
+static qdot_status
+read_line(reader *r, piece line)
+{
+    r->line = line;
+    for (const char *c = line.at; c < line.end; c++) {
+        if (*c == '\0') {
+            const qdot_csv_place place = place_of(r, c);
+
+            return qdot_csv_fail(r->name, &place, "a byte 0: this is no text file");
+        }
+        if (*c == '#' || *c == '%') {
+            r->line.end = c;
+            break;
+        }
+    }
+    strip(&line);
+    line = r->line;
+    strip(&line);
+    r->line.end = line.end; /* columns count from the line's begin */
+    if (line.at >= line.end || (r->rows == 0 && !has_number(r)))
+        return QDOT_OK;
+    return read_row(r);
+}
+
+static qdot_status
+read_lines(reader *r, const char *text, size_t length)
+{
+    const char *const end = text + length, *at = text;
+
+    if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
+        at += 3;
+    while (at < end) {
+        piece line = {at, at};
+
+        while (line.end < end && *line.end != '\n' && *line.end != '\r')
+            line.end++;
+        at = line.end + 1;
+        if (line.end < end && *line.end == '\r' && at < end && *at == '\n')
+            at++;
+        r->number++;
+        if (r->number % 1024 == 0)
+            QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(read_line(r, line));
+    }
+    if (r->rows > 0)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EINVAL, "%.150s has no row of numbers", r->name);
+}
+
+qdot_status
+qdot_csv_read_text(const char *name, const char *text, size_t length, qdot_csv *csv)
+{
+    reader r = {.name = name};
+    const qdot_status status = read_lines(&r, text, length);
+
+    *csv = (qdot_csv){r.columns, r.rows, r.values.at, r.places.at};
+    return status;
+}
+
+void
+qdot_csv_clear(qdot_csv *csv)
+{
+    qdot_free(csv->at);
+    qdot_free(csv->places);
+    *csv = (qdot_csv){0};
+}
+
+/* --- files ------------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_csv_read(const char *path, qdot_csv *csv)
+{
+    FILE *file = fopen(path, "rbe");
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (file == NULL)
+        return qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
+    status = qdot_text_read(&text, file, path, FILE_LIMIT);
+    fclose(file);
+    if (status == QDOT_OK)
+        status = qdot_csv_read_text(path, qdot_text_str(&text), text.n, csv);
+    qdot_text_clear(&text);
+    return status;
+}

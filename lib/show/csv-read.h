@@ -1,0 +1,41 @@
+/* csv-read.h -- columns of numbers from a text file: measured data.
+ *
+ * A line holds one row; its numbers stand between commas, semicolons, or blanks and tabs: the first row
+ * decides which. Lines may end in LF, CRLF or CR. Blank lines, `#` and `%` up to the end of a line, a byte order mark and
+ * lines of words before the first row (its names, its units) are passed over. Numbers have a decimal point, in quotes or not.
+ *
+ * Whatever else stands there is an error that begins with its place, FILE:LINE:COLUMN (both from 1, columns in
+ * characters), as data.csv:7:12: `x` is not a number.
+ *
+ * Tests  tests/show/test_csv-read.c, tests/script/fit.sh, tests/bad/fit-data.sh
+ */
+#ifndef QDOT_SHOW_CSV_READ_H
+#define QDOT_SHOW_CSV_READ_H
+
+#include <stddef.h>
+
+#include "base/text.h"
+
+typedef struct {
+    size_t line, column; /* where a number begins */
+} qdot_csv_place;
+
+typedef struct {
+    size_t columns, rows;
+    double *at;             /* [rows x columns] all finite */
+    qdot_csv_place *places; /* [rows x columns] */
+} qdot_csv;
+
+/* Read the file; path "-" is no name of one. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;
+ * QDOT_EINVAL: what stands in it is no table of numbers; QDOT_ELIMIT: it is larger than 256 MB. */
+QDOT_MUST_CHECK qdot_status qdot_csv_read(const char *path, qdot_csv *csv);
+/* The same of a text [length], called `name` in errors. */
+QDOT_MUST_CHECK qdot_status qdot_csv_read_text(const char *name, const char *text,
+                                               size_t length, qdot_csv *csv);
+void qdot_csv_clear(qdot_csv *csv);
+
+/* Fail at the place of a number: "NAME:LINE:COLUMN: MESSAGE". */
+qdot_status qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format, ...)
+    QDOT_PRINTF(3, 4);
+
+#endif

@@ -1,0 +1,381 @@
+/* response.c -- a variational scene made for all u, or for each, and its runs. */
+#include "sim/study/response.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "sim/course/course.h"
+#include "sim/course/reader.h"
+#include "sim/model/parameter-states.h"
+#include "sim/model/substitute.h"
+#include "sim/study/method-run.h"
+#include "sim/study/variation.h"
+
+struct qdot_response {
+    qdot_response_of of;
+    qdot_pool *pool;
+    size_t n, n_parameters; /* coordinates; parameters among the unknowns */
+    qdot_expr *parameters;  /* [n_parameters] */
+    size_t *place;          /* [n_parameters] their places among the unknowns */
+    qdot_tape *start;       /* from u: q, q' [2n], then their slopes by each unknown [k x 2n] */
+    double *starts, *work;  /* [(1 + k) 2n], of the tape */
+    bool once, made;        /* the scene is made once; it is made */
+
+    /* the scene made; with constraints from numbers: */
+    qdot_expr *u, *values; /* [k], [(1 + k) x n_values]: with all, and with one free */
+    qdot_expr *first, *settled; /* [2 half], [2n] the start of the first run, and on the constraints */
+    qdot_run_request request; /* what the variation is of */
+    qdot_variation_by *by;    /* [k] */
+    qdot_expr *slopes;        /* [k x 2n] of the start */
+    qdot_variation variation;
+    qdot_parameter_states states;
+    qdot_run_request run_request;
+    qdot_method_run run;
+    qdot_course course;
+    qdot_expr *exprs; /* [m (1 + k)] each expression, then its slopes */
+    qdot_reading reading;
+    double *y, *out; /* [2 (1 + k) n + 2 n_parameters], [m (1 + k)] */
+};
+
+/* --- memory ------------------------------------------------------------------------------ */
+
+/* Forget the scene made. */
+static void
+unmake(qdot_response *r)
+{
+    qdot_tape_free(r->reading.tape);
+    r->reading = (qdot_reading){0};
+    qdot_course_clear(&r->course);
+    qdot_method_run_clear(&r->run);
+    r->run = (qdot_method_run){0};
+    qdot_parameter_states_clear(&r->states);
+    qdot_variation_clear(&r->variation);
+    r->made = false;
+}
+
+void
+qdot_response_free(qdot_response *r)
+{
+    if (!r)
+        return;
+    unmake(r);
+    qdot_tape_free(r->start);
+    qdot_free(r->parameters);
+    qdot_free(r->place);
+    qdot_free(r->starts);
+    qdot_free(r->u);
+    qdot_free(r->by);
+    qdot_free(r->exprs);
+    qdot_free(r->y);
+    qdot_free(r);
+}
+
+static qdot_status
+make_room(qdot_response *r)
+{
+    const size_t n = r->n, k = r->of.k, all = (1 + k) * n;
+
+    r->parameters = qdot_calloc(k + 1, sizeof *r->parameters);
+    r->place = qdot_calloc(k + 1, sizeof *r->place);
+    r->u = qdot_calloc(k + (1 + k) * r->of.request->n_values + 2 * (all + k) + 2 * all + 1,
+                       sizeof *r->u);
+    r->by = qdot_calloc(k + 1, sizeof *r->by);
+    r->exprs = qdot_calloc(r->of.m * (1 + k) + 1, sizeof *r->exprs);
+    r->y = qdot_calloc(2 * all + 2 * k + r->of.m * (1 + k) + 1, sizeof *r->y);
+    if (!r->parameters || !r->place || !r->u || !r->by || !r->exprs || !r->y)
+        return QDOT_ENOMEM;
+    r->values = r->u + k;
+    r->first = r->values + (1 + k) * r->of.request->n_values;
+    r->settled = r->first + 2 * (all + k);
+    r->slopes = r->settled + 2 * n;
+    r->out = r->y + 2 * all + 2 * k;
+    return QDOT_OK;
+}
+
+/* --- the start ----------------------------------------------------------------------------- */
+
+/* q, q' and their slopes from u. */
+static qdot_status
+lower_start(qdot_response *r)
+{
+    const size_t n = r->n, k = r->of.k;
+    qdot_expr *all = qdot_calloc((1 + k) * 2 * n + 1, sizeof *all);
+    qdot_status status = all ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < 2 * n && all; i++) {
+        all[i] = i < n ? r->of.request->q0[i] : r->of.request->v0[i - n];
+        for (size_t j = 0; j < k; j++)
+            all[(1 + j) * 2 * n + i] = qdot_diff(r->pool, all[i], r->of.unknowns[j]);
+    }
+    if (status == QDOT_OK)
+        status = qdot_pool_check(r->pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(r->pool, k, r->of.unknowns, (1 + k) * 2 * n, all, &r->start);
+    if (status == QDOT_OK) {
+        r->starts = qdot_calloc((1 + k) * 2 * n + qdot_tape_work(r->start) + 1, sizeof *r->starts);
+        status = r->starts ? QDOT_OK : QDOT_ENOMEM;
+        r->work = r->starts + (1 + k) * 2 * n;
+    }
+    qdot_free(all);
+    return status;
+}
+
+/* y of the scene made: q, slopes, parameters, then their velocities. */
+static void
+put_start(qdot_response *r, const double *u)
+{
+    const size_t n = r->n, all = (1 + r->of.k) * n, half = all + r->n_parameters;
+
+    for (size_t j = 0; j <= r->of.k; j++)
+        for (size_t i = 0; i < n; i++) {
+            r->y[j * n + i] = r->starts[j * 2 * n + i];
+            r->y[half + j * n + i] = r->starts[j * 2 * n + n + i];
+        }
+    for (size_t i = 0; i < r->n_parameters; i++) {
+        r->y[all + i] = u[r->place[i]];
+        r->y[half + all + i] = 0;
+    }
+}
+
+/* --- the scene for all u ---------------------------------------------------------------------- */
+
+/* Directions: each parameter is free in all values. */
+static void
+free_all(qdot_response *r)
+{
+    r->request = *r->of.request;
+    for (size_t k = 0, i = 0; k < r->of.k; k++) {
+        const bool parameter = i < r->n_parameters && r->place[i] == k;
+
+        r->by[k] =
+            (qdot_variation_by){.name = r->of.names[k],
+                                .parameter = parameter ? r->of.unknowns[k] : QDOT_NIL,
+                                .values = parameter ? r->of.request->values : NULL,
+                                .start = r->slopes + k * 2 * r->n};
+        i += parameter;
+    }
+    for (size_t i = 0; i < r->of.k * 2 * r->n; i++)
+        r->slopes[i] = QDOT_ZERO; /* the start of each run is put in as numbers */
+}
+
+/* The request of its runs: parameters among the unknowns are coordinates; its start is that of the first u. */
+static qdot_status
+open_parameters(qdot_response *r, const double *u)
+{
+    const qdot_run_request request = qdot_variation_request(&r->variation);
+    const size_t half = (1 + r->of.k) * r->n + r->n_parameters;
+
+    QDOT_TRY(qdot_parameter_states_open(&r->states, r->variation.scene, &request,
+                                        r->n_parameters, r->parameters));
+    put_start(r, u);
+    for (size_t i = 0; i < 2 * half; i++)
+        r->first[i] = qdot_expr_of_double(r->pool, r->y[i]);
+    r->run_request = r->states.request;
+    r->run_request.q0 = r->first;
+    r->run_request.v0 = r->first + half;
+    r->run_request.q_named = r->run_request.v_named = NULL;
+    return qdot_pool_check(r->pool);
+}
+
+/* --- the scene for one u ---------------------------------------------------------------------- */
+
+/* The values with numbers in place of all unknowns but `free`. */
+static void
+put_values(qdot_response *r, size_t free, qdot_expr *values)
+{
+    const qdot_run_request *of = r->of.request;
+
+    for (size_t i = 0; i < of->n_values; i++) {
+        values[i] = of->values[i];
+        for (size_t k = 0; k < r->of.k; k++)
+            if (k != free && values[i] != QDOT_NIL)
+                values[i] = qdot_subs(r->pool, values[i], 1, &r->of.unknowns[k], &r->u[k]);
+    }
+}
+
+/* The request with numbers, and the directions. */
+static qdot_status
+put_numbers(qdot_response *r, const double *u)
+{
+    const size_t n = r->n, n_values = r->of.request->n_values;
+
+    for (size_t k = 0; k < r->of.k; k++)
+        r->u[k] = qdot_expr_of_double(r->pool, u[k]);
+    put_values(r, SIZE_MAX, r->values);
+    for (size_t k = 0; k < r->of.k; k++) {
+        qdot_expr *own = r->values + (1 + k) * n_values;
+
+        put_values(r, k, own);
+        r->by[k] = (qdot_variation_by){.name = r->of.names[k],
+                                       .parameter = QDOT_NIL,
+                                       .start = r->slopes + k * 2 * n};
+        for (size_t i = 0; i < 2 * n; i++)
+            r->slopes[k * 2 * n + i] =
+                qdot_expr_of_double(r->pool, r->starts[(1 + k) * 2 * n + i]);
+    }
+    for (size_t i = 0; i < r->n_parameters; i++) {
+        r->by[r->place[i]].parameter = r->parameters[i];
+        r->by[r->place[i]].values = r->values + (1 + r->place[i]) * n_values;
+    }
+    for (size_t i = 0; i < 2 * n; i++)
+        r->first[i] = qdot_expr_of_double(r->pool, r->starts[i]);
+    r->request = *r->of.request;
+    r->request.values = r->values;
+    r->request.q0 = r->first;
+    r->request.v0 = r->first + n;
+    QDOT_TRY(qdot_pool_check(r->pool));
+    QDOT_TRY(qdot_method_run_settled(r->of.scene, &r->request, r->settled));
+    r->request.q0 = r->settled;
+    r->request.v0 = r->settled + n;
+    return QDOT_OK;
+}
+
+/* --- the scene made ----------------------------------------------------------------------------- */
+
+static qdot_status
+lower_expressions(qdot_response *r)
+{
+    const size_t m = r->of.m, k = r->of.k;
+
+    for (size_t j = 0; j < m; j++) {
+        qdot_expr *own = r->exprs + j * (1 + k);
+
+        own[0] = qdot_variation_with_numbers(&r->variation, r->of.exprs[j]);
+        for (size_t i = 0; i < k; i++)
+            own[1 + i] = qdot_variation_of(&r->variation, r->of.exprs[j], i);
+    }
+    QDOT_TRY(qdot_pool_check(r->pool));
+    return qdot_reader_lower(r->run.plan, m * (1 + k), r->exprs, &r->reading);
+}
+
+static qdot_status
+make(qdot_response *r, const double *u)
+{
+    if (r->once)
+        free_all(r);
+    else
+        QDOT_TRY(put_numbers(r, u));
+    QDOT_TRY(qdot_variation_make(r->of.scene, &r->request, r->of.k, r->by, &r->variation));
+    if (r->once)
+        QDOT_TRY(open_parameters(r, u));
+    else
+        r->run_request = qdot_variation_request(&r->variation);
+    QDOT_TRY(qdot_method_run_init(&r->run, r->variation.scene, &r->run_request,
+                                  r->run_request.method, r->run_request.tol));
+    if (!r->once)
+        QDOT_TRY(qdot_variation_check_state(&r->variation, r->run.start));
+    r->course = (qdot_course){.stage = &r->run.stage};
+    QDOT_TRY(lower_expressions(r));
+    r->made = true;
+    return QDOT_OK;
+}
+
+/* --- its runs --------------------------------------------------------------------------------- */
+
+/* Forget the last run, but not the systems of its modes. */
+static void
+rewind_course(qdot_course *c)
+{
+    qdot_trajectory_clear(&c->tr);
+    c->tr = (qdot_trajectory){0};
+    c->occurrences.n = c->ends.n = 0;
+    c->left_out = c->passed_over = 0;
+    c->looked = 0;
+    c->failed = false;
+    c->reason[0] = '\0';
+}
+
+static qdot_status
+run(qdot_response *r)
+{
+    const qdot_ode_options options = {.tol = r->run_request.tol};
+    const double t0 = r->run.t0, t1 = r->run.t1;
+
+    if (r->of.n_times == 0)
+        return QDOT_OK;
+    rewind_course(&r->course);
+    QDOT_TRY(qdot_course_run(&r->course, r->run.plan->method, &options, t0, t1,
+                             r->once ? r->y : r->run.start));
+    if (r->course.reason[0] != '\0')
+        return qdot_fail(QDOT_EFAILED, "the run ended: %.300s", r->course.reason);
+    return QDOT_OK;
+}
+
+static qdot_status
+say_undefined(const qdot_response *r, size_t j, double t)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(r->pool, r->of.exprs[j], QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_fail(QDOT_EDOMAIN, "%.200s or a slope of it is undefined at t = %.15g",
+                           qdot_text_str(&text), t);
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+read_numbers(qdot_response *r, double *values, double *slopes)
+{
+    const size_t m = r->of.m, k = r->of.k;
+    qdot_reader reader = {0};
+    qdot_status status = qdot_reader_init(&reader, &r->reading, &r->course);
+
+    for (size_t i = 0; i < r->of.n_times && status == QDOT_OK; i++) {
+        status = qdot_reader_at(&reader, SIZE_MAX, r->of.times[i], r->out);
+        for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+            const double *own = r->out + j * (1 + k);
+
+            for (size_t l = 0; l <= k && status == QDOT_OK; l++)
+                if (!isfinite(own[l]))
+                    status = say_undefined(r, j, r->of.times[i]);
+            values[i * m + j] = own[0];
+            memcpy(slopes + (i * m + j) * k, own + 1, k * sizeof *slopes);
+        }
+    }
+    qdot_reader_clear(&reader);
+    return status;
+}
+
+qdot_status
+qdot_response_at(qdot_response *r, const double *u, double *values, double *slopes)
+{
+    qdot_tape_eval(r->start, u, r->starts, r->work);
+    for (size_t i = 0; i < (1 + r->of.k) * 2 * r->n; i++)
+        if (!isfinite(r->starts[i]))
+            return qdot_fail(QDOT_EDOMAIN, "the start is undefined");
+    if (!r->made || !r->once) {
+        unmake(r);
+        QDOT_TRY(make(r, u));
+    }
+    if (r->once)
+        put_start(r, u);
+    QDOT_TRY(run(r));
+    return read_numbers(r, values, slopes);
+}
+
+/* --- all -------------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_response_new(const qdot_response_of *of, qdot_response **out)
+{
+    qdot_response *r = qdot_calloc(1, sizeof *r);
+    qdot_status status;
+
+    *out = r;
+    if (!r)
+        return QDOT_ENOMEM;
+    r->of = *of;
+    r->pool = of->scene->pool;
+    r->n = of->scene->coordinates.n;
+    r->once = of->scene->constraints.n == 0;
+    status = make_room(r);
+    for (size_t k = 0; k < of->k && status == QDOT_OK; k++)
+        if (!qdot_expr_is_class(r->pool, of->unknowns[k], QDOT_COORD)) {
+            r->parameters[r->n_parameters] = of->unknowns[k];
+            r->place[r->n_parameters++] = k;
+        }
+    return status == QDOT_OK ? lower_start(r) : status;
+}
