@@ -135,6 +135,8 @@ library_sources = \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep-file.c \
+	lib/lang/runs/sweep-lanes.c \
+	lib/lang/runs/sweep-plan.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/workprecision.c \
@@ -535,7 +537,9 @@ library_sources = \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
+	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble-steps.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
@@ -571,6 +575,7 @@ library_headers = \
 	lib/base/status.h \
 	lib/base/terminal.h \
 	lib/base/text.h \
+	lib/base/threads.h \
 	lib/base/utf8.h \
 	lib/base/workers.h \
 	lib/base/wrap.h \
@@ -658,6 +663,7 @@ library_headers = \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/runs/sweep-file.h \
+	lib/lang/runs/sweep-lanes.h \
 	lib/lang/runs/sweep-parts.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
@@ -999,7 +1005,9 @@ library_headers = \
 	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
+	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble-steps.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
