@@ -350,6 +350,7 @@ library_sources = \
 	lib/series/lanes-code-run.c \
 	lib/series/lanes-fold.c \
 	lib/series/lanes-motion.c \
+	lib/series/lanes-near.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
@@ -850,6 +851,7 @@ library_headers = \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
 	lib/series/lanes-motion.h \
+	lib/series/lanes-near.h \
 	lib/series/lanes-writer.h \
 	lib/series/lanes.def \
 	lib/series/lanes.h \

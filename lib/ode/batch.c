@@ -324,6 +324,29 @@ go(batch *b)
     }
 }
 
+/* Shorten steps that would go over a part of f that is not seen where they begin: near_length of
+ * taylor-length.c. */
+static void
+come_near(batch *b)
+{
+    static const double narrowest = 0x1p-26;
+    lanes *a = &b->at;
+
+    for (size_t l = 0; b->system->near && l < L; l++) {
+        const double s = fabs(a->h[l] / a->old_unit[l]);
+        double near;
+
+        if (!a->tried[l])
+            continue;
+        near = b->system->near(l, b->run->order, s, b->system->user);
+        if (!(near < s) || near * fabs(a->old_unit[l]) < narrowest * fabs(a->t[l]))
+            continue;
+        a->unit[l] = a->old_unit[l];
+        a->tried[l] = 0;
+        try_step(b, l, near * fabs(a->old_unit[l]));
+    }
+}
+
 /* Show the steps that lanes are to try. */
 static qdot_status
 show(const batch *b)
@@ -374,6 +397,7 @@ loop(batch *b)
         system->extend(b->run->order, system->user);
         b->run->expansions++;
         choose_steps(b);
+        come_near(b);
         QDOT_TRY(show(b));
         go(b);
     }

@@ -36,8 +36,6 @@ reason_of_system(const qdot_ode_system *system)
         return NULL;
     if (!system->series)
         return "the equations have no Taylor series";
-    if (system->series->near)
-        return "a force may act for less than a step";
     return system->series->noise ? "the equations may be singular on the way" : NULL;
 }
 

@@ -2,8 +2,8 @@
  * alone.
  *
  * Lanes go by Taylor series in doubles, in one chart, with one form of the equations. What a run alone
- * does beyond that - switches, events that act, another method, first orders in two doubles, forces that
- * act for less than a step, places where constraints depend on each other - they do not.
+ * does beyond that - switches, events that act, another method, first orders in two doubles, constraints -
+ * they do not.
  *
  * Tests  tests/script/sweep-lanes.sh
  */
