@@ -1177,6 +1177,7 @@ unit_tests = \
 	tests/sim/test_constraints \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
+	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_exponents \
@@ -1383,6 +1384,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-lanes.sh \
 	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
@@ -2365,6 +2367,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-lanes.out \
 	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \
 	tests/script/sweep.out \

@@ -13,6 +13,7 @@
 #include "sim/model/substitute.h"
 #include "sim/model/term-magnitude.h"
 #include "sim/study/ensemble-fit.h"
+#include "sim/study/ensemble.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
 

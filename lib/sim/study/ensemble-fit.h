@@ -11,7 +11,8 @@
 #define QDOT_SIM_ENSEMBLE_FIT_H
 
 #include "base/text.h"
-#include "sim/study/ensemble.h"
+#include "sim/model/request.h"
+#include "sim/study/ensemble-steps.h"
 
 typedef qdot_vec(qdot_ensemble_bound) qdot_ensemble_bounds;
 

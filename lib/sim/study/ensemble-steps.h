@@ -5,13 +5,34 @@
  * found on it as along a run (sim/course/watch.h), in a watch for each lane; a bound of a coordinate
  * stays far as long as |x_0 - bound| > sum_k |x_k s^k|.
  *
- * Tests  tests/sim/test_ensemble.c, tests/script/sweep-lanes.sh
+ * Tests  tests/sim/test_ensemble-steps.c, tests/script/sweep-lanes.sh
  */
 #ifndef QDOT_SIM_ENSEMBLE_STEPS_H
 #define QDOT_SIM_ENSEMBLE_STEPS_H
 
 #include "ode/batch.h"
-#include "sim/study/ensemble.h"
+#include "sim/model/equations.h"
+
+/* The first `count` occurrences are told of g = 0, crossed that way (1 rising, -1 falling, 0
+ * either). */
+typedef struct {
+    qdot_expr function;
+    int way;
+    size_t count;
+} qdot_ensemble_event;
+typedef struct {
+    size_t coordinate;
+    double bound;
+} qdot_ensemble_bound;
+
+/* What is looked at in every step. A member to which a bound comes near, or in which an event only
+ * touches 0, is left: it has to be run alone. */
+typedef struct {
+    size_t n_events, n_bounds;
+    const qdot_ensemble_event *events;
+    const qdot_ensemble_bound *bounds;
+    bool leave; /* members end as soon as all that is asked of events has been found */
+} qdot_ensemble_watching;
 
 typedef struct qdot_ensemble_steps qdot_ensemble_steps; /* one a pass */
 

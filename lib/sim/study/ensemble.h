@@ -13,6 +13,7 @@
 
 #include "sim/model/equations.h"
 #include "sim/run/run.h"
+#include "sim/study/ensemble-steps.h"
 
 enum { QDOT_ENSEMBLE_PASSES = 3 }; /* the runs, and their companions */
 
@@ -39,27 +40,6 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_new(qdot_scene *scene,
                                               size_t n_varied, const qdot_expr *varied,
                                               qdot_ensemble **ensemble);
 void qdot_ensemble_free(qdot_ensemble *ensemble);
-
-/* The first `count` occurrences are told of g = 0, crossed that way (1 rising, -1 falling, 0
- * either). */
-typedef struct {
-    qdot_expr function;
-    int way;
-    size_t count;
-} qdot_ensemble_event;
-typedef struct {
-    size_t coordinate;
-    double bound;
-} qdot_ensemble_bound;
-
-/* What is looked at in every step. A member to which a bound comes near, or in which an event only
- * touches 0, is left: it has to be run alone. */
-typedef struct {
-    size_t n_events, n_bounds;
-    const qdot_ensemble_event *events;
-    const qdot_ensemble_bound *bounds;
-    bool leave; /* members end as soon as all that is asked of events has been found */
-} qdot_ensemble_watching;
 
 /* Before _run: look at steps, borrowed, and keep states at some times of the latter half of the way,
  * those of qdot_companion_places; all passes run in the caller's thread, and a member of more than
