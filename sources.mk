@@ -145,6 +145,8 @@ library_sources = \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep-file.c \
+	lib/lang/runs/sweep-lanes.c \
+	lib/lang/runs/sweep-plan.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/trial.c \
@@ -362,6 +364,7 @@ library_sources = \
 	lib/series/lanes-code-run.c \
 	lib/series/lanes-fold.c \
 	lib/series/lanes-motion.c \
+	lib/series/lanes-near.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
@@ -553,7 +556,9 @@ library_sources = \
 	lib/sim/study/bifurcation.c \
 	lib/sim/study/branch.c \
 	lib/sim/study/continuation.c \
+	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble-steps.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
@@ -592,6 +597,7 @@ library_headers = \
 	lib/base/status.h \
 	lib/base/terminal.h \
 	lib/base/text.h \
+	lib/base/threads.h \
 	lib/base/utf8.h \
 	lib/base/workers.h \
 	lib/base/wrap.h \
@@ -684,6 +690,7 @@ library_headers = \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/runs/sweep-file.h \
+	lib/lang/runs/sweep-lanes.h \
 	lib/lang/runs/sweep-parts.h \
 	lib/lang/runs/trial.h \
 	lib/lang/session/along.h \
@@ -874,6 +881,7 @@ library_headers = \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
 	lib/series/lanes-motion.h \
+	lib/series/lanes-near.h \
 	lib/series/lanes-writer.h \
 	lib/series/lanes.def \
 	lib/series/lanes.h \
@@ -1033,7 +1041,9 @@ library_headers = \
 	lib/sim/study/bifurcation.h \
 	lib/sim/study/branch.h \
 	lib/sim/study/continuation.h \
+	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble-steps.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
@@ -1208,6 +1218,7 @@ unit_tests = \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
+	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_exponents \
@@ -1420,6 +1431,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-lanes.sh \
 	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
@@ -2445,6 +2457,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-lanes.out \
 	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
