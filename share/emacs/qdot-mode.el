@@ -19,9 +19,9 @@
 ;; words
 (defconst qdot-statements
   '("abbreviate" "animate" "assume" "body" "check" "constraint" "coord" "cyclic" "damper"
-    "derive" "dissipation" "dof" "equilibria" "event" "events" "export" "force" "forces"
-    "function" "gravity" "help" "include" "lagrangian" "longtime" "lyapunov" "modes"
-    "param" "particle" "plan" "plot" "poincare" "potential" "print" "quit" "race"
+    "derive" "dissipation" "dof" "equilibria" "event" "events" "export" "fit" "force"
+    "forces" "function" "gravity" "help" "include" "lagrangian" "longtime" "lyapunov"
+    "modes" "param" "particle" "plan" "plot" "poincare" "potential" "print" "quit" "race"
     "reactions" "redo" "remove" "report" "reset" "run" "save" "scale" "scene"
     "sensitivity" "set" "show" "spring" "start" "style" "sweep" "table" "timing" "torque"
     "undo" "vars" "workprecision")

@@ -17,12 +17,12 @@ syntax keyword qdotTodo TODO FIXME contained
 " words
 syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
-syntax keyword qdotWord contained events export force forces function gravity help include
-syntax keyword qdotWord contained lagrangian longtime lyapunov modes param particle plan
-syntax keyword qdotWord contained plot poincare potential print quit race reactions redo
-syntax keyword qdotWord contained remove report reset run save scale scene sensitivity set
-syntax keyword qdotWord contained show spring start style sweep table timing torque undo
-syntax keyword qdotWord contained vars workprecision
+syntax keyword qdotWord contained events export fit force forces function gravity help
+syntax keyword qdotWord contained include lagrangian longtime lyapunov modes param
+syntax keyword qdotWord contained particle plan plot poincare potential print quit race
+syntax keyword qdotWord contained reactions redo remove report reset run save scale scene
+syntax keyword qdotWord contained sensitivity set show spring start style sweep table
+syntax keyword qdotWord contained timing torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor
