@@ -2153,6 +2153,7 @@ test_files = \
 	tests/examples/equilibria.out \
 	tests/examples/export.out \
 	tests/examples/fermi-pasta-ulam.out \
+	tests/examples/fit.out \
 	tests/examples/flexing-wire.out \
 	tests/examples/foucault.out \
 	tests/examples/four-bar.out \

@@ -7,6 +7,7 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/runs/fit-parts.h"
+#include "lang/runs/trial.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
@@ -282,20 +283,17 @@ decimal(qdot_pool *pool, double x, double error)
 qdot_status
 qdot_fit_set(qdot_fit *f)
 {
-    qdot_session *session = f->session;
-    qdot_status status = QDOT_OK;
+    const size_t n = f->unknowns.names.n;
+    qdot_expr *values = qdot_calloc(n, sizeof *values);
+    qdot_status status = values ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t k = 0; k < f->unknowns.names.n && status == QDOT_OK; k++) {
-        const qdot_expr symbol = f->unknowns.names.at[k].symbol;
-        const qdot_expr value =
-            decimal(session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
-
-        status = qdot_pool_check(session->pool);
-        if (status == QDOT_OK && qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
-            status = qdot_session_start(session, symbol, value);
-        else if (status == QDOT_OK)
-            qdot_session_set(session, symbol, value, &status);
-    }
+    for (size_t k = 0; k < n && values; k++)
+        values[k] = decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(f->session->pool);
+    if (status == QDOT_OK)
+        status = qdot_trial_put(f->session, n, f->unknowns.names.at, values);
+    qdot_free(values);
     return status;
 }
 
