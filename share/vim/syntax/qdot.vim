@@ -17,8 +17,8 @@ syntax keyword qdotTodo TODO FIXME contained
 " words
 syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
 syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
-syntax keyword qdotWord contained events export find force forces function gravity help
-syntax keyword qdotWord contained include lagrangian longtime lyapunov modes param
+syntax keyword qdotWord contained events export find floquet force forces function gravity
+syntax keyword qdotWord contained help include lagrangian longtime lyapunov modes param
 syntax keyword qdotWord contained particle plan plot poincare potential print quit race
 syntax keyword qdotWord contained reactions redo remove report reset run save scale scene
 syntax keyword qdotWord contained sensitivity set show spring start style sweep table
