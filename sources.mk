@@ -1275,6 +1275,7 @@ script_tests = \
 	tests/script/figures.sh \
 	tests/script/find.sh \
 	tests/script/flat-places.lag \
+	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
 	tests/script/floquet.sh \
@@ -2282,6 +2283,7 @@ test_files = \
 	tests/script/figures.out \
 	tests/script/find.out \
 	tests/script/flat-places.out \
+	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
 	tests/script/floquet.out \
