@@ -131,6 +131,7 @@ library_sources = \
 	lib/lang/runs/fit-data.c \
 	lib/lang/runs/fit-model.c \
 	lib/lang/runs/fit.c \
+	lib/lang/runs/floquet.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
@@ -318,6 +319,7 @@ library_sources = \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/collocation.c \
+	lib/num/eigenvalues.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
@@ -563,6 +565,7 @@ library_sources = \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
+	lib/sim/study/floquet.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
@@ -831,6 +834,7 @@ library_headers = \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
 	lib/num/collocation.h \
+	lib/num/eigenvalues.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
@@ -1049,6 +1053,7 @@ library_headers = \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
+	lib/sim/study/floquet.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
@@ -1165,6 +1170,7 @@ unit_tests = \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
 	tests/num/test_collocation \
+	tests/num/test_eigenvalues \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_least-squares \
@@ -1321,6 +1327,7 @@ script_tests = \
 	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
+	tests/script/floquet.sh \
 	tests/script/force-material.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
@@ -1530,6 +1537,9 @@ script_tests = \
 	tests/bad/find-unknown.lag \
 	tests/bad/find-vector.lag \
 	tests/bad/fit.sh \
+	tests/bad/floquet-open.lag \
+	tests/bad/floquet-period.lag \
+	tests/bad/floquet-run.lag \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1782,6 +1792,7 @@ script_tests = \
 	examples/henon-heiles.lag \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza-boundary.lag \
 	examples/kapitza.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
@@ -1789,6 +1800,7 @@ script_tests = \
 	examples/lagrange-points.lag \
 	examples/line-element.lag \
 	examples/long-times.lag \
+	examples/lyapunov-orbit.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
 	examples/modes.lag \
@@ -1929,6 +1941,9 @@ test_files = \
 	tests/bad/find-unknown.out \
 	tests/bad/find-vector.out \
 	tests/bad/fit.out \
+	tests/bad/floquet-open.out \
+	tests/bad/floquet-period.out \
+	tests/bad/floquet-run.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -2333,6 +2348,7 @@ test_files = \
 	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
+	tests/script/floquet.out \
 	tests/script/force-material.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
@@ -2631,6 +2647,7 @@ example_files = \
 	examples/henon-heiles.svg \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza-boundary.lag \
 	examples/kapitza.lag \
 	examples/kapitza.svg \
 	examples/kepler.lag \
@@ -2641,6 +2658,7 @@ example_files = \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/long-times.lag \
+	examples/lyapunov-orbit.lag \
 	examples/magnetic-field.lag \
 	examples/magnetic-field.svg \
 	examples/metrics.lag \
