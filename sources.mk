@@ -417,6 +417,7 @@ library_sources = \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-layer.c \
+	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -424,6 +425,7 @@ library_sources = \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
+	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
 	lib/sim/course/watch-exclusion.c \
@@ -493,6 +495,7 @@ library_sources = \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
+	lib/sim/model/puck.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
 	lib/sim/model/sliding-rows.c \
@@ -963,6 +966,7 @@ library_headers = \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
+	lib/sim/model/puck.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
@@ -1178,6 +1182,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_puck \
 	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_routh \
@@ -1336,6 +1341,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/poles.lag \
 	tests/script/processor.sh \
+	tests/script/puck.lag \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
@@ -1539,6 +1545,7 @@ script_tests = \
 	tests/bad/poincare.sh \
 	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/puck.lag \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
@@ -1918,6 +1925,7 @@ test_files = \
 	tests/bad/poincare.out \
 	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/puck.out \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
@@ -2318,6 +2326,7 @@ test_files = \
 	tests/script/poles.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
+	tests/script/puck.out \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \

@@ -33,7 +33,8 @@ name(const qdot_run *run, size_t surface, qdot_text *to)
         qdot_text_format(to, "rests on %s: ",
                          run->stage.events.at[s->surfaces.at[surface].event].name);
     else
-        qdot_text_add(to, qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
+        qdot_text_add(to, s->surfaces.at[surface].puck == 0
+                                  && qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
                                                                              : "sticks at ");
     return qdot_stage_describe(&run->stage, surface, 0, to);
 }
@@ -76,7 +77,7 @@ qdot_slides_tell(qdot_run *run)
     bool any = false;
 
     for (size_t i = 0; i < run->stage.modes.n; i++)
-        any = any || run->stage.modes.at[i]->shares;
+        any = any || qdot_sliding_is(&run->stage.switches, run->stage.modes.at[i]->side);
     if (!any)
         return QDOT_OK;
     qdot_free(run->plan->read_side);
