@@ -125,6 +125,7 @@ library_sources = \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
+	lib/lang/runs/own-run.c \
 	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
@@ -137,6 +138,7 @@ library_sources = \
 	lib/lang/runs/sweep-file.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
+	lib/lang/runs/trial.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
@@ -655,6 +657,7 @@ library_headers = \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/members.h \
+	lib/lang/runs/own-run.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
 	lib/lang/runs/run.h \
@@ -662,6 +665,7 @@ library_headers = \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/runs/sweep-file.h \
 	lib/lang/runs/sweep-parts.h \
+	lib/lang/runs/trial.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -1263,6 +1267,7 @@ script_tests = \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
 	tests/script/flat-places.lag \
+	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
 	tests/script/force-material.lag \
@@ -2232,6 +2237,7 @@ test_files = \
 	tests/script/far-away.out \
 	tests/script/figures.out \
 	tests/script/flat-places.out \
+	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
 	tests/script/force-material.out \

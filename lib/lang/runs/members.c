@@ -1,14 +1,8 @@
 /* members.c -- reads what a sweep runs over, and makes its runs. */
 #include "lang/runs/members.h"
 
-#include <string.h>
-
+#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "lang/session/runs.h"
-
-/* Where the members' runs are kept meanwhile: a name that nobody can write. */
-static const char member_name[] = "the run";
 
 /* --- reading ---------------------------------------------------------------------------- */
 
@@ -58,38 +52,15 @@ make_run(qdot_cursor *c, const qdot_members *m, qdot_member_use use, void *user)
 {
     qdot_session *session = c->session;
     const size_t measured = session->measured.n;
-    qdot_request request = {0};
-    qdot_run *run = NULL;
-    qdot_status status = qdot_run_options_fill(session, &m->run, &request);
+    qdot_run *run;
+    qdot_expr end;
+    qdot_status status =
+        qdot_own_run_make(session, &m->run, m->run.from, m->run.to, &run, &end);
 
     if (status == QDOT_OK)
-        status = qdot_request_limits(session, m->run.from, m->run.to, &request);
-    if (status == QDOT_OK)
-        status = qdot_request_explain(session, &request,
-                                      qdot_run_new(session->scene, &request.request, &run));
-    if (status == QDOT_OK)
-        status = qdot_pool_check(session->pool);
-    if (run != NULL && status == QDOT_OK) {
-        const qdot_run_report *report = qdot_run_get_report(run);
-
-        status = qdot_runs_keep(session, member_name, "", &request.request, run);
-        if (status == QDOT_OK && report->status == QDOT_RUN_FAILED)
-            status = qdot_fail(QDOT_EFAILED, "%s",
-                               report->reason != NULL ? report->reason : "the run failed");
-        if (status == QDOT_OK)
-            status = use(c, run,
-                         report->status == QDOT_RUN_DONE
-                             ? request.request.t1
-                             : qdot_measured_rational(session->pool, report->t1),
-                         user);
-    } else {
-        qdot_run_free(run);
-    }
-    if (session->runs.n > 0
-        && strcmp(session->runs.at[session->runs.n - 1].name, member_name) == 0)
-        qdot_named_run_release(&session->runs.at[--session->runs.n]);
+        status = use(c, run, end, user);
+    qdot_own_run_drop(session);
     session->measured.n = measured;
-    qdot_request_free(&request);
     return status;
 }
 

@@ -11,7 +11,7 @@ typedef struct {
     size_t event;
     double t;
     int way; /* 1, -1: left - right rises, falls as t grows; 0: it touches 0 */
-    double within, bend; /* of a touch, as in qdot_root */
+    double within, bend, blur; /* of a touch, as in qdot_root */
 } qdot_occurrence;
 
 /* What ended a piece. */

@@ -39,7 +39,8 @@ struct qdot_watch {
     double *work, *g;   /* [m] g */
     double *moved;      /* [m] scratch of noise */
     double *z;          /* [2n] likewise */
-    double *noise;      /* [m] of g in this step; NaN: not computed */
+    double *noise;      /* [m] of g in this part; NaN: not computed */
+    double *first_noise; /* [m] of g at the start of the step; likewise */
     double *size;       /* [m] of the polynomial fitted last */
     double *clear;      /* [m] distance from 0 that its bound guarantees, if positive */
     qdot_polynomial_bounds bounds; /* between the nodes, or on the whole step */
@@ -99,7 +100,7 @@ qdot_watch_push(qdot_watch *w, qdot_root root)
 QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
-/* g [m] at the state in w->in. QDOT_EDOMAIN if one is not finite. */
+/* g [m] at the state in w->in, 1e300 for infinity. QDOT_EDOMAIN if one is not a number. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
 /* g [m] at t within the step; w->in is the state there. */

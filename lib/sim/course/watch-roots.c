@@ -8,6 +8,9 @@
  * time since it was 0. */
 static const double resolved = 0x1p-44, resolved_start = 1e-9;
 
+/* The fraction of its size that is not small. */
+static const double least_of_size = 1e-3;
+
 /* What the rounding of a function makes of its slope at a zero, by nodes that crowd there. */
 static const double noise_of_slope = 1e4;
 
@@ -127,7 +130,8 @@ refine(qdot_watch *w, end *ends, qdot_root *root)
 }
 
 /* Find the root between ends [2] of different signs, near guess; *found false if the signs are
- * equal, since a polynomial overshoots beside a jump. */
+ * equal, since a polynomial overshoots beside a jump and a pole: ends[1] has g if it is that after
+ * a root. */
 static qdot_status
 locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
 {
@@ -153,7 +157,13 @@ locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
         QDOT_TRY(narrow(w, i, way, middle, ends, &over));
     }
     *found = true;
-    return ends[1].t == hi ? narrow(w, i, way, hi, ends, found) : QDOT_OK;
+    if (ends[1].t == hi)
+        return narrow(w, i, way, hi, ends, found);
+    if (ends[0].t == lo) {
+        QDOT_TRY(narrow(w, i, way, lo, ends, &over));
+        *found = !over || w->g[i] == 0;
+    }
+    return QDOT_OK;
 }
 
 /* Whether g changes its sign through infinity between neighbouring doubles: away from there it is
@@ -166,7 +176,7 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const end *ends, const qdot_roo
     bool any = false;
 
     *pole = false;
-    if (root->residual <= 1e-3 * qdot_chebyshev_size(p->n, p->c))
+    if (root->residual <= least_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
     for (int side = 0; side < 2; side++) {
         const double t = ends[side].t + (side == 0 ? -away : away);
@@ -195,7 +205,14 @@ is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, 
 
     *within = 0;
     *touch = fabs(v) <= 0x1p-48 * size;
-    if (*touch || p->from_zero || fabs(v) > 1e-3 * size)
+    if (!*touch && (p->from_zero || fabs(v) > least_of_size * size))
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+    if (!p->from_zero && fabs(w->g[i] - v) > least_of_size * size) { /* beside a jump or a pole */
+        *touch = false;
+        return QDOT_OK;
+    }
+    if (*touch)
         return QDOT_OK;
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
@@ -299,10 +316,42 @@ forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
         w->roots.n--;
 }
 
+/* Touches that rounding makes, found since `from` between which and here g is nothing else, are no
+ * roots beside the one that comes now. */
+static void
+forget_roundings(qdot_watch *w, size_t i, double from)
+{
+    while (w->roots.n > 0 && w->roots.at[w->roots.n - 1].function == i
+           && w->roots.at[w->roots.n - 1].way == 0 && w->roots.at[w->roots.n - 1].within == 0
+           && !w->roots.at[w->roots.n - 1].exact
+           && w->direction * (w->roots.at[w->roots.n - 1].t - from) > 0)
+        w->roots.n--;
+}
+
+/* Whether the derivative d [n - 1] is more than its rounding at x, which may lie beyond the part. */
+static bool
+is_steep(const qdot_watch_part *p, const double *d, double x)
+{
+    return fabs(x) > 1
+           || fabs(qdot_chebyshev_at(p->n - 1, d, x)) > 0x1p-49 * qdot_chebyshev_size(p->n - 1, d);
+}
+
+/* How far from an extremum at x the function is flat but for rounding. */
+static double
+flat_width(const qdot_watch_part *p, const double *d, double x)
+{
+    double width = DBL_EPSILON;
+
+    while (!is_steep(p, d, x - width) || !is_steep(p, d, x + width))
+        width *= 2;
+    return width * fabs(p->b - p->a) / 2;
+}
+
 qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
+    double sure = p->a; /* g has `sign` there, by the states */
     int n = 0, sign = w->now.sign[i];
     bool grazes;
 
@@ -335,17 +384,20 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         if (touch || (e + 1 < n && there == 0)) {
             const double bend = within > 0 ? bend_at(p, d, x[e]) : 0;
 
+            if (within == 0)
+                forget_roundings(w, i, from);
             if (sign != 0 && !is_start_again(p, to))
                 QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                                         .t = to,
                                                         .residual = fabs(v),
+                                                        .blur = flat_width(p, d, x[e]),
                                                         .within = within,
                                                         .bend = bend}));
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {
             double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
-            end ends[2] = {{from, 0}, {to, 0}};
+            end ends[2] = {{sure, 0}, {to, 0}};
 
             QDOT_TRY(locate(w, i, there, ends, guess, &found));
             if (found && !is_start_again(p, ends[1].t)) {
@@ -359,9 +411,11 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
                     QDOT_TRY(refine(w, ends, &root));
                     QDOT_TRY(is_pole(w, p, ends, &root, &root.pole));
                 }
+                forget_roundings(w, i, from);
                 QDOT_TRY(qdot_watch_push(w, root));
             }
-            there = found ? there : sign;
+            sure = ends[found ? 1 : 0].t;
+            there = found || ends[1].g != 0 ? there : sign;
         }
         sign = there != 0 ? there : sign;
         from = to;

@@ -45,6 +45,9 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     return status;
 }
 
+/* The value at a pole: its square root can be told from it, and it can be added up. */
+static const double pole = 1e300;
+
 /* --- values -------------------------------------------------------------------------- */
 
 qdot_status
@@ -56,8 +59,10 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
             qdot_bind_accelerations(w->reader.system, t, w->in, w->in + 2 * w->n + 1));
     qdot_tape_eval(w->tape, w->in, g, w->work);
     for (size_t i = 0; i < w->m; i++)
-        if (!isfinite(g[i]))
+        if (isnan(g[i]))
             return qdot_fail(QDOT_EDOMAIN, "an event is undefined at t = %.15g", t);
+        else if (isinf(g[i]))
+            g[i] = copysign(pole, g[i]);
     return QDOT_OK;
 }
 

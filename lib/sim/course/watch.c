@@ -51,20 +51,41 @@ is_short(const qdot_watch *w, const qdot_watch_part *p)
     return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, 0x1p-44 * w->length);
 }
 
-/* Where 64 nodes are not enough: rounding may be all there is. */
+/* The rounding of g_i at time t and state z. */
 static qdot_status
-find_noise(qdot_watch *w)
+noise_at(qdot_watch *w, double t, size_t i, double *noise)
 {
-    memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
-    for (size_t i = 0; i < w->m; i++)
-        if (w->live[i] && isnan(w->noise[i])) {
-            QDOT_TRY(qdot_watch_noise(w, w->t, w->z, 4 * DBL_EPSILON, 0, i,
-                                      &w->noise[i]));
-            memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
-            QDOT_TRY(qdot_watch_value(w, w->t, w->g)); /* q'' too */
-            qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
-            w->noise[i] += 4 * DBL_EPSILON * (w->moved[i] + fabs(w->final[i]));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, noise));
+    memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
+    QDOT_TRY(qdot_watch_value(w, t, w->g)); /* q'' too */
+    qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
+    *noise += 4 * DBL_EPSILON * (w->moved[i] + fabs(w->final[i]));
+    return QDOT_OK;
+}
+
+/* Where 64 nodes are not enough rounding may be all there is. It is found at the start of the step and
+ * both ends of the part: a jump or a pole beside one of them makes it large there. */
+static qdot_status
+find_noise(qdot_watch *w, const qdot_watch_part *p)
+{
+    const double ends[] = {p->a, p->b};
+
+    for (size_t i = 0; i < w->m; i++) {
+        if (!w->live[i] || !isnan(w->noise[i]))
+            continue;
+        if (isnan(w->first_noise[i])) {
+            memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
+            QDOT_TRY(noise_at(w, w->t, i, &w->first_noise[i]));
         }
+        w->noise[i] = w->first_noise[i];
+        for (int k = p->a == w->t ? 1 : 0; k < 2; k++) {
+            double here;
+
+            QDOT_TRY(w->reader.read(ends[k], w->z, w->reader.user));
+            QDOT_TRY(noise_at(w, ends[k], i, &here));
+            w->noise[i] = fmin(w->noise[i], here);
+        }
+    }
     return QDOT_OK;
 }
 
@@ -74,11 +95,13 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
 {
     int nodes = w->nodes;
 
+    for (size_t i = 0; i < w->m; i++)
+        w->noise[i] = NAN;
     for (;; nodes *= 2) {
         QDOT_TRY(sample(w, p, nodes));
         *v = judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w));
+            QDOT_TRY(find_noise(w, p));
             *v = judge(w, p, nodes);
         }
         if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
@@ -87,14 +110,14 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     if (*v == QDOT_PART_GOOD) {
         *v = qdot_watch_judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w));
+            QDOT_TRY(find_noise(w, p));
             *v = qdot_watch_judge(w, p, nodes);
         }
     }
     if (*v != QDOT_PART_GOOD && !is_short(w, p))
         return QDOT_OK;
     if (*v == QDOT_PART_START_CUT) /* a zero left so slowly that only rounding is seen yet */
-        QDOT_TRY(find_noise(w));
+        QDOT_TRY(find_noise(w, p));
     *v = QDOT_PART_GOOD;
     w->nodes = nodes > LEAST ? nodes : LEAST;
     for (size_t i = 0; i < w->m; i++) {
@@ -232,7 +255,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
                      qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
                      !is_far(w, i, t, y, step);
         any |= w->live[i];
-        w->noise[i] = NAN;
+        w->first_noise[i] = NAN;
         w->fresh[i] = true;
         w->first[i] = w->start.sign[i];
         w->slow[i] = w->grazed[i] = false;
@@ -373,7 +396,7 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 8 * m +
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 9 * m +
                                  QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(3 * m + 1, sizeof *signs);
@@ -394,7 +417,8 @@ make_room(qdot_watch *w)
     w->g = w->work + work;
     w->moved = w->g + m;
     w->noise = w->moved + m;
-    w->size = w->noise + m;
+    w->first_noise = w->noise + m;
+    w->size = w->first_noise + m;
     w->clear = w->size + m;
     w->final = w->clear + m;
     w->start.g0 = w->final + m;

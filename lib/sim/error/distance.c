@@ -15,6 +15,9 @@ static const double least_turn = 0.5;
 /* A component that moves by fewer tolerances turns by rounding alone. */
 static const double tolerances = 1000;
 
+/* Points that tell what the companions are off by near t. */
+enum { near_points = 3 };
+
 /* The least error assumed for a companion, as a fraction of the run's. */
 static const double least_share = 1.0 / 32;
 
@@ -28,7 +31,7 @@ struct qdot_distance {
     bool *known;  /* [points] */
     double *unit; /* [n] 1/span; 0: it does not count */
     double *work; /* [4m] */
-    double *aside; /* [2m] */
+    double *aside; /* [3m] */
 };
 
 void
@@ -83,7 +86,7 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     d->known = qdot_calloc(tr->count + 1, sizeof *d->known);
     d->unit = qdot_calloc(tr->n + 1, sizeof *d->unit);
     d->work = qdot_calloc(4 * m + 1, sizeof *d->work);
-    d->aside = qdot_calloc(2 * m + 1, sizeof *d->aside);
+    d->aside = qdot_calloc(3 * m + 1, sizeof *d->aside);
     status = d->at && d->known && d->unit && d->work && d->aside ? QDOT_OK : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_reader_init(&d->own, of, &run->course);
@@ -203,6 +206,14 @@ is_unlike(const qdot_trajectory *tr, size_t k, size_t other)
     return !(0.5 <= ratio && ratio <= 2);
 }
 
+/* Whether what the companions were off by k points away from t had died out by then, beside what
+ * they are off by near it: the first few points. Beside a zero of order n they differ as k^n. */
+static bool
+has_died_out(double at, double near, int k)
+{
+    return k >= near_points && at > near * pow(2 * k, 3);
+}
+
 /* The largest over the points on one side, from k on in steps of `way`, into out [m];
  * *cut: a neighbouring piece, or what may be compared, ends it early. */
 static qdot_status
@@ -211,10 +222,10 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
     const size_t begin = k;
-    double turned = 0;
+    double turned = 0, *near = d->aside + 2 * d->m;
 
     for (size_t j = 0; j < d->m; j++)
-        out[j] = 0;
+        out[j] = near[j] = 0;
     *cut = false;
     for (int points = 0; points < QDOT_DISTANCE_POINTS && turned < least_turn; points++) {
         const double *at;
@@ -223,8 +234,12 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
         if (*cut || is_unlike(tr, k, begin))
             return QDOT_OK;
         QDOT_TRY(at_point(d, piece, k, &at));
-        for (size_t j = 0; j < d->m; j++)
-            out[j] = fmax(out[j], at[j]);
+        for (size_t j = 0; j < d->m; j++) {
+            if (points < near_points)
+                near[j] = fmax(near[j], at[j]);
+            if (!has_died_out(at[j], near[j], points))
+                out[j] = fmax(out[j], at[j]);
+        }
         if (k == (way > 0 ? last : first)) {
             *cut = k > 0; /* at the start of the run all is known */
             return QDOT_OK;

@@ -81,7 +81,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,
-                                   by + widths[i] + DBL_EPSILON * fabs(o->t), o->way,
+                                   by + widths[i] + o->blur + DBL_EPSILON * fabs(o->t), o->way,
                                    QDOT_NIL}));
     }
     qdot_free(seen);

@@ -1,0 +1,113 @@
+/* own-run.c -- makes, keeps and drops a statement's own run. */
+#include "lang/runs/own-run.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lang/language/read.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+
+static const char run_name[] = "the run";
+
+/* Keep the run, which is then the session's. */
+static qdot_status
+keep(qdot_session *session, const qdot_request *request, qdot_run *made, qdot_run **run,
+     qdot_expr *end)
+{
+    const qdot_run_report *report = qdot_run_get_report(made);
+
+    QDOT_TRY(qdot_runs_keep(session, run_name, "", &request->request, made));
+    if (run != NULL)
+        *run = made;
+    if (report->status == QDOT_RUN_FAILED)
+        return qdot_fail(QDOT_EFAILED, "%s",
+                         report->reason != NULL ? report->reason : "the run failed");
+    if (end != NULL)
+        *end = report->status == QDOT_RUN_DONE
+                   ? request->request.t1
+                   : qdot_measured_rational(session->pool, report->t1);
+    return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr from,
+                  qdot_expr to, qdot_run **run, qdot_expr *end)
+{
+    const qdot_run_options bare = {.tol = 1e-12};
+    qdot_request request = {0};
+    qdot_run *made = NULL;
+    qdot_status status =
+        qdot_run_options_fill(session, o != NULL ? o : &bare, &request);
+
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, &request);
+    if (status == QDOT_OK)
+        status = qdot_request_explain(session, &request,
+                                      qdot_run_new(session->scene, &request.request, &made));
+    if (status == QDOT_OK)
+        status = qdot_pool_check(session->pool);
+    if (made != NULL && status == QDOT_OK)
+        status = keep(session, &request, made, run, end);
+    else
+        qdot_run_free(made);
+    qdot_request_free(&request);
+    return status;
+}
+
+void
+qdot_own_run_drop(qdot_session *session)
+{
+    if (session->runs.n > 0
+        && strcmp(session->runs.at[session->runs.n - 1].name, run_name) == 0)
+        qdot_named_run_release(&session->runs.at[--session->runs.n]);
+}
+
+/* --- how long ------------------------------------------------------------------------------ */
+
+/* The time, or the end of the range A..B, at the cursor, if it is later than *latest. */
+static void
+read_time(qdot_cursor *c, qdot_expr *latest, double *t)
+{
+    qdot_expr e = QDOT_NIL;
+    double x;
+    qdot_status status = qdot_read_side(c, &e);
+
+    if (status == QDOT_OK && qdot_cursor_accept_op(c, ".."))
+        status = qdot_read_side(c, &e);
+    if (status == QDOT_OK && qdot_session_number(c->session, e, &x, NULL) == QDOT_OK
+        && fabs(x) > fabs(*t)) {
+        *t = x;
+        *latest = e;
+    }
+}
+
+qdot_expr
+qdot_own_run_needed(const qdot_cursor *c)
+{
+    static const char *const words[] = {"value", "max", "min", "mean", "drift"};
+    qdot_expr latest = QDOT_NIL;
+    double t = 0;
+
+    for (const qdot_token *at = c->at; at->kind != QDOT_TOKEN_END; at++) {
+        const qdot_token *comma = NULL, *in = at + 2;
+        bool is = false;
+
+        for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+            is = is || (at->kind == QDOT_TOKEN_NAME && strcmp(at->text, words[i]) == 0);
+        if (!is || !qdot_token_is(at + 1, "("))
+            continue;
+        for (int depth = 0; in->kind != QDOT_TOKEN_END && depth >= 0; in++) {
+            comma = depth == 0 && qdot_token_is(in, ",") ? in : comma;
+            depth += qdot_token_bracket(in);
+        }
+        if (comma != NULL) {
+            qdot_cursor look = *c;
+
+            look.at = comma + 1;
+            read_time(&look, &latest, &t);
+        }
+    }
+    return latest;
+}

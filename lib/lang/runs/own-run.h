@@ -1,0 +1,23 @@
+/* own-run.h -- a run that a statement makes for itself: the latest one until it is dropped, under a
+ * name that nobody can write.
+ *
+ * Tests  tests/script/sweep.sh, sensitivity.sh, find.sh
+ */
+#ifndef QDOT_LANG_OWN_RUN_H
+#define QDOT_LANG_OWN_RUN_H
+
+#include "lang/runs/run-options.h"
+#include "sim/run/run.h"
+
+/* Make the run from..to of the values in force, with these options (NULL: those of a bare `run`). *run,
+ * borrowed, and *end, its last time: NULL where not wanted. Drop it in any case. QDOT_EFAILED with the
+ * reason: the run failed. */
+QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session, const qdot_run_options *o,
+                                              qdot_expr from, qdot_expr to, qdot_run **run,
+                                              qdot_expr *end);
+void qdot_own_run_drop(qdot_session *session);
+
+/* The latest time of value(E, T), max(E, A..B), ... among the tokens from the cursor on; nil: none. */
+qdot_expr qdot_own_run_needed(const qdot_cursor *c);
+
+#endif
