@@ -16,7 +16,8 @@ typedef struct {
 static qdot_expr
 over_root(plane *p, qdot_expr e)
 {
-    return qdot_mul(p->f.pool, e, qdot_pow(p->f.pool, p->square, qdot_neg(p->f.pool, QDOT_HALF)));
+    return qdot_mul(p->f.pool, e,
+                    qdot_pow(p->f.pool, p->square, qdot_neg(p->f.pool, QDOT_HALF)));
 }
 
 static void
@@ -31,15 +32,18 @@ begin_plane(plane *p, long c)
     p->y = coordinate(&p->f, "y");
     must(qdot_scene_particle(p->f.scene, "p", QDOT_ONE, p->x));
     must(qdot_scene_particle(p->f.scene, "q", QDOT_ONE, p->y));
-    p->u = qdot_add(pool, velocity(&p->f, p->x), qdot_mul(pool, qdot_expr_int(pool, c), p->y));
-    p->v = qdot_sub(pool, velocity(&p->f, p->y), qdot_mul(pool, qdot_expr_int(pool, c), p->x));
+    p->u = qdot_add(pool, velocity(&p->f, p->x),
+                    qdot_mul(pool, qdot_expr_int(pool, c), p->y));
+    p->v = qdot_sub(pool, velocity(&p->f, p->y),
+                    qdot_mul(pool, qdot_expr_int(pool, c), p->x));
     p->square = qdot_add(pool, qdot_pow_int(pool, p->u, 2), qdot_pow_int(pool, p->v, 2));
 }
 
 static void
 pull(plane *p, qdot_expr of, qdot_expr force)
 {
-    must(qdot_scene_torque(p->f.scene, &(qdot_torque){.coordinate = of, .torque = force}));
+    must(
+        qdot_scene_torque(p->f.scene, &(qdot_torque){.coordinate = of, .torque = force}));
 }
 
 static void

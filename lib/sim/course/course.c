@@ -188,5 +188,6 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->watches.at);
     qdot_free(c->occurrences.at);
     qdot_free(c->ends.at);
+    qdot_free(c->rests.at);
     *c = (qdot_course){0};
 }

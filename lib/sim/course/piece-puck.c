@@ -18,7 +18,8 @@ static const double least = 0x1p-85;
 /* The acceleration of a puck near rest by its direction: d' = P + K e, with K s = -P of the shares. */
 typedef struct {
     size_t k;
-    double P[QDOT_PUCK_MOST], K[QDOT_PUCK_MOST * QDOT_PUCK_MOST], G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
+    double P[QDOT_PUCK_MOST], K[QDOT_PUCK_MOST * QDOT_PUCK_MOST],
+        G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
 } response;
 
 static qdot_puck *
@@ -29,8 +30,8 @@ puck_at(const qdot_piece *x, size_t i)
 
 /* d' in a mode at the state y [n], where it is moved by e times `speed`. */
 static qdot_status
-accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by, qdot_puck_state *s,
-           double *out)
+accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
+           qdot_puck_state *s, double *out)
 {
     const qdot_puck *puck = puck_at(x, i);
     const qdot_ode_system *system = x->c->systems.at + x->mode;
@@ -62,8 +63,9 @@ respond(qdot_piece *x, size_t i, double *rest, response *r)
     const size_t k = puck->k, n = x->n / 2;
     qdot_puck_state s = {.slopes = qdot_malloc(k * n * sizeof(double))};
     double plus[QDOT_PUCK_MOST], minus[QDOT_PUCK_MOST];
-    qdot_status status = s.slopes ? qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &s)
-                                  : QDOT_ENOMEM;
+    qdot_status status = s.slopes
+                             ? qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &s)
+                             : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         memcpy(rest, x->start.y, x->n * sizeof *rest);
@@ -98,7 +100,8 @@ brakes(const response *r)
         for (size_t b = 0; b < k; b++) {
             A[a * k + b] = 0;
             for (size_t c = 0; c < k; c++)
-                A[a * k + b] -= r->G[a * k + c] * r->K[c * k + b] + r->G[b * k + c] * r->K[c * k + a];
+                A[a * k + b] -=
+                    r->G[a * k + c] * r->K[c * k + b] + r->G[b * k + c] * r->K[c * k + a];
         }
     for (size_t a = 0; a < k; a++) {
         if (!(A[a * k + a] > 0))
@@ -157,7 +160,8 @@ start_of(const response *r, double *e)
 static void
 leave_late(qdot_piece *x, double late)
 {
-    for (size_t k = x->c->ends.n; k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
+    for (size_t k = x->c->ends.n;
+         k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, late);
 }
 
@@ -167,7 +171,8 @@ start_one(qdot_piece *x, size_t i, double speed)
 {
     const qdot_puck *puck = puck_at(x, i);
     const double duration = fabs(x->t1 - x->c->tr.t[0]);
-    double *rest = qdot_malloc(x->n * sizeof *rest), e[QDOT_PUCK_MOST], a, from, friction = 0;
+    double *rest = qdot_malloc(x->n * sizeof *rest), e[QDOT_PUCK_MOST], a, from,
+           friction = 0;
     response r;
     qdot_status status = rest ? respond(x, i, rest, &r) : QDOT_ENOMEM;
 
@@ -218,6 +223,10 @@ stop_one(qdot_piece *x, size_t i, const response *r, size_t behind)
         x->start.y[j] -= u * u / 2 * more;
         x->start.y[n + j] += u * more;
     }
+    if (status == QDOT_OK && slows > 0)
+        status = qdot_vec_push(&x->c->rests,
+                               ((qdot_course_rest){puck_at(x, i)->surface, x->start.t,
+                                                   x->start.t + now.speed / slows}));
     qdot_free(rates);
     return status;
 }
@@ -275,8 +284,8 @@ qdot_piece_stop_pucks(qdot_piece *x, bool anew)
         long *side = &x->side[puck->surface];
         qdot_puck_state now = {0};
 
-        if (puck->radius == 0 || x->direction < 0
-            || (!anew && old->side[puck->surface] != QDOT_SIDE_CREEPS))
+        if (puck->radius == 0 || x->direction < 0 ||
+            (!anew && old->side[puck->surface] != QDOT_SIDE_CREEPS))
             continue;
         QDOT_TRY(qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &now));
         if (now.speed <= puck->radius)

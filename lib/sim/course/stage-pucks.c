@@ -36,11 +36,13 @@ lower_one(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_
         qdot_expr rate = qdot_diff(pool, puck->rest[a], QDOT_T);
 
         for (size_t i = 0; i < n; i++) {
-            slopes[a * n + i] =
-                i < n - s->n_states ? qdot_diff(pool, puck->rest[a], in[n + i]) : QDOT_ZERO;
+            slopes[a * n + i] = i < n - s->n_states
+                                    ? qdot_diff(pool, puck->rest[a], in[n + i])
+                                    : QDOT_ZERO;
             if (i < n - s->n_states)
-                rate = qdot_add(pool, rate,
-                                qdot_mul(pool, in[n + i], qdot_diff(pool, puck->rest[a], in[i])));
+                rate = qdot_add(
+                    pool, rate,
+                    qdot_mul(pool, in[n + i], qdot_diff(pool, puck->rest[a], in[i])));
         }
         out[a] = puck->rest[a];
         out[k + a] = rate;
@@ -48,9 +50,11 @@ lower_one(const qdot_stage *s, const qdot_puck *puck, const qdot_expr *in, qdot_
 }
 
 qdot_status
-qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y, qdot_puck_state *of)
+qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y,
+                qdot_puck_state *of)
 {
-    const size_t n = s->n, k = s->switches.pucks.at[puck].k, all = qdot_tape_outputs(s->pucks);
+    const size_t n = s->n, k = s->switches.pucks.at[puck].k,
+                 all = qdot_tape_outputs(s->pucks);
     size_t at = 0;
     double *in = qdot_calloc(2 * n + 1 + all + qdot_tape_work(s->pucks) + 1, sizeof *in);
     double *out = in + 2 * n + 1, square = 0;
@@ -79,8 +83,8 @@ qdot_stage_puck(const qdot_stage *s, size_t puck, double t, const double *y, qdo
 
 /* The largest |B_ij|/M_ii of a puck at the start: what friction can change of q'_i. */
 static qdot_status
-friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols, const double *in,
-            double *most)
+friction_at(qdot_stage *s, const qdot_puck *puck, const qdot_expr *symbols,
+            const double *in, double *most)
 {
     const qdot_switches *w = &s->switches;
     const qdot_facts facts = qdot_scene_facts(s->scene);
@@ -148,7 +152,8 @@ lower(qdot_stage *s, qdot_expr *in)
 static bool
 has_series(const qdot_run_request *request)
 {
-    return !request->method || strcmp(request->method, "auto") == 0 || strcmp(request->method, "taylor") == 0;
+    return !request->method || strcmp(request->method, "auto") == 0 ||
+           strcmp(request->method, "taylor") == 0;
 }
 
 qdot_status
@@ -177,8 +182,8 @@ qdot_stage_pucks(qdot_stage *s, double t, const double *y, double latest)
         if (status != QDOT_OK)
             break;
         fast = fmax(friction * latest, isfinite(now.speed) ? now.speed : 0);
-        radius = (series ? errors : errors_without_series) * s->request->tol
-                 * (fast > 0 ? fmin(fast, 1) : 1);
+        radius = (series ? errors : errors_without_series) * s->request->tol *
+                 (fast > 0 ? fmin(fast, 1) : 1);
         if (!series)
             radius = fmax(radius, stop_without_series * friction * latest);
         if (friction > 0) /* what is left out of the way is well below tol */

@@ -17,8 +17,9 @@ twice_exponent(qdot_pool *pool, qdot_expr product, uint32_t i, long *twice)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, i + 1);
 
-    return qdot_expr_kind(pool, exponent) == QDOT_NUM
-           && qdot_expr_to_int(pool, qdot_mul(pool, qdot_expr_int(pool, 2), exponent), twice);
+    return qdot_expr_kind(pool, exponent) == QDOT_NUM &&
+           qdot_expr_to_int(pool, qdot_mul(pool, qdot_expr_int(pool, 2), exponent),
+                            twice);
 }
 
 static bool
@@ -36,7 +37,8 @@ half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
 /* Choose the velocities that rest determines: one after another |w|^2 is at its least by each, and it
  * is 0 in the end. *fits: whether |w|^2 is a square in this sense. */
 static qdot_status
-choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck, bool *fits)
+choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck,
+                  bool *fits)
 {
     qdot_pool *pool = scene->pool;
     qdot_expr left = puck->square;
@@ -81,7 +83,8 @@ find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
             puck->metric[a * k + b] = qdot_expand(pool, qdot_diff(pool, h[a], v[b]));
     }
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_solve_linear(pool, (uint32_t)k, puck->metric, h, puck->rest, &pivot, facts));
+    QDOT_TRY(
+        qdot_solve_linear(pool, (uint32_t)k, puck->metric, h, puck->rest, &pivot, facts));
     for (size_t a = 0; a < k; a++)
         puck->rest[a] = qdot_expand(pool, puck->rest[a]);
     return qdot_pool_check(pool);
@@ -110,7 +113,8 @@ add(qdot_switches *s, qdot_puck *puck)
 }
 
 static qdot_status
-look_at(const qdot_scene *scene, qdot_switches *s, const qdot_facts *facts, qdot_expr square)
+look_at(const qdot_scene *scene, qdot_switches *s, const qdot_facts *facts,
+        qdot_expr square)
 {
     qdot_puck puck = {.square = square};
     qdot_status status;
@@ -129,7 +133,8 @@ look_at(const qdot_scene *scene, qdot_switches *s, const qdot_facts *facts, qdot
 }
 
 qdot_status
-qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
+qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
+                qdot_switches *s)
 {
     const qdot_facts facts = qdot_scene_facts(scene);
     qdot_pool *pool = scene->pool;
@@ -142,16 +147,16 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request, qdot_s
     for (size_t i = 0; i < walk.n && status == QDOT_OK; i++) {
         const qdot_expr e = walk.at[i];
 
-        for (uint32_t k = 1;
-             qdot_expr_kind(pool, e) == QDOT_PROD && k + 1 < qdot_expr_count(pool, e)
-             && status == QDOT_OK;
+        for (uint32_t k = 1; qdot_expr_kind(pool, e) == QDOT_PROD &&
+                             k + 1 < qdot_expr_count(pool, e) && status == QDOT_OK;
              k += 2) {
             const qdot_expr base = qdot_expr_arg(pool, e, k);
             long twice;
 
-            if (qdot_expr_kind(pool, base) == QDOT_SUM && holds(pool, base, QDOT_HAS_VELOCITY)
-                && !holds(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
-                && twice_exponent(pool, e, k, &twice) && twice == -1)
+            if (qdot_expr_kind(pool, base) == QDOT_SUM &&
+                holds(pool, base, QDOT_HAS_VELOCITY) &&
+                !holds(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER) &&
+                twice_exponent(pool, e, k, &twice) && twice == -1)
                 status = look_at(scene, s, &facts, base);
         }
     }
@@ -165,9 +170,9 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request, qdot_s
 typedef struct {
     const qdot_puck *puck;
     enum {
-        AT_REST,    /* 1/|w| is the symbol `inverse`, positive powers are 0; */
+        AT_REST,     /* 1/|w| is the symbol `inverse`, positive powers are 0; */
         AS_INVERSES, /* all by `inverse`, and |w|^2; */
-        AS_LENGTHS  /* all by the symbol `length` */
+        AS_LENGTHS   /* all by the symbol `length` */
     } by;
     bool refused; /* AT_REST: there is a negative power other than 1/|w| */
 } replacement;
@@ -186,14 +191,15 @@ replace_leaf(qdot_pool *pool, qdot_expr node, void *user)
     if (qdot_expr_kind(pool, node) != QDOT_PROD)
         return QDOT_NIL;
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
-        if (qdot_expr_arg(pool, node, k) == square && twice_exponent(pool, node, k, &twice)
-            && (twice % 2 != 0 || twice < 0))
+        if (qdot_expr_arg(pool, node, k) == square &&
+            twice_exponent(pool, node, k, &twice) && (twice % 2 != 0 || twice < 0))
             at = k;
     if (at == 0)
         return QDOT_NIL;
     (void)twice_exponent(pool, node, at, &twice);
     r->refused |= twice < -1;
-    rest = qdot_div(pool, node, qdot_pow(pool, square, qdot_expr_arg(pool, node, at + 1)));
+    rest =
+        qdot_div(pool, node, qdot_pow(pool, square, qdot_expr_arg(pool, node, at + 1)));
     rest = replace(pool, rest, r);
     if (r->by == AS_LENGTHS)
         return qdot_mul(pool, rest, qdot_pow_int(pool, r->puck->length, twice));
@@ -201,7 +207,8 @@ replace_leaf(qdot_pool *pool, qdot_expr node, void *user)
         return QDOT_ZERO;
     if (twice > 0)
         rest = qdot_mul(pool, rest, qdot_pow_int(pool, square, (twice + 1) / 2));
-    return qdot_mul(pool, rest, qdot_pow_int(pool, r->puck->inverse, twice > 0 ? 1 : -twice));
+    return qdot_mul(pool, rest,
+                    qdot_pow_int(pool, r->puck->inverse, twice > 0 ? 1 : -twice));
 }
 
 static qdot_expr
@@ -223,8 +230,9 @@ mean(qdot_pool *pool, const qdot_puck *puck, qdot_expr C)
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t a = 0; a < puck->k; a++)
-        sum = qdot_add(pool, sum,
-                       qdot_mul(pool, puck->share[a], qdot_diff(pool, C, puck->symbol[a])));
+        sum =
+            qdot_add(pool, sum,
+                     qdot_mul(pool, puck->share[a], qdot_diff(pool, C, puck->symbol[a])));
     return sum;
 }
 
@@ -250,17 +258,21 @@ hold_one(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, qdot_e
     C = qdot_diff(pool, all, puck->inverse);
     QDOT_TRY(qdot_pool_check(pool));
     if (r.refused || contains(pool, C, puck->inverse))
-        return qdot_fail(QDOT_EFAILED, "a force there is not proportional to the direction of the motion");
+        return qdot_fail(
+            QDOT_EFAILED,
+            "a force there is not proportional to the direction of the motion");
     left = at_rest(pool, puck, C);
     QDOT_TRY(qdot_pool_check(pool));
     if (left != QDOT_ZERO && !qdot_is_zero(pool, left, facts))
         return qdot_fail(QDOT_EFAILED, "a force there is infinite");
-    *e = qdot_add(pool, qdot_subs(pool, all, 1, &puck->inverse, &zero), mean(pool, puck, C));
+    *e = qdot_add(pool, qdot_subs(pool, all, 1, &puck->inverse, &zero),
+                  mean(pool, puck, C));
     return qdot_pool_check(pool);
 }
 
 qdot_status
-qdot_puck_hold(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, size_t n, qdot_expr *e)
+qdot_puck_hold(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, size_t n,
+               qdot_expr *e)
 {
     for (size_t i = 0; i < n; i++)
         QDOT_TRY(hold_one(pool, puck, facts, &e[i]));
@@ -287,7 +299,8 @@ qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square)
     qdot_expr sum = QDOT_ONE;
 
     for (long n = 5; n >= 1; n--) { /* 1 - z/2 (1 - 3 z/4 (1 - 5 z/6 (...))) */
-        const qdot_expr c = qdot_div(pool, qdot_expr_int(pool, 2 * n - 1), qdot_expr_int(pool, 2 * n));
+        const qdot_expr c =
+            qdot_div(pool, qdot_expr_int(pool, 2 * n - 1), qdot_expr_int(pool, 2 * n));
 
         sum = qdot_sub(pool, QDOT_ONE, qdot_mul(pool, qdot_mul(pool, c, more), sum));
     }
@@ -303,13 +316,13 @@ divides(const qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_status *status)
 
     *status = qdot_walk_begin(pool, e, &walk);
     for (size_t i = 0; *status == QDOT_OK && i < walk.n; i++)
-        for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD
-                             && k + 1 < qdot_expr_count(pool, walk.at[i]);
+        for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD &&
+                             k + 1 < qdot_expr_count(pool, walk.at[i]);
              k += 2)
-            found = found
-                    || (qdot_expr_arg(pool, walk.at[i], k) == x
-                        && qdot_expr_is_negative((qdot_pool *)pool,
-                                                 qdot_expr_arg(pool, walk.at[i], k + 1)));
+            found =
+                found || (qdot_expr_arg(pool, walk.at[i], k) == x &&
+                          qdot_expr_is_negative((qdot_pool *)pool,
+                                                qdot_expr_arg(pool, walk.at[i], k + 1)));
     qdot_walk_end(&walk);
     return found;
 }
@@ -317,7 +330,8 @@ divides(const qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_status *status)
 qdot_status
 qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
 {
-    replacement near = {.puck = puck, .by = AS_LENGTHS}, moving = {.puck = puck, .by = AS_INVERSES};
+    replacement near = {.puck = puck, .by = AS_LENGTHS},
+                moving = {.puck = puck, .by = AS_INVERSES};
     const qdot_expr zeros[QDOT_PUCK_MOST] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO,
                                              QDOT_ZERO, QDOT_ZERO, QDOT_ZERO};
     qdot_expr to[QDOT_PUCK_MOST], rest = replace(pool, *e, &near);
@@ -331,12 +345,14 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     rest = qdot_expand(pool, qdot_subs(pool, rest, puck->k, puck->symbol, to));
     QDOT_TRY(qdot_pool_check(pool));
     if (divides(pool, rest, puck->length, &status))
-        return qdot_fail(QDOT_EFAILED,
-                         "it has no value where the motion rests: it is no function of the direction "
-                         "of a velocity");
+        return qdot_fail(
+            QDOT_EFAILED,
+            "it has no value where the motion rests: it is no function of the direction "
+            "of a velocity");
     QDOT_TRY(status);
     rest = qdot_subs(pool, rest, 1, &puck->length, zeros);
-    *e = qdot_add(pool, replace(pool, *e, &moving),
-                  qdot_sub(pool, rest, qdot_subs(pool, rest, puck->k, puck->share, zeros)));
+    *e = qdot_add(
+        pool, replace(pool, *e, &moving),
+        qdot_sub(pool, rest, qdot_subs(pool, rest, puck->k, puck->share, zeros)));
     return qdot_pool_check(pool);
 }

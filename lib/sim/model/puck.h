@@ -35,7 +35,8 @@ enum { QDOT_PUCK_CREEP_EXPONENT = -12 };
 
 /* Append the pucks in M q'' = f of the switches, and their surfaces. Errors: those of the pool,
  * QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
+QDOT_MUST_CHECK qdot_status qdot_pucks_find(const qdot_scene *scene,
+                                            const qdot_run_request *request,
                                             qdot_switches *switches);
 
 /* The puck of a surface; NULL: it is none. */
@@ -57,10 +58,12 @@ qdot_puck_is_held(long side)
 /* e [n] near rest, in place: f0 + sum B_j s_j with the symbols of the shares. QDOT_EFAILED with the
  * reason if it is not of that form. */
 QDOT_MUST_CHECK qdot_status qdot_puck_hold(qdot_pool *pool, const qdot_puck *puck,
-                                           const qdot_facts *facts, size_t n, qdot_expr *e);
+                                           const qdot_facts *facts, size_t n,
+                                           qdot_expr *e);
 
 /* s G s of shares [k]. */
-qdot_expr qdot_puck_square(qdot_pool *pool, const qdot_puck *puck, const qdot_expr *share);
+qdot_expr qdot_puck_square(qdot_pool *pool, const qdot_puck *puck,
+                           const qdot_expr *share);
 
 /* square^(-1/2) where a puck creeps, as a polynomial that is exact to doubles there: a root would become
  * an absolute value if the square is one. */
@@ -68,6 +71,7 @@ qdot_expr qdot_puck_inverse_root(qdot_pool *pool, qdot_expr square);
 
 /* e for reading along a run in which the puck rests at times, in place: by the symbols of its shares and
  * of 1/|w|, for any function of w/|w|. QDOT_EFAILED if it has no value at rest. */
-QDOT_MUST_CHECK qdot_status qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e);
+QDOT_MUST_CHECK qdot_status qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck,
+                                              qdot_expr *e);
 
 #endif

@@ -39,6 +39,16 @@ name(const qdot_run *run, size_t surface, qdot_text *to)
     return qdot_stage_describe(&run->stage, surface, 0, to);
 }
 
+/* When a puck that came to rest in a piece which began at t has stopped; else t. */
+static double
+stopped_at(const qdot_run *run, size_t surface, double t)
+{
+    for (size_t i = run->course.rests.n; i-- > 0;)
+        if (run->course.rests.at[i].surface == surface && run->course.rests.at[i].t == t)
+            return run->course.rests.at[i].after;
+    return t;
+}
+
 static qdot_status
 tell(qdot_run *run, size_t surface)
 {
@@ -48,7 +58,7 @@ tell(qdot_run *run, size_t surface)
     qdot_text *to = NULL;
 
     for (size_t k = 0; k < tr->pieces.n; k++) {
-        const double begin = tr->t[tr->pieces.at[k].first];
+        const double begin = stopped_at(run, surface, tr->t[tr->pieces.at[k].first]);
 
         if (!slides(run, k, surface))
             continue;
