@@ -28,6 +28,15 @@ puck_at(const qdot_piece *x, size_t i)
     return &x->c->stage->switches.pucks.at[i];
 }
 
+/* Change velocity a of a puck, and those that are tied to it. */
+static void
+change(const qdot_puck *puck, size_t a, double by, double *velocities)
+{
+    velocities[puck->velocity[a]] += by;
+    for (size_t j = 0; j < puck->n_tied; j++)
+        velocities[puck->tied[j]] += puck->follow[j][a] * by;
+}
+
 /* d' in a mode at the state y [n], where it is moved by e times `speed`. */
 static qdot_status
 accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
@@ -41,7 +50,7 @@ accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
 
     if (status == QDOT_OK) {
         memcpy(y, rest, x->n * sizeof *y);
-        y[n + puck->velocity[a]] += by;
+        change(puck, a, by, y + n);
         status = system->rhs(x->start.t, y, rates, system->user);
     }
     if (status == QDOT_OK)
@@ -70,7 +79,7 @@ respond(qdot_piece *x, size_t i, double *rest, response *r)
     if (status == QDOT_OK)
         memcpy(rest, x->start.y, x->n * sizeof *rest);
     for (size_t c = 0; c < k && status == QDOT_OK; c++)
-        rest[n + puck->velocity[c]] -= s.d[c];
+        change(puck, c, -s.d[c], rest + n);
     r->k = k;
     memcpy(r->G, s.G, k * k * sizeof *r->G);
     for (size_t a = 0; a < k && status == QDOT_OK; a++) {
@@ -184,7 +193,7 @@ start_one(qdot_piece *x, size_t i, double speed)
                     friction * least * duration);
         memcpy(x->start.y, rest, x->n * sizeof *rest);
         for (size_t c = 0; c < puck->k; c++)
-            x->start.y[x->n / 2 + puck->velocity[c]] += from * e[c];
+            change(puck, c, from * e[c], x->start.y + x->n / 2);
         if (a > 0)
             leave_late(x, (speed + from) / a);
     }

@@ -8,6 +8,7 @@
 #include "normal/prove/decide.h"
 #include "normal/solve/linear.h"
 #include "sim/model/substitute.h"
+#include "tape/constant.h"
 
 /* --- finding ------------------------------------------------------------------------- */
 
@@ -34,6 +35,75 @@ half_slope(qdot_pool *pool, qdot_expr e, qdot_expr v)
     return qdot_mul(pool, QDOT_HALF, qdot_diff(pool, e, v));
 }
 
+/* e without the velocities that are tied. */
+static qdot_expr
+untie(qdot_pool *pool, const qdot_puck *puck, qdot_expr e)
+{
+    return puck->n_tied == 0
+               ? e
+               : qdot_subs(pool, e, puck->n_tied, puck->tied_symbol, puck->to);
+}
+
+/* Tie a velocity of w by f = 0, the last whose coefficient is a number. */
+static qdot_status
+tie(const qdot_scene *scene, qdot_expr f, qdot_puck *puck)
+{
+    qdot_pool *pool = scene->pool;
+    const size_t k = puck->n_tied;
+    const qdot_expr zero = QDOT_ZERO;
+
+    for (size_t j = scene->coordinates.n; j-- > 0 && puck->n_tied == k;) {
+        const qdot_expr v = qdot_symbol_jet(pool, scene->coordinates.at[j], 1);
+        const qdot_expr slope = qdot_diff(pool, f, v);
+        qdot_expr to;
+
+        QDOT_TRY(qdot_pool_check(pool));
+        if (slope == QDOT_ZERO || holds(pool, slope, ~0u)
+            || !qdot_expr_contains(pool, puck->square, v))
+            continue;
+        to = qdot_neg(pool, qdot_div(pool, qdot_subs(pool, f, 1, &v, &zero), slope));
+        for (size_t i = 0; i < k; i++)
+            puck->to[i] = qdot_subs(pool, puck->to[i], 1, &v, &to);
+        puck->tied[k] = j;
+        puck->tied_symbol[k] = v;
+        puck->to[puck->n_tied++] = to;
+    }
+    return qdot_pool_check(pool);
+}
+
+/* The velocities of w that constraints tie. */
+static qdot_status
+find_tied(const qdot_scene *scene, const qdot_run_request *request, qdot_puck *puck)
+{
+    qdot_pool *pool = scene->pool;
+
+    for (size_t c = 0; c < scene->constraints.n && puck->n_tied < QDOT_PUCK_MOST_TIED; c++) {
+        const qdot_constraint *from = &scene->constraints.at[c];
+        qdot_expr f = qdot_substitute(pool, from->f, request->n_values, request->symbols,
+                                      request->values);
+
+        if (from->kind == QDOT_HOLONOMIC && f != QDOT_NIL)
+            f = qdot_ddt(pool, f);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(tie(scene, untie(pool, puck, f), puck));
+    }
+    return qdot_pool_check(pool);
+}
+
+/* How the tied velocities follow the others. */
+static qdot_status
+find_follow(qdot_pool *pool, qdot_puck *puck)
+{
+    for (size_t j = 0; j < puck->n_tied; j++)
+        for (size_t a = 0; a < puck->k; a++) {
+            const qdot_expr slope = qdot_diff(pool, puck->to[j], puck->symbol[a]);
+
+            QDOT_TRY(qdot_pool_check(pool));
+            QDOT_TRY(qdot_tape_constant(pool, slope, &puck->follow[j][a]));
+        }
+    return QDOT_OK;
+}
+
 /* Choose the velocities that rest determines: one after another |w|^2 is at its least by each, and it
  * is 0 in the end. *fits: whether |w|^2 is a square in this sense. */
 static qdot_status
@@ -41,7 +111,7 @@ choose_velocities(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *p
                   bool *fits)
 {
     qdot_pool *pool = scene->pool;
-    qdot_expr left = puck->square;
+    qdot_expr left = untie(pool, puck, puck->square);
 
     *fits = false;
     puck->k = 0;
@@ -73,12 +143,13 @@ find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
     qdot_pool *pool = scene->pool;
     const size_t k = puck->k;
     qdot_expr *v = puck->symbol, h[QDOT_PUCK_MOST];
+    const qdot_expr square = untie(pool, puck, puck->square);
     uint32_t pivot;
 
     for (size_t a = 0; a < k; a++)
         v[a] = qdot_symbol_jet(pool, scene->coordinates.at[puck->velocity[a]], 1);
     for (size_t a = 0; a < k; a++) {
-        h[a] = half_slope(pool, puck->square, v[a]);
+        h[a] = half_slope(pool, square, v[a]);
         for (size_t b = 0; b < k; b++)
             puck->metric[a * k + b] = qdot_expand(pool, qdot_diff(pool, h[a], v[b]));
     }
@@ -113,9 +184,10 @@ add(qdot_switches *s, qdot_puck *puck)
 }
 
 static qdot_status
-look_at(const qdot_scene *scene, qdot_switches *s, const qdot_facts *facts,
+look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s,
         qdot_expr square)
 {
+    const qdot_facts of = qdot_scene_facts(scene), *facts = &of;
     qdot_puck puck = {.square = square};
     qdot_status status;
     bool fits;
@@ -123,12 +195,15 @@ look_at(const qdot_scene *scene, qdot_switches *s, const qdot_facts *facts,
     for (size_t i = 0; i < s->pucks.n; i++)
         if (s->pucks.at[i].square == square)
             return QDOT_OK;
+    QDOT_TRY(find_tied(scene, request, &puck));
     QDOT_TRY(choose_velocities(scene, facts, &puck, &fits));
     if (!fits)
         return QDOT_OK;
     status = find_rest(scene, facts, &puck);
     if (status == QDOT_ESINGULAR)
         return QDOT_OK;
+    if (status == QDOT_OK)
+        status = find_follow(scene->pool, &puck);
     return status == QDOT_OK ? add(s, &puck) : status;
 }
 
@@ -136,7 +211,6 @@ qdot_status
 qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
                 qdot_switches *s)
 {
-    const qdot_facts facts = qdot_scene_facts(scene);
     qdot_pool *pool = scene->pool;
     qdot_status status = QDOT_OK;
     qdot_walk walk;
@@ -157,7 +231,7 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
                 holds(pool, base, QDOT_HAS_VELOCITY) &&
                 !holds(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER) &&
                 twice_exponent(pool, e, k, &twice) && twice == -1)
-                status = look_at(scene, s, &facts, base);
+                status = look_at(scene, request, s, base);
         }
     }
     qdot_walk_end(&walk);
@@ -255,7 +329,7 @@ hold_one(qdot_pool *pool, const qdot_puck *puck, const qdot_facts *facts, qdot_e
     qdot_expr C, left;
 
     QDOT_TRY(qdot_pool_check(pool));
-    C = qdot_diff(pool, all, puck->inverse);
+    C = untie(pool, puck, qdot_diff(pool, all, puck->inverse));
     QDOT_TRY(qdot_pool_check(pool));
     if (r.refused || contains(pool, C, puck->inverse))
         return qdot_fail(
@@ -342,6 +416,7 @@ qdot_puck_reading(qdot_pool *pool, const qdot_puck *puck, qdot_expr *e)
     for (size_t a = 0; a < puck->k; a++)
         to[a] = qdot_add(pool, qdot_sub(pool, puck->symbol[a], puck->rest[a]),
                          qdot_mul(pool, puck->length, puck->share[a]));
+    rest = untie(pool, puck, rest);
     rest = qdot_expand(pool, qdot_subs(pool, rest, puck->k, puck->symbol, to));
     QDOT_TRY(qdot_pool_check(pool));
     if (divides(pool, rest, puck->length, &status))

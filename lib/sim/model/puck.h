@@ -12,6 +12,9 @@
  * s G s <= 1: the cone of friction. Rest is thus of k conditions at once, where a surface along which
  * the motion slides is of one.
  *
+ * Velocities that constraints with constant coefficients tie to others, as on a plane, are replaced by
+ * these.
+ *
  * A puck is at rest where |w| is below a `radius`: so small that it would take the puck a few doubles
  * of t to stop, or as small as errors are by tol. It goes on from where it comes to rest then, by its
  * accelerations at the radius.

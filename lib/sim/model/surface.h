@@ -23,13 +23,18 @@ typedef struct {
 } qdot_surface;
 
 /* A vector w of velocities whose direction is in the equations (sim/model/puck.h). */
-enum { QDOT_PUCK_MOST = 6 };
+enum { QDOT_PUCK_MOST = 6, QDOT_PUCK_MOST_TIED = 4 };
 
 typedef struct {
     size_t surface; /* its surface */
     size_t k;       /* components */
     size_t velocity[QDOT_PUCK_MOST];  /* the coordinates j, */
     qdot_expr symbol[QDOT_PUCK_MOST]; /* and their q'_j */
+    /* Velocities of w that constraints, with constant coefficients, tie to others: q'_j = to, which
+     * changes by follow_ja with the velocity a above. */
+    size_t n_tied, tied[QDOT_PUCK_MOST_TIED];
+    qdot_expr tied_symbol[QDOT_PUCK_MOST_TIED], to[QDOT_PUCK_MOST_TIED];
+    double follow[QDOT_PUCK_MOST_TIED][QDOT_PUCK_MOST];
     qdot_expr square;                 /* |w|^2, with parameter values */
     qdot_expr rest[QDOT_PUCK_MOST];   /* d_j: q'_j less its value at w = 0 */
     qdot_expr metric[QDOT_PUCK_MOST * QDOT_PUCK_MOST]; /* [k x k] G */
