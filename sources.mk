@@ -438,6 +438,7 @@ library_sources = \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-layer.c \
+	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -445,6 +446,7 @@ library_sources = \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
+	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
 	lib/sim/course/watch-exclusion.c \
@@ -514,6 +516,7 @@ library_sources = \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
+	lib/sim/model/puck.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
 	lib/sim/model/sliding-rows.c \
@@ -1008,6 +1011,7 @@ library_headers = \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
+	lib/sim/model/puck.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
@@ -1239,6 +1243,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_puck \
 	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_response \
@@ -1404,6 +1409,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/poles.lag \
 	tests/script/processor.sh \
+	tests/script/puck.lag \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
@@ -1629,6 +1635,7 @@ script_tests = \
 	tests/bad/poincare.sh \
 	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/puck.lag \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
@@ -2033,6 +2040,7 @@ test_files = \
 	tests/bad/poincare.out \
 	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/puck.out \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
@@ -2441,6 +2449,7 @@ test_files = \
 	tests/script/poles.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
+	tests/script/puck.out \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
