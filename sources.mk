@@ -2530,7 +2530,10 @@ other_files = \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
+	bench/ensemble/peers.cc \
 	bench/ensemble/run \
+	bench/ensemble/sweeps \
+	bench/ensemble/wide.hh \
 	bench/hard/cases.py \
 	bench/hard/references \
 	bench/hard/run \
