@@ -338,6 +338,7 @@ library_sources = \
 	lib/ode/alternate.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
+	lib/ode/between.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
 	lib/ode/geometric/constant-steps.c \
@@ -861,6 +862,7 @@ library_headers = \
 	lib/ode/apart.h \
 	lib/ode/batch.def \
 	lib/ode/batch.h \
+	lib/ode/between.h \
 	lib/ode/companion.h \
 	lib/ode/crawl.h \
 	lib/ode/dop853.def \
