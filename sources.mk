@@ -2423,6 +2423,7 @@ other_files = \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
 	bench/ensemble/run \
+	bench/fits/coverage \
 	bench/hard/cases.py \
 	bench/hard/references \
 	bench/hard/run \
