@@ -77,6 +77,7 @@ library_sources = \
 	lib/lang/figures/animated.c \
 	lib/lang/figures/figure-file.c \
 	lib/lang/figures/figure-option.c \
+	lib/lang/figures/plot-branches.c \
 	lib/lang/figures/plot-over.c \
 	lib/lang/figures/plot-rows.c \
 	lib/lang/figures/plot-run.c \
@@ -119,9 +120,13 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
+	lib/lang/runs/branches.c \
 	lib/lang/runs/columns.c \
+	lib/lang/runs/continue.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
+	lib/lang/runs/find-read.c \
+	lib/lang/runs/find.c \
 	lib/lang/runs/fit-answer.c \
 	lib/lang/runs/fit-data.c \
 	lib/lang/runs/fit-model.c \
@@ -140,6 +145,8 @@ library_sources = \
 	lib/lang/runs/slopes.c \
 	lib/lang/runs/sweep-axis.c \
 	lib/lang/runs/sweep-file.c \
+	lib/lang/runs/sweep-lanes.c \
+	lib/lang/runs/sweep-plan.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/trial.c \
@@ -221,6 +228,7 @@ library_sources = \
 	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
+	lib/mech/study/equilibrium-curve.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-twice.c \
@@ -324,6 +332,7 @@ library_sources = \
 	lib/num/sparse.c \
 	lib/num/structure.c \
 	lib/num/two.c \
+	lib/num/zero.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
@@ -355,6 +364,7 @@ library_sources = \
 	lib/series/lanes-code-run.c \
 	lib/series/lanes-fold.c \
 	lib/series/lanes-motion.c \
+	lib/series/lanes-near.c \
 	lib/series/lanes-steps.c \
 	lib/series/lanes-sums.c \
 	lib/series/lanes-writer.c \
@@ -543,15 +553,22 @@ library_sources = \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
+	lib/sim/study/bifurcation.c \
+	lib/sim/study/branch.c \
+	lib/sim/study/continuation.c \
+	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble-steps.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
+	lib/sim/study/newton.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
+	lib/sim/study/rest-path.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -580,6 +597,7 @@ library_headers = \
 	lib/base/status.h \
 	lib/base/terminal.h \
 	lib/base/text.h \
+	lib/base/threads.h \
 	lib/base/utf8.h \
 	lib/base/workers.h \
 	lib/base/wrap.h \
@@ -623,6 +641,7 @@ library_headers = \
 	lib/lang/figures/animated.h \
 	lib/lang/figures/figure-file.h \
 	lib/lang/figures/figure-option.h \
+	lib/lang/figures/plot-branches.h \
 	lib/lang/figures/plot-parts.h \
 	lib/lang/figures/plot-rows.h \
 	lib/lang/figures/solid.h \
@@ -658,8 +677,10 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
+	lib/lang/runs/branches.h \
 	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
+	lib/lang/runs/find-parts.h \
 	lib/lang/runs/fit-parts.h \
 	lib/lang/runs/members.h \
 	lib/lang/runs/own-run.h \
@@ -669,6 +690,7 @@ library_headers = \
 	lib/lang/runs/slopes.h \
 	lib/lang/runs/sweep-axis.h \
 	lib/lang/runs/sweep-file.h \
+	lib/lang/runs/sweep-lanes.h \
 	lib/lang/runs/sweep-parts.h \
 	lib/lang/runs/trial.h \
 	lib/lang/session/along.h \
@@ -728,6 +750,7 @@ library_headers = \
 	lib/mech/study/chart.h \
 	lib/mech/study/collision.h \
 	lib/mech/study/distance-ends.h \
+	lib/mech/study/equilibrium-curve.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
@@ -825,6 +848,7 @@ library_headers = \
 	lib/num/sum.h \
 	lib/num/two.def \
 	lib/num/two.h \
+	lib/num/zero.h \
 	lib/ode/apart.h \
 	lib/ode/batch.def \
 	lib/ode/batch.h \
@@ -857,6 +881,7 @@ library_headers = \
 	lib/ode/written.h \
 	lib/series/lanes-code.h \
 	lib/series/lanes-motion.h \
+	lib/series/lanes-near.h \
 	lib/series/lanes-writer.h \
 	lib/series/lanes.def \
 	lib/series/lanes.h \
@@ -1013,15 +1038,22 @@ library_headers = \
 	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
+	lib/sim/study/bifurcation.h \
+	lib/sim/study/branch.h \
+	lib/sim/study/continuation.h \
+	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble-steps.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
+	lib/sim/study/newton.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
+	lib/sim/study/rest-path.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1143,6 +1175,7 @@ unit_tests = \
 	tests/num/test_structure \
 	tests/num/test_sum \
 	tests/num/test_two \
+	tests/num/test_zero \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_geometric \
@@ -1182,8 +1215,10 @@ unit_tests = \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
 	tests/sim/test_constraints \
+	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
+	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_exponents \
@@ -1242,6 +1277,8 @@ script_tests = \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
+	tests/script/continue-files.sh \
+	tests/script/continue.lag \
 	tests/script/coordinates.lag \
 	tests/script/data-files.sh \
 	tests/script/declarations.lag \
@@ -1275,6 +1312,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
+	tests/script/find.sh \
 	tests/script/fit.sh \
 	tests/script/flat-places.lag \
 	tests/script/flat-roots.lag \
@@ -1393,6 +1431,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/sweep-lanes.sh \
 	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
@@ -1443,6 +1482,7 @@ script_tests = \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
+	tests/bad/continue.sh \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
@@ -1470,6 +1510,21 @@ script_tests = \
 	tests/bad/export-nothing.lag \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
+	tests/bad/find-after.lag \
+	tests/bad/find-domain.lag \
+	tests/bad/find-empty.lag \
+	tests/bad/find-equation.lag \
+	tests/bad/find-flat.lag \
+	tests/bad/find-jump.lag \
+	tests/bad/find-length.lag \
+	tests/bad/find-many.lag \
+	tests/bad/find-nothing.lag \
+	tests/bad/find-pole.lag \
+	tests/bad/find-short.lag \
+	tests/bad/find-such.lag \
+	tests/bad/find-twice.lag \
+	tests/bad/find-unknown.lag \
+	tests/bad/find-vector.lag \
 	tests/bad/fit.sh \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
@@ -1682,8 +1737,10 @@ script_tests = \
 	examples/bead-on-wire.lag \
 	examples/bicycle.lag \
 	examples/bouncing-ball.lag \
+	examples/boundary-value.lag \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
+	examples/branches.lag \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/cart-pendulum.lag \
@@ -1824,6 +1881,7 @@ test_files = \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
+	tests/bad/continue.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
@@ -1851,6 +1909,21 @@ test_files = \
 	tests/bad/export-nothing.out \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
+	tests/bad/find-after.out \
+	tests/bad/find-domain.out \
+	tests/bad/find-empty.out \
+	tests/bad/find-equation.out \
+	tests/bad/find-flat.out \
+	tests/bad/find-jump.out \
+	tests/bad/find-length.out \
+	tests/bad/find-many.out \
+	tests/bad/find-nothing.out \
+	tests/bad/find-pole.out \
+	tests/bad/find-short.out \
+	tests/bad/find-such.out \
+	tests/bad/find-twice.out \
+	tests/bad/find-unknown.out \
+	tests/bad/find-vector.out \
 	tests/bad/fit.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
@@ -2062,6 +2135,7 @@ test_files = \
 	tests/examples/bead-on-wire.out \
 	tests/examples/bicycle.out \
 	tests/examples/bowling-ball.out \
+	tests/examples/branches.out \
 	tests/examples/bricard.out \
 	tests/examples/car-axis.out \
 	tests/examples/chain.out \
@@ -2210,6 +2284,8 @@ test_files = \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
+	tests/script/continue-files.out \
+	tests/script/continue.out \
 	tests/script/coordinates.out \
 	tests/script/data-files.out \
 	tests/script/declarations.out \
@@ -2247,6 +2323,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/figures.out \
+	tests/script/find.out \
 	tests/script/fit.out \
 	tests/script/flat-places.out \
 	tests/script/flat-roots.out \
@@ -2381,6 +2458,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/sweep-lanes.out \
 	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
@@ -2487,9 +2565,12 @@ example_files = \
 	examples/bicycle.svg \
 	examples/bouncing-ball.lag \
 	examples/bouncing-ball.svg \
+	examples/boundary-value.lag \
 	examples/bowling-ball.lag \
 	examples/brachistochrone-bead.lag \
 	examples/brachistochrone-bead.svg \
+	examples/branches.lag \
+	examples/branches.svg \
 	examples/bricard.lag \
 	examples/car-axis.lag \
 	examples/cart-pendulum.lag \

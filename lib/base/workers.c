@@ -16,6 +16,9 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/threads.h"
+
+bool qdot_threads_are_taken;
 
 static const double chunk_seconds = 0.02;
 enum { MOST_CHUNK = 4096, READ = 65536 };
@@ -103,7 +106,10 @@ serve(const qdot_workers_job *job, int ask, int answer)
 
     signal(SIGINT, SIG_IGN);
     qdot_progress_open = NULL;
-    while (read_all(ask, &r, sizeof r))
+    qdot_threads_are_taken = job->workers >= qdot_workers_processors();
+    while (read_all(ask, &r, sizeof r)) {
+        if (job->begin)
+            job->begin((size_t)r.first, (size_t)r.count, job->user);
         for (uint64_t k = r.first; k < r.first + r.count; k++) {
             head h = {.item = k};
 
@@ -114,6 +120,7 @@ serve(const qdot_workers_job *job, int ask, int answer)
                 || !write_all(answer, text.at, text.n))
                 _exit(1);
         }
+    }
     _exit(0);
 }
 
@@ -203,7 +210,7 @@ hand_out(crew *c, worker *w)
         const double share = (double)(job->end - c->next) / (2 * (double)job->workers);
         const double few = job->seconds > 0 ? chunk_seconds / job->seconds : 1;
 
-        r = next_chunk(c, fmin(fmin(few, share), MOST_CHUNK));
+        r = next_chunk(c, fmin(fmin(fmax(few, (double)job->least), share), MOST_CHUNK));
         if (r.count == 0)
             return;
     }

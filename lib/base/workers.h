@@ -18,6 +18,9 @@ typedef struct {
     size_t workers;    /* at least 1 */
     double seconds;    /* that an item takes, about; 0: unknown */
     void *user;
+    size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
+    /* In a worker: the items first ... first + count - 1 are next; NULL: nobody wants to know. */
+    void (*begin)(size_t first, size_t count, void *user);
     /* In a worker: do item k; its answer is appended. */
     void (*work)(size_t k, qdot_text *answer, void *user);
     /* Here: item k is answered, in whatever order; bytes NULL: two workers died of it. An error ends

@@ -65,6 +65,7 @@ typedef struct {
     qdot_batch_run *run;
     size_t n, moving, waiting; /* components, the first of which move; the next member */
     double *y, *carry, *next, *next_carry, *value, *slope, *first; /* [n groups] */
+    int64_t most_steps;
     double log_aim; /* as in taylor.c */
     /* By order: 1/k; log2 of how large terms may be, of the upper half beside that aim, of the
      * lower one; 0. */
@@ -191,9 +192,15 @@ judge(batch *b)
     bool again;
 
     confirm(b);
-    again = b->decide->accept(a, max_steps, taken, odd);
+    again = b->decide->accept(a, b->most_steps, taken, odd);
     b->kernels->blend(b->moving, taken, b->next, b->y);
     b->kernels->blend(b->moving, taken, b->next_carry, b->carry);
+    for (size_t l = 0; b->system->taken && l < L; l++)
+        if (taken[l] && b->system->taken(l, b->system->looker)) {
+            leave(b, l, QDOT_BATCH_LEFT);
+            odd[l] = 0;
+            again = true; /* with the member that came */
+        }
     for (size_t l = 0; again && l < L; l++) {
         if (!odd[l])
             continue;
@@ -317,6 +324,53 @@ go(batch *b)
     }
 }
 
+/* Shorten steps that would go over a part of f that is not seen where they begin: near_length of
+ * taylor-length.c. */
+static void
+come_near(batch *b)
+{
+    static const double narrowest = 0x1p-26;
+    lanes *a = &b->at;
+
+    for (size_t l = 0; b->system->near && l < L; l++) {
+        const double s = fabs(a->h[l] / a->old_unit[l]);
+        double near;
+
+        if (!a->tried[l])
+            continue;
+        near = b->system->near(l, b->run->order, s, b->system->user);
+        if (!(near < s) || near * fabs(a->old_unit[l]) < narrowest * fabs(a->t[l]))
+            continue;
+        a->unit[l] = a->old_unit[l];
+        a->tried[l] = 0;
+        try_step(b, l, near * fabs(a->old_unit[l]));
+    }
+}
+
+/* Show the steps that lanes are to try. */
+static qdot_status
+show(const batch *b)
+{
+    const qdot_ode_batch *system = b->system;
+    const lanes *a = &b->at;
+
+    for (size_t l = 0; system->tried && l < L; l++) {
+        const qdot_batch_step step = {.lane = l,
+                                      .member = a->member[l],
+                                      .t = a->t[l],
+                                      .t_end = a->end[l],
+                                      .unit = a->old_unit[l],
+                                      .order = b->run->order,
+                                      .last = a->end[l] == a->t1[l],
+                                      .x = system->x + l,
+                                      .y = b->y + l};
+
+        if (a->tried[l])
+            QDOT_TRY(system->tried(&step, system->looker));
+    }
+    return QDOT_OK;
+}
+
 static bool
 is_active(const batch *b)
 {
@@ -343,6 +397,8 @@ loop(batch *b)
         system->extend(b->run->order, system->user);
         b->run->expansions++;
         choose_steps(b);
+        come_near(b);
+        QDOT_TRY(show(b));
         go(b);
     }
     return QDOT_OK;
@@ -376,6 +432,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
                .run = run,
                .n = system->n,
                .moving = system->n - system->still,
+               .most_steps = run->most_steps ? (int64_t)run->most_steps : max_steps,
                .log_aim = log2(qdot_step_aim(run->tol, false))};
     size_t size = system->n * L;
     double *memory;

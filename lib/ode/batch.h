@@ -15,10 +15,23 @@
 #ifndef QDOT_ODE_BATCH_H
 #define QDOT_ODE_BATCH_H
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/status.h"
 #include "num/batch.h"
+
+/* A step that a member will try: its solution at t + unit s is sum_k x_ik s^k, k <= order, with
+ * x_ik = x[(i stride + k) QDOT_LANES]. */
+typedef struct {
+    size_t lane, member;
+    double t, t_end, unit;
+    int order;
+    bool last;       /* t_end is the member's end */
+    const double *x; /* of the lane */
+    const double *y; /* y_i = y[i QDOT_LANES] at t */
+} qdot_batch_step;
 
 /* As qdot_ode_series, every number a group of lanes. A lane where f is undefined gets
  * coefficients of order 1 that are not finite. */
@@ -39,14 +52,27 @@ typedef struct {
     /* Project y + carry [n groups], each lane at its t [a group], as qdot_ode_system.project
      * does; moved [a group] as there, NaN in a lane in which that fails. NULL: no projection. */
     void (*project)(const double *t, double *y, double *carry, double *moved, void *user);
-    void *user; /* borrowed */
+    /* As qdot_ode_series.near, of one lane; NULL likewise. */
+    double (*near)(size_t lane, int p, double s, void *user);
+    /* Look at a step, before it is confirmed; the last one that was looked at is taken, and the
+     * member ends there if `taken` says so. NULL: nobody looks. Errors of `tried` end the run. */
+    qdot_status (*tried)(const qdot_batch_step *step, void *user);
+    bool (*taken)(size_t lane, void *user);
+    void *user;        /* borrowed */
+    void *looker;      /* likewise, of these two */
 } qdot_ode_batch;
 
-typedef enum { QDOT_BATCH_DONE, QDOT_BATCH_UNDEFINED, QDOT_BATCH_STUCK, QDOT_BATCH_LIMIT } qdot_batch_outcome;
+typedef enum {
+    QDOT_BATCH_DONE,
+    QDOT_BATCH_UNDEFINED,
+    QDOT_BATCH_STUCK,
+    QDOT_BATCH_LIMIT,
+    QDOT_BATCH_LEFT
+} qdot_batch_outcome;
 
 typedef struct {
     qdot_batch_outcome outcome; /* arrived; f undefined at the start; no step small enough;
-                                   too many steps */
+                                   too many steps; ended by `taken` */
     double t;                   /* where it ended */
     size_t steps, rejected;
 } qdot_batch_result;
@@ -57,6 +83,7 @@ typedef struct {
     double tol; /* as qdot_ode_options.tol: 1e-16 to 1 */
     const double *t0, *t1; /* [members] t1 < t0 runs back */
     double t1_low;         /* the exact t1 less its double, the same for all members */
+    uint64_t most_steps;   /* of a member, tried; 0: 50 million */
     double *y;             /* [members x n] starts; then ends */
     qdot_batch_result *results; /* [members] */
     size_t expansions;          /* out: each counts once for all lanes */

@@ -310,6 +310,13 @@ choose_times(qdot_companion *c, double t0)
 }
 
 const double *
+qdot_companion_places(size_t *count)
+{
+    *count = PLACES;
+    return places;
+}
+
+const double *
 qdot_companion_times(const qdot_companion *c, size_t *count)
 {
     *count = c->samples;

@@ -133,6 +133,8 @@ QDOT_MUST_CHECK qdot_status qdot_companion_start(const qdot_companion_request *r
  * but not more than 30 times that at the end: if errors die out, as in stiff scenes, the last
  * step may leave far less than those before. *count is 0 for other methods. */
 const double *qdot_companion_times(const qdot_companion *c, size_t *count);
+/* They are these fractions of the way. */
+const double *qdot_companion_places(size_t *count);
 
 /* Show the state y [n] of the run at time k of these; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);

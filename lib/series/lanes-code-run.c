@@ -133,6 +133,10 @@ find_rows(qdot_lanes_writer *w)
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
             if (rows[r] != QDOT_NO_ROW)
                 w->rows[rows[r]].moving = true;
+        /* the length of steps reads these (near.h) */
+        if (qdot_recurrence_exponential(s->op) > 0 || qdot_recurrence_divisor(s->op))
+            for (size_t r = 0; r < 4; r++)
+                w->rows[(qdot_program_row[]){s->x, s->y, s->z, s->to}[r]].kept = true;
     }
 }
 

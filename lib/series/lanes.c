@@ -237,6 +237,12 @@ qdot_lanes_of_motion(const qdot_motion *motion, bool shaken, int most, qdot_lane
     return make(&motion->program, motion, shaken, most + 1, lanes);
 }
 
+const qdot_program *
+qdot_lanes_program(const qdot_lanes *t)
+{
+    return t->program;
+}
+
 qdot_lanes_rows
 qdot_lanes_get_rows(qdot_lanes *t)
 {

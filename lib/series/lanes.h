@@ -49,6 +49,7 @@ typedef struct {
 } qdot_lanes_rows;
 
 qdot_lanes_rows qdot_lanes_get_rows(qdot_lanes *lanes);
+const qdot_program *qdot_lanes_program(const qdot_lanes *lanes);
 
 /* --- motions ------------------------------------------------------------------------- */
 

@@ -1,7 +1,10 @@
 /* near.c -- sums that grow with the step, which halving finds; and a polynomial at a few places. */
 #include "series/near.h"
 
+#include <float.h>
 #include <math.h>
+
+#include "num/series.h"
 
 enum { halvings = 20 };
 
@@ -61,6 +64,20 @@ qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h)
             high = middle;
     }
     return low;
+}
+
+double
+qdot_near_argument(int p, const double *u, double times, double s)
+{
+    static const double digits = DBL_MANT_DIG * 0.6931471805599453;
+    double sizes[QDOT_SERIES_MOST + 1];
+    const double limit = qdot_near_limit(p, times * u[0], digits) / times;
+
+    if (qdot_near_sum(p, u, s) <= limit)
+        return s;
+    for (int k = 1; k <= p; k++)
+        sizes[k] = log2(fabs(u[k]));
+    return exp2(qdot_near_log2(p, sizes, limit, log2(s)));
 }
 
 /* --- what is divided by ---------------------------------------------------------------- */

@@ -38,6 +38,10 @@ double qdot_near_limit(int p, double u0, double digits);
  * at [1 ... p], is within the limit. */
 double qdot_near_log2(int p, const double *log2_sizes, double limit, double log2_h);
 
+/* So that the argument u [p + 1] of an exponential of doubles, so many times, is not carried too far:
+ * as much of a step of s. */
+double qdot_near_argument(int p, const double *u, double times, double s);
+
 #define QDOT_NEAR_LEFT 0.125
 
 /* Whether b [p + 1] may fall so far in a step of s, by the sizes of its terms alone. */

@@ -392,7 +392,9 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                       " with lines linewidth 1 linecolor rgb '#d0d0d0' notitle, ");
     }
     for (size_t k = 0; k < panel->n; k++) {
-        const bool point = panel->curves[k].rows == 1;
+        const qdot_curve *curve = &panel->curves[k];
+        const bool point = curve->rows == 1 || curve->points;
+        const size_t look = curve->look > 0 ? curve->look - 1 : k;
 
         qdot_text_add(d->script, k == 0 ? "" : ", ");
         add_source(d, i, k, axes, false);
@@ -401,15 +403,15 @@ add_curves(const qdot_figure_drawing *d, size_t i, const qdot_figure_axis *axes)
                              point_size(panel->curves[k].rows));
         else if (point || panel->marks)
             qdot_text_format(d->script, " with %spoints pointtype %d pointsize 0.8",
-                             point ? "" : "lines", marks[k % MARKS]);
+                             point ? "" : "lines", marks[look % MARKS]);
         else
             qdot_text_add(d->script, " with lines");
         if (panel->marks && panel->curves[k].rows > MANY_MARKS) /* not to hide each other */
             qdot_text_format(d->script, " pointinterval %zu",
                              panel->curves[k].rows / (MANY_MARKS / 2));
-        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[k % COLOURS]);
-        if (panel->n > 1 && !panel->marks && !panel->points && !point)
-            qdot_text_format(d->script, " dashtype %s", dashes[k % DASHES]);
+        qdot_text_format(d->script, " linewidth 1.4 linecolor rgb '%s'", colours[look % COLOURS]);
+        if ((panel->n > 1 || curve->look > 0) && !panel->marks && !panel->points && !point)
+            qdot_text_format(d->script, " dashtype %s", dashes[look % DASHES]);
         qdot_text_add(d->script, " title ");
         qdot_figure_add_label(d->script, &panel->curves[k].label);
     }

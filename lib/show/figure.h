@@ -25,6 +25,8 @@ typedef struct {
     qdot_figure_label label;  /* in the key; one curve has no key */
     size_t rows;
     const double *x, *y, *z;  /* [rows] borrowed; z NULL: in the plane */
+    size_t look;              /* 1 + the place in the lists of colours, dashes and marks; 0: its own place */
+    bool points;              /* marks that are not joined */
 } qdot_curve;
 
 /* The part of an axis that is shown, least < most; set false: all that the data need. */

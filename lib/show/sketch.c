@@ -88,7 +88,7 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
             draw_line(g, last, here);
         put(g, here[0], here[1]);
         memcpy(last, here, sizeof last);
-        open = true;
+        open = !c->points;
     }
 }
 

@@ -10,6 +10,4 @@ hamiltonian p[x]^2/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4
-find x = 0..1 such that value(x, 1) = 0
-continue equilibria in mu = 0..1
 EOF

@@ -28,8 +28,12 @@ qdot_row_answer_json(qdot_session *session, const qdot_row_table *table, size_t 
         qdot_text_add(&line, i == 0 ? "],\"errors\":[" : ",");
         qdot_number_text_json(&line, errors[i]);
     }
-    qdot_write_field(&line, "],\"status\":", table->reasons[k] == NULL ? "done" : "failed");
-    if (table->reasons[k] == NULL)
+    qdot_write_field(&line, "],\"status\":",
+                     table->reasons[k] == NULL || table->note != NULL ? "done" : "failed");
+    if (table->note != NULL && table->reasons[k] != NULL) {
+        qdot_text_format(&line, ",\"%s\":", table->note);
+        qdot_write_field(&line, "", table->reasons[k]);
+    } else if (table->reasons[k] == NULL)
         qdot_text_add(&line, ",\"reason\":null");
     else
         qdot_write_field(&line, ",\"reason\":", table->reasons[k]);
@@ -56,7 +60,7 @@ say_failed(const qdot_row_table *table, qdot_text *text)
 {
     size_t failed = 0;
 
-    for (size_t k = 0; k < table->rows; k++) {
+    for (size_t k = 0; table->note == NULL && k < table->rows; k++) {
         if (table->reasons[k] == NULL || ++failed > FEW)
             continue;
         name_row(table, k, text);
@@ -106,6 +110,11 @@ write_table(const qdot_row_table *table, qdot_text *out)
             qdot_text_format(out, "%s%*s%s", i > 0 ? QDOT_WRAP_CELL "  " : "",
                              (int)(width[i] - own), "", qdot_text_str(&cell));
         }
+        if (table->note != NULL)
+            qdot_text_format(out, QDOT_WRAP_CELL "  %s",
+                             k == 0                          ? table->note
+                             : table->reasons[k - 1] != NULL ? table->reasons[k - 1]
+                                                             : "");
         qdot_text_char(out, '\n');
     }
     if (status == QDOT_OK)

@@ -5,13 +5,23 @@
 
 #include "lang/figures/figure-file.h"
 #include "lang/figures/figure-option.h"
+#include "lang/figures/plot-branches.h"
 #include "lang/session/row-tables.h"
+
+/* The branches that `plot` alone shows: those of the latest `continue` without a name. */
+static qdot_row_table *
+branches_alone(const qdot_cursor *c)
+{
+    return qdot_row_tables_find(c->session, "branches");
+}
 
 bool
 qdot_plot_rows_is(const qdot_cursor *c)
 {
     const qdot_token *behind = c->at + 1;
 
+    if (qdot_cursor_is_end(c) || qdot_figure_option_is(c->at))
+        return branches_alone(c) != NULL;
     return c->at->kind == QDOT_TOKEN_NAME
            && (behind->kind == QDOT_TOKEN_END || qdot_figure_option_is(behind))
            && qdot_row_tables_find(c->session, c->at->text) != NULL;
@@ -125,11 +135,14 @@ typedef struct {
     qdot_figure_map *maps;
     double *numbers;
     size_t n;
+    qdot_branch_drawing branches; /* in place of all that */
 } drawing;
 
 static qdot_status
 draw(const qdot_row_table *t, drawing *d)
 {
+    if (t->marks != NULL)
+        return qdot_plot_branches_draw(t, &d->branches);
     d->panels = qdot_calloc(t->n, sizeof *d->panels);
     d->curves = qdot_calloc(t->n, sizeof *d->curves);
     d->maps = qdot_calloc(t->n, sizeof *d->maps);
@@ -156,28 +169,32 @@ draw(const qdot_row_table *t, drawing *d)
 qdot_status
 qdot_plot_rows(qdot_cursor *c)
 {
-    const qdot_row_table *t = qdot_row_tables_find(c->session, c->at->text);
+    const bool alone = qdot_cursor_is_end(c) || qdot_figure_option_is(c->at);
+    const qdot_row_table *t =
+        alone ? branches_alone(c) : qdot_row_tables_find(c->session, c->at->text);
     qdot_figure_choice choice = {0};
     qdot_panel_choice of_panel = {0};
     drawing d = {0};
     qdot_status status;
 
-    c->at++;
+    c->at += !alone;
     QDOT_TRY(qdot_figure_option_read(c, &choice, &of_panel));
     if (!qdot_cursor_is_end(c))
         return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
     status = draw(t, &d);
     if (status == QDOT_OK) {
-        const qdot_figure figure = {.panels = d.panels,
-                                    .n = d.n,
+        qdot_panel *const panels = t->marks != NULL ? d.branches.panels : d.panels;
+        const qdot_figure figure = {.panels = panels,
+                                    .n = t->marks != NULL ? d.branches.n : d.n,
                                     .width = choice.width,
                                     .height = choice.height,
                                     .keep = choice.keep};
 
-        for (size_t i = 0; i < d.n; i++)
-            qdot_figure_option_apply(&of_panel, &d.panels[i]);
+        for (size_t i = 0; i < figure.n; i++)
+            qdot_figure_option_apply(&of_panel, &panels[i]);
         status = qdot_figure_file_show(c->session, &figure, choice.path);
     }
+    qdot_plot_branches_free(&d.branches);
     qdot_free(d.panels);
     qdot_free(d.curves);
     qdot_free(d.maps);

@@ -8,7 +8,7 @@
 #include "lang/language/cursor.h"
 
 /* Whether the cursor stands before the name of a table of rows, with options of a figure or nothing
- * behind it. */
+ * behind it; or before these alone, where there are branches of equilibria. */
 bool qdot_plot_rows_is(const qdot_cursor *c);
 /* `NAME` with options: a curve for each number, over the one thing swept; over two, a map for each; of
  * random draws and of sections, points: the other numbers over the first. */

@@ -81,16 +81,23 @@ set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, doub
 }
 
 qdot_status
+qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double *swept)
+{
+    for (size_t i = 0; i < m->axes.at.n; i++)
+        QDOT_TRY(set_value(session, m, k, i, &swept[i]));
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
                  qdot_member_use use, void *user)
 {
     qdot_session *session = c->session;
     qdot_kept_values kept;
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     QDOT_TRY(qdot_session_keep_values(session, &kept));
-    for (size_t i = 0; i < m->axes.at.n && status == QDOT_OK; i++)
-        status = set_value(session, m, k, i, &swept[i]);
+    status = qdot_members_set(session, m, k, swept);
     if (status == QDOT_OK)
         status = make_run(c, m, use, user);
     qdot_session_restore_values(session, &kept);

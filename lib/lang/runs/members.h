@@ -23,6 +23,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_members_read(qdot_cursor *c, qdot_members *m);
 void qdot_members_free(qdot_members *m);
 
+/* Put the values of member k in force, swept [axes] out; the caller keeps and restores the session's. */
+QDOT_MUST_CHECK qdot_status qdot_members_set(qdot_session *session, const qdot_members *m, size_t k,
+                                             double *swept);
+
 /* What is done with a member's run; end: its last time. */
 typedef qdot_status (*qdot_member_use)(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user);
 

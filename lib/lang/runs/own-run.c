@@ -38,14 +38,13 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
     const qdot_run_options bare = {.tol = 1e-12};
     qdot_request request = {0};
     qdot_run *made = NULL;
-    qdot_status status =
-        qdot_run_options_fill(session, o != NULL ? o : &bare, &request);
+    qdot_status status = qdot_run_options_fill(session, o != NULL ? o : &bare, &request);
 
     if (status == QDOT_OK)
         status = qdot_request_limits(session, from, to, &request);
     if (status == QDOT_OK)
-        status = qdot_request_explain(session, &request,
-                                      qdot_run_new(session->scene, &request.request, &made));
+        status = qdot_request_explain(
+            session, &request, qdot_run_new(session->scene, &request.request, &made));
     if (status == QDOT_OK)
         status = qdot_pool_check(session->pool);
     if (made != NULL && status == QDOT_OK)
@@ -59,8 +58,8 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
 void
 qdot_own_run_drop(qdot_session *session)
 {
-    if (session->runs.n > 0
-        && strcmp(session->runs.at[session->runs.n - 1].name, run_name) == 0)
+    if (session->runs.n > 0 &&
+        strcmp(session->runs.at[session->runs.n - 1].name, run_name) == 0)
         qdot_named_run_release(&session->runs.at[--session->runs.n]);
 }
 
@@ -76,8 +75,8 @@ read_time(qdot_cursor *c, qdot_expr *latest, double *t)
 
     if (status == QDOT_OK && qdot_cursor_accept_op(c, ".."))
         status = qdot_read_side(c, &e);
-    if (status == QDOT_OK && qdot_session_number(c->session, e, &x, NULL) == QDOT_OK
-        && fabs(x) > fabs(*t)) {
+    if (status == QDOT_OK && qdot_session_number(c->session, e, &x, NULL) == QDOT_OK &&
+        fabs(x) > fabs(*t)) {
         *t = x;
         *latest = e;
     }

@@ -12,8 +12,9 @@
 /* Make the run from..to of the values in force, with these options (NULL: those of a bare `run`). *run,
  * borrowed, and *end, its last time: NULL where not wanted. Drop it in any case. QDOT_EFAILED with the
  * reason: the run failed. */
-QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session, const qdot_run_options *o,
-                                              qdot_expr from, qdot_expr to, qdot_run **run,
+QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session,
+                                              const qdot_run_options *o, qdot_expr from,
+                                              qdot_expr to, qdot_run **run,
                                               qdot_expr *end);
 void qdot_own_run_drop(qdot_session *session);
 

@@ -6,6 +6,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/report.h"
 #include "lang/runs/run.h"
+#include "lang/runs/sweep-parts.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/language/read.h"
@@ -121,7 +122,11 @@ qdot_run_plan_statement(qdot_cursor *c)
     const qdot_token *start = c->at - 1;
     qdot_request request = {0};
     qdot_text text = {0};
-    qdot_status status = read_plan_options(c, &o);
+    qdot_status status;
+
+    if (qdot_cursor_accept_word(c, "sweep"))
+        return qdot_sweep_plan(c);
+    status = read_plan_options(c, &o);
 
     if (status == QDOT_OK) {
         c->error_at = start->start;

@@ -22,8 +22,8 @@ const char qdot_slopes_run[] = "the slopes";
 
 /* --- names ------------------------------------------------------------------------------ */
 
-static qdot_status
-read_name(qdot_cursor *c, qdot_slope_name *x)
+qdot_status
+qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x)
 {
     qdot_cursor look = *c;
     const qdot_name *known = NULL;
@@ -49,7 +49,7 @@ qdot_slopes_read(qdot_cursor *c, qdot_slopes *s)
     s->session = c->session;
     do {
         qdot_slope_name x;
-        qdot_status status = read_name(c, &x);
+        qdot_status status = qdot_slope_name_read(c, &x);
 
         if (status == QDOT_OK)
             status = qdot_vec_push(&s->names, x);

@@ -40,6 +40,8 @@ typedef struct {
 /* The name under which that run is kept meanwhile. */
 extern const char qdot_slopes_run[];
 
+/* Read one name, a parameter, q or q'; its label is the caller's to free. */
+QDOT_MUST_CHECK qdot_status qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x);
 /* Read `NAME, ...` into slopes from {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_read(qdot_cursor *c, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,

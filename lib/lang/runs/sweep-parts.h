@@ -23,7 +23,18 @@ typedef struct {
     bool interrupted;
     double kept_at, keeping; /* when the file was written last, how long that took */
     size_t row;              /* that is being made */
+    struct qdot_sweep_lanes *lanes; /* that make rows side by side; NULL: none */
 } qdot_sweep;
+
+/* What a sweep would do, in words: its members, whether they go by lanes, and, from a few of them that
+ * are run, how long it takes; s as for qdot_sweep_make_rows. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text);
+
+/* Behind the words `plan sweep`. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_plan(qdot_cursor *c);
+
+/* Make row k of the table, in this process. QDOT_EFAILED and others: the row's own failure. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_fill_row(qdot_sweep *s, size_t k);
 
 /* Make all rows of the empty table, but for those that the file has; after Ctrl-C those that are done
  * are left. */

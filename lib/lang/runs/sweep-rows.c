@@ -8,6 +8,7 @@
 #include "base/workers.h"
 #include "lang/answer/row-answer.h"
 #include "lang/runs/sweep-file.h"
+#include "lang/runs/sweep-lanes.h"
 #include "lang/runs/sweep-parts.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -15,6 +16,9 @@
 
 /* Seconds of work that are worth more than one process. */
 static const double worth = 0.05;
+
+/* Rows that are made side by side: together in this process; at least, in another. */
+enum { TOGETHER = 256, LEAST = 32 };
 
 /* --- a row ------------------------------------------------------------------------------ */
 
@@ -53,11 +57,14 @@ fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
     return QDOT_OK;
 }
 
-static qdot_status
-fill_row(qdot_sweep *s, size_t k)
+qdot_status
+qdot_sweep_fill_row(qdot_sweep *s, size_t k)
 {
     qdot_row_table *t = s->table;
+    qdot_status status;
 
+    if (s->lanes != NULL && qdot_sweep_lanes_made(s->lanes, k, &status))
+        return status;
     s->row = k;
     for (size_t i = 0; i < t->n_swept; i++)
         t->errors[k * t->n + i] = 0;
@@ -122,13 +129,23 @@ typedef struct {
     size_t error_at, message, hint;
 } row_head;
 
+/* Make what rows can be made side by side; a failure shows in the runs alone. */
+static void
+begin_rows_there(size_t first, size_t count, void *user)
+{
+    qdot_sweep *s = user;
+
+    if (qdot_sweep_lanes_run(s->lanes, first, count) != QDOT_OK)
+        return;
+}
+
 static void
 work_on_row(size_t k, qdot_text *answer, void *user)
 {
     qdot_sweep *s = user;
     const qdot_row_table *t = s->table;
     const size_t bytes = t->n * sizeof *t->values;
-    row_head h = {.status = fill_row(s, k), .error_at = s->c->error_at};
+    row_head h = {.status = qdot_sweep_fill_row(s, k), .error_at = s->c->error_at};
     const qdot_error *error = qdot_last_error();
 
     if (h.status != QDOT_OK) {
@@ -173,10 +190,14 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
 static qdot_status
 run_here(qdot_sweep *s, size_t first, size_t end)
 {
-    for (size_t k = first; k < end; k++) {
+    for (size_t k = first, next = first; k < end; k++) {
         qdot_progress_at((double)k);
+        if (s->lanes != NULL && k == next) {
+            next = end - k < TOGETHER ? end : k + TOGETHER;
+            QDOT_TRY(qdot_sweep_lanes_run(s->lanes, k, next - k));
+        }
         if (!s->done[k])
-            QDOT_TRY(take_row(s, k, fill_row(s, k)));
+            QDOT_TRY(take_row(s, k, qdot_sweep_fill_row(s, k)));
     }
     return QDOT_OK;
 }
@@ -193,9 +214,15 @@ run_all(qdot_sweep *s)
 
     while (first < members && s->done[first])
         first++;
-    job.first = first + (first < members);
-    QDOT_TRY(run_here(s, 0, job.first));
-    job.seconds = qdot_wall_now() - begun;
+    job.first = first + (s->lanes != NULL ? LEAST : 1);
+    if (job.first > members)
+        job.first = members;
+    QDOT_TRY(run_here(s, first, job.first));
+    job.seconds = (qdot_wall_now() - begun) / (double)(job.first > first ? job.first - first : 1);
+    if (s->lanes != NULL) {
+        job.begin = begin_rows_there;
+        job.least = LEAST;
+    }
     job.workers = s->threads > 0 ? (size_t)s->threads : qdot_workers_processors();
     if (s->threads == 0 && job.seconds * (double)(members - first) < worth)
         job.workers = 1;
@@ -249,12 +276,18 @@ qdot_status
 qdot_sweep_make_rows(qdot_sweep *s)
 {
     const size_t start = s->c->error_at;
+    qdot_text why = {0}; /* for `plan sweep` */
     qdot_status status;
 
     QDOT_TRY(begin_rows(s));
     s->c->error_at = start;
     s->kept_at = qdot_wall_now();
-    status = run_all(s);
+    status = qdot_sweep_lanes_new(s, &s->lanes, &why);
+    if (status == QDOT_OK)
+        status = run_all(s);
+    qdot_sweep_lanes_free(s->lanes);
+    qdot_text_clear(&why);
+    s->lanes = NULL;
     if (status == QDOT_EINTR && s->n_done > 0) {
         qdot_interrupt_clear(); /* heard: the rows that are done are kept */
         s->interrupted = true;

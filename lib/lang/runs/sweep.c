@@ -172,6 +172,16 @@ carry_out(qdot_cursor *c, qdot_sweep *s)
     return QDOT_OK;
 }
 
+static void
+sweep_free(qdot_sweep *s)
+{
+    qdot_row_table_release(s->table);
+    qdot_members_free(&s->members);
+    qdot_columns_free(&s->columns);
+    qdot_text_clear(&s->said);
+    qdot_free(s->done);
+}
+
 qdot_status
 qdot_sweep_statement(qdot_cursor *c)
 {
@@ -190,10 +200,26 @@ qdot_sweep_statement(qdot_cursor *c)
         status = s.table->members ? carry_out(c, &s) : QDOT_ENOMEM;
     }
     qdot_run_options_place(c, &s.members.run, status);
-    qdot_row_table_release(s.table);
-    qdot_members_free(&s.members);
-    qdot_columns_free(&s.columns);
-    qdot_text_clear(&s.said);
-    qdot_free(s.done);
+    sweep_free(&s);
+    return status;
+}
+
+qdot_status
+qdot_sweep_plan(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
+    qdot_text text = {0};
+    qdot_status status = read_sweep(c, &s);
+
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = make_table(c->session, &s);
+    }
+    if (status == QDOT_OK)
+        status = qdot_sweep_tell_plan(&s, &text);
+    qdot_run_options_place(c, &s.members.run, status);
+    status = qdot_answer_written(c->session, "plan", status, &text);
+    sweep_free(&s);
     return status;
 }

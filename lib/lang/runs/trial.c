@@ -87,7 +87,8 @@ qdot_trial_at_end(qdot_session *session, qdot_expr *e)
 }
 
 qdot_status
-qdot_trial_numbers(qdot_trial *t, size_t m, const qdot_expr *e, double *value, double *error)
+qdot_trial_numbers(qdot_trial *t, size_t m, const qdot_expr *e, double *value,
+                   double *error)
 {
     for (size_t i = 0; i < m; i++)
         QDOT_TRY(qdot_session_number(t->session, e[i], &value[i], &error[i]));
@@ -118,9 +119,9 @@ qdot_status
 qdot_trial_vary(qdot_trial *t, size_t m, const qdot_expr *e)
 {
     QDOT_TRY(name_directions(t));
-    return qdot_slopes_make(&t->slopes, NULL,
-                            m == 0 ? QDOT_ZERO : qdot_list(t->session->pool, (uint32_t)m, e),
-                            t->first);
+    return qdot_slopes_make(
+        &t->slopes, NULL,
+        m == 0 ? QDOT_ZERO : qdot_list(t->session->pool, (uint32_t)m, e), t->first);
 }
 
 /* e with the numbers of other runs as constants. */
@@ -139,14 +140,16 @@ hold_others(const qdot_trial *t, qdot_expr *e)
         QDOT_TRY(qdot_runs_find(session, m->origin.run, &named));
         if (named->run == t->run)
             continue;
-        number = m->digits > 0 ? m->exact : qdot_measured_rational(session->pool, m->value);
+        number =
+            m->digits > 0 ? m->exact : qdot_measured_rational(session->pool, m->value);
         *e = qdot_subs(session->pool, *e, 1, &m->symbol, &number);
     }
     return qdot_pool_check(session->pool);
 }
 
 qdot_status
-qdot_trial_slopes(qdot_trial *t, size_t m, const qdot_expr *e, double *slope, double *error)
+qdot_trial_slopes(qdot_trial *t, size_t m, const qdot_expr *e, double *slope,
+                  double *error)
 {
     qdot_status status = QDOT_OK;
     qdot_expr *held = qdot_calloc(m + 1, sizeof *held);

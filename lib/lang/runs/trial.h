@@ -18,9 +18,10 @@
 #include "lang/runs/slopes.h"
 
 typedef struct {
-    qdot_session *session;           /* borrowed, as all that follows */
-    size_t n;                        /* unknowns */
-    const qdot_slope_name *unknowns; /* [n] label and symbol of a parameter, q or q'; a FORMAL symbol that
+    qdot_session *session; /* borrowed, as all that follows */
+    size_t n;              /* unknowns */
+    const qdot_slope_name
+        *unknowns; /* [n] label and symbol of a parameter, q or q'; a FORMAL symbol that
                                         limits and times hold: one of the statement's own */
     const qdot_run_options *options; /* NULL: those of a bare `run` */
     qdot_expr from, to;              /* limits; they may hold unknowns */
@@ -31,7 +32,8 @@ typedef struct {
     qdot_expr end; /* its last time, exact */
     size_t first;  /* numbers measured before it */
     qdot_kept_values kept;
-    qdot_slopes slopes; /* of which slopes.variation.scene, and the run of name qdot_slopes_run */
+    qdot_slopes
+        slopes; /* of which slopes.variation.scene, and the run of name qdot_slopes_run */
 } qdot_trial;
 
 /* Put values [n], exact, in force as `set` and `start` do; QDOT_EDOMAIN: one lies outside its domain. */
@@ -50,8 +52,9 @@ QDOT_MUST_CHECK qdot_status qdot_trial_at_time(qdot_session *session, qdot_expr 
                                                qdot_expr time, qdot_expr *number);
 
 /* Expressions e [m] of numbers as doubles, with their errors (NaN: unknown). */
-QDOT_MUST_CHECK qdot_status qdot_trial_numbers(qdot_trial *t, size_t m, const qdot_expr *e,
-                                               double *value, double *error);
+QDOT_MUST_CHECK qdot_status qdot_trial_numbers(qdot_trial *t, size_t m,
+                                               const qdot_expr *e, double *value,
+                                               double *error);
 
 /* Make the run with slopes, as far as the numbers in e [m] need it (m = 0: to the end of the run). */
 QDOT_MUST_CHECK qdot_status qdot_trial_vary(qdot_trial *t, size_t m, const qdot_expr *e);

@@ -89,7 +89,7 @@ qdot_session_bind(qdot_session *session, qdot_expr e)
         qdot_expr before = e;
 
         if (session->set_symbols.n == 0 ||
-            !(holds & (QDOT_HAS_PARAM | QDOT_HAS_UFUN | QDOT_HAS_MOMENTUM)))
+            !(holds & (QDOT_HAS_PARAM | QDOT_HAS_UFUN | QDOT_HAS_MOMENTUM | QDOT_HAS_FORMAL)))
             return e;
         e = qdot_subs(pool, e, session->set_symbols.n, session->set_symbols.at,
                       session->set_values.at);

@@ -42,7 +42,7 @@ label_columns(const qdot_row_table *t, size_t first, qdot_row_columns *x)
         QDOT_TRY(qdot_text_status(label));
         x->columns[i] = (qdot_column){qdot_text_str(label), x->values + i * x->rows};
     }
-    x->columns[x->n].label = "reason";
+    x->columns[x->n].label = t->note != NULL ? t->note : "reason";
     x->texts[x->n] = x->reasons;
     return QDOT_OK;
 }

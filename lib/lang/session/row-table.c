@@ -62,6 +62,7 @@ qdot_row_table_release(qdot_row_table *t)
     for (size_t i = 0; t->reasons != NULL && i < t->rows; i++)
         qdot_free(t->reasons[i]);
     qdot_function_body_release(t->members);
+    qdot_row_table_release(t->marks);
     qdot_free(t->name);
     qdot_free(t->labels);
     qdot_free(t->values);

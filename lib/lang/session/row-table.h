@@ -23,6 +23,10 @@ typedef struct qdot_row_table {
     size_t rows, room;
     double *values, *errors; /* [rows x n]; NaN: there is no number; its error is unknown */
     char **reasons;          /* [rows] why a row failed; NULL: it did not */
+    const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
+                                NULL */
+    struct qdot_row_table *marks; /* the rows are branches (runs/branches.h), these the points marked on
+                                     them, one use of which is held; NULL: they are none */
     unsigned uses;
 } qdot_row_table;
 

@@ -27,6 +27,13 @@ typedef struct {
     bool complete;
 } qdot_rest;
 
+/* The equations at rest and their unknowns; ended in any case. Then all places of rest, to r->found, not
+ * judged; *out: what is known of a search in numbers. (equilibrium.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_begin(qdot_rest *r, qdot_scene *s);
+QDOT_MUST_CHECK qdot_status qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user,
+                                           qdot_equilibria *out);
+void qdot_rest_end(qdot_rest *r);
+
 /* A LIST and n more; nil stands for the empty one. */
 qdot_expr qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n,
                              const qdot_expr *more);

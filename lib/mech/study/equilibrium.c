@@ -230,17 +230,33 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
     return status;
 }
 
-static qdot_status
-solve(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+qdot_status
+qdot_rest_begin(qdot_rest *r, qdot_scene *s)
 {
-    qdot_expr equations;
-    bool lasting;
-
+    *r = (qdot_rest){.s = s,
+                     .pool = s->pool,
+                     .facts = qdot_scene_facts(s),
+                     .work = WORK,
+                     .complete = true};
     QDOT_TRY(qdot_pool_check(r->pool));
     QDOT_TRY(qdot_rest_equations(r, &r->equations));
-    QDOT_TRY(find_unknowns(r));
-    lasting = holds_time(r, r->equations);
-    equations = r->equations;
+    return find_unknowns(r);
+}
+
+void
+qdot_rest_end(qdot_rest *r)
+{
+    qdot_free(r->todo.at);
+    qdot_free(r->unknowns.at);
+    qdot_free(r->found.at);
+}
+
+qdot_status
+qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+{
+    qdot_expr equations = r->equations;
+    bool lasting = holds_time(r, r->equations);
+
     if (lasting)
         QDOT_TRY(qdot_rest_at_all_times(r, r->equations, &equations));
     QDOT_TRY(begin_branch(r, equations));
@@ -255,22 +271,19 @@ solve(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 static qdot_status
 find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    qdot_rest r = {.s = s,
-                   .pool = s->pool,
-                   .facts = qdot_scene_facts(s),
-                   .work = WORK,
-                   .complete = true};
-    qdot_status status;
+    qdot_rest r;
+    qdot_status status = qdot_rest_begin(&r, s);
 
     *out = (qdot_equilibria){0};
-    status = solve(&r, bind, user, out);
+    if (status == QDOT_OK)
+        status = qdot_rest_find(&r, bind, user, out);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
-    qdot_free(r.todo.at);
-    qdot_free(r.unknowns.at);
     out->at = r.found.at;
     out->n = r.found.n;
     out->complete = r.complete;
+    r.found.at = NULL;
+    qdot_rest_end(&r);
     if (status != QDOT_OK)
         qdot_equilibria_clear(out);
     return status;

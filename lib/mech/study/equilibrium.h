@@ -37,15 +37,6 @@
 #include "mech/scene/things.h"
 #include "mech/study/rest.h"
 
-typedef struct {
-    qdot_equilibrium *at; /* [n], owned */
-    size_t n;
-    bool complete;        /* these are all, for generic parameters */
-    size_t starts;        /* of a numerical search; 0: there was none */
-    double reach;         /* starts lay within +-reach if no domain is declared */
-    size_t unproved;      /* starts that ended at an unproved zero within rounding */
-} qdot_equilibria;
-
 /* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED
  * if nothing can be said. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,

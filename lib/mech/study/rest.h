@@ -20,6 +20,15 @@ typedef struct {
     bool numeric;
 } qdot_equilibrium;
 
+typedef struct {
+    qdot_equilibrium *at; /* [n], owned */
+    size_t n;
+    bool complete;        /* these are all, for generic parameters */
+    size_t starts;        /* of a numerical search; 0: there was none */
+    double reach;         /* starts lay within +-reach if no domain is declared */
+    size_t unproved;      /* starts that ended at an unproved zero within rounding */
+} qdot_equilibria;
+
 /* Values of parameters for numbers: e bound as far as they are known. */
 typedef qdot_expr (*qdot_binder)(void *user, qdot_expr e);
 

@@ -17,8 +17,9 @@
 #include "mech/study/stability.h"
 
 /* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest
- * count as growing: multiple ones scatter by the fourth root of rounding. */
-static const double SMALL = 1e-9, AWAY = 1e-3, DECAYS = 1e-6;
+ * count as growing: multiple ones scatter by the fourth root of rounding. Beyond ALONE, where all
+ * differ. */
+static const double SMALL = 1e-9, AWAY = 1e-3, ALONE = 1e-5, DECAYS = 1e-6;
 
 struct qdot_stability_numbers {
     qdot_scene *s;
@@ -26,7 +27,7 @@ struct qdot_stability_numbers {
     qdot_expr *e;   /* M, Gamma, H [n * n] each, then A [c * n] */
     bool damped;    /* Gamma has values */
     bool *told;     /* [n] stands in an equation at rest */
-    size_t m;       /* of symbols: jets 0, 1, 2, then multipliers */
+    size_t m;       /* of symbols: jets 0, 1, 2, then multipliers, then the free parameter */
     qdot_expr *symbol;
     double *at, *value;
 };
@@ -43,7 +44,8 @@ qdot_stability_numbers_new(const qdot_judge *judge, qdot_stability_numbers **out
     *out = NULL;
     if (x == NULL)
         return QDOT_ENOMEM;
-    *x = (qdot_stability_numbers){.s = s, .n = n, .c = c, .m = 3 * n + c};
+    *x = (qdot_stability_numbers){
+        .s = s, .n = n, .c = c, .m = 3 * n + c + (judge->parameter != QDOT_NIL)};
     x->e = qdot_calloc(count + x->m + 1, sizeof *x->e);
     x->value = qdot_calloc(count + x->m + 1, sizeof *x->value);
     x->told = qdot_calloc(n + 1, sizeof *x->told);
@@ -81,6 +83,8 @@ qdot_stability_numbers_new(const qdot_judge *judge, qdot_stability_numbers **out
             x->symbol[order * n + i] = qdot_mech_jet(s, i, order);
     for (size_t k = 0; k < c; k++)
         x->symbol[3 * n + k] = s->constraints.at[k].multiplier;
+    if (judge->parameter != QDOT_NIL)
+        x->symbol[3 * n + c] = judge->parameter;
     *out = x;
     return QDOT_OK;
 }
@@ -104,12 +108,11 @@ typedef struct {
     double *M, *G, *H; /* [m * m] */
 } motion;
 
-/* Values at the place; false where a coefficient has none. */
+/* The symbols at the place. */
 static qdot_status
-evaluate(qdot_stability_numbers *x, const qdot_equilibrium *e, bool *finite)
+put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
 {
     const qdot_pool *pool = x->s->pool;
-    size_t n = x->n, count = 3 * n * n + x->c * n;
 
     for (size_t i = 0; i < x->m; i++) {
         x->at[i] = 0;
@@ -122,6 +125,16 @@ evaluate(qdot_stability_numbers *x, const qdot_equilibrium *e, bool *finite)
                     qdot_generic_evaluate(pool, 1, &value, NULL, &x->at[i]));
         }
     }
+    return QDOT_OK;
+}
+
+/* Values where the symbols say; false where a coefficient has none. */
+static qdot_status
+evaluate(qdot_stability_numbers *x, bool *finite)
+{
+    const qdot_pool *pool = x->s->pool;
+    size_t n = x->n, count = 3 * n * n + x->c * n;
+
     QDOT_TRY(qdot_generic_evaluate(
         pool, count, x->e, &(qdot_generic_point){x->m, x->symbol, x->at, 1}, x->value));
     *finite = x->damped = true;
@@ -316,7 +329,7 @@ by_roots(const motion *x, double h, double g, bool definite)
             for (size_t k = 0; k < i; k++)
                 gap = fmin(gap, hypot(re[i] - re[k], im[i] - im[k]));
         }
-        if (growth > AWAY * fast)
+        if (growth > AWAY * fast || (growth > ALONE * fast && gap > AWAY * fast))
             verdict = QDOT_UNSTABLE;
         else if (x->told == x->m && decay < -DECAYS * fast)
             verdict = QDOT_STABLE;
@@ -336,7 +349,8 @@ by_roots(const motion *x, double h, double g, bool definite)
 }
 
 static qdot_stability
-verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motion *x)
+verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motion *x,
+           qdot_linear_roots *all)
 {
     double h, g, least, most;
     bool symmetric, definite;
@@ -345,6 +359,8 @@ verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motio
         return QDOT_STABLE; /* nothing can move */
     if (x->told == 0 || !normalise(x))
         return QDOT_STABILITY_UNDECIDED;
+    if (all != NULL && roots(x, all->re, all->im))
+        all->n = 2 * x->m;
     h = largest(x->m * x->m, x->H);
     g = largest(x->m * x->m, x->G);
     if (!range_of(x->H, x->m, x->told, &least, &most))
@@ -360,9 +376,10 @@ verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motio
     return by_roots(x, h, g, definite);
 }
 
-qdot_status
-qdot_stability_judge_numbers(const qdot_judge *judge, qdot_stability_numbers *numbers,
-                             qdot_equilibrium *e)
+/* The verdict where the symbols say; the roots of the linear motion, if asked for. */
+static qdot_status
+judge_there(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stability *verdict,
+            qdot_linear_roots *all)
 {
     size_t n = numbers->n;
     gsl_error_handler_t *before = gsl_set_error_handler_off();
@@ -371,18 +388,48 @@ qdot_stability_judge_numbers(const qdot_judge *judge, qdot_stability_numbers *nu
     bool finite = false;
     qdot_status status = N == NULL || x.M == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    e->stability = QDOT_STABILITY_UNDECIDED;
+    *verdict = QDOT_STABILITY_UNDECIDED;
     if (status == QDOT_OK)
-        status = evaluate(numbers, e, &finite);
+        status = evaluate(numbers, &finite);
     if (status == QDOT_OK && finite && tangents(numbers, N, &x)) {
         x.G = x.M + x.m * x.m;
         x.H = x.G + x.m * x.m;
         for (size_t k = 0; k < 3; k++)
             reduce(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
-        e->stability = verdict_of(judge, numbers, &x);
+        *verdict = verdict_of(judge, numbers, &x, all);
     }
     gsl_set_error_handler(before);
     gsl_matrix_free(N);
     qdot_free(x.M);
     return status;
+}
+
+qdot_status
+qdot_stability_judge_numbers(const qdot_judge *judge, qdot_stability_numbers *numbers,
+                             qdot_equilibrium *e)
+{
+    e->stability = QDOT_STABILITY_UNDECIDED;
+    QDOT_TRY(put_place(numbers, e));
+    return judge_there(judge, numbers, &e->stability, NULL);
+}
+
+qdot_status
+qdot_stability_judge_at(const qdot_judge *judge, qdot_stability_numbers *numbers,
+                        const qdot_stability_place *at, qdot_stability *verdict,
+                        qdot_linear_roots *all)
+{
+    for (size_t i = 0; i < numbers->m; i++) {
+        numbers->at[i] = 0;
+        for (size_t k = 0; k < at->n; k++)
+            if (at->symbols[k] == numbers->symbol[i])
+                numbers->at[i] = at->values[k];
+    }
+    all->n = 0;
+    return judge_there(judge, numbers, verdict, all);
+}
+
+const qdot_expr *
+qdot_stability_slopes(const qdot_stability_numbers *numbers)
+{
+    return numbers->e;
 }

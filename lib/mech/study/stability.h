@@ -17,6 +17,7 @@ typedef struct {
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
     qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
+    qdot_expr parameter; /* one that bind leaves free, with a value at each place; nil: none */
 } qdot_judge;
 
 /* Prepare for a scene, whose equations at rest are a LIST; then judge each equilibrium: sets
@@ -48,5 +49,29 @@ void qdot_stability_numbers_free(qdot_stability_numbers *numbers);
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_numbers(const qdot_judge *judge,
                                                          qdot_stability_numbers *numbers,
                                                          qdot_equilibrium *e);
+
+/* A place: values of coordinates, multipliers, the free parameter [n]. */
+typedef struct {
+    size_t n;
+    const qdot_expr *symbols;
+    const double *values;
+} qdot_stability_place;
+
+/* The roots s of det(M s^2 + Gamma s + H) in the tangent space; re, im with room for twice the
+ * coordinates. */
+typedef struct {
+    size_t n; /* 0: they are not known */
+    double *re, *im;
+} qdot_linear_roots;
+
+/* Judge such a place; the roots there. */
+QDOT_MUST_CHECK qdot_status qdot_stability_judge_at(const qdot_judge *judge,
+                                                    qdot_stability_numbers *numbers,
+                                                    const qdot_stability_place *at,
+                                                    qdot_stability *verdict,
+                                                    qdot_linear_roots *all);
+/* M, Gamma, H [n * n] each, then the constraints' slopes [c * n], bound; functions of q, q', q'',
+ * multipliers and the free parameter. */
+const qdot_expr *qdot_stability_slopes(const qdot_stability_numbers *numbers);
 
 #endif

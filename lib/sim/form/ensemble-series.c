@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "series/lanes-motion.h"
+#include "series/lanes-near.h"
 #include "sim/form/residual.h"
 #include "sim/model/constrained-lanes.h"
 #include "tape/shake.h"
@@ -192,6 +193,12 @@ project(const double *t, double *y, double *carry, double *moved, void *user)
     qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
 }
 
+static double
+near(size_t lane, int p, double s, void *user)
+{
+    return qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, lane, p - 2, s);
+}
+
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
@@ -338,6 +345,7 @@ qdot_ensemble_series_system(qdot_ensemble_series *e)
                             .stride = e->stride,
                             .begin = begin,
                             .extend = extend,
+                            .near = qdot_lanes_may_hide(e->lanes) ? near : NULL,
                             .project = e->held ? project : NULL,
                             .user = e};
 }

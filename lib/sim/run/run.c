@@ -16,6 +16,7 @@
 #include <time.h>
 
 #include "base/progress.h"
+#include "base/threads.h"
 #include "ode/companion.h"
 #include "sim/course/multipliers.h"
 #include "sim/digits/digits.h"
@@ -308,7 +309,7 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .carry = run->start_low,
                                       .leading = run->leading,
                                       .meter = &run->meter,
-                                      .threaded = true};
+                                      .threaded = !qdot_threads_are_taken};
 
     QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
     QDOT_TRY(qdot_bind_scale(b->shaken, run->stage.scales));

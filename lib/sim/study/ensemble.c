@@ -6,14 +6,30 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/walk.h"
 #include "ode/companion.h"
 #include "sim/form/ensemble-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
 #include "sim/plan/plan.h"
 #include "sim/study/ensemble-momenta.h"
+#include "sim/study/ensemble-steps.h"
 #include "tape/constant.h"
 #include "tape/shake.h"
+
+/* One pass over all members, the runs themselves or their companions. */
+typedef struct {
+    qdot_ensemble_series *series; /* of companions: made when first asked for */
+    qdot_ensemble_steps *steps;   /* NULL: nobody looks */
+    size_t number;                /* 0: the runs; 1, 2: their companions */
+    qdot_batch_run run;
+    double *memory;
+    double *t1;       /* [members] as run.t1 */
+    double *momenta;  /* [n_kept] */
+    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
+    qdot_status status;
+    qdot_error error; /* of a pass on another thread */
+} pass;
 
 struct qdot_ensemble {
     qdot_plan *plan;                /* parameters that vary are further coordinates of it */
@@ -21,12 +37,24 @@ struct qdot_ensemble {
     size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
-    qdot_ensemble_series *members,
-        *companions; /* companions: made when first asked for */
+    pass passes[QDOT_ENSEMBLE_PASSES];
+    const qdot_ensemble_watching *watching; /* NULL: nobody looks */
+    double *times; /* [n_times] at which states are kept */
+    size_t n_times;
+    uint64_t most_steps;
     double t0, t1, t1_low, tol;
     int t1_side;
     int order;
 };
+
+static void
+pass_clear(pass *p)
+{
+    qdot_free(p->memory);
+    qdot_free(p->run.results);
+    p->memory = NULL;
+    p->run = (qdot_batch_run){0};
+}
 
 static const qdot_plan *
 equations(const qdot_ensemble *e)
@@ -50,8 +78,12 @@ qdot_ensemble_free(qdot_ensemble *e)
     if (!e)
         return;
     forget_reasons(e);
-    qdot_ensemble_series_free(e->members);
-    qdot_ensemble_series_free(e->companions);
+    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
+        pass_clear(e->passes + k);
+        qdot_ensemble_series_free(e->passes[k].series);
+        qdot_ensemble_steps_free(e->passes[k].steps);
+    }
+    qdot_free(e->times);
     qdot_ensemble_momenta_free(e->momenta);
     qdot_plan_free(e->plan);
     qdot_free(e);
@@ -122,7 +154,8 @@ make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(make_plan(e, scene, request, varied));
     if (e->plan->reduced)
         QDOT_TRY(qdot_ensemble_momenta_new(e->plan->reduced, &e->momenta));
-    return qdot_ensemble_series_new(equations(e), false, e->tol, &e->order, &e->members);
+    return qdot_ensemble_series_new(equations(e), false, e->tol, &e->order,
+                                    &e->passes[0].series);
 }
 
 qdot_status
@@ -151,26 +184,6 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- runs --------------------------------------------------------------------------- */
 
-/* One pass over all members, the runs themselves or their companions. */
-typedef struct {
-    qdot_ensemble_series *series; /* borrowed */
-    bool is_companion;
-    qdot_batch_run run;
-    double *memory;
-    double *t1;       /* [members] as run.t1 */
-    double *momenta;  /* [n_kept] */
-    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
-    qdot_status status;
-    qdot_error error; /* of a pass on another thread */
-} pass;
-
-static void
-pass_clear(pass *p)
-{
-    qdot_free(p->memory);
-    qdot_free(p->run.results);
-}
-
 static size_t
 width(const qdot_ensemble *e)
 {
@@ -183,23 +196,27 @@ n_kept(const qdot_ensemble *e)
     return equations(e)->n_kept;
 }
 
-/* x [n], or their neighbours where they are to be moved; the first is number `at` of its kind. */
+/* x [n], or as companion 1 or 2 begins beside them. */
 static void
-put(size_t n, const double *x, size_t at, bool moved, double *to)
+put(size_t n, const double *x, size_t companion, double *to)
 {
     for (size_t i = 0; i < n; i++)
-        to[i] = moved ? qdot_companion_moved(x[at + i], 1, at + i, 0, 1) : x[at + i];
+        to[i] = companion ? qdot_companion_moved(x[i], 1, i, companion - 1,
+                                                 companion == 1 ? 1 : QDOT_COMPANION_FAR)
+                          : x[i];
 }
 
 /* From {.run.order, .run.tol}. */
 static qdot_status
-pass_init(pass *p, const qdot_ensemble *e, size_t members, double t1, const double *y,
+pass_init(pass *p, const qdot_ensemble *e, size_t members, const double *y,
           const double *parameters)
 {
     const size_t n = 2 * e->n, kept = n_kept(e);
-    const bool moved = p->is_companion;
+    const double t1 = p->number == 1 ? qdot_shake_double(e->t1, e->t1_side) : e->t1;
     double *t0, *t1s;
 
+    p->run.t1_low = p->number == 1 ? 0 : e->t1_low;
+    p->run.most_steps = e->most_steps;
     p->memory = qdot_calloc(members * (2 + width(e)) + (members + 1) * kept + 1,
                             sizeof *p->memory);
     p->run.results = qdot_calloc(members + 1, sizeof *p->run.results);
@@ -215,13 +232,14 @@ pass_init(pass *p, const qdot_ensemble *e, size_t members, double t1, const doub
 
         t0[m] = e->t0;
         t1s[m] = t1;
-        put(n, y, m * n, moved, to);
-        put(e->varied, parameters, m * e->varied, moved, to + n);
+        put(n, y + m * n, p->number, to);
+        if (e->varied > 0)
+            put(e->varied, parameters + m * e->varied, p->number, to + n);
     }
     p->run.members = members;
     p->run.t0 = t0;
     p->run.t1 = t1s;
-    return QDOT_OK;
+    return p->steps ? qdot_ensemble_steps_begin(p->steps, members) : QDOT_OK;
 }
 
 static void *
@@ -230,18 +248,38 @@ pass_run(void *user)
     pass *p = user;
     qdot_ode_batch system = qdot_ensemble_series_system(p->series);
 
+    if (p->steps)
+        qdot_ensemble_steps_look(p->steps, &system);
     p->status = qdot_ode_batch_run(&system, &p->run);
     if (p->status != QDOT_OK)
         p->error = *qdot_last_error();
     return NULL;
 }
 
-static qdot_status
-make_companions(qdot_ensemble *e, int order)
+/* The order and the tolerance of a pass. */
+static void
+pass_options(const qdot_ensemble *e, pass *p)
 {
-    if (e->companions)
-        return QDOT_OK;
-    return qdot_ensemble_series_new(equations(e), true, e->tol, &order, &e->companions);
+    const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
+
+    pass_clear(p);
+    p->run.order = e->order;
+    p->run.tol = e->tol;
+    if (p->number == 0)
+        return;
+    p->run.order += QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
+    p->run.tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol);
+}
+
+/* The series of a companion, shaken or not. */
+static qdot_status
+make_series(const qdot_ensemble *e, pass *p)
+{
+    int order = p->run.order;
+
+    return p->series ? QDOT_OK
+                     : qdot_ensemble_series_new(equations(e), p->number == 1, e->tol, &order,
+                                                &p->series);
 }
 
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
@@ -322,7 +360,7 @@ static qdot_status
 start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
 {
     for (size_t m = 0; m < p->run.members; m++) {
-        const qdot_status status = start(e, p->is_companion, whole, p->run.y + m * width(e));
+        const qdot_status status = start(e, p->number == 1, whole, p->run.y + m * width(e));
 
         if (qdot_grave(status) != QDOT_OK)
             return status;
@@ -340,10 +378,11 @@ start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
 
 /* Of the runs, then of their companions, which are not looked at where there is no run. */
 static qdot_status
-start_both(qdot_ensemble *e, pass *runs, pass *companions)
+start_passes(qdot_ensemble *e, size_t passes)
 {
+    pass *runs = e->passes;
     double *whole;
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     forget_reasons(e);
     e->reasons = qdot_calloc(runs->run.members + 1, sizeof *e->reasons);
@@ -355,30 +394,37 @@ start_both(qdot_ensemble *e, pass *runs, pass *companions)
     whole = qdot_calloc(2 * (e->n + e->varied), sizeof *whole);
     if (!whole)
         return QDOT_ENOMEM;
-    status = start_all(e, runs, e->reasons, whole);
-    if (status == QDOT_OK && companions)
-        status = start_all(e, companions, NULL, whole);
+    for (size_t k = 0; k < passes && status == QDOT_OK; k++)
+        status = start_all(e, runs + k, k == 0 ? e->reasons : NULL, whole);
     qdot_free(whole);
     return status;
 }
 
-/* --- both --------------------------------------------------------------------------- */
+/* --- all passes --------------------------------------------------------------------------- */
 
+/* The first pass here; its companions beside it, or after it where somebody looks: beside no member
+ * that was left. */
 static qdot_status
-run_both(qdot_ensemble *e, pass *runs, pass *companions)
+run_passes(qdot_ensemble *e, size_t passes)
 {
-    pthread_t thread;
-    bool threaded = pthread_create(&thread, NULL, pass_run, companions) == 0;
+    pthread_t thread[QDOT_ENSEMBLE_PASSES];
+    bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
-    pass_run(runs);
-    if (threaded)
-        pthread_join(thread, NULL);
-    else if (runs->status == QDOT_OK)
-        pass_run(companions);
-    (void)e;
-    if (runs->status == QDOT_OK && companions->status != QDOT_OK)
-        return qdot_fail(companions->status, "%s", companions->error.message);
-    return runs->status;
+    for (size_t k = 1; k < passes && !e->watching; k++)
+        threaded[k] = pthread_create(&thread[k], NULL, pass_run, e->passes + k) == 0;
+    pass_run(e->passes);
+    for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
+        for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)
+            e->passes[k].t1[m] = e->t0;
+    for (size_t k = 1; k < passes; k++)
+        if (threaded[k])
+            pthread_join(thread[k], NULL);
+        else if (e->passes->status == QDOT_OK)
+            pass_run(e->passes + k);
+    for (size_t k = 0; k < passes; k++)
+        if (e->passes[k].status != QDOT_OK)
+            return qdot_fail(e->passes[k].status, "%s", e->passes[k].error.message);
+    return QDOT_OK;
 }
 
 /* Whether a companion has gone as far as its run. */
@@ -389,34 +435,50 @@ arrived(const qdot_ensemble *e, const pass *companions, size_t m)
            (companions->t1[m] != e->t0 || e->t1 == e->t0);
 }
 
+/* The error of a member's end, by both companions. */
+static double
+end_error(const qdot_ensemble *e, size_t m)
+{
+    const double *y[QDOT_ENSEMBLE_PASSES], share = qdot_ensemble_share(e, m);
+    double error = 0x1p-53;
+
+    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
+        if (k > 0 && !arrived(e, e->passes + k, m))
+            return NAN;
+        y[k] = e->passes[k].run.y + m * width(e);
+    }
+    for (size_t i = 0; i < 2 * e->n; i++) {
+        const double theirs[] = {y[1][i], y[2][i]};
+
+        error = fmax(error, qdot_companion_bound_of(y[0][i], 2, theirs, share) /
+                                fmax(1, fabs(y[0][i])));
+    }
+    return error;
+}
+
 static void
-report(const qdot_ensemble *e, const pass *runs, const pass *companions, double *y,
-       qdot_ensemble_result *results)
+report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *results)
 {
     static const char *const reasons[] = {
         [QDOT_BATCH_DONE] = NULL,
         [QDOT_BATCH_UNDEFINED] = "an acceleration is undefined at the start",
         [QDOT_BATCH_STUCK] = "no step is small enough: a singularity",
         [QDOT_BATCH_LIMIT] = "too many steps",
+        [QDOT_BATCH_LEFT] = NULL,
     };
     static const char *const constrained =
         "no step is small enough: the constraints cannot be held, are not independent or no mass "
         "moves along them there, or it is a singularity";
+    const pass *runs = e->passes;
     size_t n = 2 * e->n;
 
     for (size_t m = 0; m < runs->run.members; m++) {
         const qdot_batch_result *r = runs->run.results + m;
         const double *mine = runs->run.y + m * width(e);
         const char *why = e->reasons[m] ? e->reasons[m] : reasons[r->outcome];
-        bool known = companions && !why && arrived(e, companions, m);
-        double error = known ? 0x1p-53 : NAN;
 
         if (r->outcome == QDOT_BATCH_STUCK && e->plan->constraints)
             why = constrained;
-        for (size_t i = 0; i < n && known; i++)
-            error = fmax(error, qdot_companion_bound(
-                                    fabs(mine[i] - companions->run.y[m * width(e) + i]), 0) /
-                                    fmax(1, fabs(mine[i])));
         if (!e->reasons[m])
             memcpy(y + m * n, mine, n * sizeof *y);
         results[m] = (qdot_ensemble_result){
@@ -425,7 +487,7 @@ report(const qdot_ensemble *e, const pass *runs, const pass *companions, double 
             .t = r->t,
             .steps = r->steps,
             .rejected = r->rejected,
-            .error = error};
+            .error = errors && !why ? end_error(e, m) : NAN};
     }
 }
 
@@ -433,42 +495,158 @@ qdot_status
 qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *parameters,
                   bool errors, qdot_ensemble_result *results)
 {
-    const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
-    int more = e->order + QDOT_COMPANION_ORDERS;
-    pass runs = {.series = e->members, .run = {.order = e->order, .tol = e->tol}};
-    pass companions = {
-        .is_companion = true,
-        .run = {.order = more,
-                .tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol)}};
-    qdot_status status = pass_init(&runs, e, members, e->t1, y, parameters);
+    const size_t passes = errors ? QDOT_ENSEMBLE_PASSES : 1;
+    qdot_status status = QDOT_OK;
 
-    runs.run.t1_low = e->t1_low;
-    if (status == QDOT_OK && errors)
-        status = make_companions(e, more);
-    if (status == QDOT_OK && errors)
-        status = pass_init(&companions, e, members, qdot_shake_double(e->t1, e->t1_side), y,
-                           parameters);
-    if (status == QDOT_OK && errors) {
-        companions.series = e->companions;
-        enter(e, &companions);
+    for (size_t k = 0; k < passes && status == QDOT_OK; k++) {
+        pass *p = e->passes + k;
+
+        p->number = k;
+        pass_options(e, p);
+        status = make_series(e, p);
+        if (status == QDOT_OK)
+            status = pass_init(p, e, members, y, parameters);
     }
     if (status == QDOT_OK)
-        status = start_both(e, &runs, errors ? &companions : NULL);
+        status = start_passes(e, passes);
+    for (size_t k = 0; k < passes && status == QDOT_OK; k++)
+        enter(e, e->passes + k);
     if (status == QDOT_OK)
-        enter(e, &runs);
-    if (status == QDOT_OK && errors) {
-        status = run_both(e, &runs, &companions);
-    } else if (status == QDOT_OK) {
-        pass_run(&runs);
-        status = runs.status;
-    }
-    if (status == QDOT_OK && errors)
-        come_back(e, &companions);
-    if (status == QDOT_OK) {
-        come_back(e, &runs);
-        report(e, &runs, errors ? &companions : NULL, y, results);
-    }
-    pass_clear(&runs);
-    pass_clear(&companions);
+        status = run_passes(e, passes);
+    for (size_t k = 0; k < passes && status == QDOT_OK; k++)
+        come_back(e, e->passes + k);
+    if (status == QDOT_OK)
+        report(e, errors, y, results);
     return status;
+}
+
+/* --- what is seen on the way ---------------------------------------------------------- */
+
+/* Whether an event reads what is no part of the state that is integrated. */
+static bool
+reads_kept(const qdot_ensemble *e, qdot_expr g)
+{
+    for (size_t c = 0; c < n_kept(e); c++)
+        if (qdot_expr_contains(e->plan->pool, g, e->plan->inputs[e->plan->n + equations(e)->kept[c]]))
+            return true;
+    return false;
+}
+
+static qdot_status
+follow_pass(qdot_ensemble *e, size_t k)
+{
+    const qdot_ensemble_steps_of of = {.plan = e->plan,
+                                       .watching = e->watching,
+                                       .n_times = e->n_times,
+                                       .times = e->times,
+                                       .tol = e->tol,
+                                       .shaken = k == 1,
+                                       .backward = e->t1 < e->t0};
+
+    return qdot_ensemble_steps_new(&of, &e->passes[k].steps);
+}
+
+qdot_status
+qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
+                     uint64_t most_steps)
+{
+    const double *places = qdot_companion_places(&e->n_times);
+
+    for (size_t i = 0; i < watching->n_events; i++)
+        if (reads_kept(e, watching->events[i].function))
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
+                                             "velocity whose momentum is kept");
+    e->watching = watching;
+    e->most_steps = most_steps;
+    e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
+    if (!e->times)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < e->n_times; k++)
+        e->times[k] = e->t0 + places[k] * (e->t1 - e->t0);
+    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++)
+        QDOT_TRY(follow_pass(e, k));
+    return QDOT_OK;
+}
+
+bool
+qdot_ensemble_left(const qdot_ensemble *e, size_t m)
+{
+    const pass *p = e->passes;
+    const qdot_batch_outcome outcome = p->run.results[m].outcome;
+
+    return e->reasons[m] || qdot_ensemble_steps_doubtful(p->steps, m) ||
+           (outcome != QDOT_BATCH_DONE && outcome != QDOT_BATCH_LEFT);
+}
+
+/* The batch's state y, with momenta where the way was not over, as q, parameters, q', 0. */
+static void
+write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole)
+{
+    const size_t n = e->n, kept = n_kept(e), bytes = sizeof *y;
+
+    memcpy(whole, y, n * bytes);
+    memcpy(whole + n, y + 2 * n, e->varied * bytes);
+    memcpy(whole + n + e->varied, y + n, n * bytes);
+    memset(whole + 2 * n + e->varied, 0, e->varied * bytes);
+    if (!raw || kept == 0)
+        return;
+    for (size_t c = 0; c < kept; c++)
+        e->passes[0].momenta[c] = y[n + equations(e)->kept[c]];
+    qdot_ensemble_momenta_derive(e->momenta, t, e->passes[0].momenta, y);
+    memcpy(whole + n + e->varied, y + n, n * bytes);
+    for (size_t c = 0; c < kept; c++) /* as it was */
+        y[n + equations(e)->kept[c]] = e->passes[0].momenta[c];
+}
+
+bool
+qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, double *whole)
+{
+    const pass *p = e->passes + k;
+
+    if (place < e->n_times) {
+        if (qdot_ensemble_steps_passed(p->steps, m) <= place)
+            return false;
+        write_whole(e, e->times[place], qdot_ensemble_steps_state(p->steps, m, place), true, whole);
+        return true;
+    }
+    if (p->run.results[m].outcome != QDOT_BATCH_DONE || p->t1[m] == e->t0)
+        return false;
+    write_whole(e, e->t1, p->run.y + m * width(e), false, whole);
+    return true;
+}
+
+double
+qdot_ensemble_event_time(const qdot_ensemble *e, size_t k, size_t m, size_t event, size_t which)
+{
+    return qdot_ensemble_steps_event(e->passes[k].steps, m, event, which);
+}
+
+size_t
+qdot_ensemble_event_count(const qdot_ensemble *e, size_t m, size_t event)
+{
+    return qdot_ensemble_steps_count(e->passes[0].steps, m, event);
+}
+
+double
+qdot_ensemble_time(const qdot_ensemble *e, size_t place)
+{
+    return place < e->n_times ? e->times[place] : e->t1;
+}
+
+const double *
+qdot_ensemble_sizes(const qdot_ensemble *e, size_t m)
+{
+    return qdot_ensemble_steps_sizes(e->passes[0].steps, m);
+}
+
+const qdot_plan *
+qdot_ensemble_plan(const qdot_ensemble *e)
+{
+    return e->plan;
+}
+
+double
+qdot_ensemble_share(const qdot_ensemble *e, size_t m)
+{
+    return fmin(1, sqrt((double)e->passes[0].run.results[m].steps) / QDOT_COMPANION_FAR);
 }

@@ -1,17 +1,21 @@
 /* ensemble.h -- many runs of one scene, with their own starts and parameters, in lanes.
  *
  * The scene is derived and lowered once; the varying parameters are inputs of its tape. Members
- * run eight at a time (ode/batch.h), each with the result that it has alone, to rounding. The
- * error of a member is the distance of its end state from that of a companion under a tighter
- * tolerance, with inputs moved to their neighbours and constants rounded the other way
- * (ode/companion.h).
+ * run eight at a time (ode/batch.h), each with the result that it has alone, to rounding, and with the same bits
+ * whatever other members are run with it. The error of a member is the distance of its end state
+ * from those of two companions, like those of a run alone (ode/companion.h): under a tighter
+ * tolerance, with inputs moved to either side and constants rounded the other way.
  *
  * Tests  tests/sim/test_ensemble.c
  */
 #ifndef QDOT_SIM_ENSEMBLE_H
 #define QDOT_SIM_ENSEMBLE_H
 
+#include "sim/model/equations.h"
 #include "sim/run/run.h"
+#include "sim/study/ensemble-steps.h"
+
+enum { QDOT_ENSEMBLE_PASSES = 3 }; /* the runs, and their companions */
 
 typedef struct qdot_ensemble qdot_ensemble;
 
@@ -37,6 +41,13 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_new(qdot_scene *scene,
                                               qdot_ensemble **ensemble);
 void qdot_ensemble_free(qdot_ensemble *ensemble);
 
+/* Before _run: look at steps, borrowed, and keep states at some times of the latter half of the way,
+ * those of qdot_companion_places; all passes run in the caller's thread, and a member of more than
+ * most_steps is left. QDOT_ENOTBUILT: an event reads a velocity that follows from a kept momentum. */
+QDOT_MUST_CHECK qdot_status qdot_ensemble_follow(qdot_ensemble *ensemble,
+                                                 const qdot_ensemble_watching *watching,
+                                                 uint64_t most_steps);
+
 /* Run them.
  *   y           [members x 2n] q, q' at the start; then at the end
  *   parameters  [members x n_varied]
@@ -47,5 +58,27 @@ void qdot_ensemble_free(qdot_ensemble *ensemble);
 QDOT_MUST_CHECK qdot_status qdot_ensemble_run(qdot_ensemble *ensemble, size_t members,
                                               double *y, const double *parameters,
                                               bool errors, qdot_ensemble_result *results);
+
+/* After _follow and _run with errors, of pass 0 (the run) ... 2 of a member:
+ *
+ *   _left     it has to be run alone; there is nothing else then
+ *   _state    its state into whole [2 (n + varied)], q, parameters, q', 0, at time number `place`
+ *             (qdot_companion_places) or, beyond those, at the end; false: it was not reached
+ *   _time     of a place, or the end
+ *   _event_time  when that occurrence was; NaN: there was none
+ *   _event_count  how often, in the run
+ *   _sizes    [2n] the largest |y_i| at the starts of steps
+ *   _plan     of which such states are, its inputs
+ *   _share    by which distances of the second companion count */
+bool qdot_ensemble_left(const qdot_ensemble *e, size_t member);
+bool qdot_ensemble_state(const qdot_ensemble *e, size_t pass, size_t member, size_t place,
+                         double *whole);
+double qdot_ensemble_event_time(const qdot_ensemble *e, size_t pass, size_t member, size_t event,
+                                size_t k);
+size_t qdot_ensemble_event_count(const qdot_ensemble *e, size_t member, size_t event);
+double qdot_ensemble_time(const qdot_ensemble *e, size_t place);
+const double *qdot_ensemble_sizes(const qdot_ensemble *e, size_t member);
+const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
+double qdot_ensemble_share(const qdot_ensemble *e, size_t member);
 
 #endif

@@ -15,14 +15,14 @@ syntax keyword qdotOperator and or not
 syntax match qdotComment /#.*$/ contains=@Spell,qdotTodo
 syntax keyword qdotTodo TODO FIXME contained
 " words
-syntax keyword qdotWord contained abbreviate animate assume body check constraint coord
-syntax keyword qdotWord contained cyclic damper derive dissipation dof equilibria event
-syntax keyword qdotWord contained events export fit force forces function gravity help
-syntax keyword qdotWord contained include lagrangian longtime lyapunov modes param
-syntax keyword qdotWord contained particle plan plot poincare potential print quit race
-syntax keyword qdotWord contained reactions redo remove report reset run save scale scene
-syntax keyword qdotWord contained sensitivity set show spring start style sweep table
-syntax keyword qdotWord contained timing torque undo vars workprecision
+syntax keyword qdotWord contained abbreviate animate assume body check constraint continue
+syntax keyword qdotWord contained coord cyclic damper derive dissipation dof equilibria
+syntax keyword qdotWord contained event events export find fit force forces function
+syntax keyword qdotWord contained gravity help include lagrangian longtime lyapunov modes
+syntax keyword qdotWord contained param particle plan plot poincare potential print quit
+syntax keyword qdotWord contained race reactions redo remove report reset run save scale
+syntax keyword qdotWord contained scene sensitivity set show spring start style sweep
+syntax keyword qdotWord contained table timing torque undo vars workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

@@ -1,0 +1,283 @@
+/* equilibrium-curve.c -- equations at rest and motion about it, one parameter left free. */
+#include "mech/study/equilibrium-curve.h"
+
+#include <math.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/generic.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+
+/* --- what can be followed ---------------------------------------------------------------- */
+
+static qdot_status
+check_scene(qdot_equilibrium_curve *c)
+{
+    const qdot_scene *s = c->s;
+
+    for (size_t k = 0; k < s->constraints.n; k++)
+        if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
+            return qdot_fail(QDOT_ETYPE, "equilibria are followed under holonomic constraints; "
+                                         "this scene has others");
+    if ((qdot_mech_holds(s, c->rest.equations) & QDOT_HAS_TIME) != 0)
+        return qdot_fail(QDOT_ETYPE, "the equations depend on time: there are no equilibria to "
+                                     "follow");
+    return QDOT_OK;
+}
+
+static qdot_status
+check_count(qdot_equilibrium_curve *c)
+{
+    const uint32_t equations = qdot_expr_count(c->pool, c->rest.equations);
+
+    c->n = c->rest.unknowns.n;
+    c->coordinates = c->rest.coordinates;
+    if (c->coordinates == 0)
+        return qdot_fail(QDOT_EFAILED, "the equations at rest hold no coordinate: %s",
+                         equations == 0 ? "every place is an equilibrium"
+                                        : "there is no equilibrium");
+    if (equations != c->n)
+        return qdot_fail(QDOT_EFAILED,
+                         "the equilibria are no curves: %u equations for %zu unknowns", equations,
+                         c->n);
+    return QDOT_OK;
+}
+
+/* p changes where the scene rests, or how it moves about that. */
+static qdot_status
+check_influence(const qdot_equilibrium_curve *c)
+{
+    bool some = false;
+
+    for (size_t i = 0; i < c->n; i++)
+        some = some || qdot_expr_contains(c->pool, c->F[i], c->parameter);
+    for (size_t i = 0; i < 3 * c->all * c->all; i++)
+        some = some || qdot_expr_contains(c->pool, c->K[i], c->parameter);
+    if (some)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "%.100s has no influence on the equilibria",
+                    qdot_expr_symbol(c->pool, c->parameter)->name);
+    return qdot_hint("equilibria");
+}
+
+/* --- the equations ------------------------------------------------------------------------- */
+
+static double
+bound(const qdot_pool *pool, qdot_expr e, double otherwise)
+{
+    double v;
+
+    if (e == QDOT_NIL || qdot_generic_evaluate(pool, 1, &e, NULL, &v) != QDOT_OK ||
+        (qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
+        return otherwise;
+    return v;
+}
+
+static qdot_status
+make_room(qdot_equilibrium_curve *c)
+{
+    const size_t n = c->n, all = c->s->coordinates.n + c->s->constraints.n;
+
+    c->all = all;
+    c->unknown = qdot_calloc(2 * n + 1, sizeof *c->unknown);
+    c->angle = qdot_calloc(n + 1, sizeof *c->angle);
+    c->lo = qdot_calloc(2 * n + 2, sizeof *c->lo);
+    c->K = qdot_calloc(3 * all * all + 1, sizeof *c->K);
+    c->roots.re = qdot_calloc(4 * all + 1, sizeof *c->roots.re);
+    if (!c->unknown || !c->angle || !c->lo || !c->K || !c->roots.re)
+        return QDOT_ENOMEM;
+    c->F = c->unknown + n + 1;
+    c->hi = c->lo + n + 1;
+    c->Gamma = c->K + all * all;
+    c->M = c->Gamma + all * all;
+    c->roots.im = c->roots.re + 2 * all;
+    return QDOT_OK;
+}
+
+static qdot_status
+fill_equations(qdot_equilibrium_curve *c)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        c->unknown[i] = c->rest.unknowns.at[i];
+        c->F[i] = c->bind(c->user, qdot_expr_arg(c->pool, c->rest.equations, (uint32_t)i));
+    }
+    c->unknown[c->n] = c->parameter;
+    QDOT_TRY(qdot_pool_check(c->pool));
+    for (size_t i = 0; i <= c->n; i++) {
+        const qdot_symbol q = *qdot_expr_symbol(c->pool, c->unknown[i]);
+
+        c->lo[i] = bound(c->pool, q.lo == QDOT_NIL ? q.lo : c->bind(c->user, q.lo), -INFINITY);
+        c->hi[i] = bound(c->pool, q.hi == QDOT_NIL ? q.hi : c->bind(c->user, q.hi), INFINITY);
+        if (i < c->coordinates && isinf(c->lo[i]) && isinf(c->hi[i]))
+            c->angle[i] = qdot_rest_is_angle(&c->rest, c->unknown[i], c->rest.equations);
+    }
+    return qdot_pool_check(c->pool);
+}
+
+/* e at rest; coordinates that occur in no equation at rest are put to 0. */
+static qdot_expr
+at_rest(const qdot_equilibrium_curve *c, qdot_expr e)
+{
+    const qdot_scene *s = c->s;
+
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_expr jets[3] = {qdot_mech_jet(c->s, i, 1), qdot_mech_jet(c->s, i, 2),
+                                   s->coordinates.at[i]};
+        const qdot_expr zero[3] = {QDOT_ZERO, QDOT_ZERO, QDOT_ZERO};
+        size_t m = 3;
+
+        for (size_t k = 0; k < c->coordinates; k++)
+            if (c->unknown[k] == s->coordinates.at[i])
+                m = 2;
+        e = e == QDOT_NIL ? e : qdot_subs(c->pool, e, m, jets, zero);
+    }
+    return e;
+}
+
+/* K, Gamma, M of the slopes that stability is judged by. */
+static qdot_status
+fill_motion(qdot_equilibrium_curve *c)
+{
+    const size_t n = c->s->coordinates.n, m = c->s->constraints.n, all = c->all;
+    const qdot_expr *slopes = qdot_stability_slopes(c->judge->numbers);
+
+    for (size_t i = 0; i < 3 * all * all; i++)
+        c->K[i] = QDOT_ZERO;
+    c->damped = true;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++) {
+            const size_t to = i * all + j, from = i * n + j;
+
+            c->M[to] = at_rest(c, slopes[from]);
+            c->K[to] = at_rest(c, slopes[2 * n * n + from]);
+            QDOT_TRY(qdot_pool_check(c->pool));
+            c->Gamma[to] = at_rest(c, slopes[n * n + from]);
+            if (c->Gamma[to] == QDOT_NIL) {
+                c->damped = false;
+                c->Gamma[to] = QDOT_ZERO;
+                if (qdot_pool_check(c->pool) != QDOT_EDOMAIN)
+                    return qdot_pool_check(c->pool);
+            }
+        }
+        for (size_t k = 0; k < m; k++) {
+            const qdot_expr a = at_rest(c, slopes[3 * n * n + k * n + i]);
+
+            c->K[i * all + n + k] = c->K[(n + k) * all + i] = a;
+        }
+    }
+    return qdot_pool_check(c->pool);
+}
+
+qdot_status
+qdot_equilibrium_curve_begin(qdot_equilibrium_curve *c, qdot_scene *s, qdot_expr parameter,
+                             qdot_binder bind, void *user)
+{
+    *c = (qdot_equilibrium_curve){
+        .s = s, .pool = s->pool, .parameter = parameter, .bind = bind, .user = user};
+    QDOT_TRY(qdot_rest_begin(&c->rest, s));
+    QDOT_TRY(check_scene(c));
+    QDOT_TRY(check_count(c));
+    QDOT_TRY(make_room(c));
+    QDOT_TRY(fill_equations(c));
+    QDOT_TRY(qdot_judge_new(s, c->rest.equations, bind, user, &c->judge));
+    c->judge->parameter = parameter;
+    QDOT_TRY(qdot_stability_numbers_new(c->judge, &c->judge->numbers));
+    QDOT_TRY(fill_motion(c));
+    return check_influence(c);
+}
+
+void
+qdot_equilibrium_curve_end(qdot_equilibrium_curve *c)
+{
+    qdot_judge_free(c->judge);
+    qdot_rest_end(&c->rest);
+    qdot_free(c->unknown);
+    qdot_free(c->angle);
+    qdot_free(c->lo);
+    qdot_free(c->K);
+    qdot_free(c->roots.re);
+    *c = (qdot_equilibrium_curve){0};
+}
+
+/* --- places ------------------------------------------------------------------------------- */
+
+/* Binds all, the parameter too. */
+typedef struct {
+    qdot_equilibrium_curve *c;
+    qdot_expr value;
+} at_value;
+
+static qdot_expr
+bind_all(void *user, qdot_expr e)
+{
+    const at_value *v = user;
+
+    e = v->c->bind(v->c->user, e);
+    return e == QDOT_NIL ? e : qdot_subs(v->c->pool, e, 1, &v->c->parameter, &v->value);
+}
+
+/* The value of the i-th unknown; NaN where it is left free, or has no value at this p. */
+static qdot_status
+number_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
+          double *y)
+{
+    *y = NAN;
+    for (uint32_t k = 0; k < qdot_expr_count(c->pool, e->equations); k++) {
+        const qdot_expr one = qdot_expr_arg(c->pool, e->equations, k);
+        qdot_expr x;
+
+        if (qdot_expr_arg(c->pool, one, 0) != c->unknown[i])
+            continue;
+        x = bind_all(value, qdot_expr_arg(c->pool, one, 1));
+        if (x == QDOT_NIL) {
+            const qdot_status status = qdot_pool_check(c->pool);
+
+            return status == QDOT_EDOMAIN ? QDOT_OK : status;
+        }
+        if ((qdot_expr_node(c->pool, x)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
+            QDOT_TRY(qdot_generic_evaluate(c->pool, 1, &x, NULL, y));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, size_t *count)
+{
+    at_value value = {c, qdot_expr_of_double(c->pool, p)};
+    qdot_rest rest = c->rest;
+    qdot_equilibria unused = {0};
+    qdot_status status = qdot_pool_check(c->pool);
+
+    *at = NULL;
+    *count = 0;
+    if (status == QDOT_OK)
+        status = qdot_rest_find(&rest, bind_all, &value, &unused);
+    if (status == QDOT_OK) {
+        *at = qdot_calloc((rest.found.n + 1) * (c->n + 1), sizeof **at);
+        status = *at ? QDOT_OK : QDOT_ENOMEM;
+    }
+    for (size_t k = 0; k < rest.found.n && status == QDOT_OK; k++) {
+        double *y = *at + *count * (c->n + 1);
+
+        bool known = true;
+
+        for (size_t i = 0; i < c->n && status == QDOT_OK; i++) {
+            status = number_of(c, &rest.found.at[k], &value, i, &y[i]);
+            known = known && isfinite(y[i]);
+        }
+        y[c->n] = p;
+        *count += known;
+    }
+    rest.unknowns.at = NULL; /* c's own */
+    qdot_rest_end(&rest);
+    return status;
+}
+
+qdot_status
+qdot_equilibrium_curve_judge(qdot_equilibrium_curve *c, const double *y, qdot_stability *verdict)
+{
+    const qdot_stability_place at = {c->n + 1, c->unknown, y};
+
+    return qdot_stability_judge_at(c->judge, c->judge->numbers, &at, verdict, &c->roots);
+}

@@ -1,0 +1,56 @@
+/* equilibrium-curve.h -- the equilibria of a scene as they depend on one parameter p.
+ *
+ *     F(u, p) = 0,   u: the coordinates that occur, then the multipliers
+ *
+ * are the equations at rest (mech/study/equilibrium.h) with values for all other parameters: as many
+ * as unknowns, so that their solutions are curves. Beside them stands the motion about such a place,
+ *
+ *     M x'' + Gamma x' + H x + A^T mu = 0,   A x = 0,
+ *
+ * over all coordinates, functions of u and p at rest.
+ *
+ * Tests  tests/sim/test_continuation.c
+ */
+#ifndef QDOT_MECH_EQUILIBRIUM_CURVE_H
+#define QDOT_MECH_EQUILIBRIUM_CURVE_H
+
+#include "base/memory.h"
+#include "mech/study/equilibrium-search.h"
+#include "mech/study/stability.h"
+
+typedef struct {
+    qdot_scene *s;
+    qdot_pool *pool;
+    qdot_expr parameter;
+    qdot_binder bind; /* of all parameters but this one */
+    void *user;
+    size_t n, coordinates; /* unknowns; those that are coordinates come first */
+    qdot_expr *unknown;    /* [n + 1] with p behind them */
+    qdot_expr *F;          /* [n] */
+    bool *angle;           /* [n] a full turn changes nothing */
+    double *lo, *hi;       /* [n + 1] the domains */
+    size_t all;            /* coordinates of the scene and constraints */
+    qdot_expr *K, *Gamma, *M; /* [all * all] H with A and A^T beside it; Gamma, M with 0 */
+    bool damped;           /* Gamma has values at rest: no |v| v */
+    qdot_rest rest;
+    qdot_judge *judge;
+    qdot_linear_roots roots; /* room */
+} qdot_equilibrium_curve;
+
+/* c is from {0}, and ended in any case. bind leaves p free. Errors: QDOT_EINVAL if p has no
+ * influence, QDOT_ETYPE with constraints on velocities or a dependence on time, QDOT_EFAILED where
+ * there are not as many equations as unknowns. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_begin(qdot_equilibrium_curve *c, qdot_scene *s,
+                                                         qdot_expr parameter, qdot_binder bind,
+                                                         void *user);
+void qdot_equilibrium_curve_end(qdot_equilibrium_curve *c);
+
+/* Equilibria at p: *at [count * (n + 1)] gets u, p of each; owned by the caller. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p,
+                                                          double **at, size_t *count);
+
+/* The verdict at y [n + 1] = u, p; c->roots of the linear motion there. */
+QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_judge(qdot_equilibrium_curve *c,
+                                                         const double *y, qdot_stability *verdict);
+
+#endif

@@ -1,0 +1,402 @@
+/* zero.c -- Newton's method by singular values, with shortened steps; bisection between bounds. */
+#include "num/zero.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+
+#include "base/memory.h"
+
+/* Singular values below so much of the largest count as 0; how strongly |F| shortens steps. */
+static const double least_singular = 1e-8, damping = 0.01;
+/* Steps; halvings of one; parts of an interval that are searched for a change of sign. */
+enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PARTS = 16 };
+
+typedef struct {
+    const qdot_zero_problem *p;
+    qdot_zero_result *r;
+    double *slope;             /* [m x n] J at r->u */
+    double *u, *f, *error;     /* [n], [m], [m] where a step leads */
+    double *trial;             /* [n] */
+    double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
+    double mu, length;         /* of the step, in units of the unknowns */
+    double *step, *from_error; /* [n] the step, and what errors of F make of it */
+    gsl_matrix *U, *V;
+    gsl_vector *singular, *work;
+} search;
+
+/* --- the step -------------------------------------------------------------------------------- */
+
+static double
+norm(const search *s, const double *f)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < s->p->m; i++)
+        sum += f[i] / s->unit_f[i] * (f[i] / s->unit_f[i]);
+    return sqrt(sum);
+}
+
+static void
+choose_units(search *s)
+{
+    const size_t n = s->p->n, m = s->p->m;
+
+    for (size_t j = 0; j < n; j++)
+        s->unit[j] = s->r->u[j] != 0 ? fabs(s->r->u[j]) : 1;
+    for (size_t i = 0; i < m; i++) {
+        double sum = 0;
+
+        for (size_t j = 0; j < n; j++)
+            sum += fabs(s->slope[i * n + j]) * s->unit[j];
+        sum = fmax(sum, fabs(s->r->f[i]));
+        s->unit_f[i] = sum > 0 ? sum : 1;
+    }
+}
+
+/* J = U S V^T in these units, more rows than columns or as many. */
+static void
+decompose(search *s)
+{
+    const size_t n = s->p->n, m = s->p->m;
+
+    gsl_matrix_set_zero(s->U);
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < n; j++)
+            gsl_matrix_set(s->U, i, j, s->slope[i * n + j] * s->unit[j] / s->unit_f[i]);
+    (void)gsl_linalg_SV_decomp(s->U, s->V, s->singular, s->work);
+}
+
+/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
+static double
+take_step(const search *s, const double *f, double *step)
+{
+    const size_t n = s->p->n, m = s->p->m;
+    double sum = 0;
+
+    memset(step, 0, n * sizeof *step);
+    for (size_t k = 0; k < s->r->rank; k++) {
+        const double one = gsl_vector_get(s->singular, k);
+        double along = 0;
+
+        for (size_t i = 0; i < m; i++)
+            along += gsl_matrix_get(s->U, i, k) * f[i] / s->unit_f[i];
+        for (size_t j = 0; j < n; j++)
+            step[j] -= s->unit[j] * gsl_matrix_get(s->V, j, k) * along * one /
+                       (one * one + s->mu);
+    }
+    for (size_t j = 0; j < n; j++)
+        sum += step[j] / s->unit[j] * (step[j] / s->unit[j]);
+    return sqrt(sum);
+}
+
+/* The step, the errors of the unknowns, the rank. False: J is 0 or not finite. */
+static bool
+find_step(search *s)
+{
+    const size_t n = s->p->n, m = s->p->m;
+    const double size = norm(s, s->r->f);
+    double most;
+
+    memset(s->step, 0, n * sizeof *s->step);
+    memset(s->from_error, 0, n * sizeof *s->from_error);
+    s->r->rank = 0;
+    for (size_t i = 0; i < m * n; i++)
+        if (!isfinite(s->slope[i]))
+            return false;
+    decompose(s);
+    most = gsl_vector_get(s->singular, 0);
+    s->mu = damping * fmin(size * size, 1) * most * most;
+    while (s->r->rank < n &&
+           gsl_vector_get(s->singular, s->r->rank) > least_singular * most)
+        s->r->rank++;
+    s->length = take_step(s, s->r->f, s->step);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < m; i++) {
+            double inverse = 0;
+
+            for (size_t k = 0; k < s->r->rank; k++)
+                inverse += gsl_matrix_get(s->V, j, k) * gsl_matrix_get(s->U, i, k) /
+                           gsl_vector_get(s->singular, k);
+            s->from_error[j] +=
+                fabs(inverse) * s->unit[j] * s->r->f_error[i] / s->unit_f[i];
+        }
+    return s->r->rank > 0;
+}
+
+/* --- where it ends ---------------------------------------------------------------------------- */
+
+/* Whether the step says nothing more than the errors of F and rounding. */
+static bool
+step_is_nothing(const search *s)
+{
+    for (size_t j = 0; j < s->p->n; j++) {
+        const double error = s->from_error[j],
+                     rounding = 4 * DBL_EPSILON * fabs(s->r->u[j]);
+
+        if (!(fabs(s->step[j]) <=
+              fmax(isnan(error) ? 1e-11 * s->unit[j] : error, rounding)))
+            return false;
+    }
+    return true;
+}
+
+/* Whether F is 0 within its errors and those of u, which are small beside what F was at first. */
+static bool
+is_zero(const search *s)
+{
+    const size_t n = s->p->n;
+
+    for (size_t i = 0; i < s->p->m; i++) {
+        const double error = s->r->f_error[i];
+        double reach = 1e-13 * s->unit_f[i];
+
+        reach += isnan(error) ? 1e-9 * s->unit_f[i] : 10 * error;
+        for (size_t j = 0; j < n; j++)
+            if (isfinite(s->slope[i * n + j]))
+                reach +=
+                    fabs(s->slope[i * n + j]) *
+                    (fabs(s->step[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
+        if (!(fabs(s->r->f[i]) <= fmin(reach, 1e-3 * s->unit_f[i])))
+            return false;
+    }
+    return true;
+}
+
+static void
+state_errors(search *s)
+{
+    for (size_t j = 0; j < s->p->n; j++)
+        s->r->error[j] =
+            fabs(s->step[j]) + s->from_error[j] + DBL_EPSILON * fabs(s->r->u[j]);
+}
+
+/* --- shortened steps --------------------------------------------------------------------------- */
+
+static qdot_status
+evaluate(search *s)
+{
+    s->r->steps++;
+    return s->p->at(s->r->u, s->r->f, s->r->f_error, s->slope, s->p->user);
+}
+
+static double
+within(const qdot_zero_problem *p, size_t j, double u)
+{
+    if (p->low != NULL)
+        u = fmax(u, p->low[j]);
+    return p->high != NULL ? fmin(u, p->high[j]) : u;
+}
+
+/* Go along the step, halved until |F|, or the step that follows from it with this J, is smaller. *gone: it was. */
+static qdot_status
+go(search *s, bool *gone)
+{
+    const size_t n = s->p->n;
+    const double size = norm(s, s->r->f);
+    double part = 1;
+
+    *gone = false;
+    for (int h = 0; h < MOST_HALVINGS && !*gone; h++, part /= 2) {
+        bool moved = false;
+
+        for (size_t j = 0; j < n; j++) {
+            s->u[j] = within(s->p, j, s->r->u[j] + part * s->step[j]);
+            moved = moved || s->u[j] != s->r->u[j];
+        }
+        if (!moved)
+            break;
+        QDOT_TRY(s->p->at(s->u, s->f, s->error, NULL, s->p->user));
+        *gone = norm(s, s->f) < size /* not of a NaN */
+                || take_step(s, s->f, s->trial) < (1 - part / 4) * s->length;
+    }
+    if (*gone)
+        memcpy(s->r->u, s->u, n * sizeof *s->u);
+    return QDOT_OK;
+}
+
+static qdot_status
+descend(search *s)
+{
+    qdot_zero_result *r = s->r;
+
+    QDOT_TRY(evaluate(s));
+    r->answer = QDOT_ZERO_NOWHERE;
+    if (isnan(r->f[0]))
+        return QDOT_OK;
+    choose_units(s);
+    while (r->steps < MOST_STEPS) {
+        bool gone;
+
+        if (!find_step(s)) {
+            r->answer = is_zero(s) ? QDOT_ZERO_FOUND : QDOT_ZERO_FLAT;
+            break;
+        }
+        r->answer = QDOT_ZERO_SLOW;
+        gone = !step_is_nothing(s);
+        if (gone)
+            QDOT_TRY(go(s, &gone));
+        if (!gone) {
+            r->answer = is_zero(s) ? QDOT_ZERO_FOUND : QDOT_ZERO_NONE;
+            break;
+        }
+        QDOT_TRY(evaluate(s));
+        if (isnan(r->f[0]))
+            break;
+    }
+    state_errors(s);
+    return QDOT_OK;
+}
+
+/* --- one unknown between bounds ------------------------------------------------------------------ */
+
+/* f(u) of the one function, NaN where it cannot be had; its error into s->error[0]. */
+static qdot_status
+value_at(search *s, double u, double *f)
+{
+    QDOT_TRY(s->p->at(&u, f, s->error, NULL, s->p->user));
+    return QDOT_OK;
+}
+
+/* Take the narrowest part of a grid whose ends differ in sign, or its point of least |f|. *end [2], *f [2]. */
+static qdot_status
+search_signs(search *s, double *end, double *f, bool *found)
+{
+    const double low = s->p->low[0], high = s->p->high[0];
+    double last = NAN, least = INFINITY, at = low;
+
+    *found = false;
+    for (int i = 0; i <= PARTS && !*found; i++) {
+        const double u = i == PARTS ? high : low + (high - low) * i / PARTS;
+        double one;
+
+        QDOT_TRY(value_at(s, u, &one));
+        *found = (last < 0 && one >= 0) || (last > 0 && one <= 0);
+        if (*found) {
+            end[0] = at;
+            end[1] = u;
+            f[0] = last;
+            f[1] = one;
+        }
+        if (fabs(one) < least) {
+            least = fabs(one);
+            s->r->u[0] = u;
+        }
+        last = one;
+        at = u;
+    }
+    return QDOT_OK;
+}
+
+/* The next place: by the slope if that stays between the ends and shrinks fast enough; else the middle. */
+static double
+next_place(const search *s, const double *end, double slope, double last_move)
+{
+    const double u = s->r->u[0], to = u - s->r->f[0] / slope;
+    const double a = fmin(end[0], end[1]), b = fmax(end[0], end[1]);
+
+    return to > a && to < b && fabs(to - u) < last_move / 2 ? to : a + (b - a) / 2;
+}
+
+/* Newton and bisection between ends [2] where f [2] differs in sign. */
+static qdot_status
+enclose(search *s, double *end, double *f)
+{
+    qdot_zero_result *r = s->r;
+    double move = INFINITY;
+
+    r->u[0] = end[0] + (end[1] - end[0]) / 2;
+    for (r->steps = 0; r->steps < MOST_STEPS;) {
+        const double before = r->u[0];
+        double width;
+
+        QDOT_TRY(evaluate(s));
+        if (isnan(r->f[0])) {
+            r->answer = QDOT_ZERO_NOWHERE;
+            return QDOT_OK;
+        }
+        if (r->steps == 1)
+            choose_units(s);
+        if (!(s->slope[0] != 0) ||
+            !isfinite(s->slope[0])) /* none is known: the chord's */
+            s->slope[0] = (f[1] - f[0]) / (end[1] - end[0]);
+        (void)find_step(s);
+        width = fabs(end[1] - end[0]);
+        if (step_is_nothing(s) || r->f[0] == 0 ||
+            width <= 4 * DBL_EPSILON * fmax(fabs(end[0]), fabs(end[1]))) {
+            r->answer = is_zero(s) ? QDOT_ZERO_FOUND : QDOT_ZERO_JUMP;
+            break;
+        }
+        end[(r->f[0] < 0) == (f[0] < 0) ? 0 : 1] = r->u[0];
+        f[(r->f[0] < 0) == (f[0] < 0) ? 0 : 1] = r->f[0];
+        r->u[0] = next_place(s, end, s->slope[0], move);
+        move = fabs(r->u[0] - before);
+    }
+    state_errors(s);
+    return QDOT_OK;
+}
+
+static qdot_status
+find_between(search *s)
+{
+    double end[2] = {s->p->low[0], s->p->high[0]}, f[2];
+    bool found;
+
+    QDOT_TRY(value_at(s, end[0], &f[0]));
+    QDOT_TRY(value_at(s, end[1], &f[1]));
+    found = (f[0] < 0 && f[1] > 0) || (f[0] > 0 && f[1] < 0);
+    if (!found)
+        QDOT_TRY(search_signs(s, end, f, &found));
+    s->r->answer = QDOT_ZERO_SLOW;
+    return found ? enclose(s, end, f) : descend(s);
+}
+
+/* --- all ----------------------------------------------------------------------------------------- */
+
+static bool
+allocate(search *s)
+{
+    const size_t n = s->p->n, m = s->p->m, rows = m > n ? m : n;
+    double *room = qdot_calloc(m * n + 5 * n + 3 * m + 1, sizeof *room);
+
+    s->slope = room;
+    if (room == NULL)
+        return false;
+    s->u = s->slope + m * n;
+    s->unit = s->u + n;
+    s->step = s->unit + n;
+    s->from_error = s->step + n;
+    s->trial = s->from_error + n;
+    s->f = s->trial + n;
+    s->error = s->f + m;
+    s->unit_f = s->error + m;
+    s->U = gsl_matrix_alloc(rows, n);
+    s->V = gsl_matrix_alloc(n, n);
+    s->singular = gsl_vector_alloc(n);
+    s->work = gsl_vector_alloc(n);
+    return s->U && s->V && s->singular && s->work;
+}
+
+qdot_status
+qdot_zero_find(const qdot_zero_problem *p, qdot_zero_result *r)
+{
+    search s = {.p = p, .r = r};
+    const bool between = p->n == 1 && p->m == 1 && p->low != NULL && p->high != NULL &&
+                         isfinite(p->low[0]) && isfinite(p->high[0]);
+    gsl_error_handler_t *before = gsl_set_error_handler_off();
+    qdot_status status = QDOT_ENOMEM;
+
+    r->steps = 0;
+    if (allocate(&s))
+        status = between ? find_between(&s) : descend(&s);
+    gsl_matrix_free(s.U);
+    gsl_matrix_free(s.V);
+    gsl_vector_free(s.singular);
+    gsl_vector_free(s.work);
+    qdot_free(s.slope);
+    gsl_set_error_handler(before);
+    return status;
+}

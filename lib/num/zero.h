@@ -1,0 +1,56 @@
+/* zero.h -- unknowns u [n] for which functions F [m] vanish, by Newton's method with given slopes J.
+ *
+ *     step = -(J^T J + mu)^-1 J^T F      by singular values of J in units of u and F
+ *
+ * Where unknowns are more than independent equations, this is the least step (a solution near the guess, one of a
+ * family); where equations are more, that of least squares, and F must vanish. mu = 0.01 |F|^2 |J|^2 keeps
+ * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. A step
+ * is halved until it makes |F| smaller, or the step that would follow with the same J.
+ *
+ * One unknown of one equation between bounds with a change of sign between them: Newton and bisection.
+ *
+ * The error of an unknown is the last step, and what the errors of F make of it, |J^+| |dF|.
+ *
+ * Source  Fan, Yuan, Computing 74 (2005) 23 (mu); Deuflhard, Newton Methods (2004), 3.3 (the step that would follow); Press et al., Numerical Recipes, 9.4 (rtsafe).
+ * Tests   tests/num/test_zero.c
+ */
+#ifndef QDOT_NUM_ZERO_H
+#define QDOT_NUM_ZERO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+
+typedef struct {
+    size_t n, m; /* unknowns, functions */
+    /* F [m] at u [n] with its errors [m] (NaN: unknown), and, unless slope is NULL, J [m x n]. F[0] = NaN: it
+     * cannot be had there. */
+    qdot_status (*at)(const double *u, double *f, double *error, double *slope,
+                      void *user);
+    void *user;
+    const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
+} qdot_zero_problem;
+
+typedef enum {
+    QDOT_ZERO_FOUND,
+    QDOT_ZERO_NONE, /* |F| has a least value that is not 0, or no sign changes between the bounds */
+    QDOT_ZERO_FLAT,    /* no unknown moves F */
+    QDOT_ZERO_NOWHERE, /* F cannot be had at the guess */
+    QDOT_ZERO_JUMP,    /* F changes its sign, and does not vanish there */
+    QDOT_ZERO_SLOW     /* no end after many steps */
+} qdot_zero_answer;
+
+typedef struct {
+    qdot_zero_answer answer;
+    double *u, *error;   /* [n] in: the guess; out: the best; owned by the caller */
+    double *f, *f_error; /* [m] there */
+    size_t rank;         /* of J at the end */
+    size_t steps;        /* evaluations of J */
+} qdot_zero_result;
+
+/* Errors: those of `at`, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_zero_find(const qdot_zero_problem *p,
+                                           qdot_zero_result *r);
+
+#endif

@@ -1,0 +1,395 @@
+/* ensemble-steps.c -- reads the steps of lanes: states at given times, events, bounds. */
+#include "sim/study/ensemble-steps.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/taylor.h"
+#include "sim/course/watch.h"
+
+enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
+
+/* A lane: its member, what of it has been seen so far, its step as a system of its own. */
+typedef struct {
+    size_t member;
+    bool begun; /* the watch stands at the start of its member */
+    size_t passed, next;       /* times behind it; and with the step that is tried */
+    bool doubtful;             /* in that step */
+    qdot_vec(qdot_root) roots; /* of that step */
+    double *end;               /* [2N] the state at its end */
+    double *x;                 /* [2N x STRIDE] its series, for the watch */
+    double *y;                 /* [2N] the state at its start */
+    qdot_ode_series series;
+    qdot_ode_system system;
+    qdot_ode_expanded step;
+    qdot_watch *watch;         /* NULL: no events */
+} lane;
+
+struct qdot_ensemble_steps {
+    qdot_ensemble_steps_of of;
+    size_t n, varied, N;  /* coordinates; parameters; both */
+    size_t stride;        /* of the series of the system, in groups */
+    size_t asked;         /* occurrences of all events that are told */
+    size_t *first;        /* [events] where those of an event begin */
+    lane lanes[L];
+    size_t members;
+    double *seen;         /* [members x times x (2n + varied)] */
+    double *occurred;     /* [members x asked] */
+    size_t *count;        /* [members x events] */
+    double *sizes;        /* [members x 2n] */
+    size_t *passed;       /* [members] */
+    bool *doubtful;       /* [members] */
+};
+
+/* --- building ------------------------------------------------------------------------- */
+
+static void
+forget(qdot_ensemble_steps *s)
+{
+    qdot_free(s->seen);
+    qdot_free(s->occurred);
+    qdot_free(s->count);
+    qdot_free(s->sizes);
+    qdot_free(s->passed);
+    qdot_free(s->doubtful);
+    s->seen = s->occurred = s->sizes = NULL;
+    s->count = s->passed = NULL;
+    s->doubtful = NULL;
+}
+
+void
+qdot_ensemble_steps_free(qdot_ensemble_steps *s)
+{
+    if (!s)
+        return;
+    forget(s);
+    for (size_t l = 0; l < L; l++) {
+        qdot_free(s->lanes[l].roots.at);
+        qdot_free(s->lanes[l].end);
+        qdot_free(s->lanes[l].x);
+        qdot_watch_free(s->lanes[l].watch);
+    }
+    qdot_free(s->first);
+    qdot_free(s);
+}
+
+static qdot_status
+make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
+{
+    const size_t n = 2 * s->N, events = s->of.watching->n_events;
+
+    a->end = qdot_calloc(2 * n, sizeof *a->end);
+    a->x = qdot_calloc(n * STRIDE, sizeof *a->x);
+    if (!a->end || !a->x)
+        return QDOT_ENOMEM;
+    a->y = a->end + n;
+    a->member = SIZE_MAX;
+    a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
+    a->system = (qdot_ode_system){.n = n, .series = &a->series};
+    return events ? qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch)
+                  : QDOT_OK;
+}
+
+static qdot_status
+make(qdot_ensemble_steps *s)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    qdot_expr *g = qdot_calloc(w->n_events + 1, sizeof *g);
+    qdot_status status = QDOT_OK;
+
+    s->first = qdot_calloc(w->n_events + 1, sizeof *s->first);
+    if (!g || !s->first)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < w->n_events && status == QDOT_OK; i++) {
+        g[i] = w->events[i].function;
+        s->first[i] = s->asked;
+        s->asked += w->events[i].count;
+    }
+    for (size_t l = 0; l < L && status == QDOT_OK; l++)
+        status = make_lane(s, g, s->lanes + l);
+    qdot_free(g);
+    return status;
+}
+
+qdot_status
+qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of, qdot_ensemble_steps **steps)
+{
+    qdot_ensemble_steps *s = qdot_calloc(1, sizeof *s);
+    qdot_status status;
+
+    *steps = NULL;
+    if (!s)
+        return QDOT_ENOMEM;
+    s->of = *of;
+    s->N = of->plan->n;
+    s->varied = of->plan->n_states;
+    s->n = s->N - s->varied;
+    status = make(s);
+    if (status == QDOT_OK)
+        *steps = s;
+    else
+        qdot_ensemble_steps_free(s);
+    return status;
+}
+
+qdot_status
+qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
+{
+    const size_t width = 2 * s->n + s->varied;
+
+    forget(s);
+    s->members = members;
+    s->seen = qdot_calloc(members * s->of.n_times * width + 1, sizeof *s->seen);
+    s->occurred = qdot_calloc(members * s->asked + 1, sizeof *s->occurred);
+    s->count = qdot_calloc(members * s->of.watching->n_events + 1, sizeof *s->count);
+    s->sizes = qdot_calloc(members * 2 * s->n + 1, sizeof *s->sizes);
+    s->passed = qdot_calloc(members + 1, sizeof *s->passed);
+    s->doubtful = qdot_calloc(members + 1, sizeof *s->doubtful);
+    if (!s->seen || !s->occurred || !s->count || !s->sizes || !s->passed || !s->doubtful)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < members * s->asked; i++)
+        s->occurred[i] = NAN;
+    for (size_t l = 0; l < L; l++)
+        s->lanes[l].member = SIZE_MAX;
+    return QDOT_OK;
+}
+
+/* --- a step --------------------------------------------------------------------------- */
+
+/* Component i of the step's series after s units. */
+static double
+horner(const qdot_batch_step *step, size_t stride, size_t i, double s)
+{
+    const double *x = step->x + i * stride * L;
+    double sum = 0;
+
+    for (int k = step->order; k > 0; k--)
+        sum = (sum + x[(size_t)k * L]) * s;
+    return step->y[i * L] + sum;
+}
+
+/* What the watch reads: the solution of the lane's step. */
+static qdot_status
+read_lane(double t, double *y, void *user)
+{
+    const lane *a = user;
+
+    qdot_ode_taylor_evaluate(&a->system, a->step.order, a->step.t, a->step.unit, t, a->y, y);
+    return QDOT_OK;
+}
+
+/* Where component i of a batch is in a state with parameters. */
+static size_t
+place(const qdot_ensemble_steps *s, size_t i)
+{
+    return i < s->n ? i : i < 2 * s->n ? i + s->varied : i - s->n;
+}
+
+/* The step's series and its start, in the lane. */
+static void
+copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    for (size_t i = 0; i < 2 * s->n + s->varied; i++) {
+        const double *from = step->x + i * s->stride * L;
+        double *to = a->x + place(s, i) * STRIDE;
+
+        a->y[place(s, i)] = to[0] = step->y[i * L];
+        for (int k = 1; k <= step->order && i < 2 * s->n; k++)
+            to[k] = from[(size_t)k * L];
+    }
+    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y};
+}
+
+/* The watch at the start of a member. */
+static qdot_status
+begin_watch(const qdot_ensemble_steps *s, lane *a)
+{
+    const qdot_watch_reader reader = {read_lane, a, &a->system};
+    const size_t m = s->of.watching->n_events;
+    int *before = qdot_calloc(m + 1, sizeof *before);
+    bool *on = qdot_calloc(m + 1, sizeof *on);
+    qdot_status status = before && on ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_watch_begin(a->watch, &reader, a->step.t, a->y,
+                                  &(qdot_watch_known){s->of.shaken, before, NULL}, on);
+    a->begun = true;
+    qdot_free(before);
+    qdot_free(on);
+    return status;
+}
+
+/* Failures of the watch leave the member to a run alone. */
+static qdot_status
+search(const qdot_ensemble_steps *s, bool last, lane *a)
+{
+    const qdot_root *roots;
+    size_t n = 0;
+    qdot_status status = a->begun ? QDOT_OK : begin_watch(s, a);
+
+    a->roots.n = 0;
+    if (status == QDOT_OK)
+        status = read_lane(a->step.t_end, a->end, a);
+    if (status == QDOT_OK)
+        status = qdot_watch_step(a->watch, a->step.t_end, a->end, last, &a->step, &roots, &n);
+    if (qdot_grave(status) != QDOT_OK)
+        return status;
+    a->doubtful = a->doubtful || status != QDOT_OK;
+    for (size_t k = 0; k < n && status == QDOT_OK; k++) {
+        a->doubtful = a->doubtful || roots[k].way == 0 || roots[k].within > 0;
+        QDOT_TRY(qdot_vec_push(&a->roots, roots[k]));
+    }
+    return QDOT_OK;
+}
+
+/* Whether some bound may be reached. */
+static bool
+is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    const double h = fabs((step->t_end - step->t) / step->unit);
+
+    for (size_t b = 0; b < w->n_bounds; b++) {
+        const size_t i = w->bounds[b].coordinate;
+        const double *x = step->x + i * s->stride * L;
+        double span = 0;
+
+        for (int k = step->order; k > 0; k--)
+            span = (span + fabs(x[(size_t)k * L])) * h;
+        if (!(fabs(step->y[i * L] - w->bounds[b].bound) > span))
+            return true;
+    }
+    return false;
+}
+
+/* Take the lane's member as it stands at its start. */
+static void
+enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    a->member = step->member;
+    a->begun = false;
+    a->passed = 0;
+    for (size_t i = 0; i < 2 * s->n; i++)
+        s->sizes[step->member * 2 * s->n + i] = fabs(step->y[i * L]);
+}
+
+static qdot_status
+tried(const qdot_batch_step *step, void *user)
+{
+    qdot_ensemble_steps *s = user;
+    lane *a = s->lanes + step->lane;
+    const size_t width = 2 * s->n + s->varied;
+
+    if (a->member != step->member)
+        enter(s, step, a);
+    a->next = a->passed;
+    a->step.t_end = step->t_end;
+    while (a->next < s->of.n_times
+           && (s->of.backward ? s->of.times[a->next] >= step->t_end
+                              : s->of.times[a->next] <= step->t_end)) {
+        double *to = s->seen + (step->member * s->of.n_times + a->next) * width;
+
+        for (size_t i = 0; i < width; i++)
+            to[i] = i < 2 * s->n
+                        ? horner(step, s->stride, i, (s->of.times[a->next] - step->t) / step->unit)
+                        : step->y[i * L];
+        a->next++;
+    }
+    a->doubtful = is_near_bound(s, step);
+    for (size_t i = 0; i < 2 * s->n; i++)
+        s->sizes[step->member * 2 * s->n + i]
+            = fmax(s->sizes[step->member * 2 * s->n + i], fabs(step->y[i * L]));
+    if (!a->watch)
+        return QDOT_OK;
+    copy_series(s, step, a);
+    return search(s, step->last, a);
+}
+
+/* Note the roots of the step; whether all that is asked of events has been found. */
+static bool
+note(qdot_ensemble_steps *s, lane *a)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    size_t *count = s->count + a->member * w->n_events;
+    bool all = w->n_events > 0;
+
+    for (size_t k = 0; k < a->roots.n; k++) {
+        const qdot_root *root = a->roots.at + k;
+        const qdot_ensemble_event *e = w->events + root->function;
+        const int way = s->of.backward ? -root->way : root->way;
+
+        if (root->pole || (e->way != 0 && e->way != way))
+            continue;
+        if (count[root->function] < e->count)
+            s->occurred[a->member * s->asked + s->first[root->function] + count[root->function]]
+                = root->t;
+        count[root->function]++;
+    }
+    for (size_t i = 0; i < w->n_events; i++)
+        all = all && count[i] >= w->events[i].count;
+    return all;
+}
+
+static bool
+taken(size_t l, void *user)
+{
+    qdot_ensemble_steps *s = user;
+    lane *a = s->lanes + l;
+
+    a->passed = s->passed[a->member] = a->next;
+    s->doubtful[a->member] = s->doubtful[a->member] || a->doubtful;
+    if (s->doubtful[a->member])
+        return true; /* it is run alone */
+    if (!a->watch)
+        return false;
+    qdot_watch_take(a->watch);
+    return note(s, a) && s->of.watching->leave;
+}
+
+void
+qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system)
+{
+    system->tried = tried;
+    system->taken = taken;
+    system->looker = s;
+    s->stride = system->stride;
+}
+
+/* --- what was seen --------------------------------------------------------------------- */
+
+size_t
+qdot_ensemble_steps_passed(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->passed[member];
+}
+
+double *
+qdot_ensemble_steps_state(const qdot_ensemble_steps *s, size_t member, size_t time)
+{
+    return s->seen + (member * s->of.n_times + time) * (2 * s->n + s->varied);
+}
+
+double
+qdot_ensemble_steps_event(const qdot_ensemble_steps *s, size_t member, size_t event, size_t k)
+{
+    return s->occurred[member * s->asked + s->first[event] + k];
+}
+
+size_t
+qdot_ensemble_steps_count(const qdot_ensemble_steps *s, size_t member, size_t event)
+{
+    return s->count[member * s->of.watching->n_events + event];
+}
+
+const double *
+qdot_ensemble_steps_sizes(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->sizes + member * 2 * s->n;
+}
+
+bool
+qdot_ensemble_steps_doubtful(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->doubtful[member];
+}

@@ -1,0 +1,169 @@
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <math.h>
+#include <cmocka.h>
+
+#include "num/zero.h"
+
+/* Where x^2 + y^2 = 4 and x y = 1, beside: x + y = sqrt(6), which follows. */
+static qdot_status
+circle(const double *u, double *f, double *error, double *slope, void *user)
+{
+    const size_t m = *(const size_t *)user;
+    const double all[3][3] = {{u[0] * u[0] + u[1] * u[1] - 4, 2 * u[0], 2 * u[1]},
+                              {u[0] * u[1] - 1, u[1], u[0]},
+                              {u[0] + u[1] - sqrt(6), 1, 1}};
+
+    for (size_t i = 0; i < m; i++) {
+        f[i] = all[i][0];
+        error[i] = 1e-12;
+        for (size_t j = 0; slope != NULL && j < 2; j++)
+            slope[2 * i + j] = all[i][1 + j];
+    }
+    return QDOT_OK;
+}
+
+/* As many equations as unknowns, and one more that agrees: the same zero, its errors from those of F. */
+static void
+zeros_of_square_and_tall_systems(void **state)
+{
+    (void)state;
+    for (size_t m = 2; m <= 3; m++) {
+        double u[2] = {2.385, 0.3}, error[2], f[3], f_error[3];
+        const qdot_zero_problem p = {.n = 2, .m = m, .at = circle, .user = &m};
+        qdot_zero_result r = {.u = u, .error = error, .f = f, .f_error = f_error};
+
+        assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+        assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+        assert_int_equal(r.rank, 2);
+        assert_true(fabs(u[0] - (sqrt(6) + sqrt(2)) / 2) <= error[0]);
+        assert_true(fabs(u[1] - (sqrt(6) - sqrt(2)) / 2) <= error[1]);
+        assert_true(error[0] < 3e-12 && error[0] > 1e-13);
+    }
+}
+
+/* One equation of two unknowns: a point of the circle near the guess, which the least steps keep on its ray. */
+static void
+a_family_gives_the_near_solution(void **state)
+{
+    size_t m = 1;
+    double u[2] = {1.2, 0.9}, error[2], f, f_error;
+    const qdot_zero_problem p = {.n = 2, .m = 1, .at = circle, .user = &m};
+    qdot_zero_result r = {.u = u, .error = error, .f = &f, .f_error = &f_error};
+
+    (void)state;
+    assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 1);
+    assert_true(fabs(hypot(u[0], u[1]) - 2) < 1e-11);
+    assert_true(fabs(u[0] - 1.6) < 0.1 && fabs(u[1] - 1.2) < 0.1);
+}
+
+typedef struct {
+    double (*of)(double);
+    double from, to; /* where it can be had */
+    int known;       /* whether slopes are */
+} one;
+
+static qdot_status
+one_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    const one *x = user;
+
+    *f = u[0] < x->from || u[0] > x->to ? NAN : x->of(u[0]);
+    *error = 1e-14;
+    if (slope != NULL)
+        *slope = x->known ? (x->of(u[0] + 1e-6) - x->of(u[0] - 1e-6)) / 2e-6 : NAN;
+    return QDOT_OK;
+}
+
+static double
+steep(double u)
+{
+    return atan(40 * (u - 0.3)); /* Newton alone leaves it from the middle of 0..5 */
+}
+
+static double
+pole(double u)
+{
+    return 1 / (u - 0.3);
+}
+
+static double
+touch(double u)
+{
+    return (u - 0.3) * (u - 0.3);
+}
+
+static double
+above(double u)
+{
+    return 1 + (u - 0.3) * (u - 0.3);
+}
+
+static double
+flat(double u)
+{
+    (void)u;
+    return 1;
+}
+
+static qdot_zero_result
+between(one x, double low, double high, double *room)
+{
+    const qdot_zero_problem p = {
+        .n = 1, .m = 1, .at = one_at, .user = &x, .low = &low, .high = &high};
+    qdot_zero_result r = {
+        .u = room, .error = room + 1, .f = room + 2, .f_error = room + 3};
+
+    room[0] = low + (high - low) / 2;
+    assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+    return r;
+}
+
+/* With slopes and without; from ends of one sign too, with two zeros between; at a touch. */
+static void
+bounds_lead_to_a_zero(void **state)
+{
+    double u[4];
+
+    (void)state;
+    for (int known = 0; known < 2; known++) {
+        assert_int_equal(between((one){steep, 0, 5, known}, 0, 5, u).answer, QDOT_ZERO_FOUND);
+        assert_true(fabs(u[0] - 0.3) <= u[1] && u[1] < 1e-12);
+        assert_int_equal(between((one){sin, 0, 9, known}, 0.5, 7.3, u).answer, QDOT_ZERO_FOUND);
+        assert_true(fabs(sin(u[0])) < 1e-14 && u[0] > 0.5);
+        assert_int_equal(between((one){sin, 0, 9, known}, 0, 2, u).answer, QDOT_ZERO_FOUND);
+        assert_true(u[0] == 0 || known == 0);
+    }
+    assert_int_equal(between((one){touch, 0, 1, 1}, 0, 1, u).answer, QDOT_ZERO_FOUND);
+    assert_true(fabs(u[0] - 0.3) <= 10 * u[1]);
+}
+
+static void
+what_is_no_zero_is_told(void **state)
+{
+    double u[4];
+
+    (void)state;
+    assert_int_equal(between((one){pole, 0, 1, 1}, 0, 1, u).answer, QDOT_ZERO_JUMP);
+    assert_true(fabs(u[0] - 0.3) < 1e-12);
+    assert_int_equal(between((one){above, 0, 1, 1}, 0, 1, u).answer, QDOT_ZERO_NONE);
+    assert_int_equal(between((one){flat, 0, 1, 1}, 0, 1, u).answer, QDOT_ZERO_FLAT);
+    assert_int_equal(between((one){sin, 8, 9, 1}, 0, 1, u).answer, QDOT_ZERO_NOWHERE);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zeros_of_square_and_tall_systems),
+        cmocka_unit_test(a_family_gives_the_near_solution),
+        cmocka_unit_test(bounds_lead_to_a_zero),
+        cmocka_unit_test(what_is_no_zero_is_told),
+    };
+
+    return cmocka_run_group_tests_name("zero", tests, NULL, NULL);
+}

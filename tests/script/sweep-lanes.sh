@@ -1,0 +1,91 @@
+# Members of a sweep side by side: what runs alone give, the same bits in any company, and why not.
+# Rows of two CSV files with the same first number, which agree within their errors.
+agree() {
+    awk -F, 'FNR == 1 { n = (NF - 1) / 2; next }
+             FNR == NR { for (i = 2; i <= NF; i++) a[$1, i] = $i; seen[$1] = 1; next }
+             $1 in seen { rows++
+                 for (i = 2; i <= n + 1; i++) {
+                     if ($i !~ /^[-+.e0-9]+$/) { off += $i != a[$1, i]; continue }
+                     by = $i - a[$1, i]; if (by < 0) by = -by
+                     compared++
+                     if (!(by <= $(i + n) + a[$1, i + n])) off++ } }
+             END { print rows " rows, " compared " numbers, " off + 0 " beyond their errors" }' "$1" "$2"
+}
+cat >double.lag <<'END'
+param l = 1
+coord a, b
+particle p mass 1 at (l*sin(a), -l*cos(a))
+particle q mass 1 at (l*sin(a) + sin(b), -l*cos(a) - cos(b))
+gravity (0, -9.81)
+event under: b = 0 falling
+start a = 1, b = 1
+END
+# so few that each is a run alone, and the same among others
+few='[1/4, 1/2, 3/4, 5/4]'
+many='[1/8, 1/4, 3/8, 1/2, 5/8, 3/4, 7/8, 1, 9/8, 5/4, 11/8, 3/2, 13/8, 7/4, 15/8, 2, 17/8, 9/4]'
+turned='[9/4, 17/8, 2, 15/8, 7/4, 13/8, 3/2, 11/8, 5/4, 9/8, 1, 7/8, 3/4, 5/8, 1/2, 1/4]'
+for what in 'a 1e-9 a, b'"'"', energy, under[1]' 'l 1e-6 a, l*b'"'"', t, under[2]' 'l 1e-12 under[3]'; do
+    set -- $what
+    name=$1 tol=$2
+    shift 2
+    qdot -q double.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p'
+sweep $name = $few run 0..5 tol $tol : $* as few threads 1
+sweep $name = $many run 0..5 tol $tol : $* as many threads 1
+sweep $name = $turned run 0..5 tol $tol : $* as turned threads 3
+save few to "few.csv"
+save many to "many.csv"
+save turned to "turned.csv"
+END
+    agree few.csv many.csv
+    sort many.csv >a
+    sort turned.csv | comm -23 - a | wc -l | tr -d ' '
+done
+echo '# forces that act for less than a step, quotients, momenta, bounds; back in time'
+cat >bump.lag <<'END'
+param w = 1
+coord x
+particle p mass 1 at x
+potential exp(-1000*(x - 5)^2)/20 + 1/(1000*((x - 3)^2 + w))
+END
+cat >kepler.lag <<'END'
+coord r > 0, phi
+particle p mass 1 at (r*cos(phi), r*sin(phi))
+potential -1/r
+event turn: phi = 3
+start r = 1
+END
+few='[1/4, 1/2, 1, 3/2, 5/2]'
+many='[1/4, 1/2, 3/4, 1, 5/4, 3/2, 7/4, 2, 9/4, 5/2, 11/4, 3, 13/4, 7/2, 15/4, 4, 17/4]'
+for what in "bump x' 0..20 x, x'" "bump w 0..20 x, x'" "kepler phi' 0..9 r, phi, phi', turn[1]" \
+    "kepler phi' 0..-9 r, phi"; do
+    set -- $what
+    scene=$1 name=$2 time=$3
+    shift 3
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p'
+$([ $name != w ] || echo "start x' = 2")
+sweep $name = $few run $time : $* as few
+sweep $name = $many run $time : $* as many
+save few to "few.csv"
+save many to "many.csv"
+END
+    agree few.csv many.csv
+done
+echo '# plans'
+cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/'
+qdot -q double.lag - <<'END' 2>&1 | sed "$cut"
+plan sweep a = 0..1 count 1000, b = -pi..pi count 100 run 0..1 : a, under[2] threads 2
+plan sweep a = 0..1 count 8 run 0..1 : a
+plan sweep a = 0..1 count 20 run 0..1 : max(a)
+plan sweep a = 0..1 count 20 run 0..1 method dop853 : a
+plan sweep a = 0..1 count 20 run 0..1 tol 1e-15 : a
+plan sweep b = uniform(0, 1) count 20 seed 3 run 0..1 digits 20 : a
+param k
+set k = l^2
+plan sweep l = 1..2 count 20 run 0..1 : a
+event high: b = 3 stop
+plan sweep a = 0..1 count 20 run 0..1 : a
+END
+for wrong in 'plan sweep a = 0..1 count 20 run 0..1' 'plan sweep c = 0..1 count 20 run 0..1 : a' \
+    'plan sweep a = 0..1 count 20 run 0..1 : a + nobody'; do
+    qdot -q double.lag -e "$wrong" 2>&1
+done
