@@ -333,6 +333,7 @@ library_sources = \
 	lib/num/structure.c \
 	lib/num/two.c \
 	lib/num/zero.c \
+	lib/ode/alternate.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/companion.c \
@@ -849,6 +850,7 @@ library_headers = \
 	lib/num/two.def \
 	lib/num/two.h \
 	lib/num/zero.h \
+	lib/ode/alternate.h \
 	lib/ode/apart.h \
 	lib/ode/batch.def \
 	lib/ode/batch.h \
@@ -1176,6 +1178,7 @@ unit_tests = \
 	tests/num/test_sum \
 	tests/num/test_two \
 	tests/num/test_zero \
+	tests/ode/test_alternate \
 	tests/ode/test_companion \
 	tests/ode/test_dop853 \
 	tests/ode/test_geometric \
@@ -1428,6 +1431,7 @@ script_tests = \
 	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
+	tests/script/stiff-turns.lag \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
@@ -2455,6 +2459,7 @@ test_files = \
 	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \
+	tests/script/stiff-turns.out \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \

@@ -84,6 +84,22 @@ qdot_realloc(void *block, size_t size)
     return inside ? noted(bigger, size) : checked(bigger, size);
 }
 
+qdot_status
+qdot_calloc_parts(double **block, size_t count, const qdot_part *parts)
+{
+    size_t all = 0;
+
+    for (size_t i = 0; i < count; i++)
+        all += parts[i].n;
+    *block = qdot_calloc(all, sizeof **block);
+    if (!*block)
+        return QDOT_ENOMEM;
+    all = 0;
+    for (size_t i = 0; i < count; all += parts[i++].n)
+        *parts[i].place = *block + all;
+    return QDOT_OK;
+}
+
 char *
 qdot_strndup(const char *text, size_t length)
 {

@@ -17,6 +17,15 @@ char *qdot_strndup(const char *text, size_t length);
 char *qdot_strdup(const char *text);
 void qdot_free(void *block);
 
+/* Arrays of doubles in one block, all 0: each part's place is set to its n doubles. *block is to be
+ * freed; the parts are not. */
+typedef struct {
+    double **place;
+    size_t n;
+} qdot_part;
+QDOT_MUST_CHECK qdot_status qdot_calloc_parts(double **block, size_t count,
+                                              const qdot_part *parts);
+
 /* For tests: the n-th allocation from now (n = 0: the next) and all after it fail; n < 0: none. */
 void qdot_memory_fail_at(long n);
 /* For tests: simulate Ctrl-C at the n-th allocation from now (n = 0: the next); n < 0: not. */

@@ -63,7 +63,7 @@ struct qdot_companion {
     const qdot_ode_method *run; /* its method */
     const qdot_ode_meter *meter;
     double tol, t1, t1_low, t0_low; /* of the run */
-    bool leading;
+    bool leading, alternates;
     size_t samples; /* 0 or PLACES */
     double times[PLACES];
     double *shown; /* [PLACES x n] states of the run at `times` */
@@ -198,11 +198,14 @@ static void
 run_by(follower *f, const qdot_companion_plan *by, double t1)
 {
     const qdot_companion *c = f->of;
+    const qdot_ode_method *now = NULL;
     qdot_ode_options options = {.tol = by->tol,
                                 .accepted = look,
                                 .user = f,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number,
                                 .leading = c->leading,
+                                .alternates = c->alternates,
+                                .now = &now,
                                 .end_low = c->leading ? f->now : NULL,
                                 .meter = c->meter ? &f->meter : NULL,
                                 .stiff_work = INFINITY, /* the meter bounds it */
@@ -446,6 +449,7 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->t1_low = request->t1_low;
     c->t0_low = request->t0_low;
     c->leading = request->leading;
+    c->alternates = request->alternates;
     c->share = 1;
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);

@@ -111,7 +111,8 @@ typedef struct {
     double t1_low;                  /* the exact t1 less t1 (run.h) */
     const double *y0;               /* [n] borrowed during _start */
     const double *carry;            /* [n] the exact start less y0; NULL: 0; likewise */
-    bool leading;                   /* of the run (integrate.h) */
+    bool alternates;                /* of the run (run.h), */
+    bool leading;                   /* likewise */
     double t0_low;                  /* likewise */
     const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what
                                        they like; likewise */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "ode/alternate.h"
 #include "ode/apart.h"
 #include "ode/whole.h"
 
@@ -107,6 +108,8 @@ qdot_ode_integrate(const qdot_ode_system *system, const qdot_ode_method *method,
 
     if (!options)
         options = &defaults;
+    if (qdot_ode_alternates(system, method, options))
+        return qdot_ode_alternate_integrate(system, method, options, t0, t1, y, result);
     return (qdot_ode_is_apart(system, options) ? integrate_apart : qdot_ode_whole_integrate)(
         system, method, options, t0, t1, y, result);
 }

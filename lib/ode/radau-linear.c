@@ -12,20 +12,10 @@
 void
 qdot_radau_linear_clear(qdot_radau_linear *l)
 {
-    qdot_free(l->dq);
-    qdot_free(l->dv);
-    qdot_free(l->mass);
-    qdot_free(l->dt);
-    for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
-        qdot_free(l->re[k]);
-        qdot_free(l->im[k]);
-        qdot_free(l->rows[k]);
-    }
+    qdot_free(l->room);
+    qdot_free(l->rows[0]);
     qdot_free(l->pattern);
     qdot_free(l->order);
-    qdot_free(l->scratch);
-    qdot_free(l->put[0]);
-    qdot_free(l->put[1]);
     *l = (qdot_radau_linear){0};
 }
 
@@ -34,29 +24,25 @@ qdot_radau_linear_init(qdot_radau_linear *l, const qdot_ode_system *system)
 {
     const qdot_ode_mass_form *form = system->mass_form;
     const size_t v = form ? form->m : system->n, m = v + (form ? form->k : 0), cells = m * m;
-    bool all;
+    const qdot_part parts[] = {{&l->dq, cells},    {&l->dv, cells},    {&l->mass, cells},
+                               {&l->dt, m},        {&l->put[0], m},    {&l->put[1], m},
+                               {&l->re[0], cells}, {&l->re[1], cells}, {&l->im[1], cells},
+                               {&l->re[2], cells}, {&l->im[2], cells}, {&l->re[3], cells},
+                               {&l->im[3], cells}};
 
     *l = (qdot_radau_linear){.system = system, .m = m, .v = v, .p = system->n - v};
-    l->dq = qdot_calloc(cells, sizeof *l->dq);
-    l->dv = qdot_calloc(cells, sizeof *l->dv);
-    l->mass = qdot_calloc(cells, sizeof *l->mass);
-    l->dt = qdot_calloc(m, sizeof *l->dt);
+    QDOT_TRY(qdot_calloc_parts(&l->room, sizeof parts / sizeof parts[0], parts));
+    l->rows[0] = qdot_calloc(QDOT_RADAU_SPACES * m, sizeof *l->rows[0]);
     l->pattern = qdot_calloc(cells, sizeof *l->pattern);
-    l->order = qdot_calloc(m, sizeof *l->order);
-    l->scratch = qdot_calloc(m, sizeof *l->scratch);
-    l->put[0] = qdot_calloc(m, sizeof *l->put[0]);
-    l->put[1] = qdot_calloc(m, sizeof *l->put[1]);
-    all = l->dq && l->dv && l->mass && l->dt && l->pattern && l->order && l->scratch &&
-          l->put[0] && l->put[1];
-    for (size_t i = 0; i < m && all; i++)
+    l->order = qdot_calloc(2 * m, sizeof *l->order);
+    if (!l->rows[0] || !l->pattern || !l->order)
+        return QDOT_ENOMEM;
+    l->scratch = l->order + m;
+    for (size_t i = 0; i < m; i++)
         l->order[i] = i;
-    for (size_t k = 0; k < QDOT_RADAU_SPACES; k++) {
-        l->re[k] = qdot_calloc(cells, sizeof *l->re[k]);
-        l->im[k] = k ? qdot_calloc(cells, sizeof *l->im[k]) : NULL;
-        l->rows[k] = qdot_calloc(m, sizeof *l->rows[k]);
-        all = all && l->re[k] && (l->im[k] || k == 0) && l->rows[k];
-    }
-    return all ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t k = 1; k < QDOT_RADAU_SPACES; k++)
+        l->rows[k] = l->rows[0] + k * m;
+    return QDOT_OK;
 }
 
 static qdot_status

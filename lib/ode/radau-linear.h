@@ -21,6 +21,7 @@
 typedef struct {
     const qdot_ode_system *system; /* borrowed */
     size_t m, v, p; /* unknowns; velocities among them, the first; positions, v or 0 */
+    double *room;                  /* the block of all doubles here */
     double *dq, *dv, *mass;        /* [m x m] slopes of f - M a; M */
     double *dt;                    /* [m] scratch */
     double *re[QDOT_RADAU_SPACES],

@@ -38,6 +38,7 @@ typedef struct {
     size_t m, w;    /* unknowns (v, z); of a stage, (q, v, z) */
     size_t kind;     /* of radau-basis.h */
     bool kept;       /* it does not change */
+    double *room;    /* the block of those that follow */
     double *Z;       /* [MOST x w] the stages less y and z */
     double *z;       /* multipliers about which those of the stages are */
     double *a;       /* [MOST x m] */
@@ -67,14 +68,7 @@ drop(qdot_ode_stepper *s)
     if (!r)
         return;
     qdot_radau_linear_clear(&r->linear);
-    qdot_free(r->Z);
-    qdot_free(r->z);
-    qdot_free(r->a);
-    qdot_free(r->R);
-    qdot_free(r->re);
-    qdot_free(r->im);
-    qdot_free(r->weight);
-    qdot_free(r->before);
+    qdot_free(r->room);
     qdot_free(r);
     s->own = NULL;
 }
@@ -93,16 +87,15 @@ make(qdot_ode_stepper *s)
     r->p = r->linear.p;
     r->w = r->p + r->m;
     r->kind = s->tol > 1e-4 ? 0 : s->tol > 1e-8 ? 1 : 2;
-    r->Z = qdot_calloc(MOST * r->w, sizeof *r->Z);
-    r->z = qdot_calloc(r->m, sizeof *r->z); /* more than there are */
-    r->a = qdot_calloc(MOST * r->m, sizeof *r->a);
-    r->R = qdot_calloc(MOST * r->m, sizeof *r->R);
-    r->re = qdot_calloc(r->m, sizeof *r->re);
-    r->im = qdot_calloc(r->m, sizeof *r->im);
-    r->weight = qdot_calloc(r->w, sizeof *r->weight);
-    r->before = qdot_calloc(MOST * r->w, sizeof *r->before);
-    return r->Z && r->z && r->a && r->R && r->re && r->im && r->weight && r->before ? QDOT_OK
-                                                                                    : QDOT_ENOMEM;
+    return qdot_calloc_parts(&r->room, 8,
+                             (const qdot_part[]){{&r->Z, MOST * r->w},
+                                                 {&r->z, r->m}, /* more than there are */
+                                                 {&r->a, MOST * r->m},
+                                                 {&r->R, MOST * r->m},
+                                                 {&r->re, r->m},
+                                                 {&r->im, r->m},
+                                                 {&r->weight, r->w},
+                                                 {&r->before, MOST * r->w}});
 }
 
 static void

@@ -81,6 +81,10 @@ typedef struct {
     double t0_low;
     const double **beyond;
     double *end_low;
+    /* Change from a stiff method to Taylor series where these are faster, and back (alternate.h);
+     * where to store, while `accepted` and `expanded` run, the method of that step; borrowed. */
+    bool alternates;
+    const qdot_ode_method **now;
     /* Continue the solution that was entered last (system->following). */
     bool goes_on;
     /* For a system of parts: call `accepted` for each part, with its components. Otherwise such a

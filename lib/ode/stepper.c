@@ -148,19 +148,16 @@ static bool
 allocate(qdot_ode_stepper *s, size_t n)
 {
     const gsl_odeiv2_step_type *const *type = s->method->stepper;
-    double **arrays[] = {&s->y,    &s->carry, &s->dydt,  &s->z,         &s->error,
-                         &s->zdot, &s->scale, &s->trial, &s->trial_dydt,
-                         &s->moved, &s->moved_carry};
+    const size_t stages = s->method->kernel ? s->method->kernel->stages : 0;
+    const qdot_part parts[] = {{&s->y, n},     {&s->carry, n},      {&s->dydt, n},
+                               {&s->z, n},     {&s->error, n},      {&s->zdot, n},
+                               {&s->scale, n}, {&s->trial, n},      {&s->trial_dydt, n},
+                               {&s->moved, n}, {&s->moved_carry, n}, {&s->stages, stages * n}};
 
-    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) {
-        *arrays[i] = qdot_calloc(n, sizeof(double));
-        if (!*arrays[i])
-            return false;
-    }
-    if (s->method->kernel) {
-        s->stages = qdot_calloc(s->method->kernel->stages * n + 1, sizeof(double));
-        return s->stages && (!s->method->kernel->open || s->method->kernel->open(s) == QDOT_OK);
-    }
+    if (qdot_calloc_parts(&s->room, sizeof parts / sizeof parts[0], parts) != QDOT_OK)
+        return false;
+    if (s->method->kernel)
+        return !s->method->kernel->open || s->method->kernel->open(s) == QDOT_OK;
     s->step = gsl_odeiv2_step_alloc(*type, n);
     s->control = gsl_odeiv2_control_alloc(&control_type);
     if (!s->step || !s->control)
@@ -216,18 +213,7 @@ qdot_ode_stepper_free(qdot_ode_stepper *s)
         gsl_odeiv2_control_free(s->control);
     if (s->method->kernel && s->method->kernel->close)
         s->method->kernel->close(s);
-    qdot_free(s->y);
-    qdot_free(s->carry);
-    qdot_free(s->dydt);
-    qdot_free(s->z);
-    qdot_free(s->error);
-    qdot_free(s->zdot);
-    qdot_free(s->scale);
-    qdot_free(s->trial);
-    qdot_free(s->trial_dydt);
-    qdot_free(s->stages);
-    qdot_free(s->moved);
-    qdot_free(s->moved_carry);
+    qdot_free(s->room);
     qdot_free(s);
 }
 

@@ -69,6 +69,7 @@ struct qdot_ode_stepper {
     const qdot_ode_system *system; /* borrowed */
     double tol;
 
+    double *room;      /* the block of those that follow */
     double *y, *carry; /* [n] the state at the start of the step */
     double *dydt;      /* [n] f there; one-step methods */
     double *z, *error; /* [n] the step tried: increment (or new state); its error */

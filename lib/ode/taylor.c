@@ -574,31 +574,61 @@ release(run *r)
     qdot_ode_stiffness_clear(&r->stiffness);
 }
 
+/* Not yet begun. */
+static run
+run_of(const qdot_ode_system *system, const qdot_ode_options *options, double t0, double t1,
+       qdot_ode_result *result)
+{
+    return (run){.system = system,
+                 .series = system->series,
+                 .kernels = qdot_series_kernels_get(),
+                 .options = options,
+                 .result = result,
+                 .n = system->n,
+                 .tol = qdot_ode_tolerance(options),
+                 .max_steps = qdot_ode_most_steps(options),
+                 .t = t0,
+                 .t0 = t0,
+                 .crawl.t = t0,
+                 .t1 = t1,
+                 .direction = t1 < t0 ? -1 : 1,
+                 .unit = 1,
+                 .place = NAN,
+                 .undefined_at = NAN};
+}
+
+qdot_status
+qdot_ode_taylor_first_step(const qdot_ode_system *system, const qdot_ode_options *options,
+                           double t, double t1, const double *y, double *h)
+{
+    const qdot_ode_options plain = {.tol = options->tol, .goes_on = true};
+    qdot_ode_result result = {0};
+    run r = run_of(system, &plain, t, t1, &result);
+    qdot_status status = prepare(&r, t, t1, y);
+
+    *h = 0;
+    if (status == QDOT_OK) {
+        qdot_ode_taylor_run_set_unit(&r, r.direction);
+        status = qdot_ode_taylor_run_begin(&r, t, r.y);
+    }
+    if (status == QDOT_OK)
+        status = qdot_ode_taylor_run_length(&r, INFINITY, h);
+    release(&r);
+    if (status != QDOT_OK)
+        *h = 0;
+    return qdot_grave(status);
+}
+
 qdot_status
 qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options *options,
                           double t0, double t1, double *y, qdot_ode_result *result)
 {
     static const qdot_ode_options defaults = {0};
     double cpu_start = qdot_cpu_now();
-    run r = {.system = system,
-             .series = system->series,
-             .kernels = qdot_series_kernels_get(),
-             .options = options ? options : &defaults,
-             .result = result,
-             .n = system->n,
-             .t = t0,
-             .t0 = t0,
-             .crawl.t = t0,
-             .t1 = t1,
-             .direction = t1 < t0 ? -1 : 1,
-             .unit = 1,
-             .place = NAN,
-             .undefined_at = NAN};
+    run r = run_of(system, options ? options : &defaults, t0, t1, result);
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    r.tol = qdot_ode_tolerance(r.options);
-    r.max_steps = qdot_ode_most_steps(r.options);
     status = prepare(&r, t0, t1, y);
     if (status == QDOT_OK)
         status = qdot_ode_enter(system, r.options, t0, y);

@@ -58,6 +58,12 @@ QDOT_MUST_CHECK qdot_status qdot_ode_taylor_integrate(const qdot_ode_system *sys
                                                       double t0, double t1, double *y,
                                                       qdot_ode_result *result);
 
+/* The length *h that a step by series from y [n] at t towards t1 would be tried with; 0: none can be;
+ * INFINITY: the series ends. Nothing is changed. QDOT_ENOMEM, QDOT_EINTR. */
+QDOT_MUST_CHECK qdot_status qdot_ode_taylor_first_step(const qdot_ode_system *system,
+                                                       const qdot_ode_options *options, double t,
+                                                       double t1, const double *y, double *h);
+
 /* What steps take under tol by the best order up to about `most`, as machine code where there is to be some: nanoseconds
  * for a way as long as the radius of convergence. */
 double qdot_ode_taylor_cost(const qdot_ode_cost *cost, int most, double tol);

@@ -19,6 +19,15 @@ qdot_trajectory_shorten(qdot_trajectory *tr, double t, const double *y)
     tr->result.t = t;
 }
 
+const qdot_ode_method *
+qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k)
+{
+    for (size_t i = tr->turns.n; i-- > 0;)
+        if (tr->turns.at[i].first <= k)
+            return tr->turns.at[i].method;
+    return tr->method;
+}
+
 /* Append the points of a piece to `to`, each step in so many parts. */
 static qdot_status
 refine_piece(const qdot_trajectory *tr, qdot_trajectory_cursor *c, size_t piece,
@@ -72,6 +81,12 @@ qdot_trajectory_refine(qdot_trajectory *tr, const qdot_ode_system *system, size_
         tr->y_capacity = to.y_capacity;
         to.t = t;
         to.y = y;
+        for (size_t i = 0; i < tr->turns.n; i++) {
+            const size_t k = qdot_trajectory_piece_of(tr, tr->turns.at[i].first);
+
+            tr->turns.at[i].first =
+                first[k] + parts * (tr->turns.at[i].first - tr->pieces.at[k].first);
+        }
         for (size_t i = 0; i < tr->pieces.n; i++)
             tr->pieces.at[i].first = first[i];
     }

@@ -25,8 +25,9 @@ struct qdot_trajectory_cursor {
     const qdot_ode_system *systems; /* [modes] */
     const qdot_ode_system *system;  /* of the piece */
     size_t piece;
-    qdot_ode_stepper *s; /* NULL: by Taylor series */
-    int order;           /* of those */
+    bool series;         /* the step at `at` is by Taylor series, */
+    int order;           /* of this order */
+    qdot_ode_stepper *s; /* NULL: none is */
     size_t at;           /* the stored point looked from last */
     bool fresh;          /* the stepper stands, the series is expanded, at that point */
     double *F;           /* of a kernel: the polynomial of half the step */
@@ -44,6 +45,7 @@ typedef struct {
     const qdot_ode_options *options;
     double t1;
     const double *low; /* [n] what the state is beyond y; NULL: nothing */
+    const qdot_ode_method *now; /* of a run that changes it; NULL: the trajectory's */
 } recorder;
 
 static qdot_status
@@ -51,6 +53,8 @@ pass_expanded(qdot_ode_expanded *step, void *user)
 {
     recorder *r = user;
 
+    if (r->options->now)
+        *r->options->now = r->now;
     return r->options->expanded(step, r->options->user);
 }
 
@@ -73,6 +77,7 @@ qdot_trajectory_clear(qdot_trajectory *tr)
     qdot_free(tr->low);
     qdot_free(tr->s);
     qdot_free(tr->pieces.at);
+    qdot_free(tr->turns.at);
     *tr = (qdot_trajectory){0};
 }
 
@@ -156,8 +161,13 @@ record(double t, const double *y, bool *stop, void *user)
 
     if (r->tr->count % looks == 0)
         QDOT_TRY(foresee(r, t));
+    if (r->options->now)
+        *r->options->now = r->now;
     if (r->options->accepted)
         QDOT_TRY(r->options->accepted(t, y, stop, r->options->user));
+    if (r->now && r->now != qdot_trajectory_method_of(r->tr, r->tr->count - 1))
+        QDOT_TRY(qdot_vec_push(&r->tr->turns,
+                               ((qdot_trajectory_turn){r->tr->count - 1, r->now})));
     QDOT_TRY(qdot_trajectory_store(r->tr, t, y));
     return r->tr->leading ? store_low(r->tr, r->low) : QDOT_OK;
 }
@@ -197,6 +207,7 @@ qdot_trajectory_run(qdot_trajectory *tr, const qdot_ode_system *system,
     own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
     own.beyond = &r.low;
+    own.now = &r.now;
     own.user = &r;
     if (status == QDOT_OK)
         status = qdot_vec_push(&tr->pieces, whole);
@@ -220,7 +231,10 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     /* `accepted` is ours from here on: whether theirs goes by parts has been decided */
     qdot_ode_options own = *options;
     qdot_trajectory_piece piece = {.first = tr->count, .mode = mode, .jumped = jumped};
-    recorder r = {.tr = tr, .options = options, .t1 = t1};
+    recorder r = {.tr = tr,
+                  .options = options,
+                  .t1 = t1,
+                  .now = tr->turns.n > 0 ? tr->turns.at[tr->turns.n - 1].method : NULL};
     qdot_ode_stats before = tr->result.stats;
     double t0 = tr->t[tr->count - 1];
     double *y = qdot_malloc(system->n * sizeof *y);
@@ -230,6 +244,7 @@ qdot_trajectory_resume(qdot_trajectory *tr, const qdot_ode_system *system, size_
     own.apart = false;
     own.expanded = own.expanded ? pass_expanded : NULL;
     own.beyond = &r.low;
+    own.now = &r.now;
     own.user = &r;
     if (y)
         memcpy(y, y0, system->n * sizeof *y);
@@ -322,12 +337,13 @@ enter(qdot_trajectory_cursor *c, size_t piece)
         return QDOT_OK;
     c->system = system;
     c->fresh = c->known = false;
-    if (c->tr->method->series) {
+    c->series = c->tr->method->series;
+    if (system->series && (c->series || c->tr->turns.n > 0))
         c->order =
             qdot_ode_taylor_order(system->series, c->tr->tol, c->tr->leading,
                                   c->tr->order_more);
+    if (c->series)
         return QDOT_OK;
-    }
     qdot_ode_stepper_free(c->s);
     qdot_free(c->F);
     c->s = NULL;
@@ -521,7 +537,7 @@ read_step(qdot_trajectory_cursor *c, double t, double *y)
 {
     if (c->tracks)
         return qdot_trajectory_read_tracks(c, t, y);
-    if (!c->s) {
+    if (c->series) {
         QDOT_TRY(read_series(c, t, y));
         return derive(c, t, y);
     }
@@ -576,6 +592,8 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
     if (k != c->at)
         c->fresh = c->known = false;
     c->at = k;
+    if (tr->turns.n > 0)
+        c->series = qdot_trajectory_method_of(tr, k)->series;
     if (tr->t[k] == t) {
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
@@ -637,7 +655,7 @@ qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system 
 {
     const qdot_trajectory *tr = c->tr;
 
-    if (c->tracks || c->s || tr->s || !c->fresh)
+    if (c->tracks || !c->series || tr->s || !c->fresh)
         return false;
     *of = c->system;
     *step = (qdot_ode_expanded){.t = tr->t[c->at],

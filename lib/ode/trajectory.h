@@ -32,12 +32,18 @@ typedef struct {
     bool jumped;  /* its start is another state than the end before */
 } qdot_trajectory_piece;
 
+/* A change of the method (alternate.h). */
+typedef struct {
+    size_t first; /* the point from which on steps are by it */
+    const qdot_ode_method *method;
+} qdot_trajectory_turn;
+
 typedef struct qdot_trajectory {
     size_t n;     /* components of the state */
     size_t count; /* stored points, the initial state included */
     double *t;    /* [count] monotone in the direction of the run, strictly in a piece */
     double *y;    /* [count x n] row-major */
-    const qdot_ode_method *method;
+    const qdot_ode_method *method; /* of steps before the first of the `turns` */
     double tol;
     int order_more;         /* of the run's options, */
     bool leading;           /* likewise, */
@@ -48,6 +54,7 @@ typedef struct qdot_trajectory {
                                longer one (`following` of ode/system.h) */
     size_t t_capacity, y_capacity, low_capacity;
     qdot_vec(qdot_trajectory_piece) pieces;
+    qdot_vec(qdot_trajectory_turn) turns;
     /* For a system integrated in parts (ode/apart.h): the trajectory of each part; the points
      * above are those of the part with the most. One piece only. */
     struct qdot_trajectory *tracks; /* [n_tracks] */
@@ -153,6 +160,9 @@ void qdot_trajectory_renew(qdot_trajectory_cursor *c);
 
 /* The piece that stored point k belongs to. */
 size_t qdot_trajectory_piece_of(const qdot_trajectory *tr, size_t k);
+
+/* The method of the step from stored point k on. */
+const qdot_ode_method *qdot_trajectory_method_of(const qdot_trajectory *tr, size_t k);
 
 /* The last point of a piece. */
 size_t qdot_trajectory_last_of(const qdot_trajectory *tr, size_t piece);

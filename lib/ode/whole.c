@@ -23,6 +23,10 @@ static const double aim = 0.1;
 /* A step grows by so much or not at all where another size is dear. */
 static const double worthwhile = 1.2;
 
+/* The most that a step changes by, and that of a method that damps what is stiff: behind what dies out
+ * its steps have far to grow. */
+static const double most_change = 5, most_change_stiff = 25;
+
 /* Steps of so few least ones are bounded by the doubles of t, not by stability. */
 static const double coarse = 64;
 
@@ -84,20 +88,21 @@ norm(const run *r, const double *x, const double *y)
     return largest;
 }
 
-/* Hairer's starting step: from the size of y and y', then of y'' by an Euler step. */
+/* Hairer's starting step: from the size of y, a scale at least, and of y', then of y'' by an Euler
+ * step. */
 static qdot_status
 first_step(run *r, double distance)
 {
     qdot_ode_stepper *s = r->s;
     const size_t n = s->system->n;
     double p = s->method->multistep ? 1 : qdot_ode_stepper_error_power(s);
-    double d0, d1, d2, h0;
+    const double d0 = 1 / s->tol;
+    double d1, d2, h0;
 
     QDOT_TRY(qdot_ode_stepper_rhs(s, r->t, s->y, s->dydt));
     s->dydt_known = true;
-    d0 = norm(r, s->y, s->y);
     d1 = norm(r, s->dydt, s->y);
-    h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+    h0 = d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
     h0 = fmin(h0, distance);
     r->h = h0;
     for (size_t i = 0; i < n; i++)
@@ -158,12 +163,14 @@ choose(const run *r, bool *last)
 static void
 control(run *r, double h, double ratio, bool accepted)
 {
+    const bool stiff = r->s->method->kernel && r->s->method->stiff;
+    const double most = stiff ? most_change_stiff : most_change;
     double power = qdot_ode_stepper_error_power(r->s), factor;
 
     if (r->options->h_fixed > 0)
         return;
-    factor = ratio > 0 ? 0.9 * pow(ratio / aim, -1 / power) : 5;
-    factor = fmin(5, fmax(0.2, factor));
+    factor = ratio > 0 ? 0.9 * pow(ratio / aim, -1 / power) : most;
+    factor = fmin(most, fmax(1 / most, factor));
     if (accepted && (r->just_rejected || (r->s->method->multistep && factor < 1.5)))
         factor = fmin(1, factor);
     if (accepted && r->s->method->multistep)
@@ -371,8 +378,6 @@ loop(run *r)
     double distance = fabs(r->t1 - r->t);
     bool stop = false;
 
-    if (distance == 0)
-        return QDOT_OK;
     if (r->options->h_fixed > 0) {
         r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
     } else if (r->options->h_first > 0) {
@@ -437,9 +442,9 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
     r.direction = t1 < t0 ? -1 : 1;
     r.max_steps = qdot_ode_most_steps(options);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && (t0 != t1 || system->n == 0))
         status = qdot_ode_stepper_new(system, method, tol, &r.s);
-    if (status == QDOT_OK) {
+    if (status == QDOT_OK && r.s) {
         qdot_ode_stepper_start(r.s, y);
         status = loop(&r);
         memcpy(y, r.s->y, system->n * sizeof *y);

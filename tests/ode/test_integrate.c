@@ -481,7 +481,7 @@ every_failed_allocation_is_told(void **state)
         assert_true(y[0] == 2 && r.t == 0);
         failures++;
     }
-    assert_true(failures > 8);
+    assert_true(failures >= 2);
 }
 
 int

@@ -48,3 +48,50 @@ potential theta1^2/2 + (theta2 - theta1)^2/2
 force -P*(cos(theta2), sin(theta2)) on b
 continue equilibria in P = 0..4
 END
+# bifurcations against closed forms: type, parameter
+near() # SCRIPT on the standard input; TYPE VALUE pairs
+{
+    qdot -q --json - | sed -n 's/.*"bifurcation","type":"\(.*\)","values":\[\([^],]*\).*/\1:\2/p' |
+        awk -F: -v all="$*" '{ n = split(all, w, "; *"); split(w[NR], v, ":")
+            d = $2 - v[2]; d = d < 0 ? -d : d; s = v[2] < 0 ? -v[2] : v[2]
+            print $1, ($1 == v[1] && d <= 4e-16*(s > 1 ? s : 1) ? "agrees" : "at " $2 ", not " w[NR]) }'
+}
+near 'fold:0.54433105395181736' <<'END'
+param U
+coord x < 1
+particle plate mass 1 at x
+spring between plate, 0 stiffness 1
+force U^2/(2*(1 - x)^2) on plate
+continue equilibria in U = 0..1
+END
+near 'hopf:1.4692857142857143' <<'END'
+param P
+coord theta1, theta2
+r1 = (cos(theta1), sin(theta1))
+r2 = r1 + (cos(theta2), sin(theta2))
+particle a mass 2 at r1
+particle b mass 1 at r2
+potential theta1^2/2 + (theta2 - theta1)^2/2
+dissipation theta1'^2/20 + (theta2' - theta1')^2/20
+force -P*(cos(theta2), sin(theta2)) on b
+continue equilibria in P = 0..4
+END
+near 'hamiltonian hopf:1.2071067811865475' <<'END'
+param W
+coord x, y
+lagrangian (x'^2 + y'^2)/2 + W*(x*y' - y*x') + (x^2 + 2*y^2)/2
+continue equilibria in W = 0..3
+END
+near 'pitchfork:0; fold:-0.25; fold:-0.25' <<'END'
+param mu
+coord x
+lagrangian x'^2/2 + mu*x^2/2 + x^4/4 - x^6/6
+continue equilibria in mu = -1..0.5
+END
+# a cusp: x^3 = b*x + a folds at a^2 = 4/27 for b = 1
+near 'fold:0.38490017945975052; fold:-0.38490017945975052' <<'END'
+param a
+coord x
+lagrangian x'^2/2 - x^4/4 + x^2/2 + a*x
+continue equilibria in a = -1..1
+END

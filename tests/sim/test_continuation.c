@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "sim/study/continuation.h"
 
@@ -177,6 +178,41 @@ survives_failed_allocations_too(void **state)
     end(&f);
 }
 
+/* Ctrl-C at any moment: branches that are known stay. */
+static void
+keeps_what_is_known(void **state)
+{
+    bool some = false, whole = false;
+    fixture f;
+    qdot_expr q;
+
+    (void)state;
+    begin(&f);
+    q = coordinate(&f, "x");
+    must(qdot_scene_particle(f.scene, "a", QDOT_ONE, q));
+    must(qdot_scene_potential(
+        f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.25"), qdot_pow_int(f.pool, q, 4)),
+                          times(&f, parameter(&f, "mu"), times(&f, q, q)))));
+    for (long n = 0; !whole; n += 1 + n / 10) {
+        qdot_equilibrium_curve c = {0};
+        qdot_continuation x = {0};
+
+        must(qdot_equilibrium_curve_begin(&c, f.scene, parameter(&f, "mu"), bind, &f));
+        qdot_memory_press_at(n);
+        must(qdot_continuation_find(&c, -1, 1, &x));
+        qdot_memory_press_at(-1);
+        qdot_interrupt_clear();
+        whole = !x.interrupted;
+        some = some || (x.interrupted && x.branches.n > 0);
+        if (!x.interrupted && x.branches.n != 2)
+            fail_msg("%ld: %zu branches", n, x.branches.n);
+        qdot_continuation_clear(&x);
+        qdot_equilibrium_curve_end(&c);
+    }
+    assert_true(some);
+    end(&f);
+}
+
 int
 main(void)
 {
@@ -185,6 +221,7 @@ main(void)
         cmocka_unit_test(a_closed_curve),
         cmocka_unit_test(a_hopf_point),
         cmocka_unit_test(survives_failed_allocations_too),
+        cmocka_unit_test(keeps_what_is_known),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

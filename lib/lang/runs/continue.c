@@ -137,7 +137,9 @@ carry_out(qdot_session *session, const wish *w)
     if (status == QDOT_OK && found.branches.n > 0)
         status = qdot_branches_answer(session, &b);
     if (status == QDOT_OK && found.interrupted)
-        status = qdot_fail(QDOT_EINTR, "interrupted: there may be more branches");
+        status = qdot_fail(QDOT_EINTR, found.branches.n > 0
+                                           ? "interrupted: there may be more branches"
+                                           : "interrupted: no branch was followed yet");
     qdot_continuation_clear(&found);
     qdot_equilibrium_curve_end(&curve);
     return status;

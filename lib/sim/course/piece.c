@@ -36,6 +36,19 @@ read_step(double t, double *y, void *user)
     return QDOT_OK;
 }
 
+static bool
+is_by_series(const qdot_piece *x)
+{
+    return (x->now ? x->now : x->method)->series;
+}
+
+/* Where the method changes. */
+static qdot_status
+read_either(double t, double *y, void *user)
+{
+    return is_by_series(user) ? read_series(t, y, user) : read_step(t, y, user);
+}
+
 /* --- what a step holds --------------------------------------------------------------- */
 
 static bool
@@ -294,6 +307,7 @@ look_at_step(qdot_piece *x, double t, const double *y)
     const qdot_root *roots;
     size_t n;
 
+    x->far = false;
     x->step.t[1] = t;
     memcpy(x->step.y + x->n, y, x->n * sizeof *y);
     qdot_trajectory_renew(x->cursor);
@@ -305,8 +319,6 @@ look_at_step(qdot_piece *x, double t, const double *y)
         stay_inside(x, x->step.t[0]);
         return qdot_trajectory_read(x->cursor, x->t_act, x->y_act);
     }
-    x->step.t[0] = t;
-    memcpy(x->step.y, y, x->n * sizeof *y);
     return QDOT_OK;
 }
 
@@ -332,15 +344,19 @@ accepted(double t, const double *y, bool *stop, void *user)
         QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
-    if (!x->method->series)
+    if (!is_by_series(x))
         QDOT_TRY(look_at_step(x, t, y));
     x->first_step = false;
-    if (x->far) {
-        qdot_watch_pass(qdot_piece_watch(x), t, y);
+    if (x->intent == QDOT_PIECE_ENDS && !x->far) {
+        *stop = true;
         return QDOT_OK;
     }
-    if (x->intent == QDOT_PIECE_ENDS) {
-        *stop = true;
+    if (!x->method->series) { /* the next step is from here */
+        x->step.t[0] = t;
+        memcpy(x->step.y, y, x->n * sizeof *y);
+    }
+    if (x->far) {
+        qdot_watch_pass(qdot_piece_watch(x), t, y);
         return QDOT_OK;
     }
     x->noted = x->c->occurrences.n;
@@ -374,8 +390,10 @@ qdot_piece_begin(qdot_piece *x)
 
     qdot_trajectory_close(x->cursor);
     x->cursor = NULL;
-    x->reader = (qdot_watch_reader){x->method->series ? read_series : read_step, x,
-                                    &x->c->systems.at[x->mode]};
+    x->reader = (qdot_watch_reader){x->options->alternates ? read_either
+                                    : x->method->series    ? read_series
+                                                           : read_step,
+                                    x, &x->c->systems.at[x->mode]};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
     if (following)
@@ -404,7 +422,10 @@ qdot_piece_integrate(qdot_piece *x)
 
     options.accepted = accepted;
     options.expanded =
-        qdot_piece_mode(x)->m > 0 && x->method->series ? look_at_expanded : NULL;
+        qdot_piece_mode(x)->m > 0 && (x->method->series || x->options->alternates)
+            ? look_at_expanded
+            : NULL;
+    options.now = &x->now;
     options.user = x;
     options.at_doubles = qdot_piece_mode(x)->m > 0;
     options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
@@ -423,7 +444,7 @@ qdot_piece_integrate(qdot_piece *x)
         c->tr.result.reason[0] = '\0';
         return QDOT_OK;
     }
-    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !x->method->series)
+    if (status == QDOT_OK && x->intent == QDOT_PIECE_ENDS && !is_by_series(x))
         qdot_trajectory_shorten(&c->tr, x->t_act, x->y_act);
     return status;
 }

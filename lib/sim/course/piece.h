@@ -40,6 +40,7 @@ typedef struct {
     qdot_course *c;
     const qdot_ode_options *options;
     const qdot_ode_method *method;
+    const qdot_ode_method *now; /* of the step at hand, where the run changes it; else NULL */
     double t1, direction;
     size_t n;           /* components of y */
     size_t mode;        /* of this piece */

@@ -19,6 +19,7 @@ struct qdot_run {
     size_t factored;      /* number of matrices factored by the integration */
     double t0, t1;        /* as requested */
     double t0_low, t1_low; /* the exact limits less t0, t1 */
+    bool turns;           /* of the request */
     bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* sign of the exact limit less t0, t1 */
     char *reason;

@@ -151,6 +151,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
                                 .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
+                                .alternates = run->turns,
                                 .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;

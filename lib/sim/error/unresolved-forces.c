@@ -67,11 +67,12 @@ qdot_unresolved_forces_find(const qdot_course *course, bool *found, double *t)
     const qdot_ode_method *method = course->tr.method;
     search s = {0};
     qdot_status status;
+    const bool by_series = method && (method->series || course->tr.turns.n > 0);
 
     *found = false;
-    if (!method || !(method->series || method->geometric))
+    if (!by_series && !(method && method->geometric))
         return QDOT_OK;
-    s.hiding = method->series ? QDOT_HIDES_EXPONENTIALS : QDOT_HIDES_QUOTIENTS;
+    s.hiding = by_series ? QDOT_HIDES_EXPONENTIALS : QDOT_HIDES_QUOTIENTS;
     status = qdot_trajectory_open(&course->tr, qdot_course_systems(course), &s.cursor);
     if (status == QDOT_OK)
         status = go_through(&s, course, found, t);

@@ -23,6 +23,8 @@ typedef struct {
     const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
                                      by the run (sim/run/scales.h); NULL: all are */
     const char *method;           /* "auto" or a name of ode/method.h */
+    bool turns;                   /* a method for stiff scenes may change to series and back
+                                     (ode/alternate.h) */
     qdot_run_treatment treatment; /* of a scene with constraints */
     size_t n_states;              /* set by the run itself, leave it 0: parameters that events
                                      set, as further coordinates (sim/model/parameter-states.h); */

@@ -29,15 +29,26 @@ take(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
     *run = other;
 }
 
+/* At most so many changes of the method are told one by one. */
+enum { most_told = 4 };
+
 static qdot_status
 say_changed(qdot_run *run, const char *before, double t)
 {
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_text *notice = qdot_run_next_notice(run);
+
     qdot_text_format(
-        qdot_run_next_notice(run),
+        notice,
         "the scene is stiff: from t = %.4g on stability would bound the steps of %s, "
         "so the run is by %s",
         t, before, run->plan->method->name);
-    return qdot_text_status(&run->notice);
+    for (size_t i = 0; i < tr->turns.n && i < most_told; i++)
+        qdot_text_format(notice, ", from t = %.4g on by %s", tr->t[tr->turns.at[i].first],
+                         tr->turns.at[i].method->name);
+    if (tr->turns.n > most_told)
+        qdot_text_format(notice, ", and so on, %zu changes in all", tr->turns.n);
+    return qdot_text_status(notice);
 }
 
 static bool
@@ -46,21 +57,42 @@ has_arrived(qdot_status status, const qdot_run *run)
     return status == QDOT_OK && run->course.tr.result.outcome != QDOT_ODE_FAILED;
 }
 
+/* Make the run by the stiff method, with series where they are faster; without these where nothing
+ * is known of the error then, since the companions did not change with it. */
+static qdot_status
+make_stiff(qdot_scene *scene, const qdot_run_request *request, const qdot_run_maker *by,
+           qdot_run **out)
+{
+    qdot_run_request stiff = *request;
+    qdot_run *turning;
+
+    stiff.method = stiff_method;
+    stiff.tol = fmax(request->tol, tightest);
+    stiff.turns = true;
+    QDOT_TRY(by->make(scene, &stiff, out));
+    if ((*out)->course.tr.turns.n == 0 || !isnan((*out)->report.scaled_error)
+        || !has_arrived(QDOT_OK, *out))
+        return QDOT_OK;
+    turning = *out;
+    stiff.turns = false;
+    *out = NULL;
+    by->free(turning);
+    return by->make(scene, &stiff, out);
+}
+
 qdot_status
 qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
                      const qdot_run_maker *by, qdot_run **run)
 {
     const double t = (*run)->course.tr.result.t;
     const char *before = (*run)->plan->method->name;
-    qdot_run_request stiff = *request;
+    qdot_run_request series = *request;
     qdot_run *other = NULL, *patient = NULL;
     qdot_status status;
 
     if (!(*run)->course.tr.result.stiff || !(*run)->plan->chosen)
         return QDOT_OK;
-    stiff.method = stiff_method;
-    stiff.tol = fmax(request->tol, tightest);
-    status = by->make(scene, &stiff, &other);
+    status = make_stiff(scene, request, by, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
         take(by, run, other);
         return status;
@@ -69,9 +101,8 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
         take(by, run, other);
         return say_changed(*run, before, t);
     }
-    stiff = *request;
-    stiff.method = before;
-    status = by->make(scene, &stiff, &patient);
+    series.method = before;
+    status = by->make(scene, &series, &patient);
     if (has_arrived(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
         by->free(other);
         take(by, run, patient);

@@ -220,6 +220,7 @@ integrate(qdot_run *run, double tol, bool *interrupted)
                                 .t1_low = run->t1_low,
                                 .leading = run->leading,
                                 .judged = run->leading,
+                                .alternates = run->turns,
                                 .meter = &run->meter,
                                 .stiff_work = run->plan->chosen ? worth_changing : 0};
     qdot_status status;
@@ -308,6 +309,7 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .y0 = run->start,
                                       .carry = run->start_low,
                                       .leading = run->leading,
+                                      .alternates = run->turns,
                                       .meter = &run->meter,
                                       .threaded = !qdot_threads_are_taken};
 
@@ -510,6 +512,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
         return QDOT_ENOMEM;
     run->report.horizon = run->report.standstill = NAN;
     run->by_clock = request->by_clock;
+    run->turns = request->turns;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;
     run->course.touch_tol = touch_tol;

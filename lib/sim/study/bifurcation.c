@@ -114,16 +114,46 @@ row_of(const qdot_bifurcations *b, const qdot_newton *s, qdot_expr square, size_
     return sum;
 }
 
-/* Unknowns y, a, b, w (of a collision its square); `one`: which component of z is 1. */
-static qdot_status
-make_oscillation(const qdot_bifurcations *b, bool collision, size_t one, qdot_newton *s)
+/* What meets on the imaginary axis: nothing; two frequencies without Gamma, or with one that is
+ * antisymmetric beside a symmetric K. */
+typedef enum { CROSSES, MEETS, MEETS_TURNING } meeting;
+
+/* Where two frequencies meet under gyroscopic forces: beta z to the rows, which depend on each other
+ * without it, and the derivative of the Hermitian form by w. */
+static void
+add_turning(const qdot_bifurcations *b, qdot_newton *s, qdot_expr w)
 {
+    const qdot_equilibrium_curve *c = b->x->c;
+    const size_t n = c->n, all = c->all, re = n + 1, im = re + all;
+    qdot_pool *pool = c->pool;
+    qdot_expr beta = formal(pool, "beta", 0), sum = QDOT_ZERO;
+
+    s->x[im + all + 1] = beta;
+    for (size_t i = 0; i < all; i++) {
+        add_to(pool, &s->f[n + i], qdot_neg(pool, beta), s->x[im + i]);
+        add_to(pool, &s->f[n + all + i], beta, s->x[re + i]);
+        for (size_t j = 0; j < all; j++) {
+            const qdot_expr M = qdot_mul(pool, w, c->M[i * all + j]);
+
+            add_to(pool, &sum, qdot_mul(pool, s->x[re + i], s->x[re + j]), M);
+            add_to(pool, &sum, qdot_mul(pool, s->x[im + i], s->x[im + j]), M);
+            add_to(pool, &sum, qdot_mul(pool, s->x[re + i], s->x[im + j]), c->Gamma[i * all + j]);
+        }
+    }
+    s->f[n + 2 * all + 2] = sum;
+}
+
+/* Unknowns y, a, b, w (where two meet without Gamma its square), beta; `one`: which component of z is 1. */
+static qdot_status
+make_oscillation(const qdot_bifurcations *b, meeting what, size_t one, qdot_newton *s)
+{
+    const bool collision = what == MEETS;
     const qdot_equilibrium_curve *c = b->x->c;
     const size_t n = c->n, all = c->all, re = n + 1, im = re + all;
     qdot_pool *pool = c->pool;
     qdot_expr w = formal(pool, "w", 0), square = collision ? w : qdot_mul(pool, w, w);
 
-    QDOT_TRY(begin_system(b, 2 * all + 1, s));
+    QDOT_TRY(begin_system(b, 2 * all + 1 + (what == MEETS_TURNING), s));
     s->x[im + all] = w;
     for (size_t i = 0; i < all; i++) {
         s->x[re + i] = formal(pool, "a", i);
@@ -149,6 +179,8 @@ make_oscillation(const qdot_bifurcations *b, bool collision, size_t one, qdot_ne
     }
     s->f[n + 2 * all] = qdot_sub(pool, s->x[re + one], QDOT_ONE);
     s->f[n + 2 * all + 1] = s->x[im + one];
+    if (what == MEETS_TURNING)
+        add_turning(b, s, w);
     return qdot_newton_lower(s);
 }
 
@@ -368,21 +400,27 @@ guess_vector(const qdot_bifurcations *b, double w, double *z, size_t *one)
     return QDOT_OK;
 }
 
-static bool
-is_undamped(const qdot_bifurcations *b)
+static meeting
+what_meets(const qdot_bifurcations *b)
 {
     const size_t all = b->x->c->all;
-    const double *Gamma = b->value + all * all;
-    double most = 0, size = 0;
+    const double *K = b->value, *Gamma = K + all * all;
+    double most = 0, damping = 0, lopsided = 0, size = 0;
 
     for (size_t i = 0; i < all * all; i++) {
+        const size_t turned = i % all * all + i / all;
+
         most = fmax(most, fabs(Gamma[i]));
-        size = fmax(size, fmax(sqrt(fabs(b->value[i])), fabs(Gamma[all * all + i])));
+        damping = fmax(damping, fabs(Gamma[i] + Gamma[turned]));
+        lopsided = fmax(lopsided, fabs(K[i] - K[turned]));
+        size = fmax(size, sqrt(fabs(K[i])));
     }
-    return most <= undamped * size;
+    if (most <= undamped * size)
+        return MEETS;
+    return damping <= undamped * most && lopsided <= undamped * size * size ? MEETS_TURNING : CROSSES;
 }
 
-/* z [n + 1 + 2 all + 1]: y, then room. */
+/* z [n + 1 + 2 all + 2]: y, then room. */
 static qdot_status
 find_oscillation(qdot_bifurcations *b, qdot_bifurcation *out, double *z, double *error, bool *found)
 {
@@ -391,31 +429,31 @@ find_oscillation(qdot_bifurcations *b, qdot_bifurcation *out, double *z, double 
     qdot_stability unused;
     qdot_newton s = {0};
     qdot_status status;
-    bool collision;
+    meeting what;
     size_t one;
     double w;
 
     *found = false;
     QDOT_TRY(qdot_equilibrium_curve_judge(x->c, z, &unused));
     qdot_tape_eval(b->motion, z, b->value, b->work);
-    collision = is_undamped(b);
-    w = guess_frequency(&x->c->roots, collision);
+    what = what_meets(b);
+    w = guess_frequency(&x->c->roots, what != CROSSES);
     if (w == 0 || !x->c->damped)
         return QDOT_OK;
     QDOT_TRY(guess_vector(b, w, z + n + 1, &one));
-    if (collision)
+    if (what == MEETS)
         memset(z + n + 1 + all, 0, all * sizeof *z);
-    z[n + 1 + 2 * all] = collision ? w * w : w;
-    status = make_oscillation(b, collision, one, &s);
+    z[n + 1 + 2 * all] = what == MEETS ? w * w : w;
+    status = make_oscillation(b, what, one, &s);
     if (status == QDOT_OK)
         status = qdot_newton_solve(&s, z, error, found);
     qdot_newton_end(&s);
     w = z[n + 1 + 2 * all];
-    *found = *found && (collision ? w > 0 : w != 0);
-    out->kind = collision ? QDOT_COLLISION : QDOT_HOPF;
-    out->frequency = collision ? sqrt(fmax(w, 0)) : fabs(w);
+    *found = *found && (what == MEETS ? w > 0 : w != 0);
+    out->kind = what == CROSSES ? QDOT_HOPF : QDOT_COLLISION;
+    out->frequency = what == MEETS ? sqrt(fmax(w, 0)) : fabs(w);
     out->frequency_error = error[n + 1 + 2 * all];
-    if (collision)
+    if (what == MEETS)
         out->frequency_error /= 2 * out->frequency;
     return status;
 }
@@ -451,7 +489,7 @@ qdot_bifurcation_find(qdot_bifurcations *b, const double *t, qdot_bifurcation *o
                       bool *found)
 {
     const qdot_rest_path *x = b->x;
-    const size_t n = x->n, room = 2 * n + 2 * x->c->all + 4;
+    const size_t n = x->n, room = 2 * n + 2 * x->c->all + 5;
     double *z = qdot_calloc(2 * room, sizeof *z), *error = z + room;
     qdot_status status;
 

@@ -7,7 +7,11 @@
  *     collision  F = 0,  (K - W M) a = 0,  (K - W M) b = M a,  a_k = 1, b_k = 0     W = w^2
  *
  * The last is where two frequencies of a motion without damping meet and leave the imaginary axis
- * (flutter; a Hamiltonian Hopf point). At a crossing with null vectors v1, v2 of F_y the directions
+ * (flutter; a Hamiltonian Hopf point); with gyroscopic forces, K symmetric and Gamma antisymmetric, it is
+ *
+ *     F = 0,  (K + i w Gamma - w^2 M + i beta) z = 0,  z* (i Gamma - 2 w M) z = 0,  z_k = 1
+ *
+ * whose rows depend on each other without beta, which is 0 there. At a crossing with null vectors v1, v2 of F_y the directions
  * alpha v1 + beta v2 of the two curves solve
  *
  *     c11 alpha^2 + 2 c12 alpha beta + c22 beta^2 = 0,   c_ij = v_i.(psi.F)_yy v_j.

@@ -317,6 +317,21 @@ is_closed(const qdot_rest_path *x, const qdot_rest_point *start, const qdot_rest
     return true;
 }
 
+/* Judge b, and look between a and it; an interruption on the way is noted. */
+static qdot_status
+look(qdot_branch_search *s, const qdot_rest_point *a, qdot_rest_point *b, double length,
+     qdot_branch *branch)
+{
+    qdot_status status = qdot_interrupt_check();
+
+    if (status == QDOT_OK)
+        status = qdot_rest_path_judge(s->x, b);
+    if (status == QDOT_OK)
+        status = look_between(s, a, b, length, branch);
+    s->all->interrupted = status == QDOT_EINTR;
+    return status == QDOT_EINTR ? QDOT_OK : status;
+}
+
 /* a, then b: room. */
 static qdot_status
 follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, qdot_rest_point *b,
@@ -328,15 +343,14 @@ follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, 
 
     branch->end[1] = QDOT_END_STOPPED;
     while (!last && branch->n < MOST_POINTS) {
-        if (qdot_interrupt_check() != QDOT_OK) {
-            s->all->interrupted = true;
-            return QDOT_OK;
-        }
         go_on(x, a, longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
         if (length == 0)
             return QDOT_OK;
-        QDOT_TRY(qdot_rest_path_judge(x, b));
-        QDOT_TRY(look_between(s, a, b, length, branch));
+        QDOT_TRY(look(s, a, b, length, branch));
+        if (s->all->interrupted) {
+            branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
         if (gone > 3 * length && is_closed(x, start, a, b)) {
             branch->end[1] = QDOT_END_CLOSED;
             return qdot_branch_add(x, branch, b->y, start->stability, 0);

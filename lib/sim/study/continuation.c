@@ -380,6 +380,10 @@ qdot_continuation_find(qdot_equilibrium_curve *c, double least, double most, qdo
         qdot_rest_path_scale(&x, out->size);
         status = follow_all(&s, at, count);
     }
+    if (status == QDOT_EINTR) {
+        out->interrupted = true;
+        status = QDOT_OK;
+    }
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED, "no equilibrium was found that could be followed");
     for (size_t i = 0; i < s.crossings.n; i++)
