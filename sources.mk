@@ -2536,6 +2536,7 @@ other_files = \
 	bench/ensemble/run \
 	bench/ensemble/sweeps \
 	bench/ensemble/wide.hh \
+	bench/fits/coverage \
 	bench/hard/cases.py \
 	bench/hard/references \
 	bench/hard/run \

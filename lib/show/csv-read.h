@@ -7,7 +7,7 @@
  * Whatever else stands there is an error that begins with its place, FILE:LINE:COLUMN (both from 1, columns in
  * characters), as data.csv:7:12: `x` is not a number.
  *
- * Tests  tests/show/test_csv-read.c, tests/script/fit.sh, tests/bad/fit-data.sh
+ * Tests  tests/show/test_csv-read.c, tests/script/fit.sh, tests/bad/fit.sh
  */
 #ifndef QDOT_SHOW_CSV_READ_H
 #define QDOT_SHOW_CSV_READ_H
@@ -26,7 +26,7 @@ typedef struct {
     qdot_csv_place *places; /* [rows x columns] */
 } qdot_csv;
 
-/* Read the file; path "-" is no name of one. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;
+/* Read the file. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;
  * QDOT_EINVAL: what stands in it is no table of numbers; QDOT_ELIMIT: it is larger than 256 MB. */
 QDOT_MUST_CHECK qdot_status qdot_csv_read(const char *path, qdot_csv *csv);
 /* The same of a text [length], called `name` in errors. */

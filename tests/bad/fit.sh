@@ -65,3 +65,17 @@ printf '0,1\n1,2\n2,300\n3,-7\n4,11\n' >wild.csv
 try 'param w = 1; potential x*cos(w*t); fit w, x to "wild.csv" : t, x'
 try 'event end: x = 0.5 falling stop; fit k to "data.csv" : t, x'
 try 'set k = 2; potential -1e9*x^4; fit k to "data.csv" : t, x'
+# a chaotic run has no numbers to compare beyond its horizon
+cat >double.lag <<'EOF'
+param g = 9.81
+coord a, b
+r = (sin(a), -cos(a))
+particle p mass 1 at r
+particle q mass 1 at r + (sin(b), -cos(b))
+gravity (0, -g)
+start a = 2, b = 2
+EOF
+qdot -q double.lag -e 'run 0..60; table a every 1 to "double.csv"' >double.txt
+qdot -q double.lag -e 'fit g to "double.csv" : t, a sigma 0.01' 2>&1 | sed 's/ = [0-9.]*,/ = T,/; s/> [0-9.]*/> T/'
+# equations that jump
+try "param mu = 0.1; force (-mu*sign(x'), 0) on a; fit mu to \"data.csv\" : t, x"

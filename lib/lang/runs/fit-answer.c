@@ -116,9 +116,9 @@ tell_text(qdot_fit *f, const char *residuals)
 {
     qdot_text text = {0};
 
-    qdot_text_format(&text, "fit of %zu unknown%s to %zu numbers of %s, %zu steps\n",
+    qdot_text_format(&text, "fit of %zu unknown%s to %zu numbers of %s, %zu step%s\n",
                      f->unknowns.names.n, f->unknowns.names.n == 1 ? "" : "s", f->found.n, f->path,
-                     f->found.steps);
+                     f->found.steps, f->found.steps == 1 ? "" : "s");
     write_unknowns(f, &text);
     if (f->unknowns.names.n > 1 && !isnan(f->error[0]) && f->error[0] > 0)
         write_correlations(f, &text);

@@ -267,6 +267,24 @@ check_converged(const qdot_fit *f)
 
 /* --- what is known of it ---------------------------------------------------------------------- */
 
+/* QDOT_EFAILED where a time lies beyond the horizon of the run: it has no digits there. */
+static qdot_status
+check_horizon(const qdot_fit *f, const qdot_run *run)
+{
+    const qdot_run_report *report = qdot_run_get_report(run);
+    size_t known = 0;
+
+    while (known < f->rows && !qdot_run_report_is_beyond(report, f->t[known]))
+        known++;
+    if (known == f->rows)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EFAILED,
+                    "the run is chaotic: beyond its horizon, t = %.6g, it has no digits to compare "
+                    "with data",
+                    report->horizon);
+    return qdot_hint("leave out the rows with t > %.6g", report->horizon);
+}
+
 /* The numbers along an ordinary run at u, with their errors [rows x m]. */
 static qdot_status
 run_at_end(model *x, double *errors)
@@ -296,6 +314,8 @@ run_at_end(model *x, double *errors)
         status = qdot_run_new(f->session->scene, &request, &run);
     if (status == QDOT_OK && qdot_run_get_report(run)->status == QDOT_RUN_FAILED)
         status = qdot_fail(QDOT_EFAILED, "the run failed: %.300s", qdot_run_get_report(run)->reason);
+    if (status == QDOT_OK)
+        status = check_horizon(f, run);
     if (status == QDOT_OK)
         status = qdot_run_values(run, f->m, f->exprs, f->rows, f->t, f->fitted, errors);
     qdot_run_free(run);

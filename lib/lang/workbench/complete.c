@@ -256,6 +256,7 @@ static const struct {
     {NULL, "then", "NAME", PARAMETERS | COORDINATES},
     {NULL, "vs", "NAME", PARAMETERS | COORDINATES},
     {"sweep", "sweep", "NAME", PARAMETERS | COORDINATES},
+    {"fit", "fit", "NAME", PARAMETERS | COORDINATES},
     {NULL, "method", "NAME", METHODS},
     {"show", NULL, "NAME", NAMES | LABELS | RUNS},
     {"remove", NULL, "NAME", LABELS},
