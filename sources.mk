@@ -131,6 +131,7 @@ library_sources = \
 	lib/lang/runs/fit-data.c \
 	lib/lang/runs/fit-model.c \
 	lib/lang/runs/fit.c \
+	lib/lang/runs/floquet.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
@@ -318,6 +319,7 @@ library_sources = \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/collocation.c \
+	lib/num/eigenvalues.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
@@ -336,6 +338,7 @@ library_sources = \
 	lib/ode/alternate.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
+	lib/ode/between.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
 	lib/ode/geometric/constant-steps.c \
@@ -436,6 +439,7 @@ library_sources = \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-layer.c \
+	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
 	lib/sim/course/polynomial-bounds.c \
@@ -443,6 +447,7 @@ library_sources = \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
+	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
 	lib/sim/course/watch-exclusion.c \
@@ -512,6 +517,7 @@ library_sources = \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
 	lib/sim/model/power-quotient.c \
+	lib/sim/model/puck.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
 	lib/sim/model/sliding-rows.c \
@@ -563,6 +569,7 @@ library_sources = \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
+	lib/sim/study/floquet.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
@@ -831,6 +838,7 @@ library_headers = \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
 	lib/num/collocation.h \
+	lib/num/eigenvalues.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
@@ -854,6 +862,7 @@ library_headers = \
 	lib/ode/apart.h \
 	lib/ode/batch.def \
 	lib/ode/batch.h \
+	lib/ode/between.h \
 	lib/ode/companion.h \
 	lib/ode/crawl.h \
 	lib/ode/dop853.def \
@@ -1004,6 +1013,7 @@ library_headers = \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
 	lib/sim/model/power-quotient.h \
+	lib/sim/model/puck.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
@@ -1049,6 +1059,7 @@ library_headers = \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
+	lib/sim/study/floquet.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
@@ -1165,6 +1176,7 @@ unit_tests = \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
 	tests/num/test_collocation \
+	tests/num/test_eigenvalues \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
 	tests/num/test_least-squares \
@@ -1233,6 +1245,7 @@ unit_tests = \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
 	tests/sim/test_precise \
+	tests/sim/test_puck \
 	tests/sim/test_pulses \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_response \
@@ -1321,6 +1334,7 @@ script_tests = \
 	tests/script/flat-roots.lag \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
+	tests/script/floquet.sh \
 	tests/script/force-material.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
@@ -1397,6 +1411,7 @@ script_tests = \
 	tests/script/poisson.lag \
 	tests/script/poles.lag \
 	tests/script/processor.sh \
+	tests/script/puck.lag \
 	tests/script/pulse-train.lag \
 	tests/script/quit.lag \
 	tests/script/race.sh \
@@ -1530,6 +1545,9 @@ script_tests = \
 	tests/bad/find-unknown.lag \
 	tests/bad/find-vector.lag \
 	tests/bad/fit.sh \
+	tests/bad/floquet-open.lag \
+	tests/bad/floquet-period.lag \
+	tests/bad/floquet-run.lag \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
 	tests/bad/function-body.lag \
@@ -1619,6 +1637,7 @@ script_tests = \
 	tests/bad/poincare.sh \
 	tests/bad/poisson-acceleration.lag \
 	tests/bad/prime-of-product.lag \
+	tests/bad/puck.lag \
 	tests/bad/race-methods.lag \
 	tests/bad/race-option.lag \
 	tests/bad/race-stopped.lag \
@@ -1782,6 +1801,7 @@ script_tests = \
 	examples/henon-heiles.lag \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza-boundary.lag \
 	examples/kapitza.lag \
 	examples/kepler.lag \
 	examples/kinetic-energy.lag \
@@ -1789,6 +1809,7 @@ script_tests = \
 	examples/lagrange-points.lag \
 	examples/line-element.lag \
 	examples/long-times.lag \
+	examples/lyapunov-orbit.lag \
 	examples/magnetic-field.lag \
 	examples/metrics.lag \
 	examples/modes.lag \
@@ -1929,6 +1950,9 @@ test_files = \
 	tests/bad/find-unknown.out \
 	tests/bad/find-vector.out \
 	tests/bad/fit.out \
+	tests/bad/floquet-open.out \
+	tests/bad/floquet-period.out \
+	tests/bad/floquet-run.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
 	tests/bad/function-body.out \
@@ -2018,6 +2042,7 @@ test_files = \
 	tests/bad/poincare.out \
 	tests/bad/poisson-acceleration.out \
 	tests/bad/prime-of-product.out \
+	tests/bad/puck.out \
 	tests/bad/race-methods.out \
 	tests/bad/race-option.out \
 	tests/bad/race-stopped.out \
@@ -2333,6 +2358,7 @@ test_files = \
 	tests/script/flat-roots.out \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
+	tests/script/floquet.out \
 	tests/script/force-material.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
@@ -2425,6 +2451,7 @@ test_files = \
 	tests/script/poles.out \
 	tests/script/processor.inc \
 	tests/script/processor.out \
+	tests/script/puck.out \
 	tests/script/pulse-train.out \
 	tests/script/quit.out \
 	tests/script/race.out \
@@ -2505,7 +2532,10 @@ other_files = \
 	bench/double-pendulum.lag \
 	bench/double-run.lag \
 	bench/ensemble/lanes.c \
+	bench/ensemble/peers.cc \
 	bench/ensemble/run \
+	bench/ensemble/sweeps \
+	bench/ensemble/wide.hh \
 	bench/fits/coverage \
 	bench/hard/cases.py \
 	bench/hard/references \
@@ -2632,6 +2662,7 @@ example_files = \
 	examples/henon-heiles.svg \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
+	examples/kapitza-boundary.lag \
 	examples/kapitza.lag \
 	examples/kapitza.svg \
 	examples/kepler.lag \
@@ -2642,6 +2673,7 @@ example_files = \
 	examples/lagrange-points.svg \
 	examples/line-element.lag \
 	examples/long-times.lag \
+	examples/lyapunov-orbit.lag \
 	examples/magnetic-field.lag \
 	examples/magnetic-field.svg \
 	examples/metrics.lag \

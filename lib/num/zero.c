@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
@@ -12,8 +13,11 @@
 
 /* Singular values below so much of the largest count as 0; how strongly |F| shortens steps. */
 static const double least_singular = 1e-8, damping = 0.01;
-/* Steps; halvings of one; parts of an interval that are searched for a change of sign. */
-enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PARTS = 16 };
+/* How many times farther from the guess each search begins than the one before, the first at 0.04. */
+static const double farther = 1.6;
+/* Steps; halvings of one; parts of an interval that are searched for a change of sign; steps in which |F| must
+ * halve; searches besides the first. */
+enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PARTS = 16, PATIENCE = 8, TRIES = 8 };
 
 typedef struct {
     const qdot_zero_problem *p;
@@ -157,9 +161,8 @@ is_zero(const search *s)
         reach += isnan(error) ? 1e-9 * s->unit_f[i] : 10 * error;
         for (size_t j = 0; j < n; j++)
             if (isfinite(s->slope[i * n + j]))
-                reach +=
-                    fabs(s->slope[i * n + j]) *
-                    (fabs(s->step[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
+                reach += fabs(s->slope[i * n + j]) *
+                         (fabs(s->step[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
         if (!(fabs(s->r->f[i]) <= fmin(reach, 1e-3 * s->unit_f[i])))
             return false;
     }
@@ -218,17 +221,20 @@ go(search *s, bool *gone)
     return QDOT_OK;
 }
 
+/* Newton's method from r->u on. A search whose |F| has not halved in some steps is given up. */
 static qdot_status
-descend(search *s)
+descend_once(search *s)
 {
     qdot_zero_result *r = s->r;
+    double before = INFINITY;
 
     QDOT_TRY(evaluate(s));
     r->answer = QDOT_ZERO_NOWHERE;
     if (isnan(r->f[0]))
         return QDOT_OK;
     choose_units(s);
-    while (r->steps < MOST_STEPS) {
+    for (size_t step = 1; step < MOST_STEPS; step++) {
+        const double size = norm(s, r->f);
         bool gone;
 
         if (!find_step(s)) {
@@ -237,6 +243,10 @@ descend(search *s)
         }
         r->answer = QDOT_ZERO_SLOW;
         gone = !step_is_nothing(s);
+        if (gone && step % PATIENCE == 0) {
+            gone = size < before / 2;
+            before = size;
+        }
         if (gone)
             QDOT_TRY(go(s, &gone));
         if (!gone) {
@@ -249,6 +259,45 @@ descend(search *s)
     }
     state_errors(s);
     return QDOT_OK;
+}
+
+/* The same from the guess; in vain, from places around it, ever farther off. What is told of no success is of
+ * the guess. */
+static qdot_status
+descend(search *s)
+{
+    const size_t n = s->p->n;
+    double *kept = qdot_calloc(2 * n + s->p->m + 1, sizeof *kept), *least = kept + n;
+    qdot_zero_answer first;
+    uint64_t drawn = 1;
+    qdot_status status;
+
+    if (kept == NULL)
+        return QDOT_ENOMEM;
+    memcpy(kept, s->r->u, n * sizeof *kept);
+    status = descend_once(s);
+    first = s->r->answer;
+    memcpy(least, s->r->u, n * sizeof *kept);
+    memcpy(least + n, s->r->f, s->p->m * sizeof *kept);
+    for (int k = 1; k <= TRIES && status == QDOT_OK; k++) {
+        if (s->r->answer == QDOT_ZERO_FOUND || first == QDOT_ZERO_FLAT ||
+            first == QDOT_ZERO_NOWHERE)
+            break;
+        for (size_t j = 0; j < n; j++) {
+            drawn = drawn * 6364136223846793005u + 1442695040888963407u;
+            s->r->u[j] = within(s->p, j,
+                                kept[j] + s->unit[j] * pow(farther, k) / 40 *
+                                              ((double)(drawn >> 33) / 1073741824.0 - 1));
+        }
+        status = descend_once(s);
+    }
+    if (s->r->answer != QDOT_ZERO_FOUND) {
+        s->r->answer = first;
+        memcpy(s->r->u, least, n * sizeof *kept);
+        memcpy(s->r->f, least + n, s->p->m * sizeof *kept);
+    }
+    qdot_free(kept);
+    return status;
 }
 
 /* --- one unknown between bounds ------------------------------------------------------------------ */

@@ -6,6 +6,7 @@
  * family); where equations are more, that of least squares, and F must vanish. mu = 0.01 |F|^2 |J|^2 keeps
  * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. A step
  * is halved until it makes |F| smaller, or the step that would follow with the same J.
+ * A search in vain is begun again from places around the guess.
  *
  * One unknown of one equation between bounds with a change of sign between them: Newton and bisection.
  *

@@ -96,6 +96,20 @@ keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
     return QDOT_OK;
 }
 
+/* Whether steps become longer: within half of the window by more than a tenth. Then they are not bound
+ * for ever, and the next window is waited for. */
+static bool
+grow(const qdot_ode_stiffness *s)
+{
+    enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
+    int first = 0, second = 0;
+
+    for (size_t k = 1; k <= LAST; k++)
+        *(k <= MIDDLE ? &first : &second) += steps_to(s, k);
+    return fabs(s->t[LAST] - s->t[MIDDLE]) / second
+           > 1.1 * (fabs(s->t[MIDDLE] - s->t[0]) / first);
+}
+
 bool
 qdot_ode_stiffness_is_due(qdot_ode_stiffness *s)
 {
@@ -117,7 +131,7 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
         return QDOT_OK;
     step = (at->t - s->t[0]) / steps_between(s);
     left = fabs((at->t1 - at->t) / step);
-    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
+    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at) && !grow(s);
     s->count = 0;
     if (++s->windows >= windows_patient && left > (double)at->most && !*stiff)
         return qdot_fail(QDOT_ELIMIT,

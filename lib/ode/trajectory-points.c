@@ -140,3 +140,16 @@ qdot_trajectory_narrow(const qdot_trajectory *tr, double *low, double *high)
     *low = fmax(*low, fmin(tr->t[0], tr->t[tr->count - 1]));
     *high = fmin(*high, fmax(tr->t[0], tr->t[tr->count - 1]));
 }
+
+qdot_status
+qdot_trajectory_at(const qdot_trajectory *tr, const qdot_ode_system *system, double t,
+                   double *y)
+{
+    qdot_trajectory_cursor *c;
+    qdot_status status;
+
+    QDOT_TRY(qdot_trajectory_open(tr, system, &c));
+    status = qdot_trajectory_read(c, t, y);
+    qdot_trajectory_close(c);
+    return status;
+}

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "ode/apart.h"
+#include "ode/between.h"
 #include "ode/integrate.h"
 #include "ode/leading.h"
 #include "ode/stepper.h"
@@ -29,6 +30,7 @@ struct qdot_trajectory_cursor {
     int order;           /* of this order */
     qdot_ode_stepper *s; /* NULL: none is */
     size_t at;           /* the stored point looked from last */
+    qdot_between between; /* of a step by a method of low order */
     bool fresh;          /* the stepper stands, the series is expanded, at that point */
     double *F;           /* of a kernel: the polynomial of half the step */
     bool known;          /* F was looked for, */
@@ -346,6 +348,8 @@ enter(qdot_trajectory_cursor *c, size_t piece)
         return QDOT_OK;
     qdot_ode_stepper_free(c->s);
     qdot_free(c->F);
+    qdot_free(c->between.P);
+    c->between.P = NULL;
     c->s = NULL;
     c->F = NULL;
     return open_stepper(c);
@@ -403,6 +407,7 @@ qdot_trajectory_close(qdot_trajectory_cursor *c)
     qdot_free(c->own);
     qdot_ode_stepper_free(c->s);
     qdot_free(c->F);
+    qdot_free(c->between.P);
     qdot_free(c);
 }
 
@@ -546,9 +551,19 @@ read_step(qdot_trajectory_cursor *c, double t, double *y)
         if (c->good)
             return derive(c, t, y);
     }
-    if (!c->fresh)
+    if (!c->fresh) {
         qdot_ode_stepper_start(c->s, c->tr->y + c->at * c->tr->n);
+        c->between.known = false;
+    }
     c->fresh = true;
+    if (qdot_between_fits(c->tr->method)) {
+        const double *t0 = steps_of(c->tr) + c->at, h = t0[1] - *t0;
+        bool done;
+        QDOT_TRY(qdot_between_read(&c->between, c->s, *t0, h, c->tr->y + (c->at + 1) * c->tr->n,
+                                   (t - *t0) / h, y, &done));
+        if (done)
+            return derive(c, t, y);
+    }
     QDOT_TRY(walk(c, t));
     memcpy(y, c->s->trial, c->tr->n * sizeof *y);
     return QDOT_OK;
@@ -682,17 +697,4 @@ void
 qdot_trajectory_renew(qdot_trajectory_cursor *c)
 {
     c->fresh = c->known = false;
-}
-
-qdot_status
-qdot_trajectory_at(const qdot_trajectory *tr, const qdot_ode_system *system, double t,
-                   double *y)
-{
-    qdot_trajectory_cursor *c;
-    qdot_status status;
-
-    QDOT_TRY(qdot_trajectory_open(tr, system, &c));
-    status = qdot_trajectory_read(c, t, y);
-    qdot_trajectory_close(c);
-    return status;
 }

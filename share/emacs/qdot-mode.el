@@ -20,11 +20,11 @@
 (defconst qdot-statements
   '("abbreviate" "animate" "assume" "body" "check" "constraint" "continue" "coord"
     "cyclic" "damper" "derive" "dissipation" "dof" "equilibria" "event" "events" "export"
-    "find" "fit" "force" "forces" "function" "gravity" "help" "include" "lagrangian"
-    "longtime" "lyapunov" "modes" "param" "particle" "plan" "plot" "poincare" "potential"
-    "print" "quit" "race" "reactions" "redo" "remove" "report" "reset" "run" "save"
-    "scale" "scene" "sensitivity" "set" "show" "spring" "start" "style" "sweep" "table"
-    "timing" "torque" "undo" "vars" "workprecision")
+    "find" "fit" "floquet" "force" "forces" "function" "gravity" "help" "include"
+    "lagrangian" "longtime" "lyapunov" "modes" "param" "particle" "plan" "plot" "poincare"
+    "potential" "print" "quit" "race" "reactions" "redo" "remove" "report" "reset" "run"
+    "save" "scale" "scene" "sensitivity" "set" "show" "spring" "start" "style" "sweep"
+    "table" "timing" "torque" "undo" "vars" "workprecision")
   "Words at the beginning of a statement.")
 (defconst qdot-functions
   '("N" "abs" "acos" "acosh" "asin" "asinh" "atan" "atan2" "atanh" "christoffel"

@@ -87,6 +87,43 @@ a_step_too_large_is_walked_through(void **state)
     qdot_trajectory_clear(&tr);
 }
 
+/* Steps of a low order are short: however often one is read, it costs a step of the partner, and two
+ * evaluations. */
+static void
+a_short_step_is_read_by_its_polynomial(void **state)
+{
+    static const char *const low[] = {"msbdf", "rkf45"};
+
+    (void)state;
+    for (size_t m = 0; m < 2; m++) {
+        const qdot_ode_options o = {.tol = 1e-12};
+        qdot_trajectory tr = {0};
+        qdot_trajectory_cursor *c;
+        double y[2], at_points = 0, between = 0;
+
+        assert_int_equal(swing(&tr, low[m], &o, 0, 3), QDOT_OK);
+        assert_int_equal(qdot_trajectory_open(&tr, &pendulum.system, &c), QDOT_OK);
+        for (size_t k = tr.count / 2; k < tr.count / 2 + 40; k++) {
+            const uint64_t before = qdot_trajectory_evaluations(c);
+
+            at_points = fmax(at_points, true_error(&pendulum, tr.t[k], tr.y + 2 * k));
+            for (int j = 1; j < 20; j++) {
+                const double t = tr.t[k] + 0.05 * j * (tr.t[k + 1] - tr.t[k]);
+
+                assert_int_equal(qdot_trajectory_read(c, t, y), QDOT_OK);
+                between = fmax(between, true_error(&pendulum, t, y));
+            }
+            if (qdot_trajectory_evaluations(c) - before > (m ? 16 : 150))
+                fail_msg("%s, step %zu: %d evaluations", low[m], k,
+                         (int)(qdot_trajectory_evaluations(c) - before));
+        }
+        if (between > 1.01 * at_points + 2e-12)
+            fail_msg("%s: %g at points, %g between", low[m], at_points, between);
+        qdot_trajectory_close(c);
+        qdot_trajectory_clear(&tr);
+    }
+}
+
 /* The state does not depend on the questions before, nor on who asks. */
 static void
 cursor_and_single_query_agree_bit_by_bit(void **state)
@@ -295,6 +332,7 @@ main(void)
         cmocka_unit_test(stored_points_are_given_back_bit_by_bit),
         cmocka_unit_test(any_time_is_as_accurate_as_the_run),
         cmocka_unit_test(a_step_too_large_is_walked_through),
+        cmocka_unit_test(a_short_step_is_read_by_its_polynomial),
         cmocka_unit_test(cursor_and_single_query_agree_bit_by_bit),
         cmocka_unit_test(locate_matches_a_plain_search),
         cmocka_unit_test(times_outside_the_run_are_refused_with_its_range),

@@ -119,7 +119,12 @@ states_are_brought_back(void **state)
                     qdot_mul(f.pool, qdot_expr_int(f.pool, 4),
                              qdot_mul(f.pool, QDOT_T, qdot_mul(f.pool, z, z))));
     u[1] = qdot_sub(f.pool, x, z);
-    must(qdot_sliding_rows_make(stage.modes.at[0]->plan, 2, side, u, &rows));
+    {
+        qdot_surface two[] = {{.u = u[0]}, {.u = u[1]}};
+        const qdot_switches both = {.pool = f.pool, .surfaces = {.at = two, .n = 2}};
+
+        must(qdot_sliding_rows_make(stage.modes.at[0]->plan, &both, side, u, &rows));
+    }
     assert_int_equal(rows.rows, 3);
     must(qdot_sliding_rows_keep(&rows, 2, 0.5, y, &moved));
     assert_true(moved > 1e-5 && moved < 1e-3);

@@ -206,17 +206,6 @@ read_run(qdot_cursor *c, qdot_find *f)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_find_read(qdot_cursor *c, qdot_find *f)
-{
-    QDOT_TRY(read_unknowns(c, f));
-    if (!qdot_cursor_accept_word(c, "such") || !qdot_cursor_accept_word(c, "that"))
-        return qdot_cursor_expected(c, "`,`, or `such that` and a condition: `such that "
-                                       "value(theta, 3) = 0`");
-    QDOT_TRY(find_conditions(c, f));
-    return read_run(c, f);
-}
-
 /* --- limits ---------------------------------------------------------------------------------- */
 
 /* T of `returns after T`. */
@@ -235,6 +224,27 @@ read_period(const qdot_find *f, const qdot_find_condition *x, qdot_expr *T)
         status = qdot_cursor_expected(&own, "`,`, `and` or the end of the condition");
     f->c->error_at = own.error_at;
     return status;
+}
+
+/* A period that is an unknown by itself stays above a quarter of its guess: after no time all returns. */
+static qdot_status
+bound_period(qdot_find *f)
+{
+    for (size_t i = 0; i < f->conditions.n; i++) {
+        qdot_expr T;
+
+        if (!f->conditions.at[i].returns)
+            continue;
+        QDOT_TRY(read_period(f, &f->conditions.at[i], &T));
+        for (size_t k = 0; k < f->unknowns.n; k++)
+            if (f->unknowns.at[k].symbol == T && isinf(f->low.at[k])) {
+                const double least = f->guess.at[k] / 4;
+
+                f->low.at[k] = least > 0 ? least : -INFINITY;
+                f->high.at[k] = least < 0 ? least : INFINITY;
+            }
+    }
+    return QDOT_OK;
 }
 
 /* Whether a condition names an event. */
@@ -300,6 +310,20 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
     f->c->error_at = f->conditions.at[0].from->start;
     (void)qdot_fail(QDOT_EINVAL, "nothing says how long the run is");
     return qdot_hint("value(theta, 3) = 0, or `run 0..3` behind the conditions");
+}
+
+/* --- all of it ----------------------------------------------------------------------------- */
+
+qdot_status
+qdot_find_read(qdot_cursor *c, qdot_find *f)
+{
+    QDOT_TRY(read_unknowns(c, f));
+    if (!qdot_cursor_accept_word(c, "such") || !qdot_cursor_accept_word(c, "that"))
+        return qdot_cursor_expected(c, "`,`, or `such that` and a condition: `such that "
+                                       "value(theta, 3) = 0`");
+    QDOT_TRY(find_conditions(c, f));
+    QDOT_TRY(read_run(c, f));
+    return bound_period(f);
 }
 
 /* --- residuals ------------------------------------------------------------------------------- */

@@ -259,6 +259,33 @@ check_length(const hunt *h)
     return qdot_fail(QDOT_EFAILED, "no orbit found: the time until the return went to 0");
 }
 
+/* A motion that rests returns after any time: a notice. */
+static qdot_status
+tell_rest(const hunt *h)
+{
+    qdot_session *session = h->trial.session;
+    const size_t n = session->scene->coordinates.n;
+    qdot_named_run *named;
+    double t, most = 0;
+
+    if (!h->f->returns)
+        return QDOT_OK;
+    QDOT_TRY(qdot_runs_find(session, NULL, &named));
+    t = qdot_run_get_report(named->run)->t0;
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr rate = qdot_symbol_jet(
+            session->pool, session->scene->coordinates.at[i % n], i < n ? 1 : 2);
+        double value;
+
+        QDOT_TRY(qdot_run_values(named->run, 1, &rate, 1, &t, &value, NULL));
+        most = fmax(most, fabs(value));
+    }
+    if (most > 1e-9)
+        return QDOT_OK;
+    return qdot_answer_notice(
+        session, "this is a rest: velocities and accelerations are 0 at its start");
+}
+
 /* The values found hold from now on, of names that are declared; the run is the latest. */
 static qdot_status
 conclude(hunt *h, const qdot_zero_result *r)
@@ -276,6 +303,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
+    QDOT_TRY(tell_rest(h));
     return tell_family(h, r);
 }
 

@@ -118,6 +118,8 @@ name_directions(qdot_trial *t)
 qdot_status
 qdot_trial_vary(qdot_trial *t, size_t m, const qdot_expr *e)
 {
+    if (t->slopes.session != NULL) /* of an earlier call */
+        qdot_slopes_free(&t->slopes);
     QDOT_TRY(name_directions(t));
     return qdot_slopes_make(
         &t->slopes, NULL,

@@ -22,6 +22,12 @@ typedef struct {
     double late; /* t less the true time of the root; 0: the root is at t */
 } qdot_course_end;
 
+/* A puck that came to rest in a piece which began at t: it has stopped at `after`. */
+typedef struct {
+    size_t surface;
+    double t, after;
+} qdot_course_rest;
+
 typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
@@ -42,6 +48,7 @@ typedef struct qdot_course {
     qdot_vec(qdot_watch *) watches;      /* by mode */
     qdot_vec(qdot_occurrence) occurrences;
     qdot_vec(qdot_course_end) ends; /* in order of time; one piece may have several at one time */
+    qdot_vec(qdot_course_rest) rests;
     size_t stopped_by; /* the event; SIZE_MAX: none */
     char reason[400];  /* why it ended early; "" */
     bool failed;       /* the reason is a failure, not an event's `stop` */

@@ -74,6 +74,8 @@ loop(qdot_piece *x, const double *y0)
     if (status == QDOT_OK) /* the start, to go on from */
         status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method, x->options,
                                      x->start.t, x->start.t, y0);
+    if (status == QDOT_OK)
+        status = qdot_piece_stop_pucks(x, true);
     while (status == QDOT_OK && !over) {
         status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')
@@ -100,6 +102,8 @@ loop(qdot_piece *x, const double *y0)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
         if (status == QDOT_OK && !over)
             status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
+        if (status == QDOT_OK && !over)
+            status = qdot_piece_stop_pucks(x, x->start.jumped);
         if (x->start.t == x->t1 && !over) {
             if (x->start.jumped && status == QDOT_OK)
                 status = resume(x);
@@ -184,5 +188,6 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->watches.at);
     qdot_free(c->occurrences.at);
     qdot_free(c->ends.at);
+    qdot_free(c->rests.at);
     *c = (qdot_course){0};
 }

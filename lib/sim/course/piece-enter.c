@@ -39,6 +39,17 @@ qdot_piece_enter(qdot_piece *x)
 /* A start farther than this from a surface is not on it. */
 static const double away = 1e-9;
 
+/* What pucks that come to rest are slowed down by: twice their radius. */
+static double
+slowest(const qdot_piece *x)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < x->c->stage->switches.pucks.n; i++)
+        most = fmax(most, 2 * x->c->stage->switches.pucks.at[i].radius);
+    return most;
+}
+
 qdot_status
 qdot_piece_keep(qdot_piece *x, bool *near)
 {
@@ -47,7 +58,7 @@ qdot_piece_keep(qdot_piece *x, bool *near)
     QDOT_TRY(qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y,
                                     &moved));
     if (near)
-        *near = moved <= away;
+        *near = moved <= fmax(away, slowest(x));
     return QDOT_OK;
 }
 
@@ -88,6 +99,15 @@ qdot_piece_carry(qdot_piece *x)
     for (size_t i = 0; i < next->m; i++) { /* it was held at 0 */
         const qdot_watched *w = &next->watched[i];
 
+        if (w->kind == QDOT_WATCH_SURFACE && x->c->stage->switches.surfaces.at[w->index].puck > 0) {
+            /* the cone is left where it is reached */
+            if (slides(old, w->index) && w->beyond == QDOT_SIDE_SLIDES
+                && next->side[w->index] == QDOT_SIDE_CREEPS && !x->start.jumped) {
+                x->residual[i] = 0;
+                x->put_aside = true;
+            }
+            continue;
+        }
         if (w->kind == QDOT_WATCH_SURFACE && slides(old, w->index) && !slides(next, w->index)
             && !x->start.jumped) {
             x->residual[i] = 0;
@@ -108,6 +128,7 @@ qdot_piece_carry(qdot_piece *x)
         }
         for (size_t i = 0; i < next->m; i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
+                x->c->stage->switches.surfaces.at[w->index].puck == 0 &&
                 next->watched[i].index == w->index && !slides(old, w->index) &&
                 !slides(next, w->index) &&
                 (next->watched[i].beyond == old->side[w->index] ||

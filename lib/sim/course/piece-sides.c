@@ -14,8 +14,11 @@ is_step(const qdot_piece *x, size_t surface)
 static bool
 keeps(const qdot_piece *x, const qdot_watched *w, int first)
 {
+    const qdot_surface *s = &x->c->stage->switches.surfaces.at[w->index];
     const bool slides = qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES;
 
+    if (s->puck > 0 && qdot_piece_mode(x)->side[w->index] == 1)
+        return true; /* it may start from rest */
     return first == w->inside
            || (first == 0 && ((w->inside == 1 && is_step(x, w->index)) || slides));
 }
@@ -24,7 +27,7 @@ keeps(const qdot_piece *x, const qdot_watched *w, int first)
 static long
 went_to(const qdot_piece *x, const qdot_watched *w, int first)
 {
-    return is_step(x, w->index) || qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES
+    return is_step(x, w->index) || x->c->stage->switches.surfaces.at[w->index].puck > 0 || qdot_piece_mode(x)->side[w->index] == QDOT_SIDE_SLIDES
                ? w->beyond
                : first;
 }
@@ -38,7 +41,8 @@ doubt(qdot_piece *x, const qdot_watched *w, int first)
     for (size_t i = 0; i < x->doubts.n; i++)
         if (x->doubts.at[i].surface == w->index)
             return QDOT_OK;
-    if (is_step(x, w->index) || x->c->stage->switches.surfaces.at[w->index].contact) {
+    if (is_step(x, w->index) || x->c->stage->switches.surfaces.at[w->index].contact
+        || x->c->stage->switches.surfaces.at[w->index].puck > 0) {
         d.sides[1] = went_to(x, w, first);
     } else {
         const long others[] = {1, -1, QDOT_SIDE_SLIDES, 0};
@@ -86,6 +90,7 @@ is_open(const qdot_piece *x, size_t i)
     const qdot_watched *w = &qdot_piece_mode(x)->watched[i];
 
     return w->kind == QDOT_WATCH_SURFACE && x->functions_on[i]
+           && x->c->stage->switches.surfaces.at[w->index].puck == 0
            && !was_crossed(x, w->index)
            && (w->velocity || qdot_watch_slow(qdot_piece_watch(x))[i]
                || qdot_watch_first(qdot_piece_watch(x))[i] == 0);

@@ -177,6 +177,12 @@ QDOT_MUST_CHECK qdot_status qdot_piece_change(qdot_piece *x, const qdot_staged_e
  * and x->start.y are those. *soon: it will, but the bounces to come are too high as yet. */
 QDOT_MUST_CHECK qdot_status qdot_piece_rest(qdot_piece *x, size_t event, int way, double left,
                                             bool *lasts, bool *soon);
+/* (piece-puck.c) Where a piece starts in the present mode: pucks that move, but are at rest, are given
+ * the speed of their start. *can: friction slows those that are to rest. */
+QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
+/* In x->side: the pucks that are at rest where a piece starts; not `anew`: only those that have crept. */
+QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
+
 /* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
  * one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);

@@ -132,6 +132,17 @@ qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *
     qdot_polynomial_bounds_span(h, step->t, step->t_end);
 }
 
+void
+qdot_polynomial_bounds_box(qdot_polynomial_bounds *h)
+{
+    for (size_t k = 0; k <= h->n_used; k++) {
+        const size_t i = k < h->n_used ? h->used[k] : h->time;
+
+        h->span[i] = (qdot_interval){h->centre[i] - h->radius[i], h->centre[i] + h->radius[i]};
+    }
+    qdot_interval_eval(h->tape, h->span, h->box, h->span_work);
+}
+
 /* Outputs on the ellipse of rho about a ... b; false where an input is not known there. */
 static bool
 go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)

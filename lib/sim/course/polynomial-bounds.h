@@ -96,5 +96,7 @@ void qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b);
  * and its value at the end. */
 void qdot_polynomial_bounds_series(qdot_polynomial_bounds *h, const qdot_ode_series *series,
                                    const qdot_ode_expanded *step);
+/* Then intervals of the outputs for the same inputs, into h->box. */
+void qdot_polynomial_bounds_box(qdot_polynomial_bounds *h);
 
 #endif

@@ -60,24 +60,26 @@ read_accelerations(const qdot_reader_course *c, double t)
                                    c->in + 2 * c->n + 1);
 }
 
-/* The sides of the piece, and the shares of surfaces along which it slides. */
+/* The sides of the piece, the shares of surfaces along which it slides, and those of pucks. */
 static qdot_status
 read_sides(const qdot_plan *p, const qdot_reader_course *c)
 {
+    const qdot_switches *s = &c->course->stage->switches;
     const qdot_mode *m = c->course->stage->modes.at[qdot_trajectory_mode_read(c->cursor)];
-    const size_t surfaces = c->course->stage->switches.surfaces.n;
+    const size_t surfaces = s->surfaces.n, pucks = s->n_puck_symbols, own = p->n_sides - pucks;
     double *sides = c->in + qdot_plan_inputs(p) - p->n_sides;
 
     if (m->shares) {
-        double *out = qdot_malloc((surfaces + qdot_tape_work(m->shares) + 1) * sizeof *out);
+        double *out = qdot_malloc((surfaces + pucks + qdot_tape_work(m->shares) + 1) * sizeof *out);
 
         if (!out)
             return QDOT_ENOMEM;
-        qdot_tape_eval(m->shares, c->in, out, out + surfaces);
-        memcpy(sides, out, p->n_sides * sizeof *sides);
+        qdot_tape_eval(m->shares, c->in, out, out + surfaces + pucks);
+        memcpy(sides, out, own * sizeof *sides);
+        memcpy(sides + own, out + surfaces, pucks * sizeof *sides);
         qdot_free(out);
     }
-    for (size_t i = 0; i < p->n_sides; i++)
+    for (size_t i = 0; i < own; i++)
         sides[i] = m->side[i] == QDOT_SIDE_SLIDES ? fmin(fmax(sides[i], -1), 1)
                                                   : (double)m->side[i];
     return QDOT_OK;

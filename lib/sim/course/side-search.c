@@ -38,14 +38,31 @@ say(qdot_piece *x, size_t surface, const char *before, const char *behind)
     qdot_piece_stop_at(x, surface, side, before, behind);
 }
 
+/* The first puck that is to rest; else surface 0. */
+static size_t
+held_surface(const qdot_piece *x)
+{
+    const qdot_switches *s = &x->c->stage->switches;
+
+    for (size_t i = 0; i < s->pucks.n; i++)
+        if (x->side[s->pucks.at[i].surface] == QDOT_SIDE_SLIDES)
+            return s->pucks.at[i].surface;
+    return 0;
+}
+
 static void
 say_slides(qdot_piece *x)
 {
     char why[200];
+    const size_t surface = x->doubts.n > 0 ? x->doubts.at[0].surface : held_surface(x);
 
+    if (x->c->stage->switches.surfaces.at[surface].puck > 0) {
+        say(x, surface, "the motion cannot be followed at", x->hindrance);
+        return;
+    }
     snprintf(why, sizeof why, ", where the equations switch: both sides lead back to it%s",
              x->hindrance);
-    say(x, x->doubts.n > 0 ? x->doubts.at[0].surface : 0, "the motion would slide along", why);
+    say(x, surface, "the motion would slide along", why);
 }
 
 static void
@@ -121,7 +138,14 @@ enter(qdot_piece *x, bool *can)
     qdot_status status = qdot_piece_enter(x);
 
     *can = true;
-    if (!qdot_sliding_is(x->c->stage->switches.surfaces.n, x->side))
+    if (status == QDOT_OK) {
+        QDOT_TRY(qdot_piece_pucks(x, can));
+        if (!*can) {
+            snprintf(x->hindrance, sizeof x->hindrance, ", but a force there drives it on");
+            return QDOT_OK;
+        }
+    }
+    if (!qdot_sliding_is(&x->c->stage->switches, x->side))
         return status;
     if (status != QDOT_OK) {
         *can = false;

@@ -30,9 +30,8 @@ typedef struct {
     double *out, *in, *work;
 } decision;
 
-/* The symbols of q, q', t; their number. */
-static size_t
-inputs_of(const qdot_stage *s, qdot_expr *in)
+size_t
+qdot_stage_inputs(const qdot_stage *s, qdot_expr *in)
 {
     size_t k = 0;
 
@@ -56,7 +55,7 @@ qdot_stage_lower_sides(qdot_stage *s)
     qdot_status status = u && in ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        k = inputs_of(s, in);
+        k = qdot_stage_inputs(s, in);
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         in[k++] = s->switches.surfaces.at[i].side;
         status = qdot_switches_freeze(&s->switches, NULL, NULL, 1, &s->switches.surfaces.at[i].u,
@@ -180,7 +179,7 @@ start_accelerations(const decision *d, double *a)
             e[i] = QDOT_ZERO;
     }
     if (status == QDOT_OK)
-        inputs_of(d->s, in);
+        qdot_stage_inputs(d->s, in);
     if (status == QDOT_OK)
         status = qdot_tape_new(s->pool, d->n + 1, in, 2 * n, e, &tape);
     if (status == QDOT_OK)
@@ -295,7 +294,13 @@ qdot_stage_describe(const qdot_stage *s, size_t surface, long side, qdot_text *o
 {
     const qdot_surface *x = &s->switches.surfaces.at[surface];
 
-    QDOT_TRY(qdot_print(s->switches.pool, x->u, QDOT_PLAIN, out));
+    for (size_t c = 0; x->puck > 0 && c < s->switches.pucks.at[x->puck - 1].k; c++) {
+        qdot_text_add(out, c > 0 ? " = " : "");
+        QDOT_TRY(qdot_print(s->switches.pool, s->switches.pucks.at[x->puck - 1].rest[c], QDOT_PLAIN,
+                            out));
+    }
+    if (x->puck == 0)
+        QDOT_TRY(qdot_print(s->switches.pool, x->u, QDOT_PLAIN, out));
     qdot_text_format(out, " = %ld", x->steps ? side : 0);
     return qdot_text_status(out);
 }

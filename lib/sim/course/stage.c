@@ -7,6 +7,7 @@
 #include "expr/walk.h"
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
+#include "sim/model/puck.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
@@ -47,6 +48,7 @@ qdot_stage_clear(qdot_stage *s)
     qdot_domains_clear(&s->domains);
     qdot_parameter_conditions_clear(&s->conditions);
     qdot_tape_free(s->sides);
+    qdot_tape_free(s->pucks);
     qdot_free(s->scales);
     *s = (qdot_stage){0};
 }
@@ -218,6 +220,33 @@ watch_layer(qdot_mode *m, const qdot_surface *x, qdot_expr u, qdot_watched watch
     }
 }
 
+/* A puck that moves: |w|^2 above its radius; at rest: s G s below 1; that creeps: between 1 and a little
+ * more. */
+static void
+watch_puck(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
+{
+    qdot_pool *pool = m->plan->pool;
+    const long side = m->side[w.index];
+    const qdot_expr share = qdot_puck_is_held(side) ? m->plan->share[w.index] : QDOT_NIL;
+    const qdot_expr two = qdot_expr_int(pool, 2);
+    const qdot_expr creep = qdot_pow_int(pool, two, QDOT_PUCK_CREEP_EXPONENT);
+
+    w.inside = 1;
+    w.velocity = true;
+    w.beyond = side == QDOT_SIDE_SLIDES ? QDOT_SIDE_CREEPS : QDOT_SIDE_SLIDES;
+    if (side == QDOT_SIDE_SLIDES) {
+        watch_function(m, qdot_sub(pool, QDOT_ONE, share), w);
+    } else if (side == QDOT_SIDE_CREEPS) {
+        watch_function(m, qdot_sub(pool, share, QDOT_ONE), w);
+        w.beyond = 1;
+        watch_function(m, qdot_sub(pool, qdot_add(pool, QDOT_ONE, creep), share), w);
+    } else if (puck->radius > 0) {
+        watch_function(m, qdot_sub(pool, puck->square,
+                                   qdot_pow_int(pool, two, 2 * ilogb(puck->radius))),
+                       w);
+    }
+}
+
 /* A surface whose u is constant in the mode is not watched; where u is 0, it is watched to stay
  * 0; where the motion slides, its share is. */
 static qdot_status
@@ -232,6 +261,10 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         qdot_watched w = {.kind = QDOT_WATCH_SURFACE, .index = i};
         qdot_expr u;
 
+        if (x->puck > 0) {
+            watch_puck(m, qdot_puck_of(&s->switches, i), w);
+            continue;
+        }
         if (m->side[i] == QDOT_SIDE_SLIDES) {
             w.velocity = true;
             if (!x->contact)
@@ -286,31 +319,52 @@ static void
 watch_contacts(const qdot_stage *s, qdot_mode *m)
 {
     for (size_t i = qdot_switches_own(&s->switches); i < s->switches.surfaces.n; i++)
-        if (m->side[i] == QDOT_SIDE_SLIDES)
+        if (s->switches.surfaces.at[i].contact && m->side[i] == QDOT_SIDE_SLIDES)
             m->functions[s->switches.surfaces.at[i].event] = QDOT_ONE;
+}
+
+/* The values of the symbols of pucks in a mode, behind those of the surfaces, out. */
+static void
+value_pucks(const qdot_stage *s, const qdot_mode *m, qdot_expr *out)
+{
+    const qdot_switches *x = &s->switches;
+
+    for (size_t i = 0; i < x->pucks.n; i++) {
+        const qdot_puck *puck = &x->pucks.at[i];
+        const bool held = qdot_puck_is_held(m->side[puck->surface]);
+
+        for (size_t c = 0; c < puck->k; c++)
+            out[puck->first + c] =
+                held ? m->plan->share[x->surfaces.n + puck->first + c] : QDOT_ZERO;
+        out[puck->first + puck->k] =
+            held ? QDOT_ZERO : qdot_pow(x->pool, puck->square, qdot_neg(x->pool, QDOT_HALF));
+    }
 }
 
 static qdot_status
 find_held(const qdot_stage *s, qdot_mode *m)
 {
-    const size_t surfaces = s->switches.surfaces.n;
+    const size_t surfaces = s->switches.surfaces.n, all = surfaces + s->switches.n_puck_symbols;
     qdot_expr *u;
     qdot_status status = QDOT_OK;
 
-    if (!qdot_sliding_is(surfaces, m->side))
+    if (!qdot_sliding_is(&s->switches, m->side) && s->switches.pucks.n == 0)
         return QDOT_OK;
-    u = qdot_calloc(surfaces, sizeof *u);
+    u = qdot_calloc(all, sizeof *u);
     if (!u)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < surfaces && status == QDOT_OK; i++)
         status = qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1,
                                       &s->switches.surfaces.at[i].u, u + i);
     if (status == QDOT_OK)
-        status = qdot_sliding_rows_make(m->plan, surfaces, m->side, u, &m->held);
+        status = qdot_sliding_rows_make(m->plan, &s->switches, m->side, u, &m->held);
     for (size_t i = 0; i < surfaces; i++)
         u[i] = m->side[i] == QDOT_SIDE_SLIDES ? m->plan->share[i] : QDOT_ZERO;
+    value_pucks(s, m, u + surfaces);
     if (status == QDOT_OK)
-        status = qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, surfaces, u,
+        status = qdot_pool_check(s->switches.pool);
+    if (status == QDOT_OK)
+        status = qdot_tape_new(m->plan->pool, 2 * m->plan->n + 1, m->plan->inputs, all, u,
                                &m->shares);
     qdot_free(u);
     return status;
@@ -331,7 +385,8 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     s->kept = NULL;
     if (!m->plan) {
         QDOT_TRY(qdot_plan_in_mode(s->scene, s->request, &s->switches, m->side, &m->plan));
-        if (s->switches.atoms.n == 0 && s->switches.level == QDOT_NIL && !m->plan->share)
+        if (s->switches.atoms.n == 0 && s->switches.level == QDOT_NIL && !m->plan->share
+            && s->switches.pucks.n == 0)
             qdot_kept_add(s->scene, s->request, m->plan);
     }
     if (s->modes.n == 0) {
@@ -423,6 +478,23 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     return status;
 }
 
+/* The radii of pucks, by the start. */
+static qdot_status
+start_pucks(qdot_stage *s, const double *settled)
+{
+    double *y = qdot_calloc(2 * s->n + 1, sizeof *y), t = 0, t1 = 0;
+    qdot_status status = y ? start_numbers(s, &t, y) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
+    if (status == QDOT_OK && settled)
+        memcpy(y, settled, 2 * s->n * sizeof *y);
+    if (status == QDOT_OK)
+        status = qdot_stage_pucks(s, t, y, fmax(fabs(t), fabs(t1)));
+    qdot_free(y);
+    return status;
+}
+
 /* The scales that the request says; those of parameters that events set are 1. */
 static qdot_status
 take_scales(qdot_stage *s, size_t n)
@@ -462,10 +534,16 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
     QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
+    if (!s->kept)
+        QDOT_TRY(qdot_pucks_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);
     if (!side)
         return QDOT_ENOMEM;
-    if (qdot_switches_own(&s->switches) > 0)
+    for (size_t i = 0; i < s->switches.pucks.n; i++)
+        side[s->switches.pucks.at[i].surface] = 1;
+    if (s->switches.pucks.n > 0)
+        status = start_pucks(s, settled);
+    if (qdot_switches_own(&s->switches) > 0 && status == QDOT_OK)
         status = qdot_stage_lower_sides(s);
     if (qdot_switches_own(&s->switches) > 0 && status == QDOT_OK)
         status = start_sides(s, settled, side);

@@ -66,6 +66,7 @@ typedef struct {
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
                          NULL: no surface */
+    qdot_tape *pucks; /* from q, q', t: qdot_stage_puck of one after another; NULL: there is none */
 } qdot_stage;
 
 /* Make the stage and its first mode, that of the start. A surface that the start lies on gets its
@@ -82,6 +83,9 @@ QDOT_MUST_CHECK qdot_status qdot_stage_settle(qdot_stage *stage, const double *y
  * has ended (stage->scene is NULL), or as qdot_sliding_freeze. */
 QDOT_MUST_CHECK qdot_status qdot_stage_mode(qdot_stage *stage, const long *side,
                                             size_t *mode);
+
+/* The symbols of q, q', t into in [2n + 1]; their number. */
+size_t qdot_stage_inputs(const qdot_stage *stage, qdot_expr *in);
 
 /* Make stage->sides from the scene's surfaces. Errors: as qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_stage_lower_sides(qdot_stage *stage);
@@ -102,6 +106,21 @@ QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
  * up to `latest`. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const double *y,
                                               double latest);
+
+/* Make stage->pucks, and measure the radii of the pucks at the start of a run that looks at times up to
+ * `latest`. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_stage_pucks(qdot_stage *stage, double t, const double *y,
+                                             double latest);
+/* What stage->pucks has of puck i at a state. Allocates. */
+typedef struct {
+    size_t k;
+    double speed;                                         /* |w| */
+    double d[QDOT_PUCK_MOST], rate[QDOT_PUCK_MOST]; /* the rate of d but for q'' */
+    double G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];      /* [k x k] */
+    double *slopes; /* [k x n] dd/dq', room of the caller; NULL: not wanted */
+} qdot_puck_state;
+QDOT_MUST_CHECK qdot_status qdot_stage_puck(const qdot_stage *stage, size_t i, double t,
+                                            const double *y, qdot_puck_state *of);
 
 /* A surface in words: "x' = 0". */
 QDOT_MUST_CHECK qdot_status qdot_stage_describe(const qdot_stage *stage, size_t surface,

@@ -39,20 +39,47 @@ qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
     return worst;
 }
 
+static bool
+discs_exclude(const qdot_watch *w, size_t i)
+{
+    return fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
+           qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
+}
+
+/* By so much that it does not touch 0 either. */
+static bool
+box_excludes(const qdot_watch *w, size_t i)
+{
+    static const double near = 0x1p-10;
+    const qdot_interval *box = w->bounds.box + i;
+
+    return w->start.sign[i] > 0   ? box->lo > near * box->hi
+           : w->start.sign[i] < 0 ? box->hi < near * box->lo
+                                  : false;
+}
+
+/* Discs know no abs(x) - pi; intervals do. */
 void
 qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
 {
-    w->bound_at_step = false;
+    bool all = true;
+
+    w->bound_at_step = w->boxed_at_step = false;
     if (!step || w->accelerations)
         return;
     qdot_polynomial_bounds_series(&w->bounds, w->reader.system->series, step);
     w->bound_at_step = true;
+    for (size_t i = 0; i < w->m; i++)
+        all = all && discs_exclude(w, i);
+    if (all)
+        return;
+    qdot_polynomial_bounds_box(&w->bounds);
+    w->boxed_at_step = true;
 }
 
 bool
 qdot_watch_excludes(const qdot_watch *w, size_t i)
 {
     return w->bound_at_step &&
-           fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
-           qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
+           (discs_exclude(w, i) || (w->boxed_at_step && box_excludes(w, i)));
 }

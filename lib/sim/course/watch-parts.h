@@ -45,6 +45,7 @@ struct qdot_watch {
     double *clear;      /* [m] distance from 0 that its bound guarantees, if positive */
     qdot_polynomial_bounds bounds; /* between the nodes, or on the whole step */
     bool bound_at_step;  /* bounds on the whole step are known */
+    bool boxed_at_step;  /* and intervals, bounds.box */
     bool all_bounds;     /* every g is a coordinate less its bound */
     double *final;      /* [m] g at the end of the step */
     double length;      /* of the step */

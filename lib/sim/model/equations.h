@@ -56,7 +56,7 @@ struct qdot_plan {
     size_t m;        /* constraints of the scene, one a component */
     size_t n_states; /* the last coordinates: parameters that events set
                         (sim/model/parameter-states.h) */
-    size_t n_sides;  /* surfaces at which the equations switch */
+    size_t n_sides;  /* surfaces at which the equations switch, and symbols of pucks */
     qdot_expr *inputs; /* [3n + 1 + m + n_sides] q, q', t, q'', lambda of m constraints, the symbols of
                           the sides (sim/model/switch.h), of which only what is read along a run
                           may hold some */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "sim/model/puck.h"
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
@@ -34,10 +35,10 @@ add_row(const qdot_plan *p, qdot_sliding_rows *rows, int order, qdot_expr h, qdo
 }
 
 qdot_status
-qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
+qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *s, const long *side,
                        const qdot_expr *u, qdot_sliding_rows *rows)
 {
-    const size_t most = 2 * surfaces;
+    const size_t surfaces = s->surfaces.n, most = 2 * surfaces + s->n_puck_symbols;
     qdot_expr *out = qdot_calloc(most * (1 + p->n) + 1, sizeof *out);
     qdot_status status;
 
@@ -51,7 +52,15 @@ qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces, const long *side,
         const bool velocity =
             u[i] != QDOT_NIL && (qdot_expr_node(p->pool, u[i])->holds & QDOT_HAS_VELOCITY) != 0;
 
+        const qdot_puck *puck = qdot_puck_of(s, i);
+
         if (side[i] != QDOT_SIDE_SLIDES)
+            continue;
+        for (size_t c = 0; puck && c < puck->k; c++) {
+            rows->surface[rows->rows] = i;
+            add_row(p, rows, 1, puck->rest[c], out, out + most);
+        }
+        if (puck)
             continue;
         rows->surface[rows->rows] = i;
         rows->surface[rows->rows + 1] = i;

@@ -7,33 +7,50 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/solve/linear.h"
+#include "sim/model/puck.h"
 #include "sim/model/switch.h"
 
 /* Up to so many coordinates q'' = M^-1 f is integrated. */
 enum { MOST_SOLVED = 3 };
 
 bool
-qdot_sliding_is(size_t surfaces, const long *side)
+qdot_sliding_is(const qdot_switches *s, const long *side)
 {
-    for (size_t i = 0; i < surfaces && side; i++)
-        if (side[i] == QDOT_SIDE_SLIDES)
+    for (size_t i = 0; i < s->surfaces.n && side; i++)
+        if (side[i] == QDOT_SIDE_SLIDES
+            || (s->surfaces.at[i].puck > 0 && qdot_puck_is_held(side[i])))
             return true;
     return false;
 }
+
+/* A share: of a surface, or of component c of a puck. */
+typedef struct {
+    size_t surface, c;
+    const qdot_puck *puck; /* NULL: the surface is of none */
+} unknown;
 
 /* The system while it is filled: q'', then multipliers, then shares. */
 typedef struct {
     qdot_plan *p;
     const qdot_scene *scene;
     size_t n, m, k, size;
-    size_t *surface; /* [k] */
+    unknown *of; /* [k] */
     qdot_expr *A, *b, *x;
 } sliding;
 
 static qdot_expr
 share_symbol(const sliding *s, size_t j)
 {
-    return s->p->mode->surfaces.at[s->surface[j]].side;
+    const unknown *u = &s->of[j];
+
+    return u->puck ? u->puck->share[u->c] : s->p->mode->surfaces.at[u->surface].side;
+}
+
+/* Where a share of a puck is kept in p->share. */
+static qdot_expr *
+place_of(const qdot_plan *p, const qdot_puck *puck, size_t c)
+{
+    return p->share + p->mode->surfaces.n + puck->first + c;
 }
 
 static bool
@@ -146,11 +163,14 @@ fill_constraints(sliding *s)
     return qdot_pool_check(p->pool);
 }
 
-/* u of surface i, frozen to the mode. */
+/* What an unknown share holds at 0: u of its surface, frozen to the mode, or a component of w. */
 static qdot_status
-held(const qdot_plan *p, size_t i, qdot_expr *u)
+held(const qdot_plan *p, const unknown *of, qdot_expr *u)
 {
-    QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &p->mode->surfaces.at[i].u, u));
+    const size_t i = of->surface;
+    const qdot_expr *from = of->puck ? &of->puck->rest[of->c] : &p->mode->surfaces.at[i].u;
+
+    QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, from, u));
     if (p->mode->surfaces.at[i].steps || holds(p, *u, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)
         || !holds(p, *u, QDOT_HAS_VELOCITY | QDOT_HAS_COORD))
         return cannot("no motion can be held there");
@@ -163,11 +183,11 @@ fill(sliding *s)
     QDOT_TRY(fill_forces(s));
     QDOT_TRY(fill_constraints(s));
     for (size_t j = 0; j < s->k; j++) {
-        const qdot_surface *x = &s->p->mode->surfaces.at[s->surface[j]];
+        const qdot_surface *x = &s->p->mode->surfaces.at[s->of[j].surface];
         const size_t r = s->n + s->m + j;
         qdot_expr u;
 
-        QDOT_TRY(held(s->p, s->surface[j], &u));
+        QDOT_TRY(held(s->p, &s->of[j], &u));
         if (holds_share(s, u))
             return cannot("one switch is inside another");
         QDOT_TRY(fill_row(s, r, u, holds(s->p, u, QDOT_HAS_VELOCITY) ? 1 : 2));
@@ -181,39 +201,84 @@ fill(sliding *s)
     return QDOT_OK;
 }
 
-/* The shares found, put into f; or q'' itself. */
-static qdot_status
-put_in(sliding *s)
+static bool
+creeps(const sliding *s, size_t j)
+{
+    return s->p->side[s->of[j].surface] == QDOT_SIDE_CREEPS;
+}
+
+/* Keep the shares of a mode; of a puck s G s for its surface, which is watched, and where it creeps
+ * the direction s/|s| for its shares. */
+static void
+keep_shares(sliding *s)
 {
     qdot_plan *p = s->p;
-    qdot_expr *symbols = qdot_calloc(s->k, sizeof *symbols);
+
+    for (size_t j = 0; j < s->k; j++) {
+        const unknown *u = &s->of[j];
+
+        *(u->puck ? place_of(p, u->puck, u->c) : &p->share[u->surface]) =
+            s->x[s->n + s->m + j];
+    }
+    for (size_t j = 0; j < s->k; j++) {
+        const qdot_puck *puck = s->of[j].puck;
+        qdot_expr square;
+
+        if (!puck || s->of[j].c > 0)
+            continue;
+        square = qdot_puck_square(p->pool, puck, place_of(p, puck, 0));
+        p->share[puck->surface] = square;
+        for (size_t c = 0; c < puck->k && creeps(s, j); c++)
+            *place_of(p, puck, c) = qdot_mul(p->pool, *place_of(p, puck, c),
+                                             qdot_puck_inverse_root(p->pool, square));
+    }
+}
+
+/* Put the shares found into f, or take q'' itself. Where pucks creep only their shares: the others are
+ * to be found anew. */
+static qdot_status
+put_in(sliding *s, bool all)
+{
+    qdot_plan *p = s->p;
+    qdot_expr *symbols = qdot_calloc(2 * s->k, sizeof *symbols), *to = symbols + s->k;
+    size_t k = 0;
 
     if (!symbols)
         return QDOT_ENOMEM;
+    keep_shares(s);
     for (size_t j = 0; j < s->k; j++) {
-        symbols[j] = share_symbol(s, j);
-        p->share[s->surface[j]] = s->x[s->n + s->m + j];
+        const unknown *u = &s->of[j];
+
+        if (!all && !creeps(s, j))
+            continue;
+        symbols[k] = share_symbol(s, j);
+        to[k++] = u->puck ? *place_of(p, u->puck, u->c) : p->share[u->surface];
     }
     for (size_t i = 0; i < s->n; i++) {
-        if (s->m == 0 && s->n <= MOST_SOLVED) {
+        if (all && s->m == 0 && s->n <= MOST_SOLVED) {
             p->f[i] = s->x[i];
             for (size_t j = 0; j < s->n; j++)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
-            p->f[i] = qdot_subs(p->pool, p->f[i], s->k, symbols, s->x + s->n + s->m);
+            p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
         }
     }
     qdot_free(symbols);
     return qdot_pool_check(p->pool);
 }
 
+/* With the unknowns of now; those that creep, if there are some, are settled by it. */
 static qdot_status
 solve(sliding *s)
 {
     qdot_facts facts = qdot_scene_facts(s->scene);
     uint32_t pivot = 0;
+    size_t held_on = 0;
     qdot_status status;
 
+    s->size = s->n + s->m + s->k;
+    s->b = s->A + s->size * s->size;
+    s->x = s->b + s->size;
     for (size_t i = 0; i < s->size * s->size; i++)
         s->A[i] = QDOT_ZERO;
     QDOT_TRY(fill(s));
@@ -221,39 +286,61 @@ solve(sliding *s)
     if (status == QDOT_ESINGULAR)
         return cannot("the forces that switch there do not determine the motion along it");
     QDOT_TRY(status);
-    return put_in(s);
+    for (size_t j = 0; j < s->k; j++)
+        held_on += !creeps(s, j);
+    QDOT_TRY(put_in(s, held_on == s->k));
+    if (held_on == s->k)
+        return QDOT_OK;
+    held_on = 0;
+    for (size_t j = 0; j < s->k; j++)
+        if (!creeps(s, j))
+            s->of[held_on++] = s->of[j];
+    s->k = held_on;
+    return s->k > 0 ? solve(s) : QDOT_OK;
+}
+
+static qdot_status
+add_unknown(sliding *s, size_t surface)
+{
+    const qdot_puck *puck = qdot_puck_of(s->p->mode, surface);
+    const qdot_facts facts = qdot_scene_facts(s->scene);
+
+    for (size_t c = 0; c < (puck ? puck->k : 1); c++)
+        s->of[s->k++] = (unknown){.surface = surface, .c = c, .puck = puck};
+    return puck ? qdot_puck_hold(s->p->pool, puck, &facts, s->n, s->p->f) : QDOT_OK;
 }
 
 qdot_status
 qdot_sliding_freeze(qdot_plan *p, const qdot_scene *scene)
 {
-    const size_t surfaces = p->mode->surfaces.n, n = p->n;
+    const qdot_switches *mode = p->mode;
+    const size_t surfaces = mode->surfaces.n, n = p->n, most = surfaces + mode->n_puck_symbols;
     sliding s = {.p = p, .scene = scene, .n = n, .m = scene->constraints.n};
     qdot_status status = QDOT_OK;
 
-    if (qdot_sliding_is(surfaces, p->side)) {
-        p->share = qdot_calloc(surfaces, sizeof *p->share);
-        s.surface = qdot_calloc(surfaces, sizeof *s.surface);
-        status = p->share && s.surface ? QDOT_OK : QDOT_ENOMEM;
+    if (qdot_sliding_is(mode, p->side)) {
+        p->share = qdot_calloc(most, sizeof *p->share);
+        s.of = qdot_calloc(most, sizeof *s.of);
+        status = p->share && s.of ? QDOT_OK : QDOT_ENOMEM;
     }
-    for (size_t i = 0; i < surfaces && p->share && s.surface; i++) {
-        p->share[i] = p->mode->surfaces.at[i].side;
-        if (p->side[i] == QDOT_SIDE_SLIDES)
-            s.surface[s.k++] = i;
-    }
+    for (size_t i = 0; i < surfaces && p->share && s.of; i++)
+        p->share[i] = mode->surfaces.at[i].side;
     if (status == QDOT_OK)
-        status = qdot_switches_freeze(p->mode, p->side, p->share, n * n, p->M, p->M);
+        status = qdot_switches_freeze(mode, p->side, p->share, n * n, p->M, p->M);
     if (status == QDOT_OK)
-        status = qdot_switches_freeze(p->mode, p->side, p->share, n, p->f, p->f);
+        status = qdot_switches_freeze(mode, p->side, p->share, n, p->f, p->f);
+    for (size_t i = 0; i < surfaces && p->share && s.of && status == QDOT_OK; i++)
+        if (p->side[i] == QDOT_SIDE_SLIDES
+            || (mode->surfaces.at[i].puck > 0 && qdot_puck_is_held(p->side[i])))
+            status = add_unknown(&s, i);
     if (status == QDOT_OK && s.k > 0) {
-        s.size = n + s.m + s.k;
-        s.A = qdot_calloc(s.size * (s.size + 2), sizeof *s.A);
-        s.b = s.A + s.size * s.size;
-        s.x = s.b + s.size;
+        const size_t size = n + s.m + s.k;
+
+        s.A = qdot_calloc(size * (size + 2), sizeof *s.A);
         status = s.A ? solve(&s) : QDOT_ENOMEM;
     }
     qdot_free(s.A);
-    qdot_free(s.surface);
+    qdot_free(s.of);
     return status;
 }
 
@@ -266,6 +353,10 @@ qdot_plan_reading(const qdot_plan *p, qdot_expr e)
     e = qdot_plan_substitute(p, e);
     if (!p->read_side || e == QDOT_NIL)
         return e;
+    for (size_t i = 0; i < s->pucks.n; i++)
+        if (p->read_side[s->pucks.at[i].surface] == QDOT_SIDE_SLIDES
+            && qdot_puck_reading(p->pool, &s->pucks.at[i], &e) != QDOT_OK)
+            return qdot_pool_fail(p->pool);
     share = qdot_calloc(s->surfaces.n, sizeof *share);
     if (!share)
         return qdot_pool_fail(p->pool);

@@ -12,6 +12,8 @@
  * the force of friction over its largest size. Where a share leaves -1 ... 1 the mode ends, to the
  * side with its sign: s - 1 and s + 1 are watched (sim/course/stage.c).
  *
+ * A puck at rest (sim/model/puck.h) has a share for each component of its velocity.
+ *
  * A contact that lasts (sim/model/contact.h) is held in the same way: u = 0 of its event, B the slopes of
  * u, s >= 0 the reaction.
  *
@@ -23,9 +25,10 @@
 
 #include "mech/scene/scene.h"
 #include "sim/model/equations.h"
+#include "sim/model/switch.h"
 
-/* Whether the motion slides along a surface in this mode. */
-bool qdot_sliding_is(size_t surfaces, const long *side);
+/* Whether the motion slides along a surface in this mode, or a puck rests or creeps. */
+bool qdot_sliding_is(const qdot_switches *switches, const long *side);
 
 /* Freeze p->M and p->f to the mode of the plan; where the motion slides find p->share, and put it
  * into f. Of few coordinates without constraints M q'' = f becomes q'' = M^-1 f, so that what is
@@ -48,8 +51,9 @@ typedef struct {
     qdot_tape *tape; /* from q, q', t: values [rows], then slopes by q or q' [rows x n]; owned */
 } qdot_sliding_rows;
 
-/* Of a plan and a mode whose surfaces have the u [surfaces] frozen to it. Start from {0}. */
-QDOT_MUST_CHECK qdot_status qdot_sliding_rows_make(const qdot_plan *p, size_t surfaces,
+/* Of a plan and a mode whose surfaces have the u [surfaces] frozen to it; a puck at rest has a row for
+ * each component of w. Start from {0}. */
+QDOT_MUST_CHECK qdot_status qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *switches,
                                                    const long *side, const qdot_expr *u,
                                                    qdot_sliding_rows *rows);
 void qdot_sliding_rows_clear(qdot_sliding_rows *rows);

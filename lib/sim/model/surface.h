@@ -17,8 +17,32 @@ typedef struct {
     bool contact;
     size_t event; /* whose `then` is the impact */
     int reaction; /* the sign of du/dt that the contact can push to */
+    size_t puck; /* 1 + the number of the puck that u is |w|^2 of (sim/model/puck.h); 0: of none */
     double layer;   /* half the width of the layer in which that power counts as 0, there of
                        side 0: a power of two; 0: there is none */
 } qdot_surface;
+
+/* A vector w of velocities whose direction is in the equations (sim/model/puck.h). */
+enum { QDOT_PUCK_MOST = 6, QDOT_PUCK_MOST_TIED = 4 };
+
+typedef struct {
+    size_t surface; /* its surface */
+    size_t k;       /* components */
+    size_t velocity[QDOT_PUCK_MOST];  /* the coordinates j, */
+    qdot_expr symbol[QDOT_PUCK_MOST]; /* and their q'_j */
+    /* Velocities of w that constraints, with constant coefficients, tie to others: q'_j = to, which
+     * changes by follow_ja with the velocity a above. */
+    size_t n_tied, tied[QDOT_PUCK_MOST_TIED];
+    qdot_expr tied_symbol[QDOT_PUCK_MOST_TIED], to[QDOT_PUCK_MOST_TIED];
+    double follow[QDOT_PUCK_MOST_TIED][QDOT_PUCK_MOST];
+    qdot_expr square;                 /* |w|^2, with parameter values */
+    qdot_expr rest[QDOT_PUCK_MOST];   /* d_j: q'_j less its value at w = 0 */
+    qdot_expr metric[QDOT_PUCK_MOST * QDOT_PUCK_MOST]; /* [k x k] G */
+    qdot_expr share[QDOT_PUCK_MOST];  /* symbols of the shares s_j, */
+    qdot_expr inverse;                /* and of 1/|w|, 0 at rest */
+    qdot_expr length;                 /* a symbol for |w| while it goes to 0 */
+    size_t first; /* where shares and inverse begin, behind the sides of all surfaces */
+    double radius; /* |w| up to this is rest; 0: it is not looked for */
+} qdot_puck;
 
 #endif

@@ -15,6 +15,7 @@ qdot_switches_clear(qdot_switches *s)
 {
     qdot_free(s->surfaces.at);
     qdot_free(s->atoms.at);
+    qdot_free(s->pucks.at);
     *s = (qdot_switches){0};
 }
 

@@ -36,14 +36,19 @@
 
 /* The side of a surface along which the motion slides (sim/model/sliding.h): u is held at 0. */
 #define QDOT_SIDE_SLIDES LONG_MAX
+/* A puck that has begun to move, so slowly that its direction is that of its shares
+ * (sim/model/puck.h). Other surfaces have no such mode. */
+#define QDOT_SIDE_CREEPS (-1)
 /* For freezing: what switches there stays as it is. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
 
 typedef struct qdot_switches {
     qdot_pool *pool; /* borrowed */
-    qdot_vec(qdot_surface) surfaces; /* inner ones first, contacts last */
+    qdot_vec(qdot_surface) surfaces; /* inner ones first, then contacts, then pucks */
     size_t contacts;
+    qdot_vec(qdot_puck) pucks; /* whose surfaces come behind those of contacts */
+    size_t n_puck_symbols;     /* their symbols, k + 1 of each */
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
     qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
@@ -59,7 +64,7 @@ enum { QDOT_MANY_COORDINATES = 32 };
 static inline size_t
 qdot_switches_own(const qdot_switches *s)
 {
-    return s->surfaces.n - s->contacts;
+    return s->surfaces.n - s->contacts - s->pucks.n;
 }
 
 /* Find the surfaces of the equations of motion and of the constraints; start from {0}. Errors: as

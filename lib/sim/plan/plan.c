@@ -85,7 +85,9 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
 {
     size_t n = p->n, m = scene->constraints.n;
 
-    p->n_sides = p->mode ? qdot_switches_own(p->mode) : 0;
+    const size_t own = p->mode ? qdot_switches_own(p->mode) : 0;
+
+    p->n_sides = p->mode ? own + p->mode->n_puck_symbols : 0;
     p->inputs = qdot_calloc(3 * n + 1 + m + p->n_sides, sizeof *p->inputs);
     p->names = qdot_calloc(n, sizeof *p->names);
     if (!p->inputs || !p->names)
@@ -103,8 +105,15 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
     p->inputs[2 * n] = QDOT_T;
     for (size_t k = 0; k < m; k++)
         p->inputs[3 * n + 1 + k] = scene->constraints.at[k].multiplier;
-    for (size_t i = 0; i < p->n_sides; i++)
+    for (size_t i = 0; i < own; i++)
         p->inputs[3 * n + 1 + m + i] = p->mode->surfaces.at[i].side;
+    for (size_t i = 0; p->mode && i < p->mode->pucks.n; i++) {
+        const qdot_puck *puck = &p->mode->pucks.at[i];
+        qdot_expr *in = p->inputs + 3 * n + 1 + m + own + puck->first;
+
+        memcpy(in, puck->share, puck->k * sizeof *in);
+        in[puck->k] = puck->inverse;
+    }
     return qdot_pool_check(p->pool);
 }
 

@@ -17,7 +17,7 @@
 static bool
 may_be(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
-    return p->mode && p->mode->atoms.n == 0 && !qdot_sliding_is(p->mode->surfaces.n, p->side)
+    return p->mode && p->mode->atoms.n == 0 && !qdot_sliding_is(p->mode, p->side)
            && p->n >= QDOT_MANY_COORDINATES && p->n_states == 0
            && scene->constraints.n == 0 && request->digits == 0 && p->method->series
            && !qdot_plan_needs_jacobian(p) && request->tol > QDOT_ODE_LEADING_TOL;

@@ -246,9 +246,8 @@ find_range(const qdot_run_expression *x, const double *given, double *from, doub
                      ends[0], ends[1], low, high);
 }
 
-/* Of expressions in the coordinates of the runs. */
 static qdot_status
-range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+range_of(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
                      double *value, double *error)
 {
     question q = {.x = x, .kind = kind};
@@ -269,6 +268,27 @@ range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *ra
     }
     qdot_joint_clear(&q.joint);
     return status;
+}
+
+/* Of expressions in the coordinates of the runs. The largest |u| is that of u or of -u: |u| has corners
+ * where u is 0, and if u is all rounding it has nothing else. */
+static qdot_status
+range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
+            double *error)
+{
+    const qdot_pool *pool = x->runs[0]->plan->pool;
+    qdot_run_expression inner = *x;
+    double least, least_error;
+
+    if (kind != QDOT_RANGE_MAX || qdot_expr_kind(pool, x->e) != QDOT_FUN
+        || qdot_expr_node(pool, x->e)->op != QDOT_ABS)
+        return range_of(x, kind, range, value, error);
+    inner.e = qdot_expr_arg(pool, x->e, 0);
+    QDOT_TRY(range_of(&inner, QDOT_RANGE_MAX, range, value, error));
+    QDOT_TRY(range_of(&inner, QDOT_RANGE_MIN, range, &least, &least_error));
+    *value = fmax(*value, -least);
+    *error = isnan(*error) || isnan(least_error) ? NAN : fmax(*error, least_error);
+    return QDOT_OK;
 }
 
 /* The same where run k was made in other coordinates: what is said along it, put into those for the

@@ -33,9 +33,20 @@ name(const qdot_run *run, size_t surface, qdot_text *to)
         qdot_text_format(to, "rests on %s: ",
                          run->stage.events.at[s->surfaces.at[surface].event].name);
     else
-        qdot_text_add(to, qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
+        qdot_text_add(to, s->surfaces.at[surface].puck == 0
+                                  && qdot_expr_node(s->pool, u)->holds & QDOT_HAS_COORD ? "slides along "
                                                                              : "sticks at ");
     return qdot_stage_describe(&run->stage, surface, 0, to);
+}
+
+/* When a puck that came to rest in a piece which began at t has stopped; else t. */
+static double
+stopped_at(const qdot_run *run, size_t surface, double t)
+{
+    for (size_t i = run->course.rests.n; i-- > 0;)
+        if (run->course.rests.at[i].surface == surface && run->course.rests.at[i].t == t)
+            return run->course.rests.at[i].after;
+    return t;
 }
 
 static qdot_status
@@ -47,7 +58,7 @@ tell(qdot_run *run, size_t surface)
     qdot_text *to = NULL;
 
     for (size_t k = 0; k < tr->pieces.n; k++) {
-        const double begin = tr->t[tr->pieces.at[k].first];
+        const double begin = stopped_at(run, surface, tr->t[tr->pieces.at[k].first]);
 
         if (!slides(run, k, surface))
             continue;
@@ -76,7 +87,7 @@ qdot_slides_tell(qdot_run *run)
     bool any = false;
 
     for (size_t i = 0; i < run->stage.modes.n; i++)
-        any = any || run->stage.modes.at[i]->shares;
+        any = any || qdot_sliding_is(&run->stage.switches, run->stage.modes.at[i]->side);
     if (!any)
         return QDOT_OK;
     qdot_free(run->plan->read_side);

@@ -17,12 +17,13 @@ syntax keyword qdotTodo TODO FIXME contained
 " words
 syntax keyword qdotWord contained abbreviate animate assume body check constraint continue
 syntax keyword qdotWord contained coord cyclic damper derive dissipation dof equilibria
-syntax keyword qdotWord contained event events export find fit force forces function
-syntax keyword qdotWord contained gravity help include lagrangian longtime lyapunov modes
-syntax keyword qdotWord contained param particle plan plot poincare potential print quit
-syntax keyword qdotWord contained race reactions redo remove report reset run save scale
-syntax keyword qdotWord contained scene sensitivity set show spring start style sweep
-syntax keyword qdotWord contained table timing torque undo vars workprecision
+syntax keyword qdotWord contained event events export find fit floquet force forces
+syntax keyword qdotWord contained function gravity help include lagrangian longtime
+syntax keyword qdotWord contained lyapunov modes param particle plan plot poincare
+syntax keyword qdotWord contained potential print quit race reactions redo remove report
+syntax keyword qdotWord contained reset run save scale scene sensitivity set show spring
+syntax keyword qdotWord contained start style sweep table timing torque undo vars
+syntax keyword qdotWord contained workprecision
 syntax keyword qdotFunction N abs acos acosh asin asinh atan atan2 atanh christoffel
 syntax keyword qdotFunction collect cos cosh cot cross csc curl ddt det diff divergence
 syntax keyword qdotFunction dot drift ds2 eigenvalues erf erfc exp expand factor floor

@@ -1,0 +1,227 @@
+/* peers.cc -- members of a sweep by hand-written peers: see `sweeps`.
+ *
+ *     peers SCENE METHOD TARGET < CSV
+ *     peers cpu COMMAND ...          seconds of the processor that the command takes
+ *
+ *   METHOD  dop853 (peers/dop853.hh), rkf78 (Boost.odeint), wide (wide.hh: four members a vector)
+ *   CSV     a header; what the scene sweeps, then the coordinates at its end
+ *
+ * Takes the loosest tolerance of a ladder, two a decade, by which the median of the members' errors at
+ * the end, over max(1, |q|), is at most TARGET. Prints: scene, method, target, tolerance, that error,
+ * members a second.
+ */
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <cstdlib>
+#include <cstdio>
+#include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "scenes.hh"
+
+#include "dop853.hh"
+#include "wide.hh"
+
+template <> const wide gravity<wide> = wide(9.81);
+
+/* --- scenes, with the start that a number makes ------------------------------------------ */
+
+struct pendulum_swept : pendulum {
+    static constexpr double t1 = 20;
+    static void at(double a, double *y) { y[0] = a, y[1] = 0; }
+};
+
+struct double_swept : twofold {
+    static constexpr double t1 = 10;
+    static void at(double a, double *y) { y[0] = a, y[1] = 1, y[2] = y[3] = 0; }
+};
+
+struct henon_swept {
+    static constexpr int size = 4;
+    static constexpr double t1 = 100;
+    static void at(double a, double *y) { y[0] = 0, y[1] = 0.1, y[2] = a, y[3] = 0; }
+    template <class T> static void f(const T *y, T *d)
+    {
+        d[0] = y[2];
+        d[1] = y[3];
+        d[2] = -y[0] - T(2) * y[0] * y[1];
+        d[3] = -y[1] - y[0] * y[0] + y[1] * y[1];
+    }
+};
+
+struct spherical_swept : spherical_pole {
+    static constexpr double t1 = 20;
+    static void at(double a, double *y) { y[0] = a, y[1] = y[2] = 0, y[3] = 1; }
+};
+
+struct kepler_swept : kepler_polar {
+    static constexpr double t1 = 20;
+    static void at(double a, double *y) { y[0] = 1, y[1] = y[2] = 0, y[3] = a; }
+};
+
+struct chain_swept : chain_linear<8> {
+    static constexpr double t1 = 5;
+    static void at(double a, double *y)
+    {
+        for (int i = 0; i < 8; i++)
+            y[i] = a, y[8 + i] = 0;
+    }
+};
+
+/* --- methods ------------------------------------------------------------------------------ */
+
+typedef std::vector<double> numbers;
+
+template <class S> void
+run_all(const std::string &method, const numbers &starts, double tol, numbers &ends)
+{
+    const size_t n = S::size, members = starts.size();
+
+    if (method == "wide") {
+        for (size_t m = 0; m < members; m += 4) {
+            wide y[S::size];
+            double one[S::size];
+
+            for (size_t l = 0; l < 4; l++) {
+                S::at(starts[std::min(m + l, members - 1)], one);
+                for (size_t i = 0; i < n; i++)
+                    y[i][(int)l] = one[i];
+            }
+            dop853_wide<S::size>(S::template f<wide>, S::t1, y, tol);
+            for (size_t l = 0; l < 4 && m + l < members; l++)
+                for (size_t i = 0; i < n; i++)
+                    ends[(m + l) * n + i] = y[i][(int)l];
+        }
+        return;
+    }
+    for (size_t m = 0; m < members; m++) {
+        double *y = &ends[m * n];
+
+        S::at(starts[m], y);
+        if (method == "dop853") {
+            dop853<S::size, double>(S::template f<double>, S::t1, y, tol);
+        } else {
+            using namespace boost::numeric::odeint;
+            typedef std::array<double, S::size> state;
+            state x;
+
+            std::copy(y, y + n, x.begin());
+            integrate_adaptive(
+                make_controlled<runge_kutta_fehlberg78<state>>(tol, tol),
+                [](const state &at, state &d, double) { S::template f<double>(at.data(), d.data()); },
+                x, 0.0, S::t1, 0.01);
+            std::copy(x.begin(), x.end(), y);
+        }
+    }
+}
+
+static double
+seconds_of(int who)
+{
+    struct rusage r;
+
+    getrusage(who, &r);
+    return (double)(r.ru_utime.tv_sec + r.ru_stime.tv_sec)
+           + 1e-6 * (double)(r.ru_utime.tv_usec + r.ru_stime.tv_usec);
+}
+
+static double
+now(void)
+{
+    return seconds_of(RUSAGE_SELF);
+}
+
+static int
+time_command(char **argv)
+{
+    int status = 0;
+
+    if (fork() == 0) {
+        if (!freopen("/dev/null", "w", stdout))
+            _exit(1);
+        execvp(argv[0], argv);
+        _exit(1);
+    }
+    wait(&status);
+    printf("%.4f\n", seconds_of(RUSAGE_CHILDREN));
+    return status != 0;
+}
+
+template <class S> int
+measure(const char *scene, const std::string &method, double target)
+{
+    const size_t n = S::size;
+    numbers starts, want, ends, errors;
+    char line[4096];
+
+    if (!fgets(line, sizeof line, stdin))
+        return 1;
+    while (fgets(line, sizeof line, stdin)) {
+        char *at = line;
+
+        starts.push_back(strtod(at, &at));
+        for (size_t i = 0; i < n / 2; i++)
+            want.push_back(strtod(at + 1, &at));
+    }
+    ends.resize(starts.size() * n);
+    for (int k = 2; k > -12; k--) {
+        const double tol = target * std::pow(10, 0.5 * k);
+        double begun, seconds;
+        long rounds = 0;
+
+        if (tol < 2e-16)
+            break;
+        run_all<S>(method, starts, tol, ends);
+        errors.clear();
+        for (size_t m = 0; m < starts.size(); m++) {
+            double worst = 0;
+
+            for (size_t i = 0; i < n / 2; i++) {
+                const double q = want[m * n / 2 + i], off = std::fabs(ends[m * n + i] - q);
+
+                worst = std::fmax(worst, off / std::fmax(1, std::fabs(q)));
+            }
+            errors.push_back(worst);
+        }
+        std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+        if (!(errors[errors.size() / 2] <= target))
+            continue;
+        begun = now();
+        do {
+            run_all<S>(method, starts, tol, ends);
+            rounds++;
+            seconds = now() - begun;
+        } while (seconds < 0.3);
+        printf("%s %s %.0e %.1e %.1e %.3g\n", scene, method.c_str(), target, tol,
+               errors[errors.size() / 2], (double)rounds * (double)starts.size() / seconds);
+        return 0;
+    }
+    printf("%s %s %.0e - - -\n", scene, method.c_str(), target);
+    return 0;
+}
+
+int
+main(int argc, char **argv)
+{
+    if (argc > 2 && std::string(argv[1]) == "cpu")
+        return time_command(argv + 2);
+    if (argc != 4)
+        return 2;
+    const std::string scene = argv[1];
+    const double target = atof(argv[3]);
+
+#define SCENE(name)                                                                      \
+    if (scene == #name)                                                                  \
+        return measure<name##_swept>(#name, argv[2], target);
+    SCENE(pendulum)
+    SCENE(double)
+    SCENE(henon)
+    SCENE(spherical)
+    SCENE(kepler)
+    SCENE(chain)
+    return 2;
+}

@@ -1,0 +1,306 @@
+/* piece-puck.c -- where pucks come to rest, and how they start. */
+#include "sim/course/piece.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "num/lu.h"
+#include "sim/model/puck.h"
+
+/* A puck starts at the speed that it would have after a time of so much of t, */
+static const double behind = 64 * DBL_EPSILON;
+/* or of the time of the run. */
+static const double little = 0x1p-60;
+/* If it has none to start with, at that of so little of the time of the run. */
+static const double least = 0x1p-85;
+
+/* The acceleration of a puck near rest by its direction: d' = P + K e, with K s = -P of the shares. */
+typedef struct {
+    size_t k;
+    double P[QDOT_PUCK_MOST], K[QDOT_PUCK_MOST * QDOT_PUCK_MOST],
+        G[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
+} response;
+
+static qdot_puck *
+puck_at(const qdot_piece *x, size_t i)
+{
+    return &x->c->stage->switches.pucks.at[i];
+}
+
+/* Change velocity a of a puck, and those that are tied to it. */
+static void
+change(const qdot_puck *puck, size_t a, double by, double *velocities)
+{
+    velocities[puck->velocity[a]] += by;
+    for (size_t j = 0; j < puck->n_tied; j++)
+        velocities[puck->tied[j]] += puck->follow[j][a] * by;
+}
+
+/* d' in a mode at the state y [n], where it is moved by e times `speed`. */
+static qdot_status
+accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
+           qdot_puck_state *s, double *out)
+{
+    const qdot_puck *puck = puck_at(x, i);
+    const qdot_ode_system *system = x->c->systems.at + x->mode;
+    const size_t n = x->n / 2;
+    double *y = qdot_malloc(2 * x->n * sizeof *y), *rates = y + x->n;
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(y, rest, x->n * sizeof *y);
+        change(puck, a, by, y + n);
+        status = system->rhs(x->start.t, y, rates, system->user);
+    }
+    if (status == QDOT_OK)
+        status = qdot_stage_puck(x->c->stage, i, x->start.t, rest, s);
+    for (size_t c = 0; c < puck->k && status == QDOT_OK; c++) {
+        out[c] = s->rate[c];
+        for (size_t j = 0; j < n; j++)
+            out[c] += s->slopes[c * n + j] * rates[n + j];
+    }
+    qdot_free(y);
+    return status;
+}
+
+/* In the present mode, in which the puck moves, about the start with its d taken away: rest [x->n]. */
+static qdot_status
+respond(qdot_piece *x, size_t i, double *rest, response *r)
+{
+    const qdot_puck *puck = puck_at(x, i);
+    const size_t k = puck->k, n = x->n / 2;
+    qdot_puck_state s = {.slopes = qdot_malloc(k * n * sizeof(double))};
+    double plus[QDOT_PUCK_MOST], minus[QDOT_PUCK_MOST];
+    qdot_status status = s.slopes
+                             ? qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &s)
+                             : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        memcpy(rest, x->start.y, x->n * sizeof *rest);
+    for (size_t c = 0; c < k && status == QDOT_OK; c++)
+        change(puck, c, -s.d[c], rest + n);
+    r->k = k;
+    memcpy(r->G, s.G, k * k * sizeof *r->G);
+    for (size_t a = 0; a < k && status == QDOT_OK; a++) {
+        const double size = sqrt(r->G[a * k + a]);
+
+        status = accelerate(x, i, rest, a, puck->radius / size, &s, plus);
+        if (status == QDOT_OK)
+            status = accelerate(x, i, rest, a, -puck->radius / size, &s, minus);
+        for (size_t c = 0; c < k && status == QDOT_OK; c++) {
+            r->K[c * k + a] = (plus[c] - minus[c]) / 2 * size;
+            if (a == 0)
+                r->P[c] = (plus[c] + minus[c]) / 2;
+        }
+    }
+    qdot_free(s.slopes);
+    return status;
+}
+
+/* Whether friction slows down in every direction: e G K e < 0, by a Cholesky factor of it. */
+static bool
+brakes(const response *r)
+{
+    const size_t k = r->k;
+    double A[QDOT_PUCK_MOST * QDOT_PUCK_MOST];
+
+    for (size_t a = 0; a < k; a++)
+        for (size_t b = 0; b < k; b++) {
+            A[a * k + b] = 0;
+            for (size_t c = 0; c < k; c++)
+                A[a * k + b] -=
+                    r->G[a * k + c] * r->K[c * k + b] + r->G[b * k + c] * r->K[c * k + a];
+        }
+    for (size_t a = 0; a < k; a++) {
+        if (!(A[a * k + a] > 0))
+            return false;
+        for (size_t b = a + 1; b < k; b++)
+            for (size_t c = b; c < k; c++)
+                A[c * k + b] -= A[b * k + a] * A[c * k + a] / A[a * k + a];
+    }
+    return true;
+}
+
+/* (a - K) e = P, the direction for the acceleration a; its length |e|; infinite if there is none. */
+static double
+direction(const response *r, double a, double *e)
+{
+    const size_t k = r->k;
+    double A[QDOT_PUCK_MOST * QDOT_PUCK_MOST], square = 0;
+    qdot_lu_row rows[QDOT_PUCK_MOST];
+
+    for (size_t i = 0; i < k * k; i++)
+        A[i] = (i % (k + 1) == 0 ? a : 0) - r->K[i];
+    memcpy(e, r->P, k * sizeof *e);
+    if (!qdot_lu_factor(k, A, rows))
+        return INFINITY;
+    qdot_lu_solve(k, A, rows, e);
+    for (size_t i = 0; i < k; i++)
+        for (size_t j = 0; j < k; j++)
+            square += e[i] * r->G[i * k + j] * e[j];
+    return sqrt(square);
+}
+
+/* The acceleration a >= 0 with which the puck starts, and its direction e with e G e = 1. */
+static double
+start_of(const response *r, double *e)
+{
+    double low = 0, high = 0, length;
+
+    for (size_t i = 0; i < r->k * r->k; i++)
+        high = fmax(high, fabs(r->K[i]));
+    while (isfinite(high) && direction(r, high, e) > 1)
+        high *= 2;
+    for (int i = 0; i < 200 && low < high; i++) {
+        const double middle = low + (high - low) / 2;
+
+        if (middle == low || middle == high)
+            break;
+        *(direction(r, middle, e) > 1 ? &low : &high) = middle;
+    }
+    length = direction(r, low, e);
+    for (size_t i = 0; i < r->k; i++)
+        e[i] /= length;
+    return low;
+}
+
+/* What ended the last piece is uncertain by that time. */
+static void
+leave_late(qdot_piece *x, double late)
+{
+    for (size_t k = x->c->ends.n;
+         k-- > 0 && x->c->ends.at[k].piece + 1 == x->c->tr.pieces.n;)
+        x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, late);
+}
+
+/* Puck i starts from rest. */
+static qdot_status
+start_one(qdot_piece *x, size_t i, double speed)
+{
+    const qdot_puck *puck = puck_at(x, i);
+    const double duration = fabs(x->t1 - x->c->tr.t[0]);
+    double *rest = qdot_malloc(x->n * sizeof *rest), e[QDOT_PUCK_MOST], a, from,
+           friction = 0;
+    response r;
+    qdot_status status = rest ? respond(x, i, rest, &r) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        a = start_of(&r, e);
+        for (size_t c = 0; c < r.k * r.k; c++)
+            friction = fmax(friction, fabs(r.K[c]));
+        from = fmax(a * fmax(behind * fabs(x->start.t), little * duration),
+                    friction * least * duration);
+        memcpy(x->start.y, rest, x->n * sizeof *rest);
+        for (size_t c = 0; c < puck->k; c++)
+            change(puck, c, from * e[c], x->start.y + x->n / 2);
+        if (a > 0)
+            leave_late(x, (speed + from) / a);
+    }
+    qdot_free(rest);
+    return status;
+}
+
+/* Puck i, near rest, comes to rest in the mode `behind`: within the time u = |w|/(its deceleration). The
+ * motion goes on as if it had: q' + u (q'' - q''_rest), q - u^2/2 (q'' - q''_rest). */
+static qdot_status
+stop_one(qdot_piece *x, size_t i, const response *r, size_t behind)
+{
+    const size_t n = x->n / 2, k = r->k;
+    double *rates = qdot_malloc(2 * x->n * sizeof *rates), *rest = rates + x->n;
+    double slows = 0, accelerates[QDOT_PUCK_MOST];
+    qdot_puck_state now = {0};
+    qdot_status status = rates ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &now);
+    if (status == QDOT_OK)
+        status = qdot_piece_rates(x, behind, rest);
+    if (status == QDOT_OK && now.speed > 0)
+        status = qdot_piece_rates(x, x->mode, rates);
+    for (size_t a = 0; a < k && now.speed > 0; a++) {
+        accelerates[a] = r->P[a];
+        for (size_t b = 0; b < k; b++)
+            accelerates[a] += r->K[a * k + b] * now.d[b] / now.speed;
+    }
+    for (size_t a = 0; a < k && now.speed > 0; a++)
+        for (size_t b = 0; b < k; b++)
+            slows -= now.d[a] / now.speed * r->G[a * k + b] * accelerates[b];
+    for (size_t j = 0; j < n && status == QDOT_OK && slows > 0; j++) {
+        const double u = now.speed / slows, more = rates[n + j] - rest[n + j];
+
+        x->start.y[j] -= u * u / 2 * more;
+        x->start.y[n + j] += u * more;
+    }
+    if (status == QDOT_OK && slows > 0)
+        status = qdot_vec_push(&x->c->rests,
+                               ((qdot_course_rest){puck_at(x, i)->surface, x->start.t,
+                                                   x->start.t + now.speed / slows}));
+    qdot_free(rates);
+    return status;
+}
+
+/* Whether the present mode holds puck i, whose friction slows it down; then it stops. */
+static qdot_status
+may_rest(qdot_piece *x, size_t i, bool *may)
+{
+    const size_t mode = x->mode, surface = puck_at(x, i)->surface;
+    double *rest = qdot_malloc(x->n * sizeof *rest);
+    response r;
+    qdot_status status = rest ? QDOT_OK : QDOT_ENOMEM;
+    const long side = x->side[surface];
+
+    x->side[surface] = 1;
+    if (status == QDOT_OK)
+        status = qdot_piece_enter(x);
+    if (status == QDOT_OK)
+        status = respond(x, i, rest, &r);
+    *may = status == QDOT_OK && brakes(&r);
+    if (*may && side == QDOT_SIDE_SLIDES)
+        status = stop_one(x, i, &r, mode);
+    x->side[surface] = side;
+    x->mode = mode;
+    qdot_free(rest);
+    return qdot_grave(status);
+}
+
+qdot_status
+qdot_piece_pucks(qdot_piece *x, bool *can)
+{
+    *can = true;
+    for (size_t i = 0; i < x->c->stage->switches.pucks.n && *can; i++) {
+        const qdot_puck *puck = puck_at(x, i);
+        qdot_puck_state now = {0};
+
+        if (x->side[puck->surface] != 1) {
+            QDOT_TRY(may_rest(x, i, can));
+            continue;
+        }
+        QDOT_TRY(qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &now));
+        if (now.speed <= puck->radius)
+            QDOT_TRY(start_one(x, i, now.speed));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_piece_stop_pucks(qdot_piece *x, bool anew)
+{
+    const qdot_mode *old = qdot_piece_mode(x);
+
+    for (size_t i = 0; i < x->c->stage->switches.pucks.n; i++) {
+        const qdot_puck *puck = puck_at(x, i);
+        long *side = &x->side[puck->surface];
+        qdot_puck_state now = {0};
+
+        if (puck->radius == 0 || x->direction < 0 ||
+            (!anew && old->side[puck->surface] != QDOT_SIDE_CREEPS))
+            continue;
+        QDOT_TRY(qdot_stage_puck(x->c->stage, i, x->start.t, x->start.y, &now));
+        if (now.speed <= puck->radius)
+            *side = QDOT_SIDE_SLIDES;
+        else if (*side == QDOT_SIDE_SLIDES || anew)
+            *side = 1;
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,44 @@
+/* floquet.h -- the multipliers of a periodic orbit, by the variational equations (variation.h).
+ *
+ *     dz(T) = B dz(0),   z = (q, q') on the constraints;   multipliers: the eigenvalues of B
+ *
+ * Where the equations hold no time and the orbit is no rest, one multiplier is 1, that of a shift in time; where
+ * they come from a Lagrangian, a second, that of the energy. These are stated as 1. Without friction multipliers
+ * come as lambda, 1/lambda: one that is apart from all others and within its error of the unit circle is on it.
+ *
+ * Source  Hale, Ordinary Differential Equations, III.7; Arnold, Mathematical Methods, 42.
+ * Tests   tests/script/floquet.sh
+ */
+#ifndef QDOT_SIM_FLOQUET_H
+#define QDOT_SIM_FLOQUET_H
+
+#include "sim/run/run.h"
+
+typedef enum {
+    QDOT_FLOQUET_STABLE,
+    QDOT_FLOQUET_UNSTABLE,
+    QDOT_FLOQUET_UNDECIDED
+} qdot_floquet_verdict;
+
+typedef struct {
+    size_t n; /* multipliers: 2 (n - m) */
+    double *re, *im,
+        *error;     /* [n] in descending order of modulus; error 0: exactly this */
+    size_t trivial; /* of them, which are 1 whatever the orbit */
+    bool
+        asymptotic; /* friction, applied forces: stable means that all are within the circle */
+    qdot_floquet_verdict verdict;
+} qdot_floquet;
+
+/* Whether the run ends where it began: *off, the largest difference of a q or q', relative to max(1, |value|);
+ * *where, that jet. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_return(qdot_scene *scene, qdot_run *run,
+                                                double *off, qdot_expr *where);
+/* The multipliers of the run, which ends where it began; its request. Clear *x in any case. QDOT_EINVAL: the
+ * equations do not have the period of the orbit; errors of qdot_variation_make and of its run. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_find(qdot_scene *scene, qdot_run *run,
+                                              const qdot_run_request *request,
+                                              qdot_floquet *x);
+void qdot_floquet_clear(qdot_floquet *x);
+
+#endif

@@ -1,0 +1,49 @@
+# Multipliers of periodic orbits, against closed forms.
+cat >kapitza.lag <<'END'
+param Om = 20
+coord theta
+particle b mass 1 at (sin(theta), cos(Om*t)/10 - cos(theta))
+gravity (0, -10)
+start theta = pi
+END
+value='s/"error":[0-9.e-]*/"error":small/; s/\([0-9]\.[0-9]\{10\}\)[0-9]*/\1/g'
+# upright: two real ones whose product is 1; a pair on the circle where it shakes faster
+qdot -q --json kapitza.lag - <<'END' 2>&1 | grep -v '"run"' | sed "$value"
+run 0..2*pi/Om
+floquet
+set Om = 50
+run 0..2*pi/Om
+floquet
+END
+# damped and driven: their product is exp(-0.2 T)
+qdot -q --json - <<'END' 2>&1 | sed "$value"
+coord x
+lagrangian x'^2/2 - x^2/2 - x^4/4
+dissipation 0.1*x'^2
+force 0.3*cos(1.3*t) on x
+find x = 0.5, x' = 1 such that returns after 2*pi/1.3
+floquet
+END
+# on a sphere: the conical pendulum at cos = 4/5 has exp(i w T), w^2/Omega^2 = 1 + 3 cos^2
+qdot -q --json - <<'END' 2>&1 | sed "$value"
+coord x, y, z
+particle b mass 1 at (x, y, z)
+constraint s: x^2 + y^2 + z^2 = 1
+gravity (0, 0, -9.81)
+start x = 0.6, y = 0, z = -0.8, x' = 0
+find y' = 2, T = 1.8 such that returns after T
+floquet
+END
+# an orbit that shrinks to nothing is none; a rest is told
+qdot -q - <<'END' 2>&1
+coord x
+lagrangian x'^2/2 - x^2/2
+start x = 1
+run 0..2*pi as round
+run 0..1
+floquet
+find x = 0.1, x' = 0 such that returns after 1
+start x = 1
+find T = -6 such that returns after T
+floquet
+END
