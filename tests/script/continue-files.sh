@@ -95,3 +95,15 @@ coord x
 lagrangian x'^2/2 - x^4/4 + x^2/2 + a*x
 continue equilibria in a = -1..1
 END
+# Wells one beside the other: no step goes from the curve of one to that of the next, where both begin.
+cat >wells.lag <<'EOF'
+coord theta, z
+param Omega
+particle b mass 1 at (sin(theta)*cos(Omega*t), sin(theta)*sin(Omega*t), -cos(theta))
+particle c mass 1/2 at (0, 0, z)
+gravity (0, 0, -1)
+potential 3*(z + 2)^2/2 + theta*z/10
+continue equilibria in Omega = 0..3
+EOF
+qdot --json wells.lag | grep -c '"type":"fold"'
+qdot --json wells.lag | grep -c '"type":"degenerate"'

@@ -10,6 +10,8 @@
 static const double first_step = 2e-3, longest = 1e-2, shortest = 1e-10, far_away = 100;
 /* Tangents of neighbouring points turn by less than acos of this. */
 static const double straight = 0.99;
+/* A chord is at most so much longer than its step along the tangent: another curve is further off. */
+static const double longer = 1.02;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
 enum { MOST_POINTS = 20000, HALVINGS = 40 };
@@ -272,7 +274,8 @@ go_on(qdot_rest_path *x, const qdot_rest_point *a, double most, double *step, qd
 
         *length = *step;
         if (!qdot_rest_path_go(x, a, *step, b, &steps) ||
-            qdot_rest_path_product(x, a->t, b->t) < straight)
+            qdot_rest_path_product(x, a->t, b->t) < straight ||
+            qdot_rest_path_distance(x, a->y, b->y) > longer * *step)
             continue;
         i = passed(x, b->y, &held);
         if (i > x->n) {

@@ -321,11 +321,13 @@ find_starts(qdot_equilibrium_curve *c, double least, double most, double **at, s
     return QDOT_OK;
 }
 
-/* The size of each unknown: 1 of angles; else how far the places are apart, or from 0. */
+/* The size of each unknown: 1 of angles; else how far the places, those of one p on the average, are
+ * apart, or from 0. */
 static void
 find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
 {
     const size_t m = c->n + 1;
+    const double gaps = fmax(1, (double)count / PARTS - 1);
 
     for (size_t i = 0; i < c->n; i++) {
         double least = INFINITY, most = -INFINITY, large = 0;
@@ -335,7 +337,7 @@ find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, doub
             most = fmax(most, at[k * m + i]);
             large = fmax(large, fabs(at[k * m + i]));
         }
-        size[i] = most - least > 1e-3 * large ? most - least : large;
+        size[i] = most - least > 1e-3 * large ? (most - least) / gaps : large;
         if (c->angle[i] || !(size[i] > 1e-14))
             size[i] = 1;
     }
