@@ -105,5 +105,5 @@ gravity (0, 0, -1)
 potential 3*(z + 2)^2/2 + theta*z/10
 continue equilibria in Omega = 0..3
 EOF
-qdot --json wells.lag | grep -c '"type":"fold"'
 qdot --json wells.lag | grep -c '"type":"degenerate"'
+qdot --json wells.lag | grep -c '"type":"fold"'
