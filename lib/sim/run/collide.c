@@ -11,6 +11,7 @@
 #include "mech/scene/scene.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/linear.h"
+#include "sim/error/horizon.h"
 #include "sim/run/chart-run.h"
 #include "sim/run/chart-start.h"
 #include "sim/model/substitute.h"
@@ -26,7 +27,7 @@ static const double tight = 1e-15, tight_by_points = 1e-13;
 
 /* Steps in s are long in t: they are stored in so many parts, if they are fewer than these, so that
  * what is near in time is near among the points. */
-enum { parts = 8, most_refined = 20000 };
+enum { parts = 8, most_refined = 64 };
 
 /* The event at which the run has come to its end. */
 static const char *const at_end = "end#";
@@ -157,7 +158,7 @@ find_equations(ground *g)
     return qdot_pool_check(s->pool);
 }
 
-/* The least R along the run, of its largest. */
+/* The least R along the run, of its largest; not where no digit of the run is right. */
 static qdot_status
 measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
         double *near)
@@ -170,6 +171,8 @@ measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr dist
     if (status == QDOT_OK)
         status = by->values(run, 1, &e, tr->count, tr->t, values, NULL);
     for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
+        if (qdot_horizon_passed(run, tr->t[k]))
+            break;
         least = fmin(least, fabs(values[k]));
         most = fmax(most, fabs(values[k]));
     }
