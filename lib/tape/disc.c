@@ -231,7 +231,11 @@ qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
     return false;
 }
 
-/* How far the argument of an operation that falls off, or its logarithm, may go. */
+/* Beyond it tanh is 1 in doubles. */
+static const double saturated = 20;
+
+/* How far the argument of an operation that falls off, or its logarithm, may go; 0 where its value is
+ * the same throughout. */
 static double
 reach_of(const qdot_instruction *i, const double *value, const double *radius)
 {
@@ -245,6 +249,7 @@ reach_of(const qdot_instruction *i, const double *value, const double *radius)
 
         return part < 1 ? -log1p(-part) : NAN;
     }
+    case QDOT_OP_TANH: return a - ra > saturated ? 0 : ra;
     default: return ra;
     }
 }

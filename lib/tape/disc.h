@@ -41,7 +41,8 @@ typedef enum {
 bool qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by);
 
 /* The largest change of the arguments of these operations over the discs c, r [inputs] (of a
- * power and a quotient: of its logarithm): their values may be e^reach times those in the centre.
+ * power and a quotient: of its logarithm; of tanh 0 where it is 1 in doubles): their values may be
+ * e^reach times those in the centre.
  * Work as above. */
 double qdot_disc_reach(const qdot_tape *tape, qdot_disc_hiding by, const double *c,
                        const double *r, double *work);

@@ -22,6 +22,9 @@ static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it 
 /* e^10: series and differences see that. */
 static const double short_reach = 10;
 
+/* What may be missed of that on parts that are not known, in all and on one. */
+static const double unknown_in_all = 0.5, unknown_on_one = 0.1;
+
 /* A part begins what is missed if it is that much shorter than the step, and its values change by
  * that much of what those of any part do. */
 static const double brief = 0.125, felt = 1e-3;
@@ -50,7 +53,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
                        .nodes = nodes,
                        .most = MOST_PARTS};
     QDOT_TRY(qdot_polynomial_bounds_init(&p->bounds, tape, 2 * n));
-    at = qdot_calloc(inputs + qdot_tape_work(tape) + outputs + (2 * MOST + 4) * m +
+    at = qdot_calloc(inputs + qdot_tape_work(tape) + outputs + (2 * MOST + 6) * m +
                          (MOST_PARTS + DEEPEST + 1) * (m + 1),
                      sizeof *at);
     if (!at)
@@ -61,7 +64,9 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     p->largest = p->out + outputs;
     p->beyond = p->largest + m;
     p->all = p->beyond + m;
-    p->values = p->all + m;
+    p->allowed = p->all + m;
+    p->left = p->allowed + m;
+    p->values = p->left + m;
     p->whole = p->values + m * MOST;
     p->parts = p->whole + m * MOST;
     return QDOT_OK;
@@ -118,16 +123,18 @@ sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool 
 }
 
 /* Whether the polynomials through the values represent the functions, up to a negligible error, or
- * these change by nothing more. False if a function is singular. */
+ * these change by nothing more, or by so little over the part that it may be missed. False if a
+ * function is singular. */
 static bool
 is_sure(qdot_pulses *p, double a, double b, int nodes)
 {
     double c[MOST];
-    bool enclosed = false;
+    bool enclosed = false, unknown = false;
 
     qdot_polynomial_bounds_look(&p->bounds, a, b, nodes, NULL, NULL);
     for (size_t i = 0; i < p->m; i++) {
         const double enough = nothing * p->largest[i] + 1e-300;
+        double width;
 
         qdot_chebyshev_fit(nodes, p->values + i * MOST, c);
         if (p->bounds.miss[i] + qdot_chebyshev_tail(nodes, c) <= enough)
@@ -135,9 +142,15 @@ is_sure(qdot_pulses *p, double a, double b, int nodes)
         if (!enclosed)
             qdot_polynomial_bounds_enclose(&p->bounds, a, b, nodes);
         enclosed = true;
-        if (!(p->bounds.box[i].hi - p->bounds.box[i].lo <= enough))
+        width = p->bounds.box[i].hi - p->bounds.box[i].lo;
+        if (width <= enough)
+            continue;
+        if (!(width * fabs(b - a) <= fmin(unknown_on_one * p->allowed[i], p->left[i])))
             return false;
+        unknown = true;
     }
+    for (size_t i = 0; i < p->m && unknown; i++)
+        p->left[i] -= (p->bounds.box[i].hi - p->bounds.box[i].lo) * fabs(b - a);
     return true;
 }
 
@@ -174,6 +187,27 @@ add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
     }
 }
 
+/* What may be missed of output i, whose integral over the step is `all`. */
+static double
+allowance(const qdot_pulses_step *s, double all)
+{
+    return fmax(fmax(tolerances * s->tol, least) * all, floor_of_it * s->tol);
+}
+
+/* What the parts of the step may leave unknown, by the values at its nodes. */
+static void
+allow(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    for (size_t i = 0; i < p->m; i++) {
+        double all = 0;
+
+        for (int j = 0; j < p->nodes; j++)
+            all += fabs(p->values[i * MOST + (size_t)j]) / p->nodes;
+        p->allowed[i] = allowance(s, all * fabs(s->b - s->a));
+        p->left[i] = unknown_in_all * p->allowed[i];
+    }
+}
+
 /* Examine the parts of a step whose points do not suffice, from left to right; *all: as many as that
  * takes. */
 static qdot_status
@@ -185,6 +219,7 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 
     memset(p->beyond, 0, p->m * sizeof *p->beyond);
     memset(p->all, 0, p->m * sizeof *p->all);
+    allow(p, s);
     p->n_parts = 0;
     ends[0] = s->b;
     for (int depth = 1; depth > 0; looked++) {
@@ -256,8 +291,7 @@ is_short(qdot_pulses *p, const qdot_pulses_step *s)
 static double
 missed(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
 {
-    return p->beyond[i] /
-           fmax(fmax(tolerances * s->tol, least) * p->all[i], floor_of_it * s->tol);
+    return p->beyond[i] / allowance(s, p->all[i]);
 }
 
 qdot_status
@@ -270,6 +304,7 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     if (is_short(p, s))
         return QDOT_OK;
     qdot_polynomial_bounds_begin(&p->bounds);
+    memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
     for (int nodes = FEW; nodes <= p->nodes; nodes *= 4) {
         QDOT_TRY(sample(p, s, s->a, s->b, nodes, &finite));
         if (!finite || is_sure(p, s->a, s->b, nodes))

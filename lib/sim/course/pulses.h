@@ -38,6 +38,8 @@ typedef struct {
     double *whole;   /* [as values] coefficients of the step */
     double *beyond;  /* [m] the sum of what parts show beyond them, */
     double *all;     /* [m] and of what they show */
+    double *allowed; /* [m] what may be missed in the step, */
+    double *left;    /* [m] and on parts that are not known yet */
     double *
         parts; /* [n_parts x (1 + m)] where each begins; how much its values change, by its length */
     size_t n_parts;
