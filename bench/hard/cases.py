@@ -21,6 +21,14 @@ def case(name, scene, T, values, methods=(), horizon=False, tols=("1e-6", "1e-9"
                       methods=list(methods), horizon=horizon, tols=list(tols)))
 
 
+def fall(r0, t, mu=1):
+    """Distance of a point that falls from rest at r0 into the centre and comes back, again and again."""
+    a, t, mu = mpf(r0) / 2, mpf(t), mpf(mu)
+    M = m.fmod(m.pi + m.sqrt(mu / a ** 3) * t, 2 * m.pi)
+    E = m.findroot(lambda E: E - m.sin(E) - M, m.pi)
+    return a * (1 - m.cos(E))
+
+
 def linear(A, y0, t):
     """exp(A t) y0, A [n x n] and y0 [n] of texts"""
     n = len(y0)
@@ -204,6 +212,15 @@ case("e5-offset", "coord x\nparticle p mass 1 at x\npotential (x - 2^24)^2/2\nst
      {"x": lambda: 2 ** 24 + m.cos(20)})
 case("e6-small-beside-large", "coord x, y\nlagrangian (x'^2 + y'^2)/2 - x^2/2 - 9*y^2/2\nstart x = 1, y = 1e-9",
      "10", {"x": lambda: m.cos(10), "y": lambda: mpf("1e-9") * m.cos(30)})
+case("e7-through-the-centre", """coord x, y
+particle p mass 1 at (x, y)
+potential -1/norm(p)
+start x = 1""", "5", {"x": lambda: fall(1, 5)}, ["dop853"])
+case("e8-flyby-1e-8", """coord x, y
+particle p mass 1 at (x, y)
+potential -1/norm(p)
+start x = 1e-8, y' = sqrt((2 - 1e-8)/1e-8)""", "3", {
+    "x": lambda: kepler(1, 1 - mpf(10) ** -8, 3)[0], "y": lambda: kepler(1, 1 - mpf(10) ** -8, 3)[1]}, ["dop853"])
 
 # --- f: not smooth -----------------------------------------------------------------------------
 

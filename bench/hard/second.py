@@ -109,6 +109,18 @@ def regularised(a, e, t):
     return [u * u - v * v, 2 * u * v]
 
 
+def fallen(r0, t):
+    """fall by u'' = -u/(2 r0), dt = r ds, r = u^2, from u = sqrt(r0) at rest."""
+    r0, t = mpf(r0), mpf(t)
+    w = 1 / m.sqrt(2 * r0)
+    time = lambda s: r0 * (s / 2 + m.sin(2 * w * s) / (4 * w))
+    low, high = mpf(0), 4 * t / r0
+    for _ in range(int(3.4 * m.mp.dps) + 60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if time(middle) > t else (middle, high)
+    return r0 * m.cos(w * low) ** 2
+
+
 def stepped(x, v, t, accelerations):
     """Pieces of constant acceleration: (length, a) until t."""
     for length, a in accelerations:
@@ -349,6 +361,8 @@ WAYS = {
         mpf("9e7"))], "1e-14"),
     "e5-offset": (lambda: [2 ** 24 + oscillator(1, 1, 0, 20)[0]], KEEP),
     "e6-small-beside-large": (lambda: oscillator(1, 1, 0, 10)[:1] + oscillator(3, "1e-9", 0, 10)[:1], KEEP),
+    "e7-through-the-centre": (lambda: [fallen(1, 5)], KEEP),
+    "e8-flyby-1e-8": (lambda: regularised(1, 1 - mpf(10) ** -8, 3), KEEP),
     "f1-wedge": (zigzag, KEEP),
     "f2-slides-and-stays": (lambda: stepped(mpf(0), mpf(1), 2, [(mpf(2), -mpf(1) / 2)])[:1], KEEP),
     "f3-half-spring": (half_spring, KEEP),

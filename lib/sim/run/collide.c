@@ -171,9 +171,8 @@ measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr dist
     if (status == QDOT_OK)
         status = by->values(run, 1, &e, tr->count, tr->t, values, NULL);
     for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
-        if (qdot_horizon_passed(run, tr->t[k]))
-            break;
-        least = fmin(least, fabs(values[k]));
+        if (!qdot_horizon_passed(run, tr->t[k]))
+            least = fmin(least, fabs(values[k]));
         most = fmax(most, fabs(values[k]));
     }
     qdot_free(values);
