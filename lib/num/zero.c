@@ -13,6 +13,8 @@
 
 /* Singular values below so much of the largest count as 0; how strongly |F| shortens steps. */
 static const double least_singular = 1e-8, damping = 0.01;
+/* Unknowns whose change by themselves changes F by less than this part of it do not move F. */
+static const double least_slope = 1e-12;
 /* How many times farther from the guess each search begins than the one before, the first at 0.04. */
 static const double farther = 1.6;
 /* Steps; halvings of one; parts of an interval that are searched for a change of sign; steps in which |F| must
@@ -97,7 +99,7 @@ take_step(const search *s, const double *f, double *step)
     return sqrt(sum);
 }
 
-/* The step, the errors of the unknowns, the rank. False: J is 0 or not finite. */
+/* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
 static bool
 find_step(search *s)
 {
@@ -128,7 +130,7 @@ find_step(search *s)
             s->from_error[j] +=
                 fabs(inverse) * s->unit[j] * s->r->f_error[i] / s->unit_f[i];
         }
-    return s->r->rank > 0;
+    return s->r->rank > 0 && most > least_slope;
 }
 
 /* --- where it ends ---------------------------------------------------------------------------- */

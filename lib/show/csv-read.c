@@ -152,7 +152,8 @@ say_cell(const reader *r, piece cell)
         return qdot_hint("take the row out: each has a number in every column");
     }
     (void)qdot_csv_fail(r->name, &place, "`%.*s` is not a number", shown, cell.at);
-    if (before.end && is_number(before) && is_number(behind))
+    if (before.end && is_number(before) && is_number(behind) &&
+        !memchr(cell.at, '.', (size_t)(cell.end - cell.at)))
         return qdot_hint("numbers have a decimal point: %.*s.%.*s", (int)(before.end - before.at),
                          before.at, (int)(behind.end - behind.at), behind.at);
     if (is_no_number(cell))

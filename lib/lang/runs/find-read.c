@@ -302,7 +302,7 @@ qdot_find_limits(const qdot_find *f, qdot_expr *from, qdot_expr *to)
     if (f->returns)
         return qdot_pool_check(session->pool);
     look.at = f->conditions.at[0].from;
-    *to = qdot_own_run_needed(&look);
+    *to = qdot_own_run_needed(&look, *from);
     if (f->latest != NULL && (*to == QDOT_NIL || names_event(f)))
         QDOT_TRY(later(session, *from, to, f->latest_to));
     if (*to != QDOT_NIL)

@@ -11,6 +11,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
 #include "num/zero.h"
+#include "sim/study/floquet.h"
 
 typedef struct {
     qdot_find *f;
@@ -20,6 +21,7 @@ typedef struct {
     qdot_expr *values;  /* [n] the same, exact */
     qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
+    double length;      /* of the run at the guess */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
 
@@ -245,18 +247,45 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
     return status;
 }
 
-/* A run without length returns whatever its start is. */
 static qdot_status
-check_length(const hunt *h)
+find_length(const hunt *h, double *length)
 {
     double from, to;
 
     QDOT_TRY(qdot_session_number(h->trial.session, h->trial.from, &from, NULL));
     QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
-    if (fabs(to - from) > 1e-9)
+    *length = fabs(to - from);
+    return QDOT_OK;
+}
+
+/* A run without length returns whatever its start is. */
+static qdot_status
+check_length(const hunt *h)
+{
+    double length;
+
+    QDOT_TRY(find_length(h, &length));
+    if (length > 1e-9 * h->length)
         return QDOT_OK;
     h->f->c->error_at = h->f->conditions.at[0].from->start;
     return qdot_fail(QDOT_EFAILED, "no orbit found: the time until the return went to 0");
+}
+
+/* An orbit's run ends where it returns, whatever end was said: a notice. */
+static qdot_status
+tell_end(const hunt *h)
+{
+    const qdot_find *f = h->f;
+    double to, said;
+
+    if (!f->returns || f->run_at == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
+    QDOT_TRY(qdot_session_number(h->trial.session, f->run.to, &said, NULL));
+    if (fabs(to - said) <= 1e-9 * fabs(to))
+        return QDOT_OK;
+    return qdot_answer_notice(h->trial.session, "the run ends after the return, at %.10g, not at %.10g",
+                              to, said);
 }
 
 /* A motion that rests returns after any time: a notice. */
@@ -264,23 +293,14 @@ static qdot_status
 tell_rest(const hunt *h)
 {
     qdot_session *session = h->trial.session;
-    const size_t n = session->scene->coordinates.n;
     qdot_named_run *named;
-    double t, most = 0;
+    bool rests;
 
     if (!h->f->returns)
         return QDOT_OK;
     QDOT_TRY(qdot_runs_find(session, NULL, &named));
-    t = qdot_run_get_report(named->run)->t0;
-    for (size_t i = 0; i < 2 * n; i++) {
-        const qdot_expr rate = qdot_symbol_jet(
-            session->pool, session->scene->coordinates.at[i % n], i < n ? 1 : 2);
-        double value;
-
-        QDOT_TRY(qdot_run_values(named->run, 1, &rate, 1, &t, &value, NULL));
-        most = fmax(most, fabs(value));
-    }
-    if (most > 1e-9)
+    QDOT_TRY(qdot_floquet_rests(session->scene, named->run, &rests));
+    if (!rests)
         return QDOT_OK;
     return qdot_answer_notice(
         session, "this is a rest: velocities and accelerations are 0 at its start");
@@ -295,6 +315,7 @@ conclude(hunt *h, const qdot_zero_result *r)
 
     QDOT_TRY(open_at(h, r->u));
     QDOT_TRY(check_length(h));
+    QDOT_TRY(tell_end(h));
     qdot_trial_close(&h->trial);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
@@ -323,6 +344,7 @@ search(hunt *h, qdot_zero_result *r)
     memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
     QDOT_TRY(take_values(h, r->u));
     QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
+    QDOT_TRY(find_length(h, &h->length));
     QDOT_TRY(qdot_zero_find(&p, r));
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
@@ -55,7 +56,10 @@ read_sigma_column(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
     before->weighted = true;
     x->kind = QDOT_FIT_SIGMA;
     c->at++;
-    return QDOT_OK;
+    if (qdot_names_find(c->session->names, "sigma") == NULL)
+        return QDOT_OK;
+    return qdot_answer_notice(c->session, "the column `sigma` holds standard errors here; `(sigma)` is "
+                                          "what you call so");
 }
 
 static qdot_status
@@ -287,8 +291,12 @@ qdot_fit_set(qdot_fit *f)
     qdot_expr *values = qdot_calloc(n, sizeof *values);
     qdot_status status = values ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t k = 0; k < n && values; k++)
+    for (size_t k = 0; k < n && values; k++) {
         values[k] = decimal(f->session->pool, f->u[k], isnan(f->error[k]) ? 0 : f->error[k]);
+        if (qdot_session_in_domain(f->session, f->unknowns.names.at[k].symbol, values[k])
+            != QDOT_OK) /* rounded out of it */
+            values[k] = decimal(f->session->pool, f->u[k], 0);
+    }
     if (status == QDOT_OK)
         status = qdot_pool_check(f->session->pool);
     if (status == QDOT_OK)

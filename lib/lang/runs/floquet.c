@@ -11,7 +11,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
 
-/* How far a run may be from its start, beside max(1, |value|), and count as an orbit. */
+/* How far a run may be from its start, beside max(scale, |value|), and count as an orbit. */
 static const double closed = 1e-7;
 
 static bool

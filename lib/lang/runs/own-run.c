@@ -65,9 +65,9 @@ qdot_own_run_drop(qdot_session *session)
 
 /* --- how long ------------------------------------------------------------------------------ */
 
-/* The time, or the end of the range A..B, at the cursor, if it is later than *latest. */
+/* The time, or the end of the range A..B, at the cursor, if it is farther from `from` than *latest at *t. */
 static void
-read_time(qdot_cursor *c, qdot_expr *latest, double *t)
+read_time(qdot_cursor *c, double from, qdot_expr *latest, double *t)
 {
     qdot_expr e = QDOT_NIL;
     double x;
@@ -76,19 +76,22 @@ read_time(qdot_cursor *c, qdot_expr *latest, double *t)
     if (status == QDOT_OK && qdot_cursor_accept_op(c, ".."))
         status = qdot_read_side(c, &e);
     if (status == QDOT_OK && qdot_session_number(c->session, e, &x, NULL) == QDOT_OK &&
-        fabs(x) > fabs(*t)) {
+        fabs(x - from) > fabs(*t - from)) {
         *t = x;
         *latest = e;
     }
 }
 
 qdot_expr
-qdot_own_run_needed(const qdot_cursor *c)
+qdot_own_run_needed(const qdot_cursor *c, qdot_expr from)
 {
     static const char *const words[] = {"value", "max", "min", "mean", "drift"};
     qdot_expr latest = QDOT_NIL;
-    double t = 0;
+    double start = 0, t;
 
+    if (qdot_session_number(c->session, from, &start, NULL) != QDOT_OK)
+        start = 0; /* whoever makes the run says why */
+    t = start;
     for (const qdot_token *at = c->at; at->kind != QDOT_TOKEN_END; at++) {
         const qdot_token *comma = NULL, *in = at + 2;
         bool is = false;
@@ -105,7 +108,7 @@ qdot_own_run_needed(const qdot_cursor *c)
             qdot_cursor look = *c;
 
             look.at = comma + 1;
-            read_time(&look, &latest, &t);
+            read_time(&look, start, &latest, &t);
         }
     }
     return latest;

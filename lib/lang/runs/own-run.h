@@ -18,7 +18,8 @@ QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session,
                                               qdot_expr *end);
 void qdot_own_run_drop(qdot_session *session);
 
-/* The latest time of value(E, T), max(E, A..B), ... among the tokens from the cursor on; nil: none. */
-qdot_expr qdot_own_run_needed(const qdot_cursor *c);
+/* The time of value(E, T), max(E, A..B), ... among the tokens from the cursor on that is farthest from the
+ * start of the run; nil: none. */
+qdot_expr qdot_own_run_needed(const qdot_cursor *c, qdot_expr from);
 
 #endif

@@ -92,7 +92,7 @@ qdot_sensitivity_statement(qdot_cursor *c)
     qdot_status status = QDOT_OK;
 
     if (c->session->runs.n == 0) {
-        const qdot_expr end = qdot_own_run_needed(c);
+        const qdot_expr end = qdot_own_run_needed(c, QDOT_ZERO);
 
         /* without a time, whoever needs a run says that there is none */
         if (end != QDOT_NIL)

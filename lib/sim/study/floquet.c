@@ -10,13 +10,20 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "num/eigenvalues.h"
+#include "ode/scale.h"
 #include "sim/model/substitute.h"
 #include "sim/study/variation.h"
 #include "tape/constant.h"
 
+/* Change by the first rates over the time of a run, beside max(scale, |value|), that is none. */
+static const double resting = 1e-9;
+
 /* How far accelerations may differ after a period, beside max(1, |value|); times where it is asked. */
 static const double same = 1e-7;
 enum { ASKED = 8 };
+
+/* How far from 1, beside its error, a multiplier may be found that is 1. */
+static const double near_one = 1e-2;
 
 typedef struct {
     qdot_scene *scene;
@@ -47,6 +54,33 @@ jet(const qdot_scene *s, size_t i)
     return qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
 }
 
+/* What differences of the i-th of q, then q', count beside. */
+static double
+size_of(const qdot_run_report *report, size_t n, size_t i, double value)
+{
+    return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
+}
+
+qdot_status
+qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
+{
+    const size_t n = scene->coordinates.n;
+    const qdot_run_report *report = qdot_run_get_report(run);
+    const double T = report->t1 - report->t0;
+
+    *rests = true;
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr e[2] = {
+            jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
+        double value[2];
+
+        QDOT_TRY(qdot_run_values(run, 2, e, 1, &report->t0, value, NULL));
+        if (fabs(value[1] * T) > resting * size_of(report, n, i, value[0]))
+            *rests = false;
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *where)
 {
@@ -59,7 +93,7 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
         double value[2], one;
 
         QDOT_TRY(qdot_run_values(run, 1, &e, 2, t, value, NULL));
-        one = fabs(value[1] - value[0]) / fmax(1, fabs(value[0]));
+        one = fabs(value[1] - value[0]) / size_of(report, scene->coordinates.n, i, value[0]);
         if (one > *off || isnan(one)) {
             *off = one;
             *where = e;
@@ -177,11 +211,25 @@ find_directions(orbit *o)
 /* --- the equations ----------------------------------------------------------------------------- */
 
 static bool
+has_time(const orbit *o, qdot_expr e)
+{
+    return (qdot_expr_node(o->scene->pool, e)->holds & QDOT_HAS_TIME) != 0;
+}
+
+/* Whether accelerations change with time, or what events do. */
+static bool
 holds_time(const orbit *o)
 {
     for (size_t i = 0; i < o->n; i++)
-        if (qdot_expr_node(o->scene->pool, o->v.a[i])->holds & QDOT_HAS_TIME)
+        if (has_time(o, o->v.a[i]))
             return true;
+    for (size_t k = 0; k < o->scene->events.n; k++) {
+        const qdot_event *e = &o->scene->events.at[k];
+
+        for (size_t i = 0; i < e->targets.n; i++)
+            if (has_time(o, e->left) || has_time(o, e->right) || has_time(o, e->values.at[i]))
+                return true;
+    }
     return false;
 }
 
@@ -202,31 +250,48 @@ moved(const orbit *o, qdot_expr e)
     return e;
 }
 
-/* Accelerations of the same state are the same after a period. */
+/* e of the same state is the same after a period. */
 static qdot_status
-check_period(orbit *o)
+check_same(orbit *o, qdot_expr of)
 {
     qdot_pool *pool = o->scene->pool;
     const qdot_run_report *report = qdot_run_get_report(o->run);
     const double T = report->t1 - report->t0;
-    const qdot_expr t = QDOT_T, later = qdot_add(pool, t, qdot_expr_of_double(pool, T));
+    const qdot_expr t = QDOT_T, later = qdot_add(pool, t, qdot_expr_of_double(pool, T)),
+                    now = moved(o, of), after = qdot_subs(pool, now, 1, &t, &later),
+                    e[2] = {now, qdot_sub(pool, after, now)};
 
-    for (size_t i = 0; i < o->n; i++) {
-        const qdot_expr now = moved(o, o->v.a[i]),
-                        after = qdot_subs(pool, now, 1, &t, &later),
-                        e[2] = {now, qdot_sub(pool, after, now)};
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t k = 0; k < ASKED && after != now; k++) {
+        const double at = report->t0 + T * (double)k / (ASKED + 0.385);
+        double value[2];
 
-        QDOT_TRY(qdot_pool_check(pool));
-        for (size_t k = 0; k < ASKED && after != now; k++) {
-            const double at = report->t0 + T * (double)k / (ASKED + 0.385);
-            double value[2];
+        QDOT_TRY(qdot_run_values(o->varied, 2, e, 1, &at, value, NULL));
+        if (!(fabs(value[1]) <= same * fmax(1, fabs(value[0]))))
+            return qdot_fail(QDOT_EINVAL,
+                             "the equations do not have the period %.10g: they change with time", T);
+    }
+    return QDOT_OK;
+}
 
-            QDOT_TRY(qdot_run_values(o->varied, 2, e, 1, &at, value, NULL));
-            if (!(fabs(value[1]) <= same * fmax(1, fabs(value[0]))))
-                return qdot_fail(QDOT_EINVAL,
-                                 "the equations do not have the period %.10g: they change with time",
-                                 T);
-        }
+/* Accelerations, and what events do, have the period. An event either way is where its square is 0. */
+static qdot_status
+check_period(orbit *o)
+{
+    qdot_pool *pool = o->scene->pool;
+
+    for (size_t i = 0; i < o->n; i++)
+        QDOT_TRY(check_same(o, o->v.a[i]));
+    for (size_t k = 0; k < o->scene->events.n; k++) {
+        const qdot_event *e = &o->scene->events.at[k];
+        qdot_expr g = qdot_sub(pool, e->left, e->right);
+
+        if (e->targets.n == 0)
+            continue;
+        g = e->way == 0 ? qdot_mul(pool, g, g) : g;
+        QDOT_TRY(check_same(o, qdot_variation_with_numbers(&o->v, g)));
+        for (size_t i = 0; i < e->targets.n; i++)
+            QDOT_TRY(check_same(o, qdot_variation_with_numbers(&o->v, e->values.at[i])));
     }
     return QDOT_OK;
 }
@@ -283,8 +348,8 @@ state_trivial(qdot_floquet *x, size_t count)
                 best = k;
             }
         }
-        if (best == x->n)
-            return;
+        if (best == x->n || least > fmax(near_one, 2 * x->error[best]))
+            return; /* none is: all stay as they were found */
         x->re[best] = 1;
         x->im[best] = x->error[best] = 0;
     }
@@ -304,9 +369,12 @@ is_apart(const qdot_floquet *x, size_t k)
 static void
 judge(qdot_floquet *x)
 {
-    bool stable = true;
+    bool stable = true, inside = x->trivial == 0;
 
     x->verdict = QDOT_FLOQUET_UNDECIDED;
+    for (size_t k = 0; k < x->n; k++)
+        inside = inside && hypot(x->re[k], x->im[k]) + x->error[k] < 1;
+    x->asymptotic = x->asymptotic || inside; /* exp(c*t)*(T - V) damps too */
     for (size_t k = 0; k < x->n; k++) {
         const double size = hypot(x->re[k], x->im[k]), error = x->error[k];
 
@@ -329,7 +397,8 @@ find_multipliers(orbit *o, qdot_floquet *x)
 {
     const size_t k = o->k;
     const bool driven = holds_time(o), free = is_lagrangian(o->scene);
-    double *B = qdot_calloc(2 * k * k + 1, sizeof *B), speed = 0;
+    double *B = qdot_calloc(2 * k * k + 1, sizeof *B);
+    bool rests = false;
     qdot_status status = QDOT_ENOMEM;
 
     x->n = k;
@@ -343,15 +412,10 @@ find_multipliers(orbit *o, qdot_floquet *x)
             status = qdot_eigenvalues(k, B, B + k * k, x->re, x->im, x->error);
     }
     qdot_free(B);
-    for (size_t i = 0; i < 2 * o->n && status == QDOT_OK; i++) {
-        double rate;
-
-        status =
-            at_start(o, i < o->n ? jet(o->scene, o->n + i) : o->v.a[i - o->n], &rate);
-        speed = fmax(speed, fabs(rate));
-    }
+    if (status == QDOT_OK)
+        status = qdot_floquet_rests(o->scene, o->run, &rests);
     if (status == QDOT_OK) {
-        state_trivial(x, driven || !(speed > 1e-9) ? 0 : free ? 2 : 1);
+        state_trivial(x, driven || rests ? 0 : free ? 2 : 1);
         judge(x);
     }
     return status;

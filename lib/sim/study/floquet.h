@@ -30,7 +30,9 @@ typedef struct {
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 
-/* Whether the run ends where it began: *off, the largest difference of a q or q', relative to max(1, |value|);
+/* Whether the run began at rest: no q or q' changes by its rate there, over the time of the run. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);
+/* Whether the run ends where it began: *off, the largest difference of a q or q', relative to max(scale, |value|);
  * *where, that jet. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_return(qdot_scene *scene, qdot_run *run,
                                                 double *off, qdot_expr *where);

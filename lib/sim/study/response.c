@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "expr/calculus.h"
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
@@ -296,6 +297,7 @@ run(qdot_response *r)
     if (r->of.n_times == 0)
         return QDOT_OK;
     rewind_course(&r->course);
+    qdot_progress_begin(t0, t1, "run of the fit");
     QDOT_TRY(qdot_course_run(&r->course, r->run.plan->method, &options, t0, t1,
                              r->once ? r->y : r->run.start));
     if (r->course.reason[0] != '\0')
