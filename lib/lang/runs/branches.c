@@ -234,13 +234,40 @@ write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
     qdot_number_text(out, v, digits * fmax(fabs(v), 1e-3 * size));
 }
 
-/* `0..3.132`; one number where it stays. */
-static void
-write_range(const qdot_branches *b, size_t i, const double *from, const double *to, qdot_text *out)
+/* The value of unknown i of points k ... end of a branch that lies furthest beyond those of its ends. */
+static double
+furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
+    const size_t m = b->found->n + 1;
+    const double first = branch->y[k * m + i], last = branch->y[end * m + i];
+    double most = tiny * size_of(b, i), at = first;
+
+    for (size_t j = k; j <= end; j++) {
+        const double v = branch->y[j * m + i],
+                     beyond = fmax(v - fmax(first, last), fmin(first, last) - v);
+
+        if (beyond > most) {
+            most = beyond;
+            at = v;
+        }
+    }
+    return at;
+}
+
+/* `0..3.132`; `0..0.577..0` by way of `turn`, beyond both ends; one number where it stays. */
+static void
+write_range(const qdot_branches *b, size_t i, const double *from, const double *to, double turn,
+            qdot_text *out)
+{
+    const bool beyond = turn < fmin(from[i], to[i]) || turn > fmax(from[i], to[i]);
+
     write_place(b, i, from[i], out);
-    if (fabs(to[i] - from[i]) < small * size_of(b, i))
+    if (beyond) {
+        qdot_text_add(out, "..");
+        write_place(b, i, turn, out);
+    } else if (fabs(to[i] - from[i]) < small * size_of(b, i)) {
         return;
+    }
     qdot_text_add(out, "..");
     write_place(b, i, to[i], out);
 }
@@ -338,9 +365,9 @@ add_branch(const qdot_branches *b, size_t i, grid *g)
             from = to;
             to = swap;
         }
-        write_range(b, n, from, to, new_cell(g));
+        write_range(b, n, from, to, from[n], new_cell(g));
         for (size_t q = 0; q < b->found->coordinates; q++)
-            write_range(b, q, from, to, new_cell(g));
+            write_range(b, q, from, to, furthest(b, branch, k, end, q), new_cell(g));
         qdot_text_add(new_cell(g), word_of(verdict));
     }
 }

@@ -197,13 +197,10 @@ refuse_negative(qdot_session *session, const qdot_request *o, const char *what,
 }
 
 qdot_status
-qdot_request_explain(qdot_session *session, const qdot_request *o, qdot_status status)
+qdot_request_masses(qdot_session *session, const qdot_request *o)
 {
     const qdot_scene *scene = session->scene;
-    const qdot_error error = *qdot_last_error();
 
-    if (status != QDOT_ESINGULAR)
-        return status;
     for (size_t i = 0; i < scene->particles.n; i++)
         QDOT_TRY(refuse_negative(session, o, "mass", scene->particles.at[i].name,
                                  scene->particles.at[i].mass));
@@ -214,5 +211,16 @@ qdot_request_explain(qdot_session *session, const qdot_request *o, qdot_status s
         QDOT_TRY(
             refuse_negative(session, o, "moment of inertia", body->name, body->inertia));
     }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_request_explain(qdot_session *session, const qdot_request *o, qdot_status status)
+{
+    const qdot_error error = *qdot_last_error();
+
+    if (status != QDOT_ESINGULAR)
+        return status;
+    QDOT_TRY(qdot_request_masses(session, o));
     return qdot_fail_again(&error);
 }

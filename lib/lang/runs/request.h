@@ -21,6 +21,8 @@ QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr
                                                 qdot_expr to, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
+/* QDOT_ESINGULAR if a mass or moment of inertia is negative by its values: which, and of what. */
+QDOT_MUST_CHECK qdot_status qdot_request_masses(qdot_session *session, const qdot_request *o);
 /* The status of what was done with the request. Where the mass matrix was singular and a mass or
  * moment of inertia is negative, the error says so: which, and the value of its parameter. Tests:
  * tests/bad/mass-negative*.lag. */

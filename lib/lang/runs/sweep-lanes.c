@@ -351,6 +351,8 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
 
     QDOT_TRY(qdot_session_keep_values(session, &kept));
     status = request_of(x->s, k, swept, &request);
+    if (status == QDOT_OK && x->varied.n > 0)
+        status = qdot_request_masses(session, &request);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
         status = qdot_tape_constant(session->pool, request.request.q0[i], &y[i]);
         if (status == QDOT_OK)

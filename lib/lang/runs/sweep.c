@@ -120,6 +120,22 @@ make_table(qdot_session *session, qdot_sweep *s)
     return status;
 }
 
+/* Rows that are done, with a number whose error is unknown. */
+static size_t
+unknown_errors(const qdot_row_table *t)
+{
+    size_t rows = 0;
+
+    for (size_t k = 0; k < t->rows; k++) {
+        bool some = false;
+
+        for (size_t i = t->n_swept; i < t->n; i++)
+            some = some || isnan(t->errors[k * t->n + i]);
+        rows += some && t->reasons[k] == NULL;
+    }
+    return rows;
+}
+
 static qdot_status
 tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
 {
@@ -132,6 +148,8 @@ tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double
         qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
     if (s->failed > 0)
         qdot_text_format(&text, ", %zu failed", s->failed);
+    if (unknown_errors(t) > 0)
+        qdot_text_format(&text, ", the errors of %zu unknown", unknown_errors(t));
     if (s->resumed > 0)
         qdot_text_format(&text, ", %zu of them from %s", s->resumed, s->path);
     qdot_text_format(&text, ", in %.3g s", seconds);

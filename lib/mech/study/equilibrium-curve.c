@@ -63,15 +63,21 @@ check_influence(const qdot_equilibrium_curve *c)
 
 /* --- the equations ------------------------------------------------------------------------- */
 
-static double
-bound(const qdot_pool *pool, qdot_expr e, double otherwise)
+/* An end of the domain of a symbol; without one *v stays. */
+static qdot_status
+bound(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v)
 {
-    double v;
-
-    if (e == QDOT_NIL || qdot_generic_evaluate(pool, 1, &e, NULL, &v) != QDOT_OK ||
-        (qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
-        return otherwise;
-    return v;
+    if (e == QDOT_NIL)
+        return QDOT_OK;
+    e = c->bind(c->user, e);
+    QDOT_TRY(qdot_pool_check(c->pool));
+    if (qdot_expr_contains(c->pool, e, c->parameter))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: branches where the domain of %.100s "
+                                         "depends on %.100s",
+                         of->name, qdot_expr_symbol(c->pool, c->parameter)->name);
+    if ((qdot_expr_node(c->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
+        return qdot_fail(QDOT_EINVAL, "an end of the domain of %.100s has no value", of->name);
+    return qdot_generic_evaluate(c->pool, 1, &e, NULL, v);
 }
 
 static qdot_status
@@ -107,8 +113,10 @@ fill_equations(qdot_equilibrium_curve *c)
     for (size_t i = 0; i <= c->n; i++) {
         const qdot_symbol q = *qdot_expr_symbol(c->pool, c->unknown[i]);
 
-        c->lo[i] = bound(c->pool, q.lo == QDOT_NIL ? q.lo : c->bind(c->user, q.lo), -INFINITY);
-        c->hi[i] = bound(c->pool, q.hi == QDOT_NIL ? q.hi : c->bind(c->user, q.hi), INFINITY);
+        c->lo[i] = -INFINITY;
+        c->hi[i] = INFINITY;
+        QDOT_TRY(bound(c, &q, q.lo, &c->lo[i]));
+        QDOT_TRY(bound(c, &q, q.hi, &c->hi[i]));
         if (i < c->coordinates && isinf(c->lo[i]) && isinf(c->hi[i]))
             c->angle[i] = qdot_rest_is_angle(&c->rest, c->unknown[i], c->rest.equations);
     }

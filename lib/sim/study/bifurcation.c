@@ -12,6 +12,8 @@
 
 /* Of a direction of unit length: below, it has no part along p. Below, of the entries of Gamma: no damping. */
 static const double upright = 1e-6, undamped = 1e-9;
+/* Of the curvature: with more left of F two curves come near each other, and do not cross. */
+static const double apart = 1e-12;
 
 const char *
 qdot_bifurcation_name(qdot_bifurcation_kind kind)
@@ -283,7 +285,8 @@ form(size_t m, const double *H, size_t width, const double *v, const double *w)
 
 /* The directions of both curves at a zero z of the system: one, two [n + 1]; v has room for two more. */
 static qdot_status
-directions(qdot_bifurcations *b, const double *z, double *v, double *one, double *two, bool *found)
+directions(qdot_bifurcations *b, const double *z, double beta_error, double *v, double *one,
+           double *two, bool *found)
 {
     qdot_rest_path *x = b->x;
     const size_t n = x->n, m = n + 1;
@@ -300,7 +303,8 @@ directions(qdot_bifurcations *b, const double *z, double *v, double *one, double
     c12 = form(m, H, s->n, v, v + m);
     c22 = form(m, H, s->n, v + m, v + m);
     root = c12 * c12 - c11 * c22;
-    *found = root > 1e-12 * (c11 * c11 + c12 * c12 + c22 * c22);
+    b->apart = fabs(z[2 * n + 1]) > 2 * beta_error + apart * sqrt(c11 * c11 + c12 * c12 + c22 * c22);
+    *found = !b->apart && root > 1e-12 * (c11 * c11 + c12 * c12 + c22 * c22);
     if (!*found)
         return QDOT_OK;
     q = -(c12 + copysign(sqrt(root), c12));
@@ -315,14 +319,14 @@ directions(qdot_bifurcations *b, const double *z, double *v, double *one, double
 
 /* Which crossing it is, and the direction of the curve that does not go along t. */
 static qdot_status
-classify(qdot_bifurcations *b, const double *z, const double *t, qdot_bifurcation *out,
-         double *other, bool *found)
+classify(qdot_bifurcations *b, const double *z, double beta_error, const double *t,
+         qdot_bifurcation *out, double *other, bool *found)
 {
     const qdot_rest_path *x = b->x;
     const size_t m = x->n + 1;
     const double unit = 1 / sqrt(x->weight[m - 1]);
     double *v = qdot_calloc(4 * m, sizeof *v), *one = v + 2 * m, *two = v + 3 * m;
-    qdot_status status = v ? directions(b, z, v, one, two, found) : QDOT_ENOMEM;
+    qdot_status status = v ? directions(b, z, beta_error, v, one, two, found) : QDOT_ENOMEM;
 
     if (status == QDOT_OK && *found) {
         const bool first =
@@ -481,7 +485,7 @@ find(qdot_bifurcations *b, const double *t, qdot_bifurcation *out, double *z, do
     QDOT_TRY(guess_crossing(x, z + n + 1));
     z[2 * n + 1] = 0;
     QDOT_TRY(qdot_newton_solve(&b->crossing, z, error, found));
-    return *found ? classify(b, z, t, out, other, found) : QDOT_OK;
+    return *found ? classify(b, z, error[2 * n + 1], t, out, other, found) : QDOT_OK;
 }
 
 qdot_status
@@ -493,7 +497,7 @@ qdot_bifurcation_find(qdot_bifurcations *b, const double *t, qdot_bifurcation *o
     double *z = qdot_calloc(2 * room, sizeof *z), *error = z + room;
     qdot_status status;
 
-    *found = false;
+    *found = b->apart = false;
     if (z == NULL)
         return QDOT_ENOMEM;
     memcpy(z, out->y, (n + 1) * sizeof *z);

@@ -52,6 +52,7 @@ typedef struct {
     qdot_newton fold, crossing;
     qdot_tape *motion; /* K, Gamma, M from y */
     double *value, *work;
+    bool apart; /* by the latest search: two curves come near each other there, and do not cross */
 } qdot_bifurcations;
 
 /* From {0}; ended in any case. Errors: QDOT_EUNSET names a parameter without a value. */

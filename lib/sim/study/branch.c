@@ -164,7 +164,11 @@ locate(qdot_branch_search *s, const qdot_rest_point *a, double length, qdot_bifu
         status = qdot_bifurcation_find(s->b, a->t, &b, other, &found);
         found = found && qdot_rest_path_distance(x, guess, b.y) < length;
     }
-    if (status == QDOT_OK && !found) {
+    s->leapt = !found && kind == QDOT_PITCHFORK && s->b->apart && length > together;
+    if (status != QDOT_OK || s->leapt) {
+        qdot_free(b.y);
+        b.y = NULL;
+    } else if (!found) {
         b.kind = QDOT_NOT_SIMPLE;
         b.frequency = 0;
         memcpy(b.y, guess, m * sizeof *guess);
@@ -205,6 +209,8 @@ look_between(qdot_branch_search *s, const qdot_rest_point *a, const qdot_rest_po
 
     if (a->sign != b->sign) {
         QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
+        if (s->leapt)
+            return QDOT_OK;
         if (branch->n > before)
             crossing = branch->y + before * m;
     }
@@ -353,6 +359,11 @@ follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, 
         if (s->all->interrupted) {
             branch->end[1] = QDOT_END_STOPPED;
             return QDOT_OK;
+        }
+        if (s->leapt) {
+            step = length / 2;
+            last = s->leapt = false;
+            continue;
         }
         if (gone > 3 * length && is_closed(x, start, a, b)) {
             branch->end[1] = QDOT_END_CLOSED;

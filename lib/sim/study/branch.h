@@ -43,6 +43,7 @@ typedef struct {
     qdot_bifurcations *b;
     qdot_continuation *all;
     qdot_vec(qdot_branch_crossing) crossings;
+    bool leapt; /* the latest step went over to another curve, which does not cross this one */
 } qdot_branch_search;
 
 QDOT_MUST_CHECK qdot_status qdot_branch_add(const qdot_rest_path *x, qdot_branch *branch,

@@ -213,7 +213,7 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
 
     if (status == QDOT_OK)
         status = qdot_watch_begin(a->watch, &reader, a->step.t, a->y,
-                                  &(qdot_watch_known){s->of.shaken, before, NULL}, on);
+                                  &(qdot_watch_known){s->of.moved, before, NULL}, on);
     a->begun = true;
     qdot_free(before);
     qdot_free(on);

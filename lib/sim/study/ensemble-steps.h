@@ -44,7 +44,7 @@ typedef struct {
     size_t n_times;
     const double *times;
     double tol;
-    bool shaken, backward;
+    bool shaken, moved, backward; /* moved: starts are those of a companion */
 } qdot_ensemble_steps_of;
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of,
                                                     qdot_ensemble_steps **steps);

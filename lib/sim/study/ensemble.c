@@ -15,6 +15,7 @@
 #include "sim/study/ensemble-momenta.h"
 #include "sim/study/ensemble-steps.h"
 #include "tape/constant.h"
+#include "tape/disc.h"
 #include "tape/shake.h"
 
 /* One pass over all members, the runs themselves or their companions. */
@@ -541,6 +542,7 @@ follow_pass(qdot_ensemble *e, size_t k)
                                        .times = e->times,
                                        .tol = e->tol,
                                        .shaken = k == 1,
+                                       .moved = k > 0,
                                        .backward = e->t1 < e->t0};
 
     return qdot_ensemble_steps_new(&of, &e->passes[k].steps);
@@ -556,6 +558,9 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
         if (reads_kept(e, watching->events[i].function))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
                                              "velocity whose momentum is kept");
+    if (e->plan->tape && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that look for forces which act "
+                                         "for less than a step");
     e->watching = watching;
     e->most_steps = most_steps;
     e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
