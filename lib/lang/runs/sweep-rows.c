@@ -39,22 +39,32 @@ measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double
     return QDOT_OK;
 }
 
-/* The columns of the latest run, behind what was swept in its row. */
+/* The columns of the latest run, behind what was swept in its row; of those that fail the first is
+ * told. */
 static qdot_status
 fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 {
     const qdot_sweep *s = user;
     qdot_row_table *t = s->table;
     const size_t first = s->row * t->n + t->n_swept;
+    qdot_status failed = QDOT_OK;
+    qdot_error why;
 
     (void)run;
     for (size_t i = 0; i < s->columns.at.n; i++) {
         qdot_expr e;
+        qdot_status status = qdot_columns_read(c, &s->columns, i, &e);
 
-        QDOT_TRY(qdot_columns_read(c, &s->columns, i, &e));
-        QDOT_TRY(measure(c->session, e, end, &t->values[first + i], &t->errors[first + i]));
+        if (status == QDOT_OK)
+            status = measure(c->session, e, end, &t->values[first + i], &t->errors[first + i]);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        if (status != QDOT_OK && failed == QDOT_OK) {
+            failed = status;
+            why = *qdot_last_error();
+        }
     }
-    return QDOT_OK;
+    return failed == QDOT_OK ? QDOT_OK : qdot_fail_again(&why);
 }
 
 qdot_status

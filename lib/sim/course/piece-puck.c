@@ -146,7 +146,7 @@ direction(const response *r, double a, double *e)
 static double
 start_of(const response *r, double *e)
 {
-    double low = 0, high = 0, length;
+    double low = 0, high = DBL_MIN, length;
 
     for (size_t i = 0; i < r->k * r->k; i++)
         high = fmax(high, fabs(r->K[i]));
