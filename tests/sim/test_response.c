@@ -118,6 +118,8 @@ through_a_bounce(void **state)
         same(slopes[3], (e * g * (s - tau) + g * s) / (g * tau), 1e-12);
     }
     qdot_response_free(r);
+    qdot_free(bounce.targets.at);
+    qdot_free(bounce.values.at);
     end(&f);
 }
 
