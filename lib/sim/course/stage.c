@@ -55,16 +55,6 @@ qdot_stage_clear(qdot_stage *s)
 
 /* --- events -------------------------------------------------------------------------- */
 
-static size_t
-place_of(const qdot_plan *p, qdot_expr target)
-{
-    size_t k = 0;
-
-    while (k < 2 * p->n && p->inputs[k] != target)
-        k++;
-    return k;
-}
-
 /* Whether a new value of component k of the state may break constraints. */
 static qdot_status
 find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
@@ -100,7 +90,7 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
         status = qdot_pool_check(p->pool);
         if (status != QDOT_OK)
             break;
-        e->targets[i] = place_of(p, qdot_plan_substitute(p, event->targets.at[i]));
+        e->targets[i] = qdot_expr_place(2 * p->n, p->inputs, qdot_plan_substitute(p, event->targets.at[i]));
         e->accelerations |=
             (qdot_expr_node(p->pool, value)->holds
              & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))

@@ -306,13 +306,22 @@ grazes_at_end(const qdot_watch_part *p)
     return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
 }
 
+/* The root found last, if it is a touch of function i; else NULL. */
+static const qdot_root *
+last_touch(const qdot_watch *w, size_t i)
+{
+    const qdot_root *last = w->roots.n > 0 ? &w->roots.at[w->roots.n - 1] : NULL;
+
+    return last && last->function == i && last->way == 0 ? last : NULL;
+}
+
 /* A touch within the part, so near to its end, is the same as the one at the end. */
 static void
 forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    while (w->roots.n > 0 && w->roots.at[w->roots.n - 1].function == i
-           && w->roots.at[w->roots.n - 1].way == 0
-           && fabs(w->roots.at[w->roots.n - 1].t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
+    const qdot_root *last;
+
+    while ((last = last_touch(w, i)) && fabs(last->t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
         w->roots.n--;
 }
 
@@ -321,10 +330,10 @@ forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
 static void
 forget_roundings(qdot_watch *w, size_t i, double from)
 {
-    while (w->roots.n > 0 && w->roots.at[w->roots.n - 1].function == i
-           && w->roots.at[w->roots.n - 1].way == 0 && w->roots.at[w->roots.n - 1].within == 0
-           && !w->roots.at[w->roots.n - 1].exact
-           && w->direction * (w->roots.at[w->roots.n - 1].t - from) > 0)
+    const qdot_root *last;
+
+    while ((last = last_touch(w, i)) && last->within == 0 && !last->exact &&
+           w->direction * (last->t - from) > 0)
         w->roots.n--;
 }
 

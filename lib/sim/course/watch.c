@@ -51,15 +51,22 @@ is_short(const qdot_watch *w, const qdot_watch_part *p)
     return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, 0x1p-44 * w->length);
 }
 
-/* The rounding of g_i at time t and state z. */
+/* The rounding of all g at time t and the state in w->z, where that is less than noise [m], or this is
+ * NaN. */
 static qdot_status
-noise_at(qdot_watch *w, double t, size_t i, double *noise)
+lessen_noise(qdot_watch *w, double t, double *noise)
 {
-    QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, noise));
     memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
     QDOT_TRY(qdot_watch_value(w, t, w->g)); /* q'' too */
-    qdot_tape_eval(w->sizes, w->in, w->moved, w->work);
-    *noise += 4 * DBL_EPSILON * (w->moved[i] + fabs(w->final[i]));
+    qdot_tape_eval(w->sizes, w->in, w->g, w->work);
+    for (size_t i = 0; i < w->m; i++) {
+        double here;
+
+        if (!w->live[i])
+            continue;
+        QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, &here));
+        noise[i] = fmin(noise[i], here + 4 * DBL_EPSILON * (w->g[i] + fabs(w->final[i])));
+    }
     return QDOT_OK;
 }
 
@@ -68,25 +75,23 @@ noise_at(qdot_watch *w, double t, size_t i, double *noise)
 static qdot_status
 find_noise(qdot_watch *w, const qdot_watch_part *p)
 {
-    const double ends[] = {p->a, p->b};
+    size_t any = 0;
 
-    for (size_t i = 0; i < w->m; i++) {
-        if (!w->live[i] || !isnan(w->noise[i]))
-            continue;
-        if (isnan(w->first_noise[i])) {
-            memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
-            QDOT_TRY(noise_at(w, w->t, i, &w->first_noise[i]));
-        }
-        w->noise[i] = w->first_noise[i];
-        for (int k = p->a == w->t ? 1 : 0; k < 2; k++) {
-            double here;
-
-            QDOT_TRY(w->reader.read(ends[k], w->z, w->reader.user));
-            QDOT_TRY(noise_at(w, ends[k], i, &here));
-            w->noise[i] = fmin(w->noise[i], here);
-        }
+    while (!w->live[any])
+        any++;
+    if (!isnan(w->noise[any]))
+        return QDOT_OK;
+    if (isnan(w->first_noise[any])) {
+        memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
+        QDOT_TRY(lessen_noise(w, w->t, w->first_noise));
     }
-    return QDOT_OK;
+    memcpy(w->noise, w->first_noise, w->m * sizeof *w->noise);
+    if (p->a != w->t) {
+        QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));
+        QDOT_TRY(lessen_noise(w, p->a, w->noise));
+    }
+    QDOT_TRY(w->reader.read(p->b, w->z, w->reader.user));
+    return lessen_noise(w, p->b, w->noise);
 }
 
 static qdot_status
