@@ -8,6 +8,8 @@
 #include <cstring>
 #include <immintrin.h>
 
+#include "dop853.hh"
+
 extern "C" {
 __m256d _ZGVdN4v_sin(__m256d);
 __m256d _ZGVdN4v_cos(__m256d);
@@ -72,7 +74,7 @@ dop853_wide(F f, double t1, wide *y, double tol)
     f(y, k[0]);
     for (bool refused = false; t < t1;) {
         wide e5 = 0, e3 = 0;
-        double ratio = 0, factor;
+        double ratio = 0, next;
         const bool last = t + h * 1.01 >= t1;
 
         if (last)
@@ -108,16 +110,12 @@ dop853_wide(F f, double t1, wide *y, double tol)
         }
         if (!(ratio < 1e300))
             ratio = 1e300;
-        factor = std::fmin(6, std::fmax(0.333, 0.9 * std::pow(ratio, -1.0 / 8)));
-        if (ratio <= 1) {
-            t = last ? t1 : t + h;
+        next = last ? t1 : t + h;
+        if (accepts(ratio, &refused, &h)) {
+            t = next;
             std::memcpy((void *)y, z, sizeof z);
             f(y, k[0]);
-            h *= refused ? std::fmin(factor, 1) : factor;
-        } else {
-            h *= std::fmin(factor, 1);
         }
-        refused = ratio > 1;
     }
     return steps;
 }

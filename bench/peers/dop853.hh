@@ -16,6 +16,19 @@ coefficient(double a, __float128 wide)
     return sizeof(T) == sizeof(double) ? T(a) : T(wide);
 }
 
+/* Hairer's control: whether a step with that error, in units of what is allowed, counts; *h is then the
+ * length of the next one, else of this one once more. */
+template <class T> bool
+accepts(double ratio, bool *refused, T *h)
+{
+    const double factor = std::fmin(6, std::fmax(0.333, 0.9 * std::pow(ratio, -1.0 / 8)));
+    const bool counts = ratio <= 1;
+
+    *h *= *refused || !counts ? std::fmin(factor, 1) : factor;
+    *refused = !counts;
+    return counts;
+}
+
 /* y [n] from 0 to t1 by f(y, d); the steps taken and refused, or -1 where it stalls. */
 template <int n, class T, class F> long
 dop853(F f, T t1, T *y, T tol)
@@ -50,8 +63,8 @@ dop853(F f, T t1, T *y, T tol)
                       most > 1e-15 ? std::pow(0.01 / most, 1.0 / 8) : 1e-6);
     }
     for (bool refused = false; t < t1;) {
-        T e5 = 0, e3 = 0;
-        double ratio, factor;
+        T e5 = 0, e3 = 0, next;
+        double ratio;
         const bool last = t + h * T(1.01) >= t1;
 
         if (last)
@@ -83,16 +96,12 @@ dop853(F f, T t1, T *y, T tol)
         ratio = size > 0 ? (double)(h * e5 / root(size * n)) : 0;
         if (!(ratio < 1e300))
             ratio = 1e300;
-        factor = std::fmin(6, std::fmax(0.333, 0.9 * std::pow(ratio, -1.0 / 8)));
-        if (ratio <= 1) {
-            t = last ? t1 : t + h;
+        next = last ? t1 : t + h;
+        if (accepts(ratio, &refused, &h)) {
+            t = next;
             std::memcpy(y, z, sizeof z);
             f(y, k[0]);
-            h *= refused ? std::fmin(factor, 1) : factor;
-        } else {
-            h *= std::fmin(factor, 1);
         }
-        refused = ratio > 1;
     }
     return steps;
 }
