@@ -390,6 +390,16 @@ qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
     return result;
 }
 
+size_t
+qdot_expr_place(size_t n, const qdot_expr *list, qdot_expr e)
+{
+    size_t i = 0;
+
+    while (i < n && list[i] != e)
+        i++;
+    return i;
+}
+
 bool
 qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
 {

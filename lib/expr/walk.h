@@ -62,6 +62,9 @@ qdot_expr qdot_walk_replace(qdot_pool *pool, qdot_expr e, qdot_kind kind,
  * unchanged. Nil: the pool keeps the failure. */
 qdot_expr qdot_walk_rebuild(qdot_pool *pool, const qdot_walk *w, qdot_expr e);
 
+/* The index of e in list [n]; n: it is not there. */
+size_t qdot_expr_place(size_t n, const qdot_expr *list, qdot_expr e);
+
 /* Whether x (any node) occurs in e. */
 bool qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x);
 

@@ -16,7 +16,7 @@ typedef struct {
 
 typedef struct {
     qdot_cursor *c;
-    qdot_vec(qdot_slope_name) unknowns;
+    qdot_slope_names unknowns;
     qdot_vec(double) guess, low, high; /* bounds are infinite of a guess alone */
     size_t pushed; /* names bound meanwhile: unknowns that are declared nowhere */
     qdot_vec(qdot_find_condition) conditions;

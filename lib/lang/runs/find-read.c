@@ -119,19 +119,9 @@ read_unknowns(qdot_cursor *c, qdot_find *f)
 {
     do {
         qdot_slope_name x;
-        qdot_status status = read_symbol(c, f, &x);
+        const qdot_status status = read_symbol(c, f, &x);
 
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&f->unknowns, x);
-        if (status != QDOT_OK) {
-            qdot_free(x.label);
-            return status;
-        }
-        for (size_t i = 0; i + 1 < f->unknowns.n; i++)
-            if (f->unknowns.at[i].symbol == x.symbol) {
-                c->error_at = x.place->start;
-                return qdot_fail(QDOT_EINVAL, "%s stands here twice", x.label);
-            }
+        QDOT_TRY(qdot_slope_names_take(c, &f->unknowns, &x, status));
         QDOT_TRY(read_guess(c, f));
     } while (qdot_cursor_accept_op(c, ","));
     return QDOT_OK;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/runs/fit-parts.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
@@ -27,24 +28,7 @@ typedef struct {
     double *at, *slopes; /* [rows x m], [rows x m x k] */
 } model;
 
-static bool
-is_parameter(const qdot_fit *f, size_t k)
-{
-    return !qdot_expr_is_class(f->session->pool, f->unknowns.names.at[k].symbol, QDOT_COORD);
-}
-
 /* --- the request ---------------------------------------------------------------------------- */
-
-/* The symbol's place in a list; n: none. */
-static size_t
-place_of(size_t n, const qdot_expr *list, qdot_expr symbol)
-{
-    size_t i = 0;
-
-    while (i < n && list[i] != symbol)
-        i++;
-    return i;
-}
 
 /* The guesses: values of `set`, the start. */
 static qdot_status
@@ -58,8 +42,8 @@ find_guesses(qdot_fit *f)
         const qdot_run_request *r = &f->order.request;
         qdot_expr e = QDOT_ZERO;
 
-        if (is_parameter(f, k)) {
-            const size_t at = place_of(r->n_values, r->symbols, name->symbol);
+        if (qdot_slopes_is_parameter(&f->unknowns, k)) {
+            const size_t at = qdot_expr_place(r->n_values, r->symbols, name->symbol);
 
             if (at == r->n_values) {
                 (void)qdot_fail(QDOT_EUNSET, "%s has no value to begin with", name->label);
@@ -67,7 +51,7 @@ find_guesses(qdot_fit *f)
             }
             e = r->values[at];
         }
-        for (size_t i = 0; i < 2 * n && !is_parameter(f, k); i++)
+        for (size_t i = 0; i < 2 * n && !qdot_slopes_is_parameter(&f->unknowns, k); i++)
             if (qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n)
                 == name->symbol)
                 e = (i < n ? r->q0 : r->v0)[i % n];
@@ -88,7 +72,7 @@ free_unknowns(model *x)
 
     for (size_t i = 0; i < had->n_values; i++) {
         const size_t at =
-            place_of(session->set_symbols.n, session->set_symbols.at, had->symbols[i]);
+            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, had->symbols[i]);
 
         x->values[i] = at == session->set_symbols.n
                            ? had->values[i]
@@ -97,8 +81,8 @@ free_unknowns(model *x)
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
-        const size_t at = place_of(session->start_symbols.n, session->start_symbols.at, jet);
-        const bool unknown = place_of(x->f->unknowns.names.n, x->unknowns, jet)
+        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
+        const bool unknown = qdot_expr_place(x->f->unknowns.names.n, x->unknowns, jet)
                              < x->f->unknowns.names.n;
 
         x->named[i] = unknown || at < session->start_symbols.n;
@@ -124,7 +108,7 @@ make_request(model *x)
     }
     QDOT_TRY(qdot_session_keep_values(f->session, &kept));
     for (size_t k = 0; k < f->unknowns.names.n && status == QDOT_OK; k++)
-        if (is_parameter(f, k))
+        if (qdot_slopes_is_parameter(&f->unknowns, k))
             qdot_session_set(f->session, x->unknowns[k], x->unknowns[k], &status);
     if (status == QDOT_OK)
         status = free_unknowns(x);

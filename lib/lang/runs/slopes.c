@@ -44,32 +44,40 @@ qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x)
 }
 
 qdot_status
+qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names, const qdot_slope_name *x,
+                      qdot_status read)
+{
+    if (read == QDOT_OK)
+        read = qdot_vec_push(names, *x);
+    if (read != QDOT_OK) {
+        qdot_free(x->label);
+        return read;
+    }
+    for (size_t i = 0; i + 1 < names->n; i++)
+        if (names->at[i].symbol == x->symbol) {
+            c->error_at = x->place->start;
+            return qdot_fail(QDOT_EINVAL, "%s stands here twice", x->label);
+        }
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_slopes_read(qdot_cursor *c, qdot_slopes *s)
 {
     s->session = c->session;
     do {
         qdot_slope_name x;
-        qdot_status status = qdot_slope_name_read(c, &x);
+        const qdot_status status = qdot_slope_name_read(c, &x);
 
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&s->names, x);
-        if (status != QDOT_OK) {
-            qdot_free(x.label);
-            return status;
-        }
-        for (size_t i = 0; i + 1 < s->names.n; i++)
-            if (s->names.at[i].symbol == x.symbol) {
-                c->error_at = x.place->start;
-                return qdot_fail(QDOT_EINVAL, "%s stands here twice", x.label);
-            }
+        QDOT_TRY(qdot_slope_names_take(c, &s->names, &x, status));
     } while (qdot_cursor_accept_op(c, ","));
     return QDOT_OK;
 }
 
 /* --- what each name moves --------------------------------------------------------------- */
 
-static bool
-is_parameter(const qdot_slopes *s, size_t k)
+bool
+qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
 {
     return !qdot_expr_is_class(s->session->pool, s->names.at[k].symbol, QDOT_COORD);
 }
@@ -90,17 +98,6 @@ free_value(const qdot_slopes *s, qdot_expr said, qdot_expr parameter, qdot_expr 
                : had;
 }
 
-/* The symbol's place in a list; n: none. */
-static size_t
-place_of(size_t n, const qdot_expr *list, qdot_expr symbol)
-{
-    size_t i = 0;
-
-    while (i < n && list[i] != symbol)
-        i++;
-    return i;
-}
-
 /* Parameters with the k-th free, and how the start follows it. */
 static qdot_status
 free_parameter(qdot_slopes *s, size_t k)
@@ -110,7 +107,7 @@ free_parameter(qdot_slopes *s, size_t k)
     const qdot_conditions *of = s->conditions;
     const qdot_expr p = s->names.at[k].symbol;
     const size_t n = session->scene->coordinates.n,
-                 own = place_of(of->symbols.n, of->symbols.at, p);
+                 own = qdot_expr_place(of->symbols.n, of->symbols.at, p);
     qdot_expr *values = s->values + k * of->symbols.n, *start = s->start + 2 * k * n;
     qdot_kept_values kept;
     qdot_status status = QDOT_OK;
@@ -121,7 +118,7 @@ free_parameter(qdot_slopes *s, size_t k)
     qdot_session_set(session, p, p, &status);
     for (size_t i = 0; i < of->symbols.n && status == QDOT_OK; i++) {
         const size_t at =
-            place_of(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
+            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
 
         values[i] = i == own ? p
                     : at == session->set_symbols.n
@@ -132,7 +129,7 @@ free_parameter(qdot_slopes *s, size_t k)
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
         const size_t at =
-            place_of(session->start_symbols.n, session->start_symbols.at, jet);
+            qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
 
         if (at == session->start_symbols.n)
             continue;
@@ -173,7 +170,7 @@ find_directions(qdot_slopes *s)
                            : QDOT_ZERO;
         s->by[k] = (qdot_variation_by){
             .name = s->names.at[k].label, .parameter = QDOT_NIL, .start = start};
-        if (is_parameter(s, k))
+        if (qdot_slopes_is_parameter(s, k))
             QDOT_TRY(free_parameter(s, k));
     }
     return qdot_pool_check(pool);

@@ -25,9 +25,11 @@ typedef struct {
     qdot_expr symbol; /* a parameter, a coordinate, a velocity */
 } qdot_slope_name;
 
+typedef qdot_vec(qdot_slope_name) qdot_slope_names;
+
 typedef struct {
     qdot_session *session; /* borrowed */
-    qdot_vec(qdot_slope_name) names;
+    qdot_slope_names names;
     qdot_conditions *conditions; /* borrowed: of the run */
     qdot_run *run;               /* borrowed */
     qdot_run_request request;
@@ -42,6 +44,12 @@ extern const char qdot_slopes_run[];
 
 /* Read one name, a parameter, q or q'; its label is the caller's to free. */
 QDOT_MUST_CHECK qdot_status qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x);
+/* Take x and its label into the list if it was read; else it is freed. QDOT_EINVAL: it stands there twice. */
+QDOT_MUST_CHECK qdot_status qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names,
+                                                  const qdot_slope_name *x,
+                                                  qdot_status read);
+/* Whether the k-th name is a parameter, not a coordinate or a velocity. */
+bool qdot_slopes_is_parameter(const qdot_slopes *s, size_t k);
 /* Read `NAME, ...` into slopes from {0}. Free them in any case. */
 QDOT_MUST_CHECK qdot_status qdot_slopes_read(qdot_cursor *c, qdot_slopes *s);
 /* Make the run with its slopes, of the run of that name (NULL: the latest), as far as the numbers in e,

@@ -6,8 +6,8 @@
  *     qdot_trial_slopes(&t, m, e, slope, slope_error)     by the variational equations (slopes.h)
  *     qdot_trial_close(&t);                   all as before; in any case
  *
- * `find` and periodic orbits of `continue` are made of such trials; `fit` of responses
- * (sim/study/response.h), which read no numbers of the session.
+ * `find` is made of such trials; `fit` of responses (sim/study/response.h), which read no numbers of the
+ * session.
  *
  * Tests  tests/script/find.sh
  */

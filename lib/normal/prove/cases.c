@@ -137,16 +137,6 @@ struct cases {
     bool too_much;
 };
 
-static size_t
-place_in(const qdot_expr *list, size_t n, qdot_expr e)
-{
-    size_t i = 0;
-
-    while (i < n && list[i] != e)
-        i++;
-    return i;
-}
-
 static bool
 is_proved(struct cases *c, qdot_expr a, qdot_expr b)
 {
@@ -161,7 +151,7 @@ is_proved(struct cases *c, qdot_expr a, qdot_expr b)
 static size_t
 place_of(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
 {
-    size_t place = place_in(list, n, e);
+    size_t place = qdot_expr_place(n, list, e);
     qdot_expr other = turn == NULL || e == QDOT_NIL ? e : qdot_neg(c->pool, e);
 
     if (turn != NULL)
@@ -408,7 +398,7 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 
     for (uint32_t i = 0; i < qdot_expr_count(c->pool, e); i++) {
         qdot_expr x = qdot_expr_arg(c->pool, e, i);
-        size_t inner = place_in(c->node, k, x), at;
+        size_t inner = qdot_expr_place(k, c->node, x), at;
 
         at = place_of(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
         if (at == c->n_leaves) {
