@@ -7,6 +7,7 @@
 #include "lang/answer/row-answer.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
+#include "lang/runs/own-run.h"
 #include "lang/sweeps/columns.h"
 #include "lang/sweeps/members.h"
 #include "lang/runs/run.h"

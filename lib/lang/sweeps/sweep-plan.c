@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/workers.h"
+#include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "num/batch.h"

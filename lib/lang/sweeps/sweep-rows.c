@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/workers.h"
 #include "lang/answer/row-answer.h"
+#include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-file.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
