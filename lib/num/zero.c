@@ -28,6 +28,7 @@ typedef struct {
     double *u, *f, *error;     /* [n], [m], [m] where a step leads */
     double *trial;             /* [n] */
     double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
+    double *small;             /* [m] below this a function may count as 0 */
     double mu, length;         /* of the step, in units of the unknowns */
     double *step, *from_error; /* [n] the step, and what errors of F make of it */
     gsl_matrix *U, *V;
@@ -60,6 +61,8 @@ choose_units(search *s)
             sum += fabs(s->slope[i * n + j]) * s->unit[j];
         sum = fmax(sum, fabs(s->r->f[i]));
         s->unit_f[i] = sum > 0 ? sum : 1;
+        if (s->small[i] == 0) /* at the guess */
+            s->small[i] = fmax(1e-3 * fabs(s->r->f[i]), 1e-9 * s->unit_f[i]);
     }
 }
 
@@ -150,7 +153,8 @@ step_is_nothing(const search *s)
     return true;
 }
 
-/* Whether F is 0 within its errors and those of u, which are small beside what F was at first. */
+/* Whether F is 0 within its errors and those of u, which are small beside what F was at the guess, or beside what
+ * it is made of: where the last bit of u moves F by as much as the guess was off, nothing is found. */
 static bool
 is_zero(const search *s)
 {
@@ -165,7 +169,7 @@ is_zero(const search *s)
             if (isfinite(s->slope[i * n + j]))
                 reach += fabs(s->slope[i * n + j]) *
                          (fabs(s->step[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
-        if (!(fabs(s->r->f[i]) <= fmin(reach, 1e-3 * s->unit_f[i])))
+        if (!(fabs(s->r->f[i]) <= fmin(reach, s->small[i])))
             return false;
     }
     return true;
@@ -263,42 +267,83 @@ descend_once(search *s)
     return QDOT_OK;
 }
 
-/* The same from the guess; in vain, from places around it, ever farther off. What is told of no success is of
- * the guess. */
+/* What a search led to, put aside. */
+typedef struct {
+    qdot_zero_answer answer;
+    size_t rank;
+    double *at; /* u [n], error [n], f [m], f_error [m] */
+} outcome;
+
+static void
+put_aside(const search *s, outcome *o)
+{
+    const size_t n = s->p->n, m = s->p->m;
+
+    o->answer = s->r->answer;
+    o->rank = s->r->rank;
+    memcpy(o->at, s->r->u, n * sizeof *o->at);
+    memcpy(o->at + n, s->r->error, n * sizeof *o->at);
+    memcpy(o->at + 2 * n, s->r->f, m * sizeof *o->at);
+    memcpy(o->at + 2 * n + m, s->r->f_error, m * sizeof *o->at);
+}
+
+static void
+take_back(search *s, const outcome *o)
+{
+    const size_t n = s->p->n, m = s->p->m;
+
+    s->r->answer = o->answer;
+    s->r->rank = o->rank;
+    memcpy(s->r->u, o->at, n * sizeof *o->at);
+    memcpy(s->r->error, o->at + n, n * sizeof *o->at);
+    memcpy(s->r->f, o->at + 2 * n, m * sizeof *o->at);
+    memcpy(s->r->f_error, o->at + 2 * n + m, m * sizeof *o->at);
+}
+
+/* A search, and whether it led to a zero that is wanted. */
+static qdot_status
+search_once(search *s, bool *done)
+{
+    const qdot_zero_problem *p = s->p;
+
+    QDOT_TRY(descend_once(s));
+    *done = s->r->answer == QDOT_ZERO_FOUND;
+    return *done && p->wanted ? p->wanted(s->r->u, done, p->user) : QDOT_OK;
+}
+
+/* Newton's method from the guess; in vain, from places around it, ever farther off. If all are in vain the answer
+ * is a zero that is not wanted, else what the guess led to. */
 static qdot_status
 descend(search *s)
 {
     const size_t n = s->p->n;
-    double *kept = qdot_calloc(2 * n + s->p->m + 1, sizeof *kept), *least = kept + n;
-    qdot_zero_answer first;
+    double *guess = qdot_calloc(3 * n + 2 * s->p->m + 1, sizeof *guess);
+    outcome best = {.at = guess + n};
     uint64_t drawn = 1;
+    bool done;
     qdot_status status;
 
-    if (kept == NULL)
+    if (guess == NULL)
         return QDOT_ENOMEM;
-    memcpy(kept, s->r->u, n * sizeof *kept);
-    status = descend_once(s);
-    first = s->r->answer;
-    memcpy(least, s->r->u, n * sizeof *kept);
-    memcpy(least + n, s->r->f, s->p->m * sizeof *kept);
-    for (int k = 1; k <= TRIES && status == QDOT_OK; k++) {
-        if (s->r->answer == QDOT_ZERO_FOUND || first == QDOT_ZERO_FLAT ||
-            first == QDOT_ZERO_NOWHERE)
+    memcpy(guess, s->r->u, n * sizeof *guess);
+    status = search_once(s, &done);
+    put_aside(s, &best);
+    for (int k = 1; k <= TRIES && status == QDOT_OK && !done; k++) {
+        if (best.answer == QDOT_ZERO_FLAT || best.answer == QDOT_ZERO_NOWHERE)
             break;
         for (size_t j = 0; j < n; j++) {
             drawn = drawn * 6364136223846793005u + 1442695040888963407u;
             s->r->u[j] = within(s->p, j,
-                                kept[j] + s->unit[j] * pow(farther, k) / 40 *
-                                              ((double)(drawn >> 33) / 1073741824.0 - 1));
+                                guess[j] + s->unit[j] * pow(farther, k) / 40 *
+                                               ((double)(drawn >> 33) / 1073741824.0 - 1));
         }
-        status = descend_once(s);
+        status = search_once(s, &done);
+        if (s->r->answer == QDOT_ZERO_FOUND && best.answer != QDOT_ZERO_FOUND)
+            put_aside(s, &best);
     }
-    if (s->r->answer != QDOT_ZERO_FOUND) {
-        s->r->answer = first;
-        memcpy(s->r->u, least, n * sizeof *kept);
-        memcpy(s->r->f, least + n, s->p->m * sizeof *kept);
-    }
-    qdot_free(kept);
+    if (!done)
+        take_back(s, &best);
+    qdot_free(guess);
     return status;
 }
 
@@ -411,7 +456,7 @@ static bool
 allocate(search *s)
 {
     const size_t n = s->p->n, m = s->p->m, rows = m > n ? m : n;
-    double *room = qdot_calloc(m * n + 5 * n + 3 * m + 1, sizeof *room);
+    double *room = qdot_calloc(m * n + 5 * n + 4 * m + 1, sizeof *room);
 
     s->slope = room;
     if (room == NULL)
@@ -424,6 +469,7 @@ allocate(search *s)
     s->f = s->trial + n;
     s->error = s->f + m;
     s->unit_f = s->error + m;
+    s->small = s->unit_f + m;
     s->U = gsl_matrix_alloc(rows, n);
     s->V = gsl_matrix_alloc(n, n);
     s->singular = gsl_vector_alloc(n);

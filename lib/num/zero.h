@@ -6,7 +6,7 @@
  * family); where equations are more, that of least squares, and F must vanish. mu = 0.01 |F|^2 |J|^2 keeps
  * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. A step
  * is halved until it makes |F| smaller, or the step that would follow with the same J.
- * A search in vain is begun again from places around the guess.
+ * A search in vain is begun again from places around the guess; so is one that finds a zero which is not wanted.
  *
  * One unknown of one equation between bounds with a change of sign between them: Newton and bisection.
  *
@@ -31,6 +31,8 @@ typedef struct {
                       void *user);
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
+    /* Whether the zero at u is what was looked for: else the search goes on from other places. NULL: each is. */
+    qdot_status (*wanted)(const double *u, bool *is, void *user);
 } qdot_zero_problem;
 
 typedef enum {

@@ -61,6 +61,70 @@ a_family_gives_the_near_solution(void **state)
     assert_true(fabs(u[0] - 1.6) < 0.1 && fabs(u[1] - 1.2) < 0.1);
 }
 
+/* sin u = 0 from 4 on; pi is not wanted, and is the answer where no other zero can be had. */
+static qdot_status
+sine_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    const double *most = user;
+
+    *f = u[0] < 1 || u[0] > *most ? NAN : sin(u[0]);
+    *error = 1e-16;
+    if (slope != NULL)
+        *slope = cos(u[0]);
+    return QDOT_OK;
+}
+
+static qdot_status
+is_beyond_four(const double *u, bool *is, void *user)
+{
+    (void)user;
+    *is = u[0] > 4;
+    return QDOT_OK;
+}
+
+static void
+a_zero_that_is_not_wanted(void **state)
+{
+    double most[2] = {30, 4.2}, u[4];
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const qdot_zero_problem p = {
+            .n = 1, .m = 1, .at = sine_at, .user = &most[k], .wanted = is_beyond_four};
+        qdot_zero_result r = {.u = u, .error = u + 1, .f = u + 2, .f_error = u + 3};
+
+        u[0] = 4;
+        assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+        assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+        assert_true(fabs(sin(u[0])) < 1e-14 && (u[0] > 4) == (k == 0));
+        assert_true(u[1] < 1e-14 && fabs(u[2]) < 1e-14);
+    }
+}
+
+/* F jumps from -0.3 to 0.3, known to 0.1, where slopes are large: that is no zero. */
+static qdot_status
+wild_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    (void)user;
+    *f = u[0] - 1.1 > 0 ? 0.3 : -0.3;
+    *error = 0.1;
+    if (slope != NULL)
+        *slope = 1e6;
+    return QDOT_OK;
+}
+
+static void
+what_is_not_known_is_no_zero(void **state)
+{
+    double u[4] = {1};
+    const qdot_zero_problem p = {.n = 1, .m = 1, .at = wild_at};
+    qdot_zero_result r = {.u = u, .error = u + 1, .f = u + 2, .f_error = u + 3};
+
+    (void)state;
+    assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+    assert_int_not_equal(r.answer, QDOT_ZERO_FOUND);
+}
+
 typedef struct {
     double (*of)(double);
     double from, to; /* where it can be had */
@@ -160,6 +224,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(zeros_of_square_and_tall_systems),
+        cmocka_unit_test(a_zero_that_is_not_wanted),
+        cmocka_unit_test(what_is_not_known_is_no_zero),
         cmocka_unit_test(a_family_gives_the_near_solution),
         cmocka_unit_test(bounds_lead_to_a_zero),
         cmocka_unit_test(what_is_no_zero_is_told),

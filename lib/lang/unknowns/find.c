@@ -96,6 +96,22 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
     return QDOT_OK;
 }
 
+/* An orbit, if one was looked for: a motion that rests returns after any time. */
+static qdot_status
+does_not_rest(const double *u, bool *is, void *user)
+{
+    hunt *h = user;
+    qdot_session *session = h->trial.session;
+    qdot_named_run *named;
+    bool rests;
+
+    QDOT_TRY(open_at(h, u));
+    QDOT_TRY(qdot_runs_find(session, NULL, &named));
+    QDOT_TRY(qdot_floquet_rests(session->scene, named->run, &rests));
+    *is = !rests;
+    return QDOT_OK;
+}
+
 /* --- what is told ------------------------------------------------------------------------ */
 
 /* "theta' = 2.1, T = 3" */
@@ -177,15 +193,14 @@ refuse(const hunt *h, const qdot_zero_result *r)
     return qdot_last_error()->status;
 }
 
-/* The solution near the guess is one of many: a notice. */
+/* The solution is one of many: a notice. */
 static qdot_status
 tell_family(const hunt *h, const qdot_zero_result *r)
 {
     if (r->rank >= h->trial.n)
         return QDOT_OK;
     return qdot_answer_notice(h->f->c->session,
-                              "one of a family: the conditions fix %zu of %zu unknowns; "
-                              "this solution is near the guess",
+                              "one of a family: the conditions fix %zu of %zu unknowns",
                               r->rank, h->trial.n);
 }
 
@@ -287,34 +302,19 @@ tell_end(const hunt *h)
                               to, said);
 }
 
-/* A motion that rests returns after any time: a notice. */
-static qdot_status
-tell_rest(const hunt *h)
-{
-    qdot_session *session = h->trial.session;
-    qdot_named_run *named;
-    bool rests;
-
-    if (!h->f->returns)
-        return QDOT_OK;
-    QDOT_TRY(qdot_runs_find(session, NULL, &named));
-    QDOT_TRY(qdot_floquet_rests(session->scene, named->run, &rests));
-    if (!rests)
-        return QDOT_OK;
-    return qdot_answer_notice(
-        session, "this is a rest: velocities and accelerations are 0 at its start");
-}
-
 /* The values found hold from now on, of names that are declared; the run is the latest. */
 static qdot_status
 conclude(hunt *h, const qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_session *session = f->c->session;
+    bool moves = true;
 
     QDOT_TRY(open_at(h, r->u));
     QDOT_TRY(check_length(h));
     QDOT_TRY(tell_end(h));
+    if (f->returns)
+        QDOT_TRY(does_not_rest(r->u, &moves, h));
     qdot_trial_close(&h->trial);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
@@ -323,7 +323,9 @@ conclude(hunt *h, const qdot_zero_result *r)
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
-    QDOT_TRY(tell_rest(h));
+    if (!moves)
+        QDOT_TRY(qdot_answer_notice(
+            session, "this is a rest: velocities and accelerations are 0 at its start"));
     return tell_family(h, r);
 }
 
@@ -333,7 +335,7 @@ static qdot_status
 search(hunt *h, qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
-    const qdot_zero_problem p = {.n = f->unknowns.n,
+    qdot_zero_problem p = {.n = f->unknowns.n,
                                  .m = h->m,
                                  .at = evaluate,
                                  .user = h,
@@ -344,6 +346,12 @@ search(hunt *h, qdot_zero_result *r)
     QDOT_TRY(take_values(h, r->u));
     QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
     QDOT_TRY(find_length(h, &h->length));
+    if (f->returns) {
+        bool moves;
+
+        QDOT_TRY(does_not_rest(r->u, &moves, h));
+        p.wanted = moves ? does_not_rest : NULL;
+    }
     QDOT_TRY(qdot_zero_find(&p, r));
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
 }

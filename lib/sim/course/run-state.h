@@ -29,7 +29,7 @@ struct qdot_run {
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
     bool occurrence_errors; /* the errors of the occurrences have been found */
-    bool by_clock;          /* of the request */
+    bool by_clock, no_drifts; /* of the request */
     bool hidden;            /* the run has passed over something: no error is known */
     char *doubt;            /* why the error is unknown; NULL */
 

@@ -34,8 +34,8 @@ typedef struct {
                                      tol is not used */
     bool lanes;                   /* for an ensemble, eight members at a time
                                      (sim/study/ensemble.h) */
-    bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h): what
-                                     is conserved is not looked for */
+    bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h) */
+    bool no_drifts;               /* what is conserved is not looked for: nobody reads the report */
 } qdot_run_request;
 
 #endif

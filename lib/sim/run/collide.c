@@ -303,7 +303,7 @@ make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
     other.q_named = other.v_named = NULL;
     other.scales = a->scales;
     other.tol = fmin(other.tol, by_series ? tight : tight_by_points);
-    other.by_clock = true;
+    other.by_clock = other.no_drifts = true;
     QDOT_TRY(qdot_pool_check(c->pool));
     return by->make(c->scene, &other, out);
 }

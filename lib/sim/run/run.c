@@ -447,7 +447,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_run_doubt_places(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
-    if (status == QDOT_OK && !*interrupted && !run->by_clock)
+    if (status == QDOT_OK && !*interrupted && !run->no_drifts)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
                                      run->stage.scales != NULL, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
@@ -512,6 +512,7 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
         return QDOT_ENOMEM;
     run->report.horizon = run->report.standstill = NAN;
     run->by_clock = request->by_clock;
+    run->no_drifts = request->no_drifts;
     run->turns = request->turns;
     status = qdot_stage_begin(&run->stage, scene, request);
     run->course.stage = run->companion.stage = run->twin.stage = &run->stage;

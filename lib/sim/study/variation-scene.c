@@ -270,6 +270,7 @@ qdot_variation_request(const qdot_variation *v)
     r.q_named = v->named;
     r.v_named = v->named + (v->k + 1) * v->n;
     r.exactly = false;
+    r.no_drifts = true;
     r.scales = NULL;
     r.n_values = 0;
     r.symbols = r.values = NULL;
