@@ -320,7 +320,7 @@ descend(search *s)
     double *guess = qdot_calloc(3 * n + 2 * s->p->m + 1, sizeof *guess);
     outcome best = {.at = guess + n};
     uint64_t drawn = 1;
-    bool done;
+    bool done = false;
     qdot_status status;
 
     if (guess == NULL)
