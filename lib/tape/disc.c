@@ -107,7 +107,7 @@ of_remainder(double a, double ra, double b, double rb)
 size_t
 qdot_disc_work(const qdot_tape *tape)
 {
-    return 2 * tape->places;
+    return 4 * tape->places;
 }
 
 /* Add rounding to a radius that is not 0. */
@@ -156,6 +156,7 @@ step(const qdot_instruction *i, double *work, double *radius)
     }
 }
 
+/* r NULL: all 0 */
 static void
 load(const qdot_tape *tape, const double *c, const double *r, double *work)
 {
@@ -163,7 +164,10 @@ load(const qdot_tape *tape, const double *c, const double *r, double *work)
 
     if (tape->inputs) {
         memcpy(work, c, tape->inputs * sizeof *work);
-        memcpy(radius, r, tape->inputs * sizeof *radius);
+        if (r)
+            memcpy(radius, r, tape->inputs * sizeof *radius);
+        else
+            memset(radius, 0, tape->inputs * sizeof *radius);
     }
     if (tape->constants)
         memcpy(work + tape->inputs, tape->constant, tape->constants * sizeof *work);
@@ -234,8 +238,8 @@ qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by)
 /* Beyond it tanh is 1 in doubles. */
 static const double saturated = 20;
 
-/* How far the argument of an operation that falls off, or its logarithm, may go; 0 where its value is
- * the same throughout. */
+/* How far the argument of an operation that falls off, or its logarithm, may go where its value
+ * changes. */
 static double
 reach_of(const qdot_instruction *i, const double *value, const double *radius)
 {
@@ -249,27 +253,131 @@ reach_of(const qdot_instruction *i, const double *value, const double *radius)
 
         return part < 1 ? -log1p(-part) : NAN;
     }
-    case QDOT_OP_TANH: return a - ra > saturated ? 0 : ra;
+    case QDOT_OP_TANH: return fmin(ra, fmax(0, saturated - (a - ra)));
     default: return ra;
     }
 }
 
-double
-qdot_disc_reach(const qdot_tape *tape, qdot_disc_hiding by, const double *c, const double *r,
-                double *work)
+size_t
+qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double *c, const double *r,
+                 double most, size_t *last, double *work)
 {
-    double *radius = work + tape->places, reach = 0;
+    double *radius = work + tape->places;
+    size_t found = 0;
 
     load(tape, c, r, work);
     for (size_t k = 0; k < tape->length; k++) {
         const qdot_instruction *i = tape->code + k;
 
-        if (falls_off(i->op, by)) {
-            const double far = reach_of(i, work, radius);
-
-            reach = far >= 0 ? fmax(reach, far) : INFINITY;
+        if (falls_off(i->op, by) && !(reach_of(i, work, radius) <= most)) {
+            *last = k;
+            found++;
         }
         step(i, work, radius);
     }
-    return reach;
+    return found;
+}
+
+typedef struct {
+    double c, r;
+} disc;
+
+static disc
+product(disc a, disc b)
+{
+    return (disc){a.c * b.c, of_product(a.c, a.r, b.c, b.r)};
+}
+
+static disc
+sum(disc a, disc b)
+{
+    return (disc){a.c + b.c, a.r + b.r};
+}
+
+static disc
+negative(disc a)
+{
+    return (disc){-a.c, a.r};
+}
+
+static bool
+is_nothing(disc a)
+{
+    return a.c == 0 && a.r == 0;
+}
+
+/* The multiple of f in the result of an operation, from those B in its operands, whose values are x;
+ * false if it is none. */
+static bool
+multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
+{
+    const bool a = !is_nothing(B[0]), b = !is_nothing(B[1]), c = !is_nothing(B[2]);
+    const disc ab = a ? product(B[0], x[1]) : b ? product(B[1], x[0]) : (disc){0};
+
+    *of = (disc){0};
+    if (!a && !b && !c)
+        return true;
+    switch (op) {
+    case QDOT_OP_NEG: *of = negative(B[0]); return true;
+    case QDOT_OP_ADD: *of = sum(B[0], B[1]); return true;
+    case QDOT_OP_SUB: *of = sum(B[0], negative(B[1])); return true;
+    case QDOT_OP_MUL: *of = ab; return !(a && b);
+    case QDOT_OP_MADD: *of = sum(ab, B[2]); return !(a && b);
+    case QDOT_OP_MSUB: *of = sum(ab, negative(B[2])); return !(a && b);
+    case QDOT_OP_NMADD: *of = sum(B[2], negative(ab)); return !(a && b);
+    case QDOT_OP_DIV:
+        of->c = B[0].c / x[1].c;
+        of->r = of_quotient(of->c, B[0].r, x[1].c, x[1].r);
+        return !b;
+    default: return false;
+    }
+}
+
+/* B is far from 0 where its size changes by less than 5 times. */
+static const double far = 1.5;
+
+bool
+qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
+                   double *work)
+{
+    const uint32_t f = tape->code[k].op;
+    double *radius = work + tape->places, *B = radius + tape->places, *RB = B + tape->places;
+
+    if (f != QDOT_OP_TANH && f != QDOT_OP_EXP && f != QDOT_OP_SINH)
+        return false;
+    load(tape, c, r, work);
+    memset(B, 0, 2 * tape->places * sizeof *B);
+    for (size_t j = 0; j < tape->length; j++) {
+        const qdot_instruction *i = tape->code + j;
+        const uint32_t from[3] = {i->x, i->y, i->z};
+        disc of = {1, 0}, multiples[3] = {{0}}, x[3] = {{0}};
+
+        for (int l = 0; l < qdot_operations[i->op].operands; l++) {
+            x[l] = (disc){work[from[l]], radius[from[l]]};
+            multiples[l] = (disc){B[from[l]], RB[from[l]]};
+        }
+        if (j != k && !multiple_of(i->op, multiples, x, &of))
+            return false;
+        step(i, work, radius);
+        B[i->to] = of.c;
+        RB[i->to] = of.r;
+        if (i->op == QDOT_OP_SINCOS)
+            B[i->y] = RB[i->y] = 0;
+    }
+    for (size_t j = 0; j < tape->outputs; j++) {
+        const disc of = {B[tape->output[j]], RB[tape->output[j]]};
+
+        if (!is_nothing(of) && !(fabs(of.c) > far * of.r))
+            return false;
+    }
+    return true;
+}
+
+double
+qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *work)
+{
+    load(tape, x, NULL, work);
+    for (size_t j = 0; j < k; j++)
+        step(tape->code + j, work, work + tape->places);
+    return work[tape->code[k].x];
 }

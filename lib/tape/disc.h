@@ -40,11 +40,20 @@ typedef enum {
 
 bool qdot_disc_may_hide(const qdot_tape *tape, qdot_disc_hiding by);
 
-/* The largest change of the arguments of these operations over the discs c, r [inputs] (of a
- * power and a quotient: of its logarithm; of tanh 0 where it is 1 in doubles): their values may be
- * e^reach times those in the centre.
- * Work as above. */
-double qdot_disc_reach(const qdot_tape *tape, qdot_disc_hiding by, const double *c,
-                       const double *r, double *work);
+/* How many of these operations reach farther than `most` over the discs c, r [inputs]; *last: the
+ * instruction of the last one. The reach is how far the argument may go from the centre (of a power
+ * and a quotient: its logarithm; of tanh as far as it is not 1 in doubles): values may be e^reach
+ * times those in the centre. Work as above. */
+size_t qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double *c,
+                        const double *r, double most, size_t *last, double *work);
+
+/* Whether over the discs all outputs are A + B f: f the result of the instruction k, which grows or
+ * falls with its argument throughout, A and B without f, and B 0 or far from it. On a way on which the
+ * argument only grows the values at its ends then show all that f does. Work as above. */
+bool qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
+                        double *work);
+
+/* The argument of the instruction k at the inputs x. Work as above. */
+double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *work);
 
 #endif

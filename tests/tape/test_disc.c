@@ -212,29 +212,94 @@ what_is_singular_has_no_radius(void **state)
     assert_true(radius_of(QDOT_OP_SIGN, 0, 0, 0, 0) == 0); /* a number */
 }
 
+/* Whether the operation reaches farther than `most`. */
+static bool
+reaches(const qdot_tape *tape, qdot_disc_hiding by, const double *c, const double *r, double most)
+{
+    double *work = malloc(qdot_disc_work(tape) * sizeof *work);
+    size_t last = 9;
+    const size_t found = qdot_disc_hiders(tape, by, c, r, most, &last, work);
+
+    free(work);
+    assert_true(found == 0 || (found == 1 && last == 0));
+    return found == 1;
+}
+
 static void
 tells_how_far_arguments_of_exponentials_go(void **state)
 {
     qdot_pool *pool = qdot_pool_new();
     qdot_tape *wave = lone(pool, QDOT_OP_SIN, false), *fall = lone(pool, QDOT_OP_EXP, false);
     qdot_tape *power = lone(pool, QDOT_OP_POW, false), *quotient = lone(pool, QDOT_OP_DIV, false);
+    qdot_tape *step = lone(pool, QDOT_OP_TANH, false);
     const double c[3] = {2, -50, 0}, r[3] = {0.1, 0, 0}, far[3] = {0, 25, 0};
-    double work[16];
+    const double below[3] = {-1000}, wide[3] = {984};
+    const qdot_disc_hiding by = QDOT_HIDES_EXPONENTIALS;
 
     (void)state;
     assert_false(qdot_disc_may_hide(wave, QDOT_HIDES_QUOTIENTS));
     assert_true(qdot_disc_may_hide(fall, QDOT_HIDES_EXPONENTIALS));
-    assert_true(qdot_disc_reach(wave, QDOT_HIDES_EXPONENTIALS, c, r, work) == 0);
-    assert_true(qdot_disc_reach(fall, QDOT_HIDES_EXPONENTIALS, c, r, work) == 0.1);
-    assert_float_equal(qdot_disc_reach(power, QDOT_HIDES_EXPONENTIALS, c, r, work), 2.5, 1e-12);
+    assert_false(reaches(wave, by, c, r, 0));
+    assert_false(reaches(fall, by, c, r, 0.1));
+    assert_true(reaches(fall, by, c, r, 0.0999));
+    assert_false(reaches(power, by, c, r, 2.5 + 1e-9));
+    assert_true(reaches(power, by, c, r, 2.5 - 1e-9));
     assert_false(qdot_disc_may_hide(quotient, QDOT_HIDES_EXPONENTIALS));
     assert_true(qdot_disc_may_hide(quotient, QDOT_HIDES_QUOTIENTS));
-    assert_float_equal(qdot_disc_reach(quotient, QDOT_HIDES_QUOTIENTS, c, far, work), M_LN2, 1e-12);
+    assert_false(reaches(quotient, QDOT_HIDES_QUOTIENTS, c, far, M_LN2 + 1e-9));
+    assert_true(reaches(quotient, QDOT_HIDES_QUOTIENTS, c, far, M_LN2 - 1e-9));
+    assert_false(reaches(step, by, below, wide, 4)); /* -1984 ... -16, of which 4 count */
+    assert_true(reaches(step, by, below, wide, 3.9));
     qdot_tape_free(wave);
     qdot_tape_free(fall);
     qdot_tape_free(power);
     qdot_tape_free(quotient);
+    qdot_tape_free(step);
     qdot_pool_free(pool);
+}
+
+/* Forms of f = tanh(a), by two other inputs b, c; whether they are plain for b in 1.5 ... 2.5, c about 0. */
+static void
+knows_plain_sums_and_multiples(void **state)
+{
+    const struct {
+        qdot_op op;
+        int x, y, z; /* -1: f */
+        bool plain;
+    } forms[] = {{QDOT_OP_NEG, -1, 0, 0, true},   {QDOT_OP_ADD, 2, -1, 0, true},
+                 {QDOT_OP_SUB, -1, -1, 0, true}, /* no f at all */
+                 {QDOT_OP_MUL, -1, 1, 0, true},   {QDOT_OP_MUL, -1, 2, 0, false},
+                 {QDOT_OP_MUL, -1, -1, 0, false}, {QDOT_OP_DIV, -1, 1, 0, true},
+                 {QDOT_OP_DIV, 1, -1, 0, false},  {QDOT_OP_MADD, 1, -1, 2, true},
+                 {QDOT_OP_NMADD, 1, 1, -1, true}, {QDOT_OP_NMADD, 2, -1, -1, true},
+                 {QDOT_OP_MSUB, 2, -1, 2, false}, {QDOT_OP_EXP, -1, 0, 0, false}};
+    const double c[3] = {0, 2, 0}, r[3] = {50, 0.5, 0.1};
+    double work[64];
+
+    (void)state;
+    for (size_t k = 0; k < sizeof forms / sizeof forms[0]; k++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_tape *tape;
+        qdot_code code;
+        qdot_value f, v, from[3];
+
+        qdot_code_init(&code, pool, 3);
+        f = qdot_code_op(&code, QDOT_OP_TANH, 0, 0, 0);
+        for (int j = 0; j < 3; j++) {
+            const int at = j == 0 ? forms[k].x : j == 1 ? forms[k].y : forms[k].z;
+
+            from[j] = at < 0 ? f : (qdot_value)at;
+        }
+        v = qdot_code_op(&code, forms[k].op, from[0], from[1], from[2]);
+        assert_int_equal(qdot_code_finish(&code, 1, &v, &tape), QDOT_OK);
+        assert_true(qdot_disc_work(tape) <= 64);
+        if (qdot_disc_is_plain(tape, 0, c, r, work) != forms[k].plain)
+            fail_msg("form %zu", k);
+        assert_true(qdot_disc_argument(tape, 0, c, work) == c[0]);
+        qdot_code_clear(&code);
+        qdot_tape_free(tape);
+        qdot_pool_free(pool);
+    }
 }
 
 /* c = a b - a once read, and what is not. */
@@ -266,6 +331,7 @@ main(void)
         cmocka_unit_test(no_operation_leaves_its_disc),
         cmocka_unit_test(what_is_singular_has_no_radius),
         cmocka_unit_test(tells_how_far_arguments_of_exponentials_go),
+        cmocka_unit_test(knows_plain_sums_and_multiples),
         cmocka_unit_test(knows_what_is_read),
     };
 

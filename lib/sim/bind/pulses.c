@@ -1,6 +1,7 @@
 /* pulses.c -- a step halved until its equations are known between the points looked at. */
 #include "sim/bind/pulses.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -72,6 +73,13 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     return QDOT_OK;
 }
 
+/* What the mean velocity of coordinate i is beyond that of the ends. */
+static double
+bend_of(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
+{
+    return (s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (s->from[p->n + i] + s->to[p->n + i]);
+}
+
 /* The cubic through both ends, and its slope. */
 static void
 interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y)
@@ -81,7 +89,7 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
 
     for (size_t i = 0; i < n; i++) {
         const double v0 = s->from[n + i], v1 = s->to[n + i];
-        const double bend = (s->to[i] - s->from[i]) / h - 0.5 * (v0 + v1);
+        const double bend = bend_of(p, s, i);
 
         y[n + i] = v0 * left + v1 * x + 6 * x * left * bend;
         y[i] = s->from[i] +
@@ -270,11 +278,10 @@ is_short(qdot_pulses *p, const qdot_pulses_step *s)
     const size_t n = p->n;
     const double h = fabs(s->b - s->a);
     qdot_polynomial_bounds *bounds = &p->bounds;
+    size_t last;
 
     for (size_t i = 0; i < n; i++) {
-        const double v0 = s->from[n + i], v1 = s->to[n + i];
-        const double bend =
-            fabs((s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (v0 + v1));
+        const double v0 = s->from[n + i], v1 = s->to[n + i], bend = fabs(bend_of(p, s, i));
 
         bounds->centre[i] = 0.5 * (s->from[i] + s->to[i]);
         bounds->radius[i] = h * (fmax(fabs(v0), fabs(v1)) + 2 * bend);
@@ -283,8 +290,88 @@ is_short(qdot_pulses *p, const qdot_pulses_step *s)
     }
     bounds->centre[2 * n] = 0.5 * (s->a + s->b);
     bounds->radius[2 * n] = 0.5 * h;
-    return qdot_disc_reach(p->tape, p->hiding, bounds->centre, bounds->radius,
-                           bounds->work) <= short_reach;
+    return qdot_disc_hiders(p->tape, p->hiding, bounds->centre, bounds->radius, short_reach,
+                            &last, bounds->work) == 0;
+}
+
+/* The disc about four numbers. */
+static void
+enclose(const double *x, double *centre, double *radius)
+{
+    const double lo = fmin(fmin(x[0], x[1]), fmin(x[2], x[3])),
+                 hi = fmax(fmax(x[0], x[1]), fmax(x[2], x[3]));
+
+    *centre = 0.5 * (lo + hi);
+    *radius = 0.5 * (hi - lo) + 4 * DBL_EPSILON * fmax(fabs(lo), fabs(hi));
+}
+
+/* Discs about the cubics and their slopes, by their control points. */
+static void
+enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    const size_t n = p->n;
+    const double third = (s->b - s->a) / 3;
+    qdot_polynomial_bounds *bounds = &p->bounds;
+
+    for (size_t i = 0; i < n; i++) {
+        const double x0 = s->from[i], x1 = s->to[i], v0 = s->from[n + i], v1 = s->to[n + i];
+        const double between = 0.5 * (v0 + v1) + 3 * bend_of(p, s, i);
+
+        enclose((double[]){x0, x0 + third * v0, x1 - third * v1, x1}, bounds->centre + i,
+                bounds->radius + i);
+        enclose((double[]){v0, between, between, v1}, bounds->centre + n + i,
+                bounds->radius + n + i);
+    }
+}
+
+/* Whether the polynomial by Chebyshev's coefficients goes one way: on all of its parts. */
+static bool
+is_one_way(const double *slope, int depth)
+{
+    double parts[2][FEW - 1];
+
+    if (qdot_chebyshev_sign(FEW - 1, slope) != 0)
+        return true;
+    if (depth == 0)
+        return false;
+    qdot_chebyshev_halves(FEW - 1, slope, parts[0], parts[1]);
+    return is_one_way(parts[0], depth - 1) && is_one_way(parts[1], depth - 1);
+}
+
+/* Whether the argument of instruction k goes one way in the step. */
+static bool
+goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
+{
+    enum { depth = 4 };
+    double values[FEW], c[FEW], slope[FEW];
+
+    for (int j = 0; j < FEW; j++) {
+        p->in[2 * p->n] = time_at(s->a, s->b, FEW, j);
+        interpolate(p, s, p->in[2 * p->n], p->in);
+        values[j] = qdot_disc_argument(p->tape, k, p->in, p->bounds.work);
+    }
+    qdot_chebyshev_fit(FEW, values, c);
+    qdot_chebyshev_derivative(FEW, c, slope);
+    return qdot_chebyshev_tail(FEW, c) <= nothing * qdot_chebyshev_spread(FEW, c) &&
+           is_one_way(slope, depth);
+}
+
+/* Whether nothing falls off or rises on the way of the step but one function that grows with its
+ * argument, of which forces are a multiple, and the argument goes one way: what it does is seen at
+ * the step's ends. */
+static bool
+shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    qdot_polynomial_bounds *bounds = &p->bounds;
+    size_t found, k;
+
+    enclose_cubics(p, s);
+    found = qdot_disc_hiders(p->tape, p->hiding, bounds->centre, bounds->radius,
+                             0.5 * short_reach, &k, bounds->work);
+    return found == 0 ||
+           (found == 1 &&
+            qdot_disc_is_plain(p->tape, k, bounds->centre, bounds->radius, bounds->work) &&
+            goes_one_way(p, s, k));
 }
 
 /* What of output i is missed, over as much as may be. */
@@ -301,7 +388,7 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     bool finite, all;
 
     s->missed = false;
-    if (is_short(p, s))
+    if (is_short(p, s) || (!s->read && shows_at_ends(p, s)))
         return QDOT_OK;
     qdot_polynomial_bounds_begin(&p->bounds);
     memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
