@@ -6,8 +6,12 @@ library_sources = \
 	lib/api/system.c \
 	lib/api/values.c \
 	lib/base/interrupt.c \
+	lib/base/items.c \
+	lib/base/mates.c \
 	lib/base/memory.c \
+	lib/base/mpi.c \
 	lib/base/progress.c \
+	lib/base/ranks.c \
 	lib/base/scope.c \
 	lib/base/spelling.c \
 	lib/base/status.c \
@@ -148,6 +152,7 @@ library_sources = \
 	lib/lang/runs/sweep-file.c \
 	lib/lang/runs/sweep-lanes.c \
 	lib/lang/runs/sweep-plan.c \
+	lib/lang/runs/sweep-ranks.c \
 	lib/lang/runs/sweep-rows.c \
 	lib/lang/runs/sweep.c \
 	lib/lang/runs/trial.c \
@@ -598,8 +603,11 @@ library_headers = \
 	lib/api/system.h \
 	lib/base/clock.h \
 	lib/base/interrupt.h \
+	lib/base/items.h \
 	lib/base/memory.h \
+	lib/base/mpi.h \
 	lib/base/progress.h \
+	lib/base/ranks.h \
 	lib/base/scope.h \
 	lib/base/spelling.h \
 	lib/base/status.h \
@@ -607,6 +615,7 @@ library_headers = \
 	lib/base/text.h \
 	lib/base/threads.h \
 	lib/base/utf8.h \
+	lib/base/workers-parts.h \
 	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
@@ -700,6 +709,7 @@ library_headers = \
 	lib/lang/runs/sweep-file.h \
 	lib/lang/runs/sweep-lanes.h \
 	lib/lang/runs/sweep-parts.h \
+	lib/lang/runs/sweep-ranks.h \
 	lib/lang/runs/trial.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
