@@ -1875,6 +1875,7 @@ meta_tests = \
 	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
+	tests/meta/ranks.test \
 	tests/meta/sources.test \
 	tests/meta/symbols.test \
 	tests/meta/words.test
@@ -2576,6 +2577,7 @@ other_files = \
 	bench/peers/stiff.c \
 	bench/peers/table.awk \
 	bench/pendulum-run.lag \
+	bench/ranks/kills \
 	bench/run \
 	bench/stiff \
 	bench/symbolic/ginac-peer.cc \

@@ -50,6 +50,9 @@ static const char usage[] =
 
 static const char version[] =
     "qdot " PACKAGE_VERSION "\n"
+#ifdef HAVE_MPI
+    "With OpenMPI: mpirun -n RANKS qdot FILE divides sweeps among its ranks.\n"
+#endif
     "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>.\n"
     "This is free software: you are free to change and redistribute it.\n"
     "There is NO WARRANTY, to the extent permitted by law.\n";

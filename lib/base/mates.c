@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/ranks.h"
 #include "base/workers-parts.h"
+#include "base/workers.h"
 
 /* A message to each and one from it take rank 0 some microseconds: with many ranks chunks are
  * longer, so that it does a few thousand a second. */
@@ -14,7 +15,7 @@ enum { MOST_CHUNK = 1 << 20 };
 
 struct qdot_mate {
     qdot_hand hand;
-    bool ready;
+    bool ready, lost;
     size_t workers;
 };
 
@@ -56,6 +57,8 @@ give(qdot_crew *c, size_t rank)
     qdot_mate *m = &c->mates[rank];
     const double seconds = fmax(chunk_seconds, seconds_a_rank * (double)c->ready);
 
+    if (m->hand.n == 0)
+        qdot_ranks_expect(rank);
     while (m->ready && m->hand.n < 2) {
         const qdot_items_chunk r =
             qdot_hand_out(c, &m->hand, seconds * (double)m->workers, MOST_CHUNK);
@@ -75,6 +78,7 @@ hear(qdot_crew *c, const qdot_rank_message *m)
     ready r;
     answer a;
 
+    mate->lost = false;
     if (m->what == QDOT_RANK_READY && m->bytes.n == sizeof r) {
         memcpy(&r, at, sizeof r);
         if (r.number == c->number && !mate->ready) {
@@ -100,8 +104,10 @@ miss(qdot_crew *c)
         return QDOT_OK;
     c->looked = now;
     for (size_t i = 1; i < qdot_ranks_count(); i++)
-        if (c->mates[i].ready && c->mates[i].hand.n > 0 && qdot_ranks_is_lost(i))
+        if (c->mates[i].hand.n > 0 && qdot_ranks_is_lost(i)) {
+            c->mates[i].lost = true;
             QDOT_TRY(qdot_hand_drop(c, &c->mates[i].hand));
+        }
     return QDOT_OK;
 }
 
@@ -121,7 +127,7 @@ qdot_mates_serve(qdot_crew *c)
     QDOT_TRY(status);
     QDOT_TRY(miss(c));
     for (size_t i = 1; i < qdot_ranks_count() && c->items.again.n > 0; i++)
-        if (c->mates[i].hand.n == 0 && !qdot_ranks_is_lost(i))
+        if (c->mates[i].hand.n == 0 && !c->mates[i].lost)
             give(c, i);
     return QDOT_OK;
 }
@@ -143,6 +149,8 @@ qdot_mates_take(qdot_crew *c, bool *over)
     qdot_status status = QDOT_OK;
     chunk r;
 
+    if (c->items.left > 0)
+        qdot_ranks_beat();
     while (status == QDOT_OK && !(*over = qdot_ranks_has_shared()) && qdot_ranks_next(&m)) {
         if (m.what != QDOT_RANK_CHUNK || m.bytes.n != sizeof r)
             continue;

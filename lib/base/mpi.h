@@ -2,7 +2,7 @@
  *
  * Bytes that are sent go on while others are; what has come is asked for, never waited for.
  *
- * Tests  tests/script/ranks.sh
+ * Tests  tests/meta/ranks.test
  */
 #ifndef QDOT_BASE_MPI_H
 #define QDOT_BASE_MPI_H

@@ -133,8 +133,10 @@ set_sentinel(void)
         do
             n = read(ends[0], &c, 1);
         while (n < 0 && errno == EINTR);
-        if (n == 0)
+        if (n == 0) {
+            sleep(3); /* without recovery it ends by itself */
             kill(parent, SIGTERM);
+        }
         _exit(0);
     }
     close(ends[0]);
@@ -229,9 +231,20 @@ look(size_t *from, int *what)
         leave();
     if (come && ranks.mine == 0)
         ranks.heard[*from] = qdot_wall_now();
-    if (ranks.mine > 0 && qdot_wall_now() - ranks.beaten >= beat)
-        qdot_ranks_send(0, QDOT_RANK_ALIVE, "", 0);
     return come;
+}
+
+void
+qdot_ranks_beat(void)
+{
+    if (qdot_wall_now() - ranks.beaten >= beat)
+        qdot_ranks_send(0, QDOT_RANK_ALIVE, "", 0);
+}
+
+void
+qdot_ranks_expect(size_t rank)
+{
+    ranks.heard[rank] = qdot_wall_now();
 }
 
 bool

@@ -8,7 +8,7 @@
  * Messages of one rank to another come in their order. Those to rank 0 are short (QDOT_RANKS_SHORT): a
  * long one needs its sender until all of it has come, and a sender may die.
  *
- * Tests  tests/script/ranks.sh
+ * Tests  tests/meta/ranks.test
  */
 #ifndef QDOT_BASE_RANKS_H
 #define QDOT_BASE_RANKS_H
@@ -48,13 +48,17 @@ size_t qdot_rank(void);
 /* Send bytes [n], which are copied. */
 void qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n);
 /* The next message that has come, if there is one; m->bytes is emptied or filled. Not rank 0: ends
- * this process if rank 0 has said so. A rank that waits calls this again and again; then rank 0 knows
- * that it lives. */
+ * this process if rank 0 has said so. */
 bool qdot_ranks_next(qdot_rank_message *m);
 /* Whether what rank 0 shares has come next. */
 bool qdot_ranks_has_shared(void);
-/* Rank 0: whether that rank is dead, as this machine knows, or has been silent for seconds. */
+/* A rank that has work says so again and again: it sends a sign of life if it has sent nothing for a
+ * second. */
+void qdot_ranks_beat(void);
+/* Rank 0: whether that rank is dead, as this machine knows, or has been silent for some seconds; these
+ * begin when it is given work, if not later. */
 bool qdot_ranks_is_lost(size_t rank);
+void qdot_ranks_expect(size_t rank);
 
 /* What rank 0 has read, or found out: there `text` is sent to all others, which wait for it and have
  * then the same text and the same failure. Returns the status of rank 0. */

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/items.h"
-#include "base/workers.h"
+#include "base/text.h"
 
 /* The head of each answer; the bytes follow. n QDOT_NO_ANSWER: two workers died of the item. */
 typedef struct {
@@ -29,7 +29,7 @@ typedef struct {
 typedef struct qdot_mate qdot_mate;
 
 typedef struct qdot_crew {
-    const qdot_workers_job *job;
+    const struct qdot_workers_job *job; /* base/workers.h */
     struct qdot_worker *workers; /* [job->workers] */
     qdot_items items;
     qdot_mate *mates; /* rank 0: [ranks] */

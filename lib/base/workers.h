@@ -9,14 +9,14 @@
  * rank 0 hands out chunks to all, of a quarter of a second or more. What a rank that is lost has not
  * answered is done by others.
  *
- * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh, tests/script/ranks.sh
+ * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh, tests/meta/ranks.test
  */
 #ifndef QDOT_BASE_WORKERS_H
 #define QDOT_BASE_WORKERS_H
 
 #include "base/text.h"
 
-typedef struct {
+typedef struct qdot_workers_job {
     size_t first, end; /* the items first ... end - 1 */
     const bool *skip;  /* [end] items that are not to be done; NULL: all are */
     size_t workers;    /* at least 1 */

@@ -3,7 +3,7 @@
  * All of them begin it and make rows (base/workers.h). Rank 0 alone has the file of the rows, and
  * shares them at the end: so each rank goes on with the same table.
  *
- * Tests  tests/script/ranks.sh
+ * Tests  tests/meta/ranks.test
  */
 #ifndef QDOT_LANG_SWEEP_RANKS_H
 #define QDOT_LANG_SWEEP_RANKS_H
