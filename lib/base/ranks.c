@@ -19,6 +19,7 @@
 static const double beat = 1;     /* seconds between two signs of life */
 static const double patience = 5; /* a rank that waits or works is silent no longer */
 static const double longest = 30; /* one that computes for itself may be, at the end */
+enum { GATHERING = 120 };         /* seconds until all ranks must have begun */
 enum { PIECE = 1 << 26 };         /* bytes of a message at most */
 
 /* A process as one machine knows it. */
@@ -143,6 +144,16 @@ set_sentinel(void)
     ranks.sentinel = ends[1];
 }
 
+/* MPI's own beginning waits for all, and for ever for one that has died. The sentinel ends the others. */
+static void
+give_up(int signal_number)
+{
+    static const char text[] = "qdot: the other ranks have not begun within two minutes\n";
+
+    (void)signal_number;
+    _exit(write(STDERR_FILENO, text, sizeof text - 1) < 0 ? 2 : 1);
+}
+
 static qdot_status
 look_around(size_t *kind)
 {
@@ -175,8 +186,11 @@ qdot_ranks_begin(size_t *kind)
     if (ours != NULL && atol(ours) == 1)
         return QDOT_OK;
     set_sentinel();
+    if (ranks.sentinel >= 0 && signal(SIGALRM, give_up) != SIG_ERR)
+        alarm(GATHERING);
     QDOT_TRY(qdot_mpi_begin(&ranks.count, &ranks.mine));
     QDOT_TRY(look_around(kind));
+    alarm(0);
     if (ranks.places[ranks.mine].digits == ranks.places[0].digits)
         return QDOT_OK;
     fprintf(stderr, "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
