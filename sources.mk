@@ -6,8 +6,12 @@ library_sources = \
 	lib/api/system.c \
 	lib/api/values.c \
 	lib/base/interrupt.c \
+	lib/base/items.c \
+	lib/base/mates.c \
 	lib/base/memory.c \
+	lib/base/mpi.c \
 	lib/base/progress.c \
+	lib/base/ranks.c \
 	lib/base/scope.c \
 	lib/base/spelling.c \
 	lib/base/status.c \
@@ -169,6 +173,7 @@ library_sources = \
 	lib/lang/sweeps/sweep-file.c \
 	lib/lang/sweeps/sweep-lanes.c \
 	lib/lang/sweeps/sweep-plan.c \
+	lib/lang/sweeps/sweep-ranks.c \
 	lib/lang/sweeps/sweep-rows.c \
 	lib/lang/sweeps/sweep.c \
 	lib/lang/unknowns/branches.c \
@@ -599,8 +604,11 @@ library_headers = \
 	lib/api/system.h \
 	lib/base/clock.h \
 	lib/base/interrupt.h \
+	lib/base/items.h \
 	lib/base/memory.h \
+	lib/base/mpi.h \
 	lib/base/progress.h \
+	lib/base/ranks.h \
 	lib/base/scope.h \
 	lib/base/spelling.h \
 	lib/base/status.h \
@@ -608,6 +616,7 @@ library_headers = \
 	lib/base/text.h \
 	lib/base/threads.h \
 	lib/base/utf8.h \
+	lib/base/workers-parts.h \
 	lib/base/workers.h \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
@@ -726,6 +735,7 @@ library_headers = \
 	lib/lang/sweeps/sweep-file.h \
 	lib/lang/sweeps/sweep-lanes.h \
 	lib/lang/sweeps/sweep-parts.h \
+	lib/lang/sweeps/sweep-ranks.h \
 	lib/lang/unknowns/branches.h \
 	lib/lang/unknowns/find-parts.h \
 	lib/lang/unknowns/fit-parts.h \
@@ -1866,6 +1876,7 @@ meta_tests = \
 	tests/meta/late.test \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
+	tests/meta/ranks.test \
 	tests/meta/sources.test \
 	tests/meta/symbols.test \
 	tests/meta/words.test
@@ -2567,6 +2578,7 @@ other_files = \
 	bench/peers/stiff.c \
 	bench/peers/table.awk \
 	bench/pendulum-run.lag \
+	bench/ranks/kills \
 	bench/run \
 	bench/stiff \
 	bench/symbolic/ginac-peer.cc \

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/ranks.h"
 #include "base/terminal.h"
 #include "lang/workbench/script.h"
 #include "num/kinds.h"
@@ -49,6 +50,9 @@ static const char usage[] =
 
 static const char version[] =
     "qdot " PACKAGE_VERSION "\n"
+#ifdef HAVE_MPI
+    "With OpenMPI: mpirun -n RANKS qdot FILE divides sweeps among its ranks.\n"
+#endif
     "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>.\n"
     "This is free software: you are free to change and redistribute it.\n"
     "There is NO WARRANTY, to the extent permitted by law.\n";
@@ -133,7 +137,7 @@ read_options(int argc, char **argv, options *o)
 static qdot_style
 style_here(void)
 {
-    return isatty(STDOUT_FILENO) && strcmp(nl_langinfo(CODESET), "UTF-8") == 0
+    return qdot_terminal_is(stdout) && strcmp(nl_langinfo(CODESET), "UTF-8") == 0
                ? QDOT_UNICODE
                : QDOT_PLAIN;
 }
@@ -153,7 +157,7 @@ carry_out(qdot_session *session, const options *o)
     }
     if ((o->tasks.n > 0 && !o->interactive) || session->quit)
         return status;
-    if (isatty(STDIN_FILENO)) {
+    if (qdot_terminal_is(stdin)) {
         qdot_prompt_run(session, !o->quiet, !o->no_init);
     } else {
         int last;
@@ -196,6 +200,38 @@ keep_memory(void)
 #endif
 }
 
+/* If mpirun started this process, be one of its ranks. */
+static qdot_status
+join_ranks(const options *o)
+{
+    size_t kind = 2;
+    const qdot_error *error = qdot_last_error();
+
+    while (!qdot_kind_is_here(kind))
+        kind--;
+    if (qdot_ranks_begin(&kind) != QDOT_OK) {
+        fprintf(stderr, "qdot: %s\n", error->message);
+        if (error->hint[0] != '\0')
+            fprintf(stderr, "hint: %s\n", error->hint);
+        return error->status;
+    }
+    qdot_kind_limit(kind);
+    if (qdot_ranks_count() == 1 || !o->interactive)
+        return QDOT_OK;
+    if (qdot_rank() == 0)
+        fputs("qdot: several ranks have no prompt: give them a script\n", stderr);
+    return QDOT_EINVAL;
+}
+
+/* Of a rank whose answers rank 0 gives. */
+static qdot_session *
+unheard_session(void)
+{
+    FILE *nowhere = fopen("/dev/null", "w");
+
+    return nowhere != NULL ? qdot_session_new(nowhere, nowhere) : NULL;
+}
+
 int
 main(int argc, char **argv)
 {
@@ -206,7 +242,7 @@ main(int argc, char **argv)
     keep_memory();
     /* for a terminal, which asks for it; reading a locale takes as long as a short script. No other
      * category: numbers stay as in C */
-    if (isatty(STDIN_FILENO) || isatty(STDOUT_FILENO))
+    if (qdot_terminal_is(stdin) || qdot_terminal_is(stdout))
         setlocale(LC_CTYPE, "");
     if (read_options(argc, argv, &o) != QDOT_OK) {
         qdot_free(o.tasks.at);
@@ -217,11 +253,15 @@ main(int argc, char **argv)
         fputs(o.print, stdout);
         return finish(DONE);
     }
-    session = qdot_session_new(stdout, stderr);
+    if (join_ranks(&o) != QDOT_OK) {
+        qdot_free(o.tasks.at);
+        return qdot_ranks_end(FAILED);
+    }
+    session = qdot_rank() == 0 ? qdot_session_new(stdout, stderr) : unheard_session();
     if (session == NULL) {
         fputs("qdot: out of memory\n", stderr);
         qdot_free(o.tasks.at);
-        return FAILED;
+        return qdot_ranks_end(FAILED);
     }
     session->json = o.json;
     if (!o.json && qdot_terminal_has_colours(stdout))
@@ -229,11 +269,11 @@ main(int argc, char **argv)
     if (qdot_terminal_has_colours(stderr))
         session->colours |= QDOT_COLOURS_ERRORS;
     session->style = o.json ? QDOT_PLAIN : style_here();
-    if (isatty(STDERR_FILENO) && !o.json)
+    if (qdot_terminal_is(stderr) && !o.json)
         qdot_progress_line_install();
     qdot_signals_install();
     status = carry_out(session, &o);
     qdot_session_free(session);
     qdot_free(o.tasks.at);
-    return finish(status);
+    return qdot_ranks_end(finish(status));
 }

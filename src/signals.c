@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
+#include "base/ranks.h"
 
 static volatile sig_atomic_t computing = 1, patient;
 
@@ -36,7 +37,11 @@ qdot_signals_install(void)
 
     /* No SA_RESTART: what waits for input or for gnuplot is to look up. */
     sigemptyset(&action.sa_mask);
+    if (qdot_rank() > 0)
+        action.sa_handler = SIG_IGN; /* rank 0 ends it */
     sigaction(SIGINT, &action, NULL);
+    if (qdot_rank() == 0 && qdot_ranks_count() > 1)
+        sigaction(SIGTERM, &action, NULL); /* mpirun ends all, and gives a second to do so */
 }
 
 void

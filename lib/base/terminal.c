@@ -6,13 +6,23 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/ranks.h"
+
+bool
+qdot_terminal_is(const FILE *stream)
+{
+    const int file = fileno((FILE *)stream);
+
+    return file >= 0 && isatty(file) && !qdot_ranks_are_there();
+}
+
 bool
 qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows)
 {
     const int file = fileno((FILE *)stream);
     struct winsize size = {0};
 
-    if (file < 0 || !isatty(file))
+    if (!qdot_terminal_is(stream))
         return false;
     if (ioctl(file, TIOCGWINSZ, &size) != 0)
         size = (struct winsize){0};
@@ -24,9 +34,8 @@ qdot_terminal_size(const FILE *stream, size_t *columns, size_t *rows)
 bool
 qdot_terminal_has_colours(FILE *stream)
 {
-    const int file = fileno(stream);
     const char *term = getenv("TERM"), *no = getenv("NO_COLOR");
 
-    return file >= 0 && isatty(file) && term != NULL && term[0] != '\0' &&
+    return qdot_terminal_is(stream) && term != NULL && term[0] != '\0' &&
            strcmp(term, "dumb") != 0 && (no == NULL || no[0] == '\0');
 }

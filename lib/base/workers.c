@@ -10,42 +10,32 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/ranks.h"
 #include "base/threads.h"
+#include "base/workers-parts.h"
 
 bool qdot_threads_are_taken;
 
 static const double chunk_seconds = 0.02;
 enum { MOST_CHUNK = 4096, READ = 65536 };
 
-/* What a worker is asked for, and the head of each answer; the bytes follow. */
-typedef struct {
-    uint64_t first, count;
-} request;
-typedef struct {
-    uint64_t item, n;
-} head;
+typedef qdot_items_chunk request; /* what a worker is asked for */
 
-typedef struct {
+typedef struct qdot_worker {
     pid_t pid;
-    int ask, answer;    /* pipes; -1: it has ended */
-    size_t next, end;   /* items of its chunk not answered yet */
-    qdot_text come;     /* bytes of answers not complete yet */
+    int ask, answer; /* pipes; -1: it has ended */
+    qdot_hand hand;
 } worker;
-
-typedef struct {
-    const qdot_workers_job *job;
-    worker *workers; /* [job->workers] */
-    size_t next;     /* item not handed out yet */
-    size_t left;     /* items without answer */
-    qdot_vec(size_t) again; /* items whose worker died */
-    bool *failed;    /* [items] of which a worker has died */
-} crew;
 
 size_t
 qdot_workers_processors(void)
@@ -97,24 +87,28 @@ read_all(int from, void *bytes, size_t n)
 }
 
 /* Until there is nothing more to do. Ctrl-C is for the process that began the work, which ends its
- * workers. */
+ * workers; they end with it, however it ends. */
 static void
 serve(const qdot_workers_job *job, int ask, int answer)
 {
     qdot_text text = {0};
     request r;
 
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
     signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_DFL);
     qdot_progress_open = NULL;
-    qdot_threads_are_taken = job->workers >= qdot_workers_processors();
+    qdot_threads_are_taken = qdot_ranks_are_there() || job->workers >= qdot_workers_processors();
     while (read_all(ask, &r, sizeof r)) {
         if (job->begin)
-            job->begin((size_t)r.first, (size_t)r.count, job->user);
-        for (uint64_t k = r.first; k < r.first + r.count; k++) {
-            head h = {.item = k};
+            job->begin(r.first, r.count, job->user);
+        for (size_t k = r.first; k < r.first + r.count; k++) {
+            qdot_answer_head h = {.item = k};
 
             qdot_text_truncate(&text, 0);
-            job->work((size_t)k, &text, job->user);
+            job->work(k, &text, job->user);
             h.n = text.n;
             if (qdot_text_status(&text) != QDOT_OK || !write_all(answer, &h, sizeof h)
                 || !write_all(answer, text.at, text.n))
@@ -125,11 +119,11 @@ serve(const qdot_workers_job *job, int ask, int answer)
 }
 
 static bool
-start(crew *c, worker *w)
+start(qdot_crew *c, worker *w)
 {
     int ask[2], answer[2];
 
-    *w = (worker){.ask = -1, .answer = -1};
+    *w = (worker){.ask = -1, .answer = -1, .hand.seconds = c->job->seconds};
     if (pipe(ask) != 0)
         return false;
     if (pipe(answer) != 0) {
@@ -173,101 +167,146 @@ end(worker *w, bool at_once)
     while (waitpid(w->pid, NULL, 0) < 0 && errno == EINTR)
         ;
     w->pid = 0;
-    qdot_text_clear(&w->come);
+    qdot_text_clear(&w->hand.come);
+}
+
+/* --- chunks and answers ----------------------------------------------------------------- */
+
+qdot_items_chunk
+qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most)
+{
+    const double hands = (double)(c->job->workers + c->ready);
+    const double share = (double)(c->items.end - c->items.next) / (2 * hands);
+    const double few = h->seconds > 0 ? seconds / h->seconds : 1;
+    double n = fmax(few, (double)c->job->least);
+    qdot_items_chunk r;
+
+    if (c->items.again.n == 0)
+        n = fmin(n, share);
+    r = qdot_items_take(&c->items, fmin(n, (double)most));
+    if (r.count == 0)
+        return r;
+    if (h->n == 0)
+        h->since = qdot_wall_now();
+    h->has[h->n] = r;
+    h->left[h->n++] = r.count;
+    return r;
+}
+
+/* It has answered one of its items. The time of a chunk is known when it is done. */
+static void
+note(qdot_hand *h, size_t k)
+{
+    double now, seconds;
+
+    for (size_t i = 0; i < h->n; i++) {
+        if (k < h->has[i].first || k - h->has[i].first >= h->has[i].count || --h->left[i] > 0)
+            continue;
+        now = qdot_wall_now();
+        seconds = (now - h->since) / (double)h->has[i].count;
+        h->seconds = h->seconds > 0 ? (h->seconds + seconds) / 2 : seconds;
+        h->since = now;
+        if (--h->n > i) {
+            h->has[i] = h->has[i + 1];
+            h->left[i] = h->left[i + 1];
+        }
+        return;
+    }
+}
+
+qdot_status
+qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes, size_t n)
+{
+    const qdot_answer_head h = {.item = k, .n = bytes != NULL ? n : QDOT_NO_ANSWER};
+
+    if (!qdot_items_answer(&c->items, k))
+        return QDOT_OK; /* of one that was thought lost */
+    if (qdot_rank() == 0)
+        return c->job->done(k, bytes, n, c->job->user);
+    qdot_text_add_n(&c->out, (const char *)&h, sizeof h);
+    if (bytes != NULL)
+        qdot_text_add_n(&c->out, bytes, n);
+    return qdot_mates_send(c, false);
+}
+
+qdot_status
+qdot_hand_take(qdot_crew *c, qdot_hand *hand, const char *bytes, size_t n)
+{
+    qdot_text *come = &hand->come;
+    qdot_answer_head h;
+    size_t at = 0;
+
+    qdot_text_add_n(come, bytes, n);
+    QDOT_TRY(qdot_text_status(come));
+    while (come->n - at >= sizeof h) {
+        memcpy(&h, come->at + at, sizeof h);
+        if (h.n != QDOT_NO_ANSWER && come->n - at - sizeof h < h.n)
+            break;
+        at += sizeof h;
+        if (h.n == QDOT_NO_ANSWER)
+            QDOT_TRY(qdot_crew_answer(c, (size_t)h.item, NULL, 0));
+        else
+            QDOT_TRY(qdot_crew_answer(c, (size_t)h.item, come->at + at, (size_t)h.n));
+        at += h.n != QDOT_NO_ANSWER ? (size_t)h.n : 0;
+        note(hand, (size_t)h.item);
+    }
+    if (at > 0) {
+        memmove(come->at, come->at + at, come->n - at);
+        qdot_text_truncate(come, come->n - at);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_hand_drop(qdot_crew *c, qdot_hand *h)
+{
+    for (; h->n > 0; h->n--)
+        QDOT_TRY(qdot_items_give(&c->items, h->has[h->n - 1]));
+    return QDOT_OK;
 }
 
 /* --- here ----------------------------------------------------------------------------- */
 
-/* The next items that nobody has, at most so many in a row; count 0: there are none. */
-static request
-next_chunk(crew *c, double most)
-{
-    const qdot_workers_job *job = c->job;
-    request r = {.count = 0};
-
-    while (c->next < job->end && job->skip && job->skip[c->next])
-        c->next++;
-    r.first = c->next;
-    while (c->next < job->end && !(job->skip && job->skip[c->next])
-           && (r.count == 0 || (double)r.count + 1 <= most)) {
-        c->next++;
-        r.count++;
-    }
-    return r;
-}
-
-/* A chunk for an idle worker, if there is one: items of a dead one first, one by one. That a worker is
- * dead shows when it is read. */
+/* A chunk for an idle worker, if there is one. That a worker is dead shows when it is read. */
 static void
-hand_out(crew *c, worker *w)
+feed(qdot_crew *c, worker *w)
 {
-    const qdot_workers_job *job = c->job;
-    request r = {.count = 1};
+    request r;
 
-    if (c->again.n > 0) {
-        r.first = c->again.at[--c->again.n];
-    } else {
-        const double share = (double)(job->end - c->next) / (2 * (double)job->workers);
-        const double few = job->seconds > 0 ? chunk_seconds / job->seconds : 1;
-
-        r = next_chunk(c, fmin(fmin(fmax(few, (double)job->least), share), MOST_CHUNK));
-        if (r.count == 0)
-            return;
-    }
-    w->next = (size_t)r.first;
-    w->end = w->next + (size_t)r.count;
-    (void)write_all(w->ask, &r, sizeof r);
-}
-
-/* The answers that have come whole. */
-static qdot_status
-take_answers(crew *c, worker *w)
-{
-    size_t at = 0;
-    head h;
-
-    while (w->come.n - at >= sizeof h) {
-        memcpy(&h, w->come.at + at, sizeof h);
-        if (w->come.n - at - sizeof h < h.n)
-            break;
-        QDOT_TRY(c->job->done((size_t)h.item, w->come.at + at + sizeof h, (size_t)h.n,
-                              c->job->user));
-        at += sizeof h + (size_t)h.n;
-        w->next = (size_t)h.item + 1;
-        c->left--;
-    }
-    if (at > 0) {
-        memmove(w->come.at, w->come.at + at, w->come.n - at);
-        qdot_text_truncate(&w->come, w->come.n - at);
-    }
-    return QDOT_OK;
+    if (w->hand.n > 0 || w->answer < 0)
+        return;
+    r = qdot_hand_out(c, &w->hand, chunk_seconds, MOST_CHUNK);
+    if (r.count > 0)
+        (void)write_all(w->ask, &r, sizeof r);
 }
 
 /* A worker has died: what it had not answered is done again, by another in its place. */
 static qdot_status
-replace(crew *c, worker *w)
+replace(qdot_crew *c, worker *w)
 {
-    const size_t last = w->end;
-    size_t next = w->next;
+    qdot_hand *h = &w->hand;
+    qdot_items_chunk rest = h->has[0];
+    size_t killer;
 
     end(w, true);
-    if (next < last && c->failed[next - c->job->first]) { /* two have died of this one */
-        QDOT_TRY(c->job->done(next++, NULL, 0, c->job->user));
-        c->left--;
-    } else if (next < last) {
-        c->failed[next - c->job->first] = true;
+    if (h->n > 0) {
+        h->n = 0;
+        rest.first += rest.count - h->left[0];
+        rest.count = h->left[0];
+        killer = rest.first;
+        if (!qdot_items_survives(&c->items, killer))
+            QDOT_TRY(qdot_crew_answer(c, killer, NULL, 0));
+        /* one by one: which of them it was shows next time */
+        for (size_t k = rest.first; k < rest.first + rest.count; k++)
+            QDOT_TRY(qdot_items_give(&c->items, (qdot_items_chunk){k, 1}));
     }
-    for (; next < last; next++)
-        QDOT_TRY(qdot_vec_push(&c->again, next));
-    if (c->left > 0 && !start(c, w))
+    if ((c->items.left > 0 || qdot_rank() > 0) && !start(c, w))
         return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
-    if (c->left > 0)
-        hand_out(c, w);
     return QDOT_OK;
 }
 
 static qdot_status
-listen_to(crew *c, worker *w)
+listen_to(qdot_crew *c, worker *w)
 {
     static char bytes[READ];
     const ssize_t n = read(w->answer, bytes, sizeof bytes);
@@ -276,60 +315,80 @@ listen_to(crew *c, worker *w)
         return QDOT_OK;
     if (n <= 0)
         return replace(c, w);
-    qdot_text_add_n(&w->come, bytes, (size_t)n);
-    QDOT_TRY(qdot_text_status(&w->come));
-    QDOT_TRY(take_answers(c, w));
-    qdot_progress_at((double)(c->job->end - c->job->first - c->left));
-    if (w->next == w->end)
-        hand_out(c, w);
+    QDOT_TRY(qdot_hand_take(c, &w->hand, bytes, (size_t)n));
+    if (qdot_rank() > 0)
+        return qdot_mates_send(c, w->hand.n == 0);
+    qdot_progress_at((double)(c->items.end - c->items.first - c->items.left));
     return QDOT_OK;
 }
 
+/* Until all is answered; or, in other ranks, until rank 0 wants no more. */
 static qdot_status
-carry_out(crew *c, struct pollfd *polled)
+carry_out(qdot_crew *c, struct pollfd *polled)
 {
-    while (c->left > 0) {
-        for (size_t i = 0; i < c->job->workers; i++)
+    const int moment = qdot_ranks_count() > 1 ? 1 : 200;
+    bool over = false;
+
+    while (!over && (c->items.left > 0 || qdot_rank() > 0)) {
+        for (size_t i = 0; i < c->job->workers; i++) {
+            feed(c, &c->workers[i]);
             polled[i] = (struct pollfd){.fd = c->workers[i].answer, .events = POLLIN};
+        }
         QDOT_TRY(qdot_interrupt_check());
-        if (poll(polled, c->job->workers, 200) < 0 && errno != EINTR)
+        if (poll(polled, c->job->workers, moment) < 0 && errno != EINTR)
             return qdot_fail(QDOT_EIO, "workers cannot be heard: %s", strerror(errno));
         for (size_t i = 0; i < c->job->workers; i++)
             if (polled[i].fd >= 0 && (polled[i].revents & (POLLIN | POLLHUP | POLLERR)))
                 QDOT_TRY(listen_to(c, &c->workers[i]));
+        if (qdot_rank() > 0)
+            QDOT_TRY(qdot_mates_take(c, &over));
+        else
+            QDOT_TRY(qdot_mates_serve(c));
     }
+    return QDOT_OK;
+}
+
+static qdot_status
+start_all(qdot_crew *c)
+{
+    bool over = false;
+
+    for (size_t i = 0; i < c->job->workers; i++)
+        c->workers[i] = (worker){.ask = -1, .answer = -1};
+    QDOT_TRY(qdot_mates_new(c));
+    if (qdot_rank() > 0) {
+        qdot_mates_report(c);
+        QDOT_TRY(qdot_mates_take(c, &over));
+    }
+    for (size_t i = 0; i < c->job->workers && !over; i++)
+        if (!start(c, &c->workers[i]))
+            return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     return QDOT_OK;
 }
 
 qdot_status
 qdot_workers_run(const qdot_workers_job *job)
 {
-    crew c = {.job = job, .next = job->first};
+    static uint64_t number;
+    qdot_crew c = {.job = job, .number = ++number};
     struct pollfd *polled = qdot_calloc(job->workers, sizeof *polled);
     void (*before)(int) = signal(SIGPIPE, SIG_IGN);
     qdot_status status;
 
-    for (size_t k = job->first; k < job->end; k++)
-        c.left += !(job->skip && job->skip[k]);
     c.workers = qdot_calloc(job->workers, sizeof *c.workers);
-    c.failed = qdot_calloc(job->end - job->first + 1, sizeof *c.failed);
-    status = polled && c.workers && c.failed ? QDOT_OK : QDOT_ENOMEM;
+    status = qdot_items_new(&c.items, job->first, job->end, job->skip, qdot_rank() == 0);
+    if (status == QDOT_OK && !(polled && c.workers))
+        status = QDOT_ENOMEM;
     fflush(NULL); /* what waits to be written is written once */
-    for (size_t i = 0; i < job->workers && status == QDOT_OK; i++)
-        c.workers[i] = (worker){.ask = -1, .answer = -1};
-    for (size_t i = 0; i < job->workers && status == QDOT_OK; i++) {
-        if (!start(&c, &c.workers[i]))
-            status = qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
-        else
-            hand_out(&c, &c.workers[i]);
-    }
+    if (status == QDOT_OK)
+        status = start_all(&c);
     if (status == QDOT_OK)
         status = carry_out(&c, polled);
     for (size_t i = 0; c.workers && i < job->workers; i++)
-        end(&c.workers[i], status != QDOT_OK);
+        end(&c.workers[i], status != QDOT_OK || qdot_rank() > 0);
     signal(SIGPIPE, before);
-    qdot_free(c.again.at);
-    qdot_free(c.failed);
+    qdot_mates_free(&c);
+    qdot_items_free(&c.items);
     qdot_free(c.workers);
     qdot_free(polled);
     return status;

@@ -2,21 +2,25 @@
  *
  * Each worker is a copy of this process as it is when the work begins, so an item finds in it all that
  * it needs, and leaves nothing behind but its answer: some bytes. Items are handed out in chunks that
- * take about a fiftieth of a second. A worker that dies costs the items of its chunk that it had not
- * answered yet; another does them, once.
+ * take about a fiftieth of a second, as the chunks before tell. A worker that dies costs the items of its
+ * chunk that it had not answered yet; another does them, once.
  *
- * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh
+ * Beyond one machine (base/ranks.h) all ranks begin the same work, each with workers of its own, and
+ * rank 0 hands out chunks to all, of a quarter of a second or more. What a rank that is lost has not
+ * answered is done by others.
+ *
+ * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh, tests/meta/ranks.test
  */
 #ifndef QDOT_BASE_WORKERS_H
 #define QDOT_BASE_WORKERS_H
 
 #include "base/text.h"
 
-typedef struct {
+typedef struct qdot_workers_job {
     size_t first, end; /* the items first ... end - 1 */
     const bool *skip;  /* [end] items that are not to be done; NULL: all are */
     size_t workers;    /* at least 1 */
-    double seconds;    /* that an item takes, about; 0: unknown */
+    double seconds;    /* that an item takes, about, to begin with; 0: unknown */
     void *user;
     size_t least;      /* items that are handed out together, where there are so many; 0: 1 */
     /* In a worker: the items first ... first + count - 1 are next; NULL: nobody wants to know. */
@@ -31,7 +35,8 @@ typedef struct {
 /* The processors that this process may use. */
 size_t qdot_workers_processors(void);
 
-/* Do all items. QDOT_EINTR: interrupted; QDOT_EIO: no worker can be started; QDOT_ENOMEM; or as
+/* Do all items. With several ranks: in rank 0; in the others do what rank 0 hands out, until it shares
+ * something; `done` is not called there. QDOT_EINTR: interrupted; QDOT_EIO: no worker can be started; QDOT_ENOMEM; or as
  * `done` returns. All workers have ended when it returns. */
 QDOT_MUST_CHECK qdot_status qdot_workers_run(const qdot_workers_job *job);
 

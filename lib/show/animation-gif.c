@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/ranks.h"
 #include "show/animation.h"
 #include "show/gnuplot.h"
 #include "show/sink.h"
@@ -443,6 +444,8 @@ qdot_animation_gif(const qdot_animation *a, const char *path)
     view w = {.a = a};
     qdot_status status;
 
+    if (qdot_rank() > 0)
+        return QDOT_OK;
     aim(&w);
     QDOT_TRY(fit(&w));
     add_look(&w, 100 * seconds / (pictures - 1), &script);

@@ -1,7 +1,6 @@
 /* csv-read.c -- reads rows of numbers, line by line. */
 #include "show/csv-read.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "base/ranks.h"
 #include "base/utf8.h"
 
 enum { FILE_LIMIT = 1 << 28, SHOWN = 40 };
@@ -324,12 +324,10 @@ qdot_csv_read(const char *path, qdot_csv *csv)
 {
     FILE *file = fopen(path, "rbe");
     qdot_text text = {0};
-    qdot_status status;
+    qdot_status status = qdot_ranks_read(&text, file, path, FILE_LIMIT);
 
-    if (file == NULL)
-        return qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
-    status = qdot_text_read(&text, file, path, FILE_LIMIT);
-    fclose(file);
+    if (file != NULL)
+        fclose(file);
     if (status == QDOT_OK)
         status = qdot_csv_read_text(path, qdot_text_str(&text), text.n, csv);
     qdot_text_clear(&text);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/ranks.h"
 #include "show/figure-parts.h"
 #include "show/gnuplot.h"
 #include "show/sink.h"
@@ -132,6 +133,8 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     qdot_figure_drawing d = {.figure = figure, .script = &script};
     qdot_status status;
 
+    if (qdot_rank() > 0)
+        return QDOT_OK;
     for (size_t i = 0; i < figure->n; i++)
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/interrupt.h"
+#include "base/ranks.h"
 #include "base/text.h"
 #include "show/sink.h"
 
@@ -176,9 +177,12 @@ qdot_status
 qdot_pdf_print(const char *page, size_t length, const char *path)
 {
     qdot_text folder = {0}, file = {0};
-    qdot_status status = make_folder(&folder);
+    qdot_status status;
     qdot_error first;
 
+    if (qdot_rank() > 0)
+        return QDOT_OK;
+    status = make_folder(&folder);
     if (status != QDOT_OK) {
         qdot_text_clear(&folder);
         return status;

@@ -52,7 +52,7 @@ default_path(const qdot_session *session, qdot_text *path)
 static bool
 has_terminal(const qdot_session *session)
 {
-    return !session->json && session->out == stdout && isatty(STDOUT_FILENO);
+    return !session->json && session->out == stdout && qdot_terminal_is(stdout);
 }
 
 /* Every panel in characters, as wide as the terminal. */

@@ -2,10 +2,12 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/ranks.h"
 #include "base/workers.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
+#include "lang/sweeps/sweep-ranks.h"
 #include "num/batch.h"
 
 /* So many members are run, spread over all. */
@@ -89,8 +91,8 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
 {
     const size_t members = s->members.axes.members, n = s->table->n;
     const size_t processors = qdot_workers_processors();
-    const size_t workers = s->threads > 0 ? (size_t)s->threads : processors;
-    const size_t useful = workers < processors ? workers : processors;
+    const size_t workers = qdot_sweep_processes(s), ranks = qdot_ranks_count();
+    const size_t useful = (workers < processors ? workers : processors) * ranks;
     const double megabytes = (double)members * (double)(2 * n * sizeof(double) + 11) / 1e6;
     qdot_text why = {0};
     sample m;
@@ -107,7 +109,8 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
     if (status == QDOT_OK) {
         tell_members(s, text);
         tell_way(s, &m, qdot_text_str(&why), text);
-        qdot_text_format(text, "processes: %zu\n", workers);
+        qdot_text_format(text, "processes: %zu", workers);
+        qdot_text_format(text, ranks > 1 ? " in each of %zu ranks\n" : "\n", ranks);
         qdot_text_format(text, "time: %.2g s a member, by %zu of them: about ", m.seconds,
                          m.rows);
         tell_seconds(m.seconds * (double)members / (double)(useful > 0 ? useful : 1), text);

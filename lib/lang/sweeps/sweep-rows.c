@@ -5,12 +5,14 @@
 #include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "base/ranks.h"
 #include "base/workers.h"
 #include "lang/answer/row-answer.h"
 #include "lang/runs/own-run.h"
 #include "lang/sweeps/sweep-file.h"
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
+#include "lang/sweeps/sweep-ranks.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
@@ -90,7 +92,7 @@ keep_rows(qdot_sweep *s, bool at_once)
 {
     double now;
 
-    if (s->path == NULL)
+    if (s->path == NULL || qdot_rank() > 0)
         return QDOT_OK;
     now = qdot_wall_now();
     if (!at_once && now - s->kept_at < fmax(1, 20 * s->keeping))
@@ -213,33 +215,33 @@ run_here(qdot_sweep *s, size_t first, size_t end)
     return QDOT_OK;
 }
 
-/* The first row here, for what it costs; then the others, by several processes if that is worth it. */
+/* The first row here, for what it costs; then the others, by several processes if that is worth it. With
+ * other ranks all rows at once, so that none waits. */
 static qdot_status
 run_all(qdot_sweep *s)
 {
-    const size_t members = s->members.axes.members;
+    const size_t members = s->members.axes.members, side = s->lanes != NULL ? LEAST : 1;
     const double begun = qdot_wall_now();
     size_t first = 0;
     qdot_workers_job job = {.end = members, .skip = s->done, .user = s, .work = work_on_row,
-                            .done = take_answer};
+                            .done = take_answer, .workers = qdot_sweep_processes(s)};
 
-    while (first < members && s->done[first])
-        first++;
-    job.first = first + (s->lanes != NULL ? LEAST : 1);
-    if (job.first > members)
-        job.first = members;
-    QDOT_TRY(run_here(s, first, job.first));
-    job.seconds = (qdot_wall_now() - begun) / (double)(job.first > first ? job.first - first : 1);
     if (s->lanes != NULL) {
         job.begin = begin_rows_there;
         job.least = LEAST;
     }
-    job.workers = s->threads > 0 ? (size_t)s->threads : qdot_workers_processors();
+    qdot_progress_begin(0, (double)members, "sweep");
+    if (qdot_ranks_count() > 1)
+        return qdot_workers_run(&job);
+    while (first < members && s->done[first])
+        first++;
+    job.first = members - first > side ? first + side : members;
+    QDOT_TRY(run_here(s, first, job.first));
+    job.seconds = (qdot_wall_now() - begun) / (double)(job.first > first ? job.first - first : 1);
     if (s->threads == 0 && job.seconds * (double)(members - first) < worth)
         job.workers = 1;
     if (job.workers > members - job.first)
         job.workers = members - job.first;
-    qdot_progress_begin(0, (double)members, "sweep");
     return job.workers > 1 ? qdot_workers_run(&job) : run_here(s, job.first, members);
 }
 
@@ -271,7 +273,7 @@ begin_rows(qdot_sweep *s)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < members; k++)
         QDOT_TRY(qdot_row_table_add(s->table));
-    if (s->path == NULL)
+    if (s->path == NULL || qdot_rank() > 0)
         return QDOT_OK;
     s->c->error_at = s->path_at->start;
     QDOT_TRY(qdot_sweep_file_take(s->path, qdot_text_str(&s->said), s->table, s->done));
@@ -296,6 +298,7 @@ qdot_sweep_make_rows(qdot_sweep *s)
     status = qdot_sweep_lanes_new(s, &s->lanes, &why);
     if (status == QDOT_OK)
         status = run_all(s);
+    status = qdot_sweep_share_rows(s, status);
     qdot_sweep_lanes_free(s->lanes);
     qdot_text_clear(&why);
     s->lanes = NULL;

@@ -1,8 +1,8 @@
 /* script-file.c -- scripts from files, and the exit status that they leave. */
-#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/ranks.h"
 #include "lang/answer/answer.h"
 #include "lang/workbench/script.h"
 #include "lang/commands/statement.h"
@@ -31,12 +31,9 @@ read_file(const char *path, qdot_text *text)
 {
     bool standard = strcmp(path, "-") == 0;
     FILE *file = standard ? stdin : fopen(path, "rb");
-    qdot_status status;
+    const qdot_status status = qdot_ranks_read(text, file, path, FILE_LIMIT);
 
-    if (file == NULL)
-        return qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
-    status = qdot_text_read(text, file, path, FILE_LIMIT);
-    if (!standard)
+    if (file != NULL && !standard)
         fclose(file);
     return status;
 }

@@ -1,0 +1,40 @@
+/* items.h -- which items of some work are left, for those who hand them out (base/workers.c).
+ *
+ * Tests  tests/base/test_workers.c
+ */
+#ifndef QDOT_BASE_ITEMS_H
+#define QDOT_BASE_ITEMS_H
+
+#include "base/memory.h"
+
+/* The items first ... first + count - 1. */
+typedef struct {
+    size_t first, count;
+} qdot_items_chunk;
+
+typedef struct {
+    size_t first, end;         /* of all */
+    size_t next;               /* from here on nobody has had any */
+    const bool *skip;          /* [end] that are not to be done; NULL: all are */
+    size_t left;               /* without answer */
+    qdot_vec(qdot_items_chunk) again; /* given back, or begun with */
+    unsigned char *state;      /* [end - first] what has happened to each */
+} qdot_items;
+
+/* All of first ... end - 1 that are not skipped, if fresh; else none, until some are given. */
+QDOT_MUST_CHECK qdot_status qdot_items_new(qdot_items *items, size_t first, size_t end,
+                                           const bool *skip, bool fresh);
+void qdot_items_free(qdot_items *items);
+
+/* The next chunk, of at most so many (1 at least); count 0: there is none now. */
+qdot_items_chunk qdot_items_take(qdot_items *items, double most);
+/* Those of the chunk that have no answer are to be handed out (again). */
+QDOT_MUST_CHECK qdot_status qdot_items_give(qdot_items *items, qdot_items_chunk chunk);
+/* Those of the chunk are to be done, whatever has been before. */
+QDOT_MUST_CHECK qdot_status qdot_items_begin(qdot_items *items, qdot_items_chunk chunk);
+/* Item k has an answer; false: it had one. */
+bool qdot_items_answer(qdot_items *items, size_t k);
+/* A worker has died of item k; false: it is the second. */
+bool qdot_items_survives(qdot_items *items, size_t k);
+
+#endif

@@ -1,0 +1,472 @@
+/* ranks.c -- the ranks: who they are, what rank 0 shares, how one is missed, the end. */
+#define _GNU_SOURCE
+#include "base/ranks.h"
+
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/mpi.h"
+
+static const double beat = 1;     /* seconds between two signs of life */
+static const double patience = 5; /* a rank that waits or works is silent no longer */
+static const double longest = 30; /* one that computes for itself may be, at the end */
+enum { GATHERING = 120 };         /* seconds until all ranks must have begun */
+enum { PIECE = 1 << 26 };         /* bytes of a message at most */
+
+/* A process as one machine knows it. */
+typedef struct {
+    uint64_t machine, digits;
+    int64_t pid;
+} place;
+
+static struct {
+    size_t count, mine;
+    place *places;   /* [count] */
+    double *heard;   /* [count] */
+    double beaten;   /* when rank 0 was last told that this one lives */
+    uint64_t shared; /* so many times */
+    int sentinel;    /* a pipe to it; -1: none */
+} ranks = {.count = 1, .sentinel = -1};
+
+/* The last words. */
+enum { GO_TOGETHER, GO_ALONE };
+
+bool
+qdot_ranks_are_there(void)
+{
+    return getenv("OMPI_COMM_WORLD_SIZE") != NULL || getenv("PMIX_RANK") != NULL;
+}
+
+size_t
+qdot_ranks_count(void)
+{
+    return ranks.count;
+}
+
+size_t
+qdot_rank(void)
+{
+    return ranks.mine;
+}
+
+static void
+rest(void)
+{
+    const struct timespec moment = {.tv_nsec = 1000000};
+
+    nanosleep(&moment, NULL);
+}
+
+/* --- who they are ------------------------------------------------------------------------ */
+
+static uint64_t
+hash(uint64_t from, const void *bytes, size_t n)
+{
+    for (const unsigned char *at = bytes; n > 0; n--)
+        from = (from ^ *at++) * 0x100000001b3;
+    return from;
+}
+
+/* Where a process can be asked for by its number: this start of a machine, and this space of numbers.
+ * Where that cannot be known no two are the same. */
+static uint64_t
+machine_here(void)
+{
+    char bytes[256] = "";
+    FILE *file = fopen("/proc/sys/kernel/random/boot_id", "re");
+    size_t n = file != NULL ? fread(bytes, 1, 64, file) : 0;
+    const ssize_t m = readlink("/proc/self/ns/pid", bytes + n, sizeof bytes - n);
+    const pid_t self = getpid();
+
+    if (file != NULL)
+        fclose(file);
+    if (n == 0 || m <= 0)
+        return hash(hash(0xcbf29ce484222325, &self, sizeof self), bytes, sizeof bytes);
+    return hash(0xcbf29ce484222325, bytes, n + (size_t)m);
+}
+
+/* The digits of this C library on this processor. */
+static uint64_t
+digits_here(void)
+{
+    double (*const functions[])(double) = {sin, cos, tan, asin, atan, exp, log, sinh, tanh, cbrt};
+    uint64_t all = 0xcbf29ce484222325;
+
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        for (int k = 1; k < 64; k++) {
+            volatile double x = k / 64.0;
+            const double y[] = {functions[i](x), pow(x, 1.3), atan2(x, 0.7)};
+
+            all = hash(all, y, sizeof y);
+        }
+    return all;
+}
+
+/* A copy of rank 0 that does nothing but wait for its death: mpirun, if it is to recover from deaths,
+ * would then leave the others waiting for ever. Before MPI begins, whose connections it must not hold. */
+static void
+set_sentinel(void)
+{
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
+    const pid_t parent = getppid();
+    int ends[2];
+    char c;
+
+    if (rank == NULL || strcmp(rank, "0") != 0 || pipe(ends) != 0)
+        return;
+    if (fork() == 0) {
+        ssize_t n;
+
+        signal(SIGINT, SIG_IGN);
+        signal(SIGTERM, SIG_IGN);
+        for (int i = 0; i < 256; i++)
+            if (i != ends[0])
+                close(i);
+        do
+            n = read(ends[0], &c, 1);
+        while (n < 0 && errno == EINTR);
+        if (n == 0) {
+            sleep(3); /* without recovery it ends by itself */
+            kill(parent, SIGTERM);
+        }
+        _exit(0);
+    }
+    close(ends[0]);
+    ranks.sentinel = ends[1];
+}
+
+/* MPI's own beginning waits for all, and for ever for one that has died. The sentinel ends the others. */
+static void
+give_up(int signal_number)
+{
+    static const char text[] = "qdot: the other ranks have not begun within two minutes\n";
+
+    (void)signal_number;
+    _exit(write(STDERR_FILENO, text, sizeof text - 1) < 0 ? 2 : 1);
+}
+
+static qdot_status
+look_around(size_t *kind)
+{
+    const place here = {machine_here(), digits_here(), getpid()};
+    int least = (int)*kind;
+
+    ranks.places = qdot_calloc(ranks.count, sizeof *ranks.places);
+    ranks.heard = qdot_calloc(ranks.count, sizeof *ranks.heard);
+    if (ranks.places == NULL || ranks.heard == NULL)
+        return QDOT_ENOMEM;
+    qdot_mpi_least(&least);
+    *kind = (size_t)least;
+    qdot_mpi_gather(&here, sizeof here, ranks.places);
+    for (size_t i = 0; i < ranks.count; i++)
+        ranks.heard[i] = qdot_wall_now();
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_ranks_begin(size_t *kind)
+{
+    const char *ours = getenv("OMPI_COMM_WORLD_SIZE"), *others = getenv("PMI_SIZE");
+
+    if (!qdot_ranks_are_there()) {
+        if (others == NULL || atol(others) <= 1)
+            return QDOT_OK;
+        (void)qdot_fail(QDOT_ENOTBUILT, "%s processes were started by an MPI that is not OpenMPI", others);
+        return qdot_hint("mpirun of OpenMPI, or srun --mpi=pmix");
+    }
+    if (ours != NULL && atol(ours) == 1)
+        return QDOT_OK;
+    set_sentinel();
+    if (ranks.sentinel >= 0 && signal(SIGALRM, give_up) != SIG_ERR)
+        alarm(GATHERING);
+    QDOT_TRY(qdot_mpi_begin(&ranks.count, &ranks.mine));
+    QDOT_TRY(look_around(kind));
+    alarm(0);
+    if (ranks.places[ranks.mine].digits == ranks.places[0].digits)
+        return QDOT_OK;
+    fprintf(stderr, "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
+            ranks.mine);
+    (void)qdot_ranks_end(0);
+    return QDOT_OK; /* not reached */
+}
+
+/* --- messages --------------------------------------------------------------------------- */
+
+void
+qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n)
+{
+    if (to == 0)
+        ranks.beaten = qdot_wall_now();
+    qdot_mpi_send(to, to + 1, what, bytes, n);
+}
+
+/* Not rank 0: leave, as rank 0 says. */
+static void __attribute__((noreturn))
+leave(void)
+{
+    qdot_text word = {0};
+    double until;
+    size_t from;
+    int what;
+
+    qdot_mpi_take(0, QDOT_RANK_END, &word);
+    qdot_ranks_send(0, QDOT_RANK_GOODBYE, "", 0);
+    until = qdot_wall_now() + 2 * longest; /* rank 0 may have died at the last moment */
+    do {
+        while (!qdot_mpi_look(&from, &what)) {
+            if (qdot_wall_now() > until)
+                _exit(0);
+            rest();
+        }
+        qdot_mpi_take(from, what, &word);
+    } while (what != QDOT_RANK_END);
+    if (word.n == 1 && word.at[0] == GO_TOGETHER)
+        qdot_mpi_finalize();
+    _exit(0);
+}
+
+/* Whether a message has come. */
+static bool
+look(size_t *from, int *what)
+{
+    bool come = qdot_mpi_look(from, what);
+
+    (void)qdot_mpi_sending();
+    if (come && ranks.mine > 0 && *what == QDOT_RANK_END)
+        leave();
+    if (come && ranks.mine == 0)
+        ranks.heard[*from] = qdot_wall_now();
+    return come;
+}
+
+void
+qdot_ranks_beat(void)
+{
+    if (qdot_wall_now() - ranks.beaten >= beat)
+        qdot_ranks_send(0, QDOT_RANK_ALIVE, "", 0);
+}
+
+void
+qdot_ranks_expect(size_t rank)
+{
+    ranks.heard[rank] = qdot_wall_now();
+}
+
+bool
+qdot_ranks_next(qdot_rank_message *m)
+{
+    int what;
+
+    if (!look(&m->from, &what))
+        return false;
+    qdot_mpi_take(m->from, what, &m->bytes);
+    m->what = (qdot_rank_what)what;
+    return true;
+}
+
+bool
+qdot_ranks_has_shared(void)
+{
+    size_t from;
+    int what;
+
+    return look(&from, &what) && what == QDOT_RANK_SHARED;
+}
+
+/* Whether this machine knows that it is dead. */
+static bool
+is_dead(size_t rank)
+{
+    const place *p = &ranks.places[rank];
+
+    return p->machine == ranks.places[0].machine && kill((pid_t)p->pid, 0) != 0 && errno == ESRCH;
+}
+
+bool
+qdot_ranks_is_lost(size_t rank)
+{
+    return is_dead(rank) || qdot_wall_now() - ranks.heard[rank] > patience;
+}
+
+/* --- what rank 0 shares ------------------------------------------------------------------ */
+
+/* Goes before the pieces of a text. */
+typedef struct {
+    uint64_t number, n;
+    qdot_error error; /* its status is that of all */
+} share_head;
+
+/* As long as some take what was sent. */
+static void
+wait_until_sent(double seconds)
+{
+    double last = qdot_wall_now();
+    size_t left, before = SIZE_MAX;
+
+    while ((left = qdot_mpi_sending()) > 0 && qdot_wall_now() - last < seconds) {
+        if (left < before)
+            last = qdot_wall_now();
+        before = left;
+        rest();
+    }
+}
+
+static void
+tell(qdot_status status, const qdot_text *text)
+{
+    share_head h = {.number = ranks.shared, .n = text->n};
+
+    if (status != QDOT_OK)
+        h.error = *qdot_last_error();
+    h.error.status = status;
+    qdot_mpi_send(1, ranks.count, QDOT_RANK_SHARED, &h, sizeof h);
+    for (size_t i = 0; i < text->n; i += PIECE)
+        qdot_mpi_send(1, ranks.count, QDOT_RANK_SHARED, text->at + i,
+                      text->n - i < PIECE ? text->n - i : PIECE);
+    wait_until_sent(patience);
+}
+
+static void
+wait_for_piece(qdot_text *piece)
+{
+    size_t from;
+    int what;
+
+    for (;;) {
+        if (!look(&from, &what)) {
+            rest();
+            continue;
+        }
+        qdot_mpi_take(from, what, piece);
+        if (what == QDOT_RANK_SHARED)
+            return;
+    }
+}
+
+static qdot_status
+hear(qdot_text *text)
+{
+    qdot_text piece = {0};
+    share_head h;
+
+    qdot_text_truncate(text, 0);
+    wait_for_piece(&piece);
+    if (piece.n != sizeof h)
+        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", ranks.mine);
+    memcpy(&h, piece.at, sizeof h);
+    while (text->n < h.n) {
+        wait_for_piece(&piece);
+        qdot_text_add_n(text, qdot_text_str(&piece), piece.n);
+        if (qdot_text_status(text) != QDOT_OK || piece.failed)
+            break;
+    }
+    qdot_text_clear(&piece);
+    if (h.number != ranks.shared)
+        return qdot_fail(QDOT_EFAILED, "rank %zu has lost its place", ranks.mine);
+    QDOT_TRY(qdot_text_status(text));
+    return h.error.status == QDOT_OK ? QDOT_OK : qdot_fail_again(&h.error);
+}
+
+qdot_status
+qdot_ranks_share(qdot_status status, qdot_text *text)
+{
+    if (ranks.count == 1)
+        return status;
+    ranks.shared++;
+    if (ranks.mine > 0)
+        return hear(text);
+    tell(status, text);
+    return status;
+}
+
+qdot_status
+qdot_ranks_read(qdot_text *text, FILE *from, const char *path, size_t most)
+{
+    qdot_status status = QDOT_OK;
+
+    if (ranks.mine == 0 && from == NULL)
+        status = qdot_fail(QDOT_EIO, "`%s` cannot be opened: %s", path, strerror(errno));
+    else if (ranks.mine == 0)
+        status = qdot_text_read(text, from, path, most);
+    return qdot_ranks_share(status, text);
+}
+
+/* --- the end ----------------------------------------------------------------------------- */
+
+/* Wait for those that may still come. Returns how many were missed; *asleep: one may be alive. */
+static size_t
+wait_for_goodbyes(bool *asleep)
+{
+    bool *gone = qdot_calloc(ranks.count, sizeof *gone);
+    const double begun = qdot_wall_now();
+    qdot_rank_message m = {0};
+    size_t waiting = 0;
+
+    *asleep = gone == NULL;
+    while (gone != NULL) {
+        waiting = 0;
+        while (qdot_ranks_next(&m))
+            if (m.what == QDOT_RANK_GOODBYE)
+                gone[m.from] = true;
+        *asleep = false;
+        for (size_t i = 1; i < ranks.count; i++) {
+            waiting += !gone[i];
+            *asleep = *asleep || (!gone[i] && !is_dead(i));
+        }
+        if (!*asleep || qdot_wall_now() - begun > longest)
+            break;
+        rest();
+    }
+    qdot_text_clear(&m.bytes);
+    qdot_free(gone);
+    return waiting;
+}
+
+static int
+end_all(int status)
+{
+    bool asleep;
+    size_t lost;
+    char word;
+
+    fflush(NULL);
+    qdot_mpi_send(1, ranks.count, QDOT_RANK_END, "", 0);
+    lost = wait_for_goodbyes(&asleep);
+    if (lost > 0)
+        fprintf(stderr, "qdot: %zu of %zu ranks were lost\n", lost, ranks.count);
+    if (ranks.sentinel >= 0 && write(ranks.sentinel, "", 1) != 1)
+        lost += 0; /* it has ended before */
+    if (asleep)
+        qdot_mpi_abort(status);
+    word = lost > 0 ? GO_ALONE : GO_TOGETHER;
+    qdot_mpi_send(1, ranks.count, QDOT_RANK_END, &word, 1);
+    if (lost > 0) { /* MPI would wait for them */
+        wait_until_sent(1);
+        _exit(status);
+    }
+    qdot_mpi_finalize();
+    return status;
+}
+
+int
+qdot_ranks_end(int status)
+{
+    qdot_rank_message m = {0};
+
+    if (ranks.count == 1)
+        return status;
+    if (ranks.mine == 0)
+        return end_all(status);
+    for (;;) /* until look leaves */
+        if (!qdot_ranks_next(&m))
+            rest();
+}

@@ -1,0 +1,61 @@
+/* workers-parts.h -- the work of base/workers.h between the processes of this machine (workers.c) and
+ * those of other ranks (mates.c).
+ */
+#ifndef QDOT_BASE_WORKERS_PARTS_H
+#define QDOT_BASE_WORKERS_PARTS_H
+
+#include <stdint.h>
+
+#include "base/items.h"
+#include "base/text.h"
+
+/* The head of each answer; the bytes follow. n QDOT_NO_ANSWER: two workers died of the item. */
+typedef struct {
+    uint64_t item, n;
+} qdot_answer_head;
+
+#define QDOT_NO_ANSWER UINT64_MAX
+
+/* Who is given chunks, and answers in their order or not. */
+typedef struct {
+    size_t n;
+    qdot_items_chunk has[2]; /* chunks [n] that it works at */
+    size_t left[2];          /* answers that are missing of each */
+    double since;            /* when it began the first of these */
+    double seconds;          /* that an item takes it; 0: unknown */
+    qdot_text come;          /* bytes of answers not complete yet */
+} qdot_hand;
+
+typedef struct qdot_mate qdot_mate;
+
+typedef struct qdot_crew {
+    const struct qdot_workers_job *job; /* base/workers.h */
+    struct qdot_worker *workers; /* [job->workers] */
+    qdot_items items;
+    qdot_mate *mates; /* rank 0: [ranks] */
+    size_t ready;     /* of these */
+    uint64_t number;  /* of this work; the same in all ranks */
+    double looked;    /* when mates were missed last */
+    qdot_text out;    /* other ranks: answers for rank 0 */
+} qdot_crew;
+
+/* A chunk for it, if there is one, that takes about so many seconds; count 0: there is none. */
+qdot_items_chunk qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most);
+/* Bytes have come: the answers that are whole go to `done`, or on to rank 0. */
+QDOT_MUST_CHECK qdot_status qdot_hand_take(qdot_crew *c, qdot_hand *h, const char *bytes, size_t n);
+/* It works no more: what it has not answered is to be handed out again. */
+QDOT_MUST_CHECK qdot_status qdot_hand_drop(qdot_crew *c, qdot_hand *h);
+/* Item k is answered; bytes NULL: it cannot be. */
+QDOT_MUST_CHECK qdot_status qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes, size_t n);
+
+/* Of mates.c. Rank 0: hear all others, give them chunks, miss those that are lost. */
+QDOT_MUST_CHECK qdot_status qdot_mates_new(qdot_crew *c);
+void qdot_mates_free(qdot_crew *c);
+QDOT_MUST_CHECK qdot_status qdot_mates_serve(qdot_crew *c);
+/* Other ranks: take chunks from rank 0; *over: it wants no more. */
+void qdot_mates_report(const qdot_crew *c);
+QDOT_MUST_CHECK qdot_status qdot_mates_take(qdot_crew *c, bool *over);
+/* Send the answers that wait, if there are enough or `all`. */
+QDOT_MUST_CHECK qdot_status qdot_mates_send(qdot_crew *c, bool all);
+
+#endif
