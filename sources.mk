@@ -574,8 +574,11 @@ library_sources = \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/newton.c \
+	lib/sim/study/path.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
+	lib/sim/study/rest-bifurcation.c \
+	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
@@ -1064,8 +1067,11 @@ library_headers = \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/newton.h \
+	lib/sim/study/path.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
+	lib/sim/study/rest-bifurcation.h \
+	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \

@@ -10,6 +10,7 @@
 #include "lang/language/read.h"
 #include "lang/runs/branches.h"
 #include "lang/session/bind.h"
+#include "sim/study/rest-continuation.h"
 
 typedef struct {
     qdot_expr parameter;
@@ -119,27 +120,50 @@ bind(void *session, qdot_expr e)
     return qdot_session_bind(session, e);
 }
 
+/* Keep and tell what was found, as far as it goes. */
+static qdot_status
+conclude(qdot_session *session, const wish *w, const qdot_branches *b, qdot_status status)
+{
+    if (b->found->interrupted)
+        qdot_interrupt_clear(); /* heard: what is known so far is told */
+    if (status == QDOT_OK && b->found->branches.n > 0)
+        status = qdot_branches_keep(session, b, w->name, w->marks);
+    if (status == QDOT_OK && b->found->branches.n > 0)
+        status = qdot_branches_answer(session, b);
+    if (status == QDOT_OK && b->found->interrupted)
+        status = qdot_fail(QDOT_EINTR, b->found->branches.n > 0
+                                           ? "interrupted: there may be more branches"
+                                           : "interrupted: no branch was followed yet");
+    return status;
+}
+
 static qdot_status
 carry_out(qdot_session *session, const wish *w)
 {
     qdot_equilibrium_curve curve = {0};
     qdot_continuation found = {0};
-    const qdot_branches b = {&curve, &found, w->least, w->most};
+    const char **names = NULL;
+    size_t *columns = NULL;
     qdot_status status =
         qdot_equilibrium_curve_begin(&curve, session->scene, w->parameter, bind, session);
 
-    if (status == QDOT_OK)
-        status = qdot_continuation_find(&curve, w->least, w->most, &found);
-    if (found.interrupted)
-        qdot_interrupt_clear(); /* heard: what is known so far is told */
-    if (status == QDOT_OK && found.branches.n > 0)
-        status = qdot_branches_keep(session, &b, w->name, w->marks);
-    if (status == QDOT_OK && found.branches.n > 0)
-        status = qdot_branches_answer(session, &b);
-    if (status == QDOT_OK && found.interrupted)
-        status = qdot_fail(QDOT_EINTR, found.branches.n > 0
-                                           ? "interrupted: there may be more branches"
-                                           : "interrupted: no branch was followed yet");
+    if (status == QDOT_OK) {
+        names = qdot_calloc(curve.n + 1, sizeof *names);
+        columns = qdot_calloc(curve.n + 1, sizeof *columns);
+        status = names && columns ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK) {
+        const qdot_branches b = {&found, names, columns, curve.coordinates, curve.coordinates};
+
+        for (size_t i = 0; i <= curve.n; i++) {
+            names[i] = qdot_expr_symbol(session->pool, curve.unknown[i])->name;
+            columns[i] = i;
+        }
+        status = qdot_rest_continuation_find(&curve, w->least, w->most, &found);
+        status = conclude(session, w, &b, status);
+    }
+    qdot_free(names);
+    qdot_free(columns);
     qdot_continuation_clear(&found);
     qdot_equilibrium_curve_end(&curve);
     return status;
