@@ -122,6 +122,7 @@ library_sources = \
 	lib/lang/language/token-text.c \
 	lib/lang/runs/branches.c \
 	lib/lang/runs/columns.c \
+	lib/lang/runs/continue-orbit.c \
 	lib/lang/runs/continue.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
@@ -135,6 +136,7 @@ library_sources = \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/lyapunov.c \
 	lib/lang/runs/members.c \
+	lib/lang/runs/orbit-run.c \
 	lib/lang/runs/own-run.c \
 	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
@@ -574,6 +576,11 @@ library_sources = \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/newton.c \
+	lib/sim/study/orbit-bifurcation.c \
+	lib/sim/study/orbit-continuation.c \
+	lib/sim/study/orbit-path.c \
+	lib/sim/study/orbit-period.c \
+	lib/sim/study/orbit-shape.c \
 	lib/sim/study/path.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
@@ -690,10 +697,12 @@ library_headers = \
 	lib/lang/language/token-text.h \
 	lib/lang/runs/branches.h \
 	lib/lang/runs/columns.h \
+	lib/lang/runs/continue-parts.h \
 	lib/lang/runs/error-time.h \
 	lib/lang/runs/find-parts.h \
 	lib/lang/runs/fit-parts.h \
 	lib/lang/runs/members.h \
+	lib/lang/runs/orbit-run.h \
 	lib/lang/runs/own-run.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
@@ -1067,6 +1076,11 @@ library_headers = \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/newton.h \
+	lib/sim/study/orbit-bifurcation.h \
+	lib/sim/study/orbit-continuation.h \
+	lib/sim/study/orbit-path.h \
+	lib/sim/study/orbit-period.h \
+	lib/sim/study/orbit-shape.h \
 	lib/sim/study/path.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \

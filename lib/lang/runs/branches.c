@@ -377,6 +377,8 @@ static void
 say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 {
     static const char *const words[] = {
+        [QDOT_END_REST] = "shrinks to a place at rest",
+        [QDOT_END_PERIOD] = "comes near a place at rest, its period grows to infinity",
         [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
         [QDOT_END_FAR] = "is not followed further",
         [QDOT_END_LOST] = "is lost: the equations have no value there, or jump",
@@ -394,7 +396,10 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 
         if (branch->end[side] == QDOT_END_RANGE)
             continue;
-        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1, words[branch->end[side]],
+        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1,
+                         b->orbits && branch->end[side] == QDOT_END_LOST
+                             ? "is lost: no orbit is found further on"
+                             : words[branch->end[side]],
                          name_of(b, n));
         write_place(b, n, y[n], out);
         for (size_t q = 0; q < b->n_told; q++) {
@@ -447,7 +452,7 @@ add_bifurcation(const qdot_branches *b, size_t i, grid *g)
         first = false;
     }
     if (one->frequency > 0) {
-        qdot_text_add(cell, ", angular frequency ");
+        qdot_text_add(cell, b->orbits ? ", multipliers at the angle " : ", angular frequency ");
         write_measured(one->frequency, one->frequency_error, 1, cell);
     }
 }

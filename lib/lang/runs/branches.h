@@ -20,6 +20,7 @@ typedef struct {
     const char *const *names; /* [found->width] of the unknowns, p, and what stands behind it */
     const size_t *columns;    /* [n_columns] which of these are columns, beside p; */
     size_t n_columns, n_told; /* the first n_told are told in words, and drawn */
+    bool orbits;
 } qdot_branches;
 
 /* Columns of the table of branches before and behind these: branch, p; stable, bifurcation. */

@@ -13,6 +13,7 @@ typedef enum {
     QDOT_END_CLOSED,  /* it came back to where it began */
     QDOT_END_FAR,     /* it goes on to infinity */
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
+    QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, or jump */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;
