@@ -1314,6 +1314,8 @@ script_tests = \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/continue-files.sh \
+	tests/script/continue-orbit-files.sh \
+	tests/script/continue-orbit.lag \
 	tests/script/continue.lag \
 	tests/script/coordinates.lag \
 	tests/script/data-files.sh \
@@ -1521,6 +1523,7 @@ script_tests = \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
+	tests/bad/continue-orbit.sh \
 	tests/bad/continue.sh \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
@@ -1836,6 +1839,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/orbit-branches.lag \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
@@ -1926,6 +1930,7 @@ test_files = \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
+	tests/bad/continue-orbit.out \
 	tests/bad/continue.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
@@ -2222,6 +2227,7 @@ test_files = \
 	tests/examples/moving-constraint.out \
 	tests/examples/n-four-bar.out \
 	tests/examples/newtons-cradle.out \
+	tests/examples/orbit-branches.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
@@ -2334,6 +2340,8 @@ test_files = \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/continue-files.out \
+	tests/script/continue-orbit-files.out \
+	tests/script/continue-orbit.out \
 	tests/script/continue.out \
 	tests/script/coordinates.out \
 	tests/script/data-files.out \
@@ -2702,6 +2710,8 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/orbit-branches.lag \
+	examples/orbit-branches.svg \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \

@@ -108,7 +108,7 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     points->note = "type";
     points->uses++;
     all->marks = points;
-    all->drawn = b->n_told;
+    all->drawn = b->n_drawn;
     status = qdot_row_tables_keep(session, points);
     if (status != QDOT_OK) {
         qdot_row_table_release(all);

@@ -19,7 +19,7 @@ typedef struct {
     const qdot_continuation *found;
     const char *const *names; /* [found->width] of the unknowns, p, and what stands behind it */
     const size_t *columns;    /* [n_columns] which of these are columns, beside p; */
-    size_t n_columns, n_told; /* the first n_told are told in words, and drawn */
+    size_t n_columns, n_told, n_drawn; /* the first n_told are told in words, n_drawn drawn */
     bool orbits;
 } qdot_branches;
 

@@ -1,8 +1,10 @@
 /* continue-orbit.c -- branches of periodic orbits, from the latest run that is one. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "expr/walk.h"
+#include "lang/answer/answer.h"
 #include "lang/runs/continue-parts.h"
 #include "lang/runs/orbit-run.h"
 #include "lang/runs/slopes.h"
@@ -10,6 +12,9 @@
 #include "sim/study/orbit-continuation.h"
 
 enum { NAME_ROOM = 120 };
+
+/* Relative: periods that are one. */
+static const double same = 1e-9;
 
 typedef struct {
     qdot_session *session;
@@ -96,7 +101,20 @@ find_first(job *j)
 
 /* --- rows ---------------------------------------------------------------------------------------- */
 
-/* Told: the period, the largest value of each coordinate. Then the start, but for p, and the moduli of the multipliers. */
+/* Whether there is more than one period. */
+static bool
+period_changes(const job *j)
+{
+    const size_t T = 2 * j->session->scene->coordinates.n;
+
+    for (size_t i = 0; i < j->found.branches.n; i++)
+        for (size_t k = 0; k < j->found.branches.at[i].n; k++)
+            if (fabs(j->found.branches.at[i].y[k * j->found.width + T] - j->of.T) > same * j->of.T)
+                return true;
+    return false;
+}
+
+/* Told: the largest value of each coordinate, the period. Then the start, but for p, and the moduli of the multipliers. */
 static qdot_status
 name_columns(job *j, qdot_branches *b)
 {
@@ -124,10 +142,11 @@ name_columns(job *j, qdot_branches *b)
                  qdot_expr_symbol(s->pool, s->coordinates.at[i])->name);
     for (size_t i = 0; i < 2 * n; i++)
         snprintf(j->text[behind + n + i], NAME_ROOM, "abs(floquet[%zu])", i + 1);
-    j->columns[k++] = 2 * n;
     for (size_t i = 0; i < n; i++)
         j->columns[k++] = behind + i;
+    j->columns[k++] = 2 * n;
     b->n_told = k;
+    b->n_drawn = period_changes(j) ? k : k - 1;
     for (size_t i = 0; i < 2 * n; i++)
         if (strcmp(j->text[i], j->text[j->found.n]) != 0)
             j->columns[k++] = i;
@@ -150,6 +169,9 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_orbit_continuation_find(&j.of, &j.found);
     if (status == QDOT_OK && j.found.width > 0)
         status = name_columns(&j, &b);
+    if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.n > j.found.coordinates)
+        status = qdot_answer_notice(session, "the energy is conserved: along the branch it stays "
+                                             "what it is in the run");
     status = qdot_continue_conclude(session, w, &b, status);
     qdot_continuation_clear(&j.found);
     qdot_free(j.text);

@@ -167,7 +167,8 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
                                  .names = names,
                                  .columns = columns,
                                  .n_columns = curve.coordinates,
-                                 .n_told = curve.coordinates};
+                                 .n_told = curve.coordinates,
+                                 .n_drawn = curve.coordinates};
 
         for (size_t i = 0; i <= curve.n; i++) {
             names[i] = qdot_expr_symbol(session->pool, curve.unknown[i])->name;

@@ -360,7 +360,7 @@ look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double
 
     if (status == QDOT_OK)
         status = s->x->judge(s->x, b);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !b->blurred)
         status = look_between(s, a, b, length, branch);
     s->all->interrupted = status == QDOT_EINTR;
     return status == QDOT_EINTR ? QDOT_OK : status;
@@ -389,6 +389,10 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
         QDOT_TRY(look(s, a, b, length, branch));
         if (s->all->interrupted) {
             branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
+        if (b->blurred) {
+            branch->end[1] = QDOT_END_LOST;
             return QDOT_OK;
         }
         if (s->leapt) {

@@ -7,9 +7,11 @@
 #include "base/memory.h"
 #include "num/eigenvalues.h"
 
-/* Of the way of the step that a crossing lies in: how far places for the polynomial are apart. Of a unit step: that for second
+/* Of the step that a crossing lies in: half the distances of places for its polynomial. Of a length of 1: the step of second
  * derivatives. A direction with less along p has none. */
-static const double apart = 0.1, difference = 1e-4, upright = 1e-4;
+static const double wide = 0.1, narrow = 0.03, difference = 1e-4, upright = 1e-4;
+/* What both runs round alike, relative to a value. */
+static const double rounding = 4e-15;
 enum { STEPS = 60, HALVINGS = 36, PLACES = 6 };
 
 typedef struct {
@@ -180,32 +182,47 @@ zero_through(size_t n, const double *x, const double *f, double s, double step)
     return b;
 }
 
-/* A crossing next to s: y [width], how far s may be off. */
+/* The polynomial through places next to *s: its zero *s, y [n + 1] there, how far s may be off. */
 static bool
-cross_at(search *f, double s, double step, double *y, double *off)
+fit_crossing(search *f, double *s, double step, double *y, double *off)
 {
-    const size_t w = f->x->path.width;
-    double at[PLACES], value[PLACES], *all = qdot_malloc(PLACES * w * sizeof *all), zero, one_y[PLACES];
+    const size_t m = f->x->path.n + 1;
+    double at[PLACES], value[PLACES], *all = qdot_malloc(PLACES * m * sizeof *all), zero = NAN;
     bool good = all != NULL;
 
-    for (size_t k = 0; k < PLACES && good; k++) { /* -5, -3, -1, 1, 3, 5, without the zero */
-        at[k] = s + step * ((double)(2 * k) - (PLACES - 1));
+    for (size_t k = 0; k < PLACES && good; k++) { /* -5, -3, -1, 1, 3, 5 steps */
+        at[k] = *s + step * ((double)(2 * k) - (PLACES - 1));
         value[k] = test_at(f, at[k]);
         good = isfinite(value[k]);
-        memcpy(all + k * w, f->point.y, w * sizeof *all);
+        memcpy(all + k * m, f->point.y, m * sizeof *all);
     }
     if (good) {
-        zero = zero_through(PLACES, at, value, s, step);
-        *off = fabs(zero - zero_through(PLACES - 2, at + 1, value + 1, s, step));
-        good = fabs(zero - s) < 5 * step && isfinite(zero);
+        zero = zero_through(PLACES, at, value, *s, step);
+        *off = fabs(zero - zero_through(PLACES - 2, at + 1, value + 1, *s, step));
+        good = fabs(zero - *s) < 5 * step;
     }
-    for (size_t i = 0; i < w && good; i++) {
+    for (size_t i = 0; i < m && good; i++) {
+        double own[PLACES];
+
         for (size_t k = 0; k < PLACES; k++)
-            one_y[k] = all[k * w + i];
-        y[i] = through(PLACES, at, one_y, zero);
+            own[k] = all[k * m + i];
+        y[i] = through(PLACES, at, own, zero);
     }
+    *s = zero;
     qdot_free(all);
     return good;
+}
+
+/* A crossing between lo and hi: first with wide steps from where a line through both ends says, then with short ones, not
+ * nearer to it than corrections converge. */
+static bool
+find_crossing(search *f, double lo, double hi, double *y, double *off)
+{
+    const double at_lo = test_at(f, lo), at_hi = test_at(f, hi);
+    double s = lo + (hi - lo) * at_lo / (at_lo - at_hi);
+
+    return at_lo * at_hi <= 0 && fit_crossing(f, &s, wide * (hi - lo), y, off) &&
+           fit_crossing(f, &s, narrow * (hi - lo), y, off);
 }
 
 /* Where as many multipliers are beyond the unit circle as at the point a, and where not: halved. */
@@ -238,16 +255,13 @@ static qdot_status
 locate(search *f, double lo, double hi, double *y, double *off, bool *found)
 {
     qdot_path *path = &f->x->path;
-    const double way = hi - lo;
 
     *found = false;
     if (f->kind == QDOT_TORUS && f->krein) {
         QDOT_TRY(halve(f, &lo, &hi, found));
         *off = 1e-10 + hi - lo;
     } else if (f->kind == QDOT_PITCHFORK) {
-        *found = close_in(f, &lo, &hi, 1e-3 * way);
-        if (*found)
-            *found = cross_at(f, (lo + hi) / 2, apart * way, f->point.y, off);
+        *found = find_crossing(f, lo, hi, f->point.y, off);
     } else {
         *found = close_in(f, &lo, &hi, 1e-13);
         *off = hi - lo;
@@ -365,7 +379,8 @@ as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
 
 /* The same by the coarse runs, near s; errors of what is at y. */
 static qdot_status
-find_errors(search *f, double lo, double hi, double *y, double off, double *error, bool *found)
+find_errors(search *f, double lo, double hi, const double *y, const double *t, double off,
+            double *error, bool *found)
 {
     qdot_orbit_path *x = f->x;
     qdot_path *path = &x->path;
@@ -384,9 +399,11 @@ find_errors(search *f, double lo, double hi, double *y, double off, double *erro
     }
     qdot_orbit_path_ask(x, 0);
     for (size_t i = 0; i < path->width && *found; i++) {
-        const double size = i <= path->n ? 1 / sqrt(path->weight[i]) : fabs(y[i]);
-
-        error[i] = fabs(other[i] - y[i]) + (off + 1e-15) * size;
+        error[i] = fabs(other[i] - y[i]) + rounding * fabs(y[i]);
+        if (i <= path->n)
+            error[i] += off * (fabs(t[i]) + off / sqrt(path->weight[i]));
+        else
+            error[i] += off * fabs(y[i]);
     }
     qdot_path_point_end(&start);
     qdot_free(other);
@@ -397,10 +414,13 @@ static qdot_status
 find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, double *other,
      bool *found)
 {
-    double *y = qdot_calloc(f->x->path.width, sizeof *y), off = 0;
+    const size_t w = f->x->path.width, m = f->x->path.n + 1;
+    double *y = qdot_calloc(w + m, sizeof *y), *const t = y + w, off = 0;
     qdot_status status = y ? locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
     const double angle = f->angle;
 
+    if (status == QDOT_OK)
+        memcpy(t, f->kind == QDOT_PITCHFORK ? in->a->t : f->point.t, m * sizeof *t);
     if (status == QDOT_OK && *found && f->kind == QDOT_PITCHFORK)
         status = classify(f, y, &f->kind, other, found);
     if (status == QDOT_OK && *found) {
@@ -408,10 +428,10 @@ find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, doubl
 
         out->kind = kind == QDOT_TORUS && f->krein ? QDOT_KREIN : kind;
         f->kind = kind == QDOT_TRANSCRITICAL ? QDOT_PITCHFORK : kind;
-        status = find_errors(f, in->from, in->to, y, off, out->error, found);
+        status = find_errors(f, in->from, in->to, y, t, off, out->error, found);
     }
     if (status == QDOT_OK && *found) {
-        memcpy(out->y, y, f->x->path.width * sizeof *y);
+        memcpy(out->y, y, w * sizeof *y);
         if (f->kind == QDOT_TORUS) {
             out->frequency = angle;
             out->frequency_error = fabs(angle - f->angle) + 1e-15;

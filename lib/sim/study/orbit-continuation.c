@@ -40,10 +40,14 @@ name_ends(const qdot_path *x, qdot_continuation *all)
 static qdot_status
 check_range(const qdot_orbit_path *x, double p)
 {
-    if (p >= x->of.least && p <= x->of.most)
+    const qdot_orbit_of *of = &x->of;
+
+    if (p >= of->least && p <= of->most)
         return QDOT_OK;
-    return qdot_fail(QDOT_EINVAL, "the orbit has %.10g there, outside the range %.10g..%.10g", p,
-                     x->of.least, x->of.most);
+    return qdot_fail(QDOT_EINVAL, "the orbit has %s = %.10g, outside the range %.10g..%.10g",
+                     of->parameter == QDOT_NIL ? "energy"
+                                               : qdot_expr_symbol(of->scene->pool, of->parameter)->name,
+                     p, of->least, of->most);
 }
 
 qdot_status

@@ -21,6 +21,9 @@ static const double nothing = 1e-9, at_rest = 1e-4;
 /* Multipliers grow that are beyond the unit circle by more than this, and by more than three times their error. */
 static const double grows = 1e-6;
 
+/* Relative to max(1, |mu|): of a multiplier with a larger error nothing is known. */
+static const double blurred = 0.03;
+
 /* Of Newton's corrections, which runs bound; steps along a curve. */
 static const double exact = 1e-12, shortest = 1e-6, longest = 2e-2;
 
@@ -187,9 +190,11 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
     double product = 1;
 
     a->growing = 0;
+    a->blurred = false;
     for (size_t k = 0; k < f->n; k++) {
         const double size = hypot(f->re[k], f->im[k]);
 
+        a->blurred = a->blurred || !(f->error[k] <= blurred * fmax(1, size));
         a->growing += f->error[k] != 0 && size > 1 + fmax(grows, 3 * f->error[k]);
         product *= f->im[k] == 0 ? f->re[k] + 1 : hypot(f->re[k] + 1, f->im[k]);
         a->y[x->path.n + 1 + x->n + k] = size;
@@ -215,6 +220,7 @@ judge(qdot_path *path, qdot_path_point *a)
     a->flip = 0;
     for (size_t i = path->n + 1; i < path->width; i++)
         a->y[i] = NAN;
+    a->blurred = true;
     if (!fill_both(x, a->y))
         return path->failure;
     status = qdot_floquet_of(2 * x->n, x->B, x->E, x->driven ? 0 : x->conserved ? 2 : 1,

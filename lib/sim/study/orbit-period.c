@@ -23,12 +23,22 @@ add(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
     return qdot_vec_push(all, e);
 }
 
+/* The components of e. */
+static qdot_status
+add_all(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
+{
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, e); i++)
+        QDOT_TRY(add(all, s, r, qdot_expr_arg(s->pool, e, i)));
+    return QDOT_OK;
+}
+
 /* M, f, and what events do, with numbers; an event either way is where its square is 0. */
 static qdot_status
 gather(qdot_scene *s, const qdot_run_request *r, list *all)
 {
-    QDOT_TRY(add(all, s, r, qdot_mech_numeric_mass(s)));
-    QDOT_TRY(add(all, s, r, qdot_mech_numeric_forcing(s)));
+    QDOT_TRY(add_all(all, s, r, qdot_mech_numeric_mass(s)));
+    QDOT_TRY(add_all(all, s, r, qdot_mech_numeric_forcing(s)));
     for (size_t k = 0; k < s->events.n; k++) {
         const qdot_event *e = &s->events.at[k];
         qdot_expr g = qdot_sub(s->pool, e->left, e->right);
@@ -109,77 +119,72 @@ find_rate(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
     return qdot_pool_check(pool);
 }
 
-/* All of e in the same state, a period later, less what they are now, for a value of p. */
+/* Whether all are the same in the same state after T; in: 2n + 2 numbers and room, tape: now, then later. */
+static bool
+come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
+{
+    double *const value = in + 2 * n + 2;
+
+    for (size_t k = 0; k < ASKED; k++) {
+        for (size_t i = 0; i < 2 * n; i++) /* no places of symmetry */
+            in[i] = 0.3 + 0.17 * (double)((5 * i + 3 * k) % 7);
+        in[2 * n] = T * (double)k / (ASKED + 0.385);
+        qdot_tape_eval(tape, in, value, value + 2 * m);
+        for (size_t i = 0; i < m; i++)
+            if (fabs(value[m + i] - value[i]) > same * fmax(1, fabs(value[i])))
+                return false;
+    }
+    return true;
+}
+
+static qdot_status
+say_changing(const qdot_pool *pool, qdot_expr p, double at, double T)
+{
+    if (p == QDOT_NIL)
+        return qdot_fail(QDOT_EINVAL,
+                         "the equations do not have the period %.10g: they change with time", T);
+    return qdot_fail(QDOT_EINVAL,
+                     "the equations do not have the period %.10g at %s = %.10g: they change with time",
+                     T, qdot_expr_symbol(pool, p)->name, at);
+}
+
+/* Whether all have the period for a value of p. */
 static qdot_status
 check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
 {
     qdot_pool *pool = s->pool;
-    const size_t n = s->coordinates.n;
+    const size_t n = s->coordinates.n, m = all->n, k = 2 * n + (p == QDOT_NIL ? 1 : 2);
     const qdot_expr t = QDOT_T, later = qdot_add(pool, t, period);
-    const qdot_expr list_ = qdot_list(pool, (uint32_t)all->n, all->at);
-    const qdot_expr both[2] = {list_, qdot_subs(pool, list_, 1, &t, &later)};
-    qdot_expr *inputs = qdot_calloc(2 * n + 2, sizeof *inputs), *out = NULL;
-    double *in = NULL, T = 1;
+    qdot_expr *e = qdot_calloc(2 * m + 2 * n + 2, sizeof *e), *const inputs = e + 2 * m;
+    double *in = NULL, T = NAN;
     qdot_tape *tape = NULL;
-    size_t m = 0;
-    qdot_status status = inputs ? qdot_pool_check(pool) : QDOT_ENOMEM;
+    qdot_status status = e ? number_of(pool, period, p, at, &T) : QDOT_ENOMEM;
 
-    if (status == QDOT_OK)
-        status = number_of(pool, period, p, at, &T);
-    for (size_t k = 0; k < 2 && status == QDOT_OK; k++)
-        for (uint32_t i = 0; i < qdot_expr_count(pool, both[k]); i++) {
-            const qdot_expr e = qdot_expr_arg(pool, both[k], i);
-
-            m += qdot_expr_kind(pool, e) == QDOT_LIST ? qdot_expr_count(pool, e) : 1;
-        }
-    out = status == QDOT_OK ? qdot_calloc(m + 1, sizeof *out) : NULL;
-    if (status == QDOT_OK && out == NULL)
-        status = QDOT_ENOMEM;
-    m = 0;
-    for (size_t k = 0; k < 2 && status == QDOT_OK; k++)
-        for (uint32_t i = 0; i < qdot_expr_count(pool, both[k]); i++) {
-            const qdot_expr e = qdot_expr_arg(pool, both[k], i);
-
-            if (qdot_expr_kind(pool, e) != QDOT_LIST)
-                out[m++] = e;
-            else
-                for (uint32_t j = 0; j < qdot_expr_count(pool, e); j++)
-                    out[m++] = qdot_expr_arg(pool, e, j);
-        }
+    for (size_t i = 0; i < m && status == QDOT_OK; i++) {
+        e[i] = all->at[i];
+        e[m + i] = qdot_subs(pool, e[i], 1, &t, &later);
+    }
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
         inputs[i] = qdot_symbol_jet(pool, s->coordinates.at[i % n], i >= n);
     if (status == QDOT_OK) {
-        inputs[2 * n] = QDOT_T;
+        inputs[2 * n] = t;
         inputs[2 * n + 1] = p;
-        status = qdot_tape_new(pool, 2 * n + (p == QDOT_NIL ? 1 : 2), inputs, m, out, &tape);
+        status = qdot_pool_check(pool);
     }
+    if (status == QDOT_OK)
+        status = qdot_tape_new(pool, k, inputs, 2 * m, e, &tape);
     if (status == QDOT_OK) {
-        in = qdot_calloc(2 * n + 2 + m + qdot_tape_work(tape), sizeof *in);
+        in = qdot_calloc(2 * n + 2 + 2 * m + qdot_tape_work(tape), sizeof *in);
         status = in ? QDOT_OK : QDOT_ENOMEM;
     }
-    for (size_t k = 0; k < ASKED && status == QDOT_OK; k++) {
-        double *const value = in + 2 * n + 2;
-
-        for (size_t i = 0; i < 2 * n; i++) /* no places of symmetry */
-            in[i] = 0.3 + 0.17 * (double)((5 * i + 3 * k) % 7);
-        in[2 * n] = T * (double)k / (ASKED + 0.385);
+    if (status == QDOT_OK) {
         in[2 * n + 1] = at;
-        qdot_tape_eval(tape, in, value, value + m);
-        for (size_t i = 0; i < m / 2 && status == QDOT_OK; i++)
-            if (fabs(value[m / 2 + i] - value[i]) > same * fmax(1, fabs(value[i])))
-                status = p == QDOT_NIL
-                             ? qdot_fail(QDOT_EINVAL,
-                                         "the equations do not have the period %.10g: they change "
-                                         "with time", T)
-                             : qdot_fail(QDOT_EINVAL,
-                                         "the equations do not have the period %.10g at %s = %.10g: "
-                                         "they change with time",
-                                         T, qdot_expr_symbol(pool, p)->name, at);
+        if (!come_back(tape, n, m, T, in))
+            status = say_changing(pool, p, at, T);
     }
     qdot_tape_free(tape);
     qdot_free(in);
-    qdot_free(out);
-    qdot_free(inputs);
+    qdot_free(e);
     return status;
 }
 

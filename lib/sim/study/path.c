@@ -79,6 +79,7 @@ qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_
     to->growing = from->growing;
     to->flip = from->flip;
     to->rests = from->rests;
+    to->blurred = from->blurred;
     to->stability = from->stability;
 }
 

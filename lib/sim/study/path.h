@@ -24,7 +24,8 @@ typedef struct {
     double det;        /* the determinant, by the tangent before */
     long growing;      /* motions near by that grow; -1: unknown */
     int flip;          /* of orbits: its sign changes where a multiplier passes -1; 0: unknown */
-    bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it */
+    bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it; */
+    bool blurred;      /* what is judged drowns in errors: it is no point */
     qdot_stability stability;
 } qdot_path_point;
 
