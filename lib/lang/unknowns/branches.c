@@ -372,6 +372,18 @@ add_branch(const qdot_branches *b, size_t i, grid *g)
     }
 }
 
+/* Whether p is the same all the way. */
+static bool
+is_upright(const qdot_branches *b, const qdot_branch *branch)
+{
+    const size_t n = b->found->n, m = b->found->width;
+
+    for (size_t k = 0; k < branch->n; k++)
+        if (fabs(branch->y[k * m + n] - branch->y[n]) > small * b->found->size[n])
+            return false;
+    return true;
+}
+
 /* Ends that are not those of the range. */
 static void
 say_ends(const qdot_branches *b, size_t i, qdot_text *out)
@@ -387,6 +399,13 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
     const qdot_branch *branch = &b->found->branches.at[i];
     const size_t n = b->found->n;
 
+    if (branch->n > 1 && is_upright(b, branch)) {
+        qdot_text_format(out, "branch[%zu] is upright: at %s = ", i + 1, name_of(b, n));
+        write_place(b, n, branch->y[n], out);
+        qdot_text_add(out, b->orbits ? " alone all of these are orbits\n"
+                                     : " alone all of these are places at rest\n");
+        return;
+    }
     if (branch->end[0] == QDOT_END_CLOSED || branch->end[1] == QDOT_END_CLOSED) {
         qdot_text_format(out, "branch[%zu] is closed\n", i + 1);
         return;

@@ -15,6 +15,8 @@ static const double straight = 0.99;
 static const double longer = 1.02;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
+/* Of a unit direction: below, it has no part along p. */
+static const double upright = 1e-9;
 enum { MOST_POINTS = 20000 };
 
 qdot_status
@@ -55,13 +57,20 @@ qdot_branch_clear(qdot_branch *branch)
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
+/* Whether a curve has no part along p there. Where it has none all the way it does not turn. */
+static bool
+is_upright(const qdot_path *x, const qdot_path_point *a)
+{
+    return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < upright;
+}
+
 /* Whether b lies on a's side of a bifurcation of that kind. */
 static bool
 is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
           const qdot_path_point *b)
 {
     if (kind == QDOT_FOLD)
-        return a->t[x->n] * b->t[x->n] > 0;
+        return a->t[x->n] * b->t[x->n] > 0 || (is_upright(x, a) && is_upright(x, b));
     if (kind == QDOT_DOUBLING)
         return a->flip == b->flip;
     return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);

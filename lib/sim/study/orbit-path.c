@@ -184,13 +184,20 @@ fill_both(qdot_orbit_path *x, const double *y)
     return true;
 }
 
+/* How many multipliers are 1 whatever the orbit. */
+static size_t
+trivial_of(const qdot_orbit_path *x)
+{
+    return x->driven ? 0 : x->conserved ? 2 : 1;
+}
+
 static void
 judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
 {
     double product = 1;
 
     a->growing = 0;
-    a->blurred = false;
+    a->blurred = f->trivial < trivial_of(x); /* one that is 1 was found elsewhere */
     for (size_t k = 0; k < f->n; k++) {
         const double size = hypot(f->re[k], f->im[k]);
 
@@ -223,8 +230,7 @@ judge(qdot_path *path, qdot_path_point *a)
     a->blurred = true;
     if (!fill_both(x, a->y))
         return path->failure;
-    status = qdot_floquet_of(2 * x->n, x->B, x->E, x->driven ? 0 : x->conserved ? 2 : 1,
-                             x->asymptotic, &f);
+    status = qdot_floquet_of(2 * x->n, x->B, x->E, trivial_of(x), x->asymptotic, &f);
     if (status == QDOT_OK)
         judge_by(x, &f, a);
     else
