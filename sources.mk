@@ -1262,6 +1262,7 @@ unit_tests = \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
 	tests/sim/test_operations \
+	tests/sim/test_orbits \
 	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \

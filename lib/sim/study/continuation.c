@@ -312,6 +312,8 @@ qdot_continuation_finish(qdot_branch_search *s, qdot_status status)
     for (size_t i = 0; i < s->crossings.n; i++)
         qdot_free(s->crossings.at[i].other);
     qdot_free(s->crossings.at);
+    if (status == QDOT_OK)
+        status = s->x->failure;
     if (status != QDOT_EINTR)
         return status;
     s->all->interrupted = true;
