@@ -156,6 +156,7 @@ library_sources = \
 	lib/lang/session/value-kind.c \
 	lib/lang/slopes/floquet.c \
 	lib/lang/slopes/lyapunov.c \
+	lib/lang/slopes/orbit-run.c \
 	lib/lang/slopes/sensitivity.c \
 	lib/lang/slopes/slope-numbers.c \
 	lib/lang/slopes/slopes.c \
@@ -177,6 +178,7 @@ library_sources = \
 	lib/lang/sweeps/sweep-rows.c \
 	lib/lang/sweeps/sweep.c \
 	lib/lang/unknowns/branches.c \
+	lib/lang/unknowns/continue-orbit.c \
 	lib/lang/unknowns/continue.c \
 	lib/lang/unknowns/find-read.c \
 	lib/lang/unknowns/find.c \
@@ -576,8 +578,16 @@ library_sources = \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/newton.c \
+	lib/sim/study/orbit-bifurcation.c \
+	lib/sim/study/orbit-continuation.c \
+	lib/sim/study/orbit-path.c \
+	lib/sim/study/orbit-period.c \
+	lib/sim/study/orbit-shape.c \
+	lib/sim/study/path.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
+	lib/sim/study/rest-bifurcation.c \
+	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
@@ -721,6 +731,7 @@ library_headers = \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/slopes/orbit-run.h \
 	lib/lang/slopes/slopes.h \
 	lib/lang/slopes/trial.h \
 	lib/lang/source/latex-line.h \
@@ -737,6 +748,7 @@ library_headers = \
 	lib/lang/sweeps/sweep-parts.h \
 	lib/lang/sweeps/sweep-ranks.h \
 	lib/lang/unknowns/branches.h \
+	lib/lang/unknowns/continue-parts.h \
 	lib/lang/unknowns/find-parts.h \
 	lib/lang/unknowns/fit-parts.h \
 	lib/lang/workbench/complete.h \
@@ -1072,8 +1084,16 @@ library_headers = \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/newton.h \
+	lib/sim/study/orbit-bifurcation.h \
+	lib/sim/study/orbit-continuation.h \
+	lib/sim/study/orbit-path.h \
+	lib/sim/study/orbit-period.h \
+	lib/sim/study/orbit-shape.h \
+	lib/sim/study/path.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
+	lib/sim/study/rest-bifurcation.h \
+	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
@@ -1252,6 +1272,7 @@ unit_tests = \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
 	tests/sim/test_operations \
+	tests/sim/test_orbits \
 	tests/sim/test_parameter_states \
 	tests/sim/test_parts \
 	tests/sim/test_phase-space \
@@ -1305,6 +1326,8 @@ script_tests = \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/continue-files.sh \
+	tests/script/continue-orbit-files.sh \
+	tests/script/continue-orbit.lag \
 	tests/script/continue.lag \
 	tests/script/coordinates.lag \
 	tests/script/data-files.sh \
@@ -1512,6 +1535,7 @@ script_tests = \
 	tests/bad/constraints-option.lag \
 	tests/bad/constraints-too-many.lag \
 	tests/bad/constraints-word.lag \
+	tests/bad/continue-orbit.sh \
 	tests/bad/continue.sh \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
@@ -1827,6 +1851,7 @@ script_tests = \
 	examples/moving-constraint.lag \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
+	examples/orbit-branches.lag \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \
@@ -1918,6 +1943,7 @@ test_files = \
 	tests/bad/constraints-option.out \
 	tests/bad/constraints-too-many.out \
 	tests/bad/constraints-word.out \
+	tests/bad/continue-orbit.out \
 	tests/bad/continue.out \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
@@ -2214,6 +2240,7 @@ test_files = \
 	tests/examples/moving-constraint.out \
 	tests/examples/n-four-bar.out \
 	tests/examples/newtons-cradle.out \
+	tests/examples/orbit-branches.out \
 	tests/examples/peaucellier.out \
 	tests/examples/pendulum-cartesian.out \
 	tests/examples/pendulum.out \
@@ -2326,6 +2353,8 @@ test_files = \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/continue-files.out \
+	tests/script/continue-orbit-files.out \
+	tests/script/continue-orbit.out \
 	tests/script/continue.out \
 	tests/script/coordinates.out \
 	tests/script/data-files.out \
@@ -2695,6 +2724,8 @@ example_files = \
 	examples/n-four-bar.lag \
 	examples/newtons-cradle.lag \
 	examples/newtons-cradle.svg \
+	examples/orbit-branches.lag \
+	examples/orbit-branches.svg \
 	examples/over-the-edge.lag \
 	examples/peaucellier.lag \
 	examples/pendulum-cartesian.lag \

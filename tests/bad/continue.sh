@@ -4,7 +4,7 @@ while read -r line; do
     qdot -q -e "$scene" -e "$line" 2>&1 || echo "exit $?"
 done <<'EOF'
 continue
-continue orbit in mu = 0..1
+continue orbits in mu = 0..1
 continue equilibria
 continue equilibria in
 continue equilibria in nu = 0..1

@@ -18,6 +18,9 @@ s/^\(  error of the end state: at most \).*/\1N/
 /^    /s/ = -\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/ = N/g
 }
 s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/N ± ERROR/g
+# Columns of numbers with errors are as wide as the errors have digits.
+s/ERROR   */ERROR  /g
+/^bifurcation  /s/   */  /g
 
 # Rounding: what is left of an exact zero depends on the machine's sin and cos. A tolerance
 # is what was asked for and stays.

@@ -5,7 +5,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
-#include "sim/study/continuation.h"
+#include "sim/study/rest-continuation.h"
 
 static qdot_expr
 bind(void *user, qdot_expr e)
@@ -27,7 +27,7 @@ follow(fixture *f, const char *p, double least, double most, qdot_equilibrium_cu
        qdot_continuation *x)
 {
     must(qdot_equilibrium_curve_begin(c, f->scene, parameter(f, p), bind, f));
-    must(qdot_continuation_find(c, least, most, x));
+    must(qdot_rest_continuation_find(c, least, most, x));
 }
 
 static void
@@ -168,7 +168,7 @@ survives_failed_allocations_too(void **state)
         qdot_memory_fail_at(n);
         status = qdot_equilibrium_curve_begin(&c, f.scene, parameter(&f, "mu"), bind, &f);
         if (status == QDOT_OK)
-            status = qdot_continuation_find(&c, -1, 1, &x);
+            status = qdot_rest_continuation_find(&c, -1, 1, &x);
         qdot_memory_fail_at(-1);
         assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
         qdot_continuation_clear(&x);
@@ -199,7 +199,7 @@ keeps_what_is_known(void **state)
 
         must(qdot_equilibrium_curve_begin(&c, f.scene, parameter(&f, "mu"), bind, &f));
         qdot_memory_press_at(n);
-        must(qdot_continuation_find(&c, -1, 1, &x));
+        must(qdot_rest_continuation_find(&c, -1, 1, &x));
         qdot_memory_press_at(-1);
         qdot_interrupt_clear();
         whole = !x.interrupted;

@@ -9,13 +9,6 @@
 /* How a part of a branch is drawn; the places in figure.h's lists of looks. */
 enum { FULL, DASHED, DOTTED, KINDS, MOST_PANELS = 6, MOST_TYPES = 8 };
 
-/* Columns of the table: branch, p, coordinates, stable, bifurcation. */
-static size_t
-coordinates(const qdot_row_table *t)
-{
-    return t->n - 4;
-}
-
 static bool
 is_mark(const qdot_row_table *t, size_t k)
 {
@@ -115,7 +108,7 @@ qdot_status
 qdot_plot_branches_draw(const qdot_row_table *t, qdot_branch_drawing *d)
 {
     const size_t per = KINDS + MOST_TYPES, room = 2 * per * (3 * t->rows + 1);
-    const size_t all = coordinates(t);
+    const size_t all = t->drawn; /* behind branch, p */
 
     d->n = all < MOST_PANELS ? all : MOST_PANELS;
     d->panels = qdot_calloc(d->n + 1, sizeof *d->panels);

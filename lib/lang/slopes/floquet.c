@@ -8,76 +8,20 @@
 #include "lang/answer/number-text.h"
 #include "lang/commands/statement.h"
 #include "lang/language/read.h"
+#include "lang/slopes/orbit-run.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
-
-/* How far a run may be from its start, beside max(scale, |value|), and count as an orbit. */
-static const double closed = 1e-7;
-
-static bool
-is_whole(const qdot_session *session, const qdot_named_run *named)
-{
-    return named->conditions != NULL &&
-           named->conditions->version == session->scene->version &&
-           qdot_run_get_report(named->run)->status == QDOT_RUN_DONE;
-}
-
-/* The latest run that ends where it began. */
-static qdot_status
-find_orbit(qdot_session *session, qdot_named_run **orbit)
-{
-    double first = NAN;
-    qdot_expr at = QDOT_NIL;
-    qdot_named_run *latest;
-
-    QDOT_TRY(qdot_runs_find(session, NULL, &latest));
-    for (size_t i = session->runs.n; i-- > 0;) {
-        double off;
-        qdot_expr where;
-
-        if (!is_whole(session, &session->runs.at[i]))
-            continue;
-        QDOT_TRY(
-            qdot_floquet_return(session->scene, session->runs.at[i].run, &off, &where));
-        if (off <= closed) {
-            *orbit = &session->runs.at[i];
-            return QDOT_OK;
-        }
-        if (at == QDOT_NIL) {
-            first = off;
-            at = where;
-            latest = &session->runs.at[i];
-        }
-    }
-    if (at == QDOT_NIL)
-        (void)qdot_fail(QDOT_EINVAL, "no run of this scene is whole");
-    else
-        (void)qdot_fail(QDOT_EINVAL,
-                        "no run ends where it began: %.80s is %.3g off in %.80s",
-                        latest->name, first, qdot_expr_symbol(session->pool, at)->name);
-    return qdot_hint("find x = 1, T = 2 such that returns after T");
-}
 
 static qdot_status
 find_named(qdot_cursor *c, qdot_named_run **orbit)
 {
     const qdot_token *start = c->at;
     const char *name;
-    double off;
-    qdot_expr where;
 
     QDOT_TRY(qdot_read_name(c, &name));
     QDOT_TRY(qdot_cursor_expect_end(c));
     c->error_at = start->start;
-    QDOT_TRY(qdot_runs_find(c->session, name, orbit));
-    if (!is_whole(c->session, *orbit))
-        return qdot_fail(QDOT_EINVAL, "%s is not a whole run of this scene", name);
-    QDOT_TRY(qdot_floquet_return(c->session->scene, (*orbit)->run, &off, &where));
-    if (off <= closed)
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "%s does not end where it began: it is %.3g off", name,
-                    off);
-    return qdot_hint("find x = 1, T = 2 such that returns after T");
+    return qdot_orbit_run_named(c->session, name, orbit);
 }
 
 /* re + im*i with one error; JSON: [re, im]. */
@@ -157,7 +101,7 @@ qdot_floquet_statement(qdot_cursor *c)
         QDOT_TRY(find_named(c, &orbit));
     } else {
         c->error_at = start->start;
-        QDOT_TRY(find_orbit(c->session, &orbit));
+        QDOT_TRY(qdot_orbit_run_find(c->session, &orbit));
     }
     request = qdot_conditions_request(orbit->conditions);
     request.tol = qdot_run_get_report(orbit->run)->tol;

@@ -85,17 +85,52 @@ qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
 /* What the session says of a symbol, where that follows the free parameter and is at its value what the
  * run had; else what the run had. */
 static qdot_expr
-free_value(const qdot_slopes *s, qdot_expr said, qdot_expr parameter, qdot_expr had)
+free_value(qdot_session *session, const qdot_conditions *of, qdot_expr said, qdot_expr parameter,
+           qdot_expr had)
 {
-    const qdot_conditions *of = s->conditions;
-    qdot_pool *pool = s->session->pool;
-    const qdot_expr now = qdot_session_bind(s->session, said);
+    qdot_pool *pool = session->pool;
+    const qdot_expr now = qdot_session_bind(session, said);
 
     if (now == QDOT_NIL || !qdot_expr_contains(pool, now, parameter))
         return now == QDOT_NIL ? now : had;
     return qdot_substitute(pool, now, of->symbols.n, of->symbols.at, of->values.at) == had
                ? now
                : had;
+}
+
+/* The same of all values [of->symbols.n], p, the own-th of them, set to itself in the session. */
+static qdot_status
+free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p, size_t own, qdot_expr *values)
+{
+    for (size_t i = 0; i < of->symbols.n; i++) {
+        const size_t at =
+            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
+
+        values[i] = i == own ? p
+                    : at == session->set_symbols.n
+                        ? of->values.at[i]
+                        : free_value(session, of, session->set_values.at[at], p, of->values.at[i]);
+    }
+    return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_slopes_free_values(qdot_session *session, const qdot_conditions *of, qdot_expr p,
+                        qdot_expr *values)
+{
+    const size_t own = qdot_expr_place(of->symbols.n, of->symbols.at, p);
+    qdot_kept_values kept;
+    qdot_status status = QDOT_OK;
+
+    if (own == of->symbols.n)
+        return qdot_fail(QDOT_EUNSET, "%s has no value in the run",
+                         qdot_expr_symbol(session->pool, p)->name);
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    qdot_session_set(session, p, p, &status);
+    if (status == QDOT_OK)
+        status = free_values(session, of, p, own, values);
+    qdot_session_restore_values(session, &kept);
+    return status;
 }
 
 /* Parameters with the k-th free, and how the start follows it. */
@@ -116,15 +151,8 @@ free_parameter(qdot_slopes *s, size_t k)
         return qdot_fail(QDOT_EUNSET, "%s has no value in the run", s->names.at[k].label);
     QDOT_TRY(qdot_session_keep_values(session, &kept));
     qdot_session_set(session, p, p, &status);
-    for (size_t i = 0; i < of->symbols.n && status == QDOT_OK; i++) {
-        const size_t at =
-            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
-
-        values[i] = i == own ? p
-                    : at == session->set_symbols.n
-                        ? of->values.at[i]
-                        : free_value(s, session->set_values.at[at], p, of->values.at[i]);
-    }
+    if (status == QDOT_OK)
+        status = free_values(session, of, p, own, values);
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++) {
         const qdot_expr jet =
             qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
@@ -134,7 +162,7 @@ free_parameter(qdot_slopes *s, size_t k)
         if (at == session->start_symbols.n)
             continue;
         start[i] = qdot_diff(pool,
-                             free_value(s, session->start_values.at[at], p,
+                             free_value(session, of, session->start_values.at[at], p,
                                         (i < n ? of->q0.at : of->v0.at)[i % n]),
                              p);
         start[i] = start[i] == QDOT_NIL ? start[i]

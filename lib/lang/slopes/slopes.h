@@ -63,4 +63,9 @@ QDOT_MUST_CHECK qdot_status qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t f
                                            size_t k, qdot_expr *slope);
 void qdot_slopes_free(qdot_slopes *s);
 
+/* The values of a run's parameters [of->symbols.n] with p free, p as its own value; those that the session says
+ * in terms of p follow it. QDOT_EUNSET: p has no value in the run. */
+QDOT_MUST_CHECK qdot_status qdot_slopes_free_values(qdot_session *session, const qdot_conditions *of,
+                                                    qdot_expr p, qdot_expr *values);
+
 #endif

@@ -19,7 +19,7 @@ static const double tiny = 1e-5;
 static const char *
 name_of(const qdot_branches *b, size_t i)
 {
-    return qdot_expr_symbol(b->curve->pool, b->curve->unknown[i])->name;
+    return b->names[i];
 }
 
 /* --- tables -------------------------------------------------------------------------------- */
@@ -27,13 +27,13 @@ name_of(const qdot_branches *b, size_t i)
 static qdot_status
 fill_branches(const qdot_branches *b, qdot_row_table *t)
 {
-    const size_t n = b->found->n, k = b->found->coordinates;
+    const size_t n = b->found->n, k = b->n_columns;
 
     for (size_t i = 0; i < b->found->branches.n; i++) {
         const qdot_branch *branch = &b->found->branches.at[i];
 
         for (size_t j = 0; j < branch->n; j++) {
-            const double *y = branch->y + j * (n + 1);
+            const double *y = branch->y + j * b->found->width;
             double *row;
 
             QDOT_TRY(qdot_row_table_add(t));
@@ -41,7 +41,7 @@ fill_branches(const qdot_branches *b, qdot_row_table *t)
             row[0] = (double)i + 1;
             row[1] = y[n];
             for (size_t q = 0; q < k; q++)
-                row[QDOT_BRANCH_BEFORE + q] = y[q];
+                row[QDOT_BRANCH_BEFORE + q] = y[b->columns[q]];
             if (branch->stability[j] != QDOT_STABILITY_UNDECIDED)
                 row[QDOT_BRANCH_BEFORE + k] = branch->stability[j] != QDOT_UNSTABLE;
             if (branch->mark[j] > 0)
@@ -64,8 +64,8 @@ fill_marks(const qdot_branches *b, qdot_row_table *t)
         row = t->values + (t->rows - 1) * t->n;
         error = t->errors + (t->rows - 1) * t->n;
         for (size_t q = 0; q < t->n; q++) {
-            row[q] = one->y[q == 0 ? n : q - 1];
-            error[q] = one->error[q == 0 ? n : q - 1];
+            row[q] = one->y[q == 0 ? n : b->columns[q - 1]];
+            error[q] = one->error[q == 0 ? n : b->columns[q - 1]];
         }
         t->reasons[t->rows - 1] = qdot_strdup(qdot_bifurcation_name(one->kind));
         if (t->reasons[t->rows - 1] == NULL)
@@ -78,7 +78,7 @@ qdot_status
 qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *name,
                    const char *marks)
 {
-    const size_t k = b->found->coordinates, n = k + QDOT_BRANCH_BEFORE + QDOT_BRANCH_BEHIND;
+    const size_t k = b->n_columns, n = k + QDOT_BRANCH_BEFORE + QDOT_BRANCH_BEHIND;
     const char **labels = qdot_calloc(n, sizeof *labels);
     qdot_row_table *all, *points;
     qdot_status status = QDOT_OK;
@@ -88,7 +88,7 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     labels[0] = "branch";
     labels[1] = name_of(b, b->found->n);
     for (size_t q = 0; q < k; q++)
-        labels[QDOT_BRANCH_BEFORE + q] = name_of(b, q);
+        labels[QDOT_BRANCH_BEFORE + q] = name_of(b, b->columns[q]);
     labels[QDOT_BRANCH_BEFORE + k] = "stable";
     labels[QDOT_BRANCH_BEFORE + k + 1] = "bifurcation";
     all = qdot_row_table_new(name, n, n, labels);
@@ -108,6 +108,7 @@ qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *na
     points->note = "type";
     points->uses++;
     all->marks = points;
+    all->drawn = b->n_drawn;
     status = qdot_row_tables_keep(session, points);
     if (status != QDOT_OK) {
         qdot_row_table_release(all);
@@ -124,9 +125,9 @@ write_values(const qdot_branches *b, const double *y, qdot_text *line)
 {
     qdot_text_add(line, ",\"values\":[");
     qdot_number_text_json(line, y[b->found->n]);
-    for (size_t q = 0; q < b->found->coordinates; q++) {
+    for (size_t q = 0; q < b->n_columns; q++) {
         qdot_text_char(line, ',');
-        qdot_number_text_json(line, y[q]);
+        qdot_number_text_json(line, y[b->columns[q]]);
     }
     qdot_text_char(line, ']');
 }
@@ -141,7 +142,7 @@ answer_json(qdot_session *session, const qdot_branches *b)
 
         for (size_t j = 0; j < branch->n; j++) {
             qdot_text_format(&line, "{\"kind\":\"row\",\"name\":\"branch[%zu]\"", i + 1);
-            write_values(b, branch->y + j * (b->found->n + 1), &line);
+            write_values(b, branch->y + j * b->found->width, &line);
             qdot_text_format(&line, ",\"stable\":%s}\n",
                              branch->stability[j] == QDOT_STABILITY_UNDECIDED ? "null"
                              : branch->stability[j] == QDOT_UNSTABLE          ? "false"
@@ -218,16 +219,10 @@ clear_grid(grid *g)
 
 /* --- words --------------------------------------------------------------------------------- */
 
-static double
-size_of(const qdot_branches *b, size_t i)
-{
-    return i < b->found->n ? b->found->size[i] : b->most - b->least;
-}
-
 static void
 write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
 {
-    const double size = size_of(b, i);
+    const double size = b->found->size[i];
 
     if (fabs(v) < small * size)
         v = 0;
@@ -238,9 +233,9 @@ write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
 static double
 furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
 {
-    const size_t m = b->found->n + 1;
+    const size_t m = b->found->width;
     const double first = branch->y[k * m + i], last = branch->y[end * m + i];
-    double most = tiny * size_of(b, i), at = first;
+    double most = tiny * b->found->size[i], at = first;
 
     for (size_t j = k; j <= end; j++) {
         const double v = branch->y[j * m + i],
@@ -265,7 +260,7 @@ write_range(const qdot_branches *b, size_t i, const double *from, const double *
     if (beyond) {
         qdot_text_add(out, "..");
         write_place(b, i, turn, out);
-    } else if (fabs(to[i] - from[i]) < small * size_of(b, i)) {
+    } else if (fabs(to[i] - from[i]) < small * b->found->size[i]) {
         return;
     }
     qdot_text_add(out, "..");
@@ -283,7 +278,7 @@ between(const qdot_branch *b, size_t k)
 static bool
 turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
 {
-    const size_t m = b->found->n + 1;
+    const size_t m = b->found->width;
     const double *p = branch->y + k * m + b->found->n;
 
     return branch->mark[k] > 0 && (p[m] - p[0]) * (p[0] - *(p - m)) < 0;
@@ -293,12 +288,14 @@ turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
 static bool
 is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
 {
-    const double *y = branch->y + from * (b->found->n + 1), *z = branch->y + to * (b->found->n + 1);
+    const double *y = branch->y + from * b->found->width, *z = branch->y + to * b->found->width;
 
-    for (size_t i = 0; i <= b->found->n; i++)
-        if ((i < b->found->coordinates || i == b->found->n) &&
-            fabs(y[i] - z[i]) > tiny * size_of(b, i))
+    for (size_t k = 0; k <= b->n_told; k++) {
+        const size_t i = k < b->n_told ? b->columns[k] : b->found->n;
+
+        if (fabs(y[i] - z[i]) > tiny * b->found->size[i])
             return false;
+    }
     return true;
 }
 
@@ -353,8 +350,8 @@ add_branch(const qdot_branches *b, size_t i, grid *g)
         qdot_stability verdict;
 
         end = part_end(b, branch, k, &verdict);
-        from = branch->y + k * (n + 1);
-        to = branch->y + end * (n + 1);
+        from = branch->y + k * b->found->width;
+        to = branch->y + end * b->found->width;
         if (k == 0)
             qdot_text_format(new_cell(g), "branch[%zu]", i + 1);
         else
@@ -366,10 +363,25 @@ add_branch(const qdot_branches *b, size_t i, grid *g)
             to = swap;
         }
         write_range(b, n, from, to, from[n], new_cell(g));
-        for (size_t q = 0; q < b->found->coordinates; q++)
-            write_range(b, q, from, to, furthest(b, branch, k, end, q), new_cell(g));
+        for (size_t q = 0; q < b->n_told; q++) {
+            const size_t i_q = b->columns[q];
+
+            write_range(b, i_q, from, to, furthest(b, branch, k, end, i_q), new_cell(g));
+        }
         qdot_text_add(new_cell(g), word_of(verdict));
     }
+}
+
+/* Whether p is the same all the way. */
+static bool
+is_upright(const qdot_branches *b, const qdot_branch *branch)
+{
+    const size_t n = b->found->n, m = b->found->width;
+
+    for (size_t k = 0; k < branch->n; k++)
+        if (fabs(branch->y[k * m + n] - branch->y[n]) > small * b->found->size[n])
+            return false;
+    return true;
 }
 
 /* Ends that are not those of the range. */
@@ -377,6 +389,8 @@ static void
 say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 {
     static const char *const words[] = {
+        [QDOT_END_REST] = "shrinks to a place at rest",
+        [QDOT_END_PERIOD] = "comes near a place at rest, its period grows to infinity",
         [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
         [QDOT_END_FAR] = "is not followed further",
         [QDOT_END_LOST] = "is lost: the equations have no value there, or jump",
@@ -385,21 +399,31 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
     const qdot_branch *branch = &b->found->branches.at[i];
     const size_t n = b->found->n;
 
+    if (branch->n > 1 && is_upright(b, branch)) {
+        qdot_text_format(out, "branch[%zu] is upright: at %s = ", i + 1, name_of(b, n));
+        write_place(b, n, branch->y[n], out);
+        qdot_text_add(out, b->orbits ? " alone all of these are orbits\n"
+                                     : " alone all of these are places at rest\n");
+        return;
+    }
     if (branch->end[0] == QDOT_END_CLOSED || branch->end[1] == QDOT_END_CLOSED) {
         qdot_text_format(out, "branch[%zu] is closed\n", i + 1);
         return;
     }
     for (int side = 0; side < 2; side++) {
-        const double *y = branch->y + (side == 0 ? 0 : branch->n - 1) * (n + 1);
+        const double *y = branch->y + (side == 0 ? 0 : branch->n - 1) * b->found->width;
 
         if (branch->end[side] == QDOT_END_RANGE)
             continue;
-        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1, words[branch->end[side]],
+        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1,
+                         b->orbits && branch->end[side] == QDOT_END_LOST
+                             ? "is lost: no orbit is found further on"
+                             : words[branch->end[side]],
                          name_of(b, n));
         write_place(b, n, y[n], out);
-        for (size_t q = 0; q < b->found->coordinates; q++) {
-            qdot_text_format(out, ", %s = ", name_of(b, q));
-            write_place(b, q, y[q], out);
+        for (size_t q = 0; q < b->n_told; q++) {
+            qdot_text_format(out, ", %s = ", name_of(b, b->columns[q]));
+            write_place(b, b->columns[q], y[b->columns[q]], out);
         }
         qdot_text_char(out, '\n');
     }
@@ -428,9 +452,12 @@ add_bifurcation(const qdot_branches *b, size_t i, grid *g)
     bool first = true;
 
     qdot_text_add(new_cell(g), qdot_bifurcation_name(one->kind));
-    write_measured(one->y[n], one->error[n], size_of(b, n), new_cell(g));
-    for (size_t q = 0; q < b->found->coordinates; q++)
-        write_measured(one->y[q], one->error[q], size_of(b, q), new_cell(g));
+    write_measured(one->y[n], one->error[n], b->found->size[n], new_cell(g));
+    for (size_t q = 0; q < b->n_told; q++) {
+        const size_t k = b->columns[q];
+
+        write_measured(one->y[k], one->error[k], b->found->size[k], new_cell(g));
+    }
     cell = new_cell(g);
     for (size_t k = 0; k < b->found->branches.n; k++) {
         const qdot_branch *branch = &b->found->branches.at[k];
@@ -444,7 +471,7 @@ add_bifurcation(const qdot_branches *b, size_t i, grid *g)
         first = false;
     }
     if (one->frequency > 0) {
-        qdot_text_add(cell, ", angular frequency ");
+        qdot_text_add(cell, b->orbits ? ", multipliers at the angle " : ", angular frequency ");
         write_measured(one->frequency, one->frequency_error, 1, cell);
     }
 }
@@ -452,11 +479,11 @@ add_bifurcation(const qdot_branches *b, size_t i, grid *g)
 static void
 add_head(const qdot_branches *b, const char *first, const char *last, grid *g)
 {
-    g->columns = b->found->coordinates + 3;
+    g->columns = b->n_told + 3;
     qdot_text_add(new_cell(g), first);
     qdot_text_add(new_cell(g), name_of(b, b->found->n));
-    for (size_t q = 0; q < b->found->coordinates; q++)
-        qdot_text_add(new_cell(g), name_of(b, q));
+    for (size_t q = 0; q < b->n_told; q++)
+        qdot_text_add(new_cell(g), name_of(b, b->columns[q]));
     qdot_text_add(new_cell(g), last);
 }
 

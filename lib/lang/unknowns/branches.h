@@ -1,4 +1,4 @@
-/* branches.h -- branches of equilibria and their bifurcations as rows, as JSON and in words.
+/* branches.h -- branches of equilibria or of orbits and their bifurcations as rows, as JSON and in words.
  *
  *     {"kind":"row","name":"branch[1]","values":[Omega, theta],"stable":true}     null: undecided
  *     {"kind":"row","name":"bifurcation","type":"pitchfork","values":[Omega, theta]}
@@ -16,12 +16,14 @@
 
 /* What was followed. */
 typedef struct {
-    const qdot_equilibrium_curve *curve;
     const qdot_continuation *found;
-    double least, most; /* of the parameter */
+    const char *const *names; /* [found->width] of the unknowns, p, and what stands behind it */
+    const size_t *columns;    /* [n_columns] which of these are columns, beside p; */
+    size_t n_columns, n_told, n_drawn; /* the first n_told are told in words, n_drawn drawn */
+    bool orbits;
 } qdot_branches;
 
-/* Columns of the table of branches before and behind the coordinates: branch, p; stable, bifurcation. */
+/* Columns of the table of branches before and behind these: branch, p; stable, bifurcation. */
 enum { QDOT_BRANCH_BEFORE = 2, QDOT_BRANCH_BEHIND = 2 };
 
 /* Keep both tables: `name`, and `marks`. */

@@ -1,4 +1,4 @@
-/* continue.c -- the statement `continue equilibria in NAME = A..B`. */
+/* continue.c -- the statement `continue`: what it reads, and branches of equilibria. */
 #include <math.h>
 #include <string.h>
 
@@ -8,40 +8,55 @@
 #include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"
-#include "lang/unknowns/branches.h"
 #include "lang/session/bind.h"
-
-typedef struct {
-    qdot_expr parameter;
-    const qdot_token *place, *range_at; /* of its name, of A..B */
-    double least, most;
-    const char *name, *marks; /* of the tables; marks owned */
-    char *own;
-} wish;
+#include "lang/slopes/slopes.h"
+#include "lang/unknowns/continue-parts.h"
+#include "sim/study/rest-continuation.h"
 
 /* --- reading ---------------------------------------------------------------------------- */
 
-/* What is followed: `equilibria in`. */
+/* What is followed: `equilibria in`, `orbit in`. */
 static qdot_status
-read_what(qdot_cursor *c)
+read_what(qdot_cursor *c, qdot_continue_wish *w)
 {
-    if (qdot_cursor_is_word(c, "orbit") || qdot_cursor_is_word(c, "orbits")) {
-        c->error_at = c->at->start;
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: branches of periodic orbits");
-    }
-    if (!qdot_cursor_accept_word(c, "equilibria"))
-        return qdot_cursor_expected(c, "`equilibria`");
+    w->orbit = qdot_cursor_accept_word(c, "orbit");
+    if (!w->orbit && !qdot_cursor_accept_word(c, "equilibria"))
+        return qdot_cursor_expected(c, "`equilibria` or `orbit`");
     if (!qdot_cursor_accept_word(c, "in"))
         return qdot_cursor_expected(c, "`in` and a parameter with its range: `in Omega = 0..10`");
     return QDOT_OK;
 }
 
+/* A parameter; of orbits also `energy`, or a number of the start: x, x'. */
+static qdot_status
+read_parameter(qdot_cursor *c, qdot_continue_wish *w)
+{
+    qdot_slope_name x = {0};
+    qdot_status status;
+
+    w->place = c->at;
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a parameter with its range: `in Omega = 0..10`");
+    if (!w->orbit)
+        return qdot_set_read_parameter(c, &w->parameter);
+    if (qdot_names_find(c->session->names, "energy") == NULL &&
+        qdot_cursor_accept_word(c, "energy"))
+        return QDOT_OK;
+    status = qdot_slope_name_read(c, &x);
+    w->parameter = x.symbol;
+    qdot_free(x.label);
+    return status;
+}
+
 /* The range lies within the parameter's domain; its ends may be ends of that, too. */
 static qdot_status
-check_range(qdot_cursor *c, const wish *w)
+check_range(qdot_cursor *c, const qdot_continue_wish *w)
 {
-    const qdot_symbol s = *qdot_expr_symbol(c->session->pool, w->parameter);
+    qdot_symbol s = {.lo = QDOT_NIL, .hi = QDOT_NIL};
     double bound;
+
+    if (w->parameter != QDOT_NIL)
+        s = *qdot_expr_symbol(c->session->pool, w->parameter);
 
     c->error_at = w->range_at->start;
     if (!isfinite(w->least) || !isfinite(w->most))
@@ -60,7 +75,7 @@ check_range(qdot_cursor *c, const wish *w)
 }
 
 static qdot_status
-read_range(qdot_cursor *c, wish *w)
+read_range(qdot_cursor *c, qdot_continue_wish *w)
 {
     qdot_expr ends[2];
     double at[2];
@@ -76,7 +91,7 @@ read_range(qdot_cursor *c, wish *w)
 }
 
 static qdot_status
-read_name(qdot_cursor *c, wish *w)
+read_name(qdot_cursor *c, qdot_continue_wish *w)
 {
     const qdot_token *start = c->at;
 
@@ -98,13 +113,10 @@ read_name(qdot_cursor *c, wish *w)
 }
 
 static qdot_status
-read_all(qdot_cursor *c, wish *w)
+read_all(qdot_cursor *c, qdot_continue_wish *w)
 {
-    QDOT_TRY(read_what(c));
-    w->place = c->at;
-    if (c->at->kind != QDOT_TOKEN_NAME)
-        return qdot_cursor_expected(c, "a parameter with its range: `in Omega = 0..10`");
-    QDOT_TRY(qdot_set_read_parameter(c, &w->parameter));
+    QDOT_TRY(read_what(c, w));
+    QDOT_TRY(read_parameter(c, w));
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
     QDOT_TRY(read_range(c, w));
     QDOT_TRY(read_name(c, w));
@@ -119,27 +131,54 @@ bind(void *session, qdot_expr e)
     return qdot_session_bind(session, e);
 }
 
+qdot_status
+qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const qdot_branches *b, qdot_status status)
+{
+    if (b->found->interrupted)
+        qdot_interrupt_clear(); /* heard: what is known so far is told */
+    if (status == QDOT_OK && b->found->branches.n > 0)
+        status = qdot_branches_keep(session, b, w->name, w->marks);
+    if (status == QDOT_OK && b->found->branches.n > 0)
+        status = qdot_branches_answer(session, b);
+    if (status == QDOT_OK && b->found->interrupted)
+        status = qdot_fail(QDOT_EINTR, b->found->branches.n > 0
+                                           ? "interrupted: there may be more branches"
+                                           : "interrupted: no branch was followed yet");
+    return status;
+}
+
 static qdot_status
-carry_out(qdot_session *session, const wish *w)
+follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
 {
     qdot_equilibrium_curve curve = {0};
     qdot_continuation found = {0};
-    const qdot_branches b = {&curve, &found, w->least, w->most};
+    const char **names = NULL;
+    size_t *columns = NULL;
     qdot_status status =
         qdot_equilibrium_curve_begin(&curve, session->scene, w->parameter, bind, session);
 
-    if (status == QDOT_OK)
-        status = qdot_continuation_find(&curve, w->least, w->most, &found);
-    if (found.interrupted)
-        qdot_interrupt_clear(); /* heard: what is known so far is told */
-    if (status == QDOT_OK && found.branches.n > 0)
-        status = qdot_branches_keep(session, &b, w->name, w->marks);
-    if (status == QDOT_OK && found.branches.n > 0)
-        status = qdot_branches_answer(session, &b);
-    if (status == QDOT_OK && found.interrupted)
-        status = qdot_fail(QDOT_EINTR, found.branches.n > 0
-                                           ? "interrupted: there may be more branches"
-                                           : "interrupted: no branch was followed yet");
+    if (status == QDOT_OK) {
+        names = qdot_calloc(curve.n + 1, sizeof *names);
+        columns = qdot_calloc(curve.n + 1, sizeof *columns);
+        status = names && columns ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK) {
+        const qdot_branches b = {.found = &found,
+                                 .names = names,
+                                 .columns = columns,
+                                 .n_columns = curve.coordinates,
+                                 .n_told = curve.coordinates,
+                                 .n_drawn = curve.coordinates};
+
+        for (size_t i = 0; i <= curve.n; i++) {
+            names[i] = qdot_expr_symbol(session->pool, curve.unknown[i])->name;
+            columns[i] = i;
+        }
+        status = qdot_rest_continuation_find(&curve, w->least, w->most, &found);
+        status = qdot_continue_conclude(session, w, &b, status);
+    }
+    qdot_free(names);
+    qdot_free(columns);
     qdot_continuation_clear(&found);
     qdot_equilibrium_curve_end(&curve);
     return status;
@@ -159,7 +198,7 @@ qdot_continue_statement(qdot_cursor *c)
 {
     qdot_session *session = c->session;
     qdot_kept_values kept;
-    wish w = {0};
+    qdot_continue_wish w = {0};
     qdot_status status = read_all(c, &w);
 
     if (status == QDOT_OK) {
@@ -174,8 +213,12 @@ qdot_continue_statement(qdot_cursor *c)
     if (status == QDOT_OK)
         status = qdot_session_keep_values(session, &kept);
     if (status == QDOT_OK) {
-        free_parameter(session, w.parameter);
-        status = carry_out(session, &w);
+        if (w.orbit) {
+            status = qdot_continue_orbit(session, &w);
+        } else {
+            free_parameter(session, w.parameter);
+            status = follow_equilibria(session, &w);
+        }
         qdot_session_restore_values(session, &kept);
     }
     qdot_free(w.own);

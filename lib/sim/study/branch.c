@@ -2,25 +2,28 @@
 #include "sim/study/branch.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
 
 /* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
-static const double first_step = 2e-3, longest = 1e-2, shortest = 1e-10, far_away = 100;
+static const double first_step = 2e-3, far_away = 100;
 /* Tangents of neighbouring points turn by less than acos of this. */
 static const double straight = 0.99;
 /* A chord is at most so much longer than its step along the tangent: another curve is further off. */
 static const double longer = 1.02;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
-enum { MOST_POINTS = 20000, HALVINGS = 40 };
+/* Of a unit direction: below, it has no part along p. */
+static const double upright = 1e-9;
+enum { MOST_POINTS = 20000 };
 
 qdot_status
-qdot_branch_add(const qdot_rest_path *x, qdot_branch *branch, const double *y,
+qdot_branch_add(const qdot_path *x, qdot_branch *branch, const double *y,
                 qdot_stability stability, size_t mark)
 {
-    const size_t m = x->n + 1;
+    const size_t m = x->width;
 
     if (branch->n == branch->room) {
         const size_t room = branch->room == 0 ? 64 : 2 * branch->room;
@@ -54,43 +57,55 @@ qdot_branch_clear(qdot_branch *branch)
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
-/* Whether b lies on a's side of a bifurcation of that kind. */
+/* Whether a curve has no part along p there. Where it has none all the way it does not turn. */
 static bool
-is_before(const qdot_rest_path *x, qdot_bifurcation_kind kind, const qdot_rest_point *a,
-          const qdot_rest_point *b)
+is_upright(const qdot_path *x, const qdot_path_point *a)
 {
-    if (kind == QDOT_FOLD)
-        return a->t[x->n] * b->t[x->n] > 0;
-    return kind == QDOT_HOPF ? a->growing == b->growing : a->sign == b->sign;
+    return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < upright;
 }
 
-/* Halve the way s from a; out->y in the middle of what is left, out->error how long that is. */
-static qdot_status
-enclose(qdot_rest_path *x, const qdot_rest_point *a, double s, qdot_bifurcation *out)
+/* Whether b lies on a's side of a bifurcation of that kind. */
+static bool
+is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
+          const qdot_path_point *b)
 {
+    if (kind == QDOT_FOLD)
+        return a->t[x->n] * b->t[x->n] > 0 || (is_upright(x, a) && is_upright(x, b));
+    if (kind == QDOT_DOUBLING)
+        return a->flip == b->flip;
+    return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);
+}
+
+/* Halve the way from a to in->to; out->y in the middle of what is left, out->error how long that is. */
+static qdot_status
+enclose(qdot_path *x, qdot_bifurcation_bracket *in, qdot_bifurcation *out)
+{
+    const qdot_path_point *a = in->a;
     const double unit = 1 / sqrt(x->weight[x->n]);
-    qdot_rest_point middle;
-    double from = 0;
-    qdot_status status = qdot_rest_point_begin(x, &middle);
+    qdot_path_point middle;
+    double from = 0, s = in->to;
+    qdot_status status = qdot_path_point_begin(x, &middle);
     int steps;
 
-    memcpy(out->y, a->y, (x->n + 1) * sizeof *out->y);
-    for (int k = 0; k < HALVINGS && status == QDOT_OK; k++) {
+    memcpy(out->y, a->y, x->width * sizeof *out->y);
+    for (int k = 0; k < x->halvings && status == QDOT_OK; k++) {
         const double half = (from + s) / 2;
 
-        if (!qdot_rest_path_go(x, a, half, &middle, &steps))
+        if (!qdot_path_go(x, a, half, &middle, &steps))
             break; /* too near to a crossing */
-        memcpy(out->y, middle.y, (x->n + 1) * sizeof *out->y);
-        if (out->kind == QDOT_HOPF)
-            status = qdot_rest_path_judge(x, &middle);
+        memcpy(out->y, middle.y, x->width * sizeof *out->y);
+        if (out->kind == QDOT_HOPF || out->kind == QDOT_DOUBLING)
+            status = x->judge(x, &middle);
         if (is_before(x, out->kind, a, &middle))
             from = half;
         else
             s = half;
     }
+    in->from = from;
+    in->to = s;
     for (size_t i = 0; i <= x->n; i++)
         out->error[i] = (s - from + 1e-8) * (i < x->n ? 1 / sqrt(x->weight[i]) : unit);
-    qdot_rest_point_end(&middle);
+    qdot_path_point_end(&middle);
     return status;
 }
 
@@ -102,17 +117,17 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
 
     while (i < s->all->bifurcations.n &&
            (s->all->bifurcations.at[i].kind != b->kind ||
-            qdot_rest_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) > together))
+            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) > together))
         i++;
     return i;
 }
 
 /* Angles as -pi < q <= pi, as far as is known. */
 static void
-turn_back(const qdot_rest_path *x, double *y)
+turn_back(const qdot_path *x, double *y)
 {
     for (size_t i = 0; i < x->n; i++)
-        if (x->c->angle[i])
+        if (x->angle[i])
             y[i] -= 2 * M_PI * ceil((y[i] - M_PI) / (2 * M_PI) - 1e-9);
 }
 
@@ -140,57 +155,66 @@ keep(qdot_branch_search *s, qdot_bifurcation *b, double *other, size_t *mark)
     return status;
 }
 
+/* It is a point of the branch, too. Takes b->y and other. */
+static qdot_status
+mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    qdot_path_point here = {0};
+    size_t mark;
+    qdot_status status = qdot_path_point_begin(x, &here);
+
+    if (status != QDOT_OK) {
+        qdot_free(b->y);
+        qdot_free(other);
+        return status;
+    }
+    memcpy(here.y, b->y, x->width * sizeof *b->y);
+    turn_back(x, b->y);
+    status = keep(s, b, other, &mark);
+    if (status == QDOT_OK)
+        status = x->judge(x, &here);
+    if (status == QDOT_OK)
+        status = qdot_branch_add(x, branch, here.y, here.stability, mark);
+    qdot_path_point_end(&here);
+    return status;
+}
+
 /* The bifurcation of that kind between a and the point at `length` from it: a point of the branch.
  * beside [n + 1]: of a crossing in this step, at which a fold is none; NULL: none. */
 static qdot_status
-locate(qdot_branch_search *s, const qdot_rest_point *a, double length, qdot_bifurcation_kind kind,
+locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
        const double *beside, qdot_branch *branch)
 {
-    qdot_rest_path *x = s->x;
-    const size_t m = x->n + 1;
-    qdot_bifurcation b = {.kind = kind, .y = qdot_calloc(2 * m, sizeof *b.y)};
-    double *guess = qdot_calloc(2 * m, sizeof *guess), *at = guess + m;
-    double *other = qdot_calloc(m, sizeof *other);
-    qdot_rest_point here = {0};
-    bool found = false;
-    size_t mark = 0;
+    qdot_path *x = s->x;
+    const size_t w = x->width;
+    qdot_bifurcation b = {.kind = kind, .y = qdot_calloc(2 * w, sizeof *b.y)};
+    qdot_bifurcation_bracket in = {.a = a, .to = length};
+    double *guess = qdot_calloc(w, sizeof *guess), *other = qdot_calloc(x->n + 1, sizeof *other);
+    qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
     qdot_status status = b.y && guess && other ? QDOT_OK : QDOT_ENOMEM;
 
-    b.error = b.y + m;
+    b.error = b.y + w;
     if (status == QDOT_OK)
-        status = enclose(x, a, length, &b);
+        status = enclose(x, &in, &b);
     if (status == QDOT_OK) {
-        memcpy(guess, b.y, m * sizeof *guess);
-        status = qdot_bifurcation_find(s->b, a->t, &b, other, &found);
-        found = found && qdot_rest_path_distance(x, guess, b.y) < length;
+        memcpy(guess, b.y, w * sizeof *guess);
+        status = s->find(s->user, &in, &b, other, &answer);
+        if (answer == QDOT_BIFURCATION_FOUND && !(qdot_path_distance(x, guess, b.y) < length))
+            answer = QDOT_BIFURCATION_NONE;
     }
-    s->leapt = !found && kind == QDOT_PITCHFORK && s->b->apart && length > together;
-    if (status != QDOT_OK || s->leapt) {
-        qdot_free(b.y);
-        b.y = NULL;
-    } else if (!found) {
-        b.kind = QDOT_NOT_SIMPLE;
-        b.frequency = 0;
-        memcpy(b.y, guess, m * sizeof *guess);
-    }
-    if (status == QDOT_OK && beside != NULL && qdot_rest_path_distance(x, beside, b.y) < 1e-4) {
-        qdot_free(b.y);
-        b.y = NULL;
-    }
-    if (status == QDOT_OK && b.y != NULL) {
-        memcpy(at, b.y, m * sizeof *at);
-        turn_back(x, b.y);
-        status = keep(s, &b, other, &mark);
-        b.y = other = NULL;
-        if (status == QDOT_OK)
-            status = qdot_rest_point_begin(x, &here);
-        if (status == QDOT_OK) {
-            memcpy(here.y, at, m * sizeof *at);
-            status = qdot_rest_path_judge(x, &here);
+    s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
+               length > together;
+    if (status == QDOT_OK && !s->leapt) {
+        if (answer != QDOT_BIFURCATION_FOUND) {
+            b.kind = QDOT_NOT_SIMPLE;
+            b.frequency = 0;
+            memcpy(b.y, guess, w * sizeof *guess);
         }
-        if (status == QDOT_OK)
-            status = qdot_branch_add(x, branch, at, here.stability, mark);
-        qdot_rest_point_end(&here);
+        if (beside == NULL || qdot_path_distance(x, beside, b.y) >= 1e-4) {
+            status = mark_it(s, &b, other, branch);
+            b.y = other = NULL;
+        }
     }
     qdot_free(b.y);
     qdot_free(guess);
@@ -200,34 +224,43 @@ locate(qdot_branch_search *s, const qdot_rest_point *a, double length, qdot_bifu
 
 /* All that lies between a and b, `length` apart. */
 static qdot_status
-look_between(qdot_branch_search *s, const qdot_rest_point *a, const qdot_rest_point *b,
+look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_point *b,
              double length, qdot_branch *branch)
 {
-    const size_t m = s->x->n + 1, before = branch->n;
+    const size_t w = s->x->width, before = branch->n;
     const bool known = a->growing >= 0 && b->growing >= 0;
     const double *crossing = NULL;
 
-    if (a->sign != b->sign) {
+    if (a->flip * b->flip < 0 && length > together &&
+        (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
+        s->leapt = true; /* over two at once */
+        return QDOT_OK;
+    }
+    if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
         QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
         if (s->leapt)
             return QDOT_OK;
         if (branch->n > before)
-            crossing = branch->y + before * m;
+            crossing = branch->y + before * w;
     }
     if (!is_before(s->x, QDOT_FOLD, a, b) && crossing == NULL)
         return locate(s, a, length, QDOT_FOLD, NULL, branch);
     if (!is_before(s->x, QDOT_FOLD, a, b)) {
-        double *const at = qdot_calloc(m, sizeof *at);
+        double *const at = qdot_calloc(w, sizeof *at);
         qdot_status status = at ? QDOT_OK : QDOT_ENOMEM;
 
         if (status == QDOT_OK) {
-            memcpy(at, crossing, m * sizeof *at);
+            memcpy(at, crossing, w * sizeof *at);
             status = locate(s, a, length, QDOT_FOLD, at, branch);
         }
         qdot_free(at);
         return status;
     }
-    if (crossing == NULL && known && a->growing != b->growing)
+    if (crossing != NULL)
+        return QDOT_OK;
+    if (a->flip * b->flip < 0)
+        return locate(s, a, length, QDOT_DOUBLING, NULL, branch);
+    if (known && labs(a->growing - b->growing) >= s->x->least_jump)
         return locate(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
 }
@@ -236,10 +269,10 @@ look_between(qdot_branch_search *s, const qdot_rest_point *a, const qdot_rest_po
 
 /* The bound that y has passed: the index of that unknown (of p: n), *held the bound; n + 1: none. */
 static size_t
-passed(const qdot_rest_path *x, const double *y, double *held)
+passed(const qdot_path *x, const double *y, double *held)
 {
     for (size_t i = 0; i <= x->n; i++) {
-        const double lo = i < x->n ? x->c->lo[i] : x->least, hi = i < x->n ? x->c->hi[i] : x->most;
+        const double lo = i < x->n ? x->lo[i] : x->least, hi = i < x->n ? x->hi[i] : x->most;
 
         *held = y[i] < lo ? lo : hi;
         if (y[i] < lo || y[i] > hi)
@@ -250,7 +283,7 @@ passed(const qdot_rest_path *x, const double *y, double *held)
 
 /* Put b where y_i has the value `held`, between a and where b is; *length. False: not found. */
 static bool
-end_at(qdot_rest_path *x, const qdot_rest_point *a, size_t i, double held, qdot_rest_point *b,
+end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_point *b,
        double *length)
 {
     const double part = (held - a->y[i]) / (b->y[i] - a->y[i]);
@@ -259,29 +292,30 @@ end_at(qdot_rest_path *x, const qdot_rest_point *a, size_t i, double held, qdot_
     for (size_t k = 0; k <= x->n; k++)
         b->y[k] = a->y[k] + part * (b->y[k] - a->y[k]);
     b->y[i] = held;
-    if (!qdot_rest_path_hold(x, i, b->y))
+    if (!qdot_path_hold(x, i, b->y))
         return false;
-    *length = qdot_rest_path_distance(x, a->y, b->y);
-    return *length <= 1.01 * far && qdot_rest_path_tangent(x, a->t, b) &&
-           qdot_rest_path_product(x, a->t, b->t) > straight;
+    *length = qdot_path_distance(x, a->y, b->y);
+    return *length <= 1.01 * far && qdot_path_tangent(x, a->t, b) &&
+           qdot_path_product(x, a->t, b->t) > straight;
 }
 
 /* One step from a to b, of a length that it adapts, at most `most`; *last: nothing lies behind b, or
  * behind a if *length is 0. */
 static void
-go_on(qdot_rest_path *x, const qdot_rest_point *a, double most, double *step, qdot_rest_point *b,
+go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_path_point *b,
       double *length, qdot_branch_end *why, bool *last)
 {
     *why = QDOT_END_LOST;
-    for (*step = fmin(*step, most); *step > shortest; *step /= 2) {
+    for (*step = fmin(*step, most); *step > x->shortest && x->failure == QDOT_OK;
+         *step /= 2) {
         int steps;
         double held;
         size_t i;
 
         *length = *step;
-        if (!qdot_rest_path_go(x, a, *step, b, &steps) ||
-            qdot_rest_path_product(x, a->t, b->t) < straight ||
-            qdot_rest_path_distance(x, a->y, b->y) > longer * *step)
+        if (!qdot_path_go(x, a, *step, b, &steps) ||
+            qdot_path_product(x, a->t, b->t) < straight ||
+            qdot_path_distance(x, a->y, b->y) > longer * *step)
             continue;
         i = passed(x, b->y, &held);
         if (i > x->n) {
@@ -300,7 +334,7 @@ go_on(qdot_rest_path *x, const qdot_rest_point *a, double most, double *step, qd
 
 /* How far a place lies from another, turns counted. */
 static double
-way(const qdot_rest_path *x, const double *a, const double *b)
+way(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;
 
@@ -311,16 +345,16 @@ way(const qdot_rest_path *x, const double *a, const double *b)
 
 /* Whether the curve is again where it began, going the same way; b's place is that of the start, then. */
 static bool
-is_closed(const qdot_rest_path *x, const qdot_rest_point *start, const qdot_rest_point *a,
-          qdot_rest_point *b)
+is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a,
+          qdot_path_point *b)
 {
-    const double apart = qdot_rest_path_distance(x, start->y, b->y),
-                 step = qdot_rest_path_distance(x, a->y, b->y);
+    const double apart = qdot_path_distance(x, start->y, b->y),
+                 step = qdot_path_distance(x, a->y, b->y);
 
-    if (apart > step || qdot_rest_path_product(x, start->t, b->t) < 0.9)
+    if (apart > step || qdot_path_product(x, start->t, b->t) < 0.9)
         return false;
     for (size_t i = 0; i <= x->n; i++)
-        b->y[i] = start->y[i] + (i < x->n && x->c->angle[i]
+        b->y[i] = start->y[i] + (i < x->n && x->angle[i]
                                      ? 2 * M_PI * round((b->y[i] - start->y[i]) / (2 * M_PI))
                                      : 0);
     return true;
@@ -328,14 +362,14 @@ is_closed(const qdot_rest_path *x, const qdot_rest_point *start, const qdot_rest
 
 /* Judge b, and look between a and it; an interruption on the way is noted. */
 static qdot_status
-look(qdot_branch_search *s, const qdot_rest_point *a, qdot_rest_point *b, double length,
+look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
      qdot_branch *branch)
 {
     qdot_status status = qdot_interrupt_check();
 
     if (status == QDOT_OK)
-        status = qdot_rest_path_judge(s->x, b);
-    if (status == QDOT_OK)
+        status = s->x->judge(s->x, b);
+    if (status == QDOT_OK && !b->blurred)
         status = look_between(s, a, b, length, branch);
     s->all->interrupted = status == QDOT_EINTR;
     return status == QDOT_EINTR ? QDOT_OK : status;
@@ -343,21 +377,31 @@ look(qdot_branch_search *s, const qdot_rest_point *a, qdot_rest_point *b, double
 
 /* a, then b: room. */
 static qdot_status
-follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, qdot_rest_point *b,
+follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
        qdot_branch *branch)
 {
-    qdot_rest_path *x = s->x;
+    qdot_path *x = s->x;
     double step = first_step, length, gone = 0, far = 0;
     bool last = false;
 
     branch->end[1] = QDOT_END_STOPPED;
     while (!last && branch->n < MOST_POINTS) {
-        go_on(x, a, longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
+        go_on(x, a, x->longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
+        if (x->failure == QDOT_EINTR) {
+            s->all->interrupted = true;
+            branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
+        QDOT_TRY(x->failure);
         if (length == 0)
             return QDOT_OK;
         QDOT_TRY(look(s, a, b, length, branch));
         if (s->all->interrupted) {
             branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
+        if (b->blurred) {
+            branch->end[1] = QDOT_END_LOST;
             return QDOT_OK;
         }
         if (s->leapt) {
@@ -372,11 +416,11 @@ follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, 
         QDOT_TRY(qdot_branch_add(x, branch, b->y, b->stability, 0));
         gone += length;
         far = way(x, start->y, b->y);
-        if (!last && far > far_away) {
-            branch->end[1] = QDOT_END_FAR;
+        if (b->rests || (!last && far > far_away)) {
+            branch->end[1] = b->rests ? QDOT_END_REST : QDOT_END_FAR;
             return QDOT_OK;
         }
-        qdot_rest_point_copy(x, b, a);
+        qdot_path_point_copy(x, b, a);
         if (!last)
             branch->end[1] = QDOT_END_STOPPED;
     }
@@ -384,18 +428,18 @@ follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_rest_point *a, 
 }
 
 qdot_status
-qdot_branch_follow(qdot_branch_search *s, const qdot_rest_point *start, qdot_branch *branch)
+qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_branch *branch)
 {
-    qdot_rest_point a = {0}, b = {0};
-    qdot_status status = qdot_rest_point_begin(s->x, &a);
+    qdot_path_point a = {0}, b = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &a);
 
     if (status == QDOT_OK)
-        status = qdot_rest_point_begin(s->x, &b);
+        status = qdot_path_point_begin(s->x, &b);
     if (status == QDOT_OK) {
-        qdot_rest_point_copy(s->x, start, &a);
+        qdot_path_point_copy(s->x, start, &a);
         status = follow(s, start, &a, &b, branch);
     }
-    qdot_rest_point_end(&a);
-    qdot_rest_point_end(&b);
+    qdot_path_point_end(&a);
+    qdot_path_point_end(&b);
     return status;
 }

@@ -1,13 +1,8 @@
-/* continuation.c -- where curves begin, which are known already, and crossings to other ones. */
+/* continuation.c -- which curves are known already, and crossings to other ones. */
 #include "sim/study/continuation.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Parts of the range of p at which equilibria are looked for: its ends, and some that are no special
- * values. */
-static const double parts[] = {0, 1, 0.4871, 0.2363, 0.7639};
-enum { PARTS = sizeof parts / sizeof *parts };
 
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. */
 static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4};
@@ -30,8 +25,8 @@ qdot_continuation_clear(qdot_continuation *x)
 
 /* Whether y lies on the curve between its points from and to; here: room. */
 static bool
-lies_between(qdot_rest_path *x, const double *from, const double *to, const double *y,
-             qdot_rest_point *here)
+lies_between(qdot_path *x, const double *from, const double *to, const double *y,
+             qdot_path_point *here)
 {
     const size_t n = x->n;
     double along = 0, length = 0, off, part;
@@ -39,37 +34,37 @@ lies_between(qdot_rest_path *x, const double *from, const double *to, const doub
     for (size_t i = 0; i <= n; i++) {
         double d = y[i] - from[i];
 
-        if (i < n && x->c->angle[i])
+        if (i < n && x->angle[i])
             d -= 2 * M_PI * round(d / (2 * M_PI));
         along += x->weight[i] * d * (to[i] - from[i]);
         length += x->weight[i] * (to[i] - from[i]) * (to[i] - from[i]);
     }
     if (!(length > 0))
-        return qdot_rest_path_distance(x, from, y) < same;
+        return qdot_path_distance(x, from, y) < same;
     part = along / length;
     length = sqrt(length);
     if (part < -0.01 || part > 1.01)
         return false;
     for (size_t i = 0; i <= n; i++)
         here->y[i] = from[i] + part * (to[i] - from[i]);
-    off = qdot_rest_path_distance(x, here->y, y);
+    off = qdot_path_distance(x, here->y, y);
     if (off < same)
         return true;
     if (off > 0.1 * length)
         return false;
     for (size_t i = 0; i <= n; i++)
         here->t[i] = x->weight[i] * (to[i] - from[i]);
-    return qdot_rest_path_solve(x, here->t, here->y, &(int){0}) &&
-           qdot_rest_path_distance(x, here->y, y) < same;
+    return qdot_path_solve(x, here->t, here->y, &(int){0}) &&
+           qdot_path_distance(x, here->y, y) < same;
 }
 
 /* Whether it is a point of a branch. */
 static qdot_status
 is_known(qdot_branch_search *s, const double *y, bool *known)
 {
-    const size_t m = s->x->n + 1;
-    qdot_rest_point here = {0};
-    qdot_status status = qdot_rest_point_begin(s->x, &here);
+    const size_t m = s->x->width;
+    qdot_path_point here = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &here);
 
     *known = false;
     for (size_t i = 0; i < s->all->branches.n && status == QDOT_OK && !*known; i++) {
@@ -78,7 +73,7 @@ is_known(qdot_branch_search *s, const double *y, bool *known)
         for (size_t k = 1; k < b->n && !*known; k++)
             *known = lies_between(s->x, b->y + (k - 1) * m, b->y + k * m, y, &here);
     }
-    qdot_rest_point_end(&here);
+    qdot_path_point_end(&here);
     return status;
 }
 
@@ -90,7 +85,7 @@ static qdot_status
 join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
      size_t mark, const qdot_branch *on)
 {
-    const size_t m = s->x->n + 1;
+    const size_t m = s->x->width;
     qdot_branch whole = {.end = {back->end[1], on->end[1]}};
     qdot_status status = QDOT_OK;
 
@@ -109,9 +104,9 @@ join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_
 
 /* Let a closed branch begin, and end, at its first bifurcation. */
 static qdot_status
-turn_round(const qdot_rest_path *x, qdot_branch *branch)
+turn_round(const qdot_path *x, qdot_branch *branch)
 {
-    const size_t m = x->n + 1, last = branch->n - 1;
+    const size_t m = x->width, last = branch->n - 1;
     double *y = qdot_calloc(m, sizeof *y);
     qdot_branch turned = {.end = {QDOT_END_CLOSED, QDOT_END_CLOSED}};
     qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
@@ -139,22 +134,22 @@ turn_round(const qdot_rest_path *x, qdot_branch *branch)
 
 /* Both ways from a place whose tangent is known; p grows along the second. */
 static qdot_status
-follow_both(qdot_branch_search *s, qdot_rest_point *a)
+follow_both(qdot_branch_search *s, qdot_path_point *a)
 {
     const size_t m = s->x->n + 1;
     qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
-    qdot_status status = qdot_rest_path_judge(s->x, a);
+    qdot_status status = s->x->judge(s->x, a);
 
     if (a->t[m - 1] < 0)
         for (size_t i = 0; i < m; i++)
             a->t[i] = -a->t[i];
-    if (status == QDOT_OK && qdot_rest_path_tangent(s->x, a->t, a))
+    if (status == QDOT_OK && qdot_path_tangent(s->x, a->t, a))
         status = qdot_branch_follow(s, a, &on);
     back.end[1] = on.end[1];
     if (status == QDOT_OK && on.end[1] != QDOT_END_CLOSED) {
         for (size_t i = 0; i < m; i++)
             a->t[i] = -a->t[i];
-        a->sign = -a->sign;
+        a->det = -a->det;
         status = qdot_branch_follow(s, a, &back);
     }
     if (status == QDOT_OK)
@@ -170,26 +165,26 @@ follow_both(qdot_branch_search *s, qdot_rest_point *a)
 static qdot_status
 follow_from(qdot_branch_search *s, const double *y)
 {
-    qdot_rest_path *x = s->x;
+    qdot_path *x = s->x;
     const size_t m = x->n + 1;
     double *up = qdot_calloc(m, sizeof *up);
-    qdot_rest_point a = {0};
+    qdot_path_point a = {0};
     bool known = true;
-    qdot_status status = up ? qdot_rest_point_begin(x, &a) : QDOT_ENOMEM;
+    qdot_status status = up ? qdot_path_point_begin(x, &a) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         memcpy(a.y, y, m * sizeof *y);
         up[m - 1] = 1;
         for (size_t i = 0; i + 1 < m; i++)
-            known = known && a.y[i] >= x->c->lo[i] && a.y[i] <= x->c->hi[i];
-        if (known && qdot_rest_path_hold(x, m - 1, a.y) &&
-            qdot_rest_path_distance(x, a.y, y) < 1e-3 && qdot_rest_path_tangent(x, up, &a)) {
+            known = known && a.y[i] >= x->lo[i] && a.y[i] <= x->hi[i];
+        if (known && qdot_path_hold(x, m - 1, a.y) &&
+            qdot_path_distance(x, a.y, y) < 1e-3 && qdot_path_tangent(x, up, &a)) {
             status = is_known(s, a.y, &known);
             if (status == QDOT_OK && !known)
                 status = follow_both(s, &a);
         }
     }
-    qdot_rest_point_end(&a);
+    qdot_path_point_end(&a);
     qdot_free(up);
     return status;
 }
@@ -198,8 +193,8 @@ follow_from(qdot_branch_search *s, const double *y)
 
 /* A first point a beyond a crossing at y along `other`, times `way`, by a few lengths; false: none. */
 static bool
-leap(qdot_rest_path *x, const double *y, const double *other, double way, qdot_rest_point *start,
-     qdot_rest_point *a)
+leap(qdot_path *x, const double *y, const double *other, double way, qdot_path_point *start,
+     qdot_path_point *a)
 {
     const size_t m = x->n + 1;
     int steps;
@@ -211,11 +206,11 @@ leap(qdot_rest_path *x, const double *y, const double *other, double way, qdot_r
             start->y[i] = y[i];
             start->t[i] = way * other[i];
         }
-        if (!qdot_rest_path_go(x, start, leaps[k], a, &steps))
+        if (!qdot_path_go(x, start, leaps[k], a, &steps))
             continue;
         for (size_t i = 0; i < m; i++)
             along += x->weight[i] * (a->y[i] - y[i]) * start->t[i];
-        length = qdot_rest_path_distance(x, a->y, y);
+        length = qdot_path_distance(x, a->y, y);
         if (along > 0.9 * length && a->y[m - 1] >= x->least && a->y[m - 1] <= x->most)
             return true;
     }
@@ -227,29 +222,29 @@ static qdot_status
 follow_arm(qdot_branch_search *s, const double *y, const double *other, double way,
            qdot_branch *arm)
 {
-    qdot_rest_point start = {0}, a = {0};
+    qdot_path_point start = {0}, a = {0};
     bool known = true;
-    qdot_status status = qdot_rest_point_begin(s->x, &start);
+    qdot_status status = qdot_path_point_begin(s->x, &start);
 
     arm->end[1] = QDOT_END_RANGE;
     if (status == QDOT_OK)
-        status = qdot_rest_point_begin(s->x, &a);
+        status = qdot_path_point_begin(s->x, &a);
     if (status == QDOT_OK && leap(s->x, y, other, way, &start, &a)) {
         for (size_t i = 0; i < s->x->n; i++)
-            if (a.y[i] < s->x->c->lo[i] || a.y[i] > s->x->c->hi[i])
+            if (a.y[i] < s->x->lo[i] || a.y[i] > s->x->hi[i])
                 arm->end[1] = QDOT_END_DOMAIN;
         if (arm->end[1] == QDOT_END_RANGE)
             status = is_known(s, a.y, &known);
     }
     if (status == QDOT_OK && !known) {
-        status = qdot_rest_path_judge(s->x, &a);
+        status = s->x->judge(s->x, &a);
         if (status == QDOT_OK)
             status = qdot_branch_add(s->x, arm, a.y, a.stability, 0);
         if (status == QDOT_OK)
             status = qdot_branch_follow(s, &a, arm);
     }
-    qdot_rest_point_end(&start);
-    qdot_rest_point_end(&a);
+    qdot_path_point_end(&start);
+    qdot_path_point_end(&a);
     return status;
 }
 
@@ -257,10 +252,10 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
 static qdot_status
 follow_other(qdot_branch_search *s, const qdot_branch_crossing *crossing)
 {
-    const size_t m = s->x->n + 1;
+    const size_t m = s->x->width;
     qdot_branch back = {0}, on = {0};
-    qdot_rest_point middle = {0};
-    qdot_status status = qdot_rest_point_begin(s->x, &middle);
+    qdot_path_point middle = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &middle);
 
     if (status == QDOT_OK) {
         memcpy(middle.y, s->all->bifurcations.at[crossing->at].y, m * sizeof *middle.y);
@@ -269,12 +264,12 @@ follow_other(qdot_branch_search *s, const qdot_branch_crossing *crossing)
     if (status == QDOT_OK && on.end[1] != QDOT_END_CLOSED)
         status = follow_arm(s, middle.y, crossing->other, -1, &back);
     if (status == QDOT_OK && on.n + back.n > 0)
-        status = qdot_rest_path_judge(s->x, &middle);
+        status = s->x->judge(s->x, &middle);
     if (status == QDOT_OK && on.n + back.n > 0)
         status = join(s, &back, middle.y, middle.stability, crossing->at + 1, &on);
     qdot_branch_clear(&back);
     qdot_branch_clear(&on);
-    qdot_rest_point_end(&middle);
+    qdot_path_point_end(&middle);
     return status;
 }
 
@@ -294,57 +289,10 @@ follow_crossings(qdot_branch_search *s, size_t *done)
     return status;
 }
 
-/* --- starts -------------------------------------------------------------------------------- */
+/* --- all ------------------------------------------------------------------------------------ */
 
-/* Places at some values of p: at [count * (n + 1)], owned by the caller. */
-static qdot_status
-find_starts(qdot_equilibrium_curve *c, double least, double most, double **at, size_t *count)
-{
-    const size_t m = c->n + 1;
-
-    for (size_t k = 0; k < PARTS; k++) {
-        const double p = k == 1 ? most : least + parts[k] * (most - least);
-        double *some, *all;
-        size_t n;
-
-        QDOT_TRY(qdot_equilibrium_curve_starts(c, p, &some, &n));
-        all = qdot_realloc(*at, (*count + n + 1) * m * sizeof *all);
-        if (all != NULL) {
-            *at = all;
-            memcpy(all + *count * m, some, n * m * sizeof *some);
-            *count += n;
-        }
-        qdot_free(some);
-        if (all == NULL)
-            return QDOT_ENOMEM;
-    }
-    return QDOT_OK;
-}
-
-/* The size of each unknown: 1 of angles; else how far the places, those of one p on the average, are
- * apart, or from 0. */
-static void
-find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
-{
-    const size_t m = c->n + 1;
-    const double gaps = fmax(1, (double)count / PARTS - 1);
-
-    for (size_t i = 0; i < c->n; i++) {
-        double least = INFINITY, most = -INFINITY, large = 0;
-
-        for (size_t k = 0; k < count; k++) {
-            least = fmin(least, at[k * m + i]);
-            most = fmax(most, at[k * m + i]);
-            large = fmax(large, fabs(at[k * m + i]));
-        }
-        size[i] = most - least > 1e-3 * large ? (most - least) / gaps : large;
-        if (c->angle[i] || !(size[i] > 1e-14))
-            size[i] = 1;
-    }
-}
-
-static qdot_status
-follow_all(qdot_branch_search *s, const double *at, size_t count)
+qdot_status
+qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
 {
     const size_t m = s->x->n + 1;
     size_t done = 0;
@@ -359,40 +307,15 @@ follow_all(qdot_branch_search *s, const double *at, size_t count)
 }
 
 qdot_status
-qdot_continuation_find(qdot_equilibrium_curve *c, double least, double most, qdot_continuation *out)
+qdot_continuation_finish(qdot_branch_search *s, qdot_status status)
 {
-    qdot_rest_path x = {0};
-    qdot_bifurcations b = {0};
-    qdot_branch_search s = {.x = &x, .b = &b, .all = out};
-    double *at = NULL;
-    size_t count = 0;
-    qdot_status status;
-
-    *out = (qdot_continuation){.n = c->n, .coordinates = c->coordinates};
-    out->size = qdot_calloc(c->n + 1, sizeof *out->size);
-    if (out->size == NULL)
-        return QDOT_ENOMEM;
-    status = qdot_rest_path_begin(&x, c, least, most);
+    for (size_t i = 0; i < s->crossings.n; i++)
+        qdot_free(s->crossings.at[i].other);
+    qdot_free(s->crossings.at);
     if (status == QDOT_OK)
-        status = qdot_bifurcations_begin(&b, &x);
-    if (status == QDOT_OK)
-        status = find_starts(c, least, most, &at, &count);
-    if (status == QDOT_OK) {
-        find_sizes(c, at, count, out->size);
-        qdot_rest_path_scale(&x, out->size);
-        status = follow_all(&s, at, count);
-    }
-    if (status == QDOT_EINTR) {
-        out->interrupted = true;
-        status = QDOT_OK;
-    }
-    if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
-        status = qdot_fail(QDOT_EFAILED, "no equilibrium was found that could be followed");
-    for (size_t i = 0; i < s.crossings.n; i++)
-        qdot_free(s.crossings.at[i].other);
-    qdot_free(s.crossings.at);
-    qdot_free(at);
-    qdot_bifurcations_end(&b);
-    qdot_rest_path_end(&x);
-    return status;
+        status = s->x->failure;
+    if (status != QDOT_EINTR)
+        return status;
+    s->all->interrupted = true;
+    return QDOT_OK;
 }

@@ -296,9 +296,8 @@ check_period(orbit *o)
     return QDOT_OK;
 }
 
-/* Whether only a Lagrangian and holonomic constraints move the scene. */
-static bool
-is_lagrangian(const qdot_scene *s)
+bool
+qdot_floquet_is_lagrangian(const qdot_scene *s)
 {
     for (size_t c = 0; c < s->constraints.n; c++)
         if (s->constraints.at[c].kind != QDOT_HOLONOMIC)
@@ -392,32 +391,37 @@ judge(qdot_floquet *x)
         x->verdict = QDOT_FLOQUET_STABLE;
 }
 
+qdot_status
+qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
+                qdot_floquet *x)
+{
+    x->n = k;
+    x->asymptotic = asymptotic;
+    x->re = qdot_calloc(3 * k + 1, sizeof *x->re);
+    if (x->re == NULL)
+        return QDOT_ENOMEM;
+    x->im = x->re + k;
+    x->error = x->im + k;
+    QDOT_TRY(qdot_eigenvalues(k, B, E, x->re, x->im, x->error));
+    state_trivial(x, trivial);
+    judge(x);
+    return QDOT_OK;
+}
+
 static qdot_status
 find_multipliers(orbit *o, qdot_floquet *x)
 {
     const size_t k = o->k;
-    const bool driven = holds_time(o), free = is_lagrangian(o->scene);
+    const bool driven = holds_time(o), free = qdot_floquet_is_lagrangian(o->scene);
     double *B = qdot_calloc(2 * k * k + 1, sizeof *B);
     bool rests = false;
-    qdot_status status = QDOT_ENOMEM;
+    qdot_status status = B ? fill_monodromy(o, B, B + k * k) : QDOT_ENOMEM;
 
-    x->n = k;
-    x->asymptotic = !free;
-    x->re = qdot_calloc(3 * k + 1, sizeof *x->re);
-    if (B != NULL && x->re != NULL) {
-        x->im = x->re + k;
-        x->error = x->im + k;
-        status = fill_monodromy(o, B, B + k * k);
-        if (status == QDOT_OK)
-            status = qdot_eigenvalues(k, B, B + k * k, x->re, x->im, x->error);
-    }
-    qdot_free(B);
     if (status == QDOT_OK)
         status = qdot_floquet_rests(o->scene, o->run, &rests);
-    if (status == QDOT_OK) {
-        state_trivial(x, driven || rests ? 0 : free ? 2 : 1);
-        judge(x);
-    }
+    if (status == QDOT_OK)
+        status = qdot_floquet_of(k, B, B + k * k, driven || rests ? 0 : free ? 2 : 1, !free, x);
+    qdot_free(B);
     return status;
 }
 

@@ -289,15 +289,13 @@ rewind_course(qdot_course *c)
 }
 
 static qdot_status
-run(qdot_response *r)
+run(qdot_response *r, double t1)
 {
     const qdot_ode_options options = {.tol = r->run_request.tol};
-    const double t0 = r->run.t0, t1 = r->run.t1;
+    const double t0 = r->run.t0;
 
-    if (r->of.n_times == 0)
-        return QDOT_OK;
     rewind_course(&r->course);
-    qdot_progress_begin(t0, t1, "run of the fit");
+    qdot_progress_begin(t0, t1, "run with slopes");
     QDOT_TRY(qdot_course_run(&r->course, r->run.plan->method, &options, t0, t1,
                              r->once ? r->y : r->run.start));
     if (r->course.reason[0] != '\0')
@@ -318,31 +316,34 @@ say_undefined(const qdot_response *r, size_t j, double t)
     return status;
 }
 
-static qdot_status
-read_numbers(qdot_response *r, double *values, double *slopes)
+qdot_status
+qdot_response_read(qdot_response *r, size_t n_times, const double *times, double *values,
+                   double *slopes)
 {
     const size_t m = r->of.m, k = r->of.k;
     qdot_reader reader = {0};
     qdot_status status = qdot_reader_init(&reader, &r->reading, &r->course);
 
-    for (size_t i = 0; i < r->of.n_times && status == QDOT_OK; i++) {
-        status = qdot_reader_at(&reader, SIZE_MAX, r->of.times[i], r->out);
+    for (size_t i = 0; i < n_times && status == QDOT_OK; i++) {
+        status = qdot_reader_at(&reader, SIZE_MAX, times[i], r->out);
         for (size_t j = 0; j < m && status == QDOT_OK; j++) {
             const double *own = r->out + j * (1 + k);
 
             for (size_t l = 0; l <= k && status == QDOT_OK; l++)
                 if (!isfinite(own[l]))
-                    status = say_undefined(r, j, r->of.times[i]);
+                    status = say_undefined(r, j, times[i]);
             values[i * m + j] = own[0];
-            memcpy(slopes + (i * m + j) * k, own + 1, k * sizeof *slopes);
+            if (slopes != NULL)
+                memcpy(slopes + (i * m + j) * k, own + 1, k * sizeof *slopes);
         }
     }
     qdot_reader_clear(&reader);
     return status;
 }
 
-qdot_status
-qdot_response_at(qdot_response *r, const double *u, double *values, double *slopes)
+/* Make what is not made, and the start at u. */
+static qdot_status
+prepare(qdot_response *r, const double *u)
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
     for (size_t i = 0; i < (1 + r->of.k) * 2 * r->n; i++)
@@ -354,8 +355,23 @@ qdot_response_at(qdot_response *r, const double *u, double *values, double *slop
     }
     if (r->once)
         put_start(r, u);
-    QDOT_TRY(run(r));
-    return read_numbers(r, values, slopes);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_response_run(qdot_response *r, const double *u, double t1)
+{
+    QDOT_TRY(prepare(r, u));
+    return run(r, t1);
+}
+
+qdot_status
+qdot_response_at(qdot_response *r, const double *u, double *values, double *slopes)
+{
+    QDOT_TRY(prepare(r, u));
+    if (r->of.n_times > 0)
+        QDOT_TRY(run(r, r->run.t1));
+    return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
 }
 
 /* --- all -------------------------------------------------------------------------------------- */

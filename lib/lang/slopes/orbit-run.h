@@ -1,0 +1,16 @@
+/* orbit-run.h -- the run that is a periodic orbit: it ends where it began.
+ *
+ * Tests  tests/script/floquet.sh, continue-orbit.lag
+ */
+#ifndef QDOT_LANG_ORBIT_RUN_H
+#define QDOT_LANG_ORBIT_RUN_H
+
+#include "lang/session/session.h"
+
+/* The latest run of the scene that is one. QDOT_EINVAL: none is. */
+QDOT_MUST_CHECK qdot_status qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit);
+/* The one of that name. */
+QDOT_MUST_CHECK qdot_status qdot_orbit_run_named(qdot_session *session, const char *name,
+                                                 qdot_named_run **orbit);
+
+#endif

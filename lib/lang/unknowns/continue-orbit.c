@@ -1,0 +1,183 @@
+/* continue-orbit.c -- branches of periodic orbits, from the latest run that is one. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/unknowns/continue-parts.h"
+#include "lang/slopes/orbit-run.h"
+#include "lang/slopes/slopes.h"
+#include "lang/session/bind.h"
+#include "sim/study/orbit-continuation.h"
+
+enum { NAME_ROOM = 120 };
+
+/* Relative: periods that are one. */
+static const double same = 1e-9;
+
+typedef struct {
+    qdot_session *session;
+    const qdot_continue_wish *w;
+    qdot_orbit_of of;
+    qdot_run_request request;
+    qdot_expr *values; /* of its parameters */
+    double *z;         /* [2n] */
+    qdot_continuation found;
+    char (*text)[NAME_ROOM]; /* [width] names */
+    const char **names;
+    size_t *columns;
+} job;
+
+/* --- the orbit --------------------------------------------------------------------------------- */
+
+static qdot_status
+read_start(job *j, qdot_run *run)
+{
+    qdot_scene *s = j->session->scene;
+    const size_t n = s->coordinates.n;
+    const qdot_run_report *report = qdot_run_get_report(run);
+
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr e = qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
+
+        QDOT_TRY(qdot_run_values(run, 1, &e, 1, &report->t0, &j->z[i], NULL));
+        if (e == j->w->parameter)
+            j->of.p = j->z[i];
+    }
+    j->of.T = report->t1 - report->t0;
+    if (!(j->of.T > 0))
+        return qdot_fail(QDOT_EINVAL, "the orbit's run goes back in time");
+    return QDOT_OK;
+}
+
+/* Values with the parameter free; its own. */
+static qdot_status
+read_values(job *j, const qdot_conditions *conditions)
+{
+    qdot_session *session = j->session;
+    const qdot_expr p = j->w->parameter;
+
+    if (j->of.family != QDOT_ORBIT_PARAMETER)
+        return QDOT_OK;
+    QDOT_TRY(qdot_slopes_free_values(session, conditions, p, j->values));
+    j->request.values = j->values;
+    return qdot_session_number(
+        session,
+        conditions->values.at[qdot_expr_place(conditions->symbols.n, conditions->symbols.at, p)],
+        &j->of.p, NULL);
+}
+
+static qdot_status
+find_first(job *j)
+{
+    qdot_session *session = j->session;
+    const qdot_expr p = j->w->parameter;
+    const size_t n = session->scene->coordinates.n;
+    const qdot_run_report *report;
+    qdot_named_run *orbit;
+
+    QDOT_TRY(qdot_orbit_run_find(session, &orbit));
+    report = qdot_run_get_report(orbit->run);
+    j->values = qdot_calloc(orbit->conditions->symbols.n + 1, sizeof *j->values);
+    j->z = qdot_calloc(2 * n + 1, sizeof *j->z);
+    if (!j->values || !j->z)
+        return QDOT_ENOMEM;
+    j->request = qdot_conditions_request(orbit->conditions);
+    j->request.method = report->method;
+    j->of = (qdot_orbit_of){.scene = session->scene,
+                            .request = &j->request,
+                            .family = p == QDOT_NIL ? QDOT_ORBIT_ENERGY
+                                      : qdot_expr_is_class(session->pool, p, QDOT_COORD)
+                                          ? QDOT_ORBIT_START
+                                          : QDOT_ORBIT_PARAMETER,
+                            .parameter = p,
+                            .z = j->z,
+                            .least = j->w->least,
+                            .most = j->w->most};
+    QDOT_TRY(read_start(j, orbit->run));
+    return read_values(j, orbit->conditions);
+}
+
+/* --- rows ---------------------------------------------------------------------------------------- */
+
+/* Whether there is more than one period. */
+static bool
+period_changes(const job *j)
+{
+    const size_t T = 2 * j->session->scene->coordinates.n;
+
+    for (size_t i = 0; i < j->found.branches.n; i++)
+        for (size_t k = 0; k < j->found.branches.at[i].n; k++)
+            if (fabs(j->found.branches.at[i].y[k * j->found.width + T] - j->of.T) > same * j->of.T)
+                return true;
+    return false;
+}
+
+/* Told: the largest value of each coordinate, the period. Then the start, but for p, and the moduli of the multipliers. */
+static qdot_status
+name_columns(job *j, qdot_branches *b)
+{
+    qdot_scene *s = j->session->scene;
+    const size_t n = s->coordinates.n, width = j->found.width, behind = j->found.n + 1;
+    size_t k = 0;
+
+    j->text = qdot_calloc(width, sizeof *j->text);
+    j->names = qdot_calloc(width, sizeof *j->names);
+    j->columns = qdot_calloc(width, sizeof *j->columns);
+    if (!j->text || !j->names || !j->columns)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < width; i++)
+        j->names[i] = j->text[i];
+    for (size_t i = 0; i < 2 * n; i++)
+        snprintf(j->text[i], NAME_ROOM, "%s",
+                 qdot_expr_symbol(s->pool, qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n))
+                     ->name);
+    strcpy(j->text[2 * n], "T");
+    snprintf(j->text[j->found.n], NAME_ROOM, "%s",
+             j->w->parameter == QDOT_NIL ? "energy"
+                                         : qdot_expr_symbol(s->pool, j->w->parameter)->name);
+    for (size_t i = 0; i < n; i++)
+        snprintf(j->text[behind + i], NAME_ROOM, "max(%.100s)",
+                 qdot_expr_symbol(s->pool, s->coordinates.at[i])->name);
+    for (size_t i = 0; i < 2 * n; i++)
+        snprintf(j->text[behind + n + i], NAME_ROOM, "abs(floquet[%zu])", i + 1);
+    for (size_t i = 0; i < n; i++)
+        j->columns[k++] = behind + i;
+    j->columns[k++] = 2 * n;
+    b->n_told = k;
+    b->n_drawn = period_changes(j) ? k : k - 1;
+    for (size_t i = 0; i < 2 * n; i++)
+        if (strcmp(j->text[i], j->text[j->found.n]) != 0)
+            j->columns[k++] = i;
+    for (size_t i = 0; i < 2 * n; i++)
+        j->columns[k++] = behind + n + i;
+    b->n_columns = k;
+    b->names = j->names;
+    b->columns = j->columns;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
+{
+    job j = {.session = session, .w = w};
+    qdot_branches b = {.found = &j.found, .orbits = true};
+    qdot_status status = find_first(&j);
+
+    if (status == QDOT_OK)
+        status = qdot_orbit_continuation_find(&j.of, &j.found);
+    if (status == QDOT_OK && j.found.width > 0)
+        status = name_columns(&j, &b);
+    if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.n > j.found.coordinates)
+        status = qdot_answer_notice(session, "the energy is conserved: along the branch it stays "
+                                             "what it is in the run");
+    status = qdot_continue_conclude(session, w, &b, status);
+    qdot_continuation_clear(&j.found);
+    qdot_free(j.text);
+    qdot_free(j.names);
+    qdot_free(j.columns);
+    qdot_free(j.values);
+    qdot_free(j.z);
+    return status;
+}

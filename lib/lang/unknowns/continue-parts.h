@@ -1,0 +1,28 @@
+/* continue-parts.h -- what `continue` is asked, and its branches of orbits.
+ *
+ *     continue equilibria|orbit in NAME = A..B [as NAME]
+ *
+ * Tests  tests/script/continue.lag, continue-orbit.lag, tests/bad/continue-*.lag
+ */
+#ifndef QDOT_LANG_CONTINUE_PARTS_H
+#define QDOT_LANG_CONTINUE_PARTS_H
+
+#include "lang/language/cursor.h"
+#include "lang/unknowns/branches.h"
+
+typedef struct {
+    bool orbit;
+    qdot_expr parameter; /* nil: the energy of an orbit */
+    const qdot_token *place, *range_at; /* of its name, of A..B */
+    double least, most;
+    const char *name, *marks; /* of the tables; marks owned */
+    char *own;
+} qdot_continue_wish;
+
+/* Follow the latest run that ends where it began. */
+QDOT_MUST_CHECK qdot_status qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w);
+/* Keep and tell what was found, as far as it goes. */
+QDOT_MUST_CHECK qdot_status qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w,
+                                                   const qdot_branches *b, qdot_status status);
+
+#endif

@@ -1,0 +1,78 @@
+/* path.h -- points on curves F(y) = 0, y = (u, p): tangents and corrections.
+ *
+ * With the weights w of an inner product, t the unit tangent,
+ *
+ *     [ F'(y)   ]       [ 0 ]         F(y1) = 0,
+ *     [ (w t0)^T ] t  =  [ 1 ],        (w t)^T (y1 - y) = s      (pseudo-arclength)
+ *
+ * The determinant of the first matrix, t in place of t0, changes its sign where two curves cross, and nowhere
+ * else on a curve. Curves of equilibria (rest-path.h) and of periodic orbits (orbit-path.h) are such.
+ *
+ * Source  H. B. Keller, in Applications of Bifurcation Theory (1977), 359; Allgower & Georg,
+ *         Introduction to Numerical Continuation Methods (2003), 2 and 8.
+ * Tests   tests/sim/test_continuation.c, test_orbits.c
+ */
+#ifndef QDOT_SIM_PATH_H
+#define QDOT_SIM_PATH_H
+
+#include "mech/study/stability.h"
+#include "num/lu.h"
+
+/* A point of a curve, with the direction in which it is followed. */
+typedef struct {
+    double *y, *t;     /* [width], [n + 1] in one block, owned */
+    double det;        /* the determinant, by the tangent before */
+    long growing;      /* motions near by that grow; -1: unknown */
+    int flip;          /* of orbits: its sign changes where a multiplier passes -1; 0: unknown */
+    bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it; */
+    bool blurred;      /* what is judged drowns in errors: it is no point */
+    qdot_stability stability;
+} qdot_path_point;
+
+typedef struct qdot_path qdot_path;
+struct qdot_path {
+    size_t n, coordinates;   /* unknowns; those that are told come first */
+    size_t width;            /* n + 1, and what is told beside u and p at each point */
+    const bool *angle;       /* [n] a full turn changes nothing; borrowed, as all that describes F */
+    const double *lo, *hi;   /* [n] domains of the unknowns */
+    double least, most;      /* of p */
+    double *weight;          /* [n + 1] */
+    double exact;            /* corrections of Newton's below are rounding */
+    double gauge;            /* what the determinant is divided by, as `at` found it */
+    double shortest, longest; /* steps along the curve */
+    int least_jump;          /* of `growing`, which says that an oscillation begins */
+    int halvings;            /* of the way to a bifurcation, before it is located */
+    /* F [n], F' [n * (n + 1)] at y; not finite: there is no value. A grave failure: x->failure. */
+    void (*at)(qdot_path *x, const double *y);
+    /* a->stability, growing, flip, and y behind n + 1. */
+    qdot_status (*judge)(qdot_path *x, qdot_path_point *a);
+    double *F, *J;
+    double *A, *b;           /* [(n + 1)^2], [n + 1] room */
+    qdot_lu_row *rows;
+    qdot_status failure;     /* of the latest evaluation: not QDOT_OK ends the search */
+};
+
+/* Room for n unknowns. From {0}; ended in any case. The rest is filled by the caller. */
+QDOT_MUST_CHECK qdot_status qdot_path_begin(qdot_path *x, size_t n);
+void qdot_path_end(qdot_path *x);
+/* Weights: 1 / range of p, 1 / size [n] of the unknowns; those that are not told weigh little. */
+void qdot_path_scale(qdot_path *x, const double *size);
+
+QDOT_MUST_CHECK qdot_status qdot_path_point_begin(const qdot_path *x, qdot_path_point *a);
+void qdot_path_point_end(qdot_path_point *a);
+void qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_point *to);
+
+/* The inner product. The distance of two places, angles modulo full turns. */
+double qdot_path_product(const qdot_path *x, const double *a, const double *b);
+double qdot_path_distance(const qdot_path *x, const double *a, const double *b);
+
+/* Solve F(y) = 0, g.(y - y as it was) = 0 from the guess y; *steps; false: no zero near. */
+bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);
+/* The same with y_i held. */
+bool qdot_path_hold(qdot_path *x, size_t i, double *y);
+/* a->t, a->sign at a->y, in the direction of `along`; false where there is no tangent. */
+bool qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a);
+/* The point at s from a, along a->t, with its tangent; false: none. */
+bool qdot_path_go(qdot_path *x, const qdot_path_point *a, double s, qdot_path_point *to, int *steps);
+
+#endif

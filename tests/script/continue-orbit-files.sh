@@ -1,0 +1,54 @@
+# Branches of orbits as JSON, files, figures.
+cat >duffing.lag <<'END'
+param Omega, F
+coord x
+particle b mass 1 at x
+potential x^2/2 + x^4/4
+force -0.1*x' + F*cos(Omega*t) on b
+set Omega = 0.5, F = 0.5
+find x = 0.6, x' = 0 such that returns after 2*pi/Omega
+END
+qdot -q --json duffing.lag -e 'continue orbit in Omega = 0.5..3' >out.json
+# the period is the drive's; what is unstable has a multiplier beyond the circle, what is stable none
+awk -F'[][,:}]*' '/"name":"branch/ {
+        match($0, /"values":\[[^]]*/); split(substr($0, RSTART + 10, RLENGTH - 10), v, ",")
+        off = v[1]*v[3] - 6.283185307179586; if (off < 0) off = -off
+        if (off > 1e-12) print "another period: " $0
+        n++; folds += v[6] > 0.9999999 && v[6] < 1.0000001
+        if ($0 !~ "\"stable\":" (v[6] > 1 ? "false" : "true") && v[6] - 1 > 1e-7) print "not so: " $0 }
+    END { print (n > 100 ? "many points" : n " points"), folds, "folds" }' out.json
+short='{ while (match($0, /-?[0-9]+\.[0-9]+(e-?[0-9]+)?/)) { printf("%s%.9g", substr($0, 1, RSTART - 1), substr($0, RSTART, RLENGTH))
+        $0 = substr($0, RSTART + RLENGTH) } print }'
+grep bifurcation out.json | awk "$short"
+qdot -q duffing.lag - <<'END' | tail -n 5
+continue orbit in Omega = 0.5..3 as response
+save response to "response.csv"
+save response_bifurcations to "points.csv"
+plot response to "response.svg" keep
+END
+head -n 1 response.csv; cut -d, -f1-7 points.csv | awk "$short"
+grep -o "dashtype [^ ]*\|with points\|title \"[^\"]*\"" response.gp
+# a cycle that shrinks to the place at rest at mu = 0, from T = 2*pi on
+ends() { qdot -q "$@" 2>&1 | awk '/^branch\[1\] [a-z]/ { gsub(/,/, ""); print $1, $2, $3, $4, $5, $6
+        for (i = 3; i <= NF; i++) if ($(i - 1) == "=") printf("%s %.6f\n", $(i - 2), $i) }'; }
+ends - <<'END' | head -n 3
+param mu
+coord x
+particle b mass 1 at x
+potential x^2/2
+force (mu - x^2)*x' on b
+set mu = 1
+find x = 2, T = 6.6 such that returns after T
+continue orbit in mu = -1..1
+END
+# one that ends at a saddle, where its period is infinite; and begins at mu = 1
+ends - <<'END' | grep -v '^T\|max'
+param mu
+coord x
+particle b mass 1 at x
+potential -x^2/2 + x^3/3
+force -0.3*(mu - x)*x' on b
+set mu = 0.93
+find x = 0.4, T = 7.3 such that returns after T
+continue orbit in mu = 0.5..1.2
+END
