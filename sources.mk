@@ -1322,6 +1322,7 @@ script_tests = \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
 	tests/script/event-time-errors.sh \
+	tests/script/events-at-once.lag \
 	tests/script/events.lag \
 	tests/script/export.sh \
 	tests/script/factor.lag \
@@ -2346,6 +2347,7 @@ test_files = \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
 	tests/script/event-time-errors.out \
+	tests/script/events-at-once.out \
 	tests/script/events.out \
 	tests/script/export.out \
 	tests/script/factor.out \
