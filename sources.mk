@@ -1465,6 +1465,7 @@ script_tests = \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
 	tests/script/values.lag \
+	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
@@ -1560,6 +1561,7 @@ script_tests = \
 	tests/bad/function-recursion.lag \
 	tests/bad/function-syntax.lag \
 	tests/bad/gauss-mass.lag \
+	tests/bad/gauss-undefined-start.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
@@ -1965,6 +1967,7 @@ test_files = \
 	tests/bad/function-recursion.out \
 	tests/bad/function-syntax.out \
 	tests/bad/gauss-mass.out \
+	tests/bad/gauss-undefined-start.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
@@ -2506,6 +2509,7 @@ test_files = \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
 	tests/script/values.out \
+	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \
