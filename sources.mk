@@ -1356,6 +1356,7 @@ script_tests = \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
 	tests/script/event-time-errors.sh \
+	tests/script/events-at-once.lag \
 	tests/script/events.lag \
 	tests/script/export.sh \
 	tests/script/factor.lag \
@@ -1497,6 +1498,7 @@ script_tests = \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
 	tests/script/values.lag \
+	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
@@ -1593,6 +1595,7 @@ script_tests = \
 	tests/bad/function-recursion.lag \
 	tests/bad/function-syntax.lag \
 	tests/bad/gauss-mass.lag \
+	tests/bad/gauss-undefined-start.lag \
 	tests/bad/generated.sh \
 	tests/bad/gravity-dimension.lag \
 	tests/bad/hamiltonian-singular.lag \
@@ -2001,6 +2004,7 @@ test_files = \
 	tests/bad/function-recursion.out \
 	tests/bad/function-syntax.out \
 	tests/bad/gauss-mass.out \
+	tests/bad/gauss-undefined-start.out \
 	tests/bad/generated.out \
 	tests/bad/gravity-dimension.out \
 	tests/bad/hamiltonian-singular.out \
@@ -2387,6 +2391,7 @@ test_files = \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
 	tests/script/event-time-errors.out \
+	tests/script/events-at-once.out \
 	tests/script/events.out \
 	tests/script/export.out \
 	tests/script/factor.out \
@@ -2544,6 +2549,7 @@ test_files = \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
 	tests/script/values.out \
+	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \

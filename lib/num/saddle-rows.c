@@ -27,6 +27,15 @@ qdot_saddle_remains(const qdot_saddle *s, size_t k)
     return s->widest[k] > 0 ? sqrt(squared(s, k) / s->widest[k]) : 1;
 }
 
+bool
+qdot_saddle_widens(const qdot_saddle *s)
+{
+    for (size_t k = 0; k < s->m; k++)
+        if (s->widest[k] > 0 && squared(s, k) > 4 * s->widest[k])
+            return true;
+    return false;
+}
+
 size_t
 qdot_saddle_faded(qdot_saddle *s)
 {
@@ -36,7 +45,7 @@ qdot_saddle_faded(qdot_saddle *s)
         const double sum = squared(s, k);
 
         if (sum > s->widest[k])
-            s->widest[k] = sum;
+            s->widest[k] = s->aside ? s->widest[k] : sum;
         else if (sum < faded * s->widest[k])
             found = k;
     }

@@ -55,6 +55,7 @@ typedef struct {
     size_t last;      /* position of the last pivot; after a failure of the one that failed */
     size_t *pivot;    /* [m] the rows of A in the order of the pivoting */
     double *widest;   /* [m] the largest squared norm of each row so far; the caller may begin it */
+    bool aside;       /* A is of a state that says nothing of how large its rows are */
     double *heaviest; /* [n] the largest diagonal entry of M so far */
 
     bool indefinite; /* Z^T M Z by LDL^T, else by Cholesky */
@@ -104,6 +105,9 @@ double qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x,
 /* A row that has shrunk below 1e-7 of its largest size, so that its direction is rounding; m:
  * there is none. Call it once before each factorisation. */
 size_t qdot_saddle_faded(qdot_saddle *s);
+
+/* Whether a row is more than twice its largest size so far. */
+bool qdot_saddle_widens(const qdot_saddle *s);
 
 /* Whether row k had shrunk so at that call. */
 bool qdot_saddle_has_faded(const qdot_saddle *s, size_t k);

@@ -175,6 +175,16 @@ least_length(const run *r)
     return 16 * DBL_EPSILON * fmax(fabs(r->t), DBL_MIN / DBL_EPSILON);
 }
 
+/* The run ends at r->t, for the reason of the last error. */
+static qdot_status
+stopped(const run *r)
+{
+    const qdot_error why = *qdot_last_error();
+
+    qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, why.message);
+    return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
+}
+
 /* Find the length: steps of varying ones from the start, to which the state then returns. */
 static qdot_status
 find_length(run *r)
@@ -209,7 +219,7 @@ find_length(run *r)
     }
     /* what ends the trial ends the run, there */
     if (qdot_ode_may_be_undefined(status))
-        status = QDOT_OK;
+        status = r->h > 0 ? QDOT_OK : stopped(r);
     if (start && status == QDOT_OK) {
         memcpy(r->g.y, start, 4 * r->g.n * sizeof *start);
         r->g.known = false;
@@ -225,16 +235,13 @@ find_length(run *r)
 static qdot_status
 undefined(run *r, double h, qdot_status status)
 {
-    const qdot_error why = *qdot_last_error();
-
     if (!qdot_ode_may_be_undefined(status))
         return status;
     r->result->stats.rejected++;
     r->h = 0.25 * h;
     if (++r->undefined <= most_undefined && r->h > least_length(r) && !(r->options->h_fixed > 0))
         return QDOT_OK;
-    qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t, why.message);
-    return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
+    return stopped(r);
 }
 
 /* The step just made is accepted, unless the caller objects. */

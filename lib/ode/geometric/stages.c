@@ -4,10 +4,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "ode/scale.h"
+
 enum { most_iterations = 60, least_iterations = 3 };
 
 /* Where changes stop to fall above this, relative to the positions, the iteration does not converge. */
 static const double converged = 1e-10;
+
+/* A coordinate that is nothing but rounding of the others never settles: below this fraction of its scale
+ * it counts as so large. */
+static const double smallest = 1e-6;
 
 qdot_stages
 qdot_stages_of(const qdot_geometric *g)
@@ -94,7 +100,9 @@ qdot_stages_move(const qdot_geometric *g, const qdot_stages *w, double h)
         for (size_t k = 0; k < n; k++) {
             const double x = qdot_stages_at(w, w->a, i, g->y[k], g->low[k], h, w->W, k);
             const double change = fabs(x - w->X[i * n + k]);
-            const double size = fabs(g->y[k]) + fabs(x - g->y[k]);
+            const double size =
+                fmax(fabs(g->y[k]) + fabs(x - g->y[k]),
+                     smallest * qdot_ode_size(g->system->scales, k, g->y[k]));
 
             w->X[i * n + k] = x;
             if (!(change <= most * size))

@@ -17,6 +17,8 @@ make_room(qdot_piece *x)
     x->before = qdot_calloc(m, sizeof *x->before);
     x->residual = qdot_calloc(m, sizeof *x->residual);
     x->signs = qdot_calloc(m, sizeof *x->signs);
+    x->left = qdot_calloc(m, sizeof *x->left);
+    x->untouched = qdot_calloc(m, sizeof *x->untouched);
     x->y = qdot_calloc(5 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
@@ -27,7 +29,7 @@ make_room(qdot_piece *x)
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
     if (!x->side || !x->functions_on || !x->before || !x->residual ||
-        !x->signs || !x->y || !x->step.t || !x->step.y)
+        !x->signs || !x->left || !x->untouched || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
@@ -137,6 +139,8 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_free(x.before);
     qdot_free(x.residual);
     qdot_free(x.signs);
+    qdot_free(x.left);
+    qdot_free(x.untouched);
     qdot_free(x.fired.at);
     qdot_free(x.crossed.at);
     qdot_free(x.y);

@@ -229,22 +229,55 @@ qdot_piece_find_delay(qdot_piece *x)
     }
 }
 
+/* Before anything is changed: the signs of all functions, and their values. */
+static qdot_status
+look_before(qdot_piece *x, double t, double *g)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+
+    QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->signs, g));
+    for (size_t i = 0; i < m->m; i++) {
+        x->left[i] = first[i];
+        x->untouched[i] = true;
+    }
+    for (size_t i = 0; i < x->fired.n; i++)
+        x->untouched[x->fired.at[i].function] = false;
+    return QDOT_OK;
+}
+
+/* And behind it. */
+static qdot_status
+look_behind(qdot_piece *x, double t, double *g)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    double *now = g + m->m;
+    int *signs = qdot_malloc(m->m * sizeof *signs);
+    qdot_status status = signs ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_watch_look(qdot_piece_watch(x), t, x->start.y, signs, now);
+    for (size_t i = 0; i < m->m && status == QDOT_OK; i++)
+        x->untouched[i] = x->untouched[i] && now[i] == g[i];
+    qdot_free(signs);
+    return status;
+}
+
 qdot_status
 qdot_piece_act(qdot_piece *x, bool *over)
 {
     double *old = qdot_malloc(x->n * sizeof *old);
-    qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
+    double *g = qdot_malloc(2 * qdot_piece_mode(x)->m * sizeof *g);
+    qdot_status status = old && g ? QDOT_OK : QDOT_ENOMEM;
     const qdot_mode *m = qdot_piece_mode(x);
     double t = x->t_act, *y = x->start.y;
 
-    if (old)
-        memcpy(old, y, x->n * sizeof *y);
     x->fired.n = 0;
     x->crossed.n = 0;
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
-        status = qdot_watch_look(qdot_piece_watch(x), t, y, x->signs);
+        status = look_before(x, t, g);
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++) {
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
@@ -273,6 +306,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
             if (e->then) {
+                memcpy(old, y, x->n * sizeof *y);
                 status = qdot_piece_change(x, e, t, old, y);
                 x->start.jumped = true;
             }
@@ -297,6 +331,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
     }
     if (x->start.jumped)
         x->crossed.n = 0;
+    if (x->start.jumped && status == QDOT_OK)
+        status = look_behind(x, t, g);
     if (x->start.jumped && status == QDOT_OK && !*over) {
         status = qdot_piece_keep_contacts(x);
         *over = x->c->reason[0] != '\0';
@@ -304,5 +340,6 @@ qdot_piece_act(qdot_piece *x, bool *over)
             qdot_piece_stop(x, true);
     }
     qdot_free(old);
+    qdot_free(g);
     return status;
 }

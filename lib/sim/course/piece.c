@@ -72,6 +72,12 @@ is_action(const qdot_piece *x, const qdot_root *root)
     return w->kind != QDOT_WATCH_EVENT || e->stop || e->then;
 }
 
+static bool
+ends_piece(const qdot_root *root, void *user)
+{
+    return is_occurrence(user, root) && is_action(user, root);
+}
+
 static qdot_status
 note(qdot_piece *x, const qdot_root *root)
 {
@@ -130,6 +136,30 @@ stays_on_event(qdot_piece *x)
             return true;
         }
     return false;
+}
+
+/* Events with an action whose zero was reached at the start, or held until then, and is left at once
+ * because another event has changed the state: bodies that touch, or roots that only rounding separates.
+ * A zero onto which the change has put the motion does not count. */
+static qdot_status
+follow_at_once(qdot_piece *x, double t0)
+{
+    const int *first = qdot_watch_first(qdot_piece_watch(x));
+
+    for (size_t i = 0; i < x->c->stage->events.n && x->start.jumped; i++) {
+        const qdot_staged_event *e = &x->c->stage->events.at[i];
+        const qdot_root root = {.function = i, .t = t0, .way = first[i], .exact = true};
+
+        if ((!e->stop && !e->then) || !x->untouched[i] || !x->functions_on[i] || first[i] == 0
+            || first[i] == x->left[i] || (e->way == 0 && x->left[i] == 0)
+            || !is_occurrence(x, &root))
+            continue;
+        x->intent = QDOT_PIECE_ENDS;
+        x->t_act = t0;
+        QDOT_TRY(note(x, &root));
+        QDOT_TRY(qdot_vec_push(&x->roots, root));
+    }
+    return QDOT_OK;
 }
 
 /* After the first step: whether the piece continues with its sides. */
@@ -218,11 +248,12 @@ take_roots(qdot_piece *x, double t0, const qdot_root *roots, size_t n)
             x->intent = QDOT_PIECE_RETRIED;
             return QDOT_OK;
         }
+        QDOT_TRY(follow_at_once(x, t0));
     } else {
         QDOT_TRY(leave_zero(x, t0));
-        if (x->intent == QDOT_PIECE_ENDS)
-            return QDOT_OK;
     }
+    if (x->intent == QDOT_PIECE_ENDS)
+        return QDOT_OK;
     for (size_t i = 0; i < n; i++) {
         if (!is_occurrence(x, &roots[i])) {
             if (roots[i].within > 0) /* of an event that rises or falls: it may be two crossings */
@@ -393,7 +424,7 @@ qdot_piece_begin(qdot_piece *x)
     x->reader = (qdot_watch_reader){x->options->alternates ? read_either
                                     : x->method->series    ? read_series
                                                            : read_step,
-                                    x, &x->c->systems.at[x->mode]};
+                                    x, &x->c->systems.at[x->mode], ends_piece};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
     if (following)

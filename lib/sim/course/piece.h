@@ -53,6 +53,8 @@ typedef struct {
     bool *functions_on; /* [functions] the piece starts on a zero of it */
     int *before;        /* [functions] sign just before the start; 0: unknown */
     int *signs;         /* [functions] of the mode before, where its piece ended */
+    int *left;          /* [functions] and just behind the start of the step that ended it */
+    bool *untouched;    /* [functions] it did not end that piece, and what did left its value as it was */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
     double *bare;  /* [n] the start, before a try has moved it */

@@ -50,14 +50,31 @@ fill(qdot_constrained *h, part *p)
         s->x[n + k] = -p->residual[p->level->row[k]];
 }
 
+/* What the terms of row k may be near the state: slopes and values of it, each at its largest. (The
+ * slopes at a located event are uncertain by the rounding of its time.) */
+static double
+size_near(const qdot_constrained *h, const part *p, size_t k)
+{
+    const qdot_constraints *c = h->c;
+    double slope = 0, value = 0;
+
+    for (size_t i = 0; i < c->n_slopes; i++)
+        if (c->slopes[i].row == p->level->row[k]) {
+            slope = fmax(slope, fabs(p->saddle.A[k * h->plan->n + c->slopes[i].column]));
+            value = fmax(value, fabs(p->x[c->slopes[i].column]));
+        }
+    return slope * value;
+}
+
 /* The largest ratio of a residual to its rounding, and its row. */
 static double
-excess(const part *p, size_t *worst)
+excess(const qdot_constrained *h, const part *p, size_t *worst)
 {
     double most = 0;
 
     for (size_t k = 0; k < p->level->m; k++) {
-        const double size = qdot_saddle_row_size(&p->saddle, k, p->x, least_size);
+        const double size = fmax(qdot_saddle_row_size(&p->saddle, k, p->x, least_size),
+                                 size_near(h, p, k));
         const double now = fabs(p->residual[p->level->row[k]]) / (DBL_EPSILON * size);
 
         if (!(now <= most)) {
@@ -90,7 +107,7 @@ bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
         qdot_constrained_load(h, t, y);
         p->find(h);
         fill(h, p);
-        now = excess(p, &worst);
+        now = excess(h, p, &worst);
         if (now <= 1 || (now < 1e3 && !(now < 0.5 * before)))
             return QDOT_OK;
         if (!isfinite(now) || (k > 5 && !(now < before)))
@@ -98,6 +115,8 @@ bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
         before = now;
         if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) {
             QDOT_TRY(qdot_interrupt_check());
+            if (now < 1e3) /* all values are set, and rounding is all that is left */
+                return QDOT_OK;
             break;
         }
         qdot_saddle_solve_refined(&p->saddle);

@@ -208,6 +208,35 @@ qdot_constrained_damp(const qdot_constrained *h, double *gamma)
                         : a * h->w[k];
 }
 
+/* Whether the loaded state is far off the constraints, as a method may try with a long step: the sizes
+ * of their slopes there are none that the motion meets. Writes h->out. */
+static bool
+is_off(qdot_constrained *h, const level *l, const double *y)
+{
+    qdot_constrained_positions(h);
+    for (size_t k = 0; k < l->m; k++)
+        if (fabs(h->f[l->row[k]]) > 0.1 * qdot_saddle_row_size(&l->saddle, k, y, 0))
+            return true;
+    return false;
+}
+
+/* Evaluate the equations at the loaded state y. Returns A q'' of the constraints. */
+static const double *
+evaluate(qdot_constrained *h, level *all, const double *y)
+{
+    const qdot_plan *p = h->plan;
+    const double *gamma;
+
+    qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
+    gamma = unpack(h, all, h->out + p->n);
+    all->saddle.aside = false;
+    if (qdot_saddle_widens(&all->saddle)) {
+        all->saddle.aside = is_off(h, all, y);
+        qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
+    }
+    return gamma;
+}
+
 qdot_status
 qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a,
                        double *lambda)
@@ -221,8 +250,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     qdot_constrained_load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_residuals(h);
-    qdot_tape_eval(qdot_constrained_tape(h->equations, p->tape), h->in, h->out, h->work);
-    gamma = unpack(h, all, h->out + n);
+    gamma = evaluate(h, all, y);
     memcpy(x, h->out, n * sizeof *x);
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)

@@ -23,6 +23,8 @@ typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
     void *user;
     const qdot_ode_system *system; /* for accelerations and multipliers */
+    /* Whether the steps end at a root, so that those behind it are not wanted; NULL: they do not. */
+    bool (*ends)(const qdot_root *root, void *user);
 } qdot_watch_reader;
 
 #endif

@@ -135,16 +135,59 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     return QDOT_OK;
 }
 
-/* The whole step, left to right; parts that wait stand on a stack of their ends. */
-static qdot_status
-look_at_step(qdot_watch *w, double t)
-{
-    double ends[DEEPEST + 2], from = w->t;
-    int depth = 0, parts = 0;
+/* Roots nearer than this fraction of their time may be of one instant. */
+static const double one_instant = 64 * DBL_EPSILON;
 
+/* Whether a root ends the step, clearly before b. */
+static bool
+ends_before(const qdot_watch *w, double b)
+{
+    for (size_t i = 0; i < w->roots.n && w->reader.ends; i++) {
+        const qdot_root *root = &w->roots.at[i];
+
+        if (fabs(b - root->t) > one_instant * fmax(fabs(b), fabs(root->t))
+            && w->reader.ends(root, w->reader.user))
+            return true;
+    }
+    return false;
+}
+
+/* Put a part's end onto the stack. */
+static qdot_status
+wait_until(qdot_watch *w, double t, double *ends, int *depth)
+{
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+    ends[*depth] = t;
+    memcpy(w->ends + (size_t)*depth * w->m, w->g, w->m * sizeof *w->g);
+    ++*depth;
+    return QDOT_OK;
+}
+
+/* A step much longer than what the last root left is looked at from a part of about that length on:
+ * events of which hundreds would lie in the step come so. */
+static double
+first_cut(const qdot_watch *w, double t)
+{
+    return w->reach > 0 && w->length > 16 * w->reach
+               ? w->t + copysign(4 * w->reach, t - w->t)
+               : t;
+}
+
+/* The whole step, left to right, or as far as it is wanted; parts that wait stand on a stack of
+ * their ends. */
+static qdot_status
+look_at_step(qdot_watch *w, double t, bool *whole)
+{
+    double ends[DEEPEST + 2], from = w->t, cut = first_cut(w, t);
+    int depth = 1, parts = 0;
+
+    *whole = true;
     ends[0] = t;
     memcpy(w->ends, w->final, w->m * sizeof *w->ends);
-    for (depth = 1; depth > 0;) {
+    if (cut != t)
+        QDOT_TRY(wait_until(w, cut, ends, &depth));
+    w->reach = 0;
+    while (depth > 0) {
         qdot_watch_part p = {.a = from, .b = ends[depth - 1]};
         const double *at_end = w->ends + (size_t)(depth - 1) * w->m;
         double middle;
@@ -155,6 +198,11 @@ look_at_step(qdot_watch *w, double t)
         if (v == QDOT_PART_GOOD) {
             from = p.b;
             depth--;
+            *whole = !ends_before(w, p.b);
+            if (!*whole) {
+                w->reach = fabs(p.b - p.a);
+                break;
+            }
             continue;
         }
         middle =
@@ -164,10 +212,7 @@ look_at_step(qdot_watch *w, double t)
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
-        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
-        ends[depth] = middle;
-        memcpy(w->ends + (size_t)depth * w->m, w->g, w->m * sizeof *w->g);
-        depth++;
+        QDOT_TRY(wait_until(w, middle, ends, &depth));
     }
     return QDOT_OK;
 }
@@ -242,7 +287,7 @@ qdot_status
 qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
                 const qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
 {
-    bool any = false;
+    bool any = false, whole = true;
 
     w->direction = t < w->t ? -1 : 1;
     copy_state(w, &w->now, &w->start);
@@ -266,8 +311,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         w->slow[i] = w->grazed[i] = false;
     }
     if (any)
-        QDOT_TRY(look_at_step(w, t));
-    if (last)
+        QDOT_TRY(look_at_step(w, t, &whole));
+    if (last && whole)
         QDOT_TRY(end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
         if (!w->live[i]) {
@@ -354,12 +399,12 @@ qdot_watch_slow(const qdot_watch *w)
 }
 
 qdot_status
-qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs)
+qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs, double *g)
 {
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, t, w->g));
+    QDOT_TRY(qdot_watch_value(w, t, g));
     for (size_t i = 0; i < w->m; i++)
-        signs[i] = qdot_watch_sign(w->g[i]);
+        signs[i] = qdot_watch_sign(g[i]);
     return QDOT_OK;
 }
 

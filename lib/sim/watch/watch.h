@@ -59,7 +59,7 @@ QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
 QDOT_MUST_CHECK qdot_status qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader,
                                                double t, const double *y, const double **g);
 
-/* All roots of the step to (t, y), ascending in the direction of the run; borrowed until
+/* All roots of the step to (t, y), as far as the first that ends it (qdot_watch_reader), ascending in the direction of the run; borrowed until
  * the next call. `last`: the step ends the run, and a root at its end counts. A repeated call
  * tries another step from the same start; _take accepts the step.
  *   step  NULL, or that of the system's series, to t */
@@ -78,8 +78,8 @@ void qdot_watch_pass(qdot_watch *w, double t, const double *y);
 const int *qdot_watch_first(const qdot_watch *w);
 const bool *qdot_watch_slow(const qdot_watch *w);
 
-/* The signs of all g at a state. */
-QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
-                                            int *signs);
+/* All g [m] at a state, and their signs [m]. */
+QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs,
+                                            double *g);
 
 #endif
