@@ -1347,6 +1347,7 @@ script_tests = \
 	tests/script/end-errors.sh \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
+	tests/script/errors-known.sh \
 	tests/script/estimate-bounded.lag \
 	tests/script/event-at-rest.lag \
 	tests/script/event-constraints.lag \
@@ -2382,6 +2383,7 @@ test_files = \
 	tests/script/end-errors.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
+	tests/script/errors-known.out \
 	tests/script/estimate-bounded.out \
 	tests/script/event-at-rest.out \
 	tests/script/event-constraints.out \

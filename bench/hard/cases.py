@@ -122,6 +122,16 @@ particle p mass 1 at (x, y)
 potential 1e6*(x - y)^2/2 + (x + y)^2/4
 dissipation 500*(x' - y')^2
 start x = 1, y = 1""", "30", {"x": lambda: m.cos(30), "y'": lambda: -m.sin(30)}, ["bsimp"])
+THREE = [[0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1], [-1001, 1000, 0, 0, 0, 0],
+         [10 ** 6, -2 * 10 ** 6, 10 ** 6, 0, 0, 0], [0, 10 ** 9, -10 ** 9, 0, 0, -10 ** 7]]
+case("a7-three-scales", """coord x, y, z
+particle p mass 1 at x
+particle q mass 1e-3 at y
+particle s mass 1e-6 at z
+potential x^2/2 + 1000*(y - x)^2/2 + 1000*(z - y)^2/2
+force -10*z' on z
+start x = 1, y = 1, z = 1""", "10", {"x": lambda: linear(THREE, [1, 1, 1, 0, 0, 0], 10)[0],
+                                     "z": lambda: linear(THREE, [1, 1, 1, 0, 0, 0], 10)[2]}, ["bsimp"])
 
 # --- b: long times -----------------------------------------------------------------------------
 
@@ -221,6 +231,12 @@ particle p mass 1 at (x, y)
 potential -1/norm(p)
 start x = 1e-8, y' = sqrt((2 - 1e-8)/1e-8)""", "3", {
     "x": lambda: kepler(1, 1 - mpf(10) ** -8, 3)[0], "y": lambda: kepler(1, 1 - mpf(10) ** -8, 3)[1]}, ["dop853"])
+case("e9-nearly-straight", """coord x, y
+particle p mass 1 at (x, y)
+potential -1/norm(p)
+start x = 2 - 1e-9, y' = sqrt(1e-9/(2 - 1e-9))""", "20", {
+    "x": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[0], "y": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[1]},
+     ["dop853"])
 
 # --- f: not smooth -----------------------------------------------------------------------------
 
@@ -254,6 +270,13 @@ force mod(t, 1) - 1/2 on x
 start x = 0, x' = 1/12""", "9", {"x": lambda: mpf(0), "x'": lambda: mpf(1) / 12})
 case("f6-fractional", "coord x\nlagrangian x'^2/2 - abs(x)^(3/2)\nstart x = 1",
      "4*sqrt(pi/2)*2/3*1.354117939426400416945288/0.9277193336300392007083495", {"x": lambda: mpf(1), "x'": lambda: mpf(0)}, ["dop853"])
+for number, width in (("7", "1e-8"), ("8", "1e-10")):
+    case("f%s-kick-of-%s" % (number, width), """coord x
+particle p mass 1 at x
+potential x^2/2
+force exp(-(t - 5)^2/(2*%s^2))/(%s*sqrt(2*pi)) on x
+start x = 0""" % (width, width), "10", {
+        "x": (lambda width: lambda: m.exp(-mpf(width) ** 2 / 2) * m.sin(5))(width)})
 
 # --- g: constraints ----------------------------------------------------------------------------
 

@@ -83,6 +83,13 @@ def duhamel(kernel, f, ends):
     return m.quad(lambda s: kernel(ends[-1] - s) * f(s), ends)
 
 
+def kicked_by(width):
+    """x at 10 of an oscillator at rest after a Gaussian kick of momentum 1 about 5"""
+    w = mpf(width)
+    return duhamel(m.sin, lambda s: m.exp(-((s - 5) / w) ** 2 / 2) / (w * m.sqrt(2 * m.pi)),
+                   [5 + w * k for k in range(-14, 15)] + [mpf(10)])
+
+
 def pendulum(start, g, t):
     return numbers(lambda s, y: vector(y[1], -L(g) * np.sin(y[0])), [start, 0], t, component(0))[0]
 
@@ -335,6 +342,9 @@ WAYS = {
     "a4-relaxing-drive": (a4, KEEP),
     "a5-damped-chain": (a5, KEEP),
     "a6-stiff-frame": (frame, KEEP),
+    "a7-three-scales": (lambda: exponential([[0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1], [-1001, 1000, 0, 0, 0, 0],
+                                             [10 ** 6, -2 * 10 ** 6, 10 ** 6, 0, 0, 0], [0, 10 ** 9, -10 ** 9, 0, 0, -10 ** 7]],
+                                            [1, 1, 1, 0, 0, 0], 10)[::2], KEEP),
     "b1-oscillator": (lambda: oscillator(2, 3, 0, 20000)[:1], KEEP),
     "b2-pendulum": (lambda: [pendulum(1, 4, 5000)], "1e-11"),
     "b3-ellipse": (lambda: regularised(1, "0.7", 3000), KEEP),
@@ -363,12 +373,15 @@ WAYS = {
     "e6-small-beside-large": (lambda: oscillator(1, 1, 0, 10)[:1] + oscillator(3, "1e-9", 0, 10)[:1], KEEP),
     "e7-through-the-centre": (lambda: [fallen(1, 5)], KEEP),
     "e8-flyby-1e-8": (lambda: regularised(1, 1 - mpf(10) ** -8, 3), KEEP),
+    "e9-nearly-straight": (lambda: [-x for x in regularised(1, 1 - mpf(10) ** -9, 20 + m.pi)], KEEP),
     "f1-wedge": (zigzag, KEEP),
     "f2-slides-and-stays": (lambda: stepped(mpf(0), mpf(1), 2, [(mpf(2), -mpf(1) / 2)])[:1], KEEP),
     "f3-half-spring": (half_spring, KEEP),
     "f4-square-wave": (lambda: stepped(mpf(0), -mpf(1) / 2, 20, [(mpf(1), (-1) ** k) for k in range(20)]), KEEP),
     "f5-mod-drive": (lambda: [9 * (mpf(1) / 12 + duhamel(lambda s: s, lambda s: s - mpf(1) / 2, [0, 1])), mpf(1) / 12], KEEP),
     "f6-fractional": (fractional, "1e-22"),
+    "f7-kick-of-1e-8": (lambda: [kicked_by("1e-8")], KEEP),
+    "f8-kick-of-1e-10": (lambda: [kicked_by("1e-10")], KEEP),
     "g1-pendulum": (lambda: (lambda a: [m.sin(a), -m.cos(a)])(pendulum(1, 4, 50)), FINE),
     "g2-great-circle": (lambda: numbers(sphere, [1, 0, 0, 0, L("0.6"), L("0.8")], 100, component(0), component(2)), "1e-14"),
     "g3-atwood": (lambda: (lambda x: [x[0], -x[1]])(stepped(mpf(0), mpf(0), 3, [(mpf(3), (3 - 2) * mpf(10) / (3 + 2))])), KEEP),

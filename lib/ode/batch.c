@@ -338,8 +338,9 @@ come_near(batch *b)
 
         if (!a->tried[l])
             continue;
-        near = b->system->near(l, b->run->order, s, b->system->user);
-        if (!(near < s) || near * fabs(a->old_unit[l]) < narrowest * fabs(a->t[l]))
+        near = b->system->near(l, b->run->order, s,
+                               narrowest * fabs(a->t[l] / a->old_unit[l]), b->system->user);
+        if (!(near < s))
             continue;
         a->unit[l] = a->old_unit[l];
         a->tried[l] = 0;

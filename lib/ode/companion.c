@@ -138,10 +138,11 @@ qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run, const qdot_od
                      const qdot_ode_system *system, qdot_companion_way way, double spent)
 {
     m->beside = run;
-    m->factor = QDOT_COMPANION_WORTH;
+    m->factor = way == QDOT_COMPANION_SERIES && method->series ? QDOT_COMPANION_WORTH_FINER
+                                                               : QDOT_COMPANION_WORTH;
     m->allowance = method->stiff ? QDOT_COMPANION_ALLOWANCE_STIFF : QDOT_COMPANION_ALLOWANCE;
     if (way == QDOT_COMPANION_COARSE)
-        m->allowance = 3 * m->allowance - spent;
+        m->allowance = fmax(m->allowance, 3 * m->allowance - spent);
     m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
 }
 
@@ -168,6 +169,12 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
     if (y == 0)
         return up ? unit * scale : -unit * scale;
     return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+}
+
+double
+qdot_companion_first_share(size_t number)
+{
+    return number ? 0.4142 : 0.618;
 }
 
 double
@@ -200,6 +207,7 @@ run_by(follower *f, const qdot_companion_plan *by, double t1)
     const qdot_companion *c = f->of;
     const qdot_ode_method *now = NULL;
     qdot_ode_options options = {.tol = by->tol,
+                                .first_share = qdot_companion_first_share(f->number),
                                 .accepted = look,
                                 .user = f,
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number,

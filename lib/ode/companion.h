@@ -42,8 +42,8 @@
  * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
  *
- * Ways. A companion must not have cost more than QDOT_COMPANION_WORTH times what the run had cost
- * by the same time, and QDOT_COMPANION_ALLOWANCE (meter.h). One that has, or that a method for
+ * Ways. A companion must not have cost more than QDOT_COMPANION_WORTH (_FINER) times what the run had
+ * cost by the same time, and QDOT_COMPANION_ALLOWANCE (meter.h). One that has, or that a method for
  * stiff equations was chosen to spare, is given up, and another way is tried by what is left:
  *
  *     SERIES   Taylor series under tol*
@@ -155,11 +155,12 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 /* A companion's work, in that of the run and in about nanoseconds. The second is for a scene at
  * rest: the run may need one step, while a companion moved by a rounding oscillates all the time. */
 #define QDOT_COMPANION_WORTH 1.5
+#define QDOT_COMPANION_WORTH_FINER 2.5 /* series beside series: so much more orders and steps may cost */
 #define QDOT_COMPANION_ALLOWANCE 1e7
 #define QDOT_COMPANION_ALLOWANCE_STIFF 2e6 /* beside a stiff method */
 
 /* The meter of a companion by that way beside that of a run by `method`, after `spent` on the ways
- * before. The last way may use what is left of the whole, wherever; and parts of a system each
+ * before. The last way may use what is left of the whole, wherever, and no less than the others; parts of a system each
  * begin anew, so only their wholes are compared. */
 void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
                           const qdot_ode_method *method, const qdot_ode_system *system,
@@ -173,6 +174,10 @@ bool qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
 
 /* Tell the companions the number of steps of the run. */
 void qdot_companion_limit(qdot_companion *c, uint64_t steps);
+
+/* The first step of a companion, as a part of that which the run would take: a few steps may grow
+ * alike whatever the tolerance, and err alike. */
+double qdot_companion_first_share(size_t number);
 
 /* The distance, in doubles, at which the second companion starts: that of a random walk of so
  * many steps, from 1 to QDOT_COMPANION_FAR. */

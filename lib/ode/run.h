@@ -52,6 +52,7 @@ typedef struct {
     double tol;         /* 1e-16 .. 1; default 1e-12 */
     double h_fixed;     /* > 0: steps of (at most) this size, whatever their error */
     double h_first;     /* > 0: the size to try first */
+    double first_share; /* > 0: of the first size that is found, by methods that find one */
     uint64_t max_steps; /* tried; default 50 million */
     qdot_ode_meter *meter; /* to which each step adds its work, and which may end the run (meter.h);
                               borrowed */

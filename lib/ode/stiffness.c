@@ -21,7 +21,7 @@ static const double share = 1e-2;
 static const double work_default = 5e9;
 
 /* A million steps: earlier ones may be short for once. */
-static const int windows_patient = 250;
+static const uint64_t patient = 1000000;
 
 void
 qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
@@ -68,7 +68,7 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
 static int
 steps_to(const qdot_ode_stiffness *s, size_t k)
 {
-    return s->windows < windows_eager && k > 0 ? waits[k] / eager : waits[k];
+    return (s->windows < windows_eager || s->high) && k > 0 ? waits[k] / eager : waits[k];
 }
 
 static int
@@ -126,6 +126,7 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     double step, left;
     bool enough;
 
+    s->high = at->high;
     QDOT_TRY(keep(s, at, &enough));
     if (!enough)
         return QDOT_OK;
@@ -133,7 +134,9 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     left = fabs((at->t1 - at->t) / step);
     *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at) && !grow(s);
     s->count = 0;
-    if (++s->windows >= windows_patient && left > (double)at->most && !*stiff)
+    s->steps += (uint64_t)steps_between(s);
+    s->windows++;
+    if (s->steps >= patient && left > (double)at->most && !*stiff)
         return qdot_fail(QDOT_ELIMIT,
                          "stopped at t = %.4g: steps of %.1g, of which %.0e are left, are more than "
                          "a run may take (%.0e)",

@@ -19,6 +19,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "ode/run.h"
 
@@ -29,7 +30,9 @@ typedef struct {
     double t[QDOT_ODE_STIFF_PLACES];
     size_t count; /* of them */
     int wait;     /* steps until the next; 0: none was taken */
-    int windows;  /* looked at so far, 500 steps at first, then 4000 */
+    int windows;  /* looked at so far, 500 steps at first, then 4000; */
+    bool high;    /* always 500: steps of high order are a large part of what they follow */
+    uint64_t steps; /* in all windows */
 } qdot_ode_stiffness;
 
 void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);
@@ -44,6 +47,7 @@ typedef struct {
     double work;   /* of a step */
     uint64_t most; /* steps that the run may take */
     bool implicit; /* stability does not bound its steps */
+    bool high;     /* steps of a series: a few hundred that lie on a parabola are enough */
 } qdot_ode_stiff_step;
 
 /* Whether the step just taken is one of the few that are looked at. */

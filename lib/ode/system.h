@@ -94,8 +94,9 @@ typedef struct {
     /* A step has gone over the place that `ahead` said last, at time t; may be NULL. */
     void (*crossed)(double t, void *user);
     /* A step of s units, INFINITY for any, or as much of it as no part of f that is not seen where
-     * it begins is stepped over in, by an expansion to order p; NULL: there are no such parts. */
-    double (*near)(int p, double s, void *user);
+     * it begins is stepped over in, by an expansion to order p; `least` units are the narrowest part
+     * that counts (series/near.h). NULL: there are no such parts. */
+    double (*near)(int p, double s, double least, void *user);
     void *user; /* borrowed */
 } qdot_ode_series;
 

@@ -109,17 +109,15 @@ keep_off(run *r, double *h, double most)
     }
 }
 
-/* As much of a step as no part of f is stepped over in; but what would be narrower than so many
- * parts of t is none, and a divisor that comes down to 0 there divides 0: a pole that nothing turns
- * about. */
+/* As much of a step as no part of f is stepped over in. What would be narrower than so many parts of
+ * t is none: a divisor that comes down to 0 there divides 0, a pole that nothing turns about. */
 static double
 near_length(const run *r, double h)
 {
     static const double narrowest = 0x1p-26;
-    const double near =
-        fabs(r->unit) * r->series->near(r->p, h / fabs(r->unit), r->series->user);
+    const double unit = fabs(r->unit);
 
-    return near < narrowest * fabs(r->t) ? h : near;
+    return unit * r->series->near(r->p, h / unit, narrowest * fabs(r->t) / unit, r->series->user);
 }
 
 /* *h positive, `most` what a step tried before allows; INFINITY where the series ends. The unit of

@@ -439,7 +439,8 @@ look_for_stiffness(run *r)
                                     .scales = r->least,
                                     .noise = 4 * exp2(r->log_wanted) + 8 * DBL_EPSILON,
                                     .work = r->work,
-                                    .most = r->max_steps};
+                                    .most = r->max_steps,
+                                    .high = true};
 
     return qdot_ode_stiffness_look(&r->stiffness, &at, r->options, &r->result->stiff);
 }

@@ -391,6 +391,8 @@ loop(run *r)
                              r->last_undefined.message);
         }
         QDOT_TRY(status);
+        if (r->options->first_share > 0)
+            r->h *= r->options->first_share;
     }
     while (r->t != r->t1) {
         QDOT_TRY(advance(r, &stop));

@@ -49,7 +49,7 @@ near_divisor(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t 
 }
 
 double
-qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s)
+qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s, double least)
 {
     const qdot_lanes_rows rows = qdot_lanes_get_rows(lanes);
 
@@ -62,9 +62,9 @@ qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s)
             continue;
         if (times > 0) {
             take_series(&rows, step->x, lane, p, u);
-            s = qdot_near_argument(p, u, times, s);
+            s = qdot_near_taken(s, qdot_near_argument(p, u, times, s), QDOT_NEAR_FINER * least);
         } else {
-            s = near_divisor(&rows, step, lane, p, s);
+            s = qdot_near_taken(s, near_divisor(&rows, step, lane, p, s), least);
         }
     }
     return s;

@@ -11,6 +11,6 @@
 /* Whether the program has such steps. */
 bool qdot_lanes_may_hide(const qdot_lanes *lanes);
 /* As qdot_taylor_near, for a lane whose rows have orders up to p. */
-double qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s);
+double qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s, double least);
 
 #endif

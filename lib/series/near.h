@@ -51,6 +51,15 @@ bool qdot_near_may_fall(int p, const double *b, double s);
  * b is negative there: what is undefined needs no search. */
 double qdot_near_divisor(int p, const double *b, bool root, double s);
 
+/* The shorter of two steps, the second of which is none below `least`. Exponentials are followed to
+ * QDOT_NEAR_FINER of what divisors are: none of theirs hides a pole. */
+static inline double
+qdot_near_taken(double s, double near, double least)
+{
+    return near < least ? s : near < s ? near : s;
+}
+#define QDOT_NEAR_FINER 0x1p-20
+
 /* Whether the series [p + 1] of a quotient has terms at s that are no smaller than its first. */
 bool qdot_near_diverges(int p, const double *quotient, double s);
 

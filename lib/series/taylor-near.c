@@ -28,16 +28,17 @@ near_divisor(const qdot_taylor_step *step, int p, double s)
 }
 
 double
-qdot_taylor_near(const qdot_taylor *t, int p, double s)
+qdot_taylor_near(const qdot_taylor *t, int p, double s, double least)
 {
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *step = t->steps + i;
         const double times = qdot_recurrence_exponential(step->op);
 
         if (times > 0)
-            s = qdot_near_argument(p, step->x, times, s);
+            s = qdot_near_taken(s, qdot_near_argument(p, step->x, times, s),
+                                QDOT_NEAR_FINER * least);
         else if (qdot_recurrence_divisor(step->op))
-            s = near_divisor(step, p, s);
+            s = qdot_near_taken(s, near_divisor(step, p, s), least);
     }
     return s;
 }

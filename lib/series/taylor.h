@@ -87,9 +87,9 @@ const char *qdot_taylor_code_kind(void);
 size_t qdot_taylor_code_bytes(const qdot_taylor *taylor, const char **why);
 
 /* The longest step, at most s (INFINITY: any), of the expansion that is there to order p which
- * carries no argument of an exponential and no divisor too far (near.h), in units of time.
- * Whether there are any. */
-double qdot_taylor_near(const qdot_taylor *taylor, int p, double s);
+ * carries no argument of an exponential and no divisor too far (near.h, also for `least`), in
+ * units of time. Whether there are any. */
+double qdot_taylor_near(const qdot_taylor *taylor, int p, double s, double least);
 bool qdot_taylor_may_hide(const qdot_taylor *taylor);
 
 /* Convolutions an order (a square counts half), and instructions. */

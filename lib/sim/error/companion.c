@@ -148,6 +148,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
           qdot_course *c, bool *has)
 {
     qdot_ode_options options = {.tol = by->tol,
+                                .first_share = qdot_companion_first_share(number),
                                 .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
                                 .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,

@@ -106,7 +106,9 @@ distance(const search *s, size_t k)
     for (size_t i = 0; i < tr->n; i++) {
         double y = tr->y[k * tr->n + i];
 
-        most = fmax(most, fabs(y - s->y[i]) / qdot_ode_size(s->run->stage.scales, i, y));
+        most = fmax(most, fabs(y - s->y[i])
+                              / qdot_ode_size(s->run->stage.scales, i,
+                                              fmin(fabs(y), fabs(s->y[i]))));
     }
     return most;
 }

@@ -5,7 +5,7 @@
  * state is arbitrary. With y the run, y* its companion
  * (ode/companion.h) and V the largest variation of a component,
  *
- *     d(t) = max_i |y_i - y*_i| / max(s_i, |y_i|)
+ *     d(t) = max_i |y_i - y*_i| / max(s_i, min(|y_i|, |y*_i|)), as either may be the right one
  *     V    = max_i (max y_i - min y_i) / 2 / max(s_i, max |y_i|)  over both runs, s_i the scales
  *
  * the horizon is the first time with d >= V/10 from which on d >= V/10 holds for half of

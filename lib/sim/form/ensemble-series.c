@@ -194,9 +194,10 @@ project(const double *t, double *y, double *carry, double *moved, void *user)
 }
 
 static double
-near(size_t lane, int p, double s, void *user)
+near(size_t lane, int p, double s, double least, void *user)
 {
-    return qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, lane, p - 2, s);
+    return qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, lane, p - 2, s,
+                           least);
 }
 
 /* --- building ------------------------------------------------------------------------ */

@@ -88,11 +88,11 @@ ahead(void *user)
 }
 
 static double
-near(int p, double s, void *user)
+near(int p, double s, double least, void *user)
 {
     const qdot_guarded *g = user;
 
-    return g->now->near ? g->now->near(p, s, g->now->user) : s;
+    return g->now->near ? g->now->near(p, s, least, g->now->user) : s;
 }
 
 static void

@@ -132,9 +132,10 @@ extend(int p, void *user)
 
 /* Orders of what leads least end two below that of q. */
 static double
-near(int p, double step, void *user)
+near(int p, double step, double least, void *user)
 {
-    return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step);
+    return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step,
+                            least);
 }
 
 static double

@@ -142,12 +142,12 @@ extend(int p, void *user)
 
 /* Orders of forces end two below that of q. */
 static double
-near(int p, double step, void *user)
+near(int p, double step, double least, void *user)
 {
     const qdot_tree_series *s = user;
 
-    step = qdot_taylor_near(s->places.taylor, p - 2, step);
-    return s->forces.taylor ? qdot_taylor_near(s->forces.taylor, p - 2, step) : step;
+    step = qdot_taylor_near(s->places.taylor, p - 2, step, least);
+    return s->forces.taylor ? qdot_taylor_near(s->forces.taylor, p - 2, step, least) : step;
 }
 
 /* --- building --------------------------------------------------------------------------- */

@@ -276,7 +276,8 @@ is_poor(const qdot_run *run, double tol)
 }
 
 /* Whether a run that arrived has passed through a place where the chart's reading turns: (theta, phi)
- * and (-theta, phi + pi) are one point, and its own coordinates may take the other way. */
+ * and (-theta, phi + pi) are one point, and its own coordinates may take the other way. Where no digit
+ * of its end is right, that tells nothing. */
 static bool
 takes_another_way(const qdot_run *other, const qdot_run *run)
 {
@@ -286,7 +287,7 @@ takes_another_way(const qdot_run *other, const qdot_run *run)
 
     for (size_t i = 0; i < other->chart->n && i < run->plan->n; i++)
         another = another || fabs(own[i] - other->chart->end[i]) > 1;
-    return another && !run->hidden;
+    return another && !run->hidden && isnan(run->report.horizon);
 }
 
 static bool

@@ -158,7 +158,8 @@ find_equations(ground *g)
     return qdot_pool_check(s->pool);
 }
 
-/* The least R along the run, of its largest; not where no digit of the run is right. */
+/* The least R along the run, of its largest; where no digit of the run is right, only to the end of an
+ * approach that began before: that may be what took them. */
 static qdot_status
 measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
         double *near)
@@ -166,12 +167,15 @@ measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr dist
     const qdot_trajectory *tr = &run->course.tr;
     const qdot_expr e = qdot_chart_given(&g->x->chart, distance);
     double least = INFINITY, most = 0, *values = qdot_calloc(tr->count, sizeof *values);
+    bool known = true;
     qdot_status status = values ? qdot_pool_check(g->x->chart.pool) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = by->values(run, 1, &e, tr->count, tr->t, values, NULL);
     for (size_t k = 0; k < tr->count && status == QDOT_OK; k++) {
-        if (!qdot_horizon_passed(run, tr->t[k]))
+        known = known && (!qdot_horizon_passed(run, tr->t[k])
+                          || (k > 0 && fabs(values[k]) <= fabs(values[k - 1])));
+        if (known)
             least = fmin(least, fabs(values[k]));
         most = fmax(most, fabs(values[k]));
     }

@@ -271,6 +271,20 @@ leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
     return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
 }
 
+/* How far from the start of the part the extremum is that makes the zero there: a touch of a part
+ * that ended on it to 2^-20 of its length. The polynomial is that of (g - g_0)/(t - t_0). */
+static double
+off_extremum(const qdot_watch_part *p)
+{
+    double d[QDOT_WATCH_NODES];
+    double slope, bend;
+
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    slope = fabs(qdot_chebyshev_at(p->n, p->c, -1));
+    bend = fabs(qdot_chebyshev_at(p->n - 1, d, -1)) * 4 / fabs(p->b - p->a);
+    return slope < bend * fabs(p->b - p->a) ? slope / bend : 0;
+}
+
 /* Treat the zero at the start of the part: count it as a root if the sign before differs. */
 static qdot_status
 pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
@@ -281,6 +295,7 @@ pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
         QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                                 .t = p->a,
                                                 .way = before == sign ? 0 : sign,
+                                                .blur = before == sign ? off_extremum(p) : 0,
                                                 .exact = true}));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
