@@ -18,6 +18,17 @@
 #include "tape/disc.h"
 #include "tape/shake.h"
 
+/* An only companion: orders more than the run, and the part of its tolerance. */
+enum { only_order_ = 1 };
+static double only_ratio = 0.1;
+static int only_order = 1;
+#include <stdlib.h>
+static void __attribute__((constructor)) qx(void)
+{
+    if (getenv("QX_RATIO")) only_ratio = atof(getenv("QX_RATIO"));
+    if (getenv("QX_ORDER")) only_order = atoi(getenv("QX_ORDER"));
+}
+
 /* One pass over all members, the runs themselves or their companions. */
 typedef struct {
     qdot_ensemble_series *series; /* of companions: made when first asked for */
@@ -38,7 +49,8 @@ struct qdot_ensemble {
     size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
-    pass passes[QDOT_ENSEMBLE_PASSES];
+    size_t companions; /* 1 or 2 */
+    pass passes[QDOT_ENSEMBLE_PASSES + 1]; /* the last is that of an only companion */
     const qdot_ensemble_watching *watching; /* NULL: nobody looks */
     double *times; /* [n_times] at which states are kept */
     size_t n_times;
@@ -55,6 +67,19 @@ pass_clear(pass *p)
     qdot_free(p->run.results);
     p->memory = NULL;
     p->run = (qdot_batch_run){0};
+}
+
+/* Of the run (0) or of a companion. */
+static const pass *
+pass_at(const qdot_ensemble *e, size_t k)
+{
+    return e->passes + (k == 1 && e->companions == 1 ? QDOT_ENSEMBLE_PASSES : k);
+}
+
+static pass *
+change_pass(qdot_ensemble *e, size_t k)
+{
+    return e->passes + (pass_at(e, k) - e->passes);
 }
 
 static const qdot_plan *
@@ -79,7 +104,7 @@ qdot_ensemble_free(qdot_ensemble *e)
     if (!e)
         return;
     forget_reasons(e);
-    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
+    for (size_t k = 0; k <= QDOT_ENSEMBLE_PASSES; k++) {
         pass_clear(e->passes + k);
         qdot_ensemble_series_free(e->passes[k].series);
         qdot_ensemble_steps_free(e->passes[k].steps);
@@ -174,6 +199,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     e->n = scene->coordinates.n;
     e->varied = n_varied;
     e->tol = request->tol;
+    e->companions = QDOT_ENSEMBLE_PASSES - 1;
     status = make(e, scene, request, varied);
     if (status != QDOT_OK) {
         qdot_ensemble_free(e);
@@ -262,14 +288,16 @@ static void
 pass_options(const qdot_ensemble *e, pass *p)
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
+    const bool only = e->companions == 1;
 
     pass_clear(p);
     p->run.order = e->order;
     p->run.tol = e->tol;
     if (p->number == 0)
         return;
-    p->run.order += QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
-    p->run.tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol);
+    p->run.order += only ? only_order : QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
+    p->run.tol = fmax((only ? only_ratio : taylor->companion_ratio) * e->tol,
+                      taylor->companion_tol);
 }
 
 /* The series of a companion, shaken or not. */
@@ -396,7 +424,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     if (!whole)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        status = start_all(e, runs + k, k == 0 ? e->reasons : NULL, whole);
+        status = start_all(e, change_pass(e, k), k == 0 ? e->reasons : NULL, whole);
     qdot_free(whole);
     return status;
 }
@@ -412,19 +440,19 @@ run_passes(qdot_ensemble *e, size_t passes)
     bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
     for (size_t k = 1; k < passes && !e->watching; k++)
-        threaded[k] = pthread_create(&thread[k], NULL, pass_run, e->passes + k) == 0;
+        threaded[k] = pthread_create(&thread[k], NULL, pass_run, change_pass(e, k)) == 0;
     pass_run(e->passes);
     for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
         for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)
-            e->passes[k].t1[m] = e->t0;
+            change_pass(e, k)->t1[m] = e->t0;
     for (size_t k = 1; k < passes; k++)
         if (threaded[k])
             pthread_join(thread[k], NULL);
         else if (e->passes->status == QDOT_OK)
-            pass_run(e->passes + k);
+            pass_run(change_pass(e, k));
     for (size_t k = 0; k < passes; k++)
-        if (e->passes[k].status != QDOT_OK)
-            return qdot_fail(e->passes[k].status, "%s", e->passes[k].error.message);
+        if (pass_at(e, k)->status != QDOT_OK)
+            return qdot_fail(pass_at(e, k)->status, "%s", pass_at(e, k)->error.message);
     return QDOT_OK;
 }
 
@@ -443,15 +471,15 @@ end_error(const qdot_ensemble *e, size_t m)
     const double *y[QDOT_ENSEMBLE_PASSES], share = qdot_ensemble_share(e, m);
     double error = 0x1p-53;
 
-    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
-        if (k > 0 && !arrived(e, e->passes + k, m))
+    for (size_t k = 0; k <= e->companions; k++) {
+        if (k > 0 && !arrived(e, pass_at(e, k), m))
             return NAN;
-        y[k] = e->passes[k].run.y + m * width(e);
+        y[k] = pass_at(e, k)->run.y + m * width(e);
     }
     for (size_t i = 0; i < 2 * e->n; i++) {
-        const double theirs[] = {y[1][i], y[2][i]};
+        const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
 
-        error = fmax(error, qdot_companion_bound_of(y[0][i], 2, theirs, share) /
+        error = fmax(error, qdot_companion_bound_of(y[0][i], e->companions, theirs, share) /
                                 fmax(1, fabs(y[0][i])));
     }
     return error;
@@ -492,30 +520,48 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
     }
 }
 
+/* What looks at the steps of a pass. */
+static qdot_status
+follow_pass(const qdot_ensemble *e, pass *p)
+{
+    const qdot_ensemble_steps_of of = {.plan = e->plan,
+                                       .watching = e->watching,
+                                       .n_times = e->n_times,
+                                       .times = e->times,
+                                       .tol = e->tol,
+                                       .shaken = p->number == 1,
+                                       .moved = p->number > 0,
+                                       .backward = e->t1 < e->t0};
+
+    return qdot_ensemble_steps_new(&of, &p->steps);
+}
+
 qdot_status
 qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *parameters,
                   bool errors, qdot_ensemble_result *results)
 {
-    const size_t passes = errors ? QDOT_ENSEMBLE_PASSES : 1;
+    const size_t passes = errors ? 1 + e->companions : 1;
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < passes && status == QDOT_OK; k++) {
-        pass *p = e->passes + k;
+        pass *p = change_pass(e, k);
 
         p->number = k;
         pass_options(e, p);
         status = make_series(e, p);
+        if (status == QDOT_OK && e->watching && !p->steps)
+            status = follow_pass(e, p);
         if (status == QDOT_OK)
             status = pass_init(p, e, members, y, parameters);
     }
     if (status == QDOT_OK)
         status = start_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        enter(e, e->passes + k);
+        enter(e, change_pass(e, k));
     if (status == QDOT_OK)
         status = run_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        come_back(e, e->passes + k);
+        come_back(e, change_pass(e, k));
     if (status == QDOT_OK)
         report(e, errors, y, results);
     return status;
@@ -531,21 +577,6 @@ reads_kept(const qdot_ensemble *e, qdot_expr g)
         if (qdot_expr_contains(e->plan->pool, g, e->plan->inputs[e->plan->n + equations(e)->kept[c]]))
             return true;
     return false;
-}
-
-static qdot_status
-follow_pass(qdot_ensemble *e, size_t k)
-{
-    const qdot_ensemble_steps_of of = {.plan = e->plan,
-                                       .watching = e->watching,
-                                       .n_times = e->n_times,
-                                       .times = e->times,
-                                       .tol = e->tol,
-                                       .shaken = k == 1,
-                                       .moved = k > 0,
-                                       .backward = e->t1 < e->t0};
-
-    return qdot_ensemble_steps_new(&of, &e->passes[k].steps);
 }
 
 qdot_status
@@ -568,9 +599,13 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
         return QDOT_ENOMEM;
     for (size_t k = 0; k < e->n_times; k++)
         e->times[k] = e->t0 + places[k] * (e->t1 - e->t0);
-    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++)
-        QDOT_TRY(follow_pass(e, k));
     return QDOT_OK;
+}
+
+void
+qdot_ensemble_companions(qdot_ensemble *e, size_t companions)
+{
+    e->companions = companions;
 }
 
 bool
@@ -606,7 +641,7 @@ write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole
 bool
 qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, double *whole)
 {
-    const pass *p = e->passes + k;
+    const pass *p = pass_at(e, k);
 
     if (place < e->n_times) {
         if (qdot_ensemble_steps_passed(p->steps, m) <= place)
@@ -623,7 +658,7 @@ qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, do
 double
 qdot_ensemble_event_time(const qdot_ensemble *e, size_t k, size_t m, size_t event, size_t which)
 {
-    return qdot_ensemble_steps_event(e->passes[k].steps, m, event, which);
+    return qdot_ensemble_steps_event(pass_at(e, k)->steps, m, event, which);
 }
 
 size_t
@@ -648,6 +683,21 @@ const qdot_plan *
 qdot_ensemble_plan(const qdot_ensemble *e)
 {
     return e->plan;
+}
+
+bool
+qdot_ensemble_reads(const qdot_ensemble *e, size_t k)
+{
+    const qdot_plan *p = e->plan;
+    const qdot_expr of = p->inputs[e->n + k];
+    bool reads = p->constraints || !p->M;
+
+    for (size_t i = 0; i < p->n && !reads; i++) {
+        reads = qdot_expr_contains(p->pool, p->f[i], of);
+        for (size_t j = 0; j < p->n && !reads; j++)
+            reads = qdot_expr_contains(p->pool, p->M[i * p->n + j], of);
+    }
+    return reads;
 }
 
 double
