@@ -120,37 +120,14 @@ library_sources = \
 	lib/lang/language/read.c \
 	lib/lang/language/resolve.c \
 	lib/lang/language/token-text.c \
-	lib/lang/runs/branches.c \
-	lib/lang/runs/columns.c \
-	lib/lang/runs/continue.c \
 	lib/lang/runs/error-time.c \
 	lib/lang/runs/event.c \
-	lib/lang/runs/find-read.c \
-	lib/lang/runs/find.c \
-	lib/lang/runs/fit-answer.c \
-	lib/lang/runs/fit-data.c \
-	lib/lang/runs/fit-model.c \
-	lib/lang/runs/fit.c \
-	lib/lang/runs/floquet.c \
 	lib/lang/runs/longtime.c \
-	lib/lang/runs/lyapunov.c \
-	lib/lang/runs/members.c \
 	lib/lang/runs/own-run.c \
-	lib/lang/runs/poincare.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
 	lib/lang/runs/run.c \
-	lib/lang/runs/sensitivity.c \
-	lib/lang/runs/slope-numbers.c \
-	lib/lang/runs/slopes.c \
-	lib/lang/runs/sweep-axis.c \
-	lib/lang/runs/sweep-file.c \
-	lib/lang/runs/sweep-lanes.c \
-	lib/lang/runs/sweep-plan.c \
-	lib/lang/runs/sweep-rows.c \
-	lib/lang/runs/sweep.c \
-	lib/lang/runs/trial.c \
 	lib/lang/runs/workprecision.c \
 	lib/lang/session/along.c \
 	lib/lang/session/bind.c \
@@ -173,11 +150,35 @@ library_sources = \
 	lib/lang/session/undo-state.c \
 	lib/lang/session/undo.c \
 	lib/lang/session/value-kind.c \
+	lib/lang/slopes/floquet.c \
+	lib/lang/slopes/lyapunov.c \
+	lib/lang/slopes/sensitivity.c \
+	lib/lang/slopes/slope-numbers.c \
+	lib/lang/slopes/slopes.c \
+	lib/lang/slopes/trial.c \
 	lib/lang/source/latex-line.c \
 	lib/lang/source/letters.c \
 	lib/lang/source/lex.c \
 	lib/lang/source/refuse.c \
 	lib/lang/source/source.c \
+	lib/lang/sweeps/columns.c \
+	lib/lang/sweeps/members.c \
+	lib/lang/sweeps/plan.c \
+	lib/lang/sweeps/poincare.c \
+	lib/lang/sweeps/sweep-axis.c \
+	lib/lang/sweeps/sweep-file.c \
+	lib/lang/sweeps/sweep-lanes.c \
+	lib/lang/sweeps/sweep-plan.c \
+	lib/lang/sweeps/sweep-rows.c \
+	lib/lang/sweeps/sweep.c \
+	lib/lang/unknowns/branches.c \
+	lib/lang/unknowns/continue.c \
+	lib/lang/unknowns/find-read.c \
+	lib/lang/unknowns/find.c \
+	lib/lang/unknowns/fit-answer.c \
+	lib/lang/unknowns/fit-data.c \
+	lib/lang/unknowns/fit-model.c \
+	lib/lang/unknowns/fit.c \
 	lib/lang/workbench/complete.c \
 	lib/lang/workbench/help.c \
 	lib/lang/workbench/highlight.c \
@@ -429,8 +430,10 @@ library_sources = \
 	lib/show/sketch.c \
 	lib/show/table.c \
 	lib/show/trace.c \
-	lib/sim/course/bind-slopes.c \
-	lib/sim/course/bind.c \
+	lib/sim/bind/bind-slopes.c \
+	lib/sim/bind/bind.c \
+	lib/sim/bind/polynomial-bounds.c \
+	lib/sim/bind/pulses.c \
 	lib/sim/course/course.c \
 	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
@@ -442,18 +445,12 @@ library_sources = \
 	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
-	lib/sim/course/polynomial-bounds.c \
-	lib/sim/course/pulses.c \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
-	lib/sim/course/watch-exclusion.c \
-	lib/sim/course/watch-roots.c \
-	lib/sim/course/watch-values.c \
-	lib/sim/course/watch.c \
 	lib/sim/digits/digits.c \
 	lib/sim/digits/precise-course.c \
 	lib/sim/digits/precise-distance.c \
@@ -581,6 +578,10 @@ library_sources = \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
+	lib/sim/watch/watch-exclusion.c \
+	lib/sim/watch/watch-roots.c \
+	lib/sim/watch/watch-values.c \
+	lib/sim/watch/watch.c \
 	lib/tape/angle.c \
 	lib/tape/code.c \
 	lib/tape/constant.c \
@@ -685,22 +686,11 @@ library_headers = \
 	lib/lang/language/pattern.h \
 	lib/lang/language/read.h \
 	lib/lang/language/token-text.h \
-	lib/lang/runs/branches.h \
-	lib/lang/runs/columns.h \
 	lib/lang/runs/error-time.h \
-	lib/lang/runs/find-parts.h \
-	lib/lang/runs/fit-parts.h \
-	lib/lang/runs/members.h \
 	lib/lang/runs/own-run.h \
 	lib/lang/runs/request.h \
 	lib/lang/runs/run-options.h \
 	lib/lang/runs/run.h \
-	lib/lang/runs/slopes.h \
-	lib/lang/runs/sweep-axis.h \
-	lib/lang/runs/sweep-file.h \
-	lib/lang/runs/sweep-lanes.h \
-	lib/lang/runs/sweep-parts.h \
-	lib/lang/runs/trial.h \
 	lib/lang/session/along.h \
 	lib/lang/session/bind.h \
 	lib/lang/session/conditions.h \
@@ -722,12 +712,23 @@ library_headers = \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/slopes/slopes.h \
+	lib/lang/slopes/trial.h \
 	lib/lang/source/latex-line.h \
 	lib/lang/source/letters.h \
 	lib/lang/source/lex.h \
 	lib/lang/source/refuse.h \
 	lib/lang/source/source.h \
 	lib/lang/source/token.h \
+	lib/lang/sweeps/columns.h \
+	lib/lang/sweeps/members.h \
+	lib/lang/sweeps/sweep-axis.h \
+	lib/lang/sweeps/sweep-file.h \
+	lib/lang/sweeps/sweep-lanes.h \
+	lib/lang/sweeps/sweep-parts.h \
+	lib/lang/unknowns/branches.h \
+	lib/lang/unknowns/find-parts.h \
+	lib/lang/unknowns/fit-parts.h \
 	lib/lang/workbench/complete.h \
 	lib/lang/workbench/highlight.h \
 	lib/lang/workbench/script.h \
@@ -942,23 +943,20 @@ library_headers = \
 	lib/show/show.h \
 	lib/show/sink.h \
 	lib/show/trace.h \
-	lib/sim/course/bind-state.h \
-	lib/sim/course/bind.h \
+	lib/sim/bind/bind-state.h \
+	lib/sim/bind/bind.h \
+	lib/sim/bind/polynomial-bounds.h \
+	lib/sim/bind/pulses.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/crossings.h \
 	lib/sim/course/drift.h \
 	lib/sim/course/multipliers.h \
 	lib/sim/course/piece.h \
-	lib/sim/course/polynomial-bounds.h \
-	lib/sim/course/pulses.h \
 	lib/sim/course/reader.h \
 	lib/sim/course/report.h \
-	lib/sim/course/root.h \
 	lib/sim/course/run-state.h \
 	lib/sim/course/stage.h \
-	lib/sim/course/watch-parts.h \
-	lib/sim/course/watch.h \
 	lib/sim/digits/digits.h \
 	lib/sim/digits/precise-course.h \
 	lib/sim/digits/precise-hold.h \
@@ -1071,6 +1069,9 @@ library_headers = \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
 	lib/sim/study/workprecision.h \
+	lib/sim/watch/root.h \
+	lib/sim/watch/watch-parts.h \
+	lib/sim/watch/watch.h \
 	lib/tape/angle.h \
 	lib/tape/code.h \
 	lib/tape/constant.h \

@@ -19,7 +19,7 @@
 #include "num/batch.h"
 #include "num/kinds.h"
 #include "ode/integrate.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/plan/plan.h"
 #include "sim/study/ensemble.h"
 

@@ -4,7 +4,7 @@
  *
  * for complex x as well, so that a function given as a tape is bounded throughout an interval and
  * around it. By Cauchy's estimate that bounds the error of a polynomial through its values at a
- * few points (sim/course/polynomial-bounds.h). C_i is f_i(c). A radius is NaN if an operation has
+ * few points (sim/bind/polynomial-bounds.h). C_i is f_i(c). A radius is NaN if an operation has
  * a singularity in its disc, or switches there, and infinite if the bound overflows.
  *
  * Each operation has its own bound (disc.def): |f(c + w) - f(c)| for |w| <= r, exact

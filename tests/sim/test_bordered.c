@@ -3,7 +3,7 @@
 #include "scenes.h"
 
 #include "expr/calculus.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/form/guarded.h"
 #include "sim/form/motion-series.h"
 #include "sim/form/derived.h"

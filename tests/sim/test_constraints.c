@@ -2,7 +2,7 @@
  * closed forms; drift, redundancy, what is refused. */
 #include "scenes.h"
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/form/motion-series.h"
 #include "sim/model/constraints.h"
 #include "sim/plan/plan.h"

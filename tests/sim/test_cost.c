@@ -5,7 +5,7 @@
 
 #include "num/kinds.h"
 #include "ode/taylor.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/form/derived.h"
 #include "sim/plan/cost.h"
 #include "sim/plan/plan.h"

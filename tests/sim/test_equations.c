@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/plan/plan.h"
 #include "tape/reference.h"
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/plan/parts.h"
 #include "sim/plan/plan.h"
 

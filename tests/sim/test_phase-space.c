@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "ode/method.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/plan/plan.h"
 
 /* x = (r cos th, r sin th), V = r^2/2 + r th'/3 */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/plan/plan.h"
 
 /* A particle in a well exp(-(x/w)^2), w = 1e-3, or w^2/(x^2 + w^2), w = 1e-9, of depth 1. */

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/form/motion-series.h"
 #include "sim/model/momenta.h"
 #include "sim/plan/plan.h"

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/run-state.h"
 #include "sim/course/stage.h"
 #include "sim/form/residual.h"

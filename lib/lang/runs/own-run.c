@@ -113,3 +113,11 @@ qdot_own_run_needed(const qdot_cursor *c, qdot_expr from)
     }
     return latest;
 }
+
+bool
+qdot_own_run_all_fail(qdot_status status)
+{
+    return status == QDOT_ESYNTAX || status == QDOT_ENAME || status == QDOT_ETYPE
+           || status == QDOT_ENOTBUILT || status == QDOT_EUNSET || status == QDOT_ENOMEM
+           || status == QDOT_EINTR;
+}

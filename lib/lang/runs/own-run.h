@@ -18,6 +18,9 @@ QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session,
                                               qdot_expr *end);
 void qdot_own_run_drop(qdot_session *session);
 
+/* Whether a failure is one that no other values can mend: the next run would fail alike. */
+bool qdot_own_run_all_fail(qdot_status status);
+
 /* The time of value(E, T), max(E, A..B), ... among the tokens from the cursor on that is farthest from the
  * start of the run; nil: none. */
 qdot_expr qdot_own_run_needed(const qdot_cursor *c, qdot_expr from);

@@ -1,4 +1,4 @@
-/* run.c -- the statements `run` and `plan`. */
+/* run.c -- the statement `run`. */
 #include <string.h>
 
 #include "base/interrupt.h"
@@ -6,7 +6,6 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/report.h"
 #include "lang/runs/run.h"
-#include "lang/runs/sweep-parts.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/warnings.h"
 #include "lang/language/read.h"
@@ -97,47 +96,6 @@ qdot_run_statement(qdot_cursor *c)
         status = qdot_run_carry_out(c, start, &o);
     else
         qdot_run_options_place(c, &o, status);
-    qdot_run_options_free(&o);
-    return status;
-}
-
-/* The options of `run`; those that a plan does not depend on are refused. */
-static qdot_status
-read_plan_options(qdot_cursor *c, qdot_run_options *o)
-{
-    const qdot_token *start = c->at;
-
-    QDOT_TRY(qdot_run_options_read(c, start, o));
-    if (o->digits == 0 && o->name == NULL)
-        return QDOT_OK;
-    c->error_at = start->start;
-    (void)qdot_fail(QDOT_EINVAL, o->name ? "a plan has no name" : "`digits` has no plan");
-    return qdot_hint("plan tol 1e-9 method taylor");
-}
-
-qdot_status
-qdot_run_plan_statement(qdot_cursor *c)
-{
-    qdot_run_options o = {.tol = 1e-12};
-    const qdot_token *start = c->at - 1;
-    qdot_request request = {0};
-    qdot_text text = {0};
-    qdot_status status;
-
-    if (qdot_cursor_accept_word(c, "sweep"))
-        return qdot_sweep_plan(c);
-    status = read_plan_options(c, &o);
-
-    if (status == QDOT_OK) {
-        c->error_at = start->start;
-        status = qdot_run_options_fill(c->session, &o, &request);
-    }
-    request.request.t0 = QDOT_ZERO;
-    request.request.t1 = QDOT_ONE;
-    if (status == QDOT_OK)
-        status = qdot_run_plan(c->session->scene, &request.request, &text);
-    status = qdot_answer_written(c->session, "plan", status, &text);
-    qdot_request_free(&request);
     qdot_run_options_free(&o);
     return status;
 }

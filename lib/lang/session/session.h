@@ -16,7 +16,7 @@
 #include "mech/dynamics/quantity.h"
 #include "sim/run/run.h"
 
-/* What a number is of a run: where its slopes are to be found (lang/runs/slopes.h). */
+/* What a number is of a run: where its slopes are to be found (lang/slopes/slopes.h). */
 typedef enum {
     QDOT_ORIGIN_OTHER, /* of several runs, or of none */
     QDOT_ORIGIN_VALUE, /* e at a time */

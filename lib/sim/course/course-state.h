@@ -3,9 +3,9 @@
 #define QDOT_SIM_COURSE_STATE_H
 
 #include "ode/trajectory.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/stage.h"
-#include "sim/course/watch.h"
+#include "sim/watch/watch.h"
 
 typedef struct {
     size_t event;

@@ -1,7 +1,7 @@
 /* crossings.c -- the roots of a function along a course that is stored. */
 #include "sim/course/crossings.h"
 
-#include "sim/course/watch.h"
+#include "sim/watch/watch.h"
 
 typedef struct {
     const qdot_course *c;

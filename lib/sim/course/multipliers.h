@@ -6,7 +6,7 @@
 #define QDOT_SIM_MULTIPLIERS_H
 
 #include "ode/trajectory.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/report.h"
 
 typedef struct {

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/interrupt.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/model/constrained.h"
 
 /* What is left of a row counts as nothing below this; the motion is looked at where so many times

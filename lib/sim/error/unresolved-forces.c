@@ -1,7 +1,7 @@
 /* unresolved-forces.c -- what the equations are between the points of steps. */
 #include "sim/error/unresolved-forces.h"
 
-#include "sim/course/pulses.h"
+#include "sim/bind/pulses.h"
 #include "sim/course/reader.h"
 
 typedef struct {

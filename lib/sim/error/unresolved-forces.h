@@ -1,7 +1,7 @@
 /* unresolved-forces.h -- forces that act for less than a step, so that the run missed them.
  *
  * Steps by series check the arguments of exponentials and what is divided by (series/near.h), all
- * others but those of one length are looked at before they are accepted (sim/course/pulses.h). What
+ * others but those of one length are looked at before they are accepted (sim/bind/pulses.h). What
  * is left is found here after the run, by the same look: what a step of one length has gone over, or
  * one by series with an exponential whose argument is nothing but noise.
  *

@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "num/chebyshev.h"
-#include "sim/course/polynomial-bounds.h"
+#include "sim/bind/polynomial-bounds.h"
 #include "sim/course/reader.h"
 #include "sim/course/run-state.h"
 #include "sim/run/run.h"

@@ -2,7 +2,7 @@
  *
  * The expression becomes Chebyshev polynomials (num/chebyshev.h), on parts small enough for their
  * last coefficients to vanish, and for nothing to hide between their nodes
- * (sim/course/polynomial-bounds.h): extrema are where the derivative changes its sign, the mean is
+ * (sim/bind/polynomial-bounds.h): extrema are where the derivative changes its sign, the mean is
  * the sum of their integrals.
  */
 #include <float.h>

@@ -3,7 +3,7 @@
 #include "ode/companion.h"
 #include "ode/taylor.h"
 #include "ode/written.h"
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 #include "sim/form/derived.h"
 #include "sim/form/eliminated.h"

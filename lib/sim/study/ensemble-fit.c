@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 #include "sim/plan/plan.h"
 

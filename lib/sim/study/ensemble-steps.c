@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "ode/taylor.h"
-#include "sim/course/watch.h"
+#include "sim/watch/watch.h"
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
 

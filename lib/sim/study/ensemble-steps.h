@@ -2,7 +2,7 @@
  * states at some times, the first occurrences of events, bounds that come near, sizes.
  *
  * A lane's series is the solution within its step. States at given times are read from it; events are
- * found on it as along a run (sim/course/watch.h), in a watch for each lane; a bound of a coordinate
+ * found on it as along a run (sim/watch/watch.h), in a watch for each lane; a bound of a coordinate
  * stays far as long as |x_0 - bound| > sum_k |x_k s^k|.
  *
  * Tests  tests/sim/test_ensemble-steps.c, tests/script/sweep-lanes.sh

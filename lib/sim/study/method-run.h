@@ -9,7 +9,7 @@
 #ifndef QDOT_SIM_METHOD_RUN_H
 #define QDOT_SIM_METHOD_RUN_H
 
-#include "sim/course/bind.h"
+#include "sim/bind/bind.h"
 #include "sim/course/stage.h"
 
 /* Not to be copied: the stage points to the request. */

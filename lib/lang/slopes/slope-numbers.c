@@ -1,0 +1,180 @@
+/* slope-numbers.c -- what numbers of a run and expressions of them have as slopes, by the chain rule. */
+#include <float.h>
+#include <math.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/slopes/slopes.h"
+#include "lang/session/measured.h"
+#include "lang/session/member.h"
+#include "lang/session/runs.h"
+#include "sim/study/extremum.h"
+
+/* An expression of the scene with slopes at a time, as a number. */
+static qdot_status
+at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
+{
+    qdot_measured m = {0};
+
+    QDOT_TRY(qdot_pool_check(s->session->pool));
+    if (e == QDOT_ZERO) {
+        *value = e;
+        return QDOT_OK;
+    }
+    if (qdot_expr_node(s->session->pool, e)->holds & QDOT_HAS_MULTIPLIER)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of multipliers");
+    QDOT_TRY(qdot_runs_measure_one(s->session, qdot_slopes_run, e, time, &m));
+    *value = qdot_measured_add(s->session, m);
+    return qdot_pool_check(s->session->pool);
+}
+
+/* D of what is e in the scene given; numbers of runs in e are constants of it. */
+static qdot_expr
+slope_along(const qdot_slopes *s, qdot_expr e, size_t k)
+{
+    return qdot_variation_of(&s->variation, qdot_measured_as_rationals(s->session, e), k);
+}
+
+/* value(e, time) */
+static qdot_status
+slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
+               qdot_expr *slope)
+{
+    qdot_pool *pool = s->session->pool;
+    qdot_expr time, rate, sum = QDOT_ZERO;
+
+    QDOT_TRY(at_time(s, slope_along(s, m->origin.e, k), m->origin.time, slope));
+    QDOT_TRY(qdot_slopes_of(s, m->origin.time, first, k, &time));
+    if (time != QDOT_ZERO) {
+        rate = qdot_variation_rate(&s->variation,
+                                   qdot_measured_as_rationals(s->session, m->origin.e));
+        QDOT_TRY(at_time(s, rate, m->origin.time, &rate));
+        sum = qdot_mul(pool, rate, time);
+    }
+    for (size_t i = first;
+         i < s->session->measured.n && s->session->measured.at[i].symbol != m->symbol;
+         i++) {
+        const qdot_measured *inner = &s->session->measured.at[i];
+        qdot_expr by, one;
+
+        if (!qdot_expr_contains(pool, m->origin.e, inner->symbol))
+            continue;
+        by = qdot_measured_as_rationals(s->session,
+                                        qdot_diff(pool, m->origin.e, inner->symbol));
+        QDOT_TRY(at_time(s, by, m->origin.time, &by));
+        QDOT_TRY(qdot_slopes_of(s, s->session->measured.at[i].symbol, first, k, &one));
+        sum = qdot_add(pool, sum, qdot_mul(pool, by, one));
+    }
+    *slope = qdot_add(pool, *slope, sum);
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
+{
+    qdot_pool *pool = s->session->pool;
+    const qdot_event *event = qdot_scene_find_event(s->session->scene, m->origin.event);
+    qdot_expr g, time, up, down;
+
+    if (event == NULL)
+        return qdot_fail(QDOT_ENAME, "there is no event %.100s any more",
+                         m->origin.event);
+    g = qdot_sub(pool, event->left, event->right);
+    /* just before it, where it changes the state */
+    time = m->digits > 0 ? m->exact
+           : event->targets.n > 0
+               ? qdot_measured_rational(pool, m->value - fmax(1, fabs(m->value)) * 4 *
+                                                             DBL_EPSILON)
+               : qdot_measured_rational(pool, m->value);
+    QDOT_TRY(at_time(s, qdot_variation_of(&s->variation, g, k), time, &up));
+    QDOT_TRY(at_time(s, qdot_variation_rate(&s->variation, g), time, &down));
+    *slope = qdot_neg(pool, qdot_div(pool, up, down));
+    return qdot_pool_check(pool);
+}
+
+/* max, min: De where e is largest or least. */
+static qdot_status
+slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t k,
+                  qdot_expr *slope)
+{
+    qdot_extremum x = {.run = run,
+                       .kind = m->origin.range,
+                       .from = m->origin.ends[0],
+                       .to = m->origin.ends[1]};
+    double t;
+
+    x.e = qdot_variation_with_numbers(&s->variation, m->origin.e);
+    x.rate = qdot_variation_rate(&s->variation, m->origin.e);
+    x.bend = qdot_variation_rate(&s->variation, x.rate);
+    QDOT_TRY(qdot_pool_check(s->session->pool));
+    QDOT_TRY(qdot_extremum_time(&x, &t));
+    return at_time(s, slope_along(s, m->origin.e, k),
+                   qdot_measured_rational(s->session->pool, t), slope);
+}
+
+static qdot_status
+slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
+{
+    double value, error;
+    qdot_named_run *named;
+    qdot_expr e;
+
+    if (m->origin.range == QDOT_RANGE_DRIFT)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of drift");
+    QDOT_TRY(qdot_runs_find(s->session, qdot_slopes_run, &named));
+    if (m->origin.range != QDOT_RANGE_MEAN)
+        return slope_of_extremum(s, m, named->run, k, slope);
+    e = slope_along(s, m->origin.e, k);
+    QDOT_TRY(qdot_pool_check(s->session->pool));
+    QDOT_TRY(qdot_run_range(named->run, QDOT_RANGE_MEAN, e, m->origin.ends[0],
+                            m->origin.ends[1], &value, &error));
+    *slope = qdot_measured_new(s->session, value, error);
+    return qdot_pool_check(s->session->pool);
+}
+
+/* The slope of the i-th number measured. */
+static qdot_status
+slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slope)
+{
+    const qdot_measured m = s->session->measured.at[i]; /* the list grows */
+    qdot_named_run *named;
+
+    if (i < first || m.origin.kind == QDOT_ORIGIN_OTHER)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of numbers other than "
+                                         "value, max, min, mean and event times");
+    if (m.origin.run != NULL) {
+        QDOT_TRY(qdot_runs_find(s->session, m.origin.run, &named));
+        if (named->run != s->run)
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of several runs");
+    }
+    switch (m.origin.kind) {
+    case QDOT_ORIGIN_EVENT: return slope_of_event(s, &m, k, slope);
+    case QDOT_ORIGIN_RANGE: return slope_of_range(s, &m, k, slope);
+    default: return slope_of_value(s, &m, first, k, slope);
+    }
+}
+
+qdot_status
+qdot_slopes_of(qdot_slopes *s, qdot_expr e, size_t first, size_t k, qdot_expr *slope)
+{
+    qdot_pool *pool = s->session->pool;
+    const size_t n = s->session->measured.n;
+    qdot_expr sum;
+
+    if (qdot_member_any(s->session, e)) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of RUN.EXPR");
+        return qdot_hint("value(RUN.x, T), max(RUN.x, A..B)");
+    }
+    sum = qdot_variation_by_parameter(&s->variation, e, k);
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+        const qdot_expr symbol = s->session->measured.at[i].symbol;
+        qdot_expr one;
+
+        if (!qdot_expr_contains(pool, e, symbol))
+            continue;
+        QDOT_TRY(slope_of_number(s, i, first, k, &one));
+        sum = qdot_add(pool, sum, qdot_mul(pool, qdot_diff(pool, e, symbol), one));
+    }
+    *slope = sum;
+    return qdot_pool_check(pool);
+}

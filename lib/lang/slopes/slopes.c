@@ -1,0 +1,378 @@
+/* slopes.c -- directions of names, and the run with its variational equations. */
+#include "lang/slopes/slopes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/commands/set.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+#include "sim/model/substitute.h"
+
+/* A run with slopes goes beyond the last time that it is needed at by so much of the whole, since errors at
+ * its end may be unknown; its end is that of the run within so much of the values. */
+static const double beyond = 0.001, apart = 1e-6;
+
+const char qdot_slopes_run[] = "the slopes";
+
+/* --- names ------------------------------------------------------------------------------ */
+
+qdot_status
+qdot_slope_name_read(qdot_cursor *c, qdot_slope_name *x)
+{
+    qdot_cursor look = *c;
+    const qdot_name *known = NULL;
+    qdot_text text = {0};
+    const char *name;
+
+    *x = (qdot_slope_name){.place = c->at};
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a parameter or an initial value: `of m, theta`");
+    if (qdot_read_name(&look, &name) == QDOT_OK)
+        known = qdot_names_find(c->session->names, name);
+    QDOT_TRY(known != NULL && known->kind == QDOT_NAME_COORD
+                 ? qdot_set_read_jet(c, &x->symbol)
+                 : qdot_set_read_parameter(c, &x->symbol));
+    qdot_token_text(c->session, x->place, c->at, &text);
+    x->label = text.at;
+    return qdot_text_status(&text);
+}
+
+qdot_status
+qdot_slope_names_take(qdot_cursor *c, qdot_slope_names *names, const qdot_slope_name *x,
+                      qdot_status read)
+{
+    if (read == QDOT_OK)
+        read = qdot_vec_push(names, *x);
+    if (read != QDOT_OK) {
+        qdot_free(x->label);
+        return read;
+    }
+    for (size_t i = 0; i + 1 < names->n; i++)
+        if (names->at[i].symbol == x->symbol) {
+            c->error_at = x->place->start;
+            return qdot_fail(QDOT_EINVAL, "%s stands here twice", x->label);
+        }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_slopes_read(qdot_cursor *c, qdot_slopes *s)
+{
+    s->session = c->session;
+    do {
+        qdot_slope_name x;
+        const qdot_status status = qdot_slope_name_read(c, &x);
+
+        QDOT_TRY(qdot_slope_names_take(c, &s->names, &x, status));
+    } while (qdot_cursor_accept_op(c, ","));
+    return QDOT_OK;
+}
+
+/* --- what each name moves --------------------------------------------------------------- */
+
+bool
+qdot_slopes_is_parameter(const qdot_slopes *s, size_t k)
+{
+    return !qdot_expr_is_class(s->session->pool, s->names.at[k].symbol, QDOT_COORD);
+}
+
+/* What the session says of a symbol, where that follows the free parameter and is at its value what the
+ * run had; else what the run had. */
+static qdot_expr
+free_value(const qdot_slopes *s, qdot_expr said, qdot_expr parameter, qdot_expr had)
+{
+    const qdot_conditions *of = s->conditions;
+    qdot_pool *pool = s->session->pool;
+    const qdot_expr now = qdot_session_bind(s->session, said);
+
+    if (now == QDOT_NIL || !qdot_expr_contains(pool, now, parameter))
+        return now == QDOT_NIL ? now : had;
+    return qdot_substitute(pool, now, of->symbols.n, of->symbols.at, of->values.at) == had
+               ? now
+               : had;
+}
+
+/* Parameters with the k-th free, and how the start follows it. */
+static qdot_status
+free_parameter(qdot_slopes *s, size_t k)
+{
+    qdot_session *session = s->session;
+    qdot_pool *pool = session->pool;
+    const qdot_conditions *of = s->conditions;
+    const qdot_expr p = s->names.at[k].symbol;
+    const size_t n = session->scene->coordinates.n,
+                 own = qdot_expr_place(of->symbols.n, of->symbols.at, p);
+    qdot_expr *values = s->values + k * of->symbols.n, *start = s->start + 2 * k * n;
+    qdot_kept_values kept;
+    qdot_status status = QDOT_OK;
+
+    if (own == of->symbols.n)
+        return qdot_fail(QDOT_EUNSET, "%s has no value in the run", s->names.at[k].label);
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    qdot_session_set(session, p, p, &status);
+    for (size_t i = 0; i < of->symbols.n && status == QDOT_OK; i++) {
+        const size_t at =
+            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, of->symbols.at[i]);
+
+        values[i] = i == own ? p
+                    : at == session->set_symbols.n
+                        ? of->values.at[i]
+                        : free_value(s, session->set_values.at[at], p, of->values.at[i]);
+    }
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++) {
+        const qdot_expr jet =
+            qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
+        const size_t at =
+            qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
+
+        if (at == session->start_symbols.n)
+            continue;
+        start[i] = qdot_diff(pool,
+                             free_value(s, session->start_values.at[at], p,
+                                        (i < n ? of->q0.at : of->v0.at)[i % n]),
+                             p);
+        start[i] = start[i] == QDOT_NIL ? start[i]
+                                        : qdot_substitute(pool, start[i], of->symbols.n,
+                                                          of->symbols.at, of->values.at);
+    }
+    qdot_session_restore_values(session, &kept);
+    QDOT_TRY(status);
+    s->by[k].parameter = p;
+    s->by[k].values = values;
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+find_directions(qdot_slopes *s)
+{
+    qdot_pool *pool = s->session->pool;
+    const size_t n = s->session->scene->coordinates.n, m = s->conditions->symbols.n;
+
+    s->by = qdot_calloc(s->names.n + 1, sizeof *s->by);
+    s->values = qdot_calloc(s->names.n * m + 1, sizeof *s->values);
+    s->start = qdot_calloc(s->names.n * 2 * n + 1, sizeof *s->start);
+    if (!s->by || !s->values || !s->start)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < s->names.n; k++) {
+        qdot_expr *start = s->start + 2 * k * n;
+
+        for (size_t i = 0; i < 2 * n; i++)
+            start[i] = s->names.at[k].symbol ==
+                               qdot_symbol_jet(
+                                   pool, s->session->scene->coordinates.at[i % n], i >= n)
+                           ? QDOT_ONE
+                           : QDOT_ZERO;
+        s->by[k] = (qdot_variation_by){
+            .name = s->names.at[k].label, .parameter = QDOT_NIL, .start = start};
+        if (qdot_slopes_is_parameter(s, k))
+            QDOT_TRY(free_parameter(s, k));
+    }
+    return qdot_pool_check(pool);
+}
+
+/* The start as constraints left it. */
+static qdot_status
+find_start(qdot_slopes *s, const char *name)
+{
+    qdot_session *session = s->session;
+    const size_t n = session->scene->coordinates.n;
+    qdot_measured m;
+
+    s->settled = qdot_calloc(2 * n + 1, sizeof *s->settled);
+    if (!s->settled)
+        return QDOT_ENOMEM;
+    if (session->scene->constraints.n == 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr jet =
+            qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
+
+        QDOT_TRY(qdot_runs_measure_one(session, name, jet, s->conditions->t0, &m));
+        s->settled[i] =
+            m.digits > 0 ? m.exact : qdot_measured_rational(session->pool, m.value);
+    }
+    s->request.q0 = s->settled;
+    s->request.v0 = s->settled + n;
+    return qdot_pool_check(session->pool);
+}
+
+/* --- the run ------------------------------------------------------------------------------ */
+
+static qdot_status
+find_run(qdot_slopes *s, const char *name)
+{
+    const qdot_run_report *report;
+    qdot_named_run *named;
+
+    QDOT_TRY(qdot_runs_find(s->session, name, &named));
+    report = qdot_run_get_report(named->run);
+    if (report->status == QDOT_RUN_FAILED)
+        return qdot_fail(QDOT_EINVAL, "the run %.100s failed: it has no slopes",
+                         named->name);
+    if (named->conditions->version != s->session->scene->version) {
+        (void)qdot_fail(QDOT_EINVAL, "the scene has changed since %.100s", named->name);
+        return qdot_hint("make the run once more before: %.200s", named->text);
+    }
+    s->conditions = named->conditions;
+    s->run = named->run;
+    s->request = qdot_conditions_request(named->conditions);
+    s->request.method = report->method;
+    s->request.tol = report->tol;
+    s->request.digits = report->digits;
+    s->request.treatment = report->treatment;
+    if (report->status == QDOT_RUN_STOPPED)
+        s->request.t1 = qdot_measured_rational(s->session->pool, report->t1);
+    return qdot_pool_check(s->session->pool);
+}
+
+/* The time up to which a number of the run needs it; nil: all of it. */
+static qdot_expr
+needed_time(qdot_slopes *s, const qdot_measured *m)
+{
+    qdot_pool *pool = s->session->pool;
+
+    switch (m->origin.kind) {
+    case QDOT_ORIGIN_VALUE:
+        return qdot_session_bind(s->session,
+                                 qdot_measured_as_rationals(s->session, m->origin.time));
+    case QDOT_ORIGIN_RANGE:
+        return qdot_measured_rational(
+            pool, qdot_run_get_report(s->run)->t1 < qdot_run_get_report(s->run)->t0
+                      ? fmin(m->origin.ends[0], m->origin.ends[1])
+                      : fmax(m->origin.ends[0], m->origin.ends[1]));
+    case QDOT_ORIGIN_EVENT:
+        return m->digits > 0 ? m->exact : qdot_measured_rational(pool, m->value);
+    default: return QDOT_NIL;
+    }
+}
+
+/* Whether the number stands in e, or in what other numbers from the first-th on are of. */
+static bool
+is_used(const qdot_slopes *s, qdot_expr e, size_t first, qdot_expr symbol)
+{
+    const qdot_pool *pool = s->session->pool;
+    bool used = qdot_expr_contains(pool, e, symbol);
+
+    for (size_t i = first; i < s->session->measured.n && !used; i++) {
+        const qdot_origin *of = &s->session->measured.at[i].origin;
+
+        used =
+            of->kind == QDOT_ORIGIN_VALUE && (qdot_expr_contains(pool, of->e, symbol) ||
+                                              qdot_expr_contains(pool, of->time, symbol));
+    }
+    return used;
+}
+
+/* End the run with slopes where the last number measured from the first-th on needs it. */
+static qdot_status
+shorten(qdot_slopes *s, qdot_expr e, size_t first)
+{
+    const qdot_run_report *report = qdot_run_get_report(s->run);
+    const double whole = report->t1 - report->t0;
+    double furthest = 0, length;
+
+    for (size_t i = first; i < s->session->measured.n; i++) {
+        const qdot_measured m = s->session->measured.at[i];
+        qdot_expr time;
+        double t;
+
+        if (!is_used(s, e, first, m.symbol))
+            continue;
+        time = needed_time(s, &m);
+        QDOT_TRY(qdot_pool_check(s->session->pool));
+        if (time == QDOT_NIL)
+            return QDOT_OK;
+        QDOT_TRY(qdot_session_number(s->session, time, &t, NULL));
+        furthest = fmax(furthest, fabs(t - report->t0));
+    }
+    length = furthest + beyond * fabs(whole);
+    if (furthest > 0 && length < fabs(whole))
+        s->request.t1 =
+            qdot_measured_rational(s->session->pool, report->t0 + copysign(length, whole));
+    return qdot_pool_check(s->session->pool);
+}
+
+/* Whether two values of one coordinate, with their errors, may be of one motion. */
+static bool
+agree(const double *value, const double *error)
+{
+    const double size = fmax(fabs(value[0]), fabs(value[1])), off = error[0] + error[1];
+
+    return fabs(value[0] - value[1]) <= apart * size + (isnan(off) ? apart : 100 * off);
+}
+
+/* Both runs end at one place: where a run slides, rests, or has gone on in other coordinates, that with
+ * slopes may not. */
+static qdot_status
+compare_ends(qdot_slopes *s, qdot_run *run)
+{
+    const qdot_scene *scene = s->session->scene;
+    const double t = qdot_run_get_report(run)->t1;
+    double value[2], error[2];
+
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        const qdot_expr q = scene->coordinates.at[i];
+
+        QDOT_TRY(qdot_run_values(s->run, 1, &q, 1, &t, value, error));
+        QDOT_TRY(qdot_run_values(run, 1, &q, 1, &t, value + 1, error + 1));
+        if (!agree(value, error))
+            return qdot_fail(QDOT_EFAILED,
+                             "the run with slopes goes another way: %.80s = %.6g at t = "
+                             "%.6g, not %.6g",
+                             qdot_expr_symbol(scene->pool, q)->name, value[1], t,
+                             value[0]);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
+{
+    qdot_run_request request;
+    qdot_run *run = NULL;
+    qdot_status status;
+
+    QDOT_TRY(find_run(s, name));
+    QDOT_TRY(shorten(s, e, first));
+    QDOT_TRY(find_directions(s));
+    QDOT_TRY(find_start(s, name));
+    QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by,
+                                 &s->variation));
+    request = qdot_variation_request(&s->variation);
+    status = qdot_run_new(s->variation.scene, &request, &run);
+    if (status != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
+    QDOT_TRY(qdot_runs_keep(s->session, qdot_slopes_run, "", &request, run));
+    if (qdot_run_get_report(run)->status == QDOT_RUN_FAILED)
+        return qdot_fail(QDOT_EFAILED, "the run with slopes failed: %.300s",
+                         qdot_run_get_report(run)->reason);
+    QDOT_TRY(qdot_variation_check_start(&s->variation, run));
+    return compare_ends(s, run);
+}
+
+void
+qdot_slopes_free(qdot_slopes *s)
+{
+    qdot_session *session = s->session;
+
+    if (session && session->runs.n > 0 &&
+        strcmp(session->runs.at[session->runs.n - 1].name, qdot_slopes_run) == 0)
+        qdot_named_run_release(&session->runs.at[--session->runs.n]);
+    qdot_variation_clear(&s->variation);
+    for (size_t i = 0; i < s->names.n; i++)
+        qdot_free(s->names.at[i].label);
+    qdot_free(s->names.at);
+    qdot_free(s->by);
+    qdot_free(s->values);
+    qdot_free(s->start);
+    qdot_free(s->settled);
+    *s = (qdot_slopes){0};
+}

@@ -1,0 +1,89 @@
+/* columns.c -- what is asked of each run. */
+#include "lang/sweeps/columns.h"
+
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+
+static bool
+ends(const qdot_cursor *c)
+{
+    static const char *const words[] = {"as", "of", "run", "from", "threads", "resume"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_cursor_is_word(c, words[i]))
+            return true;
+    return qdot_cursor_is_end(c);
+}
+
+qdot_status
+qdot_columns_find(qdot_cursor *c, qdot_columns *x)
+{
+    int depth = 0;
+
+    if (ends(c))
+        return qdot_cursor_expected(c, "what is asked of each run: `max(theta), energy`");
+    QDOT_TRY(qdot_vec_push(&x->at, c->at));
+    for (; depth > 0 ? !qdot_cursor_is_end(c) : !ends(c); c->at++) {
+        if (depth == 0 && qdot_token_is(c->at, ",")) {
+            QDOT_TRY(qdot_vec_push(&x->at, c->at + 1));
+            continue;
+        }
+        depth += qdot_token_bracket(c->at);
+    }
+    x->end = c->at;
+    return QDOT_OK;
+}
+
+void
+qdot_columns_free(qdot_columns *x)
+{
+    qdot_free(x->at.at);
+    *x = (qdot_columns){0};
+}
+
+qdot_status
+qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
+{
+    qdot_cursor own = *c;
+    qdot_status status;
+
+    own.at = x->at.at[i];
+    own.error_at = own.at->start;
+    status = qdot_read_side(&own, e);
+    if (status == QDOT_OK && !qdot_token_is(own.at, ",") && own.at != x->end)
+        status = qdot_cursor_expected(&own, "`,`, `as NAME` or the end of the statement");
+    if (status == QDOT_OK) {
+        own.error_at = x->at.at[i]->start;
+        if (!qdot_expr_is_scalar(c->session->pool, *e))
+            status = qdot_fail(QDOT_ETYPE, "a column is one number a row");
+    }
+    c->error_at = own.error_at;
+    return status;
+}
+
+qdot_status
+qdot_columns_table(qdot_session *session, const qdot_columns *x, const char *name, size_t n,
+                   const char *const *before, qdot_row_table **table)
+{
+    const char **labels = qdot_calloc(n + x->at.n, sizeof *labels);
+    qdot_text *texts = qdot_calloc(x->at.n, sizeof *texts);
+    qdot_status status = labels && texts ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        labels[i] = before[i];
+    for (size_t i = 0; i < x->at.n && status == QDOT_OK; i++) {
+        qdot_token_text(session, x->at.at[i], i + 1 < x->at.n ? x->at.at[i + 1] - 1 : x->end,
+                        &texts[i]);
+        status = qdot_text_status(&texts[i]);
+        labels[n + i] = qdot_text_str(&texts[i]);
+    }
+    if (status == QDOT_OK) {
+        *table = qdot_row_table_new(name, n, n + x->at.n, labels);
+        status = *table ? QDOT_OK : QDOT_ENOMEM;
+    }
+    for (size_t i = 0; texts && i < x->at.n; i++)
+        qdot_text_clear(&texts[i]);
+    qdot_free(texts);
+    qdot_free(labels);
+    return status;
+}

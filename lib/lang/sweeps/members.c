@@ -1,0 +1,97 @@
+/* members.c -- reads what a sweep runs over, and makes its runs. */
+#include "lang/sweeps/members.h"
+
+#include "lang/runs/own-run.h"
+#include "lang/session/bind.h"
+
+/* --- reading ---------------------------------------------------------------------------- */
+
+static qdot_status
+read_run(qdot_cursor *c, qdot_members *m)
+{
+    const qdot_token *start = c->at;
+
+    if (!qdot_cursor_accept_word(c, "run"))
+        return qdot_cursor_expected(c, m->axes.random ? "`run T0..T1`, `count` or `seed`"
+                                                      : "`,` or `run T0..T1`");
+    QDOT_TRY(qdot_run_options_read_to_colon(c, start, &m->run));
+    if (m->run.name == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    (void)qdot_fail(QDOT_EINVAL, "the runs of a sweep have no names: `as` stands at its end");
+    return qdot_hint("sweep ... run 0..20 : x as %s", m->run.name);
+}
+
+qdot_status
+qdot_members_read(qdot_cursor *c, qdot_members *m)
+{
+    QDOT_TRY(qdot_sweep_axes_read(c, &m->axes));
+    return read_run(c, m);
+}
+
+void
+qdot_members_free(qdot_members *m)
+{
+    qdot_sweep_axes_free(&m->axes);
+    qdot_run_options_free(&m->run);
+}
+
+/* --- a member --------------------------------------------------------------------------- */
+
+/* Make the run and use it; it is kept meanwhile. */
+static qdot_status
+make_run(qdot_cursor *c, const qdot_members *m, qdot_member_use use, void *user)
+{
+    qdot_session *session = c->session;
+    const size_t measured = session->measured.n;
+    qdot_run *run;
+    qdot_expr end;
+    qdot_status status =
+        qdot_own_run_make(session, &m->run, m->run.from, m->run.to, &run, &end);
+
+    if (status == QDOT_OK)
+        status = use(c, run, end, user);
+    qdot_own_run_drop(session);
+    session->measured.n = measured;
+    return status;
+}
+
+/* Put value i of member k in force. */
+static qdot_status
+set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
+{
+    const qdot_expr symbol = m->axes.at.at[i].symbol,
+                    value = qdot_sweep_axes_value(session, &m->axes, k, i);
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_session_number(session, value, number, NULL));
+    if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
+        return qdot_session_start(session, symbol, value);
+    qdot_session_set(session, symbol, value, &status);
+    return status;
+}
+
+qdot_status
+qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double *swept)
+{
+    for (size_t i = 0; i < m->axes.at.n; i++)
+        QDOT_TRY(set_value(session, m, k, i, &swept[i]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
+                 qdot_member_use use, void *user)
+{
+    qdot_session *session = c->session;
+    qdot_kept_values kept;
+    qdot_status status;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = qdot_members_set(session, m, k, swept);
+    if (status == QDOT_OK)
+        status = make_run(c, m, use, user);
+    qdot_session_restore_values(session, &kept);
+    return status;
+}

@@ -1,0 +1,671 @@
+/* sweep-lanes.c -- what fits lanes; members as numbers; columns with their errors. */
+#include "lang/sweeps/sweep-lanes.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "ode/companion.h"
+#include "sim/model/substitute.h"
+#include "sim/model/term-magnitude.h"
+#include "sim/study/ensemble-fit.h"
+#include "sim/study/ensemble.h"
+#include "tape/constant.h"
+#include "tape/tape.h"
+
+/* A member with a larger error, or more steps, is run alone, which may do better. */
+static const double largest_error = 1e-4;
+enum { MOST_STEPS = 20000, PLACES = 16 };
+
+/* Under this tolerance the method's error may be less than that of rounding; an error of so many
+ * roundings a step, which add up as a random walk, may be of either. One companion shows the former. */
+static const double least_tol = 3e-11, roundings = 64;
+
+/* Coordinates below this may have a scale of their own (sim/run/scales.h). */
+static const double small = 1e-3, nothing = 1e-15;
+
+typedef struct {
+    bool is_event;
+    size_t event, k; /* of `events`; the occurrence less 1 */
+    size_t output;   /* of the tape; its rounding stands behind all outputs */
+} column;
+
+struct qdot_sweep_lanes {
+    qdot_sweep *s;
+    qdot_ensemble *ensemble;
+    size_t least, companions; /* of all members; of those that are run or read */
+    qdot_ensemble_watching watching;
+    qdot_ensemble_bounds bounds;
+    qdot_vec(qdot_ensemble_event) events;
+    qdot_vec(const char *) names; /* of them */
+    column *columns;
+    size_t outputs, n, places; /* expressions; coordinates */
+    qdot_tape *tape;           /* of `outputs` columns, then of the sizes of their terms */
+    double *in, *work, *out;   /* inputs; work space; [passes x 2 outputs] */
+    qdot_vec(qdot_expr) varied;
+    qdot_vec(size_t) axis; /* of varied parameters */
+    double t1;
+    const qdot_ensemble_result *results; /* of the members that are read */
+    bool unsure;           /* of the latest of them: it is to have two companions */
+    bool *made;            /* [members] */
+    char **reasons;        /* [members] */
+};
+
+void
+qdot_sweep_lanes_free(qdot_sweep_lanes *x)
+{
+    if (x == NULL)
+        return;
+    for (size_t k = 0; x->reasons && k < x->s->members.axes.members; k++)
+        qdot_free(x->reasons[k]);
+    qdot_free(x->reasons);
+    qdot_free(x->made);
+    qdot_ensemble_free(x->ensemble);
+    qdot_free(x->bounds.at);
+    qdot_free(x->events.at);
+    qdot_free(x->names.at);
+    qdot_free(x->columns);
+    qdot_tape_free(x->tape);
+    qdot_free(x->in);
+    qdot_free(x->work);
+    qdot_free(x->out);
+    qdot_free(x->varied.at);
+    qdot_free(x->axis.at);
+    qdot_free(x);
+}
+
+/* --- columns ---------------------------------------------------------------------------- */
+
+/* NAME[K] of an event of the scene. */
+static const qdot_event *
+as_event(const qdot_sweep *s, size_t i, long *k)
+{
+    const qdot_token *t = s->columns.at.at[i];
+    const qdot_token *end = i + 1 < s->columns.at.n ? s->columns.at.at[i + 1] - 1
+                                                    : s->columns.end;
+    char *rest;
+
+    if (end - t != 4 || t->kind != QDOT_TOKEN_NAME || !qdot_token_is(t + 1, "[")
+        || t[2].kind != QDOT_TOKEN_NUMBER || !qdot_token_is(t + 3, "]"))
+        return NULL;
+    *k = strtol(t[2].text, &rest, 10);
+    return *rest == '\0' && *k >= 1 && *k <= 1000
+               ? qdot_scene_find_event(s->c->session->scene, t->text)
+               : NULL;
+}
+
+static qdot_status
+take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
+{
+    qdot_pool *pool = x->s->c->session->pool;
+    size_t i = 0;
+
+    while (i < x->events.n && strcmp(x->names.at[i], e->name) != 0)
+        i++;
+    if (i == x->events.n) {
+        QDOT_TRY(qdot_vec_push(&x->names, e->name));
+        QDOT_TRY(qdot_vec_push(&x->events, ((qdot_ensemble_event){
+                                               .function = qdot_sub(pool, e->left, e->right),
+                                               .way = e->way})));
+    }
+    if (x->events.at[i].count < (size_t)k)
+        x->events.at[i].count = (size_t)k;
+    *to = (column){.is_event = true, .event = i, .k = (size_t)k - 1};
+    return qdot_pool_check(pool);
+}
+
+/* Whether lanes have all that e reads. */
+static bool
+is_of_states(qdot_session *session, qdot_expr e)
+{
+    return !(qdot_expr_node(session->pool, e)->holds
+             & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           && !qdot_measured_occurs(session, e);
+}
+
+/* The columns; an empty `why`: lanes have them all. Expressions into e [columns]. */
+static qdot_status
+read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
+{
+    qdot_cursor own = *x->s->c;
+    const size_t n = x->s->columns.at.n;
+
+    x->columns = qdot_calloc(n + 1, sizeof *x->columns);
+    if (x->columns == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n; i++) {
+        const qdot_event *event;
+        qdot_status status;
+        long k;
+
+        if ((event = as_event(x->s, i, &k)) != NULL) {
+            QDOT_TRY(take_event(x, event, k, &x->columns[i]));
+            continue;
+        }
+        status = qdot_columns_read(&own, &x->s->columns, i, &e[x->outputs]);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        if (status != QDOT_OK || !is_of_states(x->s->c->session, e[x->outputs])) {
+            qdot_text_format(why, "%s reads the run, not its end alone",
+                             x->s->table->labels[x->s->table->n_swept + i]);
+            return qdot_text_status(why);
+        }
+        x->columns[i].output = x->outputs++;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
+{
+    const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
+
+    for (size_t i = 0; i < x->outputs; i++) {
+        e[i] = qdot_plan_substitute(p, e[i]);
+        e[x->outputs + i] = qdot_term_magnitude(p->pool, e[i]);
+    }
+    QDOT_TRY(qdot_pool_check(p->pool));
+    QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 2 * x->outputs, e, &x->tape));
+    x->in = qdot_calloc(2 * p->n + 1, sizeof *x->in);
+    x->work = qdot_calloc(qdot_tape_work(x->tape) + 1, sizeof *x->work);
+    x->out = qdot_calloc(QDOT_ENSEMBLE_PASSES * 2 * x->outputs + 1, sizeof *x->out);
+    return x->in && x->work && x->out ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* --- members ---------------------------------------------------------------------------- */
+
+/* Put the values of member k in force; its request. */
+static qdot_status
+request_of(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
+{
+    qdot_session *session = s->c->session;
+    const qdot_members *m = &s->members;
+
+    QDOT_TRY(qdot_members_set(session, m, k, swept));
+    QDOT_TRY(qdot_run_options_fill(session, &m->run, request));
+    return qdot_request_limits(session, m->run.from, m->run.to, request);
+}
+
+/* Whether something of the session but the equations and the start reads a swept parameter. */
+static bool
+is_read_elsewhere(const qdot_sweep *s, qdot_expr symbol)
+{
+    const qdot_session *session = s->c->session;
+    const qdot_pool *pool = session->pool;
+
+    if (qdot_expr_contains(pool, s->members.run.from, symbol)
+        || qdot_expr_contains(pool, s->members.run.to, symbol))
+        return true;
+    for (size_t i = 0; i < session->set_values.n; i++)
+        if (session->set_symbols.at[i] != symbol
+            && qdot_expr_contains(pool, session->set_values.at[i], symbol))
+            return true;
+    for (size_t i = 0; i < session->scene->coordinates.n; i++) {
+        const qdot_symbol *q = qdot_expr_symbol(pool, session->scene->coordinates.at[i]);
+
+        if ((q->lo != QDOT_NIL && qdot_expr_contains(pool, q->lo, symbol))
+            || (q->hi != QDOT_NIL && qdot_expr_contains(pool, q->hi, symbol)))
+            return true;
+    }
+    return false;
+}
+
+static qdot_status
+find_varied(qdot_sweep_lanes *x, qdot_text *why)
+{
+    const qdot_sweep_axes *axes = &x->s->members.axes;
+
+    for (size_t i = 0; i < axes->at.n; i++) {
+        const qdot_expr symbol = axes->at.at[i].symbol;
+
+        if (qdot_expr_is_class(x->s->c->session->pool, symbol, QDOT_COORD))
+            continue;
+        if (is_read_elsewhere(x->s, symbol)) {
+            qdot_text_format(why, "other values depend on %s", axes->at.at[i].label);
+            return qdot_text_status(why);
+        }
+        QDOT_TRY(qdot_vec_push(&x->varied, symbol));
+        QDOT_TRY(qdot_vec_push(&x->axis, i));
+    }
+    return QDOT_OK;
+}
+
+/* The request of an ensemble from that of a member: without a start and varied parameters. */
+static qdot_status
+make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
+{
+    qdot_run_request r = of->request;
+    qdot_vec(qdot_expr) symbols = {0}, values = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < r.n_values && status == QDOT_OK; i++) {
+        bool own = false;
+
+        for (size_t k = 0; k < x->varied.n; k++)
+            own = own || r.symbols[i] == x->varied.at[k];
+        if (own)
+            continue;
+        status = qdot_vec_push(&symbols, r.symbols[i]);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&values, r.values[i]);
+    }
+    r.n_values = symbols.n;
+    r.symbols = symbols.at;
+    r.values = values.at;
+    r.q0 = r.v0 = NULL;
+    r.q_named = r.v_named = NULL;
+    if (status == QDOT_OK)
+        status = qdot_ensemble_new(x->s->c->session->scene, &r, x->varied.n, x->varied.at,
+                                   &x->ensemble);
+    qdot_free(symbols.at);
+    qdot_free(values.at);
+    return status;
+}
+
+/* Forget varied parameters that nothing but starts read: e [outputs], the columns. */
+static bool
+drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
+{
+    const qdot_pool *pool = x->s->c->session->pool;
+    size_t n = 0;
+
+    for (size_t k = 0; k < x->varied.n; k++) {
+        const qdot_expr symbol = x->varied.at[k];
+        bool read = qdot_ensemble_reads(x->ensemble, k);
+
+        for (size_t i = 0; i < x->outputs; i++)
+            read = read || qdot_expr_contains(pool, e[i], symbol);
+        for (size_t i = 0; i < x->events.n; i++)
+            read = read || qdot_expr_contains(pool, x->events.at[i].function, symbol);
+        if (!read)
+            continue;
+        x->varied.at[n] = symbol;
+        x->axis.at[n++] = x->axis.at[k];
+    }
+    if (n == x->varied.n)
+        return false;
+    x->varied.n = x->axis.n = n;
+    return true;
+}
+
+/* The ensemble, where the first member's run fits. */
+static qdot_status
+prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
+{
+    qdot_session *session = x->s->c->session;
+    double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
+    qdot_expr *e = qdot_calloc(2 * x->s->columns.at.n + 1, sizeof *e);
+    qdot_status status = swept && e ? request_of(x->s, 0, swept, request) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = find_varied(x, why);
+    if (status == QDOT_OK && why->n == 0)
+        status = read_columns(x, e, why);
+    if (status == QDOT_OK && why->n == 0)
+        status = qdot_ensemble_fit(session->scene, &request->request, &x->bounds, why);
+    if (status == QDOT_OK && why->n == 0)
+        status = qdot_session_number(session, request->request.t1, &x->t1, NULL);
+    if (status == QDOT_OK && why->n == 0)
+        status = make_ensemble(x, request);
+    if (status == QDOT_OK && why->n == 0 && drop_unread(x, e)) {
+        qdot_ensemble_free(x->ensemble);
+        status = make_ensemble(x, request);
+    }
+    if (status == QDOT_OK && why->n == 0)
+        status = lower_columns(x, e);
+    if (status == QDOT_OK && why->n == 0) {
+        const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
+
+        x->n = p->n - p->n_states;
+        x->least = request->request.tol < least_tol ? 2 : 1;
+        for (size_t i = 0; i < x->events.n; i++)
+            x->events.at[i].function = qdot_plan_substitute(p, x->events.at[i].function);
+        status = qdot_pool_check(session->pool);
+        x->watching = (qdot_ensemble_watching){x->events.n, x->bounds.n, x->events.at,
+                                               x->bounds.at, x->outputs == 0};
+    }
+    if (status == QDOT_OK && why->n == 0)
+        status = qdot_ensemble_follow(x->ensemble, &x->watching, MOST_STEPS);
+    qdot_free(swept);
+    qdot_free(e);
+    return status;
+}
+
+qdot_status
+qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
+{
+    const size_t members = s->members.axes.members;
+    qdot_request request = {0};
+    qdot_kept_values kept;
+    qdot_sweep_lanes *x;
+    qdot_status status;
+
+    *lanes = NULL;
+    if (members < QDOT_SWEEP_LANES_LEAST) {
+        qdot_text_format(why, "there are fewer than %d", QDOT_SWEEP_LANES_LEAST);
+        return qdot_text_status(why);
+    }
+    x = qdot_calloc(1, sizeof *x);
+    if (x == NULL)
+        return QDOT_ENOMEM;
+    x->s = s;
+    x->made = qdot_calloc(members + 1, sizeof *x->made);
+    x->reasons = qdot_calloc(members + 1, sizeof *x->reasons);
+    (void)qdot_companion_places(&x->places);
+    status = x->made && x->reasons ? qdot_session_keep_values(s->c->session, &kept) : QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        status = prepare(x, &request, why);
+        qdot_session_restore_values(s->c->session, &kept);
+    }
+    qdot_request_free(&request);
+    if (status == QDOT_OK && why->n == 0) {
+        *lanes = x;
+        return QDOT_OK;
+    }
+    qdot_sweep_lanes_free(x);
+    if (status == QDOT_OK)
+        return qdot_text_status(why);
+    if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+        return status;
+    qdot_text_add(why, qdot_last_error()->message); /* a run alone says more of it */
+    if (qdot_pool_check(s->c->session->pool) == QDOT_ENOMEM) /* it is told of once */
+        return QDOT_ENOMEM;
+    return qdot_text_status(why);
+}
+
+/* The start y [2n] and the parameters of member k as numbers. */
+static qdot_status
+number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
+{
+    qdot_session *session = x->s->c->session;
+    double *swept = x->s->table->values + k * x->s->table->n;
+    qdot_kept_values kept;
+    qdot_request request = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = request_of(x->s, k, swept, &request);
+    if (status == QDOT_OK && x->varied.n > 0)
+        status = qdot_request_masses(session, &request);
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
+        status = qdot_tape_constant(session->pool, request.request.q0[i], &y[i]);
+        if (status == QDOT_OK)
+            status = qdot_tape_constant(session->pool, request.request.v0[i], &y[x->n + i]);
+    }
+    for (size_t i = 0; i < x->varied.n; i++)
+        parameters[i] = swept[x->axis.at[i]];
+    qdot_request_free(&request);
+    qdot_session_restore_values(session, &kept);
+    return status;
+}
+
+/* --- rows ------------------------------------------------------------------------------- */
+
+/* All expressions of that pass of a member at a place, into out [2 outputs]; false: it is not there. */
+static bool
+evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
+{
+    if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
+        return false;
+    x->in[2 * qdot_ensemble_plan(x->ensemble)->n] = t;
+    qdot_tape_eval(x->tape, x->in, out, x->work);
+    return true;
+}
+
+/* The errors of all expressions at a place into errors [outputs]; x->out has them. */
+static bool
+compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
+{
+    const double share = qdot_ensemble_share(x->ensemble, m);
+    const size_t n = 2 * x->outputs;
+
+    for (size_t pass = 0; pass <= x->companions; pass++)
+        if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
+            return false;
+    for (size_t i = 0; i < x->outputs; i++) {
+        const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
+
+        errors[i] = qdot_companion_bound_of(x->out[i], x->companions, theirs, share);
+    }
+    return true;
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Whether an error of a number of that size may be that of rounding, of which one companion does not
+ * tell enough. */
+static bool
+is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
+{
+    return x->companions == 1
+           && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
+                           * fmax(1, size);
+}
+
+/* Values and errors of the expressions of a member at its end, [outputs] each. */
+static qdot_status
+read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
+{
+    const size_t n = x->outputs;
+    double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
+    double sorted[PLACES];
+
+    if (between == NULL)
+        return QDOT_ENOMEM;
+    *there = x->places <= PLACES;
+    for (size_t k = 0; k < x->places && *there; k++)
+        *there = compare(x, m, k, between + k * n);
+    *there = *there && compare(x, m, x->places, errors);
+    for (size_t i = 0; i < n && *there; i++) {
+        const double size = fmax(fabs(x->out[i]), x->out[n + i]);
+
+        for (size_t k = 0; k < x->places; k++)
+            sorted[k] = between[k * n + i];
+        qsort(sorted, x->places, sizeof *sorted, by_size);
+        values[i] = x->out[i];
+        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], 30 * errors[i]));
+        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size);
+        errors[i] += DBL_EPSILON * size;
+        *there = isfinite(values[i]) && isfinite(errors[i])
+                 && errors[i] <= largest_error * fmax(1, fabs(values[i]));
+    }
+    qdot_free(between);
+    return QDOT_OK;
+}
+
+/* Whether the sizes of a member's coordinates make a run alone look for scales. */
+static bool
+is_small(const qdot_sweep_lanes *x, size_t m)
+{
+    const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
+
+    for (size_t i = 0; i < x->n; i++)
+        if (sizes[i] > nothing && sizes[i] < small)
+            return true;
+    return false;
+}
+
+/* The time of an event and its error; *there is false for a run alone to decide. */
+static qdot_status
+read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to, bool *there)
+{
+    double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
+    qdot_text text = {0};
+
+    for (size_t pass = 0; pass <= x->companions; pass++)
+        t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
+    if (!isnan(t[0])) {
+        *to = t[0];
+        *error = qdot_companion_bound_of(t[0], x->companions, t + 1, 1);
+        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
+        *error += DBL_EPSILON * fabs(t[0]);
+        *there = isfinite(*error); /* a run alone compares the same times */
+        return QDOT_OK;
+    }
+    if (x->reasons[k] != NULL)
+        return QDOT_OK;
+    qdot_text_format(&text, "%s[%zu]: the event occurred %zu time%s in the run",
+                     x->names.at[of->event], of->k + 1,
+                     qdot_ensemble_event_count(x->ensemble, m, of->event),
+                     qdot_ensemble_event_count(x->ensemble, m, of->event) == 1 ? "" : "s");
+    x->reasons[k] = text.at;
+    return qdot_text_status(&text);
+}
+
+/* Row k from member m of the ensemble; it stays unmade for a run alone. */
+static qdot_status
+fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
+{
+    const qdot_ensemble_result *result = x->results + m;
+    qdot_row_table *t = x->s->table;
+    double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
+    double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
+    bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
+    qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
+
+    if (x->outputs > 0)
+        there = there && result->error <= largest_error;
+    if (status == QDOT_OK && there && x->outputs > 0)
+        status = read_end(x, m, of, of + x->outputs, &there);
+    for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
+        const column *c = x->columns + i;
+
+        if (c->is_event) {
+            status = read_event(x, m, c, k, values + t->n_swept + i, &there);
+        } else {
+            values[t->n_swept + i] = of[c->output];
+            errors[t->n_swept + i] = of[x->outputs + c->output];
+        }
+    }
+    qdot_free(of);
+    for (size_t i = 0; i < t->n_swept; i++)
+        errors[i] = 0;
+    for (size_t i = t->n_swept; i < t->n && status == QDOT_OK && !there; i++)
+        values[i] = errors[i] = NAN;
+    if (!there) {
+        qdot_free(x->reasons[k]);
+        x->reasons[k] = NULL;
+    }
+    x->made[k] = there;
+    return status;
+}
+
+/* Members as numbers, and the rows that are made of them. */
+typedef struct {
+    size_t n, *row;
+    double *y, *parameters; /* [n x 2 coordinates], [n x varied] */
+    qdot_ensemble_result *results;
+} members;
+
+static void
+members_clear(members *o)
+{
+    qdot_free(o->row);
+    qdot_free(o->y);
+    qdot_free(o->parameters);
+    qdot_free(o->results);
+}
+
+static qdot_status
+members_init(members *o, const qdot_sweep_lanes *x, size_t most)
+{
+    *o = (members){.row = qdot_calloc(most + 1, sizeof *o->row),
+                   .y = qdot_calloc(most * 2 * x->n + 1, sizeof *o->y),
+                   .parameters = qdot_calloc(most * x->varied.n + 1, sizeof *o->parameters),
+                   .results = qdot_calloc(most + 1, sizeof *o->results)};
+    return o->row && o->y && o->parameters && o->results ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* Run them, with so many companions; `again` gets those that are to have more. */
+static qdot_status
+run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
+{
+    const size_t width = 2 * x->n, varied = x->varied.n;
+    double *starts = qdot_calloc(o->n * width + 1, sizeof *starts);
+    qdot_status status = starts ? QDOT_OK : QDOT_ENOMEM;
+
+    x->companions = companions;
+    qdot_ensemble_companions(x->ensemble, companions);
+    if (status == QDOT_OK) {
+        memcpy(starts, o->y, o->n * width * sizeof *starts);
+        status = qdot_ensemble_run(x->ensemble, o->n, o->y, o->parameters, true, o->results);
+    }
+    x->results = o->results;
+    for (size_t m = 0; m < o->n && status == QDOT_OK; m++) {
+        x->unsure = false;
+        status = fill_row(x, m, o->row[m]);
+        if (!x->unsure)
+            continue;
+        memcpy(again->y + again->n * width, starts + m * width, width * sizeof *starts);
+        memcpy(again->parameters + again->n * varied, o->parameters + m * varied,
+               varied * sizeof *starts);
+        again->row[again->n++] = o->row[m];
+    }
+    qdot_free(starts);
+    return status;
+}
+
+qdot_status
+qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+{
+    members first = {0}, again = {0};
+    qdot_status status = members_init(&first, x, count);
+
+    if (status == QDOT_OK)
+        status = members_init(&again, x, count);
+    for (size_t k = 0; k < count && status == QDOT_OK; k++) {
+        status = number_member(x, rows[k], first.y + first.n * 2 * x->n,
+                               first.parameters + first.n * x->varied.n);
+        if (status == QDOT_OK)
+            first.row[first.n++] = rows[k];
+        else if (status != QDOT_ENOMEM && status != QDOT_EINTR)
+            status = QDOT_OK; /* a run alone tells what is wrong with its values */
+    }
+    if (status == QDOT_OK && first.n > 0)
+        status = run_members(x, x->least, &first, &again);
+    if (status == QDOT_OK && again.n > 0)
+        status = run_members(x, QDOT_ENSEMBLE_PASSES - 1, &again, NULL);
+    members_clear(&first);
+    members_clear(&again);
+    return status;
+}
+
+qdot_status
+qdot_sweep_lanes_run(qdot_sweep_lanes *x, size_t first, size_t count)
+{
+    size_t *rows = qdot_calloc(count + 1, sizeof *rows), n = 0;
+    qdot_status status = rows ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = first; k < first + count && rows != NULL; k++)
+        if (!x->s->done[k])
+            rows[n++] = k;
+    if (status == QDOT_OK)
+        status = qdot_sweep_lanes_run_rows(x, rows, n);
+    qdot_free(rows);
+    return status;
+}
+
+bool
+qdot_sweep_lanes_made(qdot_sweep_lanes *x, size_t k, qdot_status *status)
+{
+    *status = QDOT_OK;
+    if (!x->made[k])
+        return false;
+    if (x->reasons[k] != NULL) {
+        *status = qdot_fail(QDOT_EDOMAIN, "%s", x->reasons[k]);
+        qdot_hint("`events` lists them");
+        qdot_free(x->reasons[k]);
+        x->reasons[k] = NULL;
+    }
+    return true;
+}

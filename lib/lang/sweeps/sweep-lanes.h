@@ -1,0 +1,40 @@
+/* sweep-lanes.h -- the members of a sweep side by side (sim/study/ensemble.h), where they can be.
+ *
+ * They can if the scene fits (sim/study/ensemble-fit.h), what is swept is coordinates, velocities and
+ * parameters that nothing but the equations and the start reads, and each column is an expression at
+ * the end of the run or NAME[K], the time of an event. A member that turns out to need more than lanes
+ * do - it fails, comes near a bound, touches an event, lives far below 1, loses its digits - is run
+ * alone. So which way a row is made depends on the statement and the member only, and its bits on no
+ * other member.
+ *
+ * The error of a column is that of a run alone: by the distance from two companions at the end, and at
+ * places of the latter half of the way, of which the median counts, to 30 times that at the end
+ * (ode/companion.h), with the rounding of its terms.
+ *
+ * Tests  tests/script/sweep-lanes.sh
+ */
+#ifndef QDOT_LANG_SWEEP_LANES_H
+#define QDOT_LANG_SWEEP_LANES_H
+
+#include "base/text.h"
+#include "lang/sweeps/sweep-parts.h"
+
+/* Fewer members are run alone. */
+enum { QDOT_SWEEP_LANES_LEAST = 16 };
+
+typedef struct qdot_sweep_lanes qdot_sweep_lanes;
+
+/* For a sweep that was read. *lanes NULL: its members are run alone, and `why` says why. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes,
+                                                 qdot_text *why);
+void qdot_sweep_lanes_free(qdot_sweep_lanes *lanes);
+
+/* Run these members [n]; or those of first ... first + count - 1 that are not done. */
+QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run_rows(qdot_sweep_lanes *lanes, const size_t *rows,
+                                                      size_t n);
+QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_run(qdot_sweep_lanes *lanes, size_t first,
+                                                 size_t count);
+/* Whether row k has been made; then *status is that of the row, with the last error. */
+bool qdot_sweep_lanes_made(qdot_sweep_lanes *lanes, size_t k, qdot_status *status);
+
+#endif

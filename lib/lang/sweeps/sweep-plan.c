@@ -1,0 +1,124 @@
+/* sweep-plan.c -- `plan sweep`: how many members, by lanes or alone and why, time and memory from a few. */
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/workers.h"
+#include "lang/runs/own-run.h"
+#include "lang/sweeps/sweep-lanes.h"
+#include "lang/sweeps/sweep-parts.h"
+#include "num/batch.h"
+
+/* So many members are run, spread over all. */
+enum { BY_LANES = 32, ALONE = 4 };
+
+typedef struct {
+    size_t rows, alone, failed;
+    double seconds; /* of one row */
+} sample;
+
+/* Run a few rows, for what they cost. */
+static qdot_status
+measure(qdot_sweep *s, sample *m)
+{
+    const size_t members = s->members.axes.members, most = s->lanes != NULL ? BY_LANES : ALONE;
+    size_t rows[BY_LANES], n = members < most ? members : most;
+    const double begun = qdot_wall_now();
+
+    for (size_t i = 0; i < n; i++)
+        rows[i] = n > 1 ? i * (members - 1) / (n - 1) : 0;
+    if (s->lanes != NULL)
+        QDOT_TRY(qdot_sweep_lanes_run_rows(s->lanes, rows, n));
+    *m = (sample){.rows = n};
+    for (size_t i = 0; i < n; i++) {
+        qdot_status status;
+        const bool made = s->lanes != NULL && qdot_sweep_lanes_made(s->lanes, rows[i], &status);
+
+        if (!made)
+            status = qdot_sweep_fill_row(s, rows[i]);
+        if (qdot_own_run_all_fail(status))
+            return status;
+        m->alone += !made;
+        m->failed += status != QDOT_OK;
+    }
+    m->seconds = (qdot_wall_now() - begun) / (double)n;
+    return QDOT_OK;
+}
+
+static void
+tell_members(const qdot_sweep *s, qdot_text *text)
+{
+    const qdot_sweep_axes *axes = &s->members.axes;
+
+    qdot_text_format(text, "members: %zu", axes->members);
+    for (size_t i = 0; i < axes->at.n && !axes->random; i++)
+        qdot_text_format(text, "%s%s %zu", i == 0 ? ": " : " x ", axes->at.at[i].label,
+                         axes->at.at[i].n);
+    if (axes->random)
+        qdot_text_format(text, ", seed %lu", axes->seed);
+    qdot_text_char(text, '\n');
+}
+
+static void
+tell_way(const qdot_sweep *s, const sample *m, const char *why, qdot_text *text)
+{
+    if (s->lanes == NULL)
+        qdot_text_format(text, "each: alone: %s\n", why);
+    else if (m->alone == 0)
+        qdot_text_format(text, "each: by lanes, %d side by side\n", QDOT_LANES);
+    else
+        qdot_text_format(text,
+                         "each: by lanes, %d side by side; of %zu looked at %zu have to be run "
+                         "alone: near a bound, of small size, past their last digit\n",
+                         QDOT_LANES, m->rows, m->alone);
+}
+
+/* An estimate, with two digits at most. */
+static void
+tell_seconds(double x, qdot_text *text)
+{
+    if (x < 120)
+        qdot_text_format(text, "%.2g s", x);
+    else if (x < 7200)
+        qdot_text_format(text, "%.2g min", x / 60);
+    else
+        qdot_text_format(text, "%.2g h", x / 3600);
+}
+
+qdot_status
+qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
+{
+    const size_t members = s->members.axes.members, n = s->table->n;
+    const size_t processors = qdot_workers_processors();
+    const size_t workers = s->threads > 0 ? (size_t)s->threads : processors;
+    const size_t useful = workers < processors ? workers : processors;
+    const double megabytes = (double)members * (double)(2 * n * sizeof(double) + 11) / 1e6;
+    qdot_text why = {0};
+    sample m;
+    qdot_status status;
+
+    s->done = qdot_calloc(members + 1, sizeof *s->done);
+    if (s->done == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < members; k++)
+        QDOT_TRY(qdot_row_table_add(s->table));
+    status = qdot_sweep_lanes_new(s, &s->lanes, &why);
+    if (status == QDOT_OK)
+        status = measure(s, &m);
+    if (status == QDOT_OK) {
+        tell_members(s, text);
+        tell_way(s, &m, qdot_text_str(&why), text);
+        qdot_text_format(text, "processes: %zu\n", workers);
+        qdot_text_format(text, "time: %.2g s a member, by %zu of them: about ", m.seconds,
+                         m.rows);
+        tell_seconds(m.seconds * (double)members / (double)(useful > 0 ? useful : 1), text);
+        qdot_text_format(text, "\nmemory: %.2g MB for rows of %zu numbers with their errors\n",
+                         megabytes, n);
+        if (m.failed > 0)
+            qdot_text_format(text, "failed: %zu of %zu\n", m.failed, m.rows);
+        status = qdot_text_status(text);
+    }
+    qdot_sweep_lanes_free(s->lanes);
+    s->lanes = NULL;
+    qdot_text_clear(&why);
+    return status;
+}

@@ -1,0 +1,313 @@
+/* sweep-rows.c -- makes the rows of a sweep: here or by other processes, and kept in a file. */
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/workers.h"
+#include "lang/answer/row-answer.h"
+#include "lang/runs/own-run.h"
+#include "lang/sweeps/sweep-file.h"
+#include "lang/sweeps/sweep-lanes.h"
+#include "lang/sweeps/sweep-parts.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+
+/* Seconds of work that are worth more than one process. */
+static const double worth = 0.05;
+
+/* Rows that are made side by side: together in this process; at least, in another. */
+enum { TOGETHER = 256, LEAST = 32 };
+
+/* --- a row ------------------------------------------------------------------------------ */
+
+/* A number, or an expression at the end of the run. */
+static qdot_status
+measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
+{
+    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
+                            | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
+    qdot_measured m;
+
+    if (!(qdot_expr_node(session->pool, e)->holds & moving))
+        return qdot_session_number(session, e, value, error);
+    QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,
+                                   &m));
+    *value = m.value;
+    *error = m.error;
+    return QDOT_OK;
+}
+
+/* The columns of the latest run, behind what was swept in its row; of those that fail the first is
+ * told. */
+static qdot_status
+fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
+{
+    const qdot_sweep *s = user;
+    qdot_row_table *t = s->table;
+    const size_t first = s->row * t->n + t->n_swept;
+    qdot_status failed = QDOT_OK;
+    qdot_error why;
+
+    (void)run;
+    for (size_t i = 0; i < s->columns.at.n; i++) {
+        qdot_expr e;
+        qdot_status status = qdot_columns_read(c, &s->columns, i, &e);
+
+        if (status == QDOT_OK)
+            status = measure(c->session, e, end, &t->values[first + i], &t->errors[first + i]);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        if (status != QDOT_OK && failed == QDOT_OK) {
+            failed = status;
+            why = *qdot_last_error();
+        }
+    }
+    return failed == QDOT_OK ? QDOT_OK : qdot_fail_again(&why);
+}
+
+qdot_status
+qdot_sweep_fill_row(qdot_sweep *s, size_t k)
+{
+    qdot_row_table *t = s->table;
+    qdot_status status;
+
+    if (s->lanes != NULL && qdot_sweep_lanes_made(s->lanes, k, &status))
+        return status;
+    s->row = k;
+    for (size_t i = 0; i < t->n_swept; i++)
+        t->errors[k * t->n + i] = 0;
+    return qdot_members_run(s->c, &s->members, k, t->values + k * t->n, fill_columns, s);
+}
+
+/* --- the file ------------------------------------------------------------------------- */
+
+/* Write what is done, at the end or if the last time was a while ago. */
+static qdot_status
+keep_rows(qdot_sweep *s, bool at_once)
+{
+    double now;
+
+    if (s->path == NULL)
+        return QDOT_OK;
+    now = qdot_wall_now();
+    if (!at_once && now - s->kept_at < fmax(1, 20 * s->keeping))
+        return QDOT_OK;
+    QDOT_TRY(qdot_sweep_file_keep(s->table, s->done, qdot_text_str(&s->said), s->path));
+    s->kept_at = qdot_wall_now();
+    s->keeping = s->kept_at - now;
+    return QDOT_OK;
+}
+
+/* --- a row that is done ----------------------------------------------------------------- */
+
+/* The next rows to JSON, while they are done; at the end all that are left. */
+static qdot_status
+tell_rows(qdot_sweep *s, bool all)
+{
+    for (; s->c->session->json && s->told < s->table->rows && (all || s->done[s->told]); s->told++)
+        QDOT_TRY(qdot_row_answer_json(s->c->session, s->table, s->told));
+    return QDOT_OK;
+}
+
+/* Row k has been made, or has failed with that status and the last error. */
+static qdot_status
+take_row(qdot_sweep *s, size_t k, qdot_status status)
+{
+    qdot_row_table *t = s->table;
+
+    if (qdot_own_run_all_fail(status))
+        return status;
+    if (status != QDOT_OK) {
+        s->failed++;
+        t->reasons[k] = qdot_strdup(qdot_last_error()->message);
+        if (t->reasons[k] == NULL)
+            return QDOT_ENOMEM;
+    }
+    s->done[k] = true;
+    s->n_done++;
+    QDOT_TRY(tell_rows(s, false));
+    return keep_rows(s, false);
+}
+
+/* --- rows made by other processes ------------------------------------------------------- */
+
+/* What a worker answers: this, the numbers and their errors, the message and the hint of a failure. */
+typedef struct {
+    qdot_status status;
+    size_t error_at, message, hint;
+} row_head;
+
+/* Make what rows can be made side by side; a failure shows in the runs alone. */
+static void
+begin_rows_there(size_t first, size_t count, void *user)
+{
+    qdot_sweep *s = user;
+
+    if (qdot_sweep_lanes_run(s->lanes, first, count) != QDOT_OK)
+        return;
+}
+
+static void
+work_on_row(size_t k, qdot_text *answer, void *user)
+{
+    qdot_sweep *s = user;
+    const qdot_row_table *t = s->table;
+    const size_t bytes = t->n * sizeof *t->values;
+    row_head h = {.status = qdot_sweep_fill_row(s, k), .error_at = s->c->error_at};
+    const qdot_error *error = qdot_last_error();
+
+    if (h.status != QDOT_OK) {
+        h.message = strlen(error->message);
+        h.hint = strlen(error->hint);
+    }
+    qdot_text_add_n(answer, (const char *)&h, sizeof h);
+    qdot_text_add_n(answer, (const char *)(t->values + k * t->n), bytes);
+    qdot_text_add_n(answer, (const char *)(t->errors + k * t->n), bytes);
+    qdot_text_add_n(answer, error->message, h.message);
+    qdot_text_add_n(answer, error->hint, h.hint);
+}
+
+static qdot_status
+take_answer(size_t k, const char *bytes, size_t n, void *user)
+{
+    qdot_sweep *s = user;
+    qdot_row_table *t = s->table;
+    const size_t numbers = t->n * sizeof *t->values;
+    row_head h;
+
+    if (bytes == NULL || n < sizeof h + 2 * numbers)
+        return take_row(s, k, qdot_fail(QDOT_EFAILED, "the process that made the run has ended"));
+    memcpy(&h, bytes, sizeof h);
+    bytes += sizeof h;
+    memcpy(t->values + k * t->n, bytes, numbers);
+    memcpy(t->errors + k * t->n, bytes + numbers, numbers);
+    bytes += 2 * numbers;
+    if (h.status != QDOT_OK) {
+        (void)qdot_fail(h.status, "%.*s", (int)h.message, bytes);
+        if (h.hint > 0)
+            (void)qdot_hint("%.*s", (int)h.hint, bytes + h.message);
+        if (qdot_own_run_all_fail(h.status))
+            s->c->error_at = h.error_at;
+    }
+    return take_row(s, k, h.status);
+}
+
+/* --- the sweep -------------------------------------------------------------------------- */
+
+/* The rows first ... end - 1 that are not done, in this process. */
+static qdot_status
+run_here(qdot_sweep *s, size_t first, size_t end)
+{
+    for (size_t k = first, next = first; k < end; k++) {
+        qdot_progress_at((double)k);
+        if (s->lanes != NULL && k == next) {
+            next = end - k < TOGETHER ? end : k + TOGETHER;
+            QDOT_TRY(qdot_sweep_lanes_run(s->lanes, k, next - k));
+        }
+        if (!s->done[k])
+            QDOT_TRY(take_row(s, k, qdot_sweep_fill_row(s, k)));
+    }
+    return QDOT_OK;
+}
+
+/* The first row here, for what it costs; then the others, by several processes if that is worth it. */
+static qdot_status
+run_all(qdot_sweep *s)
+{
+    const size_t members = s->members.axes.members;
+    const double begun = qdot_wall_now();
+    size_t first = 0;
+    qdot_workers_job job = {.end = members, .skip = s->done, .user = s, .work = work_on_row,
+                            .done = take_answer};
+
+    while (first < members && s->done[first])
+        first++;
+    job.first = first + (s->lanes != NULL ? LEAST : 1);
+    if (job.first > members)
+        job.first = members;
+    QDOT_TRY(run_here(s, first, job.first));
+    job.seconds = (qdot_wall_now() - begun) / (double)(job.first > first ? job.first - first : 1);
+    if (s->lanes != NULL) {
+        job.begin = begin_rows_there;
+        job.least = LEAST;
+    }
+    job.workers = s->threads > 0 ? (size_t)s->threads : qdot_workers_processors();
+    if (s->threads == 0 && job.seconds * (double)(members - first) < worth)
+        job.workers = 1;
+    if (job.workers > members - job.first)
+        job.workers = members - job.first;
+    qdot_progress_begin(0, (double)members, "sweep");
+    return job.workers > 1 ? qdot_workers_run(&job) : run_here(s, job.first, members);
+}
+
+/* Leave the rows that are done. */
+static void
+drop_others(qdot_sweep *s)
+{
+    qdot_row_table *t = s->table;
+    size_t n = 0;
+
+    for (size_t k = 0; k < t->rows; k++) {
+        if (!s->done[k])
+            continue;
+        memmove(t->values + n * t->n, t->values + k * t->n, t->n * sizeof *t->values);
+        memmove(t->errors + n * t->n, t->errors + k * t->n, t->n * sizeof *t->errors);
+        t->reasons[n++] = t->reasons[k];
+    }
+    t->rows = n;
+}
+
+/* The table with the rows that the file has. */
+static qdot_status
+begin_rows(qdot_sweep *s)
+{
+    const size_t members = s->members.axes.members;
+
+    s->done = qdot_calloc(members + 1, sizeof *s->done);
+    if (s->done == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < members; k++)
+        QDOT_TRY(qdot_row_table_add(s->table));
+    if (s->path == NULL)
+        return QDOT_OK;
+    s->c->error_at = s->path_at->start;
+    QDOT_TRY(qdot_sweep_file_take(s->path, qdot_text_str(&s->said), s->table, s->done));
+    for (size_t k = 0; k < members; k++) {
+        s->failed += s->done[k] && s->table->reasons[k] != NULL;
+        s->resumed += s->done[k];
+    }
+    s->n_done = s->resumed;
+    return keep_rows(s, true); /* a file that cannot be written is better known now */
+}
+
+qdot_status
+qdot_sweep_make_rows(qdot_sweep *s)
+{
+    const size_t start = s->c->error_at;
+    qdot_text why = {0}; /* for `plan sweep` */
+    qdot_status status;
+
+    QDOT_TRY(begin_rows(s));
+    s->c->error_at = start;
+    s->kept_at = qdot_wall_now();
+    status = qdot_sweep_lanes_new(s, &s->lanes, &why);
+    if (status == QDOT_OK)
+        status = run_all(s);
+    qdot_sweep_lanes_free(s->lanes);
+    qdot_text_clear(&why);
+    s->lanes = NULL;
+    if (status == QDOT_EINTR && s->n_done > 0) {
+        qdot_interrupt_clear(); /* heard: the rows that are done are kept */
+        s->interrupted = true;
+        status = QDOT_OK;
+    }
+    QDOT_TRY(status);
+    s->c->error_at = start;
+    QDOT_TRY(keep_rows(s, true));
+    if (s->interrupted)
+        drop_others(s);
+    return tell_rows(s, true);
+}

@@ -1,0 +1,243 @@
+/* sweep.c -- the statement `sweep`: a run for each member, numbers of it in a row.
+ *
+ * Each member is the run that `run ... with NAME = VALUE` would make; its columns are read again
+ * while it is the latest run, with its values in force. So whatever stands after `value`, `print`
+ * or `check` can be a column.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/row-answer.h"
+#include "lang/commands/statement.h"
+#include "lang/declare/scene-file.h"
+#include "lang/figures/figure-file.h"
+#include "lang/language/read.h"
+#include "lang/language/token-text.h"
+#include "lang/sweeps/sweep-parts.h"
+
+enum { MOST_THREADS = 1024 };
+
+/* --- reading ---------------------------------------------------------------------------- */
+
+static qdot_status
+read_threads(qdot_cursor *c, qdot_sweep *s)
+{
+    const qdot_token *start = c->at;
+
+    QDOT_TRY(qdot_cursor_once(c, "threads", s->threads != 0));
+    QDOT_TRY(qdot_read_integer(c, &s->threads));
+    if (s->threads >= 1 && s->threads <= MOST_THREADS)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_EINVAL, "threads are from 1 to %d", MOST_THREADS);
+}
+
+/* The file that rows are kept in. */
+static qdot_status
+read_file(qdot_cursor *c, qdot_sweep *s)
+{
+    s->path_at = c->at;
+    QDOT_TRY(qdot_cursor_once(c, "resume", s->path != NULL));
+    QDOT_TRY(qdot_figure_file_read(c, &s->path));
+    if (qdot_ends_in(s->path, ".h5"))
+        return QDOT_OK;
+    c->error_at = s->path_at->start;
+    (void)qdot_fail(QDOT_EINVAL, "rows are kept in a file whose name ends in .h5");
+    return qdot_hint("resume \"rows.h5\"");
+}
+
+static qdot_status
+read_rest(qdot_cursor *c, qdot_sweep *s)
+{
+    while (!qdot_cursor_is_end(c)) {
+        if (qdot_cursor_accept_word(c, "as")) {
+            QDOT_TRY(qdot_cursor_once(c, "as", s->name != NULL));
+            QDOT_TRY(qdot_read_name(c, &s->name));
+        } else if (qdot_cursor_accept_word(c, "threads")) {
+            QDOT_TRY(read_threads(c, s));
+        } else if (qdot_cursor_accept_word(c, "resume")) {
+            QDOT_TRY(read_file(c, s));
+        } else {
+            return qdot_cursor_expected(c, "`as NAME`, `threads N`, `resume \"FILE.h5\"` or the end "
+                                           "of the statement");
+        }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+read_sweep(qdot_cursor *c, qdot_sweep *s)
+{
+    const qdot_token *start;
+
+    QDOT_TRY(qdot_members_read(c, &s->members));
+    QDOT_TRY(qdot_columns_find(c, &s->columns));
+    start = c->at;
+    QDOT_TRY(read_rest(c, s));
+    if (s->name == NULL || qdot_names_find(c->session->names, s->name) == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_ENAME, "`%s` means something else already", s->name);
+}
+
+/* What the sweep says, and of which scene: a hash (FNV-1a) of all that would be saved of it. */
+static qdot_status
+say_what(qdot_sweep *s, const qdot_token *from, const qdot_token *to)
+{
+    qdot_text scene = {0};
+    uint64_t hash = 0xcbf29ce484222325;
+    qdot_status status = qdot_scene_file_text(s->c->session, QDOT_FILE_SCENE, &scene);
+
+    for (size_t i = 0; i < scene.n; i++)
+        hash = (hash ^ (unsigned char)scene.at[i]) * 0x100000001b3;
+    qdot_token_text(s->c->session, from, to, &s->said);
+    qdot_text_format(&s->said, "\nscene %016llx", (unsigned long long)hash);
+    qdot_text_clear(&scene);
+    return status == QDOT_OK ? qdot_text_status(&s->said) : status;
+}
+
+static qdot_status
+make_table(qdot_session *session, qdot_sweep *s)
+{
+    const qdot_sweep_axes *axes = &s->members.axes;
+    const char **swept = qdot_calloc(axes->at.n + 1, sizeof *swept);
+    qdot_status status;
+    char next[32];
+
+    if (swept == NULL)
+        return QDOT_ENOMEM;
+    if (s->name == NULL)
+        qdot_row_tables_next_name(session, next, sizeof next);
+    for (size_t i = 0; i < axes->at.n; i++)
+        swept[i] = axes->at.at[i].label;
+    status = qdot_columns_table(session, &s->columns, s->name != NULL ? s->name : next,
+                                axes->at.n, swept, &s->table);
+    if (s->table != NULL)
+        s->table->scattered = axes->random;
+    qdot_free(swept);
+    return status;
+}
+
+/* Rows that are done, with a number whose error is unknown. */
+static size_t
+unknown_errors(const qdot_row_table *t)
+{
+    size_t rows = 0;
+
+    for (size_t k = 0; k < t->rows; k++) {
+        bool some = false;
+
+        for (size_t i = t->n_swept; i < t->n; i++)
+            some = some || isnan(t->errors[k * t->n + i]);
+        rows += some && t->reasons[k] == NULL;
+    }
+    return rows;
+}
+
+static qdot_status
+tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
+{
+    qdot_text text = {0};
+
+    if (session->json)
+        return QDOT_OK;
+    qdot_text_format(&text, "%s: %zu rows", t->name, t->rows);
+    if (s->members.axes.random)
+        qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
+    if (s->failed > 0)
+        qdot_text_format(&text, ", %zu failed", s->failed);
+    if (unknown_errors(t) > 0)
+        qdot_text_format(&text, ", the errors of %zu unknown", unknown_errors(t));
+    if (s->resumed > 0)
+        qdot_text_format(&text, ", %zu of them from %s", s->resumed, s->path);
+    qdot_text_format(&text, ", in %.3g s", seconds);
+    qdot_text_char(&text, '\n');
+    QDOT_TRY(qdot_answer_written(session, t->name, QDOT_OK, &text));
+    return t->rows <= QDOT_ROWS_PRINTED ? qdot_row_answer(session, t) : QDOT_OK;
+}
+
+/* Whether no row has a number that was asked for. */
+static bool
+is_empty(const qdot_row_table *t)
+{
+    bool empty = t->rows > 0;
+
+    for (size_t k = 0; k < t->rows; k++)
+        for (size_t i = t->n_swept; i < t->n; i++)
+            empty = empty && t->reasons[k] != NULL && isnan(t->values[k * t->n + i]);
+    return empty;
+}
+
+static qdot_status
+carry_out(qdot_cursor *c, qdot_sweep *s)
+{
+    const double begun = qdot_wall_now();
+    qdot_status status = qdot_sweep_make_rows(s);
+    qdot_row_table *table = s->table;
+
+    if (status != QDOT_OK)
+        return status;
+    s->table = NULL; /* the session's from now on */
+    QDOT_TRY(qdot_row_tables_keep(c->session, table));
+    QDOT_TRY(tell(c->session, s, table, qdot_wall_now() - begun));
+    if (s->interrupted)
+        return qdot_fail(QDOT_EINTR, "interrupted: %s has %zu of %zu rows", table->name,
+                         table->rows, s->members.axes.members);
+    if (is_empty(table))
+        return qdot_fail(QDOT_EFAILED, "all rows failed: %s", table->reasons[0]);
+    return QDOT_OK;
+}
+
+static void
+sweep_free(qdot_sweep *s)
+{
+    qdot_row_table_release(s->table);
+    qdot_members_free(&s->members);
+    qdot_columns_free(&s->columns);
+    qdot_text_clear(&s->said);
+    qdot_free(s->done);
+}
+
+qdot_status
+qdot_sweep_statement(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
+    qdot_status status = read_sweep(c, &s);
+
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = make_table(c->session, &s);
+    }
+    if (status == QDOT_OK && s.path != NULL)
+        status = say_what(&s, start, s.columns.end);
+    if (status == QDOT_OK) {
+        s.table->members = qdot_function_body_new(c->source, start, s.columns.at.at[0]);
+        status = s.table->members ? carry_out(c, &s) : QDOT_ENOMEM;
+    }
+    qdot_run_options_place(c, &s.members.run, status);
+    sweep_free(&s);
+    return status;
+}
+
+qdot_status
+qdot_sweep_plan(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    qdot_sweep s = {.members.run.tol = 1e-12, .c = c};
+    qdot_text text = {0};
+    qdot_status status = read_sweep(c, &s);
+
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = make_table(c->session, &s);
+    }
+    if (status == QDOT_OK)
+        status = qdot_sweep_tell_plan(&s, &text);
+    qdot_run_options_place(c, &s.members.run, status);
+    status = qdot_answer_written(c->session, "plan", status, &text);
+    sweep_free(&s);
+    return status;
+}

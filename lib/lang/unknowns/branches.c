@@ -1,0 +1,503 @@
+/* branches.c -- branches as rows, and in words: where they run, where they are stable. */
+#include "lang/unknowns/branches.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/utf8.h"
+#include "base/wrap.h"
+#include "lang/answer/number-text.h"
+#include "lang/answer/write.h"
+#include "lang/session/row-tables.h"
+
+/* Of the size of a coordinate: below, it is 0 in words; an error is none beside it. Digits of places in
+ * words. */
+static const double small = 1e-9, nothing = 1e-20, digits = 5e-7;
+/* Beginnings and ends of branches shorter than that have no words. */
+static const double tiny = 1e-5;
+
+static const char *
+name_of(const qdot_branches *b, size_t i)
+{
+    return qdot_expr_symbol(b->curve->pool, b->curve->unknown[i])->name;
+}
+
+/* --- tables -------------------------------------------------------------------------------- */
+
+static qdot_status
+fill_branches(const qdot_branches *b, qdot_row_table *t)
+{
+    const size_t n = b->found->n, k = b->found->coordinates;
+
+    for (size_t i = 0; i < b->found->branches.n; i++) {
+        const qdot_branch *branch = &b->found->branches.at[i];
+
+        for (size_t j = 0; j < branch->n; j++) {
+            const double *y = branch->y + j * (n + 1);
+            double *row;
+
+            QDOT_TRY(qdot_row_table_add(t));
+            row = t->values + (t->rows - 1) * t->n;
+            row[0] = (double)i + 1;
+            row[1] = y[n];
+            for (size_t q = 0; q < k; q++)
+                row[QDOT_BRANCH_BEFORE + q] = y[q];
+            if (branch->stability[j] != QDOT_STABILITY_UNDECIDED)
+                row[QDOT_BRANCH_BEFORE + k] = branch->stability[j] != QDOT_UNSTABLE;
+            if (branch->mark[j] > 0)
+                row[QDOT_BRANCH_BEFORE + k + 1] = (double)branch->mark[j];
+        }
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+fill_marks(const qdot_branches *b, qdot_row_table *t)
+{
+    const size_t n = b->found->n;
+
+    for (size_t i = 0; i < b->found->bifurcations.n; i++) {
+        const qdot_bifurcation *one = &b->found->bifurcations.at[i];
+        double *row, *error;
+
+        QDOT_TRY(qdot_row_table_add(t));
+        row = t->values + (t->rows - 1) * t->n;
+        error = t->errors + (t->rows - 1) * t->n;
+        for (size_t q = 0; q < t->n; q++) {
+            row[q] = one->y[q == 0 ? n : q - 1];
+            error[q] = one->error[q == 0 ? n : q - 1];
+        }
+        t->reasons[t->rows - 1] = qdot_strdup(qdot_bifurcation_name(one->kind));
+        if (t->reasons[t->rows - 1] == NULL)
+            return QDOT_ENOMEM;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_branches_keep(qdot_session *session, const qdot_branches *b, const char *name,
+                   const char *marks)
+{
+    const size_t k = b->found->coordinates, n = k + QDOT_BRANCH_BEFORE + QDOT_BRANCH_BEHIND;
+    const char **labels = qdot_calloc(n, sizeof *labels);
+    qdot_row_table *all, *points;
+    qdot_status status = QDOT_OK;
+
+    if (labels == NULL)
+        return QDOT_ENOMEM;
+    labels[0] = "branch";
+    labels[1] = name_of(b, b->found->n);
+    for (size_t q = 0; q < k; q++)
+        labels[QDOT_BRANCH_BEFORE + q] = name_of(b, q);
+    labels[QDOT_BRANCH_BEFORE + k] = "stable";
+    labels[QDOT_BRANCH_BEFORE + k + 1] = "bifurcation";
+    all = qdot_row_table_new(name, n, n, labels);
+    points = qdot_row_table_new(marks, 0, k + 1, labels + 1);
+    qdot_free(labels);
+    if (all == NULL || points == NULL)
+        status = QDOT_ENOMEM;
+    if (status == QDOT_OK)
+        status = fill_branches(b, all);
+    if (status == QDOT_OK)
+        status = fill_marks(b, points);
+    if (status != QDOT_OK) {
+        qdot_row_table_release(all);
+        qdot_row_table_release(points);
+        return status;
+    }
+    points->note = "type";
+    points->uses++;
+    all->marks = points;
+    status = qdot_row_tables_keep(session, points);
+    if (status != QDOT_OK) {
+        qdot_row_table_release(all);
+        return status;
+    }
+    return qdot_row_tables_keep(session, all);
+}
+
+/* --- JSON ---------------------------------------------------------------------------------- */
+
+/* `"values":[p, q ...]` */
+static void
+write_values(const qdot_branches *b, const double *y, qdot_text *line)
+{
+    qdot_text_add(line, ",\"values\":[");
+    qdot_number_text_json(line, y[b->found->n]);
+    for (size_t q = 0; q < b->found->coordinates; q++) {
+        qdot_text_char(line, ',');
+        qdot_number_text_json(line, y[q]);
+    }
+    qdot_text_char(line, ']');
+}
+
+static qdot_status
+answer_json(qdot_session *session, const qdot_branches *b)
+{
+    qdot_text line = {0};
+
+    for (size_t i = 0; i < b->found->branches.n; i++) {
+        const qdot_branch *branch = &b->found->branches.at[i];
+
+        for (size_t j = 0; j < branch->n; j++) {
+            qdot_text_format(&line, "{\"kind\":\"row\",\"name\":\"branch[%zu]\"", i + 1);
+            write_values(b, branch->y + j * (b->found->n + 1), &line);
+            qdot_text_format(&line, ",\"stable\":%s}\n",
+                             branch->stability[j] == QDOT_STABILITY_UNDECIDED ? "null"
+                             : branch->stability[j] == QDOT_UNSTABLE          ? "false"
+                                                                              : "true");
+            QDOT_TRY(qdot_write(session, session->out, &line));
+        }
+    }
+    for (size_t i = 0; i < b->found->bifurcations.n; i++) {
+        const qdot_bifurcation *one = &b->found->bifurcations.at[i];
+
+        qdot_text_add(&line, "{\"kind\":\"row\",\"name\":\"bifurcation\",\"type\":");
+        qdot_write_field(&line, "", qdot_bifurcation_name(one->kind));
+        write_values(b, one->y, &line);
+        qdot_text_add(&line, "}\n");
+        QDOT_TRY(qdot_write(session, session->out, &line));
+    }
+    return QDOT_OK;
+}
+
+/* --- cells in columns --------------------------------------------------------------------- */
+
+typedef struct {
+    size_t columns;
+    qdot_vec(qdot_text) cells; /* row by row */
+} grid;
+
+static qdot_text *
+new_cell(grid *g)
+{
+    static qdot_text none;
+    const qdot_text empty = {0};
+
+    if (qdot_vec_push(&g->cells, empty) != QDOT_OK) {
+        none.failed = true;
+        return &none;
+    }
+    return &g->cells.at[g->cells.n - 1];
+}
+
+static size_t
+width_of(const qdot_text *cell)
+{
+    return qdot_utf8_columns(qdot_text_str(cell), cell->n);
+}
+
+static qdot_status
+write_grid(const grid *g, qdot_text *out)
+{
+    for (size_t k = 0; k < g->cells.n; k++) {
+        const size_t column = k % g->columns;
+        const bool last = column + 1 == g->columns;
+        size_t width = 0;
+
+        QDOT_TRY(qdot_text_status(&g->cells.at[k]));
+        for (size_t i = column; i < g->cells.n && !last; i += g->columns)
+            width = width_of(&g->cells.at[i]) > width ? width_of(&g->cells.at[i]) : width;
+        qdot_text_format(out, "%s%s", column > 0 ? QDOT_WRAP_CELL "  " : "",
+                         qdot_text_str(&g->cells.at[k]));
+        if (last)
+            qdot_text_char(out, '\n');
+        else
+            qdot_text_format(out, "%*s", (int)(width - width_of(&g->cells.at[k])), "");
+    }
+    return QDOT_OK;
+}
+
+static void
+clear_grid(grid *g)
+{
+    for (size_t k = 0; k < g->cells.n; k++)
+        qdot_text_clear(&g->cells.at[k]);
+    qdot_free(g->cells.at);
+}
+
+/* --- words --------------------------------------------------------------------------------- */
+
+static double
+size_of(const qdot_branches *b, size_t i)
+{
+    return i < b->found->n ? b->found->size[i] : b->most - b->least;
+}
+
+static void
+write_place(const qdot_branches *b, size_t i, double v, qdot_text *out)
+{
+    const double size = size_of(b, i);
+
+    if (fabs(v) < small * size)
+        v = 0;
+    qdot_number_text(out, v, digits * fmax(fabs(v), 1e-3 * size));
+}
+
+/* The value of unknown i of points k ... end of a branch that lies furthest beyond those of its ends. */
+static double
+furthest(const qdot_branches *b, const qdot_branch *branch, size_t k, size_t end, size_t i)
+{
+    const size_t m = b->found->n + 1;
+    const double first = branch->y[k * m + i], last = branch->y[end * m + i];
+    double most = tiny * size_of(b, i), at = first;
+
+    for (size_t j = k; j <= end; j++) {
+        const double v = branch->y[j * m + i],
+                     beyond = fmax(v - fmax(first, last), fmin(first, last) - v);
+
+        if (beyond > most) {
+            most = beyond;
+            at = v;
+        }
+    }
+    return at;
+}
+
+/* `0..3.132`; `0..0.577..0` by way of `turn`, beyond both ends; one number where it stays. */
+static void
+write_range(const qdot_branches *b, size_t i, const double *from, const double *to, double turn,
+            qdot_text *out)
+{
+    const bool beyond = turn < fmin(from[i], to[i]) || turn > fmax(from[i], to[i]);
+
+    write_place(b, i, from[i], out);
+    if (beyond) {
+        qdot_text_add(out, "..");
+        write_place(b, i, turn, out);
+    } else if (fabs(to[i] - from[i]) < small * size_of(b, i)) {
+        return;
+    }
+    qdot_text_add(out, "..");
+    write_place(b, i, to[i], out);
+}
+
+/* The verdict between points k and k + 1. */
+static qdot_stability
+between(const qdot_branch *b, size_t k)
+{
+    return b->mark[k] > 0 ? b->stability[k + 1] : b->stability[k];
+}
+
+/* Whether p turns at point k of a branch, a bifurcation. */
+static bool
+turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
+{
+    const size_t m = b->found->n + 1;
+    const double *p = branch->y + k * m + b->found->n;
+
+    return branch->mark[k] > 0 && (p[m] - p[0]) * (p[0] - *(p - m)) < 0;
+}
+
+/* Whether the points from .. to lie together as far as words go. */
+static bool
+is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
+{
+    const double *y = branch->y + from * (b->found->n + 1), *z = branch->y + to * (b->found->n + 1);
+
+    for (size_t i = 0; i <= b->found->n; i++)
+        if ((i < b->found->coordinates || i == b->found->n) &&
+            fabs(y[i] - z[i]) > tiny * size_of(b, i))
+            return false;
+    return true;
+}
+
+/* Where the part that begins at k ends: another verdict, or p turns. A part too short for words has none:
+ * it goes with what is next to it. *verdict of the part. */
+static size_t
+part_end(const qdot_branches *b, const qdot_branch *branch, size_t k, qdot_stability *verdict)
+{
+    size_t from = k;
+
+    *verdict = between(branch, k);
+    for (k++; k + 1 < branch->n; k++) {
+        const qdot_stability here = between(branch, k);
+        size_t next = k + 1;
+
+        if (here == *verdict && !turns(b, branch, k))
+            continue;
+        if (is_short(b, branch, from, k)) {
+            *verdict = here;
+            continue;
+        }
+        while (next + 1 < branch->n && between(branch, next) == here && !turns(b, branch, next))
+            next++;
+        if (next + 1 < branch->n || !is_short(b, branch, k, next))
+            break;
+        k = next;
+    }
+    return k < branch->n ? k : branch->n - 1;
+}
+
+static const char *
+word_of(qdot_stability verdict)
+{
+    static const char *const words[] = {
+        [QDOT_STABLE] = "stable",
+        [QDOT_UNSTABLE] = "unstable",
+        [QDOT_STABLE_TO_FIRST_ORDER] = "stable to first order",
+        [QDOT_STABILITY_UNDECIDED] = "undecided",
+    };
+
+    return words[verdict];
+}
+
+static void
+add_branch(const qdot_branches *b, size_t i, grid *g)
+{
+    const qdot_branch *branch = &b->found->branches.at[i];
+    const size_t n = b->found->n;
+
+    for (size_t k = 0, end; k + 1 < branch->n; k = end) {
+        const double *from, *to;
+        qdot_stability verdict;
+
+        end = part_end(b, branch, k, &verdict);
+        from = branch->y + k * (n + 1);
+        to = branch->y + end * (n + 1);
+        if (k == 0)
+            qdot_text_format(new_cell(g), "branch[%zu]", i + 1);
+        else
+            (void)new_cell(g);
+        if (from[n] > to[n]) {
+            const double *const swap = from;
+
+            from = to;
+            to = swap;
+        }
+        write_range(b, n, from, to, from[n], new_cell(g));
+        for (size_t q = 0; q < b->found->coordinates; q++)
+            write_range(b, q, from, to, furthest(b, branch, k, end, q), new_cell(g));
+        qdot_text_add(new_cell(g), word_of(verdict));
+    }
+}
+
+/* Ends that are not those of the range. */
+static void
+say_ends(const qdot_branches *b, size_t i, qdot_text *out)
+{
+    static const char *const words[] = {
+        [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
+        [QDOT_END_FAR] = "is not followed further",
+        [QDOT_END_LOST] = "is lost: the equations have no value there, or jump",
+        [QDOT_END_STOPPED] = "is broken off",
+    };
+    const qdot_branch *branch = &b->found->branches.at[i];
+    const size_t n = b->found->n;
+
+    if (branch->end[0] == QDOT_END_CLOSED || branch->end[1] == QDOT_END_CLOSED) {
+        qdot_text_format(out, "branch[%zu] is closed\n", i + 1);
+        return;
+    }
+    for (int side = 0; side < 2; side++) {
+        const double *y = branch->y + (side == 0 ? 0 : branch->n - 1) * (n + 1);
+
+        if (branch->end[side] == QDOT_END_RANGE)
+            continue;
+        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1, words[branch->end[side]],
+                         name_of(b, n));
+        write_place(b, n, y[n], out);
+        for (size_t q = 0; q < b->found->coordinates; q++) {
+            qdot_text_format(out, ", %s = ", name_of(b, q));
+            write_place(b, q, y[q], out);
+        }
+        qdot_text_char(out, '\n');
+    }
+}
+
+static void
+write_measured(double value, double error, double size, qdot_text *out)
+{
+    if (fabs(value) < small * size && fabs(value) <= error)
+        value = 0;
+    if (value == 0 && error < nothing * size)
+        error = 0;
+    qdot_number_text(out, value, error);
+    if (error > 0) {
+        qdot_text_add(out, " ± ");
+        qdot_number_text_bound(out, error);
+    }
+}
+
+static void
+add_bifurcation(const qdot_branches *b, size_t i, grid *g)
+{
+    const qdot_bifurcation *one = &b->found->bifurcations.at[i];
+    const size_t n = b->found->n;
+    qdot_text *cell;
+    bool first = true;
+
+    qdot_text_add(new_cell(g), qdot_bifurcation_name(one->kind));
+    write_measured(one->y[n], one->error[n], size_of(b, n), new_cell(g));
+    for (size_t q = 0; q < b->found->coordinates; q++)
+        write_measured(one->y[q], one->error[q], size_of(b, q), new_cell(g));
+    cell = new_cell(g);
+    for (size_t k = 0; k < b->found->branches.n; k++) {
+        const qdot_branch *branch = &b->found->branches.at[k];
+        size_t j = 0;
+
+        while (j < branch->n && branch->mark[j] != i + 1)
+            j++;
+        if (j == branch->n)
+            continue;
+        qdot_text_format(cell, "%sbranch[%zu]", first ? "" : ", ", k + 1);
+        first = false;
+    }
+    if (one->frequency > 0) {
+        qdot_text_add(cell, ", angular frequency ");
+        write_measured(one->frequency, one->frequency_error, 1, cell);
+    }
+}
+
+static void
+add_head(const qdot_branches *b, const char *first, const char *last, grid *g)
+{
+    g->columns = b->found->coordinates + 3;
+    qdot_text_add(new_cell(g), first);
+    qdot_text_add(new_cell(g), name_of(b, b->found->n));
+    for (size_t q = 0; q < b->found->coordinates; q++)
+        qdot_text_add(new_cell(g), name_of(b, q));
+    qdot_text_add(new_cell(g), last);
+}
+
+static void
+say_degenerate(const qdot_branches *b, qdot_text *out)
+{
+    bool some = false;
+
+    for (size_t i = 0; i < b->found->bifurcations.n; i++)
+        some = some || b->found->bifurcations.at[i].kind == QDOT_NOT_SIMPLE;
+    if (some)
+        qdot_text_add(out, "other branches that begin at a degenerate point are not followed\n");
+}
+
+qdot_status
+qdot_branches_answer(qdot_session *session, const qdot_branches *b)
+{
+    grid branches = {0}, points = {0};
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (session->json)
+        return answer_json(session, b);
+    add_head(b, "branch", "", &branches);
+    for (size_t i = 0; i < b->found->branches.n; i++)
+        add_branch(b, i, &branches);
+    status = write_grid(&branches, &text);
+    for (size_t i = 0; i < b->found->branches.n; i++)
+        say_ends(b, i, &text);
+    if (b->found->bifurcations.n > 0) {
+        add_head(b, "bifurcation", "of", &points);
+        for (size_t i = 0; i < b->found->bifurcations.n; i++)
+            add_bifurcation(b, i, &points);
+        qdot_text_char(&text, '\n');
+    } else {
+        qdot_text_add(&text, "no bifurcation was found\n");
+    }
+    if (status == QDOT_OK)
+        status = write_grid(&points, &text);
+    say_degenerate(b, &text);
+    clear_grid(&branches);
+    clear_grid(&points);
+    return qdot_answer_written(session, "branches", status, &text);
+}

@@ -1,0 +1,183 @@
+/* continue.c -- the statement `continue equilibria in NAME = A..B`. */
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "lang/answer/answer.h"
+#include "lang/commands/set.h"
+#include "lang/commands/statement.h"
+#include "lang/commands/value-check.h"
+#include "lang/language/read.h"
+#include "lang/unknowns/branches.h"
+#include "lang/session/bind.h"
+
+typedef struct {
+    qdot_expr parameter;
+    const qdot_token *place, *range_at; /* of its name, of A..B */
+    double least, most;
+    const char *name, *marks; /* of the tables; marks owned */
+    char *own;
+} wish;
+
+/* --- reading ---------------------------------------------------------------------------- */
+
+/* What is followed: `equilibria in`. */
+static qdot_status
+read_what(qdot_cursor *c)
+{
+    if (qdot_cursor_is_word(c, "orbit") || qdot_cursor_is_word(c, "orbits")) {
+        c->error_at = c->at->start;
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: branches of periodic orbits");
+    }
+    if (!qdot_cursor_accept_word(c, "equilibria"))
+        return qdot_cursor_expected(c, "`equilibria`");
+    if (!qdot_cursor_accept_word(c, "in"))
+        return qdot_cursor_expected(c, "`in` and a parameter with its range: `in Omega = 0..10`");
+    return QDOT_OK;
+}
+
+/* The range lies within the parameter's domain; its ends may be ends of that, too. */
+static qdot_status
+check_range(qdot_cursor *c, const wish *w)
+{
+    const qdot_symbol s = *qdot_expr_symbol(c->session->pool, w->parameter);
+    double bound;
+
+    c->error_at = w->range_at->start;
+    if (!isfinite(w->least) || !isfinite(w->most))
+        return qdot_fail(QDOT_EINVAL, "the range of a parameter has finite ends");
+    if (w->least == w->most)
+        return qdot_fail(QDOT_EINVAL, "the range %.9g..%.9g is empty", w->least, w->most);
+    if (s.lo != QDOT_NIL && qdot_session_number(c->session, s.lo, &bound, NULL) == QDOT_OK &&
+        w->least < bound)
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g", s.name,
+                         w->least, s.name, s.lo_open ? ">" : ">=", bound);
+    if (s.hi != QDOT_NIL && qdot_session_number(c->session, s.hi, &bound, NULL) == QDOT_OK &&
+        w->most > bound)
+        return qdot_fail(QDOT_EDOMAIN, "%s = %.10g is outside its domain: %s %s %.10g", s.name,
+                         w->most, s.name, s.hi_open ? "<" : "<=", bound);
+    return QDOT_OK;
+}
+
+static qdot_status
+read_range(qdot_cursor *c, wish *w)
+{
+    qdot_expr ends[2];
+    double at[2];
+
+    w->range_at = c->at;
+    QDOT_TRY(qdot_read_range(c, &ends[0], &ends[1]));
+    c->error_at = w->range_at->start;
+    for (int k = 0; k < 2; k++)
+        QDOT_TRY(qdot_session_number(c->session, ends[k], &at[k], NULL));
+    w->least = fmin(at[0], at[1]);
+    w->most = fmax(at[0], at[1]);
+    return check_range(c, w);
+}
+
+static qdot_status
+read_name(qdot_cursor *c, wish *w)
+{
+    const qdot_token *start = c->at;
+
+    w->name = "branches";
+    w->marks = "bifurcations";
+    if (!qdot_cursor_accept_word(c, "as"))
+        return QDOT_OK;
+    QDOT_TRY(qdot_read_name(c, &w->name));
+    w->own = qdot_malloc(strlen(w->name) + sizeof "_bifurcations");
+    if (w->own == NULL)
+        return QDOT_ENOMEM;
+    strcpy(w->own, w->name);
+    strcat(w->own, "_bifurcations");
+    w->marks = w->own;
+    if (qdot_names_find(c->session->names, w->name) == NULL)
+        return QDOT_OK;
+    c->error_at = start->start;
+    return qdot_fail(QDOT_ENAME, "`%s` means something else already", w->name);
+}
+
+static qdot_status
+read_all(qdot_cursor *c, wish *w)
+{
+    QDOT_TRY(read_what(c));
+    w->place = c->at;
+    if (c->at->kind != QDOT_TOKEN_NAME)
+        return qdot_cursor_expected(c, "a parameter with its range: `in Omega = 0..10`");
+    QDOT_TRY(qdot_set_read_parameter(c, &w->parameter));
+    QDOT_TRY(qdot_cursor_expect_op(c, "="));
+    QDOT_TRY(read_range(c, w));
+    QDOT_TRY(read_name(c, w));
+    return qdot_cursor_expect_end(c);
+}
+
+/* --- the statement --------------------------------------------------------------------------- */
+
+static qdot_expr
+bind(void *session, qdot_expr e)
+{
+    return qdot_session_bind(session, e);
+}
+
+static qdot_status
+carry_out(qdot_session *session, const wish *w)
+{
+    qdot_equilibrium_curve curve = {0};
+    qdot_continuation found = {0};
+    const qdot_branches b = {&curve, &found, w->least, w->most};
+    qdot_status status =
+        qdot_equilibrium_curve_begin(&curve, session->scene, w->parameter, bind, session);
+
+    if (status == QDOT_OK)
+        status = qdot_continuation_find(&curve, w->least, w->most, &found);
+    if (found.interrupted)
+        qdot_interrupt_clear(); /* heard: what is known so far is told */
+    if (status == QDOT_OK && found.branches.n > 0)
+        status = qdot_branches_keep(session, &b, w->name, w->marks);
+    if (status == QDOT_OK && found.branches.n > 0)
+        status = qdot_branches_answer(session, &b);
+    if (status == QDOT_OK && found.interrupted)
+        status = qdot_fail(QDOT_EINTR, found.branches.n > 0
+                                           ? "interrupted: there may be more branches"
+                                           : "interrupted: no branch was followed yet");
+    qdot_continuation_clear(&found);
+    qdot_equilibrium_curve_end(&curve);
+    return status;
+}
+
+/* The parameter stands for itself, so that values made of it follow. */
+static void
+free_parameter(qdot_session *session, qdot_expr parameter)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        if (session->set_symbols.at[i] == parameter)
+            session->set_values.at[i] = parameter;
+}
+
+qdot_status
+qdot_continue_statement(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_kept_values kept;
+    wish w = {0};
+    qdot_status status = read_all(c, &w);
+
+    if (status == QDOT_OK) {
+        c->error_at = w.place->start;
+        if (session->scene->coordinates.n == 0) {
+            (void)qdot_fail(QDOT_EINVAL, "the scene has no coordinates");
+            status = qdot_hint("declare them: coord theta");
+        }
+    }
+    if (status == QDOT_OK)
+        status = qdot_value_check_assumed(session);
+    if (status == QDOT_OK)
+        status = qdot_session_keep_values(session, &kept);
+    if (status == QDOT_OK) {
+        free_parameter(session, w.parameter);
+        status = carry_out(session, &w);
+        qdot_session_restore_values(session, &kept);
+    }
+    qdot_free(w.own);
+    return status;
+}

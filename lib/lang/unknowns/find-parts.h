@@ -1,0 +1,45 @@
+/* find-parts.h -- what `find` is asked, between the reading of it and the search.
+ *
+ *     find NAME = A..B, NAME = GUESS, ... such that A = B, returns after T [run T0..T1 ...] [as NAME]
+ *
+ * Tests  tests/script/find.sh, tests/bad/find-*.lag
+ */
+#ifndef QDOT_LANG_FIND_PARTS_H
+#define QDOT_LANG_FIND_PARTS_H
+
+#include "lang/slopes/trial.h"
+
+typedef struct {
+    const qdot_token *from, *to; /* [from, to) */
+    bool returns;
+} qdot_find_condition;
+
+typedef struct {
+    qdot_cursor *c;
+    qdot_slope_names unknowns;
+    qdot_vec(double) guess, low, high; /* bounds are infinite of a guess alone */
+    size_t pushed; /* names bound meanwhile: unknowns that are declared nowhere */
+    qdot_vec(qdot_find_condition) conditions;
+    bool returns;             /* some condition is a return */
+    const qdot_token *run_at; /* the word `run` behind them; NULL: none */
+    qdot_run_options run;     /* its options, or those of the latest run */
+    const qdot_run_report
+        *latest; /* its report, borrowed; NULL: none, or `run` was said */
+    qdot_expr latest_from, latest_to;
+} qdot_find;
+
+/* Read all of it. From {.c = c, .run.tol = 1e-12}; free it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_find_read(qdot_cursor *c, qdot_find *f);
+void qdot_find_free(qdot_find *f);
+
+/* How many numbers must vanish. */
+size_t qdot_find_count(const qdot_find *f);
+/* The limits of the run for unknowns that are in force; they may hold unknowns. QDOT_EINVAL: nothing says how
+ * long it is. */
+QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from,
+                                             qdot_expr *to);
+/* What must vanish [qdot_find_count], of the latest run. */
+QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
+                                                qdot_expr *e);
+
+#endif

@@ -1,0 +1,390 @@
+/* find.c -- the statement `find`: unknowns for which conditions on a run hold. */
+#include <math.h>
+#include <string.h>
+
+#include "lang/answer/answer.h"
+#include "lang/commands/statement.h"
+#include "lang/unknowns/find-parts.h"
+#include "lang/runs/own-run.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/runs.h"
+#include "num/zero.h"
+#include "sim/study/floquet.h"
+
+typedef struct {
+    qdot_find *f;
+    qdot_trial trial;
+    size_t m;
+    double *at;         /* [n] where the trial is open */
+    qdot_expr *values;  /* [n] the same, exact */
+    qdot_expr *e;       /* [m] what must vanish, of that trial */
+    bool bounded;       /* without slopes there is still bisection */
+    double length;      /* of the run at the guess */
+    qdot_error failure; /* of the latest trial that could not be had */
+} hunt;
+
+/* --- the functions --------------------------------------------------------------------------- */
+
+static qdot_status
+take_values(hunt *h, const double *u)
+{
+    qdot_pool *pool = h->f->c->session->pool;
+
+    memcpy(h->at, u, h->trial.n * sizeof *u);
+    for (size_t i = 0; i < h->trial.n; i++)
+        h->values[i] = qdot_measured_rational(pool, u[i]);
+    return qdot_pool_check(pool);
+}
+
+/* The limits of the run with the values in force. */
+static qdot_status
+find_limits(hunt *h)
+{
+    qdot_session *session = h->f->c->session;
+    qdot_kept_values kept;
+    qdot_status status;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = qdot_trial_put(session, h->trial.n, h->trial.unknowns, h->values);
+    if (status == QDOT_OK)
+        status = qdot_find_limits(h->f, &h->trial.from, &h->trial.to);
+    if (status == QDOT_OK) {
+        h->trial.from = qdot_session_bind(session, h->trial.from);
+        h->trial.to = qdot_session_bind(session, h->trial.to);
+        status = qdot_pool_check(session->pool);
+    }
+    qdot_session_restore_values(session, &kept);
+    return status;
+}
+
+/* Open the trial at u and read what must vanish. */
+static qdot_status
+open_at(hunt *h, const double *u)
+{
+    if (h->trial.open && memcmp(h->at, u, h->trial.n * sizeof *u) == 0)
+        return QDOT_OK;
+    qdot_trial_close(&h->trial);
+    QDOT_TRY(take_values(h, u));
+    QDOT_TRY(find_limits(h));
+    QDOT_TRY(qdot_trial_open(&h->trial, h->values));
+    return qdot_find_residuals(h->f, h->trial.from, h->e);
+}
+
+static qdot_status
+evaluate(const double *u, double *f, double *error, double *slope, void *user)
+{
+    hunt *h = user;
+    qdot_status status = open_at(h, u);
+
+    if (status == QDOT_OK)
+        status = qdot_trial_numbers(&h->trial, h->m, h->e, f, error);
+    if (status == QDOT_OK && slope != NULL) {
+        status = qdot_trial_slopes(&h->trial, h->m, h->e, slope, NULL);
+        if (h->bounded && status != QDOT_OK && qdot_grave(status) == QDOT_OK) {
+            slope[0] = NAN;
+            status = QDOT_OK;
+        }
+    }
+    if (status == QDOT_OK)
+        return QDOT_OK;
+    qdot_trial_close(&h->trial);
+    if (qdot_own_run_all_fail(status))
+        return status;
+    h->failure = *qdot_last_error();
+    f[0] = NAN;
+    return QDOT_OK;
+}
+
+/* --- what is told ------------------------------------------------------------------------ */
+
+/* "theta' = 2.1, T = 3" */
+static void
+write_place(const qdot_find *f, const double *u, qdot_text *out)
+{
+    for (size_t i = 0; i < f->unknowns.n; i++)
+        qdot_text_format(out, "%s%s = %.10g", i > 0 ? ", " : "", f->unknowns.at[i].label,
+                         u[i]);
+}
+
+static double
+largest(const hunt *h, const qdot_zero_result *r)
+{
+    double most = 0;
+
+    for (size_t i = 0; i < h->m; i++)
+        most = fmax(most, fabs(r->f[i]));
+    return most;
+}
+
+static qdot_status
+hint_at_more(const hunt *h)
+{
+    const char *name = h->f->unknowns.at[0].label;
+
+    if (h->m > h->trial.n)
+        return qdot_hint(
+            "another guess; more conditions than unknowns may have no solution");
+    return h->bounded
+               ? qdot_hint("other bounds: find %.80s = A..B such that ...", name)
+               : qdot_hint("another guess, or bounds: find %.80s = A..B such that ...",
+                           name);
+}
+
+/* Why there is no answer, as an error at the conditions. */
+static qdot_status
+refuse(const hunt *h, const qdot_zero_result *r)
+{
+    const char *at;
+    qdot_text place = {0};
+
+    h->f->c->error_at = h->f->conditions.at[0].from->start;
+    write_place(h->f, r->u, &place);
+    at = qdot_text_str(&place);
+    switch (r->answer) {
+    case QDOT_ZERO_NOWHERE:
+        h->f->c->error_at = h->f->unknowns.at[0].place->start;
+        (void)qdot_fail(QDOT_EFAILED, "at %.150s: %.300s", at, h->failure.message);
+        break;
+    case QDOT_ZERO_FLAT:
+        (void)qdot_fail(QDOT_EFAILED,
+                        "the conditions do not change with the unknowns at %.150s, where "
+                        "they are %.3g off",
+                        at, largest(h, r));
+        break;
+    case QDOT_ZERO_JUMP:
+        (void)qdot_fail(QDOT_EFAILED,
+                        "the difference of the two sides changes its sign at %.150s, and "
+                        "does not vanish "
+                        "there: it is %.3g",
+                        at, r->f[0]);
+        break;
+    case QDOT_ZERO_SLOW:
+        (void)qdot_fail(
+            QDOT_EFAILED,
+            "not found after %zu steps: at %.150s the conditions are %.3g off", r->steps,
+            at, largest(h, r));
+        break;
+    default:
+        (void)qdot_fail(
+            QDOT_EFAILED,
+            "no solution found: nearest to it, at %.150s, the conditions are %.3g "
+            "off",
+            at, largest(h, r));
+        (void)hint_at_more(h);
+    }
+    qdot_text_clear(&place);
+    return qdot_last_error()->status;
+}
+
+/* The solution near the guess is one of many: a notice. */
+static qdot_status
+tell_family(const hunt *h, const qdot_zero_result *r)
+{
+    if (r->rank >= h->trial.n)
+        return QDOT_OK;
+    return qdot_answer_notice(h->f->c->session,
+                              "one of a family: the conditions fix %zu of %zu unknowns; "
+                              "this solution is near the guess",
+                              r->rank, h->trial.n);
+}
+
+static qdot_status
+write_time(qdot_session *session, qdot_expr time, qdot_text *out)
+{
+    double t;
+
+    if (qdot_expr_kind(session->pool, time) != QDOT_NUM)
+        return qdot_print(session->pool, time, QDOT_PLAIN, out);
+    QDOT_TRY(qdot_session_number(session, time, &t, NULL));
+    qdot_text_double(out, t, 17);
+    return QDOT_OK;
+}
+
+/* What `run` would have to say. */
+static qdot_status
+write_run(const qdot_find *f, qdot_expr from, qdot_expr to, qdot_text *out)
+{
+    QDOT_TRY(write_time(f->c->session, from, out));
+    qdot_text_add(out, "..");
+    QDOT_TRY(write_time(f->c->session, to, out));
+    qdot_text_add(out, " tol ");
+    qdot_text_double(out, f->run.tol, 17);
+    if (f->run.method != NULL)
+        qdot_text_format(out, " method %s", f->run.method);
+    return qdot_text_status(out);
+}
+
+/* --- afterwards ------------------------------------------------------------------------------ */
+
+/* Keep the run of the solution as the latest one. */
+static qdot_status
+keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
+{
+    qdot_session *session = f->c->session;
+    qdot_request request = {0};
+    qdot_run *run = NULL;
+    qdot_text text = {0};
+    char next[32];
+    qdot_status status = qdot_run_options_fill(session, &f->run, &request);
+
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, &request);
+    if (status == QDOT_OK)
+        status = qdot_run_new(session->scene, &request.request, &run);
+    if (status == QDOT_OK)
+        status = write_run(f, from, to, &text);
+    if (f->run.name == NULL)
+        qdot_runs_next_name(session, next, sizeof next);
+    if (status == QDOT_OK)
+        status = qdot_runs_keep(session, f->run.name != NULL ? f->run.name : next,
+                                qdot_text_str(&text), &request.request, run);
+    else
+        qdot_run_free(run);
+    qdot_text_clear(&text);
+    qdot_request_free(&request);
+    return status;
+}
+
+static qdot_status
+find_length(const hunt *h, double *length)
+{
+    double from, to;
+
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.from, &from, NULL));
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
+    *length = fabs(to - from);
+    return QDOT_OK;
+}
+
+/* A run without length returns whatever its start is. */
+static qdot_status
+check_length(const hunt *h)
+{
+    double length;
+
+    QDOT_TRY(find_length(h, &length));
+    if (length > 1e-9 * h->length)
+        return QDOT_OK;
+    h->f->c->error_at = h->f->conditions.at[0].from->start;
+    return qdot_fail(QDOT_EFAILED, "no orbit found: the time until the return went to 0");
+}
+
+/* An orbit's run ends where it returns, whatever end was said: a notice. */
+static qdot_status
+tell_end(const hunt *h)
+{
+    const qdot_find *f = h->f;
+    double to, said;
+
+    if (!f->returns || f->run_at == NULL)
+        return QDOT_OK;
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
+    QDOT_TRY(qdot_session_number(h->trial.session, f->run.to, &said, NULL));
+    if (fabs(to - said) <= 1e-9 * fabs(to))
+        return QDOT_OK;
+    return qdot_answer_notice(h->trial.session, "the run ends after the return, at %.10g, not at %.10g",
+                              to, said);
+}
+
+/* A motion that rests returns after any time: a notice. */
+static qdot_status
+tell_rest(const hunt *h)
+{
+    qdot_session *session = h->trial.session;
+    qdot_named_run *named;
+    bool rests;
+
+    if (!h->f->returns)
+        return QDOT_OK;
+    QDOT_TRY(qdot_runs_find(session, NULL, &named));
+    QDOT_TRY(qdot_floquet_rests(session->scene, named->run, &rests));
+    if (!rests)
+        return QDOT_OK;
+    return qdot_answer_notice(
+        session, "this is a rest: velocities and accelerations are 0 at its start");
+}
+
+/* The values found hold from now on, of names that are declared; the run is the latest. */
+static qdot_status
+conclude(hunt *h, const qdot_zero_result *r)
+{
+    const qdot_find *f = h->f;
+    qdot_session *session = f->c->session;
+
+    QDOT_TRY(open_at(h, r->u));
+    QDOT_TRY(check_length(h));
+    QDOT_TRY(tell_end(h));
+    qdot_trial_close(&h->trial);
+    for (size_t i = 0; i < f->unknowns.n; i++)
+        if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
+            QDOT_TRY(qdot_trial_put(session, 1, &f->unknowns.at[i], &h->values[i]));
+    QDOT_TRY(keep_run(f, h->trial.from, h->trial.to));
+    for (size_t i = 0; i < f->unknowns.n; i++)
+        QDOT_TRY(
+            qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
+    QDOT_TRY(tell_rest(h));
+    return tell_family(h, r);
+}
+
+/* --- all ----------------------------------------------------------------------------------- */
+
+static qdot_status
+search(hunt *h, qdot_zero_result *r)
+{
+    const qdot_find *f = h->f;
+    const qdot_zero_problem p = {.n = f->unknowns.n,
+                                 .m = h->m,
+                                 .at = evaluate,
+                                 .user = h,
+                                 .low = f->low.at,
+                                 .high = f->high.at};
+
+    memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
+    QDOT_TRY(take_values(h, r->u));
+    QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
+    QDOT_TRY(find_length(h, &h->length));
+    QDOT_TRY(qdot_zero_find(&p, r));
+    return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
+}
+
+static qdot_status
+carry_out(qdot_find *f)
+{
+    const size_t n = f->unknowns.n, m = qdot_find_count(f);
+    hunt h = {.f = f,
+              .m = m,
+              .bounded = n == 1 && m == 1 && isfinite(f->low.at[0]),
+              .trial = {.session = f->c->session,
+                        .n = n,
+                        .unknowns = f->unknowns.at,
+                        .options = &f->run}};
+    double *room = qdot_calloc(3 * n + 2 * m + 1, sizeof *room);
+    qdot_zero_result r = {
+        .u = room, .error = room + n, .f = room + 3 * n, .f_error = room + 3 * n + m};
+    qdot_status status = QDOT_ENOMEM;
+
+    h.at = room + 2 * n;
+    h.values = qdot_calloc(n + m + 1, sizeof *h.values);
+    if (room != NULL && h.values != NULL) {
+        h.e = h.values + n;
+        status = search(&h, &r);
+    }
+    qdot_trial_close(&h.trial);
+    qdot_free(h.values);
+    qdot_free(room);
+    return status;
+}
+
+qdot_status
+qdot_find_statement(qdot_cursor *c)
+{
+    qdot_find f = {.c = c, .run.tol = 1e-12};
+    qdot_status status = qdot_find_read(c, &f);
+
+    if (status == QDOT_OK)
+        status = carry_out(&f);
+    qdot_run_options_place(c, &f.run, status);
+    qdot_find_free(&f);
+    return status;
+}

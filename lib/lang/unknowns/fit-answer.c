@@ -1,0 +1,252 @@
+/* fit-answer.c -- unknowns with their standard errors, correlations, chi2, residuals. */
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/utf8.h"
+#include "base/wrap.h"
+#include "lang/answer/answer.h"
+#include "lang/answer/number-text.h"
+#include "lang/unknowns/fit-parts.h"
+
+/* Of a standard error, the numerical error that is no longer small beside it. */
+static const double small = 0.1;
+
+/* The probability of a chi2 below which it is told. */
+static const double improbable = 1e-3;
+
+/* --- numbers ------------------------------------------------------------------------------------ */
+
+/* "2.3855 ± 0.0012": two digits of the error. */
+static void
+write_value(double value, double error, qdot_text *out)
+{
+    int decimals;
+
+    if (!(error > 0) || !isfinite(error)) {
+        qdot_text_double(out, value, 15);
+        qdot_text_add(out, isnan(error) ? " ± unknown" : "");
+        return;
+    }
+    decimals = 1 - (int)floor(log10(error));
+    if (floor(error * pow(10, decimals) + 0.5) >= 100)
+        decimals--;
+    if (decimals >= 0 && decimals <= 15 && fabs(value) < 1e15) {
+        qdot_text_format(out, "%.*f ± %.*f", decimals, value, decimals, error);
+        return;
+    }
+    qdot_text_double(out, value, 15);
+    qdot_text_add(out, " ± ");
+    qdot_text_double(out, error, 2);
+}
+
+/* What 95 % of intervals hold the truth within, in standard errors. */
+static double
+interval(const qdot_fit *f)
+{
+    return f->weighted ? gsl_cdf_ugaussian_Pinv(0.975)
+                       : gsl_cdf_tdist_Pinv(0.975, (double)f->freedom);
+}
+
+/* --- text ------------------------------------------------------------------------------------------ */
+
+static void
+write_unknowns(const qdot_fit *f, qdot_text *out)
+{
+    for (size_t k = 0; k < f->unknowns.names.n; k++) {
+        qdot_text_format(out, "%s = ", f->unknowns.names.at[k].label);
+        write_value(f->u[k], f->error[k], out);
+        qdot_text_char(out, '\n');
+    }
+}
+
+static double
+correlation(const qdot_fit *f, size_t i, size_t j)
+{
+    return f->found.covariance[i * f->unknowns.names.n + j] / (f->error[i] * f->error[j]);
+}
+
+/* The lower triangle. */
+static void
+write_correlations(const qdot_fit *f, qdot_text *out)
+{
+    const size_t k = f->unknowns.names.n;
+    size_t width = 6;
+
+    for (size_t i = 0; i < k; i++) {
+        const char *label = f->unknowns.names.at[i].label;
+        const size_t own = qdot_utf8_columns(label, strlen(label));
+
+        width = own > width ? own : width;
+    }
+    qdot_text_format(out, "%-*s", (int)width, "correlation");
+    for (size_t i = 0; i + 1 < k; i++)
+        qdot_text_format(out, QDOT_WRAP_CELL "  %*s", (int)width, f->unknowns.names.at[i].label);
+    qdot_text_char(out, '\n');
+    for (size_t i = 1; i < k; i++) {
+        qdot_text_format(out, "%*s", (int)(width > 11 ? width : 11), f->unknowns.names.at[i].label);
+        for (size_t j = 0; j < i; j++)
+            qdot_text_format(out, QDOT_WRAP_CELL "  %*.3f", (int)width, correlation(f, i, j));
+        qdot_text_char(out, '\n');
+    }
+}
+
+static void
+write_residuals(const qdot_fit *f, qdot_text *out)
+{
+    if (f->weighted) {
+        qdot_text_format(out, "chi^2 = %.4g of %zu degrees of freedom", f->found.chi2, f->freedom);
+        if (f->freedom > 0)
+            qdot_text_format(out, ": so much or more by chance in %.3g %%",
+                             100 * gsl_cdf_chisq_Q(f->found.chi2, (double)f->freedom));
+    } else {
+        qdot_text_format(out, "residuals: %.3g root mean square, %zu degrees of freedom",
+                         sqrt(f->found.chi2 / (double)f->found.n), f->freedom);
+    }
+    qdot_text_char(out, '\n');
+    if (f->freedom > 0 || f->weighted)
+        qdot_text_format(out, "± is the standard error: 95 %% of intervals of %.3g times it hold the truth\n",
+                         interval(f));
+}
+
+static qdot_status
+tell_text(qdot_fit *f, const char *residuals)
+{
+    qdot_text text = {0};
+
+    qdot_text_format(&text, "fit of %zu unknown%s to %zu numbers of %s, %zu step%s\n",
+                     f->unknowns.names.n, f->unknowns.names.n == 1 ? "" : "s", f->found.n, f->path,
+                     f->found.steps, f->found.steps == 1 ? "" : "s");
+    write_unknowns(f, &text);
+    if (f->unknowns.names.n > 1 && !isnan(f->error[0]) && f->error[0] > 0)
+        write_correlations(f, &text);
+    write_residuals(f, &text);
+    qdot_text_format(&text, "these values are set from now on (undo); %s holds data less fit\n", residuals);
+    return qdot_answer_written(f->session, "fit", QDOT_OK, &text);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------ */
+
+static qdot_status
+tell_json(qdot_fit *f)
+{
+    const size_t k = f->unknowns.names.n;
+    qdot_text name = {0};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < k; i++)
+        QDOT_TRY(qdot_answer_number(f->session, f->unknowns.names.at[i].label, f->u[i], f->error[i]));
+    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, 0));
+    QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        double *none = qdot_calloc(k, sizeof *none);
+
+        qdot_text_truncate(&name, 0);
+        qdot_text_format(&name, "covariance[%s]", f->unknowns.names.at[i].label);
+        status = none ? qdot_text_status(&name) : QDOT_ENOMEM;
+        if (status == QDOT_OK)
+            status = qdot_answer_numbers(f->session, qdot_text_str(&name), k,
+                                         f->found.covariance + i * k, none);
+        qdot_free(none);
+    }
+    qdot_text_clear(&name);
+    return status;
+}
+
+/* --- notices --------------------------------------------------------------------------------------- */
+
+static qdot_status
+tell_notices(qdot_fit *f)
+{
+    for (size_t k = 0; k < f->unknowns.names.n; k++) {
+        const char *label = f->unknowns.names.at[k].label;
+
+        if (isnan(f->numerical[k])) {
+            QDOT_TRY(qdot_answer_notice(f->session,
+                                        "the errors of the run are not known at all of these times, so "
+                                        "that the errors stated here are those of the data alone"));
+            break;
+        }
+        if (f->numerical[k] > small * f->error[k] && f->error[k] > 0
+            && f->numerical[k] > 1e-12 * fabs(f->u[k]))
+            QDOT_TRY(qdot_answer_notice(f->session,
+                                        "the numerical error of %.100s may be %.1e: not small beside its "
+                                        "standard error %.1e",
+                                        label, f->numerical[k], f->error[k]));
+    }
+    if (f->freedom == 0 && !f->weighted)
+        QDOT_TRY(qdot_answer_notice(f->session,
+                                    "as many numbers as unknowns: without `sigma` their errors are not "
+                                    "known"));
+    if (!f->weighted && f->m > 1)
+        QDOT_TRY(qdot_answer_notice(f->session,
+                                    "without `sigma` all columns count alike, whatever their units"));
+    if (f->weighted && f->freedom > 0
+        && gsl_cdf_chisq_Q(f->found.chi2, (double)f->freedom) < improbable)
+        return qdot_answer_notice(f->session,
+                                  "the residuals are larger than sigma allows: the scene, sigma or a point "
+                                  "is wrong, or this is not the least sum; the standard errors hold if "
+                                  "none is");
+    return QDOT_OK;
+}
+
+/* --- the residuals ----------------------------------------------------------------------------------- */
+
+static qdot_status
+make_residuals(const qdot_fit *f, const char *name, qdot_row_table **table)
+{
+    const char **labels = qdot_calloc(1 + f->m, sizeof *labels);
+    qdot_text *texts = qdot_calloc(f->m, sizeof *texts);
+    size_t j = 0;
+    qdot_status status = labels && texts ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < f->columns.n && status == QDOT_OK; i++) {
+        if (f->columns.at[i].kind != QDOT_FIT_VALUE)
+            continue;
+        qdot_text_format(&texts[j], "%s - fit", f->columns.at[i].label);
+        status = qdot_text_status(&texts[j]);
+        labels[1 + j] = qdot_text_str(&texts[j]);
+        j++;
+    }
+    if (status == QDOT_OK) {
+        labels[0] = "t";
+        *table = qdot_row_table_new(name, 1, 1 + f->m, labels);
+        status = *table ? QDOT_OK : QDOT_ENOMEM;
+    }
+    for (size_t i = 0; texts && i < f->m; i++)
+        qdot_text_clear(&texts[i]);
+    qdot_free(texts);
+    qdot_free(labels);
+    for (size_t i = 0; i < f->rows && status == QDOT_OK; i++) {
+        status = qdot_row_table_add(*table);
+        if (status != QDOT_OK)
+            break;
+        (*table)->values[i * (1 + f->m)] = f->t[i];
+        (*table)->errors[i * (1 + f->m)] = 0;
+        for (size_t l = 0; l < f->m; l++) {
+            (*table)->values[i * (1 + f->m) + 1 + l] = f->y[i * f->m + l] - f->fitted[i * f->m + l];
+            (*table)->errors[i * (1 + f->m) + 1 + l] = f->weighted ? f->sigma[i * f->m + l] : 0;
+        }
+    }
+    if (status == QDOT_OK)
+        (*table)->measured = true;
+    return status;
+}
+
+qdot_status
+qdot_fit_tell(qdot_fit *f)
+{
+    const char *name = f->name != NULL ? f->name : "residuals";
+    qdot_row_table *table = NULL;
+    qdot_status status = make_residuals(f, name, &table);
+
+    if (status != QDOT_OK) {
+        qdot_row_table_release(table);
+        return status;
+    }
+    QDOT_TRY(qdot_row_tables_keep(f->session, table));
+    QDOT_TRY(f->session->json ? tell_json(f) : tell_text(f, name));
+    return tell_notices(f);
+}

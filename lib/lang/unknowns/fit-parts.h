@@ -1,0 +1,73 @@
+/* fit-parts.h -- the parts of `fit`: its data, its model, what it answers.
+ *
+ *     fit m, theta' to "data.csv" : t, theta, sigma
+ *
+ * makes chi2 = sum ((e_j(t_i; u) - y_ij)/sigma_ij)^2 least over the unknowns u (num/least-squares.h), the e_j and
+ * their slopes along one run of the variational equations for each u (sim/study/response.h).
+ *
+ * Tests  tests/script/fit.sh, tests/bad/fit.sh, tests/sim/test_response.c
+ */
+#ifndef QDOT_LANG_FIT_PARTS_H
+#define QDOT_LANG_FIT_PARTS_H
+
+#include "lang/runs/run-options.h"
+#include "lang/slopes/slopes.h"
+#include "lang/session/row-tables.h"
+#include "num/least-squares.h"
+#include "show/csv-read.h"
+
+/* What a column of the file is. */
+typedef enum { QDOT_FIT_TIME, QDOT_FIT_VALUE, QDOT_FIT_SIGMA, QDOT_FIT_SKIP } qdot_fit_kind;
+
+typedef struct {
+    qdot_fit_kind kind;
+    const qdot_token *place;
+    char *label;
+    qdot_expr e; /* of a value */
+    double sigma; /* of a value: its standard error; 0: a column's, or unknown */
+    bool weighted; /* of a value: the next column is its standard errors */
+} qdot_fit_column;
+
+typedef struct {
+    qdot_session *session;
+    qdot_slopes unknowns; /* their names alone are read */
+    const qdot_token *path_at;
+    const char *path; /* as it was written */
+    qdot_vec(qdot_fit_column) columns;
+    size_t m;       /* values among them */
+    bool weighted;  /* standard errors are known */
+    qdot_expr from; /* the time of the start */
+    double tol;
+    const char *method, *name; /* name: of the residuals */
+    const qdot_token *method_at;
+
+    /* the data, sorted by time */
+    size_t rows;
+    double *t, *y, *sigma; /* [rows], [rows x m] */
+
+    /* the fit */
+    qdot_request order;       /* of the run at the guesses */
+    qdot_expr *exprs;         /* [m] */
+    double *guess, *u;        /* [k] */
+    qdot_least_squares found; /* numbers over their sigma */
+    size_t freedom;           /* numbers less unknowns */
+    double *error;            /* [k] standard errors; NaN: unknown */
+    double *numerical;        /* [k] bounds of the error of u by that of the run; NaN: unknown */
+    double *fitted;           /* [rows x m] by an ordinary run at u */
+} qdot_fit;
+
+/* Read the file into t, y, sigma. Errors: those of qdot_csv_read, and at a place in the file; which
+ * token: c->error_at. */
+QDOT_MUST_CHECK qdot_status qdot_fit_read_data(qdot_cursor *c, qdot_fit *f);
+
+/* Find u and all that is known of it. QDOT_EFAILED: it does not converge, or the data do not determine an
+ * unknown. */
+QDOT_MUST_CHECK qdot_status qdot_fit_find(qdot_fit *f);
+
+/* Take u as the session's values: decimals that are as near as 1/1000 of their errors. */
+QDOT_MUST_CHECK qdot_status qdot_fit_set(qdot_fit *f);
+
+/* The answers; the residuals as a table of the session. */
+QDOT_MUST_CHECK qdot_status qdot_fit_tell(qdot_fit *f);
+
+#endif

@@ -1,0 +1,86 @@
+/* bind-state.h -- what a bind has, for bind.c and bind-slopes.c. */
+#ifndef QDOT_SIM_BIND_STATE_H
+#define QDOT_SIM_BIND_STATE_H
+
+#include <string.h>
+
+#include "ode/system.h"
+#include "sim/bind/pulses.h"
+#include "sim/form/blocks.h"
+#include "sim/form/guarded.h"
+#include "sim/form/leading.h"
+#include "sim/form/motion-series.h"
+#include "sim/form/phase-space.h"
+#include "sim/form/tree-series.h"
+#include "sim/model/constrained.h"
+#include "sim/model/momenta.h"
+
+typedef struct qdot_bind qdot_bind;
+
+struct qdot_bind {
+    const qdot_plan *plan;
+    qdot_tape *tape; /* a shaken copy; else NULL */
+    qdot_blocks blocks;
+    qdot_constrained *held;     /* of a plan with constraints: in place of the blocks */
+    qdot_motion_series *direct; /* where the equations are smooth, one of the two: */
+    qdot_tree_series *tree;
+    qdot_motion_series *tied;      /* or, of a plan with constraints: */
+    qdot_guarded *guarded;         /* NULL, or takes it in turns with `tied` */
+    const qdot_ode_series *series; /* its callbacks; else NULL */
+    qdot_phase *phase;     /* its momenta, of a geometric method that needs them */
+    qdot_ode_bonds bonds;  /* and the constraints beside them */
+    qdot_leading *leading; /* its first orders in two doubles, if they are wanted */
+    /* Of a plan without M: gives q'' at a state, apart from the series that is being read; made
+     * when that is first asked for. */
+    qdot_tree_series *elsewhere;
+    bool shaken;
+    double *in;         /* [3n + 1] q, q', t, q'' */
+    double *out, *work; /* of the tape */
+    double *slopes;     /* [outputs x (2n + 1)] of its derivatives; NULL: not wanted */
+    double *slopes_work;
+    qdot_ode_mass_form mass_form; /* where there are slopes */
+
+    /* Of a plan with a reduced one, which is what is integrated: */
+    qdot_tape *reduced; /* a shaken copy; else NULL */
+    qdot_blocks reduced_blocks;
+    qdot_momenta *momenta;
+
+    /* Of a plan with parts: theirs. */
+    qdot_bind **parts;        /* [plan->n_parts] */
+    qdot_ode_system *systems; /* [n_parts] */
+    qdot_ode_part *listed;    /* [n_parts] */
+    size_t *index;            /* [2n] what `listed` has */
+    double *part_scales;      /* [2n] theirs, one after another; NULL */
+    const double *scales;
+
+    qdot_pulses pulses; /* what looks at steps of methods without series; made when first asked for */
+};
+
+/* The tape of M and f. */
+static inline const qdot_tape *
+qdot_bind_equations(const qdot_bind *b)
+{
+    return b->tape ? b->tape : b->plan->tape;
+}
+
+/* Set the inputs of the tape to (t, y [2n]). */
+static inline void
+qdot_bind_load(const qdot_bind *b, double t, const double *y)
+{
+    size_t n = b->plan->n;
+
+    memcpy(b->in, y, 2 * n * sizeof *y);
+    b->in[2 * n] = t;
+}
+
+/* q'' at the inputs, into a [n]. */
+QDOT_MUST_CHECK qdot_status qdot_bind_accelerate(qdot_bind *b, double *a);
+
+/* The Jacobian of the system (ode/system.h). */
+qdot_status qdot_bind_jacobian(double t, const double *y, double *dfdy, double *dfdt,
+                               void *user);
+
+/* Work space of slopes, and the form with M, if the method or its partner needs a Jacobian. */
+QDOT_MUST_CHECK qdot_status qdot_bind_make_slopes(qdot_bind *b);
+
+#endif

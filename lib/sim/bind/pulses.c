@@ -1,0 +1,326 @@
+/* pulses.c -- a step halved until its equations are known between the points looked at. */
+#include "sim/bind/pulses.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "base/memory.h"
+
+enum {
+    FEW = 16,
+    MOST = QDOT_CHEBYSHEV_MOST,
+    DEEPEST = 46,
+    MOST_PARTS = 2000,
+    LEAST_PARTS = 50
+};
+
+/* What is nothing beside the largest value; what a sum has to be beyond, in tolerances of largest
+ * values and in tolerances. */
+static const double nothing = 1e-6, tolerances = 10, least = 1e-11, floor_of_it = 0.01;
+
+/* e^10: series and differences see that. */
+static const double short_reach = 10;
+
+/* What may be missed of that on parts that are not known, in all and on one. */
+static const double unknown_in_all = 0.5, unknown_on_one = 0.1;
+
+/* A part begins what is missed if it is that much shorter than the step, and its values change by
+ * that much of what those of any part do. */
+static const double brief = 0.125, felt = 1e-3;
+
+void
+qdot_pulses_clear(qdot_pulses *p)
+{
+    qdot_polynomial_bounds_clear(&p->bounds);
+    qdot_free(p->in);
+    *p = (qdot_pulses){0};
+}
+
+qdot_status
+qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
+                 qdot_disc_hiding hiding, int nodes)
+{
+    const size_t n = plan->n, outputs = qdot_tape_outputs(tape),
+                 inputs = qdot_tape_inputs(tape);
+    const size_t m = plan->constraints ? n : outputs;
+    double *at;
+
+    *p = (qdot_pulses){.tape = tape,
+                       .n = n,
+                       .m = m,
+                       .hiding = hiding,
+                       .nodes = nodes,
+                       .most = MOST_PARTS};
+    QDOT_TRY(qdot_polynomial_bounds_init(&p->bounds, tape, 2 * n));
+    at = qdot_calloc(inputs + qdot_tape_work(tape) + outputs + (2 * MOST + 6) * m +
+                         (MOST_PARTS + DEEPEST + 1) * (m + 1),
+                     sizeof *at);
+    if (!at)
+        return QDOT_ENOMEM;
+    p->in = at;
+    p->work = p->in + inputs;
+    p->out = p->work + qdot_tape_work(tape);
+    p->largest = p->out + outputs;
+    p->beyond = p->largest + m;
+    p->all = p->beyond + m;
+    p->allowed = p->all + m;
+    p->left = p->allowed + m;
+    p->values = p->left + m;
+    p->whole = p->values + m * MOST;
+    p->parts = p->whole + m * MOST;
+    return QDOT_OK;
+}
+
+/* The cubic through both ends, and its slope. */
+static void
+interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y)
+{
+    const size_t n = p->n;
+    const double h = s->b - s->a, x = (t - s->a) / h, left = 1 - x;
+
+    for (size_t i = 0; i < n; i++) {
+        const double v0 = s->from[n + i], v1 = s->to[n + i];
+        const double bend = (s->to[i] - s->from[i]) / h - 0.5 * (v0 + v1);
+
+        y[n + i] = v0 * left + v1 * x + 6 * x * left * bend;
+        y[i] = s->from[i] +
+               h * x * (v0 * (1 - 0.5 * x) + 0.5 * v1 * x + x * (3 - 2 * x) * bend);
+    }
+}
+
+static double
+time_at(double a, double b, int nodes, int j)
+{
+    return qdot_chebyshev_place(a, b, qdot_chebyshev_node(nodes, j));
+}
+
+/* Values at the nodes of a ... b; *finite: all are numbers. */
+static qdot_status
+sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool *finite)
+{
+    *finite = true;
+    for (int j = 0; j < nodes && *finite; j++) {
+        const double t = time_at(a, b, nodes, j);
+
+        if (s->read)
+            QDOT_TRY(s->read(t, p->in, s->user));
+        else
+            interpolate(p, s, t, p->in);
+        p->in[2 * p->n] = t;
+        qdot_tape_eval(p->tape, p->in, p->out, p->work);
+        s->evaluations++;
+        qdot_polynomial_bounds_sample(&p->bounds, j, p->in);
+        for (size_t i = 0; i < p->m; i++) {
+            p->values[i * MOST + (size_t)j] = p->out[i];
+            *finite = *finite && isfinite(p->out[i]);
+        }
+    }
+    for (size_t i = 0; i < p->m && *finite; i++)
+        for (int j = 0; j < nodes; j++)
+            p->largest[i] = fmax(p->largest[i], fabs(p->values[i * MOST + (size_t)j]));
+    return QDOT_OK;
+}
+
+/* Whether the polynomials through the values represent the functions, up to a negligible error, or
+ * these change by nothing more, or by so little over the part that it may be missed. False if a
+ * function is singular. */
+static bool
+is_sure(qdot_pulses *p, double a, double b, int nodes)
+{
+    double c[MOST];
+    bool enclosed = false, unknown = false;
+
+    qdot_polynomial_bounds_look(&p->bounds, a, b, nodes, NULL, NULL);
+    for (size_t i = 0; i < p->m; i++) {
+        const double enough = nothing * p->largest[i] + 1e-300;
+        double width;
+
+        qdot_chebyshev_fit(nodes, p->values + i * MOST, c);
+        if (p->bounds.miss[i] + qdot_chebyshev_tail(nodes, c) <= enough)
+            continue;
+        if (!enclosed)
+            qdot_polynomial_bounds_enclose(&p->bounds, a, b, nodes);
+        enclosed = true;
+        width = p->bounds.box[i].hi - p->bounds.box[i].lo;
+        if (width <= enough)
+            continue;
+        if (!(width * fabs(b - a) <= fmin(unknown_on_one * p->allowed[i], p->left[i])))
+            return false;
+        unknown = true;
+    }
+    for (size_t i = 0; i < p->m && unknown; i++)
+        p->left[i] -= (p->bounds.box[i].hi - p->bounds.box[i].lo) * fabs(b - a);
+    return true;
+}
+
+/* Add the difference between the part's values and the step's polynomials; *peak: its largest yet,
+ * at s->t. */
+static void
+add_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, double *peak)
+{
+    double *part = p->parts + p->n_parts++ * (p->m + 1);
+
+    part[0] = a;
+    for (size_t i = 0; i < p->m; i++) {
+        const double *v = p->values + i * MOST;
+        double sum = 0, all = 0, low = v[0], high = v[0];
+
+        for (int j = 0; j < FEW; j++) {
+            const double t = time_at(a, b, FEW, j),
+                         x = (2 * t - s->a - s->b) / (s->b - s->a);
+            const double d =
+                fabs(v[j] - qdot_chebyshev_at(p->nodes, p->whole + i * MOST, x));
+
+            sum += d / FEW;
+            all += fabs(v[j]) / FEW;
+            low = fmin(low, v[j]);
+            high = fmax(high, v[j]);
+            if (d > *peak * p->largest[i]) {
+                *peak = d / p->largest[i];
+                s->t = t;
+            }
+        }
+        p->beyond[i] += sum * fabs(b - a);
+        p->all[i] += all * fabs(b - a);
+        part[i + 1] = (high - low) * fabs(b - a);
+    }
+}
+
+/* What may be missed of output i, whose integral over the step is `all`. */
+static double
+allowance(const qdot_pulses_step *s, double all)
+{
+    return fmax(fmax(tolerances * s->tol, least) * all, floor_of_it * s->tol);
+}
+
+/* What the parts of the step may leave unknown, by the values at its nodes. */
+static void
+allow(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    for (size_t i = 0; i < p->m; i++) {
+        double all = 0;
+
+        for (int j = 0; j < p->nodes; j++)
+            all += fabs(p->values[i * MOST + (size_t)j]) / p->nodes;
+        p->allowed[i] = allowance(s, all * fabs(s->b - s->a));
+        p->left[i] = unknown_in_all * p->allowed[i];
+    }
+}
+
+/* Examine the parts of a step whose points do not suffice, from left to right; *all: as many as that
+ * takes. */
+static qdot_status
+look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
+{
+    double ends[DEEPEST + 1], from = s->a, peak = 0;
+    bool finite;
+    int looked = 0;
+
+    memset(p->beyond, 0, p->m * sizeof *p->beyond);
+    memset(p->all, 0, p->m * sizeof *p->all);
+    allow(p, s);
+    p->n_parts = 0;
+    ends[0] = s->b;
+    for (int depth = 1; depth > 0; looked++) {
+        const double to = ends[depth - 1];
+
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(sample(p, s, from, to, FEW, &finite));
+        if (finite && depth < DEEPEST && looked < p->most && !is_sure(p, from, to, FEW)) {
+            ends[depth++] = 0.5 * (from + to);
+            continue;
+        }
+        if (finite)
+            add_part(p, s, from, to, &peak);
+        from = to;
+        depth--;
+    }
+    p->parts[p->n_parts * (p->m + 1)] = s->b;
+    *all = looked < p->most;
+    return QDOT_OK;
+}
+
+/* Where what was missed of output i begins: the first brief part that shows something of it. */
+static void
+find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
+{
+    const size_t row = p->m + 1;
+    const double most = brief * fabs(s->b - s->a), *end = p->parts + p->n_parts * row;
+    double change = 0;
+
+    s->begins = s->a;
+    s->part = most;
+    for (const double *part = p->parts; part < end; part += row)
+        if (fabs(part[row] - part[0]) <= most)
+            change = fmax(change, part[i + 1]);
+    for (const double *part = p->parts; part < end; part += row)
+        if (fabs(part[row] - part[0]) <= most && part[i + 1] >= felt * change) {
+            s->begins = part[0];
+            s->part = fabs(part[row] - part[0]);
+            return;
+        }
+}
+
+/* Whether the step is so short that what falls off like an exponential cannot fall off on it: its
+ * state within what the ends and their velocities let it be, and as much again. */
+static bool
+is_short(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    const size_t n = p->n;
+    const double h = fabs(s->b - s->a);
+    qdot_polynomial_bounds *bounds = &p->bounds;
+
+    for (size_t i = 0; i < n; i++) {
+        const double v0 = s->from[n + i], v1 = s->to[n + i];
+        const double bend =
+            fabs((s->to[i] - s->from[i]) / (s->b - s->a) - 0.5 * (v0 + v1));
+
+        bounds->centre[i] = 0.5 * (s->from[i] + s->to[i]);
+        bounds->radius[i] = h * (fmax(fabs(v0), fabs(v1)) + 2 * bend);
+        bounds->centre[n + i] = 0.5 * (v0 + v1);
+        bounds->radius[n + i] = fabs(v1 - v0) + 4 * bend;
+    }
+    bounds->centre[2 * n] = 0.5 * (s->a + s->b);
+    bounds->radius[2 * n] = 0.5 * h;
+    return qdot_disc_reach(p->tape, p->hiding, bounds->centre, bounds->radius,
+                           bounds->work) <= short_reach;
+}
+
+/* What of output i is missed, over as much as may be. */
+static double
+missed(const qdot_pulses *p, const qdot_pulses_step *s, size_t i)
+{
+    return p->beyond[i] / allowance(s, p->all[i]);
+}
+
+qdot_status
+qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
+{
+    size_t worst = 0;
+    bool finite, all;
+
+    s->missed = false;
+    if (is_short(p, s))
+        return QDOT_OK;
+    qdot_polynomial_bounds_begin(&p->bounds);
+    memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
+    for (int nodes = FEW; nodes <= p->nodes; nodes *= 4) {
+        QDOT_TRY(sample(p, s, s->a, s->b, nodes, &finite));
+        if (!finite || is_sure(p, s->a, s->b, nodes))
+            return QDOT_OK;
+    }
+    for (size_t i = 0; i < p->m; i++)
+        qdot_chebyshev_fit(p->nodes, p->values + i * MOST, p->whole + i * MOST);
+    QDOT_TRY(look_at_parts(p, s, &all));
+    for (size_t i = 1; i < p->m; i++)
+        worst = missed(p, s, i) > missed(p, s, worst) ? i : worst;
+    s->missed = missed(p, s, worst) > 1;
+    if (s->missed) {
+        find_begin(p, worst, s);
+        p->most = MOST_PARTS;
+    } else if (!all) { /* no number of parts may be enough */
+        p->most = p->most > 2 * LEAST_PARTS ? p->most / 2 : LEAST_PARTS;
+    }
+    return QDOT_OK;
+}

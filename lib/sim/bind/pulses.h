@@ -1,0 +1,74 @@
+/* pulses.h -- forces that act for less than a step.
+ *
+ * The length of a step depends on the equations where a method looks at them. A force like
+ * exp(-10^6 (t - 3)^2), or that of a thin wall, is negligible there with all its derivatives: the
+ * step passes over it, and so may those of a companion. If there are functions that do so
+ * (tape/disc.h), and their argument, or the logarithm of a divisor, may change by 10 or more in the
+ * step, the outputs of the plan's tape are sampled at 16 or 64 points of it, and discs
+ * (polynomial-bounds.h) bound them between; if the bound is too large the step is halved. The
+ * difference between the parts and the polynomial of the whole step, summed up, is what the step
+ * missed.
+ *
+ * Steps of a run are looked at before they are accepted (`look` of ode/system.h): one that misses
+ * something ends where that begins, and the next one is no longer than what is found there.
+ *
+ * Tests  tests/sim/test_pulses.c, tests/script/hidden-forces.lag, narrow-forces.lag
+ */
+#ifndef QDOT_SIM_PULSES_H
+#define QDOT_SIM_PULSES_H
+
+#include <stdint.h>
+
+#include "sim/bind/polynomial-bounds.h"
+#include "sim/model/equations.h"
+#include "tape/disc.h"
+
+/* Start from {0}. */
+typedef struct {
+    const qdot_tape *tape; /* of M and f; NULL: none yet */
+    size_t n, m;           /* coordinates; outputs that are looked at */
+    qdot_disc_hiding hiding;
+    int nodes; /* 16; 64 of methods that look at a step within */
+    qdot_polynomial_bounds bounds;
+    double *in;      /* [2n + 1] q, q', t */
+    double *out;     /* [outputs] */
+    double *work;    /* of the tape */
+    double *largest; /* [m] met so far */
+    double *values;  /* [m x QDOT_CHEBYSHEV_MOST] of a part */
+    double *whole;   /* [as values] coefficients of the step */
+    double *beyond;  /* [m] the sum of what parts show beyond them, */
+    double *all;     /* [m] and of what they show */
+    double *allowed; /* [m] what may be missed in the step, */
+    double *left;    /* [m] and on parts that are not known yet */
+    double *
+        parts; /* [n_parts x (1 + m)] where each begins; how much its values change, by its length */
+    size_t n_parts;
+    int most; /* parts that a step gets; fewer after some for which these did not suffice */
+} qdot_pulses;
+
+/* A step, and what is found on it. */
+typedef struct {
+    double a, b, tol;
+    const double *from, *to; /* [2n] the states there */
+    /* The state at t into y [2n]; NULL: by a cubic through positions and velocities of both ends. */
+    qdot_status (*read)(double t, double *y, void *user);
+    void *user;
+    bool missed;
+    double t;            /* about where the most of it is missed, */
+    double begins, part; /* where it begins, and how long a step may be there */
+    uint64_t evaluations;
+} qdot_pulses_step;
+
+/* For the tape of a plan, or a shaken copy, borrowed, which may hide something (qdot_disc_may_hide);
+ * with constraints their rows are not looked at: they act through multipliers, and where they have
+ * no direction the run ends. QDOT_ENOMEM; clear it in any case. */
+QDOT_MUST_CHECK qdot_status qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan,
+                                             const qdot_tape *tape,
+                                             qdot_disc_hiding hiding, int nodes);
+void qdot_pulses_clear(qdot_pulses *p);
+
+/* Whether the step misses a force, by more than ten tolerances of the integral of its size over the
+ * step, and more than a hundredth of the tolerance. Errors: QDOT_EINTR, those of `read`. */
+QDOT_MUST_CHECK qdot_status qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *step);
+
+#endif

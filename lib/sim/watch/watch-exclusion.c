@@ -1,0 +1,85 @@
+/* watch-exclusion.c -- proves by bounds over discs that parts of a step hold no root. */
+#include <float.h>
+#include <math.h>
+
+#include "sim/watch/watch-parts.h"
+
+/* If discs give no bound: whether the interval of the function excludes 0. */
+static bool
+keeps_off(qdot_watch *w, const qdot_watch_part *p, int nodes, size_t i, bool *enclosed)
+{
+    const qdot_interval *box = w->bounds.box + i;
+
+    if (w->now.on[i])
+        return false;
+    if (!*enclosed)
+        qdot_polynomial_bounds_enclose(&w->bounds, p->a, p->b, nodes);
+    *enclosed = true;
+    return box->lo > 0 || box->hi < 0;
+}
+
+qdot_watch_verdict
+qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes)
+{
+    qdot_watch_verdict worst = QDOT_PART_GOOD;
+    const double part = fabs(p->b - p->a) / w->length;
+    bool enclosed = false;
+
+    qdot_polynomial_bounds_look(&w->bounds, p->a, p->b, nodes, w->now.on, w->now.g0);
+    for (size_t i = 0; i < w->m; i++) {
+        const double miss = w->bounds.miss[i];
+        qdot_watch_verdict v = isnan(miss) ? QDOT_PART_PARTED : QDOT_PART_HALVED;
+
+        if (!w->live[i] || miss < w->clear[i] || miss <= qdot_watch_least(w, p, i) ||
+            qdot_polynomial_bounds_is_hollow(&w->bounds, i, part) ||
+            keeps_off(w, p, nodes, i, &enclosed))
+            continue;
+        worst = v > worst ? v : worst;
+    }
+    return worst;
+}
+
+static bool
+discs_exclude(const qdot_watch *w, size_t i)
+{
+    return fabs(w->bounds.out[i]) > (1 + 0x1p-20) * w->bounds.out_radius[i] &&
+           qdot_watch_sign(w->bounds.out[i]) == w->start.sign[i];
+}
+
+/* By so much that it does not touch 0 either. */
+static bool
+box_excludes(const qdot_watch *w, size_t i)
+{
+    static const double near = 0x1p-10;
+    const qdot_interval *box = w->bounds.box + i;
+
+    return w->start.sign[i] > 0   ? box->lo > near * box->hi
+           : w->start.sign[i] < 0 ? box->hi < near * box->lo
+                                  : false;
+}
+
+/* Discs know no abs(x) - pi; intervals do. */
+void
+qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step)
+{
+    bool all = true;
+
+    w->bound_at_step = w->boxed_at_step = false;
+    if (!step || w->accelerations)
+        return;
+    qdot_polynomial_bounds_series(&w->bounds, w->reader.system->series, step);
+    w->bound_at_step = true;
+    for (size_t i = 0; i < w->m; i++)
+        all = all && discs_exclude(w, i);
+    if (all)
+        return;
+    qdot_polynomial_bounds_box(&w->bounds);
+    w->boxed_at_step = true;
+}
+
+bool
+qdot_watch_excludes(const qdot_watch *w, size_t i)
+{
+    return w->bound_at_step &&
+           (discs_exclude(w, i) || (w->boxed_at_step && box_excludes(w, i)));
+}

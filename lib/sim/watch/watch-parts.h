@@ -1,0 +1,141 @@
+/* watch-parts.h -- the members of a watch.
+ *
+ * For watch.c only, which goes over a step part by part: values of the functions
+ * (watch-values.c), proofs that a part holds no further roots (watch-exclusion.c), and the
+ * polynomial of one function on one part with its roots (watch-roots.c).
+ *
+ * Tests  as watch.h
+ */
+#ifndef QDOT_SIM_WATCH_PARTS_H
+#define QDOT_SIM_WATCH_PARTS_H
+
+#include "num/chebyshev.h"
+#include "num/series.h"
+#include "sim/bind/polynomial-bounds.h"
+#include "sim/watch/root.h"
+#include "sim/model/equations.h"
+
+enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
+
+/* The signs up to which a step has been searched. */
+struct qdot_watch_state {
+    int *sign;  /* [m] the last sign that was not 0; 0: none yet */
+    bool *on;   /* [m] the step starts on a zero of g */
+    double *g0; /* [m] g at that zero */
+};
+
+typedef struct qdot_watch qdot_watch;
+struct qdot_watch {
+    const qdot_plan *plan;
+    const qdot_series_kernels *kernels;
+    qdot_watch_reader reader; /* of the piece */
+    qdot_tape *tape, *sizes; /* g; the sums of the magnitudes of their terms */
+    size_t m, n;             /* functions; coordinates */
+    bool accelerations;
+    double tol;
+    size_t *coordinate; /* [m] SIZE_MAX: not a bound */
+    double *bound;      /* [m] */
+    double *in;         /* of the tape */
+    double *work, *g;   /* [m] g */
+    double *moved;      /* [m] scratch of noise */
+    double *z;          /* [2n] likewise */
+    double *noise;      /* [m] of g in this part; NaN: not computed */
+    double *first_noise; /* [m] of g at the start of the step; likewise */
+    double *size;       /* [m] of the polynomial fitted last */
+    double *clear;      /* [m] distance from 0 that its bound guarantees, if positive */
+    qdot_polynomial_bounds bounds; /* between the nodes, or on the whole step */
+    bool bound_at_step;  /* bounds on the whole step are known */
+    bool boxed_at_step;  /* and intervals, bounds.box */
+    bool all_bounds;     /* every g is a coordinate less its bound */
+    double *final;      /* [m] g at the end of the step */
+    double length;      /* of the step */
+    double direction;   /* of time in it */
+
+    /* The step's start, and the search so far. */
+    double t, *y; /* [2n] */
+    struct qdot_watch_state start, now;
+    int *first;      /* [m] */
+    bool *slow;      /* [m] g leaves its zero at the start with a slope lost in rounding */
+    bool *fresh;     /* [m] `first` is not known yet */
+    bool *grazed;    /* [m] g touches 0 at the end of the step */
+    bool *live;      /* [m] g may have a root in this step */
+    int nodes;       /* number that sufficed the last time */
+    double *samples; /* [m x QDOT_WATCH_NODES] */
+    double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts not yet searched */
+    qdot_vec(qdot_root) roots;
+};
+
+/* A part of a step, and a function on it. */
+typedef struct {
+    double a, b; /* times */
+    int n;
+    double c[QDOT_WATCH_NODES];
+    bool from_zero; /* the function is (g - g(a)) (b - a)/(t - a) */
+    double at_end;  /* g(b) */
+} qdot_watch_part;
+
+/* How a part is treated further, the most expensive last. */
+typedef enum {
+    QDOT_PART_GOOD,
+    QDOT_PART_MORE_NODES,
+    QDOT_PART_HALVED,
+    QDOT_PART_PARTED, /* cut beside the middle, where g may be singular */
+    QDOT_PART_START_CUT /* a short part at its start is cut off */
+} qdot_watch_verdict;
+
+static inline int
+qdot_watch_sign(double x)
+{
+    return (x > 0) - (x < 0);
+}
+
+QDOT_MUST_CHECK static inline qdot_status
+qdot_watch_push(qdot_watch *w, qdot_root root)
+{
+    return qdot_vec_push(&w->roots, root);
+}
+
+/* --- values (watch-values.c) --------------------------------------------------------- */
+
+/* Lower g [m] with the parameter values of the plan; shaken and errors as qdot_watch_new. */
+QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
+                                             bool shaken);
+
+/* g [m] at the state in w->in, 1e300 for infinity. QDOT_EDOMAIN if one is not a number. */
+QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
+
+/* g [m] at t within the step; w->in is the state there. */
+QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double *g);
+
+/* The sum of the changes of g_i if t and each component of the state y [2n] in turn is changed by
+ * the fraction `by` of max(|component|, least). Undefined values count as 0. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const double *y,
+                                             double by, double least, size_t i,
+                                             double *noise);
+
+/* --- no roots between the nodes (watch-exclusion.c) ---------------------------------- */
+
+/* For polynomials that fit all values at `nodes`: whether they miss no root between these. */
+qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int nodes);
+
+/* Bound the functions on the step by its series (NULL: none); g_i keeps its sign on the step if
+ * _excludes then returns true. */
+void qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step);
+bool qdot_watch_excludes(const qdot_watch *w, size_t i);
+
+/* --- roots (watch-roots.c) ----------------------------------------------------------- */
+
+/* The time at x in -1 ... 1 of a part. */
+double qdot_watch_time(const qdot_watch_part *p, double x);
+
+/* Function i on the part as a polynomial p->c, from w->samples at `nodes` nodes. */
+qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes);
+
+/* After a fit: the size below which function i cannot be told from rounding. */
+double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
+
+/* Append the roots of function i on the part to w->roots; w->now advances to the part's end. */
+QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p,
+                                             size_t i);
+
+#endif

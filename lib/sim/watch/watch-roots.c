@@ -1,0 +1,445 @@
+/* watch-roots.c -- one function on one part of a step: its polynomial and its roots. */
+#include "sim/watch/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Negligible relative to the largest coefficient: for a fit, and for a function divided by the
+ * time since it was 0. */
+static const double resolved = 0x1p-44, resolved_start = 1e-9;
+
+/* The fraction of its size that is not small. */
+static const double least_of_size = 1e-3;
+
+/* What the rounding of a function makes of its slope at a zero, by nodes that crowd there. */
+static const double noise_of_slope = 1e4;
+
+/* --- its polynomial ------------------------------------------------------------------ */
+
+/* Rounding of the nodes, as a fraction of the length of the part. */
+static double
+blur(const qdot_watch_part *p)
+{
+    return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+}
+
+/* The fraction of its size below which the slope of a function at a zero cannot be told from 0.
+ *  */
+static double
+least_slope(const qdot_watch_part *p)
+{
+    return fmax(resolved_start, 64 * blur(p));
+}
+
+double
+qdot_watch_time(const qdot_watch_part *p, double x)
+{
+    return qdot_chebyshev_place(p->a, p->b, x);
+}
+
+/* Whether the function is only rounding on the part. */
+static bool
+vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    double size = qdot_chebyshev_size(p->n, p->c);
+
+    return size == 0 || size <= (p->from_zero ? 1e5 : 16) * w->noise[i];
+}
+
+double
+qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
+
+    return fmax(part * w->size[i],
+                isnan(w->noise[i]) ? 0 : (w->now.on[i] ? noise_of_slope : 8) * w->noise[i]);
+}
+
+static void
+note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    w->size[i] = qdot_chebyshev_size(p->n, p->c);
+    w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
+}
+
+qdot_watch_verdict
+qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    double values[QDOT_WATCH_NODES], size;
+
+    p->n = nodes;
+    p->from_zero = w->now.on[i];
+    for (int j = 0; j < nodes; j++) {
+        values[j] = g[j];
+        if (p->from_zero) {
+            double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j));
+
+            values[j] = (g[j] - w->now.g0[i]) * ((p->b - p->a) / (t - p->a));
+        }
+    }
+    qdot_chebyshev_fit(nodes, values, p->c);
+    size = qdot_chebyshev_size(nodes, p->c);
+    note_sizes(w, p, i);
+    if (!vanishes(w, p, i) &&
+        qdot_chebyshev_tail(nodes, p->c) >
+            qdot_watch_least(w, p, i))
+        return QDOT_PART_MORE_NODES;
+    if (p->from_zero && !vanishes(w, p, i) &&
+        fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)
+        return QDOT_PART_START_CUT;
+    return QDOT_PART_GOOD;
+}
+
+/* --- locating a root in doubles of t ------------------------------------------------- */
+
+/* g at t, before the root or from the root on. */
+typedef struct {
+    double t, g;
+} end;
+
+/* Evaluate g_i at t, which becomes ends[*over]; *over: whether g_i has changed its sign to `way`.
+ *  */
+static qdot_status
+narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
+{
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+    *over = w->g[i] == 0 || qdot_watch_sign(w->g[i]) == way;
+    ends[*over] = (end){t, w->g[i]};
+    return QDOT_OK;
+}
+
+/* Where between two neighbouring doubles the root is; the first may not have been evaluated. */
+static qdot_status
+refine(qdot_watch *w, end *ends, qdot_root *root)
+{
+    const double step = fabs(ends[1].t - ends[0].t);
+    double noise, rise;
+
+    if (ends[0].g == 0) {
+        QDOT_TRY(qdot_watch_value_at(w, ends[0].t, w->g));
+        ends[0].g = w->g[root->function];
+        root->residual = fmax(root->residual, fabs(ends[0].g));
+    }
+    rise = fabs(ends[1].g) + fabs(ends[0].g);
+    QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
+    root->late = step * (fabs(ends[1].g) / rise);
+    root->blur = noise < rise ? step * (noise / rise) : step;
+    return QDOT_OK;
+}
+
+/* Find the root between ends [2] of different signs, near guess; *found false if the signs are
+ * equal, since a polynomial overshoots beside a jump and a pole: ends[1] has g if it is that after
+ * a root. */
+static qdot_status
+locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
+{
+    const double lo = ends[0].t, hi = ends[1].t;
+    double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess));
+    bool over;
+
+    guess = w->direction > 0 ? fmin(fmax(guess, lo), hi) : fmax(fmin(guess, lo), hi);
+    QDOT_TRY(narrow(w, i, way, guess, ends, &over));
+    for (const bool back = over; over == back; step *= 8) { /* outward from the guess */
+        const double t = guess + (back ? -1 : 1) * w->direction * step;
+
+        if (w->direction * (back ? t - ends[0].t : ends[1].t - t) <= 0)
+            break;
+        guess = t;
+        QDOT_TRY(narrow(w, i, way, guess, ends, &over));
+    }
+    for (;;) {
+        const double middle = ends[0].t + 0.5 * (ends[1].t - ends[0].t);
+
+        if (middle == ends[0].t || middle == ends[1].t)
+            break;
+        QDOT_TRY(narrow(w, i, way, middle, ends, &over));
+    }
+    *found = true;
+    if (ends[1].t == hi)
+        return narrow(w, i, way, hi, ends, found);
+    if (ends[0].t == lo) {
+        QDOT_TRY(narrow(w, i, way, lo, ends, &over));
+        *found = !over || w->g[i] == 0;
+    }
+    return QDOT_OK;
+}
+
+/* Whether g changes its sign through infinity between neighbouring doubles: away from there it is
+ * much smaller. Only asked where its values are not small beside those of the part. */
+static qdot_status
+is_pole(qdot_watch *w, const qdot_watch_part *p, const end *ends, const qdot_root *root, bool *pole)
+{
+    const double away = 4096 * (ends[1].t - ends[0].t), low = fmin(p->a, p->b),
+                 high = fmax(p->a, p->b);
+    bool any = false;
+
+    *pole = false;
+    if (root->residual <= least_of_size * qdot_chebyshev_size(p->n, p->c))
+        return QDOT_OK;
+    for (int side = 0; side < 2; side++) {
+        const double t = ends[side].t + (side == 0 ? -away : away);
+
+        if (t < low || t > high)
+            continue;
+        QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+        if (fabs(w->g[root->function]) >= root->residual / 4)
+            return QDOT_OK;
+        any = true;
+    }
+    *pole = any;
+    return QDOT_OK;
+}
+
+/* --- its roots ----------------------------------------------------------------------- */
+
+/* Whether an extremum of value v at x is a root; *within: as in qdot_root. */
+static qdot_status
+is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch,
+         double *within)
+{
+    const double rounding = 0x1p-50, by = fmax(w->tol, rounding);
+    double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
+    double t = qdot_watch_time(p, x);
+
+    *within = 0;
+    *touch = fabs(v) <= 0x1p-48 * size;
+    if (!*touch && (p->from_zero || fabs(v) > least_of_size * size))
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+    if (!p->from_zero && fabs(w->g[i] - v) > least_of_size * size) { /* beside a jump or a pole */
+        *touch = false;
+        return QDOT_OK;
+    }
+    if (*touch)
+        return QDOT_OK;
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
+    *touch = fabs(v) <= noise;
+    if (*touch && fabs(v) * by > noise * rounding)
+        *within = fabs(v) / noise * by;
+    return QDOT_OK;
+}
+
+/* g'' at x; d: the derivative of the part's polynomial in x. */
+static double
+bend_at(const qdot_watch_part *p, const double *d, double x)
+{
+    double second[QDOT_WATCH_NODES];
+    const double slope = 2 / (p->b - p->a);
+
+    qdot_chebyshev_derivative(p->n - 1, d, second);
+    return qdot_chebyshev_at(p->n - 2, second, x) * slope * slope;
+}
+
+/* The root of the polynomial between x0 and x1, where it is monotone. */
+static double
+between(const qdot_watch_part *p, double x0, double x1, int way)
+{
+    for (int k = 0; k < 60 && x1 - x0 > 1e-16; k++) {
+        double x = 0.5 * (x0 + x1);
+
+        if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x)) == way)
+            x1 = x;
+        else
+            x0 = x;
+    }
+    return x1;
+}
+
+/* Whether the slope at the zero at the start of the part is nothing beside the function there. */
+static bool
+is_flat(const qdot_watch_part *p)
+{
+    return fabs(qdot_chebyshev_at(p->n, p->c, -1))
+           <= least_slope(p) * qdot_chebyshev_size(p->n, p->c);
+}
+
+/* Whether that slope cannot be told from 0. */
+static bool
+is_slow(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    return is_flat(p) /* not for a NaN: */
+           || fabs(qdot_chebyshev_at(p->n, p->c, -1)) <= noise_of_slope * w->noise[i];
+}
+
+/* The sign of a function just after its zero at the start of the part. */
+static int
+leaves_to(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, is_slow(w, p, i) ? 1 : -1));
+}
+
+/* Treat the zero at the start of the part: count it as a root if the sign before differs. */
+static qdot_status
+pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
+{
+    int before = w->now.sign[i];
+
+    if (before != 0 && sign != 0)
+        QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                .t = p->a,
+                                                .way = before == sign ? 0 : sign,
+                                                .exact = true}));
+    w->now.sign[i] = sign != 0 ? sign : before;
+    return QDOT_OK;
+}
+
+/* A second root that rounding finds beside the zero at the start is that zero. */
+static bool
+is_start_again(const qdot_watch_part *p, double t)
+{
+    return p->from_zero && fabs(t - p->a) <= 0x1p-40 * fabs(p->b - p->a);
+}
+
+/* Whether the part ends on an extremum that is 0, or so near to one that rounding would make two
+ * crossings of it. */
+static bool
+grazes_at_end(const qdot_watch_part *p)
+{
+    double d[QDOT_WATCH_NODES], size = qdot_chebyshev_size(p->n, p->c);
+
+    if (fabs(p->at_end) > 0x1p-46 * size)
+        return false;
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
+}
+
+/* The root found last, if it is a touch of function i; else NULL. */
+static const qdot_root *
+last_touch(const qdot_watch *w, size_t i)
+{
+    const qdot_root *last = w->roots.n > 0 ? &w->roots.at[w->roots.n - 1] : NULL;
+
+    return last && last->function == i && last->way == 0 ? last : NULL;
+}
+
+/* A touch within the part, so near to its end, is the same as the one at the end. */
+static void
+forget_touch(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    const qdot_root *last;
+
+    while ((last = last_touch(w, i)) && fabs(last->t - p->b) <= 0x1p-18 * fabs(p->b - p->a))
+        w->roots.n--;
+}
+
+/* Touches that rounding makes, found since `from` between which and here g is nothing else, are no
+ * roots beside the one that comes now. */
+static void
+forget_roundings(qdot_watch *w, size_t i, double from)
+{
+    const qdot_root *last;
+
+    while ((last = last_touch(w, i)) && last->within == 0 && !last->exact &&
+           w->direction * (last->t - from) > 0)
+        w->roots.n--;
+}
+
+/* Whether the derivative d [n - 1] is more than its rounding at x, which may lie beyond the part. */
+static bool
+is_steep(const qdot_watch_part *p, const double *d, double x)
+{
+    return fabs(x) > 1
+           || fabs(qdot_chebyshev_at(p->n - 1, d, x)) > 0x1p-49 * qdot_chebyshev_size(p->n - 1, d);
+}
+
+/* How far from an extremum at x the function is flat but for rounding. */
+static double
+flat_width(const qdot_watch_part *p, const double *d, double x)
+{
+    double width = DBL_EPSILON;
+
+    while (!is_steep(p, d, x - width) || !is_steep(p, d, x + width))
+        width *= 2;
+    return width * fabs(p->b - p->a) / 2;
+}
+
+qdot_status
+qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
+    double sure = p->a; /* g has `sign` there, by the states */
+    int n = 0, sign = w->now.sign[i];
+    bool grazes;
+
+    if (w->fresh[i] && p->from_zero && is_flat(p))
+        w->slow[i] = true;
+    if (vanishes(w, p, i)) {
+        w->now.on[i] = true;
+        w->now.g0[i] = p->at_end;
+        return QDOT_OK;
+    }
+    if (p->from_zero) {
+        sign = leaves_to(w, p, i);
+        QDOT_TRY(pass_start(w, p, i, sign));
+    }
+    if (qdot_chebyshev_sign(p->n, p->c) == 0) {
+        qdot_chebyshev_derivative(p->n, p->c, d);
+        n = qdot_chebyshev_crossings(p->n - 1, d, x);
+    }
+    x[n++] = 1;
+    grazes = grazes_at_end(p);
+    for (int e = 0; e < n; e++) {
+        double v = qdot_chebyshev_at(p->n, p->c, x[e]);
+        int there = e + 1 < n ? qdot_watch_sign(v) : grazes ? 0 : qdot_watch_sign(p->at_end);
+        double to = e + 1 < n ? qdot_watch_time(p, x[e]) : p->b;
+        bool touch = false, found;
+        double within = 0;
+
+        if (e + 1 < n && there != 0)
+            QDOT_TRY(is_touch(w, p, i, x[e], v, &touch, &within));
+        if (touch || (e + 1 < n && there == 0)) {
+            const double bend = within > 0 ? bend_at(p, d, x[e]) : 0;
+
+            if (within == 0)
+                forget_roundings(w, i, from);
+            if (sign != 0 && !is_start_again(p, to))
+                QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                        .t = to,
+                                                        .residual = fabs(v),
+                                                        .blur = flat_width(p, d, x[e]),
+                                                        .within = within,
+                                                        .bend = bend}));
+            continue;
+        }
+        if (there != 0 && sign != 0 && there != sign) {
+            double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
+            end ends[2] = {{sure, 0}, {to, 0}};
+
+            QDOT_TRY(locate(w, i, there, ends, guess, &found));
+            if (found && !is_start_again(p, ends[1].t)) {
+                qdot_root root = {.function = i,
+                                  .t = ends[1].t,
+                                  .way = there,
+                                  .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
+                                  .exact = ends[1].g == 0};
+
+                if (!root.exact) {
+                    QDOT_TRY(refine(w, ends, &root));
+                    QDOT_TRY(is_pole(w, p, ends, &root, &root.pole));
+                }
+                forget_roundings(w, i, from);
+                QDOT_TRY(qdot_watch_push(w, root));
+            }
+            sure = ends[found ? 1 : 0].t;
+            there = found || ends[1].g != 0 ? there : sign;
+        }
+        sign = there != 0 ? there : sign;
+        from = to;
+        x_from = x[e];
+    }
+    w->now.sign[i] = sign;
+    if (w->fresh[i]) {
+        w->first[i] = p->from_zero ? leaves_to(w, p, i) : qdot_watch_sign(w->now.g0[i]);
+        w->slow[i] |= p->from_zero && is_slow(w, p, i);
+        w->fresh[i] = false;
+    }
+    if (grazes)
+        forget_touch(w, p, i);
+    w->grazed[i] = grazes && sign != 0;
+    w->now.on[i] = grazes || p->at_end == 0;
+    w->now.g0[i] = p->at_end;
+    return QDOT_OK;
+}

@@ -1,0 +1,470 @@
+/* watch.c -- a step looked at part by part, and what is kept from step to step. */
+#include "sim/watch/watch.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+#include "sim/watch/watch-parts.h"
+
+enum { LEAST = 16, DEEPEST = 60, MOST_PARTS = 4000 };
+
+/* --- parts of a step ----------------------------------------------------------------- */
+
+static qdot_status
+sample(qdot_watch *w, const qdot_watch_part *p, int nodes)
+{
+    for (int j = 0; j < nodes; j++) {
+        QDOT_TRY(qdot_watch_value_at(
+            w, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), w->g));
+        qdot_polynomial_bounds_sample(&w->bounds, j, w->in);
+        for (size_t i = 0; i < w->m; i++)
+            w->samples[i * QDOT_WATCH_NODES + (size_t)j] = w->g[i];
+    }
+    return QDOT_OK;
+}
+
+/* What the part needs, of all functions that are looked at. */
+static qdot_watch_verdict
+judge(qdot_watch *w, qdot_watch_part *p, int nodes)
+{
+    qdot_watch_verdict worst = QDOT_PART_GOOD;
+
+    for (size_t i = 0; i < w->m; i++) {
+        qdot_watch_verdict v =
+            w->live[i] ? qdot_watch_fit(w, p, i, nodes) : QDOT_PART_GOOD;
+
+        if (v == QDOT_PART_MORE_NODES && nodes == QDOT_WATCH_NODES)
+            v = QDOT_PART_HALVED;
+        worst = v > worst ? v : worst;
+    }
+    return worst;
+}
+
+/* A part this short is taken as it is. */
+static bool
+is_short(const qdot_watch *w, const qdot_watch_part *p)
+{
+    double t = fmax(fabs(p->a), fabs(p->b));
+
+    return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, 0x1p-44 * w->length);
+}
+
+/* The rounding of all g at time t and the state in w->z, where that is less than noise [m], or this is
+ * NaN. */
+static qdot_status
+lessen_noise(qdot_watch *w, double t, double *noise)
+{
+    memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
+    QDOT_TRY(qdot_watch_value(w, t, w->g)); /* q'' too */
+    qdot_tape_eval(w->sizes, w->in, w->g, w->work);
+    for (size_t i = 0; i < w->m; i++) {
+        double here;
+
+        if (!w->live[i])
+            continue;
+        QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, &here));
+        noise[i] = fmin(noise[i], here + 4 * DBL_EPSILON * (w->g[i] + fabs(w->final[i])));
+    }
+    return QDOT_OK;
+}
+
+/* Where 64 nodes are not enough rounding may be all there is. It is found at the start of the step and
+ * both ends of the part: a jump or a pole beside one of them makes it large there. */
+static qdot_status
+find_noise(qdot_watch *w, const qdot_watch_part *p)
+{
+    size_t any = 0;
+
+    while (!w->live[any])
+        any++;
+    if (!isnan(w->noise[any]))
+        return QDOT_OK;
+    if (isnan(w->first_noise[any])) {
+        memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
+        QDOT_TRY(lessen_noise(w, w->t, w->first_noise));
+    }
+    memcpy(w->noise, w->first_noise, w->m * sizeof *w->noise);
+    if (p->a != w->t) {
+        QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));
+        QDOT_TRY(lessen_noise(w, p->a, w->noise));
+    }
+    QDOT_TRY(w->reader.read(p->b, w->z, w->reader.user));
+    return lessen_noise(w, p->b, w->noise);
+}
+
+static qdot_status
+look_at_part(qdot_watch *w, qdot_watch_part *p,
+             const double *at_end, qdot_watch_verdict *v)
+{
+    int nodes = w->nodes;
+
+    for (size_t i = 0; i < w->m; i++)
+        w->noise[i] = NAN;
+    for (;; nodes *= 2) {
+        QDOT_TRY(sample(w, p, nodes));
+        *v = judge(w, p, nodes);
+        if (*v == QDOT_PART_HALVED) {
+            QDOT_TRY(find_noise(w, p));
+            *v = judge(w, p, nodes);
+        }
+        if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
+            break;
+    }
+    if (*v == QDOT_PART_GOOD) {
+        *v = qdot_watch_judge(w, p, nodes);
+        if (*v == QDOT_PART_HALVED) {
+            QDOT_TRY(find_noise(w, p));
+            *v = qdot_watch_judge(w, p, nodes);
+        }
+    }
+    if (*v != QDOT_PART_GOOD && !is_short(w, p))
+        return QDOT_OK;
+    if (*v == QDOT_PART_START_CUT) /* a zero left so slowly that only rounding is seen yet */
+        QDOT_TRY(find_noise(w, p));
+    *v = QDOT_PART_GOOD;
+    w->nodes = nodes > LEAST ? nodes : LEAST;
+    for (size_t i = 0; i < w->m; i++) {
+        if (!w->live[i])
+            continue;
+        (void)qdot_watch_fit(w, p, i, nodes);
+        p->at_end = at_end[i];
+        QDOT_TRY(qdot_watch_roots(w, p, i));
+    }
+    return QDOT_OK;
+}
+
+/* The whole step, left to right; parts that wait stand on a stack of their ends. */
+static qdot_status
+look_at_step(qdot_watch *w, double t)
+{
+    double ends[DEEPEST + 2], from = w->t;
+    int depth = 0, parts = 0;
+
+    ends[0] = t;
+    memcpy(w->ends, w->final, w->m * sizeof *w->ends);
+    for (depth = 1; depth > 0;) {
+        qdot_watch_part p = {.a = from, .b = ends[depth - 1]};
+        const double *at_end = w->ends + (size_t)(depth - 1) * w->m;
+        double middle;
+        qdot_watch_verdict v;
+
+        QDOT_TRY(qdot_interrupt_check());
+        QDOT_TRY(look_at_part(w, &p, at_end, &v));
+        if (v == QDOT_PART_GOOD) {
+            from = p.b;
+            depth--;
+            continue;
+        }
+        middle =
+            p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
+                                 : v == QDOT_PART_PARTED  ? QDOT_POLYNOMIAL_BOUNDS_BESIDE
+                                                          : 0.5);
+        if (depth == DEEPEST || ++parts > MOST_PARTS)
+            return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
+                             p.a);
+        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
+        ends[depth] = middle;
+        memcpy(w->ends + (size_t)depth * w->m, w->g, w->m * sizeof *w->g);
+        depth++;
+    }
+    return QDOT_OK;
+}
+
+/* --- steps --------------------------------------------------------------------------- */
+
+/* Whether a zero is far from the step. */
+static bool
+is_far(const qdot_watch *w, size_t i, double t, const double *y, const qdot_ode_expanded *step)
+{
+    const qdot_ode_series *series = w->reader.system->series;
+    size_t c = w->coordinate[i];
+    double distance;
+
+    if (c == SIZE_MAX)
+        return qdot_watch_excludes(w, i);
+    distance = fabs(w->y[c] - w->bound[i]);
+    if (!step)
+        return fmin(distance, fabs(y[c] - w->bound[i])) >
+               fabs(t - w->t) * fmax(fabs(w->y[w->n + c]), fabs(y[w->n + c]));
+    return distance > w->kernels->span(series->x + c * series->stride, step->order,
+                                       (t - w->t) / step->unit);
+}
+
+static int
+by_time(const qdot_root *a, const qdot_root *b, double direction)
+{
+    return a->t != b->t ? (direction * (a->t - b->t) > 0 ? 1 : -1)
+                        : (a->function > b->function) - (a->function < b->function);
+}
+
+static void
+sort_roots(qdot_watch *w)
+{
+    for (size_t i = 1; i < w->roots.n; i++) {
+        qdot_root root = w->roots.at[i];
+        size_t k = i;
+
+        for (; k > 0 && by_time(&w->roots.at[k - 1], &root, w->direction) > 0; k--)
+            w->roots.at[k] = w->roots.at[k - 1];
+        w->roots.at[k] = root;
+    }
+}
+
+static void
+copy_state(const qdot_watch *w, struct qdot_watch_state *to,
+           const struct qdot_watch_state *from)
+{
+    memcpy(to->sign, from->sign, w->m * sizeof *to->sign);
+    memcpy(to->on, from->on, w->m * sizeof *to->on);
+    memcpy(to->g0, from->g0, w->m * sizeof *to->g0);
+}
+
+/* The run ends on a zero: it is one. */
+static qdot_status
+end_on_zero(qdot_watch *w, double t)
+{
+    for (size_t i = 0; i < w->m; i++)
+        if (w->grazed[i])
+            QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                                    .t = t,
+                                                    .residual = fabs(w->now.g0[i]),
+                                                    .exact = true}));
+        else if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
+            QDOT_TRY(qdot_watch_push(
+                w, (qdot_root){
+                       .function = i, .t = t, .way = -w->now.sign[i], .exact = true}));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
+                const qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
+{
+    bool any = false;
+
+    w->direction = t < w->t ? -1 : 1;
+    copy_state(w, &w->now, &w->start);
+    w->roots.n = 0;
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    QDOT_TRY(qdot_watch_value(w, t, w->final));
+    w->length = fabs(t - w->t);
+    if (w->all_bounds)
+        w->bound_at_step = false;
+    else
+        qdot_watch_bound(w, step);
+    qdot_polynomial_bounds_begin(&w->bounds);
+    for (size_t i = 0; i < w->m; i++) {
+        w->live[i] = w->start.on[i] ||
+                     qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
+                     !is_far(w, i, t, y, step);
+        any |= w->live[i];
+        w->first_noise[i] = NAN;
+        w->fresh[i] = true;
+        w->first[i] = w->start.sign[i];
+        w->slow[i] = w->grazed[i] = false;
+    }
+    if (any)
+        QDOT_TRY(look_at_step(w, t));
+    if (last)
+        QDOT_TRY(end_on_zero(w, t));
+    for (size_t i = 0; i < w->m; i++)
+        if (!w->live[i]) {
+            w->now.g0[i] = w->final[i];
+            w->now.on[i] = false;
+        }
+    sort_roots(w);
+    *roots = w->roots.at;
+    *n = w->roots.n;
+    w->in[2 * w->n] = t;
+    memcpy(w->in, y, 2 * w->n * sizeof *y); /* for _take */
+    return QDOT_OK;
+}
+
+bool
+qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step)
+{
+    for (size_t i = 0; i < w->m; i++)
+        if (w->coordinate[i] == SIZE_MAX || w->start.on[i] ||
+            !is_far(w, i, step->t_end, NULL, step))
+            return false;
+    return true;
+}
+
+void
+qdot_watch_pass(qdot_watch *w, double t, const double *y)
+{
+    memcpy(w->y, y, 2 * w->n * sizeof *y);
+    w->t = t;
+    for (size_t i = 0; i < w->m; i++)
+        w->start.g0[i] = y[w->coordinate[i]] - w->bound[i];
+}
+
+void
+qdot_watch_take(qdot_watch *w)
+{
+    copy_state(w, &w->start, &w->now);
+    memcpy(w->y, w->in, 2 * w->n * sizeof *w->y);
+    w->t = w->in[2 * w->n];
+}
+
+qdot_status
+qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
+                   const double **g)
+{
+    w->reader = *reader;
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    *g = w->g;
+    return qdot_watch_value(w, t, w->g);
+}
+
+qdot_status
+qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
+                 const qdot_watch_known *known, bool *on)
+{
+    w->reader = *reader;
+    memcpy(w->y, y, 2 * w->n * sizeof *y);
+    w->t = t;
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
+    for (size_t i = 0; i < w->m; i++) {
+        double g = w->start.g0[i], noise;
+
+        QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, known->least, i, &noise));
+        w->start.on[i] = fabs(g) <= 2 * noise;
+        if (known->residual && known->residual[i] >= 0)
+            w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * known->residual[i];
+        w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
+        on[i] = w->start.on[i];
+    }
+    return QDOT_OK;
+}
+
+const int *
+qdot_watch_first(const qdot_watch *w)
+{
+    return w->first;
+}
+
+const bool *
+qdot_watch_slow(const qdot_watch *w)
+{
+    return w->slow;
+}
+
+qdot_status
+qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs)
+{
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    QDOT_TRY(qdot_watch_value(w, t, w->g));
+    for (size_t i = 0; i < w->m; i++)
+        signs[i] = qdot_watch_sign(w->g[i]);
+    return QDOT_OK;
+}
+
+/* --- building ------------------------------------------------------------------------ */
+
+void
+qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)
+{
+    w->coordinate[i] = coordinate;
+    w->bound[i] = bound;
+    w->all_bounds = true;
+    for (size_t k = 0; k < w->m; k++)
+        w->all_bounds = w->all_bounds && w->coordinate[k] != SIZE_MAX;
+}
+
+void
+qdot_watch_free(qdot_watch *w)
+{
+    if (!w)
+        return;
+    qdot_tape_free(w->tape);
+    qdot_tape_free(w->sizes);
+    qdot_polynomial_bounds_clear(&w->bounds);
+    qdot_free(w->coordinate);
+    qdot_free(w->bound);
+    qdot_free(w->in);
+    qdot_free(w->roots.at);
+    qdot_free(w->first);
+    qdot_free(w->live);
+    qdot_free(w);
+}
+
+/* Room for everything: numbers in one block, signs in another, flags in a third. */
+static qdot_status
+make_room(qdot_watch *w)
+{
+    size_t m = w->m, n = w->n, work = qdot_tape_work(w->tape);
+    size_t inputs = qdot_tape_inputs(w->tape);
+
+    if (qdot_tape_work(w->sizes) > work)
+        work = qdot_tape_work(w->sizes);
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 9 * m +
+                                 QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
+                             sizeof *at);
+    int *signs = qdot_calloc(3 * m + 1, sizeof *signs);
+    bool *flags = qdot_calloc(6 * m + 1, sizeof *flags);
+
+    w->in = at;
+    w->first = signs;
+    w->live = flags;
+    w->coordinate = qdot_malloc((m + 1) * sizeof *w->coordinate);
+    w->bound = qdot_calloc(m + 1, sizeof *w->bound);
+    if (!at || !signs || !flags || !w->coordinate || !w->bound)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < m; i++)
+        w->coordinate[i] = SIZE_MAX;
+    w->y = w->in + inputs;
+    w->z = w->y + 2 * n;
+    w->work = w->z + 2 * n;
+    w->g = w->work + work;
+    w->moved = w->g + m;
+    w->noise = w->moved + m;
+    w->first_noise = w->noise + m;
+    w->size = w->first_noise + m;
+    w->clear = w->size + m;
+    w->final = w->clear + m;
+    w->start.g0 = w->final + m;
+    w->now.g0 = w->start.g0 + m;
+    w->samples = w->now.g0 + m;
+    w->ends = w->samples + QDOT_WATCH_NODES * m;
+    w->start.sign = signs + m;
+    w->now.sign = signs + 2 * m;
+    w->fresh = flags + m;
+    w->start.on = flags + 2 * m;
+    w->now.on = flags + 3 * m;
+    w->slow = flags + 4 * m;
+    w->grazed = flags + 5 * m;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
+               double tol, qdot_watch **watch)
+{
+    qdot_watch *w = qdot_calloc(1, sizeof *w);
+    qdot_status status;
+
+    *watch = NULL;
+    if (!w)
+        return QDOT_ENOMEM;
+    w->plan = plan;
+    w->kernels = qdot_series_kernels_get();
+    w->m = m;
+    w->n = plan->n;
+    w->tol = tol;
+    w->nodes = LEAST;
+    status = qdot_watch_lower(w, g, shaken);
+    if (status == QDOT_OK)
+        status = make_room(w);
+    if (status == QDOT_OK)
+        status = qdot_polynomial_bounds_init(&w->bounds, w->tape, 2 * w->n);
+    if (status != QDOT_OK) {
+        qdot_watch_free(w);
+        return status;
+    }
+    *watch = w;
+    return QDOT_OK;
+}

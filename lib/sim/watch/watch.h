@@ -1,0 +1,85 @@
+/* watch.h -- finds all roots of functions of the motion within a step.
+ *
+ *     g_i(q, q', t, q'') = 0,   i = 0 ... m - 1,   t_k <= t < t_k+1
+ *
+ * On a part of a step every g_i is interpolated by a Chebyshev polynomial (num/chebyshev.h) of 16
+ * to 64 terms whose last coefficients are below rounding, and discs (polynomial-bounds.h) bound
+ * its error between the nodes; if either fails the part is halved. If a step has a series and
+ * discs keep g_i away from 0, it is not sampled. Between
+ * its extrema, which are isolated by the bound of the derivative, a polynomial changes its
+ * sign at most once: no root is missed, however near two are. A root is then located by the
+ * states themselves: the first double of t at which g has changed its sign.
+ *
+ * A step is half open, and the next step begins with the sign at its end, that of the stored
+ * state: a root at the end is found once. If g(t_k) is 0 the roots of (g - g(t_k))/(t - t_k) are
+ * looked for, so that rounding of g just after t_k makes no root. Whether the zero at t_k itself
+ * counts depends on the sign before it: a motion that starts on it has none.
+ *
+ * An extremum within rounding of 0, or within the tolerance of the run, is a root without
+ * change of sign.
+ *
+ * Tests  tests/script/events.lag, event-roots.lag, narrow-events.lag
+ */
+#ifndef QDOT_SIM_WATCH_H
+#define QDOT_SIM_WATCH_H
+
+#include "ode/system.h"
+#include "sim/watch/root.h"
+#include "sim/model/equations.h"
+
+typedef struct qdot_watch qdot_watch;
+
+/* Make a watch of g [m], with the parameter values of the plan. `shaken` as for qdot_bind_new.
+ * Errors: as qdot_tape_new. */
+QDOT_MUST_CHECK qdot_status qdot_watch_new(const qdot_plan *plan, size_t m,
+                                           const qdot_expr *g, bool shaken, double tol,
+                                           qdot_watch **watch);
+void qdot_watch_free(qdot_watch *w);
+
+/* Declare that g_i is coordinate - bound: a step far from the bound is not searched. */
+void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
+
+/* What is known at the start of a piece. */
+typedef struct {
+    double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if
+                               the start was moved by a rounding of 1 */
+    const int *before;      /* [m] the signs just before; 0: none, as at the start of a run */
+    const double *residual; /* [m] |g| up to which it counts as 0, if a root was located here;
+                               or NULL */
+} qdot_watch_known;
+
+/* Begin a piece of the run at (t, y); `reader`, copied, reads its states. on [m] out: whether g
+ * is 0 here. */
+QDOT_MUST_CHECK qdot_status qdot_watch_begin(qdot_watch *w,
+                                             const qdot_watch_reader *reader, double t,
+                                             const double *y, const qdot_watch_known *known,
+                                             bool *on);
+
+/* The functions [m] at a state, before _begin. */
+QDOT_MUST_CHECK qdot_status qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader,
+                                               double t, const double *y, const double **g);
+
+/* All roots of the step to (t, y), ascending in the direction of the run; borrowed until
+ * the next call. `last`: the step ends the run, and a root at its end counts. A repeated call
+ * tries another step from the same start; _take accepts the step.
+ *   step  NULL, or that of the system's series, to t */
+QDOT_MUST_CHECK qdot_status qdot_watch_step(qdot_watch *w, double t, const double *y,
+                                            bool last, const qdot_ode_expanded *step,
+                                            const qdot_root **roots, size_t *n);
+void qdot_watch_take(qdot_watch *w);
+
+/* Whether only bounds are watched and the step, by its series, stays far from all of them: then
+ * it need not be searched, and _pass accepts it. */
+bool qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step);
+void qdot_watch_pass(qdot_watch *w, double t, const double *y);
+
+/* For the step last searched: [m] the sign of g just after its start, 0 if g vanishes throughout;
+ * and whether g leaves a zero there so slowly that its slope cannot be told from 0. */
+const int *qdot_watch_first(const qdot_watch *w);
+const bool *qdot_watch_slow(const qdot_watch *w);
+
+/* The signs of all g at a state. */
+QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
+                                            int *signs);
+
+#endif
