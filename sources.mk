@@ -560,6 +560,7 @@ library_sources = \
 	lib/sim/study/bifurcation.c \
 	lib/sim/study/branch.c \
 	lib/sim/study/continuation.c \
+	lib/sim/study/ensemble-doubts.c \
 	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble-steps.c \
@@ -1051,6 +1052,7 @@ library_headers = \
 	lib/sim/study/bifurcation.h \
 	lib/sim/study/branch.h \
 	lib/sim/study/continuation.h \
+	lib/sim/study/ensemble-doubts.h \
 	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble-steps.h \

@@ -21,9 +21,13 @@
 static const double largest_error = 1e-4;
 enum { MOST_STEPS = 20000, PLACES = 16 };
 
-/* Under this tolerance the method's error may be less than that of rounding; an error of so many
- * roundings a step, which add up as a random walk, may be of either. One companion shows the former. */
+/* Under this tolerance the method's error may be less than that of rounding; a distance of so many
+ * roundings a step, which add up as a random walk, may be of either. One that is far less at the end
+ * than before may be so by chance. Then one companion does not tell enough. */
 static const double least_tol = 3e-11, roundings = 64;
+
+/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
+static const double most_between = 30;
 
 /* Coordinates below this may have a scale of their own (sim/run/scales.h). */
 static const double small = 1e-3, nothing = 1e-15;
@@ -442,8 +446,7 @@ by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether an error of a number of that size may be that of rounding, of which one companion does not
- * tell enough. */
+/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
 static bool
 is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
 {
@@ -473,8 +476,9 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
             sorted[k] = between[k * n + i];
         qsort(sorted, x->places, sizeof *sorted, by_size);
         values[i] = x->out[i];
-        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], 30 * errors[i]));
-        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size);
+        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
+                    || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
+        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
         errors[i] += DBL_EPSILON * size;
         *there = isfinite(values[i]) && isfinite(errors[i])
                  && errors[i] <= largest_error * fmax(1, fabs(values[i]));

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "ode/taylor.h"
+#include "sim/study/ensemble-doubts.h"
 #include "sim/watch/watch.h"
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
@@ -24,6 +25,7 @@ typedef struct {
     qdot_ode_system system;
     qdot_ode_expanded step;
     qdot_watch *watch;         /* NULL: no events */
+    qdot_ensemble_doubts *doubts; /* NULL: nothing else to look at */
 } lane;
 
 struct qdot_ensemble_steps {
@@ -69,6 +71,7 @@ qdot_ensemble_steps_free(qdot_ensemble_steps *s)
         qdot_free(s->lanes[l].end);
         qdot_free(s->lanes[l].x);
         qdot_watch_free(s->lanes[l].watch);
+        qdot_ensemble_doubts_free(s->lanes[l].doubts);
     }
     qdot_free(s->first);
     qdot_free(s);
@@ -87,6 +90,8 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
     a->member = SIZE_MAX;
     a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
     a->system = (qdot_ode_system){.n = n, .series = &a->series};
+    if (!s->of.moved) /* of the run */
+        QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
     return events ? qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch)
                   : QDOT_OK;
 }
@@ -240,8 +245,6 @@ search(const qdot_ensemble_steps *s, bool last, lane *a)
 
     a->roots.n = 0;
     if (status == QDOT_OK)
-        status = read_lane(a->step.t_end, a->end, a);
-    if (status == QDOT_OK)
         status = qdot_watch_step(a->watch, a->step.t_end, a->end, last, &a->step, &roots, &n);
     if (qdot_grave(status) != QDOT_OK)
         return status;
@@ -273,8 +276,27 @@ is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
     return false;
 }
 
+/* Look at the step, and for roots in it. */
+static qdot_status
+look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    qdot_pulses_step seen = {.a = step->t,
+                             .b = step->t_end,
+                             .tol = s->of.tol,
+                             .from = a->y,
+                             .to = a->end,
+                             .read = read_lane,
+                             .user = a};
+
+    copy_series(s, step, a);
+    QDOT_TRY(read_lane(step->t_end, a->end, a));
+    if (a->doubts && !a->doubtful)
+        QDOT_TRY(qdot_ensemble_doubts_look(a->doubts, &seen, &a->doubtful));
+    return a->watch ? search(s, step->last, a) : QDOT_OK;
+}
+
 /* Take the lane's member as it stands at its start. */
-static void
+static qdot_status
 enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     a->member = step->member;
@@ -282,6 +304,7 @@ enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     a->passed = 0;
     for (size_t i = 0; i < 2 * s->n; i++)
         s->sizes[step->member * 2 * s->n + i] = fabs(step->y[i * L]);
+    return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
 }
 
 static qdot_status
@@ -293,7 +316,7 @@ tried(const qdot_batch_step *step, void *user)
     double *sizes = s->sizes + step->member * 2 * s->n;
 
     if (a->member != step->member)
-        enter(s, step, a);
+        QDOT_TRY(enter(s, step, a));
     a->next = a->passed;
     a->step.t_end = step->t_end;
     while (a->next < s->of.n_times
@@ -310,10 +333,7 @@ tried(const qdot_batch_step *step, void *user)
         if (size > sizes[i])
             sizes[i] = size;
     }
-    if (!a->watch)
-        return QDOT_OK;
-    copy_series(s, step, a);
-    return search(s, step->last, a);
+    return a->watch || a->doubts ? look(s, step, a) : QDOT_OK;
 }
 
 /* Note the roots of the step; whether all that is asked of events has been found. */

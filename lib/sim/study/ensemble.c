@@ -18,11 +18,6 @@
 #include "tape/disc.h"
 #include "tape/shake.h"
 
-/* An only companion: orders more than the run, and the part of its tolerance. It errs by about a
- * hundredth, for a step aims at tol^(5/4). */
-enum { only_order = 2 };
-static const double only_ratio = 0.03;
-
 /* One pass over all members, the runs themselves or their companions. */
 typedef struct {
     qdot_ensemble_series *series; /* of companions: made when first asked for */
@@ -44,7 +39,7 @@ struct qdot_ensemble {
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
     size_t companions; /* 1 or 2 */
-    pass passes[QDOT_ENSEMBLE_PASSES + 1]; /* the last is that of an only companion */
+    pass passes[QDOT_ENSEMBLE_PASSES];
     const qdot_ensemble_watching *watching; /* NULL: nobody looks */
     double *times; /* [n_times] at which states are kept */
     size_t n_times;
@@ -61,19 +56,6 @@ pass_clear(pass *p)
     qdot_free(p->run.results);
     p->memory = NULL;
     p->run = (qdot_batch_run){0};
-}
-
-/* Of the run (0) or of a companion. */
-static const pass *
-pass_at(const qdot_ensemble *e, size_t k)
-{
-    return e->passes + (k == 1 && e->companions == 1 ? QDOT_ENSEMBLE_PASSES : k);
-}
-
-static pass *
-change_pass(qdot_ensemble *e, size_t k)
-{
-    return e->passes + (pass_at(e, k) - e->passes);
 }
 
 static const qdot_plan *
@@ -98,7 +80,7 @@ qdot_ensemble_free(qdot_ensemble *e)
     if (!e)
         return;
     forget_reasons(e);
-    for (size_t k = 0; k <= QDOT_ENSEMBLE_PASSES; k++) {
+    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
         pass_clear(e->passes + k);
         qdot_ensemble_series_free(e->passes[k].series);
         qdot_ensemble_steps_free(e->passes[k].steps);
@@ -282,16 +264,14 @@ static void
 pass_options(const qdot_ensemble *e, pass *p)
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
-    const bool only = e->companions == 1;
 
     pass_clear(p);
     p->run.order = e->order;
     p->run.tol = e->tol;
     if (p->number == 0)
         return;
-    p->run.order += only ? only_order : QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
-    p->run.tol = fmax((only ? only_ratio : taylor->companion_ratio) * e->tol,
-                      taylor->companion_tol);
+    p->run.order += QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
+    p->run.tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol);
 }
 
 /* The series of a companion, shaken or not. */
@@ -418,7 +398,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     if (!whole)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        status = start_all(e, change_pass(e, k), k == 0 ? e->reasons : NULL, whole);
+        status = start_all(e, e->passes + k, k == 0 ? e->reasons : NULL, whole);
     qdot_free(whole);
     return status;
 }
@@ -434,19 +414,19 @@ run_passes(qdot_ensemble *e, size_t passes)
     bool threaded[QDOT_ENSEMBLE_PASSES] = {false};
 
     for (size_t k = 1; k < passes && !e->watching; k++)
-        threaded[k] = pthread_create(&thread[k], NULL, pass_run, change_pass(e, k)) == 0;
+        threaded[k] = pthread_create(&thread[k], NULL, pass_run, e->passes + k) == 0;
     pass_run(e->passes);
     for (size_t m = 0; m < e->passes->run.members && e->watching; m++)
         for (size_t k = 1; k < passes && qdot_ensemble_left(e, m); k++)
-            change_pass(e, k)->t1[m] = e->t0;
+            e->passes[k].t1[m] = e->t0;
     for (size_t k = 1; k < passes; k++)
         if (threaded[k])
             pthread_join(thread[k], NULL);
         else if (e->passes->status == QDOT_OK)
-            pass_run(change_pass(e, k));
+            pass_run(e->passes + k);
     for (size_t k = 0; k < passes; k++)
-        if (pass_at(e, k)->status != QDOT_OK)
-            return qdot_fail(pass_at(e, k)->status, "%s", pass_at(e, k)->error.message);
+        if (e->passes[k].status != QDOT_OK)
+            return qdot_fail(e->passes[k].status, "%s", e->passes[k].error.message);
     return QDOT_OK;
 }
 
@@ -466,9 +446,9 @@ end_error(const qdot_ensemble *e, size_t m)
     double error = 0x1p-53;
 
     for (size_t k = 0; k <= e->companions; k++) {
-        if (k > 0 && !arrived(e, pass_at(e, k), m))
+        if (k > 0 && !arrived(e, e->passes + k, m))
             return NAN;
-        y[k] = pass_at(e, k)->run.y + m * width(e);
+        y[k] = e->passes[k].run.y + m * width(e);
     }
     for (size_t i = 0; i < 2 * e->n; i++) {
         const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
@@ -538,7 +518,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < passes && status == QDOT_OK; k++) {
-        pass *p = change_pass(e, k);
+        pass *p = e->passes + k;
 
         p->number = k;
         pass_options(e, p);
@@ -551,11 +531,11 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     if (status == QDOT_OK)
         status = start_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        enter(e, change_pass(e, k));
+        enter(e, e->passes + k);
     if (status == QDOT_OK)
         status = run_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        come_back(e, change_pass(e, k));
+        come_back(e, e->passes + k);
     if (status == QDOT_OK)
         report(e, errors, y, results);
     return status;
@@ -583,9 +563,10 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
         if (reads_kept(e, watching->events[i].function))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
                                              "velocity whose momentum is kept");
-    if (e->plan->tape && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that look for forces which act "
-                                         "for less than a step");
+    if (n_kept(e) > 0 && e->plan->tape
+        && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that keep momenta and look for "
+                                         "forces which act for less than a step");
     e->watching = watching;
     e->most_steps = most_steps;
     e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
@@ -635,7 +616,7 @@ write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole
 bool
 qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, double *whole)
 {
-    const pass *p = pass_at(e, k);
+    const pass *p = e->passes + k;
 
     if (place < e->n_times) {
         if (qdot_ensemble_steps_passed(p->steps, m) <= place)
@@ -652,7 +633,7 @@ qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, do
 double
 qdot_ensemble_event_time(const qdot_ensemble *e, size_t k, size_t m, size_t event, size_t which)
 {
-    return qdot_ensemble_steps_event(pass_at(e, k)->steps, m, event, which);
+    return qdot_ensemble_steps_event(e->passes[k].steps, m, event, which);
 }
 
 size_t

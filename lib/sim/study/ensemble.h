@@ -47,8 +47,8 @@ void qdot_ensemble_free(qdot_ensemble *ensemble);
 QDOT_MUST_CHECK qdot_status qdot_ensemble_follow(qdot_ensemble *ensemble,
                                                  const qdot_ensemble_watching *watching,
                                                  uint64_t most_steps);
-/* Before _run: so many companions, 2 if nothing is said. An only one, under a tolerance that is little
- * tighter than that of the run, shows the errors of the method and not those of rounding. */
+/* Before _run: so many companions, 2 if nothing is said. One alone shows the errors of the method, and
+ * not enough of rounding. */
 void qdot_ensemble_companions(qdot_ensemble *ensemble, size_t companions);
 
 /* Run them.
