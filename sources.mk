@@ -1236,6 +1236,7 @@ unit_tests = \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
+	tests/sim/test_ensemble-doubts \
 	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
