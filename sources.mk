@@ -1795,6 +1795,7 @@ script_tests = \
 	examples/figure-eight.lag \
 	examples/fit.lag \
 	examples/flexing-wire.lag \
+	examples/flip-map.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
 	examples/generalized-momenta.lag \
@@ -2653,6 +2654,8 @@ example_files = \
 	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/flexing-wire.svg \
+	examples/flip-map.lag \
+	examples/flip-map.svg \
 	examples/foucault.lag \
 	examples/foucault.svg \
 	examples/four-bar.lag \
