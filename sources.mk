@@ -567,6 +567,7 @@ library_sources = \
 	lib/sim/study/bifurcation.c \
 	lib/sim/study/branch.c \
 	lib/sim/study/continuation.c \
+	lib/sim/study/ensemble-doubts.c \
 	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
 	lib/sim/study/ensemble-steps.c \
@@ -1073,6 +1074,7 @@ library_headers = \
 	lib/sim/study/bifurcation.h \
 	lib/sim/study/branch.h \
 	lib/sim/study/continuation.h \
+	lib/sim/study/ensemble-doubts.h \
 	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
 	lib/sim/study/ensemble-steps.h \
@@ -1264,6 +1266,7 @@ unit_tests = \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
+	tests/sim/test_ensemble-doubts \
 	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
@@ -1830,6 +1833,7 @@ script_tests = \
 	examples/figure-eight.lag \
 	examples/fit.lag \
 	examples/flexing-wire.lag \
+	examples/flip-map.lag \
 	examples/foucault.lag \
 	examples/four-bar.lag \
 	examples/generalized-momenta.lag \
@@ -2699,6 +2703,8 @@ example_files = \
 	examples/fit.lag \
 	examples/flexing-wire.lag \
 	examples/flexing-wire.svg \
+	examples/flip-map.lag \
+	examples/flip-map.svg \
 	examples/foucault.lag \
 	examples/foucault.svg \
 	examples/four-bar.lag \

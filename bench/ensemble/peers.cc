@@ -1,9 +1,11 @@
 /* peers.cc -- members of a sweep by hand-written peers: see `sweeps`.
  *
- *     peers SCENE METHOD TARGET < CSV
- *     peers cpu COMMAND ...          seconds of the processor that the command takes
+ *     peers SCENE METHOD TARGET [THREADS] < CSV
+ *     peers cpu|wall COMMAND ...     seconds of the processor, or of the clock, that the command takes
  *
- *   METHOD  dop853 (peers/dop853.hh), rkf78 (Boost.odeint), wide (wide.hh: four members a vector)
+ *   METHOD  dop853 (peers/dop853.hh), rkf78 (Boost.odeint); wide, wide78: the same with four members a
+ *           vector (wide.hh)
+ *   THREADS by OpenMP, by the clock; without it one, by the processor's time
  *   CSV     a header; what the scene sweeps, then the coordinates at its end
  *
  * Takes the loosest tolerance of a ladder, two a decade, by which the median of the members' errors at
@@ -76,46 +78,87 @@ struct chain_swept : chain_linear<8> {
 
 typedef std::vector<double> numbers;
 
+/* The error of a step as odeint's own checker has it, of the worst of four members. */
+struct worst_of_four {
+    double tol;
+
+    template <class State, class Deriv, class Err, class Time>
+    double error(const State &x, const Deriv &d, Err &err, Time h) const
+    {
+        double most = 0;
+
+        for (size_t i = 0; i < x.size(); i++)
+            most = std::fmax(most, worst(size_of(err[i])
+                                         / (wide(tol) * (wide(1) + size_of(x[i])
+                                                         + wide(std::fabs(h)) * size_of(d[i])))));
+        return most;
+    }
+    template <class Algebra, class State, class Deriv, class Err, class Time>
+    double error(Algebra &, const State &x, const Deriv &d, Err &err, Time h) const
+    {
+        return error(x, d, err, h);
+    }
+};
+
+/* One of a method, through T: double, or four members. */
+template <class S, class T> void
+fehlberg(T *y, double tol)
+{
+    using namespace boost::numeric::odeint;
+    typedef std::array<T, S::size> state;
+    typedef runge_kutta_fehlberg78<state, double, state, double, array_algebra> stepper;
+    const auto f = [](const state &at, state &d, double) { S::template f<T>(at.data(), d.data()); };
+    state x;
+
+    std::copy(y, y + S::size, x.begin());
+    if constexpr (std::is_same<T, double>::value)
+        integrate_adaptive(make_controlled<stepper>(tol, tol), f, x, 0.0, S::t1, 0.01);
+    else
+        integrate_adaptive(controlled_runge_kutta<stepper, worst_of_four>(worst_of_four{tol}), f, x,
+                           0.0, S::t1, 0.01);
+    std::copy(x.begin(), x.end(), y);
+}
+
 template <class S> void
-run_all(const std::string &method, const numbers &starts, double tol, numbers &ends)
+run_four(const std::string &method, const numbers &starts, size_t m, double tol, numbers &ends)
 {
     const size_t n = S::size, members = starts.size();
+    wide y[S::size];
+    double one[S::size];
 
-    if (method == "wide") {
-        for (size_t m = 0; m < members; m += 4) {
-            wide y[S::size];
-            double one[S::size];
-
-            for (size_t l = 0; l < 4; l++) {
-                S::at(starts[std::min(m + l, members - 1)], one);
-                for (size_t i = 0; i < n; i++)
-                    y[i][(int)l] = one[i];
-            }
-            dop853_wide<S::size>(S::template f<wide>, S::t1, y, tol);
-            for (size_t l = 0; l < 4 && m + l < members; l++)
-                for (size_t i = 0; i < n; i++)
-                    ends[(m + l) * n + i] = y[i][(int)l];
-        }
-        return;
+    for (size_t l = 0; l < 4; l++) {
+        S::at(starts[std::min(m + l, members - 1)], one);
+        for (size_t i = 0; i < n; i++)
+            y[i][(int)l] = one[i];
     }
-    for (size_t m = 0; m < members; m++) {
+    if (method == "wide")
+        dop853_wide<S::size>(S::template f<wide>, S::t1, y, tol);
+    else
+        fehlberg<S, wide>(y, tol);
+    for (size_t l = 0; l < 4 && m + l < members; l++)
+        for (size_t i = 0; i < n; i++)
+            ends[(m + l) * n + i] = y[i][(int)l];
+}
+
+template <class S> void
+run_all(const std::string &method, const numbers &starts, double tol, numbers &ends, int threads)
+{
+    const size_t n = S::size, members = starts.size();
+    const bool fours = method.substr(0, 4) == "wide";
+
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (size_t m = 0; m < members; m += fours ? 4 : 1) {
         double *y = &ends[m * n];
 
-        S::at(starts[m], y);
-        if (method == "dop853") {
-            dop853<S::size, double>(S::template f<double>, S::t1, y, tol);
-        } else {
-            using namespace boost::numeric::odeint;
-            typedef std::array<double, S::size> state;
-            state x;
-
-            std::copy(y, y + n, x.begin());
-            integrate_adaptive(
-                make_controlled<runge_kutta_fehlberg78<state>>(tol, tol),
-                [](const state &at, state &d, double) { S::template f<double>(at.data(), d.data()); },
-                x, 0.0, S::t1, 0.01);
-            std::copy(x.begin(), x.end(), y);
+        if (fours) {
+            run_four<S>(method, starts, m, tol, ends);
+            continue;
         }
+        S::at(starts[m], y);
+        if (method == "dop853")
+            dop853<S::size, double>(S::template f<double>, S::t1, y, tol);
+        else
+            fehlberg<S, double>(y, tol);
     }
 }
 
@@ -130,14 +173,18 @@ seconds_of(int who)
 }
 
 static double
-now(void)
+clock_now(void)
 {
-    return seconds_of(RUSAGE_SELF);
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 static int
-time_command(char **argv)
+time_command(bool by_clock, char **argv)
 {
+    const double begun = clock_now();
     int status = 0;
 
     if (fork() == 0) {
@@ -147,13 +194,14 @@ time_command(char **argv)
         _exit(1);
     }
     wait(&status);
-    printf("%.4f\n", seconds_of(RUSAGE_CHILDREN));
+    printf("%.4f\n", by_clock ? clock_now() - begun : seconds_of(RUSAGE_CHILDREN));
     return status != 0;
 }
 
 template <class S> int
-measure(const char *scene, const std::string &method, double target)
+measure(const char *scene, const std::string &method, double target, int threads)
 {
+    const auto now = [=] { return threads > 1 ? clock_now() : seconds_of(RUSAGE_SELF); };
     const size_t n = S::size;
     numbers starts, want, ends, errors;
     char line[4096];
@@ -175,7 +223,7 @@ measure(const char *scene, const std::string &method, double target)
 
         if (tol < 2e-16)
             break;
-        run_all<S>(method, starts, tol, ends);
+        run_all<S>(method, starts, tol, ends, 1);
         errors.clear();
         for (size_t m = 0; m < starts.size(); m++) {
             double worst = 0;
@@ -192,7 +240,7 @@ measure(const char *scene, const std::string &method, double target)
             continue;
         begun = now();
         do {
-            run_all<S>(method, starts, tol, ends);
+            run_all<S>(method, starts, tol, ends, threads);
             rounds++;
             seconds = now() - begun;
         } while (seconds < 0.3);
@@ -207,16 +255,17 @@ measure(const char *scene, const std::string &method, double target)
 int
 main(int argc, char **argv)
 {
-    if (argc > 2 && std::string(argv[1]) == "cpu")
-        return time_command(argv + 2);
-    if (argc != 4)
+    if (argc > 2 && (std::string(argv[1]) == "cpu" || std::string(argv[1]) == "wall"))
+        return time_command(argv[1][0] == 'w', argv + 2);
+    if (argc != 4 && argc != 5)
         return 2;
     const std::string scene = argv[1];
     const double target = atof(argv[3]);
+    const int threads = argc > 4 ? atoi(argv[4]) : 1;
 
 #define SCENE(name)                                                                      \
     if (scene == #name)                                                                  \
-        return measure<name##_swept>(#name, argv[2], target);
+        return measure<name##_swept>(#name, argv[2], target, threads);
     SCENE(pendulum)
     SCENE(double)
     SCENE(henon)

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -479,6 +480,34 @@ threads_ask_at_the_same_time(void **state)
     }
 }
 
+static void
+say_done(void *user)
+{
+    *(bool *)user = true;
+}
+
+/* A copy of the process has none of its threads: it begins its own. */
+static void
+a_copy_of_the_process_asks(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    bool done = false;
+    int how = 0;
+    pid_t copy;
+
+    (void)state;
+    assert_int_equal(qdot_flint_run(pool, say_done, &done), QDOT_OK);
+    copy = fork();
+    if (copy == 0) {
+        alarm(60); /* it would wait for ever */
+        done = false;
+        _exit(qdot_flint_run(pool, say_done, &done) == QDOT_OK && done ? 0 : 1);
+    }
+    assert_int_equal(waitpid(copy, &how, 0), copy);
+    assert_int_equal(how, 0);
+    qdot_pool_free(pool);
+}
+
 /* --- the bound ---------------------------------------------------------------------------- */
 
 static void
@@ -518,6 +547,7 @@ main(void)
         cmocka_unit_test(nothing_is_left_behind),
         cmocka_unit_test(failures_pass_over),
         cmocka_unit_test(threads_ask_at_the_same_time),
+        cmocka_unit_test(a_copy_of_the_process_asks),
         cmocka_unit_test(the_bound_of_memory_is_a_limit),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

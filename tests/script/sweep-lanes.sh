@@ -70,6 +70,49 @@ save many to "many.csv"
 END
     agree few.csv many.csv
 done
+echo '# constraints; walls; a cusp, which is left to runs alone'
+cat >rods.lag <<'END'
+param A
+coord x, y, u, w
+particle p mass 1 at (x, y)
+particle q mass 1 at (u, w)
+gravity (0, -9.81)
+constraint upper: x^2 + y^2 = 1
+constraint lower: (u - x)^2 + (w - y)^2 = 1
+event low: x = 0 falling
+start x = sin(A), y = -cos(A), u = sin(A) + sin(1), w = -cos(A) - cos(1)
+END
+cat >wall.lag <<'END'
+param w = 30
+coord x
+particle p mass 1 at x
+potential x^2/2 + exp(w*(x - 2)) + exp(-w*(x + 2))
+event low: x = 0 rising
+END
+cat >cusp.lag <<'END'
+param A
+coord x, y
+particle p mass 1 at (x, y)
+gravity (-1, 0)
+constraint c: y^2 = x^3
+start x = A^2, y = A^3
+END
+for what in 'rods A 0..3 x, w, energy, low[1]' 'wall x'"'"' 0..20 x, x'"'"', low[1]' 'cusp A 0..5 x, y'; do
+    set -- $what
+    scene=$1 name=$2 time=$3
+    shift 3
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p; /^each/p'
+plan sweep $name = $many run $time : $*
+sweep $name = $few run $time : $* as few threads 1
+sweep $name = $many run $time : $* as many threads 1
+sweep $name = $many run $time : $* as others threads 3
+save few to "few.csv"
+save many to "many.csv"
+save others to "others.csv"
+END
+    agree few.csv many.csv
+    cmp many.csv others.csv
+done
 echo '# plans'
 cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/'
 qdot -q double.lag - <<'END' 2>&1 | sed "$cut"

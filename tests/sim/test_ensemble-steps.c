@@ -112,6 +112,37 @@ members_leave_with_the_same_events(void **state)
     let_go(&leaving);
 }
 
+/* An only companion shows the errors of the method: ends are no further from those under a tighter
+ * tolerance than stated, nor much nearer. */
+static void
+one_companion_shows_the_method(void **state)
+{
+    members x, close;
+
+    (void)state;
+    run_all(&close, false, 100);
+    run_all(&x, false, 100);
+    qdot_ensemble_free(x.e);
+    x.f.request.tol = 1e-7;
+    x.e = prepare(&x.f, 0, NULL);
+    must(qdot_ensemble_follow(x.e, &x.watching, 10000));
+    qdot_ensemble_companions(x.e, 1);
+    memcpy(x.y, x.start, sizeof x.y);
+    must(qdot_ensemble_run(x.e, MEMBERS, x.y, NULL, true, x.results));
+    for (size_t m = 0; m < MEMBERS; m++) {
+        const double stated = x.results[m].error;
+        double off = 0;
+
+        for (size_t i = m * STATE; i < (m + 1) * STATE; i++)
+            off = fmax(off, fabs(x.y[i] - close.y[i]) / fmax(1, fabs(x.y[i])));
+        assert_false(qdot_ensemble_left(x.e, m));
+        if (!(off <= stated && stated <= 3 * off))
+            fail_msg("member %zu: off by %.3g, stated %.3g", m, off, stated);
+    }
+    let_go(&x);
+    let_go(&close);
+}
+
 /* A bound that the first angle swings past leaves all members that reach it. */
 static void
 members_near_a_bound_are_left(void **state)
@@ -131,6 +162,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_and_events_are_of_the_way),
         cmocka_unit_test(members_leave_with_the_same_events),
+        cmocka_unit_test(one_companion_shows_the_method),
         cmocka_unit_test(members_near_a_bound_are_left),
     };
 

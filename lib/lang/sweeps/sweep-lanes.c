@@ -21,6 +21,14 @@
 static const double largest_error = 1e-4;
 enum { MOST_STEPS = 20000, PLACES = 16 };
 
+/* Under this tolerance the method's error may be less than that of rounding; a distance of so many
+ * roundings a step, which add up as a random walk, may be of either. One that is far less at the end
+ * than before may be so by chance. Then one companion does not tell enough. */
+static const double least_tol = 3e-11, roundings = 64;
+
+/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
+static const double most_between = 30;
+
 /* Coordinates below this may have a scale of their own (sim/run/scales.h). */
 static const double small = 1e-3, nothing = 1e-15;
 
@@ -33,6 +41,7 @@ typedef struct {
 struct qdot_sweep_lanes {
     qdot_sweep *s;
     qdot_ensemble *ensemble;
+    size_t least, companions; /* of all members; of those that are run or read */
     qdot_ensemble_watching watching;
     qdot_ensemble_bounds bounds;
     qdot_vec(qdot_ensemble_event) events;
@@ -44,6 +53,8 @@ struct qdot_sweep_lanes {
     qdot_vec(qdot_expr) varied;
     qdot_vec(size_t) axis; /* of varied parameters */
     double t1;
+    const qdot_ensemble_result *results; /* of the members that are read */
+    bool unsure;           /* of the latest of them: it is to have two companions */
     bool *made;            /* [members] */
     char **reasons;        /* [members] */
 };
@@ -259,6 +270,32 @@ make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
     return status;
 }
 
+/* Forget varied parameters that nothing but starts read: e [outputs], the columns. */
+static bool
+drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
+{
+    const qdot_pool *pool = x->s->c->session->pool;
+    size_t n = 0;
+
+    for (size_t k = 0; k < x->varied.n; k++) {
+        const qdot_expr symbol = x->varied.at[k];
+        bool read = qdot_ensemble_reads(x->ensemble, k);
+
+        for (size_t i = 0; i < x->outputs; i++)
+            read = read || qdot_expr_contains(pool, e[i], symbol);
+        for (size_t i = 0; i < x->events.n; i++)
+            read = read || qdot_expr_contains(pool, x->events.at[i].function, symbol);
+        if (!read)
+            continue;
+        x->varied.at[n] = symbol;
+        x->axis.at[n++] = x->axis.at[k];
+    }
+    if (n == x->varied.n)
+        return false;
+    x->varied.n = x->axis.n = n;
+    return true;
+}
+
 /* The ensemble, where the first member's run fits. */
 static qdot_status
 prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
@@ -278,12 +315,17 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
         status = qdot_session_number(session, request->request.t1, &x->t1, NULL);
     if (status == QDOT_OK && why->n == 0)
         status = make_ensemble(x, request);
+    if (status == QDOT_OK && why->n == 0 && drop_unread(x, e)) {
+        qdot_ensemble_free(x->ensemble);
+        status = make_ensemble(x, request);
+    }
     if (status == QDOT_OK && why->n == 0)
         status = lower_columns(x, e);
     if (status == QDOT_OK && why->n == 0) {
         const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
         x->n = p->n - p->n_states;
+        x->least = request->request.tol < least_tol ? 2 : 1;
         for (size_t i = 0; i < x->events.n; i++)
             x->events.at[i].function = qdot_plan_substitute(p, x->events.at[i].function);
         status = qdot_pool_check(session->pool);
@@ -385,13 +427,13 @@ compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
     const double share = qdot_ensemble_share(x->ensemble, m);
     const size_t n = 2 * x->outputs;
 
-    for (size_t pass = 0; pass < QDOT_ENSEMBLE_PASSES; pass++)
+    for (size_t pass = 0; pass <= x->companions; pass++)
         if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
             return false;
     for (size_t i = 0; i < x->outputs; i++) {
         const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
 
-        errors[i] = qdot_companion_bound_of(x->out[i], 2, theirs, share);
+        errors[i] = qdot_companion_bound_of(x->out[i], x->companions, theirs, share);
     }
     return true;
 }
@@ -402,6 +444,15 @@ by_size(const void *a, const void *b)
     const double x = *(const double *)a, y = *(const double *)b;
 
     return (x > y) - (x < y);
+}
+
+/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
+static bool
+is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
+{
+    return x->companions == 1
+           && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
+                           * fmax(1, size);
 }
 
 /* Values and errors of the expressions of a member at its end, [outputs] each. */
@@ -425,8 +476,10 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
             sorted[k] = between[k * n + i];
         qsort(sorted, x->places, sizeof *sorted, by_size);
         values[i] = x->out[i];
-        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], 30 * errors[i]))
-                    + DBL_EPSILON * size;
+        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
+                    || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
+        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
+        errors[i] += DBL_EPSILON * size;
         *there = isfinite(values[i]) && isfinite(errors[i])
                  && errors[i] <= largest_error * fmax(1, fabs(values[i]));
     }
@@ -453,11 +506,13 @@ read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to
     double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
     qdot_text text = {0};
 
-    for (size_t pass = 0; pass < QDOT_ENSEMBLE_PASSES; pass++)
+    for (size_t pass = 0; pass <= x->companions; pass++)
         t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
     if (!isnan(t[0])) {
         *to = t[0];
-        *error = qdot_companion_bound_of(t[0], 2, t + 1, 1) + DBL_EPSILON * fabs(t[0]);
+        *error = qdot_companion_bound_of(t[0], x->companions, t + 1, 1);
+        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
+        *error += DBL_EPSILON * fabs(t[0]);
         *there = isfinite(*error); /* a run alone compares the same times */
         return QDOT_OK;
     }
@@ -473,8 +528,9 @@ read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to
 
 /* Row k from member m of the ensemble; it stays unmade for a run alone. */
 static qdot_status
-fill_row(qdot_sweep_lanes *x, size_t m, const qdot_ensemble_result *result, size_t k)
+fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
 {
+    const qdot_ensemble_result *result = x->results + m;
     qdot_row_table *t = x->s->table;
     double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
     double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
@@ -508,31 +564,83 @@ fill_row(qdot_sweep_lanes *x, size_t m, const qdot_ensemble_result *result, size
     return status;
 }
 
+/* Members as numbers, and the rows that are made of them. */
+typedef struct {
+    size_t n, *row;
+    double *y, *parameters; /* [n x 2 coordinates], [n x varied] */
+    qdot_ensemble_result *results;
+} members;
+
+static void
+members_clear(members *o)
+{
+    qdot_free(o->row);
+    qdot_free(o->y);
+    qdot_free(o->parameters);
+    qdot_free(o->results);
+}
+
+static qdot_status
+members_init(members *o, const qdot_sweep_lanes *x, size_t most)
+{
+    *o = (members){.row = qdot_calloc(most + 1, sizeof *o->row),
+                   .y = qdot_calloc(most * 2 * x->n + 1, sizeof *o->y),
+                   .parameters = qdot_calloc(most * x->varied.n + 1, sizeof *o->parameters),
+                   .results = qdot_calloc(most + 1, sizeof *o->results)};
+    return o->row && o->y && o->parameters && o->results ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* Run them, with so many companions; `again` gets those that are to have more. */
+static qdot_status
+run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
+{
+    const size_t width = 2 * x->n, varied = x->varied.n;
+    double *starts = qdot_calloc(o->n * width + 1, sizeof *starts);
+    qdot_status status = starts ? QDOT_OK : QDOT_ENOMEM;
+
+    x->companions = companions;
+    qdot_ensemble_companions(x->ensemble, companions);
+    if (status == QDOT_OK) {
+        memcpy(starts, o->y, o->n * width * sizeof *starts);
+        status = qdot_ensemble_run(x->ensemble, o->n, o->y, o->parameters, true, o->results);
+    }
+    x->results = o->results;
+    for (size_t m = 0; m < o->n && status == QDOT_OK; m++) {
+        x->unsure = false;
+        status = fill_row(x, m, o->row[m]);
+        if (!x->unsure)
+            continue;
+        memcpy(again->y + again->n * width, starts + m * width, width * sizeof *starts);
+        memcpy(again->parameters + again->n * varied, o->parameters + m * varied,
+               varied * sizeof *starts);
+        again->row[again->n++] = o->row[m];
+    }
+    qdot_free(starts);
+    return status;
+}
+
 qdot_status
 qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
 {
-    const size_t width = 2 * x->n;
-    double *y = qdot_calloc(count * width + 1, sizeof *y);
-    double *parameters = qdot_calloc(count * x->varied.n + 1, sizeof *parameters);
-    size_t *row = qdot_calloc(count + 1, sizeof *row), n = 0;
-    qdot_ensemble_result *results = qdot_calloc(count + 1, sizeof *results);
-    qdot_status status = y && parameters && row && results ? QDOT_OK : QDOT_ENOMEM;
+    members first = {0}, again = {0};
+    qdot_status status = members_init(&first, x, count);
 
+    if (status == QDOT_OK)
+        status = members_init(&again, x, count);
     for (size_t k = 0; k < count && status == QDOT_OK; k++) {
-        status = number_member(x, rows[k], y + n * width, parameters + n * x->varied.n);
+        status = number_member(x, rows[k], first.y + first.n * 2 * x->n,
+                               first.parameters + first.n * x->varied.n);
         if (status == QDOT_OK)
-            row[n++] = rows[k];
+            first.row[first.n++] = rows[k];
         else if (status != QDOT_ENOMEM && status != QDOT_EINTR)
             status = QDOT_OK; /* a run alone tells what is wrong with its values */
     }
-    if (status == QDOT_OK && n > 0)
-        status = qdot_ensemble_run(x->ensemble, n, y, parameters, true, results);
-    for (size_t m = 0; m < n && status == QDOT_OK; m++)
-        status = fill_row(x, m, results + m, row[m]);
-    qdot_free(y);
-    qdot_free(parameters);
-    qdot_free(row);
-    qdot_free(results);
+    if (status == QDOT_OK && first.n > 0)
+        status = run_members(x, x->least, &first, &again);
+    if (status == QDOT_OK && again.n > 0)
+        status = run_members(x, QDOT_ENSEMBLE_PASSES - 1, &again, NULL);
+    members_clear(&first);
+    members_clear(&again);
     return status;
 }
 

@@ -7,9 +7,10 @@
  * alone. So which way a row is made depends on the statement and the member only, and its bits on no
  * other member.
  *
- * The error of a column is that of a run alone: by the distance from two companions at the end, and at
- * places of the latter half of the way, of which the median counts, to 30 times that at the end
- * (ode/companion.h), with the rounding of its terms.
+ * The error of a column is found as that of a run alone: by the distance from companions at the end, and
+ * at places of the latter half of the way, of which the median counts, to 30 times that at the end
+ * (ode/companion.h), with the rounding of its terms. One companion is enough where the method's errors
+ * are well above those of rounding; the others have two.
  *
  * Tests  tests/script/sweep-lanes.sh
  */

@@ -300,10 +300,19 @@ end(void *user)
     qdot_free(w);
 }
 
+/* A copy of the process has the memory of this thread's worker and not its thread. */
+static void
+forget(void)
+{
+    mine = NULL;
+    (void)pthread_setspecific(key, NULL);
+}
+
 static void
 make_key(void)
 {
     (void)pthread_key_create(&key, end);
+    (void)pthread_atfork(NULL, NULL, forget);
 }
 
 /* The thread of who asks; signals are for the others. NULL: refused. */

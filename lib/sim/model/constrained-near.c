@@ -26,11 +26,12 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
 double
 qdot_constrained_remains(qdot_constrained *h, double t, const double *y, size_t *row)
 {
-    const qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
+    qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
     double least = INFINITY;
 
     qdot_constrained_load(h, t, y);
-    qdot_constrained_metric(h, h->at[QDOT_ACCELERATION]);
+    qdot_constrained_metric(h, all);
+    (void)qdot_saddle_faded(&all->saddle); /* it notes the largest */
     for (size_t k = 0; k < all->m; k++) {
         const double left = qdot_saddle_remains(&all->saddle, k);
 

@@ -22,12 +22,13 @@ take_bounds(const qdot_domains *domains, qdot_ensemble_bounds *bounds)
     return QDOT_OK;
 }
 
-/* The reason of the system of a plan, or of a part of it. */
+/* The reason of the system of a plan, or of a part of it. Where constraints lose their directions lanes
+ * leave a member to a run alone. */
 static const char *
-reason_of_system(const qdot_ode_system *system)
+reason_of_system(const qdot_ode_system *system, bool constrained)
 {
     for (size_t k = 0; k < system->n_parts; k++) {
-        const char *reason = reason_of_system(system->parts[k].system);
+        const char *reason = reason_of_system(system->parts[k].system, constrained);
 
         if (reason)
             return reason;
@@ -36,13 +37,14 @@ reason_of_system(const qdot_ode_system *system)
         return NULL;
     if (!system->series)
         return "the equations have no Taylor series";
-    return system->series->noise ? "the equations may be singular on the way" : NULL;
+    return system->series->noise && !constrained ? "the equations may be singular on the way" : NULL;
 }
 
 static qdot_status
 look_at_plan(const qdot_plan *plan, qdot_text *why)
 {
     qdot_bind *bind = NULL;
+    const char *reason;
     qdot_status status;
     qdot_ode_system system;
 
@@ -57,8 +59,9 @@ look_at_plan(const qdot_plan *plan, qdot_text *why)
     status = qdot_bind_new(plan, false, &bind);
     if (status == QDOT_OK) {
         system = qdot_bind_system(bind);
-        if (reason_of_system(&system))
-            qdot_text_add(why, reason_of_system(&system));
+        reason = reason_of_system(&system, plan->constraints != NULL);
+        if (reason)
+            qdot_text_add(why, reason);
     }
     qdot_bind_free(bind);
     return status == QDOT_OK ? qdot_text_status(why) : status;
@@ -72,8 +75,8 @@ qdot_ensemble_fit(qdot_scene *scene, const qdot_run_request *request,
     qdot_stage stage = {0};
     qdot_status status;
 
-    if (scene->constraints.n > 0)
-        qdot_text_add(why, "there are constraints");
+    if (scene->constraints.n > 0 && request->treatment != QDOT_RUN_PROJECT)
+        qdot_text_add(why, "lanes project onto constraints, and do nothing else with them");
     else if (acting)
         qdot_text_format(why, "the event %s %s a run", acting->name, acting->stop ? "stops" : "changes");
     else if (request->digits > 0)

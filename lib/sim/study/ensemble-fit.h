@@ -2,7 +2,7 @@
  * alone.
  *
  * Lanes go by Taylor series in doubles, in one chart, with one form of the equations. What a run alone
- * does beyond that - switches, events that act, another method, first orders in two doubles, constraints -
+ * does beyond that - switches, events that act, another method, first orders in two doubles -
  * they do not.
  *
  * Tests  tests/script/sweep-lanes.sh

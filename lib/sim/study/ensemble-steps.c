@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "ode/taylor.h"
+#include "sim/study/ensemble-doubts.h"
 #include "sim/watch/watch.h"
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
@@ -24,6 +25,7 @@ typedef struct {
     qdot_ode_system system;
     qdot_ode_expanded step;
     qdot_watch *watch;         /* NULL: no events */
+    qdot_ensemble_doubts *doubts; /* NULL: nothing else to look at */
 } lane;
 
 struct qdot_ensemble_steps {
@@ -69,6 +71,7 @@ qdot_ensemble_steps_free(qdot_ensemble_steps *s)
         qdot_free(s->lanes[l].end);
         qdot_free(s->lanes[l].x);
         qdot_watch_free(s->lanes[l].watch);
+        qdot_ensemble_doubts_free(s->lanes[l].doubts);
     }
     qdot_free(s->first);
     qdot_free(s);
@@ -87,6 +90,8 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
     a->member = SIZE_MAX;
     a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
     a->system = (qdot_ode_system){.n = n, .series = &a->series};
+    if (!s->of.moved) /* of the run */
+        QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
     return events ? qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch)
                   : QDOT_OK;
 }
@@ -157,16 +162,26 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
 
 /* --- a step --------------------------------------------------------------------------- */
 
-/* Component i of the step's series after s units. */
-static double
-horner(const qdot_batch_step *step, size_t stride, size_t i, double s)
+/* The state at time t by the step's series: components by fours, none of which waits for another. */
+static void
+read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, double *to)
 {
-    const double *x = step->x + i * stride * L;
-    double sum = 0;
+    enum { SIDE_BY_SIDE = 4 };
+    const double at = (t - step->t) / step->unit;
+    const size_t n = 2 * s->n, row = s->stride * L;
 
-    for (int k = step->order; k > 0; k--)
-        sum = (sum + x[(size_t)k * L]) * s;
-    return step->y[i * L] + sum;
+    for (size_t i = 0; i < n + s->varied; i++)
+        to[i] = step->y[i * L];
+    for (size_t i = 0; i < n; i += SIDE_BY_SIDE) {
+        const size_t count = n - i < SIDE_BY_SIDE ? n - i : SIDE_BY_SIDE;
+        double sum[SIDE_BY_SIDE] = {0};
+
+        for (int k = step->order; k > 0; k--)
+            for (size_t j = 0; j < count; j++)
+                sum[j] = (sum[j] + step->x[(i + j) * row + (size_t)k * L]) * at;
+        for (size_t j = 0; j < count; j++)
+            to[i + j] += sum[j];
+    }
 }
 
 /* What the watch reads: the solution of the lane's step. */
@@ -230,8 +245,6 @@ search(const qdot_ensemble_steps *s, bool last, lane *a)
 
     a->roots.n = 0;
     if (status == QDOT_OK)
-        status = read_lane(a->step.t_end, a->end, a);
-    if (status == QDOT_OK)
         status = qdot_watch_step(a->watch, a->step.t_end, a->end, last, &a->step, &roots, &n);
     if (qdot_grave(status) != QDOT_OK)
         return status;
@@ -263,8 +276,27 @@ is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
     return false;
 }
 
+/* Look at the step, and for roots in it. */
+static qdot_status
+look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    qdot_pulses_step seen = {.a = step->t,
+                             .b = step->t_end,
+                             .tol = s->of.tol,
+                             .from = a->y,
+                             .to = a->end,
+                             .read = read_lane,
+                             .user = a};
+
+    copy_series(s, step, a);
+    QDOT_TRY(read_lane(step->t_end, a->end, a));
+    if (a->doubts && !a->doubtful)
+        QDOT_TRY(qdot_ensemble_doubts_look(a->doubts, &seen, &a->doubtful));
+    return a->watch ? search(s, step->last, a) : QDOT_OK;
+}
+
 /* Take the lane's member as it stands at its start. */
-static void
+static qdot_status
 enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     a->member = step->member;
@@ -272,6 +304,7 @@ enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     a->passed = 0;
     for (size_t i = 0; i < 2 * s->n; i++)
         s->sizes[step->member * 2 * s->n + i] = fabs(step->y[i * L]);
+    return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
 }
 
 static qdot_status
@@ -280,30 +313,27 @@ tried(const qdot_batch_step *step, void *user)
     qdot_ensemble_steps *s = user;
     lane *a = s->lanes + step->lane;
     const size_t width = 2 * s->n + s->varied;
+    double *sizes = s->sizes + step->member * 2 * s->n;
 
     if (a->member != step->member)
-        enter(s, step, a);
+        QDOT_TRY(enter(s, step, a));
     a->next = a->passed;
     a->step.t_end = step->t_end;
     while (a->next < s->of.n_times
            && (s->of.backward ? s->of.times[a->next] >= step->t_end
                               : s->of.times[a->next] <= step->t_end)) {
-        double *to = s->seen + (step->member * s->of.n_times + a->next) * width;
-
-        for (size_t i = 0; i < width; i++)
-            to[i] = i < 2 * s->n
-                        ? horner(step, s->stride, i, (s->of.times[a->next] - step->t) / step->unit)
-                        : step->y[i * L];
+        read_state(s, step, s->of.times[a->next],
+                   s->seen + (step->member * s->of.n_times + a->next) * width);
         a->next++;
     }
     a->doubtful = is_near_bound(s, step);
-    for (size_t i = 0; i < 2 * s->n; i++)
-        s->sizes[step->member * 2 * s->n + i]
-            = fmax(s->sizes[step->member * 2 * s->n + i], fabs(step->y[i * L]));
-    if (!a->watch)
-        return QDOT_OK;
-    copy_series(s, step, a);
-    return search(s, step->last, a);
+    for (size_t i = 0; i < 2 * s->n; i++) {
+        const double size = fabs(step->y[i * L]);
+
+        if (size > sizes[i])
+            sizes[i] = size;
+    }
+    return a->watch || a->doubts ? look(s, step, a) : QDOT_OK;
 }
 
 /* Note the roots of the step; whether all that is asked of events has been found. */

@@ -38,6 +38,7 @@ struct qdot_ensemble {
     size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
     char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
     size_t n_reasons;
+    size_t companions; /* 1 or 2 */
     pass passes[QDOT_ENSEMBLE_PASSES];
     const qdot_ensemble_watching *watching; /* NULL: nobody looks */
     double *times; /* [n_times] at which states are kept */
@@ -174,6 +175,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     e->n = scene->coordinates.n;
     e->varied = n_varied;
     e->tol = request->tol;
+    e->companions = QDOT_ENSEMBLE_PASSES - 1;
     status = make(e, scene, request, varied);
     if (status != QDOT_OK) {
         qdot_ensemble_free(e);
@@ -396,7 +398,7 @@ start_passes(qdot_ensemble *e, size_t passes)
     if (!whole)
         return QDOT_ENOMEM;
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        status = start_all(e, runs + k, k == 0 ? e->reasons : NULL, whole);
+        status = start_all(e, e->passes + k, k == 0 ? e->reasons : NULL, whole);
     qdot_free(whole);
     return status;
 }
@@ -443,15 +445,15 @@ end_error(const qdot_ensemble *e, size_t m)
     const double *y[QDOT_ENSEMBLE_PASSES], share = qdot_ensemble_share(e, m);
     double error = 0x1p-53;
 
-    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++) {
+    for (size_t k = 0; k <= e->companions; k++) {
         if (k > 0 && !arrived(e, e->passes + k, m))
             return NAN;
         y[k] = e->passes[k].run.y + m * width(e);
     }
     for (size_t i = 0; i < 2 * e->n; i++) {
-        const double theirs[] = {y[1][i], y[2][i]};
+        const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
 
-        error = fmax(error, qdot_companion_bound_of(y[0][i], 2, theirs, share) /
+        error = fmax(error, qdot_companion_bound_of(y[0][i], e->companions, theirs, share) /
                                 fmax(1, fabs(y[0][i])));
     }
     return error;
@@ -492,11 +494,27 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
     }
 }
 
+/* What looks at the steps of a pass. */
+static qdot_status
+follow_pass(const qdot_ensemble *e, pass *p)
+{
+    const qdot_ensemble_steps_of of = {.plan = e->plan,
+                                       .watching = e->watching,
+                                       .n_times = e->n_times,
+                                       .times = e->times,
+                                       .tol = e->tol,
+                                       .shaken = p->number == 1,
+                                       .moved = p->number > 0,
+                                       .backward = e->t1 < e->t0};
+
+    return qdot_ensemble_steps_new(&of, &p->steps);
+}
+
 qdot_status
 qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *parameters,
                   bool errors, qdot_ensemble_result *results)
 {
-    const size_t passes = errors ? QDOT_ENSEMBLE_PASSES : 1;
+    const size_t passes = errors ? 1 + e->companions : 1;
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < passes && status == QDOT_OK; k++) {
@@ -505,6 +523,8 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
         p->number = k;
         pass_options(e, p);
         status = make_series(e, p);
+        if (status == QDOT_OK && e->watching && !p->steps)
+            status = follow_pass(e, p);
         if (status == QDOT_OK)
             status = pass_init(p, e, members, y, parameters);
     }
@@ -533,21 +553,6 @@ reads_kept(const qdot_ensemble *e, qdot_expr g)
     return false;
 }
 
-static qdot_status
-follow_pass(qdot_ensemble *e, size_t k)
-{
-    const qdot_ensemble_steps_of of = {.plan = e->plan,
-                                       .watching = e->watching,
-                                       .n_times = e->n_times,
-                                       .times = e->times,
-                                       .tol = e->tol,
-                                       .shaken = k == 1,
-                                       .moved = k > 0,
-                                       .backward = e->t1 < e->t0};
-
-    return qdot_ensemble_steps_new(&of, &e->passes[k].steps);
-}
-
 qdot_status
 qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
                      uint64_t most_steps)
@@ -558,9 +563,10 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
         if (reads_kept(e, watching->events[i].function))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
                                              "velocity whose momentum is kept");
-    if (e->plan->tape && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that look for forces which act "
-                                         "for less than a step");
+    if (n_kept(e) > 0 && e->plan->tape
+        && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that keep momenta and look for "
+                                         "forces which act for less than a step");
     e->watching = watching;
     e->most_steps = most_steps;
     e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
@@ -568,9 +574,13 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
         return QDOT_ENOMEM;
     for (size_t k = 0; k < e->n_times; k++)
         e->times[k] = e->t0 + places[k] * (e->t1 - e->t0);
-    for (size_t k = 0; k < QDOT_ENSEMBLE_PASSES; k++)
-        QDOT_TRY(follow_pass(e, k));
     return QDOT_OK;
+}
+
+void
+qdot_ensemble_companions(qdot_ensemble *e, size_t companions)
+{
+    e->companions = companions;
 }
 
 bool
@@ -648,6 +658,21 @@ const qdot_plan *
 qdot_ensemble_plan(const qdot_ensemble *e)
 {
     return e->plan;
+}
+
+bool
+qdot_ensemble_reads(const qdot_ensemble *e, size_t k)
+{
+    const qdot_plan *p = e->plan;
+    const qdot_expr of = p->inputs[e->n + k];
+    bool reads = p->constraints || !p->M;
+
+    for (size_t i = 0; i < p->n && !reads; i++) {
+        reads = qdot_expr_contains(p->pool, p->f[i], of);
+        for (size_t j = 0; j < p->n && !reads; j++)
+            reads = qdot_expr_contains(p->pool, p->M[i * p->n + j], of);
+    }
+    return reads;
 }
 
 double

@@ -47,6 +47,9 @@ void qdot_ensemble_free(qdot_ensemble *ensemble);
 QDOT_MUST_CHECK qdot_status qdot_ensemble_follow(qdot_ensemble *ensemble,
                                                  const qdot_ensemble_watching *watching,
                                                  uint64_t most_steps);
+/* Before _run: so many companions, 2 if nothing is said. One alone shows the errors of the method, and
+ * not enough of rounding. */
+void qdot_ensemble_companions(qdot_ensemble *ensemble, size_t companions);
 
 /* Run them.
  *   y           [members x 2n] q, q' at the start; then at the end
@@ -80,5 +83,8 @@ double qdot_ensemble_time(const qdot_ensemble *e, size_t place);
 const double *qdot_ensemble_sizes(const qdot_ensemble *e, size_t member);
 const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
 double qdot_ensemble_share(const qdot_ensemble *e, size_t member);
+
+/* Whether the equations read parameter k of those that vary. */
+bool qdot_ensemble_reads(const qdot_ensemble *e, size_t k);
 
 #endif
