@@ -2589,6 +2589,8 @@ other_files = \
 	bench/ensemble/run \
 	bench/ensemble/sweeps \
 	bench/ensemble/wide.hh \
+	bench/exponents/reference.c \
+	bench/exponents/run \
 	bench/fits/coverage \
 	bench/hard/cases.py \
 	bench/hard/references \
