@@ -12,7 +12,7 @@
 static const double wide = 0.1, narrow = 0.03, difference = 1e-4, upright = 1e-4;
 /* What both runs round alike, relative to a value. */
 static const double rounding = 4e-15;
-enum { STEPS = 60, HALVINGS = 36, PLACES = 6 };
+enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4 };
 
 typedef struct {
     qdot_orbit_path *x;
@@ -213,6 +213,20 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
     return good;
 }
 
+/* The same; where a place happens to lie at the crossing, and cannot be had, from places beside these. */
+static bool
+fit_beside(search *f, double *s, double step, double *y, double *off)
+{
+    const double from = *s;
+
+    for (int k = 0; k < SHIFTS && f->x->path.failure == QDOT_OK; k++) {
+        *s = from + 0.37 * step * (k % 2 == 0 ? k : -k);
+        if (fit_crossing(f, s, step, y, off))
+            return true;
+    }
+    return false;
+}
+
 /* A crossing between lo and hi: first with wide steps from where a line through both ends says, then with short ones, not
  * nearer to it than corrections converge. */
 static bool
@@ -221,8 +235,8 @@ find_crossing(search *f, double lo, double hi, double *y, double *off)
     const double at_lo = test_at(f, lo), at_hi = test_at(f, hi);
     double s = lo + (hi - lo) * at_lo / (at_lo - at_hi);
 
-    return at_lo * at_hi <= 0 && fit_crossing(f, &s, wide * (hi - lo), y, off) &&
-           fit_crossing(f, &s, narrow * (hi - lo), y, off);
+    return at_lo * at_hi <= 0 && fit_beside(f, &s, wide * (hi - lo), y, off) &&
+           fit_beside(f, &s, narrow * (hi - lo), y, off);
 }
 
 /* Where as many multipliers are beyond the unit circle as at the point a, and where not: halved. */
