@@ -13,6 +13,8 @@ static const double first_step = 2e-3, far_away = 100;
 static const double straight = 0.99;
 /* A chord is at most so much longer than its step along the tangent: another curve is further off. */
 static const double longer = 1.02;
+/* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
+static const double turned = 0.5, grown = 1;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
 /* Of a unit direction: below, it has no part along p. */
@@ -246,6 +248,11 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     const bool known = a->growing >= 0 && b->growing >= 0;
     const double *crossing = NULL;
 
+    if (length > first_step &&
+        (fabs(a->phase - b->phase) > turned || fabs(a->growth - b->growth) > grown)) {
+        s->leapt = true;
+        return QDOT_OK;
+    }
     if (a->flip * b->flip < 0 && length > together &&
         (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
         s->leapt = true; /* over two at once */
