@@ -432,6 +432,10 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 static void
 write_measured(double value, double error, double size, qdot_text *out)
 {
+    if (isnan(error)) {
+        qdot_number_text(out, value, digits * fmax(fabs(value), 1e-3 * size));
+        return;
+    }
     if (fabs(value) < small * size && fabs(value) <= error)
         value = 0;
     if (value == 0 && error < nothing * size)

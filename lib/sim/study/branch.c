@@ -13,11 +13,14 @@ static const double first_step = 2e-3, far_away = 100;
 static const double straight = 0.99;
 /* A chord is at most so much longer than its step along the tangent: another curve is further off. */
 static const double longer = 1.02;
+/* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
+static const double turned = 0.5, grown = 1;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
 /* Of a unit direction: below, it has no part along p. */
 static const double upright = 1e-9;
-enum { MOST_POINTS = 20000 };
+/* Halvings of the way to what is not located otherwise. */
+enum { MOST_POINTS = 20000, UNKNOWN = 20 };
 
 qdot_status
 qdot_branch_add(const qdot_path *x, qdot_branch *branch, const double *y,
@@ -78,7 +81,7 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
 
 /* Halve the way from a to in->to; out->y in the middle of what is left, out->error how long that is. */
 static qdot_status
-enclose(qdot_path *x, qdot_bifurcation_bracket *in, qdot_bifurcation *out)
+enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
 {
     const qdot_path_point *a = in->a;
     const double unit = 1 / sqrt(x->weight[x->n]);
@@ -88,7 +91,7 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, qdot_bifurcation *out)
     int steps;
 
     memcpy(out->y, a->y, x->width * sizeof *out->y);
-    for (int k = 0; k < x->halvings && status == QDOT_OK; k++) {
+    for (int k = 0; k < halvings && status == QDOT_OK; k++) {
         const double half = (from + s) / 2;
 
         if (!qdot_path_go(x, a, half, &middle, &steps))
@@ -105,6 +108,8 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, qdot_bifurcation *out)
     in->to = s;
     for (size_t i = 0; i <= x->n; i++)
         out->error[i] = (s - from + 1e-8) * (i < x->n ? 1 / sqrt(x->weight[i]) : unit);
+    for (size_t i = x->n + 1; i < x->width; i++)
+        out->error[i] = NAN;
     qdot_path_point_end(&middle);
     return status;
 }
@@ -170,10 +175,16 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
         return status;
     }
     memcpy(here.y, b->y, x->width * sizeof *b->y);
+    status = x->judge(x, &here);
+    memcpy(b->y + x->n + 1, here.y + x->n + 1, (x->width - x->n - 1) * sizeof *b->y);
+    if (status != QDOT_OK) {
+        qdot_free(b->y);
+        qdot_free(other);
+        qdot_path_point_end(&here);
+        return status;
+    }
     turn_back(x, b->y);
     status = keep(s, b, other, &mark);
-    if (status == QDOT_OK)
-        status = x->judge(x, &here);
     if (status == QDOT_OK)
         status = qdot_branch_add(x, branch, here.y, here.stability, mark);
     qdot_path_point_end(&here);
@@ -196,12 +207,18 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
 
     b.error = b.y + w;
     if (status == QDOT_OK)
-        status = enclose(x, &in, &b);
+        status = enclose(x, &in, x->halvings, &b);
     if (status == QDOT_OK) {
         memcpy(guess, b.y, w * sizeof *guess);
         status = s->find(s->user, &in, &b, other, &answer);
         if (answer == QDOT_BIFURCATION_FOUND && !(qdot_path_distance(x, guess, b.y) < length))
             answer = QDOT_BIFURCATION_NONE;
+    }
+    if (status == QDOT_OK && answer == QDOT_BIFURCATION_NONE && x->halvings < UNKNOWN) {
+        b.kind = kind;
+        in = (qdot_bifurcation_bracket){.a = a, .to = length};
+        status = enclose(x, &in, UNKNOWN, &b);
+        memcpy(guess, b.y, w * sizeof *guess);
     }
     s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
                length > together;
@@ -231,6 +248,11 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     const bool known = a->growing >= 0 && b->growing >= 0;
     const double *crossing = NULL;
 
+    if (length > first_step &&
+        (fabs(a->phase - b->phase) > turned || fabs(a->growth - b->growth) > grown)) {
+        s->leapt = true;
+        return QDOT_OK;
+    }
     if (a->flip * b->flip < 0 && length > together &&
         (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
         s->leapt = true; /* over two at once */

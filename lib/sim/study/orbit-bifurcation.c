@@ -9,10 +9,12 @@
 
 /* Of the step that a crossing lies in: half the distances of places for its polynomial. Of a length of 1: the step of second
  * derivatives. A direction with less along p has none. */
-static const double wide = 0.1, narrow = 0.03, difference = 1e-4, upright = 1e-4;
+static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-4;
 /* What both runs round alike, relative to a value. */
 static const double rounding = 4e-15;
-enum { STEPS = 60, HALVINGS = 36, PLACES = 6 };
+/* How far, of a length of 1, a crossing may be off at least. */
+static const double least_off = 5e-14;
+enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4, NARROWINGS = 6 };
 
 typedef struct {
     qdot_orbit_path *x;
@@ -213,16 +215,43 @@ fit_crossing(search *f, double *s, double step, double *y, double *off)
     return good;
 }
 
-/* A crossing between lo and hi: first with wide steps from where a line through both ends says, then with short ones, not
- * nearer to it than corrections converge. */
+/* The same; where a place happens to lie at the crossing, and cannot be had, from places beside these. */
 static bool
-find_crossing(search *f, double lo, double hi, double *y, double *off)
+fit_beside(search *f, double *s, double step, double *y, double *off)
 {
-    const double at_lo = test_at(f, lo), at_hi = test_at(f, hi);
-    double s = lo + (hi - lo) * at_lo / (at_lo - at_hi);
+    const double from = *s;
 
-    return at_lo * at_hi <= 0 && fit_crossing(f, &s, wide * (hi - lo), y, off) &&
-           fit_crossing(f, &s, narrow * (hi - lo), y, off);
+    for (int k = 0; k < SHIFTS && f->x->path.failure == QDOT_OK; k++) {
+        *s = from + 0.37 * step * (k % 2 == 0 ? k : -k);
+        if (fit_crossing(f, s, step, y, off))
+            return true;
+    }
+    return false;
+}
+
+/* A crossing between lo and hi, from where a line through both ends says: places nearer and nearer to it, as long as that
+ * makes it more certain. To f->point. */
+static bool
+find_crossing(search *f, double lo, double hi, double *off)
+{
+    const size_t m = f->x->path.n + 1;
+    const double at_lo = test_at(f, lo), at_hi = test_at(f, hi);
+    double s = lo + (hi - lo) * at_lo / (at_lo - at_hi), step = wide * (hi - lo), now;
+    double *best = qdot_malloc(2 * m * sizeof *best), *const y = best + m;
+    bool found = best != NULL && at_lo * at_hi <= 0 && fit_beside(f, &s, step, best, off);
+
+    for (int k = 0; k < NARROWINGS && found; k++) {
+        step *= narrower;
+        if (!fit_beside(f, &s, step, y, &now) || !(now < *off))
+            break;
+        memcpy(best, y, m * sizeof *y);
+        *off = now;
+    }
+    *off = fmax(*off, least_off); /* two polynomials may agree by chance */
+    if (found)
+        memcpy(f->point.y, best, m * sizeof *best);
+    qdot_free(best);
+    return found;
 }
 
 /* Where as many multipliers are beyond the unit circle as at the point a, and where not: halved. */
@@ -261,7 +290,7 @@ locate(search *f, double lo, double hi, double *y, double *off, bool *found)
         QDOT_TRY(halve(f, &lo, &hi, found));
         *off = 1e-10 + hi - lo;
     } else if (f->kind == QDOT_PITCHFORK) {
-        *found = find_crossing(f, lo, hi, f->point.y, off);
+        *found = find_crossing(f, lo, hi, off);
     } else {
         *found = close_in(f, &lo, &hi, 1e-13);
         *off = hi - lo;
@@ -347,6 +376,20 @@ find_null_vectors(qdot_path *x, const double *y, double *v, double *psi)
     return qdot_null_vectors(m, n, x->A, 1, psi);
 }
 
+/* Of the two signs of a direction that in which its largest part is positive. */
+static void
+point_up(const qdot_path *x, double *t)
+{
+    size_t most = 0;
+
+    for (size_t i = 1; i <= x->n; i++)
+        if (fabs(t[i]) * sqrt(x->weight[i]) > fabs(t[most]) * sqrt(x->weight[most]))
+            most = i;
+    for (size_t i = 0; t[most] < 0 && i <= x->n; i++)
+        t[i] = i == most ? t[i] : -t[i];
+    t[most] = fabs(t[most]);
+}
+
 static qdot_status
 classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other, bool *found)
 {
@@ -359,6 +402,8 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
         *found = find_form(x, y, v, psi, psi + m, c) &&
                  qdot_bifurcation_cross(x, c, v, f->a->t, upright, kind, other);
         status = x->failure;
+        if (*found)
+            point_up(x, other);
     }
     qdot_free(v);
     return qdot_grave(status);

@@ -197,12 +197,17 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
     double product = 1;
 
     a->growing = 0;
+    a->phase = a->growth = 0;
     a->blurred = f->trivial < trivial_of(x); /* one that is 1 was found elsewhere */
     for (size_t k = 0; k < f->n; k++) {
         const double size = hypot(f->re[k], f->im[k]);
 
         a->blurred = a->blurred || !(f->error[k] <= blurred * fmax(1, size));
         a->growing += f->error[k] != 0 && size > 1 + fmax(grows, 3 * f->error[k]);
+        if (f->error[k] != 0 && (f->im[k] > 0 || (f->im[k] == 0 && f->re[k] < -1)))
+            a->phase += atan2(f->im[k], f->re[k]);
+        if (f->error[k] != 0 && size > 1)
+            a->growth += log(size);
         product *= f->im[k] == 0 ? f->re[k] + 1 : hypot(f->re[k] + 1, f->im[k]);
         a->y[x->path.n + 1 + x->n + k] = size;
     }

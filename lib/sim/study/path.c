@@ -80,6 +80,8 @@ qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_
     to->flip = from->flip;
     to->rests = from->rests;
     to->blurred = from->blurred;
+    to->phase = from->phase;
+    to->growth = from->growth;
     to->stability = from->stability;
 }
 

@@ -25,6 +25,7 @@ typedef struct {
     long growing;      /* motions near by that grow; -1: unknown */
     int flip;          /* of orbits: its sign changes where a multiplier passes -1; 0: unknown */
     bool rests;        /* of orbits: it is as small as a place at rest; nothing lies behind it; */
+    double phase, growth; /* of orbits: the sum of the angles of multipliers, of the logarithms of those that grow */
     bool blurred;      /* what is judged drowns in errors: it is no point */
     qdot_stability stability;
 } qdot_path_point;
