@@ -26,6 +26,9 @@ enum { MOST_STEPS = 20000, PLACES = 16 };
  * than before may be so by chance. Then one companion does not tell enough. */
 static const double least_tol = 3e-11, roundings = 64;
 
+/* Above this one the distances of single times of events may be small by chance, too. */
+static const double most_tol = 1e-6;
+
 /* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
 static const double most_between = 30;
 
@@ -325,7 +328,10 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
         const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
         x->n = p->n - p->n_states;
-        x->least = request->request.tol < least_tol ? 2 : 1;
+        x->least = request->request.tol < least_tol
+                           || (x->events.n > 0 && request->request.tol > most_tol)
+                       ? 2
+                       : 1;
         for (size_t i = 0; i < x->events.n; i++)
             x->events.at[i].function = qdot_plan_substitute(p, x->events.at[i].function);
         status = qdot_pool_check(session->pool);
@@ -334,6 +340,8 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
     }
     if (status == QDOT_OK && why->n == 0)
         status = qdot_ensemble_follow(x->ensemble, &x->watching, MOST_STEPS);
+    if (status == QDOT_OK && why->n == 0)
+        x->places = qdot_ensemble_places(x->ensemble);
     qdot_free(swept);
     qdot_free(e);
     return status;
@@ -359,7 +367,6 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
     x->s = s;
     x->made = qdot_calloc(members + 1, sizeof *x->made);
     x->reasons = qdot_calloc(members + 1, sizeof *x->reasons);
-    (void)qdot_companion_places(&x->places);
     status = x->made && x->reasons ? qdot_session_keep_values(s->c->session, &kept) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
         status = prepare(x, &request, why);

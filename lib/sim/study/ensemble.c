@@ -557,7 +557,8 @@ qdot_status
 qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
                      uint64_t most_steps)
 {
-    const double *places = qdot_companion_places(&e->n_times);
+    size_t places;
+    const double *part = qdot_companion_places(&places);
 
     for (size_t i = 0; i < watching->n_events; i++)
         if (reads_kept(e, watching->events[i].function))
@@ -569,11 +570,12 @@ qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
                                          "forces which act for less than a step");
     e->watching = watching;
     e->most_steps = most_steps;
+    e->n_times = (places + 1) / 2;
     e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
     if (!e->times)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < e->n_times; k++)
-        e->times[k] = e->t0 + places[k] * (e->t1 - e->t0);
+    for (size_t k = 0; k < e->n_times; k++) /* half of them */
+        e->times[k] = e->t0 + part[2 * k] * (e->t1 - e->t0);
     return QDOT_OK;
 }
 
@@ -640,6 +642,12 @@ size_t
 qdot_ensemble_event_count(const qdot_ensemble *e, size_t m, size_t event)
 {
     return qdot_ensemble_steps_count(e->passes[0].steps, m, event);
+}
+
+size_t
+qdot_ensemble_places(const qdot_ensemble *e)
+{
+    return e->n_times;
 }
 
 double

@@ -41,8 +41,8 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_new(qdot_scene *scene,
                                               qdot_ensemble **ensemble);
 void qdot_ensemble_free(qdot_ensemble *ensemble);
 
-/* Before _run: look at steps, borrowed, and keep states at some times of the latter half of the way,
- * those of qdot_companion_places; all passes run in the caller's thread, and a member of more than
+/* Before _run: look at steps, borrowed, and keep states at _places times of the latter half of the way,
+ * every other one of qdot_companion_places; all passes run in the caller's thread, and a member of more than
  * most_steps is left. QDOT_ENOTBUILT: an event reads a velocity that follows from a kept momentum. */
 QDOT_MUST_CHECK qdot_status qdot_ensemble_follow(qdot_ensemble *ensemble,
                                                  const qdot_ensemble_watching *watching,
@@ -66,7 +66,7 @@ QDOT_MUST_CHECK qdot_status qdot_ensemble_run(qdot_ensemble *ensemble, size_t me
  *
  *   _left     it has to be run alone; there is nothing else then
  *   _state    its state into whole [2 (n + varied)], q, parameters, q', 0, at time number `place`
- *             (qdot_companion_places) or, beyond those, at the end; false: it was not reached
+ *             or, beyond those, at the end; false: it was not reached
  *   _time     of a place, or the end
  *   _event_time  when that occurrence was; NaN: there was none
  *   _event_count  how often, in the run
@@ -79,6 +79,7 @@ bool qdot_ensemble_state(const qdot_ensemble *e, size_t pass, size_t member, siz
 double qdot_ensemble_event_time(const qdot_ensemble *e, size_t pass, size_t member, size_t event,
                                 size_t k);
 size_t qdot_ensemble_event_count(const qdot_ensemble *e, size_t member, size_t event);
+size_t qdot_ensemble_places(const qdot_ensemble *e);
 double qdot_ensemble_time(const qdot_ensemble *e, size_t place);
 const double *qdot_ensemble_sizes(const qdot_ensemble *e, size_t member);
 const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
