@@ -1151,6 +1151,7 @@ program_sources = \
 
 unit_tests = \
 	tests/api/test_api \
+	tests/base/test_items \
 	tests/base/test_memory \
 	tests/base/test_progress \
 	tests/base/test_text \

@@ -6,7 +6,8 @@ enum { ANSWERED = 1, KILLED = 2 };
 qdot_status
 qdot_items_new(qdot_items *items, size_t first, size_t end, const bool *skip, bool fresh)
 {
-    *items = (qdot_items){.first = first, .end = end, .next = fresh ? first : end, .skip = skip};
+    *items = (qdot_items){
+        .first = first, .end = end, .next = fresh ? first : end, .skip = skip};
     for (size_t k = items->next; k < end; k++)
         items->left += !(skip && skip[k]);
     items->state = qdot_calloc(end - first + 1, sizeof *items->state);
@@ -30,8 +31,8 @@ take_fresh(qdot_items *items, double most)
     while (items->next < items->end && skip && skip[items->next])
         items->next++;
     r.first = items->next;
-    while (items->next < items->end && !(skip && skip[items->next])
-           && (r.count == 0 || (double)r.count + 1 <= most)) {
+    while (items->next < items->end && !(skip && skip[items->next]) &&
+           (r.count == 0 || (double)r.count + 1 <= most)) {
         items->next++;
         r.count++;
     }
@@ -75,8 +76,8 @@ qdot_items_give(qdot_items *items, qdot_items_chunk chunk)
 qdot_status
 qdot_items_begin(qdot_items *items, qdot_items_chunk chunk)
 {
-    if (chunk.first < items->first || chunk.first > items->end
-        || chunk.count > items->end - chunk.first)
+    if (chunk.first < items->first || chunk.first > items->end ||
+        chunk.count > items->end - chunk.first)
         return QDOT_OK; /* not of ours */
     for (size_t k = chunk.first; k < chunk.first + chunk.count; k++)
         items->state[k - items->first] &= (unsigned char)~ANSWERED;

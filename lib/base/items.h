@@ -1,6 +1,6 @@
 /* items.h -- which items of some work are left, for those who hand them out (base/workers.c).
  *
- * Tests  tests/base/test_workers.c
+ * Tests  tests/base/test_items.c
  */
 #ifndef QDOT_BASE_ITEMS_H
 #define QDOT_BASE_ITEMS_H
@@ -13,12 +13,12 @@ typedef struct {
 } qdot_items_chunk;
 
 typedef struct {
-    size_t first, end;         /* of all */
-    size_t next;               /* from here on nobody has had any */
-    const bool *skip;          /* [end] that are not to be done; NULL: all are */
-    size_t left;               /* without answer */
+    size_t first, end;                /* of all */
+    size_t next;                      /* from here on nobody has had any */
+    const bool *skip;                 /* [end] that are not to be done; NULL: all are */
+    size_t left;                      /* without answer */
     qdot_vec(qdot_items_chunk) again; /* given back, or begun with */
-    unsigned char *state;      /* [end - first] what has happened to each */
+    unsigned char *state;             /* [end - first] what has happened to each */
 } qdot_items;
 
 /* All of first ... end - 1 that are not skipped, if fresh; else none, until some are given. */

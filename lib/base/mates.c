@@ -151,12 +151,14 @@ qdot_mates_take(qdot_crew *c, bool *over)
 
     if (c->items.left > 0)
         qdot_ranks_beat();
-    while (status == QDOT_OK && !(*over = qdot_ranks_has_shared()) && qdot_ranks_next(&m)) {
+    while (status == QDOT_OK && !(*over = qdot_ranks_has_shared()) &&
+           qdot_ranks_next(&m)) {
         if (m.what != QDOT_RANK_CHUNK || m.bytes.n != sizeof r)
             continue;
         memcpy(&r, m.bytes.at, sizeof r);
         if (r.number == c->number)
-            status = qdot_items_begin(&c->items, (qdot_items_chunk){(size_t)r.first, (size_t)r.count});
+            status = qdot_items_begin(
+                &c->items, (qdot_items_chunk){(size_t)r.first, (size_t)r.count});
     }
     qdot_text_clear(&m.bytes);
     return status;

@@ -14,8 +14,9 @@
 static const char library[] = "libmpi.so.40"; /* OpenMPI 3 to 5 */
 
 #define FUNCTIONS(X)                                                                     \
-    X(Abort) X(Allgather) X(Allreduce) X(Comm_rank) X(Comm_set_errhandler) X(Comm_size)  \
-    X(Finalize) X(Get_count) X(Init) X(Iprobe) X(Isend) X(Recv) X(Test)
+    X(Abort)                                                                             \
+    X(Allgather) X(Allreduce) X(Comm_rank) X(Comm_set_errhandler) X(Comm_size)           \
+        X(Finalize) X(Get_count) X(Init) X(Iprobe) X(Isend) X(Recv) X(Test)
 
 /* MPI_NAME is mpi.NAME. MPI's constants are addresses within the library of OpenMPI. */
 static struct {
@@ -162,8 +163,8 @@ qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n)
 
         if (qdot_vec_push(&sendings, s) != QDOT_OK)
             break;
-        if (mpi.Isend(p->at, (int)n, mpi.byte, (int)to, what, mpi.world, &s.request)
-            == MPI_SUCCESS) {
+        if (mpi.Isend(p->at, (int)n, mpi.byte, (int)to, what, mpi.world, &s.request) ==
+            MPI_SUCCESS) {
             sendings.at[sendings.n - 1] = s;
             p->references++;
         } else {
@@ -202,14 +203,16 @@ qdot_mpi_take(size_t from, int what, qdot_text *bytes)
     char *at;
 
     qdot_text_truncate(bytes, 0);
-    if (!probe((int)from, what, &status) || mpi.Get_count(&status, mpi.byte, &n) != MPI_SUCCESS)
+    if (!probe((int)from, what, &status) ||
+        mpi.Get_count(&status, mpi.byte, &n) != MPI_SUCCESS)
         return;
     at = qdot_malloc((size_t)n + 1);
     if (at == NULL) {
         bytes->failed = true;
         return;
     }
-    if (mpi.Recv(at, n, mpi.byte, (int)from, what, mpi.world, MPI_STATUS_IGNORE) == MPI_SUCCESS)
+    if (mpi.Recv(at, n, mpi.byte, (int)from, what, mpi.world, MPI_STATUS_IGNORE) ==
+        MPI_SUCCESS)
         qdot_text_add_n(bytes, at, (size_t)n);
     qdot_free(at);
 }
@@ -220,7 +223,8 @@ qdot_status
 qdot_mpi_begin(size_t *count, size_t *mine)
 {
     (void)count, (void)mine;
-    (void)qdot_fail(QDOT_ENOTBUILT, "this qdot was built without MPI: it cannot be one of several");
+    (void)qdot_fail(QDOT_ENOTBUILT,
+                    "this qdot was built without MPI: it cannot be one of several");
     return qdot_hint("configure it where OpenMPI is installed (Debian: libopenmpi-dev)");
 }
 

@@ -34,6 +34,7 @@ static struct {
     double *heard;   /* [count] */
     double beaten;   /* when rank 0 was last told that this one lives */
     uint64_t shared; /* so many times */
+    size_t stuck;    /* messages that their receivers do not take */
     int sentinel;    /* a pipe to it; -1: none */
 } ranks = {.count = 1, .sentinel = -1};
 
@@ -98,7 +99,8 @@ machine_here(void)
 static uint64_t
 digits_here(void)
 {
-    double (*const functions[])(double) = {sin, cos, tan, asin, atan, exp, log, sinh, tanh, cbrt};
+    double (*const functions[])(double) = {sin, cos, tan,  asin, atan,
+                                           exp, log, sinh, tanh, cbrt};
     uint64_t all = 0xcbf29ce484222325;
 
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
@@ -148,7 +150,8 @@ set_sentinel(void)
 static void
 give_up(int signal_number)
 {
-    static const char text[] = "qdot: the other ranks have not begun within two minutes\n";
+    static const char text[] =
+        "qdot: the other ranks have not begun within two minutes\n";
 
     (void)signal_number;
     _exit(write(STDERR_FILENO, text, sizeof text - 1) < 0 ? 2 : 1);
@@ -180,7 +183,9 @@ qdot_ranks_begin(size_t *kind)
     if (!qdot_ranks_are_there()) {
         if (others == NULL || atol(others) <= 1)
             return QDOT_OK;
-        (void)qdot_fail(QDOT_ENOTBUILT, "%s processes were started by an MPI that is not OpenMPI", others);
+        (void)qdot_fail(QDOT_ENOTBUILT,
+                        "%s processes were started by an MPI that is not OpenMPI",
+                        others);
         return qdot_hint("mpirun of OpenMPI, or srun --mpi=pmix");
     }
     if (ours != NULL && atol(ours) == 1)
@@ -193,8 +198,10 @@ qdot_ranks_begin(size_t *kind)
     alarm(0);
     if (ranks.places[ranks.mine].digits == ranks.places[0].digits)
         return QDOT_OK;
-    fprintf(stderr, "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
-            ranks.mine);
+    fprintf(
+        stderr,
+        "qdot: rank %zu takes no part: its C library has other digits than rank 0's\n",
+        ranks.mine);
     (void)qdot_ranks_end(0);
     return QDOT_OK; /* not reached */
 }
@@ -210,8 +217,7 @@ qdot_ranks_send(size_t to, qdot_rank_what what, const void *bytes, size_t n)
 }
 
 /* Not rank 0: leave, as rank 0 says. */
-static void __attribute__((noreturn))
-leave(void)
+static void __attribute__((noreturn)) leave(void)
 {
     qdot_text word = {0};
     double until;
@@ -288,7 +294,8 @@ is_dead(size_t rank)
 {
     const place *p = &ranks.places[rank];
 
-    return p->machine == ranks.places[0].machine && kill((pid_t)p->pid, 0) != 0 && errno == ESRCH;
+    return p->machine == ranks.places[0].machine && kill((pid_t)p->pid, 0) != 0 &&
+           errno == ESRCH;
 }
 
 bool
@@ -305,19 +312,21 @@ typedef struct {
     qdot_error error; /* its status is that of all */
 } share_head;
 
-/* As long as some take what was sent. */
+/* As long as some take what was sent; who once took nothing is not waited for again. */
 static void
 wait_until_sent(double seconds)
 {
     double last = qdot_wall_now();
     size_t left, before = SIZE_MAX;
 
-    while ((left = qdot_mpi_sending()) > 0 && qdot_wall_now() - last < seconds) {
+    while ((left = qdot_mpi_sending()) > ranks.stuck &&
+           qdot_wall_now() - last < seconds) {
         if (left < before)
             last = qdot_wall_now();
         before = left;
         rest();
     }
+    ranks.stuck = left;
 }
 
 static void

@@ -30,7 +30,7 @@ typedef struct qdot_mate qdot_mate;
 
 typedef struct qdot_crew {
     const struct qdot_workers_job *job; /* base/workers.h */
-    struct qdot_worker *workers; /* [job->workers] */
+    struct qdot_worker *workers;        /* [job->workers] */
     qdot_items items;
     qdot_mate *mates; /* rank 0: [ranks] */
     size_t ready;     /* of these */
@@ -42,11 +42,13 @@ typedef struct qdot_crew {
 /* A chunk for it, if there is one, that takes about so many seconds; count 0: there is none. */
 qdot_items_chunk qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most);
 /* Bytes have come: the answers that are whole go to `done`, or on to rank 0. */
-QDOT_MUST_CHECK qdot_status qdot_hand_take(qdot_crew *c, qdot_hand *h, const char *bytes, size_t n);
+QDOT_MUST_CHECK qdot_status qdot_hand_take(qdot_crew *c, qdot_hand *h, const char *bytes,
+                                           size_t n);
 /* It works no more: what it has not answered is to be handed out again. */
 QDOT_MUST_CHECK qdot_status qdot_hand_drop(qdot_crew *c, qdot_hand *h);
 /* Item k is answered; bytes NULL: it cannot be. */
-QDOT_MUST_CHECK qdot_status qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes, size_t n);
+QDOT_MUST_CHECK qdot_status qdot_crew_answer(qdot_crew *c, size_t k, const char *bytes,
+                                             size_t n);
 
 /* Of mates.c. Rank 0: hear all others, give them chunks, miss those that are lost. */
 QDOT_MUST_CHECK qdot_status qdot_mates_new(qdot_crew *c);

@@ -7,13 +7,17 @@
 #include "base/ranks.h"
 #include "base/workers.h"
 
-/* Before all rows; before the numbers of each, their errors and its reason [reason]. */
+/* How the sweep ended. */
 typedef struct {
-    uint64_t rows, failed, resumed;
-} rows_head;
+    uint64_t done, failed, resumed;
+} sweep_end;
+
+/* Before the numbers of a row, their errors and its reason [reason]. */
 typedef struct {
     uint64_t row, reason; /* UINT64_MAX: none */
 } row_head;
+
+enum { TOGETHER = 1 << 16 }; /* rows that are shared at once */
 
 size_t
 qdot_sweep_processes(const qdot_sweep *s)
@@ -24,21 +28,21 @@ qdot_sweep_processes(const qdot_sweep *s)
 }
 
 static void
-pack(const qdot_sweep *s, qdot_text *out)
+pack(const qdot_sweep *s, size_t first, size_t end, qdot_text *out)
 {
     const qdot_row_table *t = s->table;
-    const rows_head all = {s->n_done, s->failed, s->resumed};
 
-    qdot_text_add_n(out, (const char *)&all, sizeof all);
-    for (size_t k = 0; k < t->rows; k++) {
+    for (size_t k = first; k < end; k++) {
         const char *reason = t->reasons[k];
         const row_head h = {k, reason != NULL ? strlen(reason) : UINT64_MAX};
 
         if (!s->done[k])
             continue;
         qdot_text_add_n(out, (const char *)&h, sizeof h);
-        qdot_text_add_n(out, (const char *)(t->values + k * t->n), t->n * sizeof *t->values);
-        qdot_text_add_n(out, (const char *)(t->errors + k * t->n), t->n * sizeof *t->errors);
+        qdot_text_add_n(out, (const char *)(t->values + k * t->n),
+                        t->n * sizeof *t->values);
+        qdot_text_add_n(out, (const char *)(t->errors + k * t->n),
+                        t->n * sizeof *t->errors);
         if (reason != NULL)
             qdot_text_add_n(out, reason, (size_t)h.reason);
     }
@@ -46,19 +50,13 @@ pack(const qdot_sweep *s, qdot_text *out)
 
 /* What rank 0 has packed; its own bytes are of the right form. */
 static qdot_status
-unpack(qdot_sweep *s, const char *at)
+unpack(qdot_sweep *s, const char *at, const char *end)
 {
     qdot_row_table *t = s->table;
     const size_t bytes = t->n * sizeof *t->values;
-    rows_head all;
     row_head h;
 
-    memcpy(&all, at, sizeof all);
-    at += sizeof all;
-    s->n_done = (size_t)all.rows;
-    s->failed = (size_t)all.failed;
-    s->resumed = (size_t)all.resumed;
-    for (size_t i = 0; i < s->n_done; i++) {
+    while (at < end) {
         memcpy(&h, at, sizeof h);
         at += sizeof h;
         memcpy(t->values + h.row * t->n, at, bytes);
@@ -75,20 +73,48 @@ unpack(qdot_sweep *s, const char *at)
     return QDOT_OK;
 }
 
+/* The rows, block by block. */
+static qdot_status
+share_blocks(qdot_sweep *s, qdot_text *text)
+{
+    const size_t rows = s->table->rows;
+
+    for (size_t k = 0; k < rows; k += TOGETHER) {
+        qdot_text_truncate(text, 0);
+        if (qdot_rank() == 0)
+            pack(s, k, rows - k < TOGETHER ? rows : k + TOGETHER, text);
+        QDOT_TRY(qdot_ranks_share(qdot_text_status(text), text));
+        if (qdot_rank() > 0 && text->n > 0)
+            QDOT_TRY(unpack(s, text->at, text->at + text->n));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_sweep_share_rows(qdot_sweep *s, qdot_status status)
 {
+    sweep_end all = {s->n_done, s->failed, s->resumed};
+    const qdot_error *error = qdot_last_error();
+    qdot_error why;
     qdot_text text = {0};
+    qdot_status shared = QDOT_OK;
 
     if (qdot_ranks_count() == 1)
         return status;
     if (qdot_rank() == 0)
-        pack(s, &text);
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
+        qdot_text_add_n(&text, (const char *)&all, sizeof all);
     status = qdot_ranks_share(status, &text);
-    if (qdot_rank() > 0 && text.n > 0 && unpack(s, text.at) != QDOT_OK)
-        status = QDOT_ENOMEM;
+    why = *error;
+    if (qdot_rank() > 0 && text.n == sizeof all) {
+        memcpy(&all, text.at, sizeof all);
+        s->n_done = (size_t)all.done;
+        s->failed = (size_t)all.failed;
+        s->resumed = (size_t)all.resumed;
+    }
+    if (status == QDOT_OK || status == QDOT_EINTR)
+        shared = share_blocks(s, &text);
     qdot_text_clear(&text);
-    return status;
+    if (shared != QDOT_OK)
+        return shared;
+    return status == QDOT_OK ? QDOT_OK : qdot_fail_again(&why);
 }
