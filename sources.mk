@@ -2600,6 +2600,7 @@ other_files = \
 	bench/longtime \
 	bench/numeric \
 	bench/packages \
+	bench/peers/again.c \
 	bench/peers/constrained.c \
 	bench/peers/constrained.cc \
 	bench/peers/constrained/car_axis.lag \

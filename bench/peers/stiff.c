@@ -271,7 +271,7 @@ main(int count, char **words)
     for (double e = atof(words[2]); e >= atof(words[3]) - 1e-9; e -= 1 / atof(words[4])) {
         double best = INFINITY, sum = 0;
 
-        for (int tries = 0; tries < 20 && (tries < 3 || sum < 0.1) && best > 0; tries++) {
+        for (int tries = 0; tries < 200 && (tries < 3 || sum < 0.1) && best > 0; tries++) {
             const double took = run(s, pow(10, e), atof(words[5]), y);
 
             best = took < 0 ? -1 : fmin(best, took);

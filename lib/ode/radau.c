@@ -124,6 +124,19 @@ qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages)
 
 /* --- Newton's iteration ----------------------------------------------------------------- */
 
+/* sum_j w_j x_j, one value a stage, `stride` apart; there are 3, 5 or 7 */
+static inline double
+over_stages(size_t stages, const double *w, const double *x, size_t stride)
+{
+    double sum = w[0] * x[0] + w[1] * x[stride] + w[2] * x[2 * stride];
+
+    if (stages > 3)
+        sum = sum + w[3] * x[3 * stride] + w[4] * x[4 * stride];
+    if (stages > 5)
+        sum = sum + w[5] * x[5 * stride] + w[6] * x[6 * stride];
+    return sum;
+}
+
 /* Positions of the stages, less q, from velocities. */
 static void
 follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
@@ -132,10 +145,8 @@ follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 
     for (size_t i = 0; i < b->stages; i++)
         for (size_t l = 0; l < r->p; l++) {
-            double sum = 0;
+            const double sum = over_stages(b->stages, b->a[i], r->Z + r->p + l, r->w);
 
-            for (size_t j = 0; j < b->stages; j++)
-                sum += b->a[i][j] * r->Z[j * r->w + r->p + l];
             r->Z[i * r->w + l] =
                 h * (b->c[i] * s->y[r->p + l] + (sum + b->c[i] * s->carry[r->p + l]));
         }
@@ -149,15 +160,13 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
     const qdot_radau_basis *old = r->before_basis;
     double w[MOST];
 
-    memset(r->Z, 0, MOST * r->w * sizeof *r->Z);
+    if (!old)
+        memset(r->Z, 0, b->stages * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
-        double *Z = r->Z + i * r->w;
-
         qdot_radau_interpolate(old, 1 + b->c[i] * h / r->before_h, w);
         w[old->stages - 1] -= 1; /* less its end */
-        for (size_t j = 0; j < old->stages; j++)
-            for (size_t l = r->p; l < r->w; l++)
-                Z[l] += w[j] * r->before[j * r->w + l];
+        for (size_t l = r->p; l < r->w; l++)
+            r->Z[i * r->w + l] = over_stages(old->stages, w, r->before + l, r->w);
     }
     follow(s, b, h);
 }
@@ -167,13 +176,9 @@ static void
 accelerate(radau *r, const qdot_radau_basis *b, double h)
 {
     for (size_t i = 0; i < b->stages; i++)
-        for (size_t l = 0; l < r->v; l++) {
-            double sum = 0;
-
-            for (size_t j = 0; j < b->stages; j++)
-                sum += b->inverse[i][j] * r->Z[j * r->w + r->p + l];
-            r->a[i * r->m + l] = sum / h;
-        }
+        for (size_t l = 0; l < r->v; l++)
+            r->a[i * r->m + l] =
+                over_stages(b->stages, b->inverse[i], r->Z + r->p + l, r->w) / h;
 }
 
 static qdot_status
@@ -205,13 +210,10 @@ solve(radau *r, const qdot_radau_basis *b)
     for (size_t i = 0; i < b->stages; i++)
         memset(r->a + i * m, 0, m * sizeof *r->a);
     for (size_t k = 0; k < b->spaces; k++) {
-        memset(r->re, 0, m * sizeof *r->re);
-        memset(r->im, 0, m * sizeof *r->im);
-        for (size_t i = 0; i < b->stages; i++)
-            for (size_t l = 0; l < m; l++) {
-                r->re[l] += b->left_re[k][i] * r->R[i * m + l];
-                r->im[l] += b->left_im[k][i] * r->R[i * m + l];
-            }
+        for (size_t l = 0; l < m; l++) {
+            r->re[l] = over_stages(b->stages, b->left_re[k], r->R + l, m);
+            r->im[l] = k ? over_stages(b->stages, b->left_im[k], r->R + l, m) : 0;
+        }
         qdot_radau_solve(&r->linear, k, r->re, r->im);
         for (size_t i = 0; i < b->stages; i++)
             for (size_t l = 0; l < m; l++)
@@ -230,12 +232,10 @@ change(radau *r, const qdot_radau_basis *b, double h)
         double *Z = r->Z + i * r->w;
 
         for (size_t l = 0; l < r->p; l++) {
-            double sum = 0;
+            const double by = h * over_stages(b->stages, b->a[i], r->a + l, r->m);
 
-            for (size_t j = 0; j < b->stages; j++)
-                sum += b->a[i][j] * r->a[j * r->m + l];
-            Z[l] += h * sum;
-            size = fmax(size, fabs(h * sum) * r->weight[l]);
+            Z[l] += by;
+            size = fmax(size, fabs(by) * r->weight[l]);
         }
         for (size_t l = 0; l < r->m; l++) {
             const double by = r->a[i * r->m + l];

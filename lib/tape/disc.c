@@ -338,7 +338,7 @@ static const double far = 1.5;
 
 bool
 qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
-                   double *work)
+                   double *most, double *work)
 {
     const uint32_t f = tape->code[k].op;
     double *radius = work + tape->places, *B = radius + tape->places, *RB = B + tape->places;
@@ -364,20 +364,27 @@ qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const doubl
         if (i->op == QDOT_OP_SINCOS)
             B[i->y] = RB[i->y] = 0;
     }
+    *most = 0;
     for (size_t j = 0; j < tape->outputs; j++) {
         const disc of = {B[tape->output[j]], RB[tape->output[j]]};
 
         if (!is_nothing(of) && !(fabs(of.c) > far * of.r))
             return false;
+        *most = fmax(*most, fabs(of.c) + of.r);
     }
     return true;
 }
 
 double
-qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *work)
+qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *result, double *work)
 {
+    double argument;
+
     load(tape, x, NULL, work);
     for (size_t j = 0; j < k; j++)
         step(tape->code + j, work, work + tape->places);
-    return work[tape->code[k].x];
+    argument = work[tape->code[k].x];
+    step(tape->code + k, work, work + tape->places);
+    *result = work[tape->code[k].to];
+    return argument;
 }

@@ -49,11 +49,13 @@ size_t qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double
 
 /* Whether over the discs all outputs are A + B f: f the result of the instruction k, which grows or
  * falls with its argument throughout, A and B without f, and B 0 or far from it. On a way on which the
- * argument only grows the values at its ends then show all that f does. Work as above. */
+ * argument only grows the values at its ends then bound all that f does. *most: the largest |B|. Work
+ * as above. */
 bool qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const double *r,
-                        double *work);
+                        double *most, double *work);
 
-/* The argument of the instruction k at the inputs x. Work as above. */
-double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *work);
+/* The argument of the instruction k at the inputs x, and its result. Work as above. */
+double qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *result,
+                          double *work);
 
 #endif

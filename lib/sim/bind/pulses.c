@@ -343,12 +343,12 @@ static bool
 goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
 {
     enum { depth = 4 };
-    double values[FEW], c[FEW], slope[FEW];
+    double values[FEW], c[FEW], slope[FEW], result;
 
     for (int j = 0; j < FEW; j++) {
         p->in[2 * p->n] = time_at(s->a, s->b, FEW, j);
         interpolate(p, s, p->in[2 * p->n], p->in);
-        values[j] = qdot_disc_argument(p->tape, k, p->in, p->bounds.work);
+        values[j] = qdot_disc_argument(p->tape, k, p->in, &result, p->bounds.work);
     }
     qdot_chebyshev_fit(FEW, values, c);
     qdot_chebyshev_derivative(FEW, c, slope);
@@ -356,22 +356,40 @@ goes_one_way(qdot_pulses *p, const qdot_pulses_step *s, size_t k)
            is_one_way(slope, depth);
 }
 
+/* The result of instruction k at an end of the step, y at t. */
+static double
+result_at(qdot_pulses *p, size_t k, const double *y, double t)
+{
+    double result;
+
+    memcpy(p->in, y, 2 * p->n * sizeof *y);
+    p->in[2 * p->n] = t;
+    qdot_disc_argument(p->tape, k, p->in, &result, p->bounds.work);
+    return result;
+}
+
 /* Whether nothing falls off or rises on the way of the step but one function that grows with its
- * argument, of which forces are a multiple, and the argument goes one way: what it does is seen at
- * the step's ends. */
+ * argument, of which forces are a multiple, and the argument goes one way: if the function is nearly
+ * the same at the step's ends it is so on all of it. */
 static bool
 shows_at_ends(qdot_pulses *p, const qdot_pulses_step *s)
 {
     qdot_polynomial_bounds *bounds = &p->bounds;
     size_t found, k;
 
+    double most;
+
     enclose_cubics(p, s);
     found = qdot_disc_hiders(p->tape, p->hiding, bounds->centre, bounds->radius,
                              0.5 * short_reach, &k, bounds->work);
-    return found == 0 ||
-           (found == 1 &&
-            qdot_disc_is_plain(p->tape, k, bounds->centre, bounds->radius, bounds->work) &&
-            goes_one_way(p, s, k));
+    if (found != 1)
+        return found == 0;
+    return qdot_disc_is_plain(p->tape, k, bounds->centre, bounds->radius, &most,
+                              bounds->work) &&
+           most * fabs(result_at(p, k, s->to, s->b) - result_at(p, k, s->from, s->a)) *
+                   fabs(s->b - s->a) <=
+               floor_of_it * s->tol &&
+           goes_one_way(p, s, k);
 }
 
 /* What of output i is missed, over as much as may be. */

@@ -8,7 +8,7 @@
  * (polynomial-bounds.h) bound them between; if the bound is too large the step is halved. The
  * difference between the parts and the polynomial of the whole step, summed up, is what the step
  * missed. One function that grows with its argument, where that goes one way and forces are a multiple
- * of it, is seen at the ends of the step: dry friction.
+ * of it, need not be sampled if it is nearly the same at both ends of the step: dry friction.
  *
  * Steps of a run are looked at before they are accepted (`look` of ode/system.h): one that misses
  * something ends where that begins, and the next one is no longer than what is found there.
