@@ -120,6 +120,8 @@ first_step(run *r, double distance)
     else
         r->h = pow(0.01 / fmax(d1, d2), 1 / (p + 1));
     r->h = fmin(fmin(100 * h0, r->h), distance);
+    if (r->options->first_share > 0)
+        r->h *= r->options->first_share;
     if (r->h < 2 * floor_of_step(r)) /* at rest, a long time after 0 */
         r->h = fmin(2 * floor_of_step(r), distance);
     return QDOT_OK;
@@ -391,8 +393,6 @@ loop(run *r)
                              r->last_undefined.message);
         }
         QDOT_TRY(status);
-        if (r->options->first_share > 0)
-            r->h *= r->options->first_share;
     }
     while (r->t != r->t1) {
         QDOT_TRY(advance(r, &stop));

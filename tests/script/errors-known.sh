@@ -62,3 +62,12 @@ run 0..10 tol $tol
 value(x, 10)
 LAG
 done
+# a modulus has a kink at its zero
+check 1.4142135623730950488 <<'LAG'
+coord x
+particle p mass 1 at x
+start x' = 1
+event k: abs(x - sqrt(2)) = 0
+run 0..3
+k[1]
+LAG

@@ -51,11 +51,22 @@ read_either(double t, double *y, void *user)
 
 /* --- what a step holds --------------------------------------------------------------- */
 
+/* That of an occurrence, as t grows. */
+static int
+way_of(const qdot_piece *x, const qdot_root *root)
+{
+    const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+
+    if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].touches)
+        return 0;
+    return x->direction > 0 ? root->way : -root->way;
+}
+
 static bool
 is_occurrence(const qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    int way = x->direction > 0 ? root->way : -root->way;
+    const int way = way_of(x, root);
 
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
@@ -82,7 +93,7 @@ static qdot_status
 note(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    qdot_occurrence o = {w->index, root->t, x->direction > 0 ? root->way : -root->way,
+    qdot_occurrence o = {w->index, root->t, way_of(x, root),
                          root->within, root->bend, root->way == 0 ? root->blur : 0};
 
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;

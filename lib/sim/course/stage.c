@@ -106,6 +106,16 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
     return status;
 }
 
+/* |u| has a kink at its zeros, which no polynomial shows: u is looked at. */
+static void
+open_modulus(const qdot_pool *pool, qdot_staged_event *e)
+{
+    e->touches = qdot_expr_kind(pool, e->function) == QDOT_FUN
+                 && qdot_expr_node(pool, e->function)->op == QDOT_ABS;
+    if (e->touches)
+        e->function = qdot_expr_arg(pool, e->function, 0);
+}
+
 static qdot_status
 stage_events(qdot_stage *s, const qdot_plan *p)
 {
@@ -117,6 +127,7 @@ stage_events(qdot_stage *s, const qdot_plan *p)
         e.function =
             qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
         QDOT_TRY(qdot_pool_check(p->pool));
+        open_modulus(p->pool, &e);
         e.name = qdot_strdup(event->name);
         status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
         if (status == QDOT_OK)
