@@ -1567,6 +1567,7 @@ script_tests = \
 	tests/bad/empty-brackets.lag \
 	tests/bad/entry-range.lag \
 	tests/bad/equilibria-unset.lag \
+	tests/bad/event-storm-in-step.lag \
 	tests/bad/event-storm.lag \
 	tests/bad/export-nothing.lag \
 	tests/bad/family-and-vector.lag \
@@ -1977,6 +1978,7 @@ test_files = \
 	tests/bad/empty-brackets.out \
 	tests/bad/entry-range.out \
 	tests/bad/equilibria-unset.out \
+	tests/bad/event-storm-in-step.out \
 	tests/bad/event-storm.out \
 	tests/bad/export-nothing.out \
 	tests/bad/family-and-vector.out \

@@ -16,7 +16,7 @@ enum { MOST_REPEATS = 4 };
 /* A run is also given up if its last LOOKED_AT pieces were so short that so many would follow: for
  * the time and memory that they would take. */
 enum { LOOKED_AT = 20000 };
-static const double most_to_come = 2e7;
+const double qdot_piece_most_to_come = 2e7;
 
 void
 qdot_piece_stop(qdot_piece *x, bool failed)
@@ -174,7 +174,7 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
         return false;
     since = t - tr->t[tr->pieces.at[tr->pieces.n - LOOKED_AT].first];
     to_come = LOOKED_AT * ((x->t1 - t) / since);
-    if (to_come <= most_to_come) /* not so for a NaN or if time stands still */
+    if (to_come <= qdot_piece_most_to_come) /* not so for a NaN or if time stands still */
         return false;
     name_end(x, w, &text);
     snprintf(x->c->reason, sizeof x->c->reason,

@@ -313,6 +313,29 @@ break_off(qdot_piece *x)
     return qdot_fail(QDOT_ELIMIT, "the piece is over");
 }
 
+/* Search a step, shorter where it holds too many roots to be searched at once. */
+static qdot_status
+search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
+{
+    for (;;) {
+        double reached;
+
+        QDOT_TRY(read_series(step->t_end, x->y, x));
+        QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), step->t_end, x->y, step->t_end == x->t1,
+                                 step, roots, n));
+        reached = qdot_watch_reached(qdot_piece_watch(x));
+        if (reached == step->t_end)
+            return QDOT_OK;
+        if ((double)*n * (x->t1 - step->t) / (reached - step->t) > qdot_piece_most_to_come)
+            return qdot_fail(QDOT_ELIMIT,
+                             "stopped at t = %.15g: events come %zu times within %.3g; %.1e more "
+                             "would follow until t = %.10g",
+                             step->t, *n, fabs(reached - step->t),
+                             (double)*n * (x->t1 - step->t) / (reached - step->t), x->t1);
+        step->t_end = step->t + (reached - step->t) / 2;
+    }
+}
+
 static qdot_status
 look_at_expanded(qdot_ode_expanded *step, void *user)
 {
@@ -328,9 +351,7 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
         return QDOT_OK;
     }
     x->expanded = step;
-    QDOT_TRY(read_series(step->t_end, x->y, x));
-    QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), step->t_end, x->y, step->t_end == x->t1,
-                             step, &roots, &n));
+    QDOT_TRY(search_expanded(x, step, &roots, &n));
     QDOT_TRY(take_roots(x, step->t, roots, n));
     if (x->intent == QDOT_PIECE_ENDS)
         stay_inside(x, step->t);

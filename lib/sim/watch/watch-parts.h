@@ -49,6 +49,7 @@ struct qdot_watch {
     bool all_bounds;     /* every g is a coordinate less its bound */
     double *final;      /* [m] g at the end of the step */
     double length;      /* of the step */
+    double reached;     /* of the step, where its search ended */
     double reach;       /* of the last part of a step that a root ended; 0: none did */
     double direction;   /* of time in it */
 

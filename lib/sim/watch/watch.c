@@ -10,6 +10,9 @@
 
 enum { LEAST = 16, DEEPEST = 60, MOST_PARTS = 4000 };
 
+/* A step of a series is left where so many have been looked at: it can end there. */
+enum { ENOUGH_PARTS = 500 };
+
 /* --- parts of a step ----------------------------------------------------------------- */
 
 static qdot_status
@@ -138,11 +141,11 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
 /* Roots nearer than this fraction of their time may be of one instant. */
 static const double one_instant = 64 * DBL_EPSILON;
 
-/* Whether a root ends the step, clearly before b. */
+/* Whether a root from w->roots.at[since] on ends the step, clearly before b. */
 static bool
-ends_before(const qdot_watch *w, double b)
+ends_before(const qdot_watch *w, double b, size_t since)
 {
-    for (size_t i = 0; i < w->roots.n && w->reader.ends; i++) {
+    for (size_t i = since; i < w->roots.n && w->reader.ends; i++) {
         const qdot_root *root = &w->roots.at[i];
 
         if (fabs(b - root->t) > one_instant * fmax(fabs(b), fabs(root->t))
@@ -176,10 +179,11 @@ first_cut(const qdot_watch *w, double t)
 /* The whole step, left to right, or as far as it is wanted; parts that wait stand on a stack of
  * their ends. */
 static qdot_status
-look_at_step(qdot_watch *w, double t, bool *whole)
+look_at_step(qdot_watch *w, double t, bool series, bool *whole)
 {
     double ends[DEEPEST + 2], from = w->t, cut = first_cut(w, t);
     int depth = 1, parts = 0;
+    size_t before = 0, earlier = 0; /* roots before this part, and the last one */
 
     *whole = true;
     ends[0] = t;
@@ -198,7 +202,9 @@ look_at_step(qdot_watch *w, double t, bool *whole)
         if (v == QDOT_PART_GOOD) {
             from = p.b;
             depth--;
-            *whole = !ends_before(w, p.b);
+            *whole = !ends_before(w, p.b, earlier);
+            earlier = before;
+            before = w->roots.n;
             if (!*whole) {
                 w->reach = fabs(p.b - p.a);
                 break;
@@ -209,6 +215,11 @@ look_at_step(qdot_watch *w, double t, bool *whole)
             p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
                                  : v == QDOT_PART_PARTED  ? QDOT_POLYNOMIAL_BOUNDS_BESIDE
                                                           : 0.5);
+        if (series && parts >= ENOUGH_PARTS && from != w->t) {
+            w->reached = from;
+            *whole = false;
+            break;
+        }
         if (depth == DEEPEST || ++parts > MOST_PARTS)
             return qdot_fail(QDOT_EFAILED, "an event cannot be resolved at t = %.15g",
                              p.a);
@@ -295,6 +306,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->final));
     w->length = fabs(t - w->t);
+    w->reached = t;
     if (w->all_bounds)
         w->bound_at_step = false;
     else
@@ -311,7 +323,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         w->slow[i] = w->grazed[i] = false;
     }
     if (any)
-        QDOT_TRY(look_at_step(w, t, &whole));
+        QDOT_TRY(look_at_step(w, t, step != NULL, &whole));
     if (last && whole)
         QDOT_TRY(end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
@@ -384,6 +396,12 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         on[i] = w->start.on[i];
     }
     return QDOT_OK;
+}
+
+double
+qdot_watch_reached(const qdot_watch *w)
+{
+    return w->reached;
 }
 
 const int *

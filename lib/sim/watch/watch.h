@@ -68,6 +68,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_step(qdot_watch *w, double t, const doubl
                                             const qdot_root **roots, size_t *n);
 void qdot_watch_take(qdot_watch *w);
 
+/* How far the step was searched: to its end, or no further because a step of a series holds too many
+ * roots. Such a step is to be tried shorter. */
+double qdot_watch_reached(const qdot_watch *w);
+
 /* Whether only bounds are watched and the step, by its series, stays far from all of them: then
  * it need not be searched, and _pass accepts it. */
 bool qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step);
