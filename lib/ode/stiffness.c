@@ -20,6 +20,9 @@ static const double share = 1e-2;
 
 static const double work_default = 5e9;
 
+/* Explicit methods are stable for h by the fastest rate up to 2 or more; the step of differences, by the size. */
+static const double least_bound = 0.1, difference = 1e-7;
+
 /* A million steps: earlier ones may be short for once. */
 static const uint64_t patient = 1000000;
 
@@ -62,6 +65,41 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
         if (!is_smooth(s, i, at))
             return false;
     return true;
+}
+
+/* Whether stability may bound steps of length h: h |df/dy| by differences, which is no less than h by the fastest
+ * rate. */
+static qdot_status
+may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
+{
+    const qdot_ode_system *system = at->system;
+    const size_t n = at->n;
+    double *y, *f, *moved, sum = 0;
+    qdot_status status;
+
+    *may = true;
+    if (!system)
+        return QDOT_OK;
+    y = qdot_malloc(3 * n * sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    f = y + n;
+    moved = f + n;
+    memcpy(y, at->y, n * sizeof *y);
+    status = system->rhs(at->t, y, f, system->user);
+    for (size_t j = 0; j < n && status == QDOT_OK; j++) {
+        const double size = qdot_ode_size(at->scales, j, y[j]), by = difference * size;
+
+        y[j] += by;
+        status = system->rhs(at->t, y, moved, system->user);
+        y[j] = at->y[j];
+        for (size_t i = 0; i < n; i++)
+            sum += pow((moved[i] - f[i]) / (difference * qdot_ode_size(at->scales, i, y[i])), 2);
+    }
+    if (status == QDOT_OK)
+        *may = !(h * sqrt(sum) < least_bound);
+    qdot_free(y);
+    return qdot_grave(status);
 }
 
 /* Steps from place k - 1 to k. */
@@ -133,6 +171,8 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     step = (at->t - s->t[0]) / steps_between(s);
     left = fabs((at->t1 - at->t) / step);
     *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at) && !grow(s);
+    if (*stiff)
+        QDOT_TRY(may_bind(at, fabs(step), stiff));
     s->count = 0;
     s->steps += (uint64_t)steps_between(s);
     s->windows++;

@@ -7,8 +7,9 @@
  *     |y_i(t) - parabola through y_i at both ends and the middle|
  *         <= share (max y_i - min y_i) + noise max(s_i, |y_i|),
  *
- * at seven more places without a pattern, which no motion does that its steps follow;
- * noise is what these leave of the fast one. It matters if much work is left (in about nanoseconds;
+ * at seven more places without a pattern, which no motion does that its steps h follow;
+ * noise is what these leave of the fast one. A fast force of t leaves as little, and no method can skip it: there
+ * h |df/dy| is small, in units of max(s_i, |y_i|), while where stability bounds h it is not. It matters if much work is left (in about nanoseconds;
  * meter.h): the run ends, and says so. So does a run by any method that after a million steps would
  * need more than it may take.
  *
@@ -22,6 +23,7 @@
 #include <stdint.h>
 
 #include "ode/run.h"
+#include "ode/system.h"
 
 enum { QDOT_ODE_STIFF_PLACES = 10 };
 
@@ -39,6 +41,7 @@ void qdot_ode_stiffness_clear(qdot_ode_stiffness *s);
 
 /* Where a step ended. */
 typedef struct {
+    const qdot_ode_system *system; /* NULL: stability may bound any step */
     size_t n;
     double t, t1;    /* now, and the end of the run */
     const double *y; /* [n] */

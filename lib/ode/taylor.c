@@ -432,7 +432,8 @@ count_work(run *r)
 static qdot_status
 look_for_stiffness(run *r)
 {
-    const qdot_ode_stiff_step at = {.n = r->n,
+    const qdot_ode_stiff_step at = {.system = r->system,
+                                    .n = r->n,
                                     .t = r->t,
                                     .t1 = r->t1,
                                     .y = r->y,

@@ -361,7 +361,8 @@ look_for_stiffness(run *r)
     const uint64_t steps = r->result->stats.steps;
     const double work = qdot_ode_work(r->s->system, &stats) / (double)(steps ? steps : 1);
 
-    const qdot_ode_stiff_step at = {.n = r->s->system->n,
+    const qdot_ode_stiff_step at = {.system = r->s->system,
+                                    .n = r->s->system->n,
                                     .t = r->t,
                                     .t1 = r->t1,
                                     .y = r->s->y,

@@ -116,6 +116,42 @@ too_many_steps_are_told(void **state)
     qdot_ode_stiffness_clear(&s);
 }
 
+/* y' = -k (y - t) + 1e-7 cos(1e6 t) along a line: stability binds steps of 1e-5 where k is large only. */
+static qdot_status
+relax(double t, const double *y, double *f, void *user)
+{
+    const double *k = user;
+
+    f[0] = -*k * (y[0] - t) + 1e-7 * cos(1e6 * t);
+    return QDOT_OK;
+}
+
+static void
+a_fast_force_is_not_stiff(void **state)
+{
+    double k[2] = {1e6, 1};
+
+    (void)state;
+    for (int fast = 0; fast < 2; fast++) {
+        const qdot_ode_system system = {.n = 1, .rhs = relax, .user = &k[fast]};
+        const qdot_ode_options options = {.tol = 1e-9};
+        qdot_ode_stiffness s = {0};
+        qdot_status status = QDOT_OK;
+        bool stiff = false;
+
+        for (int i = 0; i < 100000 && status == QDOT_OK; i++) {
+            const double t = 1e-5 * i;
+            const qdot_ode_stiff_step at = {.system = &system, .n = 1, .t = t, .t1 = 1e6, .y = &t, .noise = 1e-9,
+                                            .work = 100, .most = 1000000000};
+
+            if (qdot_ode_stiffness_is_due(&s))
+                status = qdot_ode_stiffness_look(&s, &at, &options, &stiff);
+        }
+        assert_true(stiff == !fast);
+        qdot_ode_stiffness_clear(&s);
+    }
+}
+
 int
 main(void)
 {
@@ -124,6 +160,7 @@ main(void)
         cmocka_unit_test(one_that_turns_is_not),
         cmocka_unit_test(nor_one_that_ends_soon),
         cmocka_unit_test(too_many_steps_are_told),
+        cmocka_unit_test(a_fast_force_is_not_stiff),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
