@@ -15,6 +15,9 @@
 
 static const double most_members = 1e7;
 
+/* The generator takes 32 bits of a seed, and no more. */
+static const long most_seed = 0xffffffff;
+
 void
 qdot_sweep_axes_free(qdot_sweep_axes *axes)
 {
@@ -107,7 +110,18 @@ read_list(qdot_cursor *c, qdot_sweep_axis *x)
     x->n = qdot_expr_kind(c->session->pool, x->list) == QDOT_LIST
                ? qdot_expr_count(c->session->pool, x->list)
                : 0;
-    return x->n > 0 ? QDOT_OK : qdot_fail(QDOT_ETYPE, "a sweep runs over a list of numbers");
+    if (x->n == 0)
+        return qdot_fail(QDOT_ETYPE, "a sweep runs over a list of numbers");
+    x->list = qdot_session_bind(c->session, qdot_measured_as_rationals(c->session, x->list));
+    QDOT_TRY(qdot_pool_check(c->session->pool));
+    for (size_t k = 0; k < x->n; k++) {
+        const qdot_expr e = qdot_expr_arg(c->session->pool, x->list, (uint32_t)k);
+        qdot_expr value;
+        double number;
+
+        QDOT_TRY(constant(c->session, e, &value, &number));
+    }
+    return QDOT_OK;
 }
 
 /* normal(A, B) or uniform(A, B). */
@@ -219,8 +233,8 @@ read_draws(qdot_cursor *c, qdot_sweep_axes *axes)
         return qdot_cursor_expected(c, "`count` and how many are drawn");
     if ((double)count > most_members)
         return qdot_fail(QDOT_ELIMIT, "%ld members: more than %.0e", count, most_members);
-    if (seed < 0)
-        return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 on");
+    if (seed < 0 || seed > most_seed)
+        return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 to %ld", most_seed);
     axes->members = (size_t)count;
     axes->seed = (unsigned long)seed;
     return draw(axes);

@@ -94,8 +94,9 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     for (int k = 0; k < halvings && status == QDOT_OK; k++) {
         const double half = (from + s) / 2;
 
-        if (!qdot_path_go(x, a, half, &middle, &steps))
-            break; /* too near to a crossing */
+        if (!qdot_path_go(x, a, half, &middle, &steps) ||
+            qdot_path_product(x, a->t, middle.t) < straight)
+            break; /* too near to a crossing, or over to the other curve */
         memcpy(out->y, middle.y, x->width * sizeof *out->y);
         if (out->kind == QDOT_HOPF || out->kind == QDOT_DOUBLING)
             status = x->judge(x, &middle);

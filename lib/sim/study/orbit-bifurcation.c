@@ -10,8 +10,12 @@
 /* Of the step that a crossing lies in: half the distances of places for its polynomial. Of a length of 1: the step of second
  * derivatives. A direction with less along p has none. */
 static const double wide = 0.1, narrower = 0.3, difference = 1e-4, upright = 1e-4;
+/* A crossing that polynomials put no better than that, of a length of 1, is none: two curves come near each other. */
+static const double apart = 1e-10;
 /* What both runs round alike, relative to a value. */
 static const double rounding = 4e-15;
+/* Pairs that meet the unit circle are not further from it, and not nearer to the real axis, by sin of the angle. */
+static const double on_circle = 1e-6, off_axis = 1e-3;
 /* How far, of a length of 1, a crossing may be off at least. */
 static const double least_off = 5e-14;
 enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4, NARROWINGS = 6 };
@@ -21,9 +25,9 @@ typedef struct {
     const qdot_path_point *a; /* from where s is counted; */
     qdot_path_point point;    /* the latest point; */
     qdot_bifurcation_kind kind;
-    bool krein;
+    bool krein, apart;      /* apart: no crossing, two curves come near each other */
     double *re, *im, *none; /* [2n], [4 n^2] zero errors */
-    double angle;           /* of the pair nearest to the unit circle */
+    double angle, beside;   /* of the pair nearest to the unit circle, and how far it is from it */
 } search;
 
 /* --- test functions ------------------------------------------------------------------------------ */
@@ -34,11 +38,12 @@ of_pairs(search *f, size_t z)
     double product = 1, nearest = INFINITY;
     size_t trivial = f->x->driven ? 0 : 1;
 
+    f->angle = 0;
     for (size_t i = 0; i < z; i++) {
         const double off = fabs(hypot(f->re[i], f->im[i]) - 1);
 
         if (f->im[i] > 0 && off < nearest) {
-            nearest = off;
+            f->beside = nearest = off;
             f->angle = atan2(f->im[i], f->re[i]);
         }
     }
@@ -279,6 +284,16 @@ halve(search *f, double *lo, double *hi, bool *found)
     return QDOT_OK;
 }
 
+/* Multipliers count as growing beyond 1 + 1e-6 only: the circle may lie outside lo .. hi by as much. */
+static void
+widen(search *f, double *lo, double *hi)
+{
+    for (double by = 1e-9; by < 1e-3 && !(test_at(f, *lo) * test_at(f, *hi) <= 0); by *= 10) {
+        *lo -= by;
+        *hi += by;
+    }
+}
+
 /* The bifurcation between lo and hi: y [width] with what belongs to it, how far s may be off. */
 static qdot_status
 locate(search *f, double lo, double hi, double *y, double *off, bool *found)
@@ -292,6 +307,8 @@ locate(search *f, double lo, double hi, double *y, double *off, bool *found)
     } else if (f->kind == QDOT_PITCHFORK) {
         *found = find_crossing(f, lo, hi, off);
     } else {
+        if (f->kind == QDOT_TORUS)
+            widen(f, &lo, &hi);
         *found = close_in(f, &lo, &hi, 1e-13);
         *off = hi - lo;
     }
@@ -463,21 +480,30 @@ find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, doubl
     double *y = qdot_calloc(w + m, sizeof *y), *const t = y + w, off = 0;
     qdot_status status = y ? locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
     const double angle = f->angle;
+    /* else several real ones pass -1 or 1 together */
+    const bool pair = fabs(sin(angle)) > off_axis && (f->krein || f->beside < on_circle);
 
     if (status == QDOT_OK)
         memcpy(t, f->kind == QDOT_PITCHFORK ? in->a->t : f->point.t, m * sizeof *t);
+    if (*found && f->kind == QDOT_PITCHFORK) {
+        f->apart = off > apart;
+        *found = !f->apart;
+    }
     if (status == QDOT_OK && *found && f->kind == QDOT_PITCHFORK)
         status = classify(f, y, &f->kind, other, found);
     if (status == QDOT_OK && *found) {
         const qdot_bifurcation_kind kind = f->kind;
 
-        out->kind = kind == QDOT_TORUS && f->krein ? QDOT_KREIN : kind;
+        out->kind = kind != QDOT_TORUS ? kind
+                    : !pair            ? QDOT_NOT_SIMPLE
+                    : f->krein         ? QDOT_KREIN
+                                       : kind;
         f->kind = kind == QDOT_TRANSCRITICAL ? QDOT_PITCHFORK : kind;
         status = find_errors(f, in->from, in->to, y, t, off, out->error, found);
     }
     if (status == QDOT_OK && *found) {
         memcpy(out->y, y, w * sizeof *y);
-        if (f->kind == QDOT_TORUS) {
+        if (f->kind == QDOT_TORUS && pair) {
             out->frequency = angle;
             out->frequency_error = fabs(angle - f->angle) + 1e-15;
         }
@@ -507,6 +533,8 @@ qdot_orbit_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot
     }
     if (status == QDOT_OK && found)
         *answer = QDOT_BIFURCATION_FOUND;
+    else if (f.apart)
+        *answer = QDOT_BIFURCATION_APART;
     qdot_free(f.re);
     qdot_path_point_end(&f.point);
     return status;

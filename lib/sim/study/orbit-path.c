@@ -6,6 +6,8 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "normal/prove/decide.h"
+#include "sim/model/substitute.h"
 #include "sim/study/floquet.h"
 #include "sim/study/orbit-period.h"
 #include "sim/study/orbit-shape.h"
@@ -17,6 +19,12 @@ static const double tolerance[2] = {1e-13, 1e-11};
 
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
+
+/* What both runs round alike, relative to a slope. */
+static const double alike = 1e-14;
+
+/* Of the places: changes below are rounding. */
+static const double still = 1e-12;
 
 /* Multipliers grow that are beyond the unit circle by more than this, and by more than three times their error. */
 static const double grows = 1e-6;
@@ -180,7 +188,7 @@ fill_both(qdot_orbit_path *x, const double *y)
     if (!good || !qdot_orbit_path_monodromy(x, y))
         return false;
     for (size_t i = 0; i < z * z; i++)
-        x->E[i] = fabs(x->E[i] - x->B[i]) + 1e-15 * fabs(x->B[i]);
+        x->E[i] = fabs(x->E[i] - x->B[i]) + alike * fabs(x->B[i]);
     return true;
 }
 
@@ -214,7 +222,7 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
     a->flip = product > 0 ? 1 : -1;
     a->stability = f->verdict == QDOT_FLOQUET_UNSTABLE    ? QDOT_UNSTABLE
                    : f->verdict == QDOT_FLOQUET_UNDECIDED ? QDOT_STABILITY_UNDECIDED
-                   : f->asymptotic                        ? QDOT_STABLE
+                   : f->asymptotic && f->trivial < f->n   ? QDOT_STABLE
                                                           : QDOT_STABLE_TO_FIRST_ORDER;
 }
 
@@ -327,7 +335,8 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
     for (size_t i = 0; i < x->n; i++) { /* a velocity that is 0 */
         const double rate = fabs(value_of(x, 0, z + i)) / change[x->n + i];
 
-        if (fabs(y[x->n + i]) <= nothing * change[x->n + i] && change[i] > 0 && rate > best) {
+        if (x->unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
+            fabs(y[x->n + i]) <= nothing * change[x->n + i]) {
             best = rate;
             x->phase = x->n + i;
         }
@@ -362,11 +371,15 @@ static qdot_status
 find_sizes(qdot_orbit_path *x, double *size)
 {
     const size_t n = x->n;
-    double most[2] = {0, 0};
+    double most[2] = {0, 0}, far = 0;
 
     QDOT_TRY(qdot_orbit_changes(x->response[0], n, x->conserved, x->t0, x->of.T, size));
     for (size_t i = 0; i < 2 * n; i++)
         most[i / n] = fmax(most[i / n], size[i]);
+    for (size_t i = 0; i < n; i++)
+        far = fmax(far, fabs(x->of.z[i]));
+    if (most[0] <= still * far)
+        most[0] = most[1] = 0; /* at rest, at a place that is not 0 */
     x->size = most[0];
     if (!x->driven && !(most[0] > 0 && most[1] > 0)) {
         (void)qdot_fail(QDOT_EINVAL, "the run is at rest");
@@ -423,6 +436,29 @@ make_period(qdot_orbit_path *x)
     return x->period_work ? QDOT_OK : QDOT_ENOMEM;
 }
 
+/* Whether h is proved to stay through what events do. */
+static qdot_status
+events_keep_energy(const qdot_orbit_path *x, bool *keep)
+{
+    qdot_scene *s = x->of.scene;
+    const qdot_run_request *r = x->of.request;
+    const qdot_facts facts = qdot_scene_facts(s);
+    const qdot_expr h = qdot_mech_energy(s);
+
+    for (size_t k = 0; k < s->events.n && *keep; k++) {
+        const qdot_event *e = &s->events.at[k];
+        qdot_expr change;
+
+        if (e->targets.n == 0)
+            continue;
+        change = qdot_sub(s->pool, qdot_subs(s->pool, h, e->targets.n, e->targets.at, e->values.at), h);
+        change = qdot_substitute(s->pool, change, r->n_values, r->symbols, r->values);
+        QDOT_TRY(qdot_pool_check(s->pool));
+        *keep = qdot_is_zero(s->pool, change, &facts);
+    }
+    return QDOT_OK;
+}
+
 /* What the scene is, and whether p can be what it is asked to be. */
 static qdot_status
 check(qdot_orbit_path *x)
@@ -436,6 +472,8 @@ check(qdot_orbit_path *x)
     QDOT_TRY(qdot_orbit_is_driven(s, x->of.request, &x->driven));
     if (!x->driven)
         QDOT_TRY(qdot_mech_energy_conserved(s, &x->conserved));
+    if (x->conserved)
+        QDOT_TRY(events_keep_energy(x, &x->conserved));
     if (x->of.family != QDOT_ORBIT_PARAMETER && !x->conserved)
         return qdot_fail(QDOT_EINVAL, "the energy is not conserved: at one value of the parameters "
                                       "orbits are no family");

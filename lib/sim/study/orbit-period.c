@@ -9,8 +9,9 @@
 #include "sim/model/substitute.h"
 #include "tape/tape.h"
 
-/* How far equations may differ after a period, beside max(1, |value|); times where it is asked. */
-static const double same = 1e-7;
+/* How far equations may differ after a period, beside how much they change with time, and beside what they are; states,
+ * and times, where it is asked. */
+static const double same = 1e-7, rounding = 1e-14;
 enum { ASKED = 8 };
 
 typedef qdot_vec(qdot_expr) list;
@@ -119,21 +120,47 @@ find_rate(qdot_pool *pool, qdot_expr e, qdot_expr p, qdot_expr *rate)
     return qdot_pool_check(pool);
 }
 
-/* Whether all are the same in the same state after T; in: 2n + 2 numbers and room, tape: now, then later. */
+/* Evaluate all in one state over a period: how they are at first, how far from it they come, how far they are from what
+ * they are after T. value: [5 m] and room: now, later, these three. */
+static void
+ask_times(const qdot_tape *tape, size_t n, size_t m, double T, double *in, double *value)
+{
+    double *const first = value + 2 * m, *const change = first + m, *const off = change + m;
+
+    for (size_t k = 0; k < ASKED; k++) {
+        in[2 * n] = T * (double)k / (ASKED + 0.385);
+        qdot_tape_eval(tape, in, value, value + 6 * m);
+        for (size_t i = 0; i < m; i++) {
+            first[i] = k == 0 ? value[i] : first[i];
+            change[i] = fmax(k == 0 ? 0 : change[i], fabs(value[i] - first[i]));
+            change[i] = fmax(change[i], fabs(value[m + i] - first[i]));
+            off[i] = fmax(k == 0 ? 0 : off[i], fabs(value[m + i] - value[i]));
+        }
+    }
+}
+
+/* Whether all are the same in the same state after T; in: 2n + 2 numbers and room, tape: now, then later. One that has no
+ * value in any of these states is not. */
 static bool
 come_back(const qdot_tape *tape, size_t n, size_t m, double T, double *in)
 {
-    double *const value = in + 2 * n + 2;
+    static const double sizes[] = {1, -0.1, 0.01, -1e-3}; /* some lie in the domains of functions */
+    double *const value = in + 2 * n + 2, *const known = value + 5 * m;
+    const double *const first = value + 2 * m, *const change = first + m, *const off = change + m;
 
     for (size_t k = 0; k < ASKED; k++) {
         for (size_t i = 0; i < 2 * n; i++) /* no places of symmetry */
-            in[i] = 0.3 + 0.17 * (double)((5 * i + 3 * k) % 7);
-        in[2 * n] = T * (double)k / (ASKED + 0.385);
-        qdot_tape_eval(tape, in, value, value + 2 * m);
-        for (size_t i = 0; i < m; i++)
-            if (fabs(value[m + i] - value[i]) > same * fmax(1, fabs(value[i])))
+            in[i] = sizes[k % 4] * (0.3 + 0.17 * (double)((5 * i + 3 * k) % 7));
+        ask_times(tape, n, m, T, in, value);
+        for (size_t i = 0; i < m; i++) {
+            known[i] += isfinite(first[i]) != 0;
+            if (off[i] > same * change[i] + rounding * fabs(first[i]))
                 return false;
+        }
     }
+    for (size_t i = 0; i < m; i++)
+        if (known[i] == 0)
+            return false;
     return true;
 }
 
@@ -174,7 +201,7 @@ check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
     if (status == QDOT_OK)
         status = qdot_tape_new(pool, k, inputs, 2 * m, e, &tape);
     if (status == QDOT_OK) {
-        in = qdot_calloc(2 * n + 2 + 2 * m + qdot_tape_work(tape), sizeof *in);
+        in = qdot_calloc(2 * n + 2 + 6 * m + qdot_tape_work(tape), sizeof *in);
         status = in ? QDOT_OK : QDOT_ENOMEM;
     }
     if (status == QDOT_OK) {
@@ -188,7 +215,7 @@ check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
     return status;
 }
 
-/* 2 pi k / a, its value T at p = at; T itself where there is no a that has it. */
+/* pi k / a (squares have half the period), its value T at p = at; T itself where there is no a that has it. */
 static qdot_status
 make_period(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, double T, qdot_expr *period)
 {
@@ -198,11 +225,11 @@ make_period(qdot_pool *pool, qdot_expr rate, qdot_expr p, double at, double T, q
     if (rate == QDOT_NIL)
         return qdot_pool_check(pool);
     QDOT_TRY(number_of(pool, rate, p, at, &a));
-    turns = round(fabs(a) * T / (2 * M_PI));
-    if (turns >= 1 && fabs(fabs(a) * T / (2 * M_PI) - turns) < 1e-6 * turns)
+    turns = round(fabs(a) * T / M_PI);
+    if (turns >= 1 && fabs(fabs(a) * T / M_PI - turns) < 1e-6 * turns)
         *period = qdot_div(pool,
                            qdot_mul(pool, QDOT_PI,
-                                    qdot_expr_int(pool, 2 * (a < 0 ? -1 : 1) * (long)turns)),
+                                    qdot_expr_int(pool, (a < 0 ? -1 : 1) * (long)turns)),
                            rate);
     return qdot_pool_check(pool);
 }

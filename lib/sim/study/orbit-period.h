@@ -13,7 +13,7 @@ QDOT_MUST_CHECK qdot_status qdot_orbit_is_driven(qdot_scene *scene, const qdot_r
 
 /* The period that the drive has as a function of p (nil: of nothing) and that is T at p = at:
  *
- *     2 pi k / a,   a t the argument of a sine or cosine that holds p, else any; else T itself
+ *     pi k / a,     a t the argument of a sine or cosine that holds p, else any; else T itself
  *
  * QDOT_EINVAL: the equations do not have it at `at`, or at least or most. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_period(qdot_scene *scene, const qdot_run_request *request,
