@@ -1505,6 +1505,7 @@ script_tests = \
 	tests/script/values.lag \
 	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
+	tests/script/with-values.sh \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/alone-word.lag \
@@ -1763,10 +1764,12 @@ script_tests = \
 	tests/bad/sweep-mixed.lag \
 	tests/bad/sweep-name.lag \
 	tests/bad/sweep-nothing.lag \
+	tests/bad/sweep-seed.lag \
 	tests/bad/sweep-step.lag \
 	tests/bad/sweep-twice.lag \
 	tests/bad/sweep-unknown.lag \
 	tests/bad/sweep-vector.lag \
+	tests/bad/sweep-with.lag \
 	tests/bad/taken-constraint.lag \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
@@ -2174,10 +2177,12 @@ test_files = \
 	tests/bad/sweep-mixed.out \
 	tests/bad/sweep-name.out \
 	tests/bad/sweep-nothing.out \
+	tests/bad/sweep-seed.out \
 	tests/bad/sweep-step.out \
 	tests/bad/sweep-twice.out \
 	tests/bad/sweep-unknown.out \
 	tests/bad/sweep-vector.out \
+	tests/bad/sweep-with.out \
 	tests/bad/taken-constraint.out \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \
@@ -2560,6 +2565,7 @@ test_files = \
 	tests/script/values.out \
 	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \
+	tests/script/with-values.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \
 	tests/series/operations.h \

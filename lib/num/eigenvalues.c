@@ -14,7 +14,7 @@ typedef struct {
     size_t n;
     gsl_matrix *A;
     gsl_matrix_complex *V, *LU, *W; /* right vectors, columns; left ones, rows of V^-1 */
-    gsl_vector_complex *lambda;
+    gsl_vector_complex *lambda, *mu; /* of A, of its transpose */
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;
 } solver;
@@ -29,9 +29,10 @@ allocate(solver *s)
     s->LU = gsl_matrix_complex_alloc(n, n);
     s->W = gsl_matrix_complex_alloc(n, n);
     s->lambda = gsl_vector_complex_alloc(n);
+    s->mu = gsl_vector_complex_alloc(n);
     s->order = gsl_permutation_alloc(n);
     s->work = gsl_eigen_nonsymmv_alloc(n);
-    return s->A && s->V && s->LU && s->W && s->lambda && s->order && s->work;
+    return s->A && s->V && s->LU && s->W && s->lambda && s->mu && s->order && s->work;
 }
 
 static void
@@ -42,6 +43,7 @@ release(solver *s)
     gsl_matrix_complex_free(s->LU);
     gsl_matrix_complex_free(s->W);
     gsl_vector_complex_free(s->lambda);
+    gsl_vector_complex_free(s->mu);
     gsl_permutation_free(s->order);
     if (s->work != NULL)
         gsl_eigen_nonsymmv_free(s->work);
@@ -62,6 +64,41 @@ error_of(const solver *s, const double *A, const double *E, size_t k)
                    (E[i * n + j] + 4 * DBL_EPSILON * size) *
                    gsl_complex_abs(gsl_matrix_complex_get(s->V, j, k));
     return sum;
+}
+
+/* Errors by left vectors that are found by themselves, where these are less: V^-1 is lost to all where two other eigenvalues
+ * are one with one vector. */
+static void
+bound_by_left(solver *s, const double *A, const double *E, double *error)
+{
+    const size_t n = s->n;
+    gsl_matrix_complex *const U = s->LU;
+
+    for (size_t i = 0; i < n * n; i++)
+        gsl_matrix_set(s->A, i % n, i / n, A[i]);
+    if (gsl_eigen_nonsymmv(s->A, s->mu, U, s->work) != GSL_SUCCESS)
+        return;
+    for (size_t k = 0; k < n; k++) {
+        const gsl_complex lambda = gsl_vector_complex_get(s->lambda, k);
+        gsl_complex along = gsl_complex_rect(0, 0);
+        double nearest = INFINITY;
+        size_t at = 0;
+
+        for (size_t j = 0; j < n; j++) {
+            const double off = gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->mu, j), lambda));
+
+            at = off < nearest ? j : at;
+            nearest = fmin(nearest, off);
+        }
+        for (size_t i = 0; i < n; i++)
+            along = gsl_complex_add(along, gsl_complex_mul(gsl_matrix_complex_get(U, i, at),
+                                                           gsl_matrix_complex_get(s->V, i, k)));
+        if (!(gsl_complex_abs(along) > 0))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            gsl_matrix_complex_set(s->W, k, i, gsl_complex_div(gsl_matrix_complex_get(U, i, at), along));
+        error[k] = fmin(error[k], error_of(s, A, E, k));
+    }
 }
 
 static qdot_status
@@ -85,6 +122,7 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
         im[k] = GSL_IMAG(gsl_vector_complex_get(s->lambda, k));
         error[k] = known ? error_of(s, A, E, k) : NAN;
     }
+    bound_by_left(s, A, E, error);
     for (size_t k = 0; k + 1 < n; k++)
         if (im[k] < 0 && im[k + 1] == -im[k] && re[k + 1] == re[k]) {
             im[k] = -im[k];

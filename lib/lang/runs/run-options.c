@@ -190,6 +190,8 @@ qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_req
     }
     if (status == QDOT_OK)
         status = qdot_request_fill(session, request);
+    if (status == QDOT_OK && o->to != QDOT_NIL)
+        status = qdot_request_limits(session, o->from, o->to, request);
     qdot_session_restore_values(session, &kept);
     request->request.tol = o->tol;
     request->request.digits = (int)o->digits;

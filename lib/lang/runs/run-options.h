@@ -26,7 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_read_to_colon(qdot_cursor *c,
                                                            const qdot_token *start,
                                                            qdot_run_options *o);
 /* The request of the present values, those of `with` in place of them, and of these options; its
- * limits are left to the caller. */
+ * limits likewise, where they have any, else they are left to the caller. */
 QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session,
                                                   const qdot_run_options *o,
                                                   qdot_request *request);

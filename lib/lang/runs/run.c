@@ -75,8 +75,6 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
         status = qdot_run_options_fill(c->session, o, &request);
     }
     if (status == QDOT_OK)
-        status = qdot_request_limits(c->session, o->from, o->to, &request);
-    if (status == QDOT_OK)
         status = qdot_request_explain(c->session, &request, integrate(c, o, &request));
     qdot_run_options_place(c, o, status);
     qdot_request_free(&request);

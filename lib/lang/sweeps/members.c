@@ -15,6 +15,13 @@ read_run(qdot_cursor *c, qdot_members *m)
         return qdot_cursor_expected(c, m->axes.random ? "`run T0..T1`, `count` or `seed`"
                                                       : "`,` or `run T0..T1`");
     QDOT_TRY(qdot_run_options_read_to_colon(c, start, &m->run));
+    for (size_t i = 0; i < m->axes.at.n; i++)
+        for (size_t k = 0; k < m->run.with.symbols.n; k++)
+            if (m->run.with.symbols.at[k] == m->axes.at.at[i].symbol) {
+                c->error_at = m->axes.at.at[i].place->start;
+                return qdot_fail(QDOT_EINVAL, "%s is swept, and has a value behind `with`",
+                                 m->axes.at.at[i].label);
+            }
     if (m->run.name == NULL)
         return QDOT_OK;
     c->error_at = start->start;
@@ -56,20 +63,26 @@ make_run(qdot_cursor *c, const qdot_members *m, qdot_member_use use, void *user)
     return status;
 }
 
-/* Put value i of member k in force. */
 static qdot_status
-set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
+put(qdot_session *session, qdot_expr symbol, qdot_expr value)
 {
-    const qdot_expr symbol = m->axes.at.at[i].symbol,
-                    value = qdot_sweep_axes_value(session, &m->axes, k, i);
     qdot_status status = QDOT_OK;
 
-    QDOT_TRY(qdot_pool_check(session->pool));
-    QDOT_TRY(qdot_session_number(session, value, number, NULL));
     if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
         return qdot_session_start(session, symbol, value);
     qdot_session_set(session, symbol, value, &status);
     return status;
+}
+
+/* Put value i of member k in force. */
+static qdot_status
+set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
+{
+    const qdot_expr value = qdot_sweep_axes_value(session, &m->axes, k, i);
+
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_session_number(session, value, number, NULL));
+    return put(session, m->axes.at.at[i].symbol, value);
 }
 
 qdot_status
@@ -77,6 +90,8 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
         QDOT_TRY(set_value(session, m, k, i, &swept[i]));
+    for (size_t i = 0; i < m->run.with.symbols.n; i++) /* which columns read, too */
+        QDOT_TRY(put(session, m->run.with.symbols.at[i], m->run.with.values.at[i]));
     return QDOT_OK;
 }
 

@@ -271,7 +271,8 @@ write_range(const qdot_branches *b, size_t i, const double *from, const double *
 static qdot_stability
 between(const qdot_branch *b, size_t k)
 {
-    return b->mark[k] > 0 ? b->stability[k + 1] : b->stability[k];
+    return b->mark[k] > 0 || b->stability[k] == QDOT_STABILITY_UNDECIDED ? b->stability[k + 1]
+                                                                         : b->stability[k];
 }
 
 /* Whether p turns at point k of a branch, a bifurcation. */
