@@ -21,3 +21,12 @@ for table in c d f; do # k, a quarter of the period or the end, m, errors
         }
         END { print rows " rows" }' $table.csv
 done
+# What the runs tell of their starts is told.
+qdot -q - <<'END' 2>&1 | sed -n '/^notice/p'
+coord x, y
+particle p mass 1 at (x, y)
+constraint c: x^2 + y^2 = 1
+start x = 0.6, y = -0.8
+sweep x = 0.3..0.5 count 3 run 0..0 : y
+sweep x' = 0..0.1 count 3 run 0..0 : y
+END

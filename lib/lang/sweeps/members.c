@@ -45,16 +45,15 @@ qdot_members_free(qdot_members *m)
 
 /* --- a member --------------------------------------------------------------------------- */
 
-/* Make the run and use it; it is kept meanwhile. */
+/* Make the run up to there and use it; it is kept meanwhile. */
 static qdot_status
-make_run(qdot_cursor *c, const qdot_members *m, qdot_member_use use, void *user)
+make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use use, void *user)
 {
     qdot_session *session = c->session;
     const size_t measured = session->measured.n;
     qdot_run *run;
     qdot_expr end;
-    qdot_status status =
-        qdot_own_run_make(session, &m->run, m->run.from, m->run.to, &run, &end);
+    qdot_status status = qdot_own_run_make(session, &m->run, m->run.from, to, &run, &end);
 
     if (status == QDOT_OK)
         status = use(c, run, end, user);
@@ -95,9 +94,9 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
     return QDOT_OK;
 }
 
-qdot_status
-qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
-                 qdot_member_use use, void *user)
+static qdot_status
+run_to(qdot_cursor *c, const qdot_members *m, size_t k, qdot_expr to, double *swept,
+       qdot_member_use use, void *user)
 {
     qdot_session *session = c->session;
     qdot_kept_values kept;
@@ -106,7 +105,21 @@ qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
     QDOT_TRY(qdot_session_keep_values(session, &kept));
     status = qdot_members_set(session, m, k, swept);
     if (status == QDOT_OK)
-        status = make_run(c, m, use, user);
+        status = make_run(c, m, to, use, user);
     qdot_session_restore_values(session, &kept);
     return status;
+}
+
+qdot_status
+qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
+                 qdot_member_use use, void *user)
+{
+    return run_to(c, m, k, m->run.to, swept, use, user);
+}
+
+qdot_status
+qdot_members_begin(qdot_cursor *c, const qdot_members *m, size_t k, double *swept,
+                   qdot_member_use use, void *user)
+{
+    return run_to(c, m, k, m->run.from, swept, use, user);
 }

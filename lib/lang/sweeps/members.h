@@ -34,5 +34,8 @@ typedef qdot_status (*qdot_member_use)(qdot_cursor *c, qdot_run *run, qdot_expr 
  * QDOT_EFAILED with its reason. */
 QDOT_MUST_CHECK qdot_status qdot_members_run(qdot_cursor *c, const qdot_members *m, size_t k,
                                              double *swept, qdot_member_use use, void *user);
+/* The same of a run that ends where it begins. */
+QDOT_MUST_CHECK qdot_status qdot_members_begin(qdot_cursor *c, const qdot_members *m, size_t k,
+                                               double *swept, qdot_member_use use, void *user);
 
 #endif

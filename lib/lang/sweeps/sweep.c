@@ -11,6 +11,7 @@
 #include "lang/answer/answer.h"
 #include "lang/answer/row-answer.h"
 #include "lang/commands/statement.h"
+#include "lang/commands/warnings.h"
 #include "lang/declare/scene-file.h"
 #include "lang/figures/figure-file.h"
 #include "lang/language/read.h"
@@ -170,6 +171,53 @@ is_empty(const qdot_row_table *t)
     return empty;
 }
 
+/* A notice of a run, as that its start was moved onto the constraints. */
+static qdot_status
+tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
+{
+    const char *notice = qdot_run_get_report(run)->notice;
+    bool *told = user;
+
+    (void)end;
+    if (notice == NULL)
+        return QDOT_OK;
+    *told = true;
+    return qdot_answer_notice(c->session, "of a run of the sweep: %.*s",
+                              (int)strcspn(notice, "\n"), notice);
+}
+
+/* Whether a start is swept or stands behind `with`. */
+static bool
+names_start(const qdot_session *session, const qdot_members *m)
+{
+    bool named = false;
+
+    for (size_t i = 0; i < m->axes.at.n; i++)
+        named = named || qdot_expr_is_class(session->pool, m->axes.at.at[i].symbol, QDOT_COORD);
+    for (size_t i = 0; i < m->run.with.symbols.n; i++)
+        named = named || qdot_expr_is_class(session->pool, m->run.with.symbols.at[i], QDOT_COORD);
+    return named;
+}
+
+/* Rows do not tell of their starts: what the first, the middle and the last member's tell. */
+static qdot_status
+tell_starts(qdot_cursor *c, const qdot_members *m)
+{
+    const size_t members = m->axes.members, looked[] = {0, members / 2, members - 1};
+    double *swept = qdot_calloc(m->axes.at.n + 1, sizeof *swept);
+    qdot_status status = swept != NULL ? QDOT_OK : QDOT_ENOMEM;
+    bool told = false;
+
+    for (size_t i = 0; i < 3 && swept != NULL && !told; i++) {
+        status = qdot_members_begin(c, m, looked[i], swept, tell_notice, &told);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            break;
+        status = QDOT_OK; /* its row says why it fails */
+    }
+    qdot_free(swept);
+    return status;
+}
+
 static qdot_status
 carry_out(qdot_cursor *c, qdot_sweep *s)
 {
@@ -182,6 +230,10 @@ carry_out(qdot_cursor *c, qdot_sweep *s)
     s->table = NULL; /* the session's from now on */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
     QDOT_TRY(tell(c->session, s, table, qdot_wall_now() - begun));
+    if (!names_start(c->session, &s->members))
+        QDOT_TRY(qdot_warnings_start(c->session));
+    if (!s->interrupted)
+        QDOT_TRY(tell_starts(c, &s->members));
     if (s->interrupted)
         return qdot_fail(QDOT_EINTR, "interrupted: %s has %zu of %zu rows", table->name,
                          table->rows, s->members.axes.members);
