@@ -267,37 +267,18 @@ descend_once(search *s)
     return QDOT_OK;
 }
 
-/* What a search led to, put aside. */
-typedef struct {
-    qdot_zero_answer answer;
-    size_t rank;
-    double *at; /* u [n], error [n], f [m], f_error [m] */
-} outcome;
-
+/* What a search led to, from one place to another. */
 static void
-put_aside(const search *s, outcome *o)
+copy_result(const search *s, const qdot_zero_result *from, qdot_zero_result *to)
 {
     const size_t n = s->p->n, m = s->p->m;
 
-    o->answer = s->r->answer;
-    o->rank = s->r->rank;
-    memcpy(o->at, s->r->u, n * sizeof *o->at);
-    memcpy(o->at + n, s->r->error, n * sizeof *o->at);
-    memcpy(o->at + 2 * n, s->r->f, m * sizeof *o->at);
-    memcpy(o->at + 2 * n + m, s->r->f_error, m * sizeof *o->at);
-}
-
-static void
-take_back(search *s, const outcome *o)
-{
-    const size_t n = s->p->n, m = s->p->m;
-
-    s->r->answer = o->answer;
-    s->r->rank = o->rank;
-    memcpy(s->r->u, o->at, n * sizeof *o->at);
-    memcpy(s->r->error, o->at + n, n * sizeof *o->at);
-    memcpy(s->r->f, o->at + 2 * n, m * sizeof *o->at);
-    memcpy(s->r->f_error, o->at + 2 * n + m, m * sizeof *o->at);
+    to->answer = from->answer;
+    to->rank = from->rank;
+    memcpy(to->u, from->u, n * sizeof *to->u);
+    memcpy(to->error, from->error, n * sizeof *to->error);
+    memcpy(to->f, from->f, m * sizeof *to->f);
+    memcpy(to->f_error, from->f_error, m * sizeof *to->f_error);
 }
 
 /* A search, and whether it led to a zero that is wanted. */
@@ -316,9 +297,12 @@ search_once(search *s, bool *done)
 static qdot_status
 descend(search *s)
 {
-    const size_t n = s->p->n;
-    double *guess = qdot_calloc(3 * n + 2 * s->p->m + 1, sizeof *guess);
-    outcome best = {.at = guess + n};
+    const size_t n = s->p->n, m = s->p->m;
+    double *guess = qdot_calloc(3 * n + 2 * m + 1, sizeof *guess);
+    qdot_zero_result best = {.u = guess + n,
+                             .error = guess + 2 * n,
+                             .f = guess + 3 * n,
+                             .f_error = guess + 3 * n + m};
     uint64_t drawn = 1;
     bool done = false;
     qdot_status status;
@@ -327,7 +311,7 @@ descend(search *s)
         return QDOT_ENOMEM;
     memcpy(guess, s->r->u, n * sizeof *guess);
     status = search_once(s, &done);
-    put_aside(s, &best);
+    copy_result(s, s->r, &best);
     for (int k = 1; k <= TRIES && status == QDOT_OK && !done; k++) {
         if (best.answer == QDOT_ZERO_FLAT || best.answer == QDOT_ZERO_NOWHERE)
             break;
@@ -339,10 +323,10 @@ descend(search *s)
         }
         status = search_once(s, &done);
         if (s->r->answer == QDOT_ZERO_FOUND && best.answer != QDOT_ZERO_FOUND)
-            put_aside(s, &best);
+            copy_result(s, s->r, &best);
     }
     if (!done)
-        take_back(s, &best);
+        copy_result(s, &best, s->r);
     qdot_free(guess);
     return status;
 }

@@ -38,10 +38,9 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
     const qdot_run_options bare = {.tol = 1e-12};
     qdot_request request = {0};
     qdot_run *made = NULL;
-    qdot_status status = qdot_run_options_fill(session, o != NULL ? o : &bare, &request);
+    qdot_status status =
+        qdot_run_options_fill(session, o != NULL ? o : &bare, from, to, &request);
 
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &request);
     if (status == QDOT_OK)
         status = qdot_request_explain(
             session, &request, qdot_run_new(session->scene, &request.request, &made));

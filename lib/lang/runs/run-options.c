@@ -173,25 +173,36 @@ qdot_run_options_read_to_colon(qdot_cursor *c, const qdot_token *start, qdot_run
     return QDOT_OK;
 }
 
-qdot_status
-qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_request *request)
+bool
+qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o)
 {
-    const qdot_pairs *with = &o->with;
+    for (size_t i = 0; i < o->with.symbols.n; i++)
+        if (qdot_expr_is_class(pool, o->with.symbols.at[i], QDOT_COORD))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_run_options_put(qdot_session *session, const qdot_run_options *o)
+{
+    for (size_t i = 0; i < o->with.symbols.n; i++)
+        QDOT_TRY(qdot_session_put(session, o->with.symbols.at[i], o->with.values.at[i]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_run_options_fill(qdot_session *session, const qdot_run_options *o, qdot_expr from,
+                      qdot_expr to, qdot_request *request)
+{
     qdot_kept_values kept;
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     QDOT_TRY(qdot_session_keep_values(session, &kept));
-    for (size_t i = 0; i < with->symbols.n && status == QDOT_OK; i++) {
-        if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
-            status =
-                qdot_session_start(session, with->symbols.at[i], with->values.at[i]);
-        else
-            qdot_session_set(session, with->symbols.at[i], with->values.at[i], &status);
-    }
+    status = qdot_run_options_put(session, o);
     if (status == QDOT_OK)
         status = qdot_request_fill(session, request);
-    if (status == QDOT_OK && o->to != QDOT_NIL)
-        status = qdot_request_limits(session, o->from, o->to, request);
+    if (status == QDOT_OK)
+        status = qdot_request_limits(session, from, to, request);
     qdot_session_restore_values(session, &kept);
     request->request.tol = o->tol;
     request->request.digits = (int)o->digits;

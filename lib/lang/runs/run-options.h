@@ -25,10 +25,14 @@ QDOT_MUST_CHECK qdot_status qdot_run_options_read(qdot_cursor *c, const qdot_tok
 QDOT_MUST_CHECK qdot_status qdot_run_options_read_to_colon(qdot_cursor *c,
                                                            const qdot_token *start,
                                                            qdot_run_options *o);
-/* The request of the present values, those of `with` in place of them, and of these options; its
- * limits likewise, where they have any, else they are left to the caller. */
-QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session,
-                                                  const qdot_run_options *o,
+/* Whether a start is among the values of `with`. */
+bool qdot_run_options_name_start(const qdot_pool *pool, const qdot_run_options *o);
+/* Put the values of `with` in force; the caller keeps and restores the session's. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_put(qdot_session *session, const qdot_run_options *o);
+/* The request of the present values, those of `with` in place of them, of these options, and of the
+ * limits from..to, which may hold such values. */
+QDOT_MUST_CHECK qdot_status qdot_run_options_fill(qdot_session *session, const qdot_run_options *o,
+                                                  qdot_expr from, qdot_expr to,
                                                   qdot_request *request);
 void qdot_run_options_free(qdot_run_options *o);
 /* The place of an error of that status: the method, where it is unknown or not built. */

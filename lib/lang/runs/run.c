@@ -11,16 +11,6 @@
 #include "lang/language/read.h"
 #include "lang/session/runs.h"
 
-/* Whether an initial value is among those of `with`. */
-static bool
-names_start(const qdot_session *session, const qdot_pairs *with)
-{
-    for (size_t i = 0; i < with->symbols.n; i++)
-        if (qdot_expr_is_class(session->pool, with->symbols.at[i], QDOT_COORD))
-            return true;
-    return false;
-}
-
 /* Integrate, keep the run, tell how it went. */
 static qdot_status
 integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
@@ -45,7 +35,7 @@ integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
     QDOT_TRY(qdot_runs_keep(session, o->name != NULL ? o->name : name,
                             qdot_text_str(&o->text), &request->request, run));
     report = qdot_run_get_report(run);
-    if (!names_start(session, &o->with))
+    if (!qdot_run_options_name_start(session->pool, o))
         QDOT_TRY(qdot_warnings_start(session));
     for (const char *line = report->notice; line != NULL && *line != '\0';) {
         const char *behind = strchrnul(line, '\n');
@@ -72,7 +62,7 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
 
     if (status == QDOT_OK) {
         c->error_at = start->start;
-        status = qdot_run_options_fill(c->session, o, &request);
+        status = qdot_run_options_fill(c->session, o, o->from, o->to, &request);
     }
     if (status == QDOT_OK)
         status = qdot_request_explain(c->session, &request, integrate(c, o, &request));

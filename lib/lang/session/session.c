@@ -165,6 +165,17 @@ qdot_session_start(qdot_session *session, qdot_expr jet, qdot_expr value)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_session_put(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    qdot_status status = QDOT_OK;
+
+    if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
+        return qdot_session_start(session, symbol, value);
+    qdot_session_set(session, symbol, value, &status);
+    return status;
+}
+
 #define EACH_LIST(X) X(set_symbols) X(set_values) X(start_symbols) X(start_values)
 
 qdot_status

@@ -127,6 +127,9 @@ void qdot_session_set(qdot_session *session, qdot_expr symbol, qdot_expr value,
 /* From now on a run starts with this value of q or q'. */
 QDOT_MUST_CHECK qdot_status qdot_session_start(qdot_session *session, qdot_expr jet,
                                                qdot_expr value);
+/* The one or the other, by what the symbol is. */
+QDOT_MUST_CHECK qdot_status qdot_session_put(qdot_session *session, qdot_expr symbol,
+                                             qdot_expr value);
 /* The values of `set` and `start`, kept while others are tried. */
 typedef struct {
     qdot_vec(qdot_expr) set_symbols, set_values, start_symbols, start_values;

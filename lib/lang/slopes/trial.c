@@ -13,16 +13,10 @@ qdot_trial_put(qdot_session *session, size_t n, const qdot_slope_name *unknowns,
 {
     for (size_t i = 0; i < n; i++) {
         const qdot_expr symbol = unknowns[i].symbol;
-        qdot_status status = QDOT_OK;
 
-        if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD)) {
-            QDOT_TRY(qdot_session_start(session, symbol, values[i]));
-            continue;
-        }
         if (qdot_expr_is_class(session->pool, symbol, QDOT_PARAM))
             QDOT_TRY(qdot_session_in_domain(session, symbol, values[i]));
-        qdot_session_set(session, symbol, values[i], &status);
-        QDOT_TRY(status);
+        QDOT_TRY(qdot_session_put(session, symbol, values[i]));
     }
     return QDOT_OK;
 }

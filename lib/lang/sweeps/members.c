@@ -62,17 +62,6 @@ make_run(qdot_cursor *c, const qdot_members *m, qdot_expr to, qdot_member_use us
     return status;
 }
 
-static qdot_status
-put(qdot_session *session, qdot_expr symbol, qdot_expr value)
-{
-    qdot_status status = QDOT_OK;
-
-    if (qdot_expr_is_class(session->pool, symbol, QDOT_COORD))
-        return qdot_session_start(session, symbol, value);
-    qdot_session_set(session, symbol, value, &status);
-    return status;
-}
-
 /* Put value i of member k in force. */
 static qdot_status
 set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, double *number)
@@ -81,7 +70,7 @@ set_value(qdot_session *session, const qdot_members *m, size_t k, size_t i, doub
 
     QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_session_number(session, value, number, NULL));
-    return put(session, m->axes.at.at[i].symbol, value);
+    return qdot_session_put(session, m->axes.at.at[i].symbol, value);
 }
 
 qdot_status
@@ -89,9 +78,7 @@ qdot_members_set(qdot_session *session, const qdot_members *m, size_t k, double 
 {
     for (size_t i = 0; i < m->axes.at.n; i++)
         QDOT_TRY(set_value(session, m, k, i, &swept[i]));
-    for (size_t i = 0; i < m->run.with.symbols.n; i++) /* which columns read, too */
-        QDOT_TRY(put(session, m->run.with.symbols.at[i], m->run.with.values.at[i]));
-    return QDOT_OK;
+    return qdot_run_options_put(session, &m->run); /* which columns read, too */
 }
 
 static qdot_status

@@ -35,10 +35,8 @@ qdot_run_plan_statement(qdot_cursor *c)
 
     if (status == QDOT_OK) {
         c->error_at = start->start;
-        status = qdot_run_options_fill(c->session, &o, &request);
+        status = qdot_run_options_fill(c->session, &o, QDOT_ZERO, QDOT_ONE, &request);
     }
-    request.request.t0 = QDOT_ZERO;
-    request.request.t1 = QDOT_ONE;
     if (status == QDOT_OK)
         status = qdot_run_plan(c->session->scene, &request.request, &text);
     status = qdot_answer_written(c->session, "plan", status, &text);

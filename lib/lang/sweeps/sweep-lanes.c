@@ -195,8 +195,7 @@ request_of(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
     const qdot_members *m = &s->members;
 
     QDOT_TRY(qdot_members_set(session, m, k, swept));
-    QDOT_TRY(qdot_run_options_fill(session, &m->run, request));
-    return qdot_request_limits(session, m->run.from, m->run.to, request);
+    return qdot_run_options_fill(session, &m->run, m->run.from, m->run.to, request);
 }
 
 /* Whether something of the session but the equations and the start reads a swept parameter. */

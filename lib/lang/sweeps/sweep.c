@@ -190,13 +190,10 @@ tell_notice(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 static bool
 names_start(const qdot_session *session, const qdot_members *m)
 {
-    bool named = false;
-
     for (size_t i = 0; i < m->axes.at.n; i++)
-        named = named || qdot_expr_is_class(session->pool, m->axes.at.at[i].symbol, QDOT_COORD);
-    for (size_t i = 0; i < m->run.with.symbols.n; i++)
-        named = named || qdot_expr_is_class(session->pool, m->run.with.symbols.at[i], QDOT_COORD);
-    return named;
+        if (qdot_expr_is_class(session->pool, m->axes.at.at[i].symbol, QDOT_COORD))
+            return true;
+    return qdot_run_options_name_start(session->pool, &m->run);
 }
 
 /* Rows do not tell of their starts: what the first, the middle and the last member's tell. */

@@ -241,10 +241,8 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
     qdot_run *run = NULL;
     qdot_text text = {0};
     char next[32];
-    qdot_status status = qdot_run_options_fill(session, &f->run, &request);
+    qdot_status status = qdot_run_options_fill(session, &f->run, from, to, &request);
 
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &request);
     if (status == QDOT_OK)
         status = qdot_run_new(session->scene, &request.request, &run);
     if (status == QDOT_OK)
