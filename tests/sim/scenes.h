@@ -69,6 +69,17 @@ set(fixture *f, const char *name, const char *value)
     f->values[f->request.n_values++] = number(f, value);
 }
 
+/* The parameter is itself its value; returns it. */
+static inline qdot_expr
+set_free(fixture *f, const char *name)
+{
+    const qdot_expr p = parameter(f, name);
+
+    f->symbols[f->request.n_values] = p;
+    f->values[f->request.n_values++] = p;
+    return p;
+}
+
 static inline void
 begin(fixture *f)
 {

@@ -15,17 +15,6 @@ near(double is, double truth, double within)
         fail_msg("%.17g for %.17g", is, truth);
 }
 
-/* The parameter has itself as its value. */
-static qdot_expr
-set_free(fixture *f, const char *name)
-{
-    const qdot_expr p = parameter(f, name);
-
-    f->symbols[f->request.n_values] = p;
-    f->values[f->request.n_values++] = p;
-    return p;
-}
-
 static qdot_expr
 half_square(fixture *f, qdot_expr x)
 {

@@ -16,14 +16,6 @@ same(double is, double truth, double within)
         fail_msg("%.17g for %.17g", is, truth);
 }
 
-/* The parameter has itself as its value. */
-static void
-set_free(fixture *f, const char *name)
-{
-    f->symbols[f->request.n_values] = parameter(f, name);
-    f->values[f->request.n_values++] = parameter(f, name);
-}
-
 /* m x'' = -k x from x = a, x' = m/2: x = a cos w t + m/2 sin(w t)/w, w^2 = k/m. */
 static void
 of_an_oscillator(void **state)

@@ -260,7 +260,6 @@ check_same(orbit *o, qdot_expr of)
     const qdot_expr t = QDOT_T, later = qdot_add(pool, t, qdot_expr_of_double(pool, T)),
                     now = moved(o, of), after = qdot_subs(pool, now, 1, &t, &later),
                     e[2] = {now, qdot_sub(pool, after, now)};
-
     double most = 0, off = 0;
 
     QDOT_TRY(qdot_pool_check(pool));

@@ -108,15 +108,17 @@ test_at(search *f, double s)
 static bool
 close_in(search *f, double *lo, double *hi, double fine)
 {
-    double at_lo = test_at(f, *lo), at_hi = test_at(f, *hi);
-    int side = 0;
+    double *const end[2] = {lo, hi};
+    double value[2] = {test_at(f, *lo), test_at(f, *hi)};
+    size_t last = 2; /* the end that moved; 2: none has */
 
-    if (!(at_lo * at_hi <= 0))
+    if (!(value[0] * value[1] <= 0))
         return false;
     for (int step = 0; step < STEPS && *hi - *lo > fine; step++) {
-        const double guess = (*lo * at_hi - *hi * at_lo) / (at_hi - at_lo);
+        const double guess = (*lo * value[1] - *hi * value[0]) / (value[1] - value[0]);
         const double s = guess > *lo && guess < *hi ? guess : (*lo + *hi) / 2;
         const double here = test_at(f, s);
+        const size_t k = here * value[0] > 0 ? 0 : 1; /* the end that moves */
 
         if (isnan(here))
             return false;
@@ -124,35 +126,21 @@ close_in(search *f, double *lo, double *hi, double fine)
             *lo = *hi = s;
             return true;
         }
-        if (here * at_lo > 0) {
-            if (fabs(s - *lo) < fine / 4) { /* it stays on one side: step over it */
-                const double over = fmin(s + fine / 2, *hi), there = test_at(f, over);
+        if (fabs(s - *end[k]) < fine / 4) { /* it stays on one side: step over it */
+            const double over = k == 0 ? fmin(s + fine / 2, *hi) : fmax(s - fine / 2, *lo);
+            const double there = test_at(f, over);
 
-                if (!isnan(there) && there * here <= 0) {
-                    *lo = s;
-                    *hi = over;
-                    return true;
-                }
+            if (!isnan(there) && there * here <= 0) {
+                *end[k] = s;
+                *end[!k] = over;
+                return true;
             }
-            *lo = s;
-            at_lo = here;
-            at_hi = side == 1 ? at_hi / 2 : at_hi;
-            side = 1;
-        } else {
-            if (fabs(s - *hi) < fine / 4) {
-                const double over = fmax(s - fine / 2, *lo), there = test_at(f, over);
-
-                if (!isnan(there) && there * here <= 0) {
-                    *hi = s;
-                    *lo = over;
-                    return true;
-                }
-            }
-            *hi = s;
-            at_hi = here;
-            at_lo = side == -1 ? at_lo / 2 : at_lo;
-            side = -1;
         }
+        *end[k] = s;
+        value[k] = here;
+        if (last == k)
+            value[!k] /= 2;
+        last = k;
     }
     return true;
 }
