@@ -173,17 +173,18 @@ say_dependent(const qdot_run *run, qdot_text *reason)
 {
     qdot_constrained *held =
         run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
-    qdot_text names = {0};
-    bool found = held && !strstr(qdot_text_str(reason), "independent")
-                 && !strstr(qdot_text_str(reason), "no direction")
-                 && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
-                                          last_state(run), &names);
+    bool *rows = held ? qdot_calloc(qdot_constrained_rows(held), sizeof *rows) : NULL;
+    const bool found = rows && !strstr(qdot_text_str(reason), "independent")
+                       && !strstr(qdot_text_str(reason), "no direction")
+                       && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
+                                                last_state(run), rows);
 
-    if (found)
-        qdot_text_format(reason, "; %s stop being independent there, which method taylor can "
-                                 "go over",
-                         qdot_text_str(&names));
-    qdot_text_clear(&names);
+    if (found) {
+        qdot_text_add(reason, "; ");
+        qdot_constrained_say_dependent(run->plan->constraints, rows, reason);
+        qdot_text_add(reason, " there, which method taylor can go over");
+    }
+    qdot_free(rows);
     return found;
 }
 
