@@ -570,6 +570,7 @@ library_sources = \
 	lib/sim/study/ensemble-doubts.c \
 	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble-path.c \
 	lib/sim/study/ensemble-steps.c \
 	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
@@ -1077,6 +1078,7 @@ library_headers = \
 	lib/sim/study/ensemble-doubts.h \
 	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble-path.h \
 	lib/sim/study/ensemble-steps.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \

@@ -7,12 +7,14 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "ode/companion.h"
 #include "sim/model/substitute.h"
 #include "sim/model/term-magnitude.h"
 #include "sim/study/ensemble-fit.h"
+#include "sim/study/ensemble-path.h"
 #include "sim/study/ensemble.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
@@ -20,6 +22,9 @@
 /* A member with a larger error, or more steps, is run alone, which may do better. */
 static const double largest_error = 1e-4;
 enum { MOST_STEPS = 20000, PLACES = 16 };
+
+/* So many members are run at a time if all their steps are kept. */
+enum { KEPT_TOGETHER = 32 };
 
 /* Under this tolerance the method's error may be less than that of rounding; a distance of so many
  * roundings a step, which add up as a random walk, may be of either. One that is far less at the end
@@ -38,9 +43,9 @@ static const double most_between = 30;
 static const double small = 1e-3, nothing = 1e-15;
 
 typedef struct {
-    bool is_event;
+    enum { AT_END, EVENT, WAY } kind;
     size_t event, k; /* of `events`; the occurrence less 1 */
-    size_t output;   /* of the tape; its rounding stands behind all outputs */
+    size_t output;   /* at the end, of the tape; its rounding stands behind all outputs */
 } column;
 
 struct qdot_sweep_lanes {
@@ -53,6 +58,8 @@ struct qdot_sweep_lanes {
     qdot_vec(const char *) names; /* of them */
     column *columns;
     size_t outputs, n, places; /* expressions; coordinates */
+    size_t ways;               /* columns that read the way of a run */
+    qdot_run *run;             /* each member in turn, for these; NULL: there are none */
     qdot_tape *tape;           /* of `outputs` columns, then of the sizes of their terms */
     double *in, *work, *out;   /* inputs; work space; [passes x 2 outputs] */
     qdot_vec(qdot_expr) varied;
@@ -73,6 +80,7 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
         qdot_free(x->reasons[k]);
     qdot_free(x->reasons);
     qdot_free(x->made);
+    qdot_run_free(x->run);
     qdot_ensemble_free(x->ensemble);
     qdot_free(x->bounds.at);
     qdot_free(x->events.at);
@@ -123,7 +131,7 @@ take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
     }
     if (x->events.at[i].count < (size_t)k)
         x->events.at[i].count = (size_t)k;
-    *to = (column){.is_event = true, .event = i, .k = (size_t)k - 1};
+    *to = (column){.kind = EVENT, .event = i, .k = (size_t)k - 1};
     return qdot_pool_check(pool);
 }
 
@@ -155,11 +163,16 @@ read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
             QDOT_TRY(take_event(x, event, k, &x->columns[i]));
             continue;
         }
+        if (qdot_columns_read_way(x->s->c->session, &x->s->columns, i)) {
+            x->columns[i].kind = WAY;
+            x->ways++;
+            continue;
+        }
         status = qdot_columns_read(&own, &x->s->columns, i, &e[x->outputs]);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             return status;
         if (status != QDOT_OK || !is_of_states(x->s->c->session, e[x->outputs])) {
-            qdot_text_format(why, "%s reads the run, not its end alone",
+            qdot_text_format(why, "%s reads more of a run than its states and the times of events",
                              x->s->table->labels[x->s->table->n_swept + i]);
             return qdot_text_status(why);
         }
@@ -246,6 +259,7 @@ find_varied(qdot_sweep_lanes *x, qdot_text *why)
 static qdot_status
 make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
 {
+    qdot_scene *scene = x->s->c->session->scene;
     qdot_run_request r = of->request;
     qdot_vec(qdot_expr) symbols = {0}, values = {0};
     qdot_status status = QDOT_OK;
@@ -267,14 +281,18 @@ make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
     r.q0 = r.v0 = NULL;
     r.q_named = r.v_named = NULL;
     if (status == QDOT_OK)
-        status = qdot_ensemble_new(x->s->c->session->scene, &r, x->varied.n, x->varied.at,
-                                   &x->ensemble);
+        status = qdot_ensemble_new(scene, &r, x->varied.n, x->varied.at, &x->ensemble);
+    if (status == QDOT_OK && x->ways > 0)
+        status = qdot_ensemble_path_new(&(qdot_ensemble_path_of){x->ensemble, scene, &r,
+                                                                 x->varied.n, x->varied.at},
+                                        &x->run);
     qdot_free(symbols.at);
     qdot_free(values.at);
     return status;
 }
 
-/* Forget varied parameters that nothing but starts read: e [outputs], the columns. */
+/* Forget varied parameters that nothing but starts read: e [outputs], the columns at the end. What the
+ * others read is known when they are read. */
 static bool
 drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
 {
@@ -283,7 +301,7 @@ drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
 
     for (size_t k = 0; k < x->varied.n; k++) {
         const qdot_expr symbol = x->varied.at[k];
-        bool read = qdot_ensemble_reads(x->ensemble, k);
+        bool read = x->ways > 0 || qdot_ensemble_reads(x->ensemble, k);
 
         for (size_t i = 0; i < x->outputs; i++)
             read = read || qdot_expr_contains(pool, e[i], symbol);
@@ -329,15 +347,19 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
         const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
         x->n = p->n - p->n_states;
-        x->least = request->request.tol < least_tol
+        x->least = x->ways > 0 || request->request.tol < least_tol
                            || (x->events.n > 0 && request->request.tol > most_tol)
                        ? 2
                        : 1;
         for (size_t i = 0; i < x->events.n; i++)
             x->events.at[i].function = qdot_plan_substitute(p, x->events.at[i].function);
         status = qdot_pool_check(session->pool);
-        x->watching = (qdot_ensemble_watching){x->events.n, x->bounds.n, x->events.at,
-                                               x->bounds.at, x->outputs == 0};
+        x->watching = (qdot_ensemble_watching){.n_events = x->events.n,
+                                               .n_bounds = x->bounds.n,
+                                               .events = x->events.at,
+                                               .bounds = x->bounds.at,
+                                               .leave = x->outputs + x->ways == 0,
+                                               .keep = x->ways > 0};
     }
     if (status == QDOT_OK && why->n == 0)
         status = qdot_ensemble_follow(x->ensemble, &x->watching, MOST_STEPS);
@@ -463,6 +485,13 @@ is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
                            * fmax(1, size);
 }
 
+static bool
+is_good(double value, double error)
+{
+    return isfinite(value) && isfinite(error)
+           && error <= largest_error * fmax(1, fabs(value));
+}
+
 /* Values and errors of the expressions of a member at its end, [outputs] each. */
 static qdot_status
 read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
@@ -488,8 +517,7 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
                     || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
         errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
         errors[i] += DBL_EPSILON * size;
-        *there = isfinite(values[i]) && isfinite(errors[i])
-                 && errors[i] <= largest_error * fmax(1, fabs(values[i]));
+        *there = is_good(values[i], errors[i]);
     }
     qdot_free(between);
     return QDOT_OK;
@@ -534,6 +562,50 @@ read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to
     return qdot_text_status(&text);
 }
 
+/* The columns that read the way, while the member is the latest run. What fails a run alone tells. */
+static qdot_status
+measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
+{
+    qdot_cursor own = *x->s->c;
+
+    for (size_t i = 0; i < x->s->columns.at.n && *there; i++) {
+        qdot_status status;
+
+        if (x->columns[i].kind != WAY)
+            continue;
+        status = qdot_columns_measure(&own, &x->s->columns, i, end, values + i, errors + i);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        *there = status == QDOT_OK && is_good(values[i], errors[i]);
+    }
+    return QDOT_OK;
+}
+
+/* The same of row k, with its values in force, into values and errors [columns]. */
+static qdot_status
+read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
+{
+    qdot_session *session = x->s->c->session;
+    const size_t measured = session->measured.n;
+    qdot_kept_values kept;
+    qdot_request request = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_ensemble_path_take(x->ensemble, m, x->run, there));
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = request_of(x->s, k, x->s->table->values + k * x->s->table->n, &request);
+    if (status == QDOT_OK && *there)
+        status = qdot_own_run_lend(session, &request, x->run);
+    if (status == QDOT_OK && *there) {
+        status = measure_way(x, request.request.t1, values, errors, there);
+        qdot_own_run_take_back(session);
+    }
+    session->measured.n = measured;
+    qdot_request_free(&request);
+    qdot_session_restore_values(session, &kept);
+    return status;
+}
+
 /* Row k from member m of the ensemble; it stays unmade for a run alone. */
 static qdot_status
 fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
@@ -545,16 +617,18 @@ fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
     bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
     qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
 
-    if (x->outputs > 0)
+    if (x->outputs + x->ways > 0)
         there = there && result->error <= largest_error;
     if (status == QDOT_OK && there && x->outputs > 0)
         status = read_end(x, m, of, of + x->outputs, &there);
+    if (status == QDOT_OK && there && x->ways > 0)
+        status = read_way(x, m, k, values + t->n_swept, errors + t->n_swept, &there);
     for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
         const column *c = x->columns + i;
 
-        if (c->is_event) {
+        if (c->kind == EVENT) {
             status = read_event(x, m, c, k, values + t->n_swept + i, &there);
-        } else {
+        } else if (c->kind == AT_END) {
             values[t->n_swept + i] = of[c->output];
             errors[t->n_swept + i] = of[x->outputs + c->output];
         }
@@ -627,8 +701,9 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     return status;
 }
 
-qdot_status
-qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+/* Run these members [count], all of them side by side. */
+static qdot_status
+run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
 {
     members first = {0}, again = {0};
     qdot_status status = members_init(&first, x, count);
@@ -650,6 +725,16 @@ qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
     members_clear(&first);
     members_clear(&again);
     return status;
+}
+
+qdot_status
+qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+{
+    const size_t most = x->ways > 0 ? KEPT_TOGETHER : count;
+
+    for (size_t k = 0; k < count; k += most)
+        QDOT_TRY(run_together(x, rows + k, count - k < most ? count - k : most));
+    return QDOT_OK;
 }
 
 qdot_status

@@ -615,6 +615,12 @@ write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole
         y[n + equations(e)->kept[c]] = e->passes[0].momenta[c];
 }
 
+static bool
+went_all_the_way(const pass *p, const qdot_ensemble *e, size_t m)
+{
+    return p->run.results[m].outcome == QDOT_BATCH_DONE && p->t1[m] != e->t0;
+}
+
 bool
 qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, double *whole)
 {
@@ -626,10 +632,56 @@ qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, do
         write_whole(e, e->times[place], qdot_ensemble_steps_state(p->steps, m, place), true, whole);
         return true;
     }
-    if (p->run.results[m].outcome != QDOT_BATCH_DONE || p->t1[m] == e->t0)
+    if (!went_all_the_way(p, e, m))
         return false;
     write_whole(e, e->t1, p->run.y + m * width(e), false, whole);
     return true;
+}
+
+size_t
+qdot_ensemble_points(const qdot_ensemble *e, size_t k, size_t m)
+{
+    const pass *p = e->passes + k;
+
+    return went_all_the_way(p, e, m)
+               ? qdot_ensemble_steps_starts(p->steps, m)->n / (1 + width(e)) + 1
+               : 0;
+}
+
+void
+qdot_ensemble_point(const qdot_ensemble *e, size_t k, size_t m, size_t i, double *t, double *whole)
+{
+    const pass *p = e->passes + k;
+    const qdot_ensemble_starts *starts = qdot_ensemble_steps_starts(p->steps, m);
+    double *at = starts->at + i * (1 + width(e));
+
+    if (i * (1 + width(e)) < starts->n) {
+        *t = at[0];
+        write_whole(e, *t, at + 1, true, whole);
+        return;
+    }
+    *t = e->t1; /* that of a companion is within a rounding of it */
+    write_whole(e, *t, p->run.y + m * width(e), false, whole);
+}
+
+int
+qdot_ensemble_order(const qdot_ensemble *e, size_t k)
+{
+    return e->passes[k].run.order;
+}
+
+double
+qdot_ensemble_tolerance(const qdot_ensemble *e, size_t k)
+{
+    return e->passes[k].run.tol;
+}
+
+void
+qdot_ensemble_limits(const qdot_ensemble *e, double *t0, double *t1, double *tol)
+{
+    *t0 = e->t0;
+    *t1 = e->t1;
+    *tol = e->tol;
 }
 
 double
