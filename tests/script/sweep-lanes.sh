@@ -102,7 +102,7 @@ for what in 'rods A 0..3 x, w, energy, low[1]' 'wall x'"'"' 0..20 x, x'"'"', low
     set -- $what
     scene=$1 name=$2 time=$3
     shift 3
-    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p; /^each/p'
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
 plan sweep $name = $many run $time : $*
 sweep $name = $few run $time : $* as few threads 1
 sweep $name = $many run $time : $* as many threads 1
@@ -125,7 +125,7 @@ for what in "double a 0..5 max(a), min(b, 1..4), mean(energy), value(a, 5/2), ma
     set -- $what
     scene=$1 name=$2 time=$3
     shift 3
-    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p; /^each/p'
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
 $([ $name != w ] || echo "start x' = 2")
 plan sweep $name = $many run $time tol 1e-9 : $*
 sweep $name = $few run $time tol 1e-9 : $* as few threads 1
@@ -139,7 +139,7 @@ END
     cmp many.csv others.csv
 done
 echo '# plans'
-cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/'
+cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/; s/, about as much again.*//'
 qdot -q double.lag - <<'END' 2>&1 | sed "$cut"
 plan sweep a = 0..1 count 1000, b = -pi..pi count 100 run 0..1 : a, under[2] threads 2
 plan sweep a = 0..1 count 8 run 0..1 : a

@@ -250,8 +250,7 @@ begin_rows(qdot_sweep *s)
     s->done = qdot_calloc(members + 1, sizeof *s->done);
     if (s->done == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < members; k++)
-        QDOT_TRY(qdot_row_table_add(s->table));
+    QDOT_TRY(qdot_row_table_add_all(s->table, members));
     if (s->path == NULL || qdot_rank() > 0)
         return QDOT_OK;
     s->c->error_at = s->path_at->start;
