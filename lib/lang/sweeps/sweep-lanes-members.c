@@ -1,75 +1,31 @@
-/* sweep-lanes.c -- what fits lanes; members as numbers; columns with their errors. */
-#include "lang/sweeps/sweep-lanes.h"
+/* sweep-lanes-members.c -- what fits lanes; members as numbers. */
+#include "lang/sweeps/sweep-lanes-parts.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "expr/walk.h"
-#include "lang/runs/own-run.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "ode/companion.h"
 #include "sim/model/substitute.h"
 #include "sim/model/term-magnitude.h"
-#include "sim/study/ensemble-fit.h"
 #include "sim/study/ensemble-path.h"
-#include "sim/study/ensemble.h"
 #include "tape/constant.h"
-#include "tape/tape.h"
 
-/* A member with a larger error, or more steps, is run alone, which may do better. */
-static const double largest_error = 1e-4;
-enum { MOST_STEPS = 20000, PLACES = 16 };
+/* A member with more steps is run alone, which may do better. */
+enum { MOST_STEPS = 20000 };
 
 /* So many members are run at a time if all their steps are kept. */
 enum { KEPT_TOGETHER = 32 };
 
-/* Under this tolerance the method's error may be less than that of rounding; a distance of so many
- * roundings a step, which add up as a random walk, may be of either. One that is far less at the end
- * than before may be so by chance. Then one companion does not tell enough. */
-static const double least_tol = 3e-11, roundings = 64;
+/* Under this tolerance the method's error may be less than that of rounding. Then one companion does not
+ * tell enough. */
+static const double least_tol = 3e-11;
 
 /* Above this one the distances of single times of events may be small by chance, too: by one companion,
  * of 10,600 times of a pendulum and of Kepler's motion at 1e-6 53 were further off than told, by up to
  * 190 times, by two at 1.01e-6 10, by up to 1.23. */
 static const double most_tol = 1e-9;
-
-/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
-static const double most_between = 30;
-
-/* Coordinates below this may have a scale of their own (sim/run/scales.h). */
-static const double small = 1e-3, nothing = 1e-15;
-
-typedef struct {
-    enum { AT_END, EVENT, WAY } kind;
-    size_t event, k; /* of `events`; the occurrence less 1 */
-    size_t output;   /* at the end, of the tape; its rounding stands behind all outputs */
-} column;
-
-struct qdot_sweep_lanes {
-    qdot_sweep *s;
-    qdot_ensemble *ensemble;
-    size_t least, companions; /* of all members; of those that are run or read */
-    qdot_ensemble_watching watching;
-    qdot_ensemble_bounds bounds;
-    qdot_vec(qdot_ensemble_event) events;
-    qdot_vec(const char *) names; /* of them */
-    column *columns;
-    size_t outputs, n, places; /* expressions; coordinates */
-    size_t ways;               /* columns that read the way of a run */
-    qdot_run *run;             /* each member in turn, for these; NULL: there are none */
-    qdot_tape *tape;           /* of `outputs` columns, then of the sizes of their terms */
-    double *in, *work, *out;   /* inputs; work space; [passes x 2 outputs] */
-    qdot_vec(qdot_expr) varied;
-    qdot_vec(size_t) axis; /* of varied parameters */
-    double t1;
-    const qdot_ensemble_result *results; /* of the members that are read */
-    bool unsure;           /* of the latest of them: it is to have two companions */
-    bool *made;            /* [members] */
-    char **reasons;        /* [members] */
-};
 
 void
 qdot_sweep_lanes_free(qdot_sweep_lanes *x)
@@ -116,7 +72,7 @@ as_event(const qdot_sweep *s, size_t i, long *k)
 }
 
 static qdot_status
-take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
+take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_column *to)
 {
     qdot_pool *pool = x->s->c->session->pool;
     size_t i = 0;
@@ -131,7 +87,7 @@ take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
     }
     if (x->events.at[i].count < (size_t)k)
         x->events.at[i].count = (size_t)k;
-    *to = (column){.kind = EVENT, .event = i, .k = (size_t)k - 1};
+    *to = (qdot_sweep_lanes_column){.kind = QDOT_LANES_EVENT, .event = i, .k = (size_t)k - 1};
     return qdot_pool_check(pool);
 }
 
@@ -164,7 +120,7 @@ read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
             continue;
         }
         if (qdot_columns_read_way(x->s->c->session, &x->s->columns, i)) {
-            x->columns[i].kind = WAY;
+            x->columns[i].kind = QDOT_LANES_WAY;
             x->ways++;
             continue;
         }
@@ -200,9 +156,8 @@ lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
 
 /* --- members ---------------------------------------------------------------------------- */
 
-/* Put the values of member k in force; its request. */
-static qdot_status
-request_of(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
+qdot_status
+qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
 {
     qdot_session *session = s->c->session;
     const qdot_members *m = &s->members;
@@ -325,7 +280,7 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
     qdot_session *session = x->s->c->session;
     double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
     qdot_expr *e = qdot_calloc(2 * x->s->columns.at.n + 1, sizeof *e);
-    qdot_status status = swept && e ? request_of(x->s, 0, swept, request) : QDOT_ENOMEM;
+    qdot_status status = swept && e ? qdot_sweep_lanes_request(x->s, 0, swept, request) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = find_varied(x, why);
@@ -422,7 +377,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     qdot_status status;
 
     QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = request_of(x->s, k, swept, &request);
+    status = qdot_sweep_lanes_request(x->s, k, swept, &request);
     if (status == QDOT_OK && x->varied.n > 0)
         status = qdot_request_masses(session, &request);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
@@ -434,215 +389,6 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
         parameters[i] = swept[x->axis.at[i]];
     qdot_request_free(&request);
     qdot_session_restore_values(session, &kept);
-    return status;
-}
-
-/* --- rows ------------------------------------------------------------------------------- */
-
-/* All expressions of that pass of a member at a place, into out [2 outputs]; false: it is not there. */
-static bool
-evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
-{
-    if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
-        return false;
-    x->in[2 * qdot_ensemble_plan(x->ensemble)->n] = t;
-    qdot_tape_eval(x->tape, x->in, out, x->work);
-    return true;
-}
-
-/* The errors of all expressions at a place into errors [outputs]; x->out has them. */
-static bool
-compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
-{
-    const double share = qdot_ensemble_share(x->ensemble, m);
-    const size_t n = 2 * x->outputs;
-
-    for (size_t pass = 0; pass <= x->companions; pass++)
-        if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
-            return false;
-    for (size_t i = 0; i < x->outputs; i++) {
-        const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
-
-        errors[i] = qdot_companion_bound_of(x->out[i], x->companions, theirs, share);
-    }
-    return true;
-}
-
-static int
-by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
-static bool
-is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
-{
-    return x->companions == 1
-           && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
-                           * fmax(1, size);
-}
-
-static bool
-is_good(double value, double error)
-{
-    return isfinite(value) && isfinite(error)
-           && error <= largest_error * fmax(1, fabs(value));
-}
-
-/* Values and errors of the expressions of a member at its end, [outputs] each. */
-static qdot_status
-read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
-{
-    const size_t n = x->outputs;
-    double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
-    double sorted[PLACES];
-
-    if (between == NULL)
-        return QDOT_ENOMEM;
-    *there = x->places <= PLACES;
-    for (size_t k = 0; k < x->places && *there; k++)
-        *there = compare(x, m, k, between + k * n);
-    *there = *there && compare(x, m, x->places, errors);
-    for (size_t i = 0; i < n && *there; i++) {
-        const double size = fmax(fabs(x->out[i]), x->out[n + i]);
-
-        for (size_t k = 0; k < x->places; k++)
-            sorted[k] = between[k * n + i];
-        qsort(sorted, x->places, sizeof *sorted, by_size);
-        values[i] = x->out[i];
-        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
-                    || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
-        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
-        errors[i] += DBL_EPSILON * size;
-        *there = is_good(values[i], errors[i]);
-    }
-    qdot_free(between);
-    return QDOT_OK;
-}
-
-/* Whether the sizes of a member's coordinates make a run alone look for scales. */
-static bool
-is_small(const qdot_sweep_lanes *x, size_t m)
-{
-    const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
-
-    for (size_t i = 0; i < x->n; i++)
-        if (sizes[i] > nothing && sizes[i] < small)
-            return true;
-    return false;
-}
-
-/* The time of an event and its error; *there is false for a run alone to decide. */
-static qdot_status
-read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to, bool *there)
-{
-    double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
-    qdot_text text = {0};
-
-    for (size_t pass = 0; pass <= x->companions; pass++)
-        t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
-    if (!isnan(t[0])) {
-        *to = t[0];
-        *error = qdot_companion_bound_of(t[0], x->companions, t + 1, 1);
-        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
-        *error += DBL_EPSILON * fabs(t[0]);
-        *there = isfinite(*error); /* a run alone compares the same times */
-        return QDOT_OK;
-    }
-    if (x->reasons[k] != NULL)
-        return QDOT_OK;
-    qdot_text_format(&text, "%s[%zu]: the event occurred %zu time%s in the run",
-                     x->names.at[of->event], of->k + 1,
-                     qdot_ensemble_event_count(x->ensemble, m, of->event),
-                     qdot_ensemble_event_count(x->ensemble, m, of->event) == 1 ? "" : "s");
-    x->reasons[k] = text.at;
-    return qdot_text_status(&text);
-}
-
-/* The columns that read the way, while the member is the latest run. What fails a run alone tells. */
-static qdot_status
-measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
-{
-    qdot_cursor own = *x->s->c;
-
-    for (size_t i = 0; i < x->s->columns.at.n && *there; i++) {
-        qdot_status status;
-
-        if (x->columns[i].kind != WAY)
-            continue;
-        status = qdot_columns_measure(&own, &x->s->columns, i, end, values + i, errors + i);
-        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
-            return status;
-        *there = status == QDOT_OK && is_good(values[i], errors[i]);
-    }
-    return QDOT_OK;
-}
-
-/* The same of row k, with its values in force, into values and errors [columns]. */
-static qdot_status
-read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
-{
-    qdot_session *session = x->s->c->session;
-    const size_t measured = session->measured.n;
-    qdot_kept_values kept;
-    qdot_request request = {0};
-    qdot_status status;
-
-    QDOT_TRY(qdot_ensemble_path_take(x->ensemble, m, x->run, there));
-    QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = request_of(x->s, k, x->s->table->values + k * x->s->table->n, &request);
-    if (status == QDOT_OK && *there)
-        status = qdot_own_run_lend(session, &request, x->run);
-    if (status == QDOT_OK && *there) {
-        status = measure_way(x, request.request.t1, values, errors, there);
-        qdot_own_run_take_back(session);
-    }
-    session->measured.n = measured;
-    qdot_request_free(&request);
-    qdot_session_restore_values(session, &kept);
-    return status;
-}
-
-/* Row k from member m of the ensemble; it stays unmade for a run alone. */
-static qdot_status
-fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
-{
-    const qdot_ensemble_result *result = x->results + m;
-    qdot_row_table *t = x->s->table;
-    double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
-    double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
-    bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
-    qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
-
-    if (x->outputs + x->ways > 0)
-        there = there && result->error <= largest_error;
-    if (status == QDOT_OK && there && x->outputs > 0)
-        status = read_end(x, m, of, of + x->outputs, &there);
-    if (status == QDOT_OK && there && x->ways > 0)
-        status = read_way(x, m, k, values + t->n_swept, errors + t->n_swept, &there);
-    for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
-        const column *c = x->columns + i;
-
-        if (c->kind == EVENT) {
-            status = read_event(x, m, c, k, values + t->n_swept + i, &there);
-        } else if (c->kind == AT_END) {
-            values[t->n_swept + i] = of[c->output];
-            errors[t->n_swept + i] = of[x->outputs + c->output];
-        }
-    }
-    qdot_free(of);
-    for (size_t i = 0; i < t->n_swept; i++)
-        errors[i] = 0;
-    for (size_t i = t->n_swept; i < t->n && status == QDOT_OK && !there; i++)
-        values[i] = errors[i] = NAN;
-    if (!there) {
-        qdot_free(x->reasons[k]);
-        x->reasons[k] = NULL;
-    }
-    x->made[k] = there;
     return status;
 }
 
@@ -689,7 +435,7 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     x->results = o->results;
     for (size_t m = 0; m < o->n && status == QDOT_OK; m++) {
         x->unsure = false;
-        status = fill_row(x, m, o->row[m]);
+        status = qdot_sweep_lanes_fill_row(x, m, o->row[m]);
         if (!x->unsure)
             continue;
         memcpy(again->y + again->n * width, starts + m * width, width * sizeof *starts);
