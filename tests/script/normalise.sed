@@ -43,7 +43,7 @@ s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 }
 
 # What Taylor series are computed by is a matter of the processor.
-s/machine code for AVX\(2\|-512\), [0-9.]* kB/CODE/
+s/machine code for \(SSE2\|AVX2\|AVX-512\), [0-9.]* kB/CODE/
 s/kernels; machine code needs AVX2/CODE/
 # So is their order.
 s/^order: [0-9][0-9]*, by what/order: P, by what/
