@@ -2737,6 +2737,7 @@ example_files = \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
 	examples/kapitza-boundary.lag \
+	examples/kapitza-boundary.svg \
 	examples/kapitza.lag \
 	examples/kapitza.svg \
 	examples/kepler.lag \
