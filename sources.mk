@@ -155,6 +155,7 @@ library_sources = \
 	lib/lang/session/undo.c \
 	lib/lang/session/value-kind.c \
 	lib/lang/slopes/floquet.c \
+	lib/lang/slopes/free-request.c \
 	lib/lang/slopes/lyapunov.c \
 	lib/lang/slopes/orbit-run.c \
 	lib/lang/slopes/sensitivity.c \
@@ -180,6 +181,7 @@ library_sources = \
 	lib/lang/unknowns/branches.c \
 	lib/lang/unknowns/continue-orbit.c \
 	lib/lang/unknowns/continue.c \
+	lib/lang/unknowns/find-orbit.c \
 	lib/lang/unknowns/find-read.c \
 	lib/lang/unknowns/find.c \
 	lib/lang/unknowns/fit-answer.c \
@@ -590,6 +592,7 @@ library_sources = \
 	lib/sim/study/rest-bifurcation.c \
 	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
+	lib/sim/study/shooting.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -732,6 +735,7 @@ library_headers = \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/slopes/free-request.h \
 	lib/lang/slopes/orbit-run.h \
 	lib/lang/slopes/slopes.h \
 	lib/lang/slopes/trial.h \
@@ -1097,6 +1101,7 @@ library_headers = \
 	lib/sim/study/rest-bifurcation.h \
 	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
+	lib/sim/study/shooting.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \

@@ -332,7 +332,7 @@ conclude(hunt *h, const qdot_zero_result *r)
 static qdot_status
 search(hunt *h, qdot_zero_result *r)
 {
-    const qdot_find *f = h->f;
+    qdot_find *const f = h->f;
     qdot_zero_problem p = {.n = f->unknowns.n,
                                  .m = h->m,
                                  .at = evaluate,
@@ -349,6 +349,9 @@ search(hunt *h, qdot_zero_result *r)
 
         QDOT_TRY(does_not_rest(r->u, &moves, h));
         p.wanted = moves ? does_not_rest : NULL;
+        if (moves)
+            QDOT_TRY(qdot_find_shoot(f));
+        memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
     }
     QDOT_TRY(qdot_zero_find(&p, r));
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
