@@ -1292,6 +1292,7 @@ unit_tests = \
 	tests/sim/test_response \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_shooting \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
@@ -1373,6 +1374,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
+	tests/script/find-orbit.sh \
 	tests/script/find.sh \
 	tests/script/fit.sh \
 	tests/script/flat-places.lag \
@@ -2417,6 +2419,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/figures.out \
+	tests/script/find-orbit.out \
 	tests/script/find.out \
 	tests/script/fit.out \
 	tests/script/flat-places.out \

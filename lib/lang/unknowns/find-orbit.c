@@ -7,7 +7,7 @@
 #include "sim/study/shooting.h"
 
 typedef struct {
-    qdot_find *f;
+    const qdot_find *f;
     size_t k, n;
     qdot_expr *unknowns, *at; /* [k] symbols, the guesses */
     const char **names;       /* [k] */
@@ -63,7 +63,7 @@ make_request(guess *x)
 }
 
 static qdot_status
-shoot(guess *x)
+shoot(guess *x, double *u, bool *moved)
 {
     const qdot_find *f = x->f;
     const qdot_shooting_of of = {.scene = f->c->session->scene,
@@ -75,20 +75,20 @@ shoot(guess *x)
                                  .period = x->period,
                                  .low = f->low.at,
                                  .high = f->high.at};
-    bool found;
     size_t segments;
 
-    return qdot_shooting_find(&of, f->guess.at, &found, &segments);
+    return qdot_shooting_find(&of, u, moved, &segments);
 }
 
 qdot_status
-qdot_find_shoot(qdot_find *f)
+qdot_find_shoot(const qdot_find *f, double *u, bool *moved)
 {
     qdot_session *session = f->c->session;
     guess x = {.f = f, .k = f->unknowns.n, .n = session->scene->coordinates.n};
     qdot_kept_values kept;
     qdot_status status;
 
+    *moved = false;
     if (f->conditions.n > 1 || session->scene->constraints.n > 0)
         return QDOT_OK;
     QDOT_TRY(qdot_session_keep_values(session, &kept));
@@ -99,7 +99,7 @@ qdot_find_shoot(qdot_find *f)
         status = make_request(&x);
     qdot_session_restore_values(session, &kept);
     if (status == QDOT_OK)
-        status = shoot(&x);
+        status = shoot(&x, u, moved);
     qdot_request_free(&x.order);
     qdot_free(x.unknowns);
     qdot_free(x.names);

@@ -6,13 +6,14 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "num/zero.h"
 #include "sim/study/response.h"
 #include "tape/constant.h"
 #include "tape/derivative.h"
 
 /* Below, a motion near the guess has not grown: one segment does. How much it may grow in one of them. */
-static const double tame = 100, growth_of_one = 2;
+static const double tame = 30, growth_of_one = 2;
 
 /* How much may grow what the states between are first taken from. */
 static const double trusted[] = {30, 5, 1};
@@ -89,15 +90,15 @@ growth(const shooting *x, size_t at)
     return most;
 }
 
-/* How far each state goes; where it stays, as far as the others of its kind, or 1. */
+/* How far each state goes until time number `last`; where it stays, as far as the others of its kind, or 1. */
 static void
-find_sizes(shooting *x)
+find_sizes(shooting *x, size_t last)
 {
     double most[2] = {0, 0};
 
     for (size_t i = 0; i < x->z; i++) {
         x->size[i] = 0;
-        for (size_t at = 0; at < LOOKS; at++)
+        for (size_t at = 0; at <= last; at++)
             x->size[i] = fmax(x->size[i], fabs(x->value[at * 3 * x->n + i] - x->first[i]));
         most[i / x->n] = fmax(most[i / x->n], x->size[i]);
     }
@@ -106,7 +107,8 @@ find_sizes(shooting *x)
             x->size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
 }
 
-/* How many segments the run of the guess asks for. A run that fails has grown to no end. */
+/* Sizes while little has grown, the growth over the whole, and the segments that it asks for. A run that fails has
+ * grown to no end. */
 static qdot_status
 count_segments(shooting *x, const double *u)
 {
@@ -119,9 +121,11 @@ count_segments(shooting *x, const double *u)
         x->size[i] = 1;
     if (status != QDOT_OK)
         return qdot_grave(status);
-    find_sizes(x);
-    for (size_t at = 0; at < LOOKS; at++)
+    for (size_t at = 0; at < LOOKS; at++) {
+        if (most < tame)
+            find_sizes(x, at);
         most = fmax(most, growth(x, at));
+    }
     if (most < tame)
         x->K = 1;
     else if (most < pow(growth_of_one, MOST_SEGMENTS))
@@ -247,14 +251,18 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
 
 /* --- the search ---------------------------------------------------------------------------------- */
 
-/* How far u is from the guess, of any unknown relative to it. */
+/* How far u is from the guess, of any unknown relative to it, or to how far a state goes. */
 static double
 distance(const shooting *x, const double *u, const double *guess)
 {
     double most = 0;
 
-    for (size_t j = 0; j < x->k; j++)
-        most = fmax(most, fabs(u[j] - guess[j]) / (guess[j] != 0 ? fabs(guess[j]) : 1));
+    for (size_t j = 0; j < x->k; j++) {
+        const size_t i = qdot_expr_place(x->z, x->unknowns, x->of->unknowns[j]);
+        const double size = fmax(fabs(guess[j]), i < x->z ? x->size[i] : 0);
+
+        most = fmax(most, fabs(u[j] - guess[j]) / (size > 0 ? size : 1));
+    }
     return most;
 }
 
