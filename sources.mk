@@ -1360,6 +1360,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
 	tests/script/events.lag \
@@ -2404,6 +2405,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \
 	tests/script/events.out \
