@@ -606,6 +606,7 @@ library_sources = \
 	lib/tape/finish.c \
 	lib/tape/interval.c \
 	lib/tape/keymap.c \
+	lib/tape/logistic.c \
 	lib/tape/lower.c \
 	lib/tape/shake.c \
 	lib/tape/tape.c
@@ -1115,6 +1116,7 @@ library_headers = \
 	lib/tape/interval.def \
 	lib/tape/interval.h \
 	lib/tape/keymap.h \
+	lib/tape/logistic.h \
 	lib/tape/operation.def \
 	lib/tape/shake.h \
 	lib/tape/tape.h
@@ -1301,6 +1303,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
+	tests/tape/test_logistic \
 	tests/tape/test_tape
 
 script_tests = \
@@ -1368,6 +1371,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/far-sides.lag \
 	tests/script/figures.sh \
 	tests/script/find.sh \
 	tests/script/fit.sh \
@@ -2413,6 +2417,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/far-sides.out \
 	tests/script/figures.out \
 	tests/script/find.out \
 	tests/script/fit.out \
