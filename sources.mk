@@ -2552,6 +2552,7 @@ test_files = \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
+	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
