@@ -19,8 +19,13 @@ static const double newton = 1e-3, newton_roundings = 10;
 static const double reuse = 1e-3, reuse_dear = 0.1, fast = 2e-3, slow = 0.8;
 enum { steady = 10, dear = 2 };
 
-/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. */
-static const double bounds = 0.02, fair = 0.1;
+/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. Below
+ * the last one, steps grow at once whatever their stages. */
+static const double bounds = 0.02, fair = 0.1, lasts = 2e-3;
+
+/* A step so many times longer than the one before begins at its velocities: the polynomial of that step
+ * magnifies rounding and what is left of a transient. */
+static const double far = 5;
 
 /* Velocities that changes of multipliers make within h count by this: those of the step keep the
  * constraints, whatever these are. */
@@ -53,6 +58,7 @@ typedef struct {
     double rate, rate_before, left; /* of the iteration */
     int iterations, since;          /* steps since the number of stages changed */
     double ratio;                   /* of the last step accepted */
+    double fell; /* by so much less than of the step before, were both of one length; 0: not known */
     double most; /* no longer steps for `cautious` more: the iteration failed with one */
     int cautious;
     bool rejected;
@@ -86,7 +92,7 @@ make(qdot_ode_stepper *s)
     r->v = r->linear.v;
     r->p = r->linear.p;
     r->w = r->p + r->m;
-    r->kind = s->tol > 1e-4 ? 0 : s->tol > 1e-8 ? 1 : 2;
+    r->kind = s->tol > 1e-8 ? 1 : 2;
     return qdot_calloc_parts(&r->room, 8,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
                                                  {&r->z, r->m}, /* more than there are */
@@ -108,7 +114,7 @@ restart(qdot_ode_stepper *s)
     r->factored = 0;
     r->rate = r->left = 1;
     r->since = 0;
-    r->ratio = 0;
+    r->ratio = r->fell = 0;
     r->cautious = 0;
     r->rejected = false;
 }
@@ -120,6 +126,13 @@ qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages)
 
     r->kind = (stages - 3) / 2;
     r->kept = true;
+}
+
+/* The larger of two; b where a is a NaN. */
+static inline double
+larger(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 /* --- Newton's iteration ----------------------------------------------------------------- */
@@ -152,7 +165,7 @@ follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         }
 }
 
-/* The stages by the polynomial of the step before. */
+/* The stages by the polynomial of the step before; y throughout if there is none, or none that would do. */
 static void
 predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
@@ -160,6 +173,8 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
     const qdot_radau_basis *old = r->before_basis;
     double w[MOST];
 
+    if (old && h / r->before_h > far)
+        old = NULL;
     if (!old)
         memset(r->Z, 0, b->stages * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
@@ -235,13 +250,13 @@ change(radau *r, const qdot_radau_basis *b, double h)
             const double by = h * over_stages(b->stages, b->a[i], r->a + l, r->m);
 
             Z[l] += by;
-            size = fmax(size, fabs(by) * r->weight[l]);
+            size = larger(fabs(by) * r->weight[l], size);
         }
         for (size_t l = 0; l < r->m; l++) {
             const double by = r->a[i * r->m + l];
 
             Z[r->p + l] += by;
-            size = fmax(size, fabs(by) * r->weight[r->p + l]);
+            size = larger(fabs(by) * r->weight[r->p + l], size);
             if (!isfinite(by))
                 return INFINITY;
         }
@@ -301,6 +316,13 @@ weigh_algebraic(radau *r, double h)
     }
 }
 
+/* x^(3/4) */
+static inline double
+raise(double x)
+{
+    return sqrt(x * sqrt(x));
+}
+
 /* Whether it converged; the stages, and `a` by them. */
 static qdot_status
 iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
@@ -315,7 +337,7 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
     *converged = false;
     weigh_algebraic(r, h);
     predict(s, b, h);
-    r->left = pow(fmax(r->left, DBL_EPSILON), 0.8);
+    r->left = raise(fmax(r->left, DBL_EPSILON));
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
         double size;
 
@@ -446,6 +468,24 @@ prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool
     return QDOT_OK;
 }
 
+/* By how much the error of steps of one length falls from step to step, as a transient dies out: of the
+ * last two such factors the lesser one. 1: it does not, or is not known. */
+static double
+falls(radau *r, const qdot_radau_basis *b, double h, double ratio)
+{
+    const double grown = h / r->before_h, before = r->fell;
+    double fell = r->ratio / ratio;
+
+    if (r->before_basis != b || r->rejected) {
+        r->fell = 0;
+        return 1;
+    }
+    for (size_t i = 0; i < b->stages + 1; i++)
+        fell *= grown;
+    r->fell = fell;
+    return fmax(1, fmin(before, fell));
+}
+
 static qdot_status
 step(qdot_ode_stepper *s, double t, double h, double *ratio)
 {
@@ -473,9 +513,13 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
         *ratio = fmax(1.01, 0.1 * pow(0.9 / half, (double)b->stages + 1));
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
-    r->rejected = !(*ratio <= 1);
-    if (!r->rejected)
+    if (*ratio <= 1) {
+        const double fell = falls(r, b, h, *ratio);
+
         r->ratio = *ratio;
+        *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
+    }
+    r->rejected = !(*ratio <= 1);
     if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
         *ratio = fmin(
             1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
@@ -497,7 +541,7 @@ choose_stages(const qdot_ode_stepper *s)
     r->cautious -= r->cautious > 0;
     if (r->kept || ++r->since < steady)
         return;
-    if (r->rate < (bound ? fair : fast) && r->kind + 1 < QDOT_RADAU_KINDS)
+    if (r->rate < (bound ? fair : fast) && r->ratio > lasts && r->kind + 1 < QDOT_RADAU_KINDS)
         r->kind++;
     else if (r->rate > slow && r->iterations > 2 && r->kind > 0 && !bound)
         r->kind--;
