@@ -27,6 +27,9 @@ static const double bounds = 0.02, fair = 0.1, lasts = 2e-3;
  * magnifies rounding and what is left of a transient. */
 static const double far = 5;
 
+/* Forces and accelerations agree within this part of the forces. */
+static const double agree = 0.1;
+
 /* Velocities that changes of multipliers make within h count by this: those of the step keep the
  * constraints, whatever these are. */
 static const double by_multipliers = 0.05;
@@ -49,6 +52,7 @@ typedef struct {
     double *a;       /* [MOST x m] */
     double *R;       /* [MOST x m] residuals */
     double *re, *im; /* [m] */
+    double *forces;  /* [m] the sum of the sizes of their terms, where slopes were taken */
     double *weight;  /* [w] 1/(tol max(scale, |y|)) */
     double *before;  /* [MOST x w] the stages of the last step accepted */
     const qdot_radau_basis *before_basis; /* NULL: there is none */
@@ -93,13 +97,14 @@ make(qdot_ode_stepper *s)
     r->p = r->linear.p;
     r->w = r->p + r->m;
     r->kind = s->tol > 1e-8 ? 1 : 2;
-    return qdot_calloc_parts(&r->room, 8,
+    return qdot_calloc_parts(&r->room, 9,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
                                                  {&r->z, r->m}, /* more than there are */
                                                  {&r->a, MOST * r->m},
                                                  {&r->R, MOST * r->m},
                                                  {&r->re, r->m},
                                                  {&r->im, r->m},
+                                                 {&r->forces, r->m},
                                                  {&r->weight, r->w},
                                                  {&r->before, MOST * r->w}});
 }
@@ -165,16 +170,21 @@ follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         }
 }
 
+/* Whether the step is not much longer than the one before, if there is one. */
+static bool
+is_near(const radau *r)
+{
+    return r->before_basis && fabs(r->h) <= far * fabs(r->before_h);
+}
+
 /* The stages by the polynomial of the step before; y throughout if there is none, or none that would do. */
 static void
 predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
     radau *r = s->own;
-    const qdot_radau_basis *old = r->before_basis;
+    const qdot_radau_basis *old = is_near(r) ? r->before_basis : NULL;
     double w[MOST];
 
-    if (old && h / r->before_h > far)
-        old = NULL;
     if (!old)
         memset(r->Z, 0, b->stages * r->w * sizeof *r->Z);
     for (size_t i = 0; i < b->stages && old; i++) {
@@ -316,6 +326,38 @@ weigh_algebraic(radau *r, double h)
     }
 }
 
+/* The sum of the sizes of what makes f - M a in row l of stage i: of forces as where slopes were taken. */
+static double
+terms(const radau *r, size_t i, size_t l)
+{
+    const double *mass = r->linear.mass + l * r->m, *dv = r->linear.dv + l * r->m;
+    double sum = r->forces[l];
+
+    for (size_t j = 0; j < r->v; j++)
+        sum += fabs(mass[j] * r->a[i * r->m + j]);
+    for (size_t j = r->v; j < r->m; j++)
+        sum += fabs(dv[j] * (r->z[j - r->v] + r->Z[i * r->w + r->p + j]));
+    return sum;
+}
+
+/* Whether forces and accelerations agree in all stages, as far as forces are known by now. A change may be
+ * small because the slopes at the beginning of the step are large, as where dry friction holds, and those
+ * of a stage are not, where it slides. What a much shorter step left says nothing then. */
+static bool
+forces_agree(const radau *r, const qdot_radau_basis *b)
+{
+    const double left = r->iterations == 1 && !is_near(r) ? 1 : r->left;
+
+    for (size_t i = 0; i < b->stages; i++)
+        for (size_t l = 0; l < r->v; l++) {
+            const double missing = left * fabs(r->R[i * r->m + l]);
+
+            if (missing > agree * r->forces[l] && missing > agree * terms(r, i, l))
+                return false;
+        }
+    return true;
+}
+
 /* x^(3/4) */
 static inline double
 raise(double x)
@@ -364,9 +406,11 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                 return QDOT_OK;
         }
         before = fmax(size, DBL_MIN);
-        if (r->left * size <= enough) {
+        if (r->left * size > enough)
+            continue;
+        accelerate(r, b, h);
+        if (forces_agree(r, b)) {
             *converged = true;
-            accelerate(r, b, h);
             return QDOT_OK;
         }
     }
@@ -456,6 +500,9 @@ prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool
         s->jacobians++;
         QDOT_TRY(qdot_radau_slopes(&r->linear, t, s->y, s->dydt + r->p,
                                    r->before_basis ? r->re : r->z));
+        qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->z, r->forces);
+        for (size_t l = 0; l < r->m; l++)
+            r->forces[l] = fabs(r->forces[l]) / DBL_EPSILON;
         r->slopes = r->fresh = true;
         r->factored = 0;
     }

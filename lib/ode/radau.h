@@ -17,8 +17,10 @@
  * of velocities with which no mass moves, which follow at every moment, count h-fold, as positions.
  *
  * The iteration begins with the polynomial of the step before (with y, if that was much shorter) and ends
- * when what is missing is below NEWTON of a tolerance. The error is that of the formula with a stage more
- * at the beginning of the step: the defect there, filtered,
+ * when what is missing is below NEWTON of a tolerance and forces agree with accelerations in each stage,
+ * within AGREE of their terms: where slopes are large, as in the layer of dry friction, velocities agree
+ * long before. The error is that of the formula with a stage more at the beginning of the step: the defect
+ * there, filtered,
  *
  *     e = (1 - h/lambda df/dy)^-1  h/lambda (f(t, y) - u'(t)),
  *
