@@ -172,7 +172,8 @@ library_sources = \
 	lib/lang/sweeps/poincare.c \
 	lib/lang/sweeps/sweep-axis.c \
 	lib/lang/sweeps/sweep-file.c \
-	lib/lang/sweeps/sweep-lanes.c \
+	lib/lang/sweeps/sweep-lanes-members.c \
+	lib/lang/sweeps/sweep-lanes-rows.c \
 	lib/lang/sweeps/sweep-plan.c \
 	lib/lang/sweeps/sweep-ranks.c \
 	lib/lang/sweeps/sweep-rows.c \
@@ -570,8 +571,10 @@ library_sources = \
 	lib/sim/study/ensemble-doubts.c \
 	lib/sim/study/ensemble-fit.c \
 	lib/sim/study/ensemble-momenta.c \
+	lib/sim/study/ensemble-path.c \
+	lib/sim/study/ensemble-runs.c \
+	lib/sim/study/ensemble-seen.c \
 	lib/sim/study/ensemble-steps.c \
-	lib/sim/study/ensemble.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
 	lib/sim/study/floquet.c \
@@ -745,6 +748,7 @@ library_headers = \
 	lib/lang/sweeps/members.h \
 	lib/lang/sweeps/sweep-axis.h \
 	lib/lang/sweeps/sweep-file.h \
+	lib/lang/sweeps/sweep-lanes-parts.h \
 	lib/lang/sweeps/sweep-lanes.h \
 	lib/lang/sweeps/sweep-parts.h \
 	lib/lang/sweeps/sweep-ranks.h \
@@ -1077,6 +1081,8 @@ library_headers = \
 	lib/sim/study/ensemble-doubts.h \
 	lib/sim/study/ensemble-fit.h \
 	lib/sim/study/ensemble-momenta.h \
+	lib/sim/study/ensemble-parts.h \
+	lib/sim/study/ensemble-path.h \
 	lib/sim/study/ensemble-steps.h \
 	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \

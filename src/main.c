@@ -250,7 +250,8 @@ main(int argc, char **argv)
     }
     if (o.print != NULL) {
         qdot_free(o.tasks.at);
-        fputs(o.print, stdout);
+        if (!qdot_ranks_are_others())
+            fputs(o.print, stdout);
         return finish(DONE);
     }
     if (join_ranks(&o) != QDOT_OK) {

@@ -47,6 +47,14 @@ qdot_ranks_are_there(void)
     return getenv("OMPI_COMM_WORLD_SIZE") != NULL || getenv("PMIX_RANK") != NULL;
 }
 
+bool
+qdot_ranks_are_others(void)
+{
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
+
+    return rank != NULL && strcmp(rank, "0") != 0;
+}
+
 size_t
 qdot_ranks_count(void)
 {
@@ -118,12 +126,11 @@ digits_here(void)
 static void
 set_sentinel(void)
 {
-    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
     const pid_t parent = getppid();
     int ends[2];
     char c;
 
-    if (rank == NULL || strcmp(rank, "0") != 0 || pipe(ends) != 0)
+    if (getenv("OMPI_COMM_WORLD_RANK") == NULL || qdot_ranks_are_others() || pipe(ends) != 0)
         return;
     if (fork() == 0) {
         ssize_t n;

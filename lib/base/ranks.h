@@ -39,8 +39,9 @@ typedef struct {
  * takes no part and says so. QDOT_ENOTBUILT: this program has no MPI; QDOT_EIO: it cannot be loaded. */
 QDOT_MUST_CHECK qdot_status qdot_ranks_begin(size_t *kind);
 
-/* Whether mpirun started this process. */
+/* Whether mpirun started this process; whether, then, as another rank than 0. Before _begin too. */
 bool qdot_ranks_are_there(void);
+bool qdot_ranks_are_others(void);
 /* How many ranks there are; which this is. Alone: 1 and 0. */
 size_t qdot_ranks_count(void);
 size_t qdot_rank(void);

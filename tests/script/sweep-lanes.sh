@@ -1,7 +1,8 @@
 # Members of a sweep side by side: what runs alone give, the same bits in any company, and why not.
 # Rows of two CSV files with the same first number, which agree within their errors.
 agree() {
-    awk -F, 'FNR == 1 { n = (NF - 1) / 2; next }
+    awk -F, 'FNR == 1 { next }
+             { n = (NF - 1) / 2 }
              FNR == NR { for (i = 2; i <= NF; i++) a[$1, i] = $i; seen[$1] = 1; next }
              $1 in seen { rows++
                  for (i = 2; i <= n + 1; i++) {
@@ -101,7 +102,7 @@ for what in 'rods A 0..3 x, w, energy, low[1]' 'wall x'"'"' 0..20 x, x'"'"', low
     set -- $what
     scene=$1 name=$2 time=$3
     shift 3
-    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror/p; /^each/p'
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
 plan sweep $name = $many run $time : $*
 sweep $name = $few run $time : $* as few threads 1
 sweep $name = $many run $time : $* as many threads 1
@@ -113,12 +114,37 @@ END
     agree few.csv many.csv
     cmp many.csv others.csv
 done
+echo '# extrema, means and drifts along the way'
+for what in "double a 0..5 max(a), min(b, 1..4), mean(energy), value(a, 5/2), max(b'')" \
+    "double l 0..5 max(l*a), min(abs(b), 1..4), mean(a^2), drift(energy), value(a*l + t, 5/2), a', under[1]" \
+    "bump w 0..20 max(x, 1..3), mean(x*w), value(x, 7)" \
+    "kepler phi' 0..9 max(r), min(r), mean(phi'), drift(energy), value(phi', 4), turn[1]" \
+    "kepler phi' 0..-9 max(r), mean(phi'), value(phi', -4)" \
+    "rods A 0..3 max(x), mean(w), value(x*A, 2), max(x''), max(lambda[upper])" \
+    "wall x' 0..20 max(abs(x)), max(x, 10..20), mean(x'^2), max(x) - min(x)"; do
+    set -- $what
+    scene=$1 name=$2 time=$3
+    shift 3
+    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
+$([ $name != w ] || echo "start x' = 2")
+plan sweep $name = $many run $time tol 1e-9 : $*
+sweep $name = $few run $time tol 1e-9 : $* as few threads 1
+sweep $name = $many run $time tol 1e-9 : $* as many threads 1
+sweep $name = $many run $time tol 1e-9 : $* as others threads 3
+save few to "few.csv"
+save many to "many.csv"
+save others to "others.csv"
+END
+    agree few.csv many.csv
+    cmp many.csv others.csv
+done
 echo '# plans'
-cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/'
+cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/; s/, about as much again.*//'
 qdot -q double.lag - <<'END' 2>&1 | sed "$cut"
 plan sweep a = 0..1 count 1000, b = -pi..pi count 100 run 0..1 : a, under[2] threads 2
 plan sweep a = 0..1 count 8 run 0..1 : a
 plan sweep a = 0..1 count 20 run 0..1 : max(a)
+plan sweep a = 0..1 count 20 run 0..1 : max(a, 0..under[1])
 plan sweep a = 0..1 count 20 run 0..1 method dop853 : a
 plan sweep a = 0..1 count 20 run 0..1 tol 1e-15 : a
 plan sweep b = uniform(0, 1) count 20 seed 3 run 0..1 digits 20 : a

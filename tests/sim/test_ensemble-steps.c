@@ -26,7 +26,8 @@ run_all(members *x, bool leave, double bound)
     x->f.request.tol = 1e-10;
     x->event = (qdot_ensemble_event){x->f.scene->coordinates.at[1], -1, 2};
     x->bound = (qdot_ensemble_bound){0, bound};
-    x->watching = (qdot_ensemble_watching){1, 1, &x->event, &x->bound, leave};
+    x->watching = (qdot_ensemble_watching){
+        .n_events = 1, .n_bounds = 1, .events = &x->event, .bounds = &x->bound, .leave = leave};
     x->e = prepare(&x->f, 0, NULL);
     must(qdot_ensemble_follow(x->e, &x->watching, 10000));
     for (size_t i = 0; i < MEMBERS * STATE; i++)

@@ -54,12 +54,35 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
     return status;
 }
 
+/* The statement's own run, if there is one. */
+static qdot_named_run *
+own(qdot_session *session)
+{
+    qdot_named_run *latest = session->runs.at + session->runs.n - 1;
+
+    return session->runs.n > 0 && strcmp(latest->name, run_name) == 0 ? latest : NULL;
+}
+
 void
 qdot_own_run_drop(qdot_session *session)
 {
-    if (session->runs.n > 0 &&
-        strcmp(session->runs.at[session->runs.n - 1].name, run_name) == 0)
+    if (own(session) != NULL)
         qdot_named_run_release(&session->runs.at[--session->runs.n]);
+}
+
+qdot_status
+qdot_own_run_lend(qdot_session *session, const qdot_request *request, qdot_run *run)
+{
+    QDOT_TRY(qdot_runs_keep(session, run_name, "", &request->request, NULL));
+    own(session)->run = run;
+    return QDOT_OK;
+}
+
+void
+qdot_own_run_take_back(qdot_session *session)
+{
+    own(session)->run = NULL;
+    qdot_own_run_drop(session);
 }
 
 /* --- how long ------------------------------------------------------------------------------ */

@@ -18,6 +18,12 @@ QDOT_MUST_CHECK qdot_status qdot_own_run_make(qdot_session *session,
                                               qdot_expr *end);
 void qdot_own_run_drop(qdot_session *session);
 
+/* The same with a run that somebody else has made, and keeps: until _take_back, which must follow.
+ * QDOT_ENOMEM: the session has none. */
+QDOT_MUST_CHECK qdot_status qdot_own_run_lend(qdot_session *session, const qdot_request *request,
+                                              qdot_run *run);
+void qdot_own_run_take_back(qdot_session *session);
+
 /* Whether a failure is one that no other values can mend: the next run would fail alike. */
 bool qdot_own_run_all_fail(qdot_status status);
 

@@ -29,27 +29,48 @@ qdot_row_table_new(const char *name, size_t n_swept, size_t n, const char *const
     return NULL;
 }
 
+static qdot_status
+make_room(qdot_row_table *t, size_t room)
+{
+    double *values = qdot_realloc(t->values, room * t->n * sizeof *values), *errors;
+    char **reasons;
+
+    t->values = values ? values : t->values;
+    errors = qdot_realloc(t->errors, room * t->n * sizeof *errors);
+    t->errors = errors ? errors : t->errors;
+    reasons = qdot_realloc(t->reasons, room * sizeof *reasons);
+    t->reasons = reasons ? reasons : t->reasons;
+    if (!values || !errors || !reasons)
+        return QDOT_ENOMEM;
+    t->room = room;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_row_table_add(qdot_row_table *t)
 {
-    if (t->rows == t->room) {
-        const size_t room = t->room == 0 ? 16 : 2 * t->room;
-        double *values = qdot_realloc(t->values, room * t->n * sizeof *values), *errors;
-        char **reasons;
-
-        t->values = values ? values : t->values;
-        errors = qdot_realloc(t->errors, room * t->n * sizeof *errors);
-        t->errors = errors ? errors : t->errors;
-        reasons = qdot_realloc(t->reasons, room * sizeof *reasons);
-        t->reasons = reasons ? reasons : t->reasons;
-        if (!values || !errors || !reasons)
-            return QDOT_ENOMEM;
-        t->room = room;
-    }
+    if (t->rows == t->room)
+        QDOT_TRY(make_room(t, t->room == 0 ? 16 : 2 * t->room));
     for (size_t i = t->rows * t->n; i < (t->rows + 1) * t->n; i++)
         t->values[i] = t->errors[i] = NAN;
     t->reasons[t->rows++] = NULL;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_row_table_add_all(qdot_row_table *t, size_t rows)
+{
+    if (t->rows + rows > t->room)
+        QDOT_TRY(make_room(t, t->rows + rows));
+    for (size_t k = 0; k < rows; k++)
+        QDOT_TRY(qdot_row_table_add(t));
+    return QDOT_OK;
+}
+
+size_t
+qdot_row_table_row_bytes(const qdot_row_table *t)
+{
+    return t->n * (sizeof *t->values + sizeof *t->errors) + sizeof *t->reasons;
 }
 
 void

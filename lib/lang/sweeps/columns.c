@@ -1,8 +1,14 @@
 /* columns.c -- what is asked of each run. */
 #include "lang/sweeps/columns.h"
 
+#include <string.h>
+
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/session/range.h"
+#include "lang/session/runs.h"
 
 static bool
 ends(const qdot_cursor *c)
@@ -59,6 +65,50 @@ qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
     }
     c->error_at = own.error_at;
     return status;
+}
+
+/* A number, or an expression at the end of the run. */
+static qdot_status
+measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
+{
+    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
+                            | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
+    qdot_measured m;
+
+    if (!(qdot_expr_node(session->pool, e)->holds & moving))
+        return qdot_session_number(session, e, value, error);
+    QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,
+                                   &m));
+    *value = m.value;
+    *error = m.error;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr end, double *value,
+                     double *error)
+{
+    qdot_expr e;
+
+    QDOT_TRY(qdot_columns_read(c, x, i, &e));
+    return measure(c->session, e, end, value, error);
+}
+
+bool
+qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i)
+{
+    const qdot_token *end = i + 1 < x->at.n ? x->at.at[i + 1] - 1 : x->end;
+    bool way = false;
+
+    for (const qdot_token *t = x->at.at[i]; t != end; t++) {
+        if (t->kind != QDOT_TOKEN_NAME)
+            continue;
+        if (qdot_scene_find_event(session->scene, t->text) != NULL)
+            return false;
+        way = way || ((qdot_range_is_word(t->text) || strcmp(t->text, "value") == 0)
+                      && qdot_token_is(t + 1, "("));
+    }
+    return way;
 }
 
 qdot_status

@@ -25,6 +25,11 @@ void qdot_columns_free(qdot_columns *x);
 /* Column i as a scalar. */
 QDOT_MUST_CHECK qdot_status qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i,
                                               qdot_expr *e);
+/* The number of column i of the session's latest run, which ends at `end`, and its error. */
+QDOT_MUST_CHECK qdot_status qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i,
+                                                 qdot_expr end, double *value, double *error);
+/* Whether column i reads the way of a run by value, max, min, mean or drift, and none of its events. */
+bool qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t i);
 /* A table without rows, with these columns behind others, `before` [n]. */
 QDOT_MUST_CHECK qdot_status qdot_columns_table(qdot_session *session, const qdot_columns *x,
                                                const char *name, size_t n,

@@ -18,6 +18,9 @@ static const double most_members = 1e7;
 /* The generator takes 32 bits of a seed, and no more. */
 static const long most_seed = 0xffffffff;
 
+/* GSL takes 4357 for 0, and of other numbers the lower 32 bits: of this one they are 0. */
+static const unsigned long instead_of_0 = (unsigned long)UINT64_C(0x100000000);
+
 void
 qdot_sweep_axes_free(qdot_sweep_axes *axes)
 {
@@ -197,7 +200,7 @@ draw(qdot_sweep_axes *axes)
             gsl_rng_free(random);
         return qdot_fail(QDOT_ENOMEM, "no memory for %zu members", axes->members);
     }
-    gsl_rng_set(random, axes->seed);
+    gsl_rng_set(random, axes->seed != 0 ? axes->seed : instead_of_0);
     for (size_t k = 0; k < axes->members; k++)
         for (size_t i = 0; i < n; i++) {
             const qdot_sweep_axis *x = &axes->at.at[i];

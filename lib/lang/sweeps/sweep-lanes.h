@@ -2,7 +2,8 @@
  *
  * They can if the scene fits (sim/study/ensemble-fit.h), what is swept is coordinates, velocities and
  * parameters that nothing but the equations and the start reads, and each column is an expression at
- * the end of the run or NAME[K], the time of an event. A member that turns out to need more than lanes
+ * the end of the run, NAME[K], the time of an event, or contains value, max, min, mean or drift and no
+ * event: these are read as of a run alone (sim/study/ensemble-path.h). A member that turns out to need more than lanes
  * do - it fails, comes near a bound, touches an event, lives far below 1, loses its digits - is run
  * alone. So which way a row is made depends on the statement and the member only, and its bits on no
  * other member.
@@ -10,7 +11,7 @@
  * The error of a column is found as that of a run alone: by the distance from companions at the end, and
  * at places of the latter half of the way, of which the median counts, to 30 times that at the end
  * (ode/companion.h), with the rounding of its terms. One companion is enough where the method's errors
- * are well above those of rounding; the others have two.
+ * are well above those of rounding, and no column reads the way; the others have two.
  *
  * Tests  tests/script/sweep-lanes.sh
  */
@@ -24,6 +25,9 @@
 enum { QDOT_SWEEP_LANES_LEAST = 16 };
 
 typedef struct qdot_sweep_lanes qdot_sweep_lanes;
+
+/* What it keeps of a member: whether it is made, and why its row failed. */
+enum { QDOT_SWEEP_LANES_BYTES = sizeof(bool) + sizeof(char *) };
 
 /* For a sweep that was read. *lanes NULL: its members are run alone, and `why` says why. */
 QDOT_MUST_CHECK qdot_status qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes,

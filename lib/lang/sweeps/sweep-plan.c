@@ -86,6 +86,17 @@ tell_seconds(double x, qdot_text *text)
         qdot_text_format(text, "%.2g h", x / 3600);
 }
 
+/* In this process while the sweep is made (another writes to its copies of these): the row, what was drawn for it, whether it is done, by whom,
+ * and the reason why it may have failed. */
+static size_t
+bytes_of_member(const qdot_sweep *s)
+{
+    const size_t drawn = s->members.axes.random ? s->members.axes.at.n * sizeof(double) : 0;
+
+    return qdot_row_table_row_bytes(s->table) + drawn + sizeof *s->done + sizeof(char)
+           + (s->lanes != NULL ? QDOT_SWEEP_LANES_BYTES : 0);
+}
+
 qdot_status
 qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
 {
@@ -93,7 +104,6 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
     const size_t processors = qdot_workers_processors();
     const size_t workers = qdot_sweep_processes(s), ranks = qdot_ranks_count();
     const size_t useful = (workers < processors ? workers : processors) * ranks;
-    const double megabytes = (double)members * (double)(2 * n * sizeof(double) + 11) / 1e6;
     qdot_text why = {0};
     sample m;
     qdot_status status;
@@ -101,8 +111,7 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
     s->done = qdot_calloc(members + 1, sizeof *s->done);
     if (s->done == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < members; k++)
-        QDOT_TRY(qdot_row_table_add(s->table));
+    QDOT_TRY(qdot_row_table_add_all(s->table, members));
     status = qdot_sweep_lanes_new(s, &s->lanes, &why);
     if (status == QDOT_OK)
         status = measure(s, &m);
@@ -114,8 +123,9 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
         qdot_text_format(text, "time: %.2g s a member, by %zu of them: about ", m.seconds,
                          m.rows);
         tell_seconds(m.seconds * (double)members / (double)(useful > 0 ? useful : 1), text);
-        qdot_text_format(text, "\nmemory: %.2g MB for rows of %zu numbers with their errors\n",
-                         megabytes, n);
+        qdot_text_format(text, "\nmemory: %.2g MB for rows of %zu numbers with their errors",
+                         (double)members * (double)bytes_of_member(s) / 1e6, n);
+        qdot_text_add(text, workers > 1 ? ", about as much again in each of the processes\n" : "\n");
         if (m.failed > 0)
             qdot_text_format(text, "failed: %zu of %zu\n", m.failed, m.rows);
         status = qdot_text_status(text);

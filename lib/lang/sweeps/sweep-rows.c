@@ -13,9 +13,6 @@
 #include "lang/sweeps/sweep-lanes.h"
 #include "lang/sweeps/sweep-parts.h"
 #include "lang/sweeps/sweep-ranks.h"
-#include "lang/session/bind.h"
-#include "lang/session/measured.h"
-#include "lang/session/runs.h"
 
 /* Seconds of work that are worth more than one process. */
 static const double worth = 0.05;
@@ -24,23 +21,6 @@ static const double worth = 0.05;
 enum { TOGETHER = 256, LEAST = 32 };
 
 /* --- a row ------------------------------------------------------------------------------ */
-
-/* A number, or an expression at the end of the run. */
-static qdot_status
-measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
-{
-    const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
-                            | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
-    qdot_measured m;
-
-    if (!(qdot_expr_node(session->pool, e)->holds & moving))
-        return qdot_session_number(session, e, value, error);
-    QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,
-                                   &m));
-    *value = m.value;
-    *error = m.error;
-    return QDOT_OK;
-}
 
 /* The columns of the latest run, behind what was swept in its row; of those that fail the first is
  * told. */
@@ -55,11 +35,10 @@ fill_columns(qdot_cursor *c, qdot_run *run, qdot_expr end, void *user)
 
     (void)run;
     for (size_t i = 0; i < s->columns.at.n; i++) {
-        qdot_expr e;
-        qdot_status status = qdot_columns_read(c, &s->columns, i, &e);
+        const qdot_status status = qdot_columns_measure(c, &s->columns, i, end,
+                                                        &t->values[first + i],
+                                                        &t->errors[first + i]);
 
-        if (status == QDOT_OK)
-            status = measure(c->session, e, end, &t->values[first + i], &t->errors[first + i]);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             return status;
         if (status != QDOT_OK && failed == QDOT_OK) {
@@ -271,8 +250,7 @@ begin_rows(qdot_sweep *s)
     s->done = qdot_calloc(members + 1, sizeof *s->done);
     if (s->done == NULL)
         return QDOT_ENOMEM;
-    for (size_t k = 0; k < members; k++)
-        QDOT_TRY(qdot_row_table_add(s->table));
+    QDOT_TRY(qdot_row_table_add_all(s->table, members));
     if (s->path == NULL || qdot_rank() > 0)
         return QDOT_OK;
     s->c->error_at = s->path_at->start;

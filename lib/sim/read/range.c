@@ -77,6 +77,7 @@ result(const scan *s, qdot_range_kind kind, double from, double to)
     case QDOT_RANGE_MIN: return s->smallest;
     case QDOT_RANGE_MEAN:
         return from == to ? s->first : (double)(s->integral / (to - from));
+    case QDOT_RANGE_REACH: return fmax(s->largest, -s->smallest);
     default:
         return fmax(s->largest - s->first, s->first - s->smallest)
                / fmax(1, fabs(s->first));
@@ -97,6 +98,7 @@ open_of(const scan *s, qdot_range_kind kind, double from, double to)
     case QDOT_RANGE_MAX: return above;
     case QDOT_RANGE_MIN: return below;
     case QDOT_RANGE_MEAN: return from == to ? 0 : s->left / fabs(to - from);
+    case QDOT_RANGE_REACH: return fmax(above, below);
     default: return fmax(above, below) / fmax(1, fabs(s->first));
     }
 }
@@ -270,7 +272,7 @@ range_of(const qdot_run_expression *x, qdot_range_kind kind, const double *range
     return status;
 }
 
-/* Of expressions in the coordinates of the runs. The largest |u| is that of u or of -u: |u| has corners
+/* Of expressions in the coordinates of the runs. The largest |u| is the reach of u: |u| has corners
  * where u is 0, and if u is all rounding it has nothing else. */
 static qdot_status
 range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
@@ -278,17 +280,12 @@ range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *ra
 {
     const qdot_pool *pool = x->runs[0]->plan->pool;
     qdot_run_expression inner = *x;
-    double least, least_error;
 
     if (kind != QDOT_RANGE_MAX || qdot_expr_kind(pool, x->e) != QDOT_FUN
         || qdot_expr_node(pool, x->e)->op != QDOT_ABS)
         return range_of(x, kind, range, value, error);
     inner.e = qdot_expr_arg(pool, x->e, 0);
-    QDOT_TRY(range_of(&inner, QDOT_RANGE_MAX, range, value, error));
-    QDOT_TRY(range_of(&inner, QDOT_RANGE_MIN, range, &least, &least_error));
-    *value = fmax(*value, -least);
-    *error = isnan(*error) || isnan(least_error) ? NAN : fmax(*error, least_error);
-    return QDOT_OK;
+    return range_of(&inner, QDOT_RANGE_REACH, range, value, error);
 }
 
 /* The same where run k was made in other coordinates: what is said along it, put into those for the

@@ -60,9 +60,15 @@ QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const
 
 /* Over a range of a run: the largest or least value of e between its ends, extrema inside steps
  * included; its mean over time; its drift, max |e - e0| / max(1, |e0|) with e0 where the range
- * begins. The error, from the companion: NaN where unknown. QDOT_EDOMAIN: outside the run, or e is
+ * begins; its reach, max |e|. The error, from the companion: NaN where unknown. QDOT_EDOMAIN: outside the run, or e is
  * undefined in it. */
-typedef enum { QDOT_RANGE_MAX, QDOT_RANGE_MIN, QDOT_RANGE_MEAN, QDOT_RANGE_DRIFT } qdot_range_kind;
+typedef enum {
+    QDOT_RANGE_MAX,
+    QDOT_RANGE_MIN,
+    QDOT_RANGE_MEAN,
+    QDOT_RANGE_DRIFT,
+    QDOT_RANGE_REACH
+} qdot_range_kind;
 QDOT_MUST_CHECK qdot_status qdot_run_range(qdot_run *run, qdot_range_kind kind, qdot_expr e,
                                            double from, double to, double *value, double *error);
 

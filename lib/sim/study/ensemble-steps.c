@@ -42,6 +42,7 @@ struct qdot_ensemble_steps {
     double *sizes;        /* [members x 2n] */
     size_t *passed;       /* [members] */
     bool *doubtful;       /* [members] */
+    qdot_ensemble_starts *starts; /* [members]; NULL: they are not kept */
 };
 
 /* --- building ------------------------------------------------------------------------- */
@@ -49,6 +50,10 @@ struct qdot_ensemble_steps {
 static void
 forget(qdot_ensemble_steps *s)
 {
+    for (size_t m = 0; s->starts && m < s->members; m++)
+        qdot_free(s->starts[m].at);
+    qdot_free(s->starts);
+    s->starts = NULL;
     qdot_free(s->seen);
     qdot_free(s->occurred);
     qdot_free(s->count);
@@ -151,6 +156,11 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
     s->sizes = qdot_calloc(members * 2 * s->n + 1, sizeof *s->sizes);
     s->passed = qdot_calloc(members + 1, sizeof *s->passed);
     s->doubtful = qdot_calloc(members + 1, sizeof *s->doubtful);
+    if (s->of.watching->keep) {
+        s->starts = qdot_calloc(members + 1, sizeof *s->starts);
+        if (!s->starts)
+            return QDOT_ENOMEM;
+    }
     if (!s->seen || !s->occurred || !s->count || !s->sizes || !s->passed || !s->doubtful)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < members * s->asked; i++)
@@ -307,6 +317,21 @@ enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
 }
 
+/* Keep the start of a step, once. */
+static qdot_status
+keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+{
+    const size_t width = 2 * s->n + s->varied;
+    qdot_ensemble_starts *starts = s->starts + step->member;
+
+    if (starts->n > 0 && starts->at[starts->n - width - 1] == step->t)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(starts, step->t));
+    for (size_t i = 0; i < width; i++)
+        QDOT_TRY(qdot_vec_push(starts, step->y[i * L]));
+    return QDOT_OK;
+}
+
 static qdot_status
 tried(const qdot_batch_step *step, void *user)
 {
@@ -317,6 +342,8 @@ tried(const qdot_batch_step *step, void *user)
 
     if (a->member != step->member)
         QDOT_TRY(enter(s, step, a));
+    if (s->starts)
+        QDOT_TRY(keep_start(s, step));
     a->next = a->passed;
     a->step.t_end = step->t_end;
     while (a->next < s->of.n_times
@@ -392,6 +419,12 @@ size_t
 qdot_ensemble_steps_passed(const qdot_ensemble_steps *s, size_t member)
 {
     return s->passed[member];
+}
+
+const qdot_ensemble_starts *
+qdot_ensemble_steps_starts(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->starts + member;
 }
 
 double *

@@ -32,6 +32,7 @@ typedef struct {
     const qdot_ensemble_event *events;
     const qdot_ensemble_bound *bounds;
     bool leave; /* members end as soon as all that is asked of events has been found */
+    bool keep;  /* the starts of all steps are kept (sim/study/ensemble-path.h) */
 } qdot_ensemble_watching;
 
 typedef struct qdot_ensemble_steps qdot_ensemble_steps; /* one a pass */
@@ -54,6 +55,13 @@ void qdot_ensemble_steps_free(qdot_ensemble_steps *s);
 QDOT_MUST_CHECK qdot_status qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members);
 /* Put the callbacks into a system. */
 void qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system);
+
+/* Of a member: the starts of its steps, if they are kept: t and the state, [1 + 2n + varied] each. */
+typedef struct {
+    size_t n, capacity; /* of numbers */
+    double *at;
+} qdot_ensemble_starts;
+const qdot_ensemble_starts *qdot_ensemble_steps_starts(const qdot_ensemble_steps *s, size_t member);
 
 /* Of a member: how many of the times it has passed, and its state there [2n + varied], as the batch
  * has it; the time of occurrence k of an event, a NaN: there is none; how many

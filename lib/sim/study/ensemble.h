@@ -85,6 +85,16 @@ const double *qdot_ensemble_sizes(const qdot_ensemble *e, size_t member);
 const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
 double qdot_ensemble_share(const qdot_ensemble *e, size_t member);
 
+/* The whole way of a pass of a member, if the starts of steps are kept (sim/study/ensemble-path.h):
+ * the number of its points, the end among them, 0 if it did not arrive; point i, as for _state. */
+size_t qdot_ensemble_points(const qdot_ensemble *e, size_t pass, size_t member);
+void qdot_ensemble_point(const qdot_ensemble *e, size_t pass, size_t member, size_t i, double *t,
+                         double *whole);
+/* The order and the tolerance of a pass; the limits and the tolerance asked for. */
+int qdot_ensemble_order(const qdot_ensemble *e, size_t pass);
+double qdot_ensemble_tolerance(const qdot_ensemble *e, size_t pass);
+void qdot_ensemble_limits(const qdot_ensemble *e, double *t0, double *t1, double *tol);
+
 /* Whether the equations read parameter k of those that vary. */
 bool qdot_ensemble_reads(const qdot_ensemble *e, size_t k);
 

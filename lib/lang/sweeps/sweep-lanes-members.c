@@ -1,68 +1,31 @@
-/* sweep-lanes.c -- what fits lanes; members as numbers; columns with their errors. */
-#include "lang/sweeps/sweep-lanes.h"
+/* sweep-lanes-members.c -- what fits lanes; members as numbers. */
+#include "lang/sweeps/sweep-lanes-parts.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "expr/walk.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
-#include "ode/companion.h"
 #include "sim/model/substitute.h"
 #include "sim/model/term-magnitude.h"
-#include "sim/study/ensemble-fit.h"
-#include "sim/study/ensemble.h"
+#include "sim/study/ensemble-path.h"
 #include "tape/constant.h"
-#include "tape/tape.h"
 
-/* A member with a larger error, or more steps, is run alone, which may do better. */
-static const double largest_error = 1e-4;
-enum { MOST_STEPS = 20000, PLACES = 16 };
+/* A member with more steps is run alone, which may do better. */
+enum { MOST_STEPS = 20000 };
 
-/* Under this tolerance the method's error may be less than that of rounding; a distance of so many
- * roundings a step, which add up as a random walk, may be of either. One that is far less at the end
- * than before may be so by chance. Then one companion does not tell enough. */
-static const double least_tol = 3e-11, roundings = 64;
+/* So many members are run at a time if all their steps are kept. */
+enum { KEPT_TOGETHER = 32 };
+
+/* Under this tolerance the method's error may be less than that of rounding. Then one companion does not
+ * tell enough. */
+static const double least_tol = 3e-11;
 
 /* Above this one the distances of single times of events may be small by chance, too: by one companion,
  * of 10,600 times of a pendulum and of Kepler's motion at 1e-6 53 were further off than told, by up to
  * 190 times, by two at 1.01e-6 10, by up to 1.23. */
 static const double most_tol = 1e-9;
-
-/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
-static const double most_between = 30;
-
-/* Coordinates below this may have a scale of their own (sim/run/scales.h). */
-static const double small = 1e-3, nothing = 1e-15;
-
-typedef struct {
-    bool is_event;
-    size_t event, k; /* of `events`; the occurrence less 1 */
-    size_t output;   /* of the tape; its rounding stands behind all outputs */
-} column;
-
-struct qdot_sweep_lanes {
-    qdot_sweep *s;
-    qdot_ensemble *ensemble;
-    size_t least, companions; /* of all members; of those that are run or read */
-    qdot_ensemble_watching watching;
-    qdot_ensemble_bounds bounds;
-    qdot_vec(qdot_ensemble_event) events;
-    qdot_vec(const char *) names; /* of them */
-    column *columns;
-    size_t outputs, n, places; /* expressions; coordinates */
-    qdot_tape *tape;           /* of `outputs` columns, then of the sizes of their terms */
-    double *in, *work, *out;   /* inputs; work space; [passes x 2 outputs] */
-    qdot_vec(qdot_expr) varied;
-    qdot_vec(size_t) axis; /* of varied parameters */
-    double t1;
-    const qdot_ensemble_result *results; /* of the members that are read */
-    bool unsure;           /* of the latest of them: it is to have two companions */
-    bool *made;            /* [members] */
-    char **reasons;        /* [members] */
-};
 
 void
 qdot_sweep_lanes_free(qdot_sweep_lanes *x)
@@ -73,6 +36,7 @@ qdot_sweep_lanes_free(qdot_sweep_lanes *x)
         qdot_free(x->reasons[k]);
     qdot_free(x->reasons);
     qdot_free(x->made);
+    qdot_run_free(x->run);
     qdot_ensemble_free(x->ensemble);
     qdot_free(x->bounds.at);
     qdot_free(x->events.at);
@@ -108,7 +72,7 @@ as_event(const qdot_sweep *s, size_t i, long *k)
 }
 
 static qdot_status
-take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
+take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, qdot_sweep_lanes_column *to)
 {
     qdot_pool *pool = x->s->c->session->pool;
     size_t i = 0;
@@ -123,7 +87,7 @@ take_event(qdot_sweep_lanes *x, const qdot_event *e, long k, column *to)
     }
     if (x->events.at[i].count < (size_t)k)
         x->events.at[i].count = (size_t)k;
-    *to = (column){.is_event = true, .event = i, .k = (size_t)k - 1};
+    *to = (qdot_sweep_lanes_column){.kind = QDOT_LANES_EVENT, .event = i, .k = (size_t)k - 1};
     return qdot_pool_check(pool);
 }
 
@@ -155,11 +119,16 @@ read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
             QDOT_TRY(take_event(x, event, k, &x->columns[i]));
             continue;
         }
+        if (qdot_columns_read_way(x->s->c->session, &x->s->columns, i)) {
+            x->columns[i].kind = QDOT_LANES_WAY;
+            x->ways++;
+            continue;
+        }
         status = qdot_columns_read(&own, &x->s->columns, i, &e[x->outputs]);
         if (status == QDOT_ENOMEM || status == QDOT_EINTR)
             return status;
         if (status != QDOT_OK || !is_of_states(x->s->c->session, e[x->outputs])) {
-            qdot_text_format(why, "%s reads the run, not its end alone",
+            qdot_text_format(why, "%s reads more of a run than its states and the times of events",
                              x->s->table->labels[x->s->table->n_swept + i]);
             return qdot_text_status(why);
         }
@@ -187,9 +156,8 @@ lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
 
 /* --- members ---------------------------------------------------------------------------- */
 
-/* Put the values of member k in force; its request. */
-static qdot_status
-request_of(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
+qdot_status
+qdot_sweep_lanes_request(qdot_sweep *s, size_t k, double *swept, qdot_request *request)
 {
     qdot_session *session = s->c->session;
     const qdot_members *m = &s->members;
@@ -246,6 +214,7 @@ find_varied(qdot_sweep_lanes *x, qdot_text *why)
 static qdot_status
 make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
 {
+    qdot_scene *scene = x->s->c->session->scene;
     qdot_run_request r = of->request;
     qdot_vec(qdot_expr) symbols = {0}, values = {0};
     qdot_status status = QDOT_OK;
@@ -267,14 +236,18 @@ make_ensemble(qdot_sweep_lanes *x, qdot_request *of)
     r.q0 = r.v0 = NULL;
     r.q_named = r.v_named = NULL;
     if (status == QDOT_OK)
-        status = qdot_ensemble_new(x->s->c->session->scene, &r, x->varied.n, x->varied.at,
-                                   &x->ensemble);
+        status = qdot_ensemble_new(scene, &r, x->varied.n, x->varied.at, &x->ensemble);
+    if (status == QDOT_OK && x->ways > 0)
+        status = qdot_ensemble_path_new(&(qdot_ensemble_path_of){x->ensemble, scene, &r,
+                                                                 x->varied.n, x->varied.at},
+                                        &x->run);
     qdot_free(symbols.at);
     qdot_free(values.at);
     return status;
 }
 
-/* Forget varied parameters that nothing but starts read: e [outputs], the columns. */
+/* Forget varied parameters that nothing but starts read: e [outputs], the columns at the end. What the
+ * others read is known when they are read. */
 static bool
 drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
 {
@@ -283,7 +256,7 @@ drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
 
     for (size_t k = 0; k < x->varied.n; k++) {
         const qdot_expr symbol = x->varied.at[k];
-        bool read = qdot_ensemble_reads(x->ensemble, k);
+        bool read = x->ways > 0 || qdot_ensemble_reads(x->ensemble, k);
 
         for (size_t i = 0; i < x->outputs; i++)
             read = read || qdot_expr_contains(pool, e[i], symbol);
@@ -307,7 +280,7 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
     qdot_session *session = x->s->c->session;
     double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
     qdot_expr *e = qdot_calloc(2 * x->s->columns.at.n + 1, sizeof *e);
-    qdot_status status = swept && e ? request_of(x->s, 0, swept, request) : QDOT_ENOMEM;
+    qdot_status status = swept && e ? qdot_sweep_lanes_request(x->s, 0, swept, request) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = find_varied(x, why);
@@ -329,15 +302,19 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
         const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
         x->n = p->n - p->n_states;
-        x->least = request->request.tol < least_tol
+        x->least = x->ways > 0 || request->request.tol < least_tol
                            || (x->events.n > 0 && request->request.tol > most_tol)
                        ? 2
                        : 1;
         for (size_t i = 0; i < x->events.n; i++)
             x->events.at[i].function = qdot_plan_substitute(p, x->events.at[i].function);
         status = qdot_pool_check(session->pool);
-        x->watching = (qdot_ensemble_watching){x->events.n, x->bounds.n, x->events.at,
-                                               x->bounds.at, x->outputs == 0};
+        x->watching = (qdot_ensemble_watching){.n_events = x->events.n,
+                                               .n_bounds = x->bounds.n,
+                                               .events = x->events.at,
+                                               .bounds = x->bounds.at,
+                                               .leave = x->outputs + x->ways == 0,
+                                               .keep = x->ways > 0};
     }
     if (status == QDOT_OK && why->n == 0)
         status = qdot_ensemble_follow(x->ensemble, &x->watching, MOST_STEPS);
@@ -400,7 +377,7 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
     qdot_status status;
 
     QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = request_of(x->s, k, swept, &request);
+    status = qdot_sweep_lanes_request(x->s, k, swept, &request);
     if (status == QDOT_OK && x->varied.n > 0)
         status = qdot_request_masses(session, &request);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++) {
@@ -412,163 +389,6 @@ number_member(qdot_sweep_lanes *x, size_t k, double *y, double *parameters)
         parameters[i] = swept[x->axis.at[i]];
     qdot_request_free(&request);
     qdot_session_restore_values(session, &kept);
-    return status;
-}
-
-/* --- rows ------------------------------------------------------------------------------- */
-
-/* All expressions of that pass of a member at a place, into out [2 outputs]; false: it is not there. */
-static bool
-evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
-{
-    if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
-        return false;
-    x->in[2 * qdot_ensemble_plan(x->ensemble)->n] = t;
-    qdot_tape_eval(x->tape, x->in, out, x->work);
-    return true;
-}
-
-/* The errors of all expressions at a place into errors [outputs]; x->out has them. */
-static bool
-compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
-{
-    const double share = qdot_ensemble_share(x->ensemble, m);
-    const size_t n = 2 * x->outputs;
-
-    for (size_t pass = 0; pass <= x->companions; pass++)
-        if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
-            return false;
-    for (size_t i = 0; i < x->outputs; i++) {
-        const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
-
-        errors[i] = qdot_companion_bound_of(x->out[i], x->companions, theirs, share);
-    }
-    return true;
-}
-
-static int
-by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
-static bool
-is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
-{
-    return x->companions == 1
-           && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
-                           * fmax(1, size);
-}
-
-/* Values and errors of the expressions of a member at its end, [outputs] each. */
-static qdot_status
-read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
-{
-    const size_t n = x->outputs;
-    double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
-    double sorted[PLACES];
-
-    if (between == NULL)
-        return QDOT_ENOMEM;
-    *there = x->places <= PLACES;
-    for (size_t k = 0; k < x->places && *there; k++)
-        *there = compare(x, m, k, between + k * n);
-    *there = *there && compare(x, m, x->places, errors);
-    for (size_t i = 0; i < n && *there; i++) {
-        const double size = fmax(fabs(x->out[i]), x->out[n + i]);
-
-        for (size_t k = 0; k < x->places; k++)
-            sorted[k] = between[k * n + i];
-        qsort(sorted, x->places, sizeof *sorted, by_size);
-        values[i] = x->out[i];
-        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
-                    || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
-        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
-        errors[i] += DBL_EPSILON * size;
-        *there = isfinite(values[i]) && isfinite(errors[i])
-                 && errors[i] <= largest_error * fmax(1, fabs(values[i]));
-    }
-    qdot_free(between);
-    return QDOT_OK;
-}
-
-/* Whether the sizes of a member's coordinates make a run alone look for scales. */
-static bool
-is_small(const qdot_sweep_lanes *x, size_t m)
-{
-    const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
-
-    for (size_t i = 0; i < x->n; i++)
-        if (sizes[i] > nothing && sizes[i] < small)
-            return true;
-    return false;
-}
-
-/* The time of an event and its error; *there is false for a run alone to decide. */
-static qdot_status
-read_event(qdot_sweep_lanes *x, size_t m, const column *of, size_t k, double *to, bool *there)
-{
-    double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
-    qdot_text text = {0};
-
-    for (size_t pass = 0; pass <= x->companions; pass++)
-        t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
-    if (!isnan(t[0])) {
-        *to = t[0];
-        *error = qdot_companion_bound_of(t[0], x->companions, t + 1, 1);
-        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
-        *error += DBL_EPSILON * fabs(t[0]);
-        *there = isfinite(*error); /* a run alone compares the same times */
-        return QDOT_OK;
-    }
-    if (x->reasons[k] != NULL)
-        return QDOT_OK;
-    qdot_text_format(&text, "%s[%zu]: the event occurred %zu time%s in the run",
-                     x->names.at[of->event], of->k + 1,
-                     qdot_ensemble_event_count(x->ensemble, m, of->event),
-                     qdot_ensemble_event_count(x->ensemble, m, of->event) == 1 ? "" : "s");
-    x->reasons[k] = text.at;
-    return qdot_text_status(&text);
-}
-
-/* Row k from member m of the ensemble; it stays unmade for a run alone. */
-static qdot_status
-fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
-{
-    const qdot_ensemble_result *result = x->results + m;
-    qdot_row_table *t = x->s->table;
-    double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
-    double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
-    bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
-    qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
-
-    if (x->outputs > 0)
-        there = there && result->error <= largest_error;
-    if (status == QDOT_OK && there && x->outputs > 0)
-        status = read_end(x, m, of, of + x->outputs, &there);
-    for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
-        const column *c = x->columns + i;
-
-        if (c->is_event) {
-            status = read_event(x, m, c, k, values + t->n_swept + i, &there);
-        } else {
-            values[t->n_swept + i] = of[c->output];
-            errors[t->n_swept + i] = of[x->outputs + c->output];
-        }
-    }
-    qdot_free(of);
-    for (size_t i = 0; i < t->n_swept; i++)
-        errors[i] = 0;
-    for (size_t i = t->n_swept; i < t->n && status == QDOT_OK && !there; i++)
-        values[i] = errors[i] = NAN;
-    if (!there) {
-        qdot_free(x->reasons[k]);
-        x->reasons[k] = NULL;
-    }
-    x->made[k] = there;
     return status;
 }
 
@@ -615,7 +435,7 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     x->results = o->results;
     for (size_t m = 0; m < o->n && status == QDOT_OK; m++) {
         x->unsure = false;
-        status = fill_row(x, m, o->row[m]);
+        status = qdot_sweep_lanes_fill_row(x, m, o->row[m]);
         if (!x->unsure)
             continue;
         memcpy(again->y + again->n * width, starts + m * width, width * sizeof *starts);
@@ -627,8 +447,9 @@ run_members(qdot_sweep_lanes *x, size_t companions, members *o, members *again)
     return status;
 }
 
-qdot_status
-qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+/* Run these members [count], all of them side by side. */
+static qdot_status
+run_together(qdot_sweep_lanes *x, const size_t *rows, size_t count)
 {
     members first = {0}, again = {0};
     qdot_status status = members_init(&first, x, count);
@@ -650,6 +471,16 @@ qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
     members_clear(&first);
     members_clear(&again);
     return status;
+}
+
+qdot_status
+qdot_sweep_lanes_run_rows(qdot_sweep_lanes *x, const size_t *rows, size_t count)
+{
+    const size_t most = x->ways > 0 ? KEPT_TOGETHER : count;
+
+    for (size_t k = 0; k < count; k += most)
+        QDOT_TRY(run_together(x, rows + k, count - k < most ? count - k : most));
+    return QDOT_OK;
 }
 
 qdot_status

@@ -1,4 +1,4 @@
-/* ensemble.c -- a scene lowered with some parameters left open; members and companions. */
+/* ensemble-runs.c -- a scene lowered with some parameters left open; members and companions. */
 #include "sim/study/ensemble.h"
 
 #include <math.h>
@@ -6,62 +6,20 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/walk.h"
 #include "ode/companion.h"
-#include "sim/form/ensemble-series.h"
 #include "sim/model/constrained.h"
 #include "sim/model/parameter-states.h"
-#include "sim/plan/plan.h"
-#include "sim/study/ensemble-momenta.h"
-#include "sim/study/ensemble-steps.h"
+#include "sim/study/ensemble-parts.h"
 #include "tape/constant.h"
-#include "tape/disc.h"
 #include "tape/shake.h"
 
-/* One pass over all members, the runs themselves or their companions. */
-typedef struct {
-    qdot_ensemble_series *series; /* of companions: made when first asked for */
-    qdot_ensemble_steps *steps;   /* NULL: nobody looks */
-    size_t number;                /* 0: the runs; 1, 2: their companions */
-    qdot_batch_run run;
-    double *memory;
-    double *t1;       /* [members] as run.t1 */
-    double *momenta;  /* [n_kept] */
-    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
-    qdot_status status;
-    qdot_error error; /* of a pass on another thread */
-} pass;
-
-struct qdot_ensemble {
-    qdot_plan *plan;                /* parameters that vary are further coordinates of it */
-    qdot_ensemble_momenta *momenta; /* of a plan that is reduced */
-    size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
-    char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
-    size_t n_reasons;
-    size_t companions; /* 1 or 2 */
-    pass passes[QDOT_ENSEMBLE_PASSES];
-    const qdot_ensemble_watching *watching; /* NULL: nobody looks */
-    double *times; /* [n_times] at which states are kept */
-    size_t n_times;
-    uint64_t most_steps;
-    double t0, t1, t1_low, tol;
-    int t1_side;
-    int order;
-};
-
 static void
-pass_clear(pass *p)
+pass_clear(qdot_ensemble_pass *p)
 {
     qdot_free(p->memory);
     qdot_free(p->run.results);
     p->memory = NULL;
     p->run = (qdot_batch_run){0};
-}
-
-static const qdot_plan *
-equations(const qdot_ensemble *e)
-{
-    return e->plan->reduced ? e->plan->reduced : e->plan;
 }
 
 static void
@@ -156,7 +114,7 @@ make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(make_plan(e, scene, request, varied));
     if (e->plan->reduced)
         QDOT_TRY(qdot_ensemble_momenta_new(e->plan->reduced, &e->momenta));
-    return qdot_ensemble_series_new(equations(e), false, e->tol, &e->order,
+    return qdot_ensemble_series_new(qdot_ensemble_equations(e), false, e->tol, &e->order,
                                     &e->passes[0].series);
 }
 
@@ -187,18 +145,6 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- runs --------------------------------------------------------------------------- */
 
-static size_t
-width(const qdot_ensemble *e)
-{
-    return 2 * e->n + e->varied;
-}
-
-static size_t
-n_kept(const qdot_ensemble *e)
-{
-    return equations(e)->n_kept;
-}
-
 /* x [n], or as companion 1 or 2 begins beside them. */
 static void
 put(size_t n, const double *x, size_t companion, double *to)
@@ -211,16 +157,16 @@ put(size_t n, const double *x, size_t companion, double *to)
 
 /* From {.run.order, .run.tol}. */
 static qdot_status
-pass_init(pass *p, const qdot_ensemble *e, size_t members, const double *y,
+pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const double *y,
           const double *parameters)
 {
-    const size_t n = 2 * e->n, kept = n_kept(e);
+    const size_t n = 2 * e->n, kept = qdot_ensemble_kept(e);
     const double t1 = p->number == 1 ? qdot_shake_double(e->t1, e->t1_side) : e->t1;
     double *t0, *t1s;
 
     p->run.t1_low = p->number == 1 ? 0 : e->t1_low;
     p->run.most_steps = e->most_steps;
-    p->memory = qdot_calloc(members * (2 + width(e)) + (members + 1) * kept + 1,
+    p->memory = qdot_calloc(members * (2 + qdot_ensemble_width(e)) + (members + 1) * kept + 1,
                             sizeof *p->memory);
     p->run.results = qdot_calloc(members + 1, sizeof *p->run.results);
     if (!p->memory || !p->run.results)
@@ -228,10 +174,10 @@ pass_init(pass *p, const qdot_ensemble *e, size_t members, const double *y,
     t0 = p->memory;
     t1s = p->t1 = t0 + members;
     p->run.y = t1s + members;
-    p->momenta = p->run.y + members * width(e);
+    p->momenta = p->run.y + members * qdot_ensemble_width(e);
     p->replaced = p->momenta + kept;
     for (size_t m = 0; m < members; m++) {
-        double *to = p->run.y + m * width(e);
+        double *to = p->run.y + m * qdot_ensemble_width(e);
 
         t0[m] = e->t0;
         t1s[m] = t1;
@@ -248,7 +194,7 @@ pass_init(pass *p, const qdot_ensemble *e, size_t members, const double *y,
 static void *
 pass_run(void *user)
 {
-    pass *p = user;
+    qdot_ensemble_pass *p = user;
     qdot_ode_batch system = qdot_ensemble_series_system(p->series);
 
     if (p->steps)
@@ -261,7 +207,7 @@ pass_run(void *user)
 
 /* The order and the tolerance of a pass. */
 static void
-pass_options(const qdot_ensemble *e, pass *p)
+pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const qdot_ode_method *taylor = qdot_ode_method_find("taylor");
 
@@ -276,30 +222,30 @@ pass_options(const qdot_ensemble *e, pass *p)
 
 /* The series of a companion, shaken or not. */
 static qdot_status
-make_series(const qdot_ensemble *e, pass *p)
+make_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     int order = p->run.order;
 
     return p->series ? QDOT_OK
-                     : qdot_ensemble_series_new(equations(e), p->number == 1, e->tol, &order,
+                     : qdot_ensemble_series_new(qdot_ensemble_equations(e), p->number == 1, e->tol, &order,
                                                 &p->series);
 }
 
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
  * does not run. */
 static void
-enter(const qdot_ensemble *e, pass *p)
+enter(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
-    const size_t n = e->n, kept = n_kept(e);
+    const size_t n = e->n, kept = qdot_ensemble_kept(e);
 
     for (size_t m = 0; e->momenta && m < p->run.members; m++) {
-        double *y = p->run.y + m * width(e);
+        double *y = p->run.y + m * qdot_ensemble_width(e);
         const bool finite = qdot_ensemble_momenta_enter(e->momenta, e->t0, y, p->momenta);
 
         if (!finite)
             p->t1[m] = e->t0;
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + equations(e)->kept[c];
+            double *v = y + n + qdot_ensemble_equations(e)->kept[c];
 
             p->replaced[m * kept + c] = *v;
             if (finite)
@@ -310,16 +256,16 @@ enter(const qdot_ensemble *e, pass *p)
 
 /* Replace the momenta by velocities again. */
 static void
-come_back(const qdot_ensemble *e, pass *p)
+come_back(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
-    const size_t n = e->n, kept = n_kept(e);
+    const size_t n = e->n, kept = qdot_ensemble_kept(e);
 
     for (size_t m = 0; e->momenta && m < p->run.members; m++) {
         qdot_batch_result *r = p->run.results + m;
-        double *y = p->run.y + m * width(e);
+        double *y = p->run.y + m * qdot_ensemble_width(e);
 
         for (size_t c = 0; c < kept; c++) {
-            double *v = y + n + equations(e)->kept[c];
+            double *v = y + n + qdot_ensemble_equations(e)->kept[c];
 
             p->momenta[c] = *v;
             *v = p->replaced[m * kept + c];
@@ -360,10 +306,10 @@ start(const qdot_ensemble *e, bool shaken, double *whole, double *y)
 
 /* Members that cannot start do not run; `reasons` [members], NULL: not wanted. */
 static qdot_status
-start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
+start_all(const qdot_ensemble *e, qdot_ensemble_pass *p, char **reasons, double *whole)
 {
     for (size_t m = 0; m < p->run.members; m++) {
-        const qdot_status status = start(e, p->number == 1, whole, p->run.y + m * width(e));
+        const qdot_status status = start(e, p->number == 1, whole, p->run.y + m * qdot_ensemble_width(e));
 
         if (qdot_grave(status) != QDOT_OK)
             return status;
@@ -383,7 +329,7 @@ start_all(const qdot_ensemble *e, pass *p, char **reasons, double *whole)
 static qdot_status
 start_passes(qdot_ensemble *e, size_t passes)
 {
-    pass *runs = e->passes;
+    qdot_ensemble_pass *runs = e->passes;
     double *whole;
     qdot_status status = QDOT_OK;
 
@@ -432,7 +378,7 @@ run_passes(qdot_ensemble *e, size_t passes)
 
 /* Whether a companion has gone as far as its run. */
 static bool
-arrived(const qdot_ensemble *e, const pass *companions, size_t m)
+arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
 {
     return companions->run.results[m].outcome == QDOT_BATCH_DONE &&
            (companions->t1[m] != e->t0 || e->t1 == e->t0);
@@ -448,7 +394,7 @@ end_error(const qdot_ensemble *e, size_t m)
     for (size_t k = 0; k <= e->companions; k++) {
         if (k > 0 && !arrived(e, e->passes + k, m))
             return NAN;
-        y[k] = e->passes[k].run.y + m * width(e);
+        y[k] = e->passes[k].run.y + m * qdot_ensemble_width(e);
     }
     for (size_t i = 0; i < 2 * e->n; i++) {
         const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
@@ -472,12 +418,12 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
     static const char *const constrained =
         "no step is small enough: the constraints cannot be held, are not independent or no mass "
         "moves along them there, or it is a singularity";
-    const pass *runs = e->passes;
+    const qdot_ensemble_pass *runs = e->passes;
     size_t n = 2 * e->n;
 
     for (size_t m = 0; m < runs->run.members; m++) {
         const qdot_batch_result *r = runs->run.results + m;
-        const double *mine = runs->run.y + m * width(e);
+        const double *mine = runs->run.y + m * qdot_ensemble_width(e);
         const char *why = e->reasons[m] ? e->reasons[m] : reasons[r->outcome];
 
         if (r->outcome == QDOT_BATCH_STUCK && e->plan->constraints)
@@ -496,7 +442,7 @@ report(const qdot_ensemble *e, bool errors, double *y, qdot_ensemble_result *res
 
 /* What looks at the steps of a pass. */
 static qdot_status
-follow_pass(const qdot_ensemble *e, pass *p)
+follow_pass(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const qdot_ensemble_steps_of of = {.plan = e->plan,
                                        .watching = e->watching,
@@ -518,7 +464,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < passes && status == QDOT_OK; k++) {
-        pass *p = e->passes + k;
+        qdot_ensemble_pass *p = e->passes + k;
 
         p->number = k;
         pass_options(e, p);
@@ -539,152 +485,4 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     if (status == QDOT_OK)
         report(e, errors, y, results);
     return status;
-}
-
-/* --- what is seen on the way ---------------------------------------------------------- */
-
-/* Whether an event reads what is no part of the state that is integrated. */
-static bool
-reads_kept(const qdot_ensemble *e, qdot_expr g)
-{
-    for (size_t c = 0; c < n_kept(e); c++)
-        if (qdot_expr_contains(e->plan->pool, g, e->plan->inputs[e->plan->n + equations(e)->kept[c]]))
-            return true;
-    return false;
-}
-
-qdot_status
-qdot_ensemble_follow(qdot_ensemble *e, const qdot_ensemble_watching *watching,
-                     uint64_t most_steps)
-{
-    size_t places;
-    const double *part = qdot_companion_places(&places);
-
-    for (size_t i = 0; i < watching->n_events; i++)
-        if (reads_kept(e, watching->events[i].function))
-            return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles with an event that reads a "
-                                             "velocity whose momentum is kept");
-    if (n_kept(e) > 0 && e->plan->tape
-        && qdot_disc_may_hide(e->plan->tape, QDOT_HIDES_EXPONENTIALS))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles that keep momenta and look for "
-                                         "forces which act for less than a step");
-    e->watching = watching;
-    e->most_steps = most_steps;
-    e->n_times = (places + 1) / 2;
-    e->times = qdot_calloc(e->n_times + 1, sizeof *e->times);
-    if (!e->times)
-        return QDOT_ENOMEM;
-    for (size_t k = 0; k < e->n_times; k++) /* half of them */
-        e->times[k] = e->t0 + part[2 * k] * (e->t1 - e->t0);
-    return QDOT_OK;
-}
-
-void
-qdot_ensemble_companions(qdot_ensemble *e, size_t companions)
-{
-    e->companions = companions;
-}
-
-bool
-qdot_ensemble_left(const qdot_ensemble *e, size_t m)
-{
-    const pass *p = e->passes;
-    const qdot_batch_outcome outcome = p->run.results[m].outcome;
-
-    return e->reasons[m] || qdot_ensemble_steps_doubtful(p->steps, m) ||
-           (outcome != QDOT_BATCH_DONE && outcome != QDOT_BATCH_LEFT);
-}
-
-/* The batch's state y, with momenta where the way was not over, as q, parameters, q', 0. */
-static void
-write_whole(const qdot_ensemble *e, double t, double *y, bool raw, double *whole)
-{
-    const size_t n = e->n, kept = n_kept(e), bytes = sizeof *y;
-
-    memcpy(whole, y, n * bytes);
-    memcpy(whole + n, y + 2 * n, e->varied * bytes);
-    memcpy(whole + n + e->varied, y + n, n * bytes);
-    memset(whole + 2 * n + e->varied, 0, e->varied * bytes);
-    if (!raw || kept == 0)
-        return;
-    for (size_t c = 0; c < kept; c++)
-        e->passes[0].momenta[c] = y[n + equations(e)->kept[c]];
-    qdot_ensemble_momenta_derive(e->momenta, t, e->passes[0].momenta, y);
-    memcpy(whole + n + e->varied, y + n, n * bytes);
-    for (size_t c = 0; c < kept; c++) /* as it was */
-        y[n + equations(e)->kept[c]] = e->passes[0].momenta[c];
-}
-
-bool
-qdot_ensemble_state(const qdot_ensemble *e, size_t k, size_t m, size_t place, double *whole)
-{
-    const pass *p = e->passes + k;
-
-    if (place < e->n_times) {
-        if (qdot_ensemble_steps_passed(p->steps, m) <= place)
-            return false;
-        write_whole(e, e->times[place], qdot_ensemble_steps_state(p->steps, m, place), true, whole);
-        return true;
-    }
-    if (p->run.results[m].outcome != QDOT_BATCH_DONE || p->t1[m] == e->t0)
-        return false;
-    write_whole(e, e->t1, p->run.y + m * width(e), false, whole);
-    return true;
-}
-
-double
-qdot_ensemble_event_time(const qdot_ensemble *e, size_t k, size_t m, size_t event, size_t which)
-{
-    return qdot_ensemble_steps_event(e->passes[k].steps, m, event, which);
-}
-
-size_t
-qdot_ensemble_event_count(const qdot_ensemble *e, size_t m, size_t event)
-{
-    return qdot_ensemble_steps_count(e->passes[0].steps, m, event);
-}
-
-size_t
-qdot_ensemble_places(const qdot_ensemble *e)
-{
-    return e->n_times;
-}
-
-double
-qdot_ensemble_time(const qdot_ensemble *e, size_t place)
-{
-    return place < e->n_times ? e->times[place] : e->t1;
-}
-
-const double *
-qdot_ensemble_sizes(const qdot_ensemble *e, size_t m)
-{
-    return qdot_ensemble_steps_sizes(e->passes[0].steps, m);
-}
-
-const qdot_plan *
-qdot_ensemble_plan(const qdot_ensemble *e)
-{
-    return e->plan;
-}
-
-bool
-qdot_ensemble_reads(const qdot_ensemble *e, size_t k)
-{
-    const qdot_plan *p = e->plan;
-    const qdot_expr of = p->inputs[e->n + k];
-    bool reads = p->constraints || !p->M;
-
-    for (size_t i = 0; i < p->n && !reads; i++) {
-        reads = qdot_expr_contains(p->pool, p->f[i], of);
-        for (size_t j = 0; j < p->n && !reads; j++)
-            reads = qdot_expr_contains(p->pool, p->M[i * p->n + j], of);
-    }
-    return reads;
-}
-
-double
-qdot_ensemble_share(const qdot_ensemble *e, size_t m)
-{
-    return fmin(1, sqrt((double)e->passes[0].run.results[m].steps) / QDOT_COMPANION_FAR);
 }

@@ -1,0 +1,231 @@
+/* sweep-lanes-rows.c -- rows of members that were run side by side: columns with their errors. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lang/runs/own-run.h"
+#include "lang/session/bind.h"
+#include "lang/sweeps/sweep-lanes-parts.h"
+#include "ode/companion.h"
+#include "sim/study/ensemble-path.h"
+
+/* A member with a larger error is run alone, which may do better. */
+static const double largest_error = 1e-4;
+enum { PLACES = 16 };
+
+/* A distance of so many roundings a step, which add up as a random walk, may be of rounding; one that is
+ * far less at the end than before may be so by chance. Then one companion does not tell enough. */
+static const double roundings = 64;
+
+/* Of the distances before the end the median counts, to so many times that there (ode/companion.h). */
+static const double most_between = 30;
+
+/* Coordinates below this may have a scale of their own (sim/run/scales.h). */
+static const double small = 1e-3, nothing = 1e-15;
+
+/* All expressions of that pass of a member at a place, into out [2 outputs]; false: it is not there. */
+static bool
+evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
+{
+    if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
+        return false;
+    x->in[2 * qdot_ensemble_plan(x->ensemble)->n] = t;
+    qdot_tape_eval(x->tape, x->in, out, x->work);
+    return true;
+}
+
+/* The errors of all expressions at a place into errors [outputs]; x->out has them. */
+static bool
+compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
+{
+    const double share = qdot_ensemble_share(x->ensemble, m);
+    const size_t n = 2 * x->outputs;
+
+    for (size_t pass = 0; pass <= x->companions; pass++)
+        if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
+            return false;
+    for (size_t i = 0; i < x->outputs; i++) {
+        const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
+
+        errors[i] = qdot_companion_bound_of(x->out[i], x->companions, theirs, share);
+    }
+    return true;
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Whether an error of a number of that size may be that of rounding, which takes two companions. */
+static bool
+is_of_rounding(const qdot_sweep_lanes *x, size_t m, double error, double size)
+{
+    return x->companions == 1
+           && error <= roundings * DBL_EPSILON * sqrt((double)(x->results[m].steps + 1))
+                           * fmax(1, size);
+}
+
+static bool
+is_good(double value, double error)
+{
+    return isfinite(value) && isfinite(error)
+           && error <= largest_error * fmax(1, fabs(value));
+}
+
+/* Values and errors of the expressions of a member at its end, [outputs] each. */
+static qdot_status
+read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *there)
+{
+    const size_t n = x->outputs;
+    double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
+    double sorted[PLACES];
+
+    if (between == NULL)
+        return QDOT_ENOMEM;
+    *there = x->places <= PLACES;
+    for (size_t k = 0; k < x->places && *there; k++)
+        *there = compare(x, m, k, between + k * n);
+    *there = *there && compare(x, m, x->places, errors);
+    for (size_t i = 0; i < n && *there; i++) {
+        const double size = fmax(fabs(x->out[i]), x->out[n + i]);
+
+        for (size_t k = 0; k < x->places; k++)
+            sorted[k] = between[k * n + i];
+        qsort(sorted, x->places, sizeof *sorted, by_size);
+        values[i] = x->out[i];
+        x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
+                    || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
+        errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
+        errors[i] += DBL_EPSILON * size;
+        *there = is_good(values[i], errors[i]);
+    }
+    qdot_free(between);
+    return QDOT_OK;
+}
+
+/* Whether the sizes of a member's coordinates make a run alone look for scales. */
+static bool
+is_small(const qdot_sweep_lanes *x, size_t m)
+{
+    const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
+
+    for (size_t i = 0; i < x->n; i++)
+        if (sizes[i] > nothing && sizes[i] < small)
+            return true;
+    return false;
+}
+
+/* The time of an event and its error; *there is false for a run alone to decide. */
+static qdot_status
+read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, size_t k, double *to, bool *there)
+{
+    double t[QDOT_ENSEMBLE_PASSES], *error = x->s->table->errors + (to - x->s->table->values);
+    qdot_text text = {0};
+
+    for (size_t pass = 0; pass <= x->companions; pass++)
+        t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
+    if (!isnan(t[0])) {
+        *to = t[0];
+        *error = qdot_companion_bound_of(t[0], x->companions, t + 1, 1);
+        x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
+        *error += DBL_EPSILON * fabs(t[0]);
+        *there = isfinite(*error); /* a run alone compares the same times */
+        return QDOT_OK;
+    }
+    if (x->reasons[k] != NULL)
+        return QDOT_OK;
+    qdot_text_format(&text, "%s[%zu]: the event occurred %zu time%s in the run",
+                     x->names.at[of->event], of->k + 1,
+                     qdot_ensemble_event_count(x->ensemble, m, of->event),
+                     qdot_ensemble_event_count(x->ensemble, m, of->event) == 1 ? "" : "s");
+    x->reasons[k] = text.at;
+    return qdot_text_status(&text);
+}
+
+/* The columns that read the way, while the member is the latest run. What fails a run alone tells. */
+static qdot_status
+measure_way(qdot_sweep_lanes *x, qdot_expr end, double *values, double *errors, bool *there)
+{
+    qdot_cursor own = *x->s->c;
+
+    for (size_t i = 0; i < x->s->columns.at.n && *there; i++) {
+        qdot_status status;
+
+        if (x->columns[i].kind != QDOT_LANES_WAY)
+            continue;
+        status = qdot_columns_measure(&own, &x->s->columns, i, end, values + i, errors + i);
+        if (status == QDOT_ENOMEM || status == QDOT_EINTR)
+            return status;
+        *there = status == QDOT_OK && is_good(values[i], errors[i]);
+    }
+    return QDOT_OK;
+}
+
+/* The same of row k, with its values in force, into values and errors [columns]. */
+static qdot_status
+read_way(qdot_sweep_lanes *x, size_t m, size_t k, double *values, double *errors, bool *there)
+{
+    qdot_session *session = x->s->c->session;
+    const size_t measured = session->measured.n;
+    qdot_kept_values kept;
+    qdot_request request = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_ensemble_path_take(x->ensemble, m, x->run, there));
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = qdot_sweep_lanes_request(x->s, k, x->s->table->values + k * x->s->table->n, &request);
+    if (status == QDOT_OK && *there)
+        status = qdot_own_run_lend(session, &request, x->run);
+    if (status == QDOT_OK && *there) {
+        status = measure_way(x, request.request.t1, values, errors, there);
+        qdot_own_run_take_back(session);
+    }
+    session->measured.n = measured;
+    qdot_request_free(&request);
+    qdot_session_restore_values(session, &kept);
+    return status;
+}
+
+qdot_status
+qdot_sweep_lanes_fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
+{
+    const qdot_ensemble_result *result = x->results + m;
+    qdot_row_table *t = x->s->table;
+    double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
+    double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
+    bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
+    qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
+
+    if (x->outputs + x->ways > 0)
+        there = there && result->error <= largest_error;
+    if (status == QDOT_OK && there && x->outputs > 0)
+        status = read_end(x, m, of, of + x->outputs, &there);
+    if (status == QDOT_OK && there && x->ways > 0)
+        status = read_way(x, m, k, values + t->n_swept, errors + t->n_swept, &there);
+    for (size_t i = 0; i < t->n - t->n_swept && status == QDOT_OK && there; i++) {
+        const qdot_sweep_lanes_column *c = x->columns + i;
+
+        if (c->kind == QDOT_LANES_EVENT) {
+            status = read_event(x, m, c, k, values + t->n_swept + i, &there);
+        } else if (c->kind == QDOT_LANES_AT_END) {
+            values[t->n_swept + i] = of[c->output];
+            errors[t->n_swept + i] = of[x->outputs + c->output];
+        }
+    }
+    qdot_free(of);
+    for (size_t i = 0; i < t->n_swept; i++)
+        errors[i] = 0;
+    for (size_t i = t->n_swept; i < t->n && status == QDOT_OK && !there; i++)
+        values[i] = errors[i] = NAN;
+    if (!there) {
+        qdot_free(x->reasons[k]);
+        x->reasons[k] = NULL;
+    }
+    x->made[k] = there;
+    return status;
+}
