@@ -155,6 +155,7 @@ library_sources = \
 	lib/lang/session/undo.c \
 	lib/lang/session/value-kind.c \
 	lib/lang/slopes/floquet.c \
+	lib/lang/slopes/free-request.c \
 	lib/lang/slopes/lyapunov.c \
 	lib/lang/slopes/orbit-run.c \
 	lib/lang/slopes/sensitivity.c \
@@ -181,6 +182,7 @@ library_sources = \
 	lib/lang/unknowns/branches.c \
 	lib/lang/unknowns/continue-orbit.c \
 	lib/lang/unknowns/continue.c \
+	lib/lang/unknowns/find-orbit.c \
 	lib/lang/unknowns/find-read.c \
 	lib/lang/unknowns/find.c \
 	lib/lang/unknowns/fit-answer.c \
@@ -593,6 +595,7 @@ library_sources = \
 	lib/sim/study/rest-bifurcation.c \
 	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
+	lib/sim/study/shooting.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -735,6 +738,7 @@ library_headers = \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/slopes/free-request.h \
 	lib/lang/slopes/orbit-run.h \
 	lib/lang/slopes/slopes.h \
 	lib/lang/slopes/trial.h \
@@ -1103,6 +1107,7 @@ library_headers = \
 	lib/sim/study/rest-bifurcation.h \
 	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
+	lib/sim/study/shooting.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1293,6 +1298,7 @@ unit_tests = \
 	tests/sim/test_response \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_shooting \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
@@ -1374,6 +1380,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/figures.sh \
+	tests/script/find-orbit.sh \
 	tests/script/find.sh \
 	tests/script/fit.sh \
 	tests/script/flat-places.lag \
@@ -2418,6 +2425,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/figures.out \
+	tests/script/find-orbit.out \
 	tests/script/find.out \
 	tests/script/fit.out \
 	tests/script/flat-places.out \
@@ -2544,6 +2552,7 @@ test_files = \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
+	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
@@ -2737,6 +2746,7 @@ example_files = \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
 	examples/kapitza-boundary.lag \
+	examples/kapitza-boundary.svg \
 	examples/kapitza.lag \
 	examples/kapitza.svg \
 	examples/kepler.lag \
