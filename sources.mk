@@ -155,6 +155,7 @@ library_sources = \
 	lib/lang/session/undo.c \
 	lib/lang/session/value-kind.c \
 	lib/lang/slopes/floquet.c \
+	lib/lang/slopes/free-request.c \
 	lib/lang/slopes/lyapunov.c \
 	lib/lang/slopes/orbit-run.c \
 	lib/lang/slopes/sensitivity.c \
@@ -181,6 +182,7 @@ library_sources = \
 	lib/lang/unknowns/branches.c \
 	lib/lang/unknowns/continue-orbit.c \
 	lib/lang/unknowns/continue.c \
+	lib/lang/unknowns/find-orbit.c \
 	lib/lang/unknowns/find-read.c \
 	lib/lang/unknowns/find.c \
 	lib/lang/unknowns/fit-answer.c \
@@ -593,6 +595,7 @@ library_sources = \
 	lib/sim/study/rest-bifurcation.c \
 	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
+	lib/sim/study/shooting.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -609,6 +612,7 @@ library_sources = \
 	lib/tape/finish.c \
 	lib/tape/interval.c \
 	lib/tape/keymap.c \
+	lib/tape/logistic.c \
 	lib/tape/lower.c \
 	lib/tape/shake.c \
 	lib/tape/tape.c
@@ -735,6 +739,7 @@ library_headers = \
 	lib/lang/session/undo-state.h \
 	lib/lang/session/undo.h \
 	lib/lang/session/value-kind.h \
+	lib/lang/slopes/free-request.h \
 	lib/lang/slopes/orbit-run.h \
 	lib/lang/slopes/slopes.h \
 	lib/lang/slopes/trial.h \
@@ -1103,6 +1108,7 @@ library_headers = \
 	lib/sim/study/rest-bifurcation.h \
 	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
+	lib/sim/study/shooting.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1121,6 +1127,7 @@ library_headers = \
 	lib/tape/interval.def \
 	lib/tape/interval.h \
 	lib/tape/keymap.h \
+	lib/tape/logistic.h \
 	lib/tape/operation.def \
 	lib/tape/shake.h \
 	lib/tape/tape.h
@@ -1293,6 +1300,7 @@ unit_tests = \
 	tests/sim/test_response \
 	tests/sim/test_routh \
 	tests/sim/test_run \
+	tests/sim/test_shooting \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
@@ -1307,6 +1315,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
+	tests/tape/test_logistic \
 	tests/tape/test_tape
 
 script_tests = \
@@ -1366,6 +1375,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
 	tests/script/events.lag \
@@ -1373,7 +1383,9 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/far-sides.lag \
 	tests/script/figures.sh \
+	tests/script/find-orbit.sh \
 	tests/script/find.sh \
 	tests/script/fit.sh \
 	tests/script/flat-places.lag \
@@ -1489,6 +1501,7 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/state-rounding.sh \
 	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
@@ -2410,6 +2423,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \
 	tests/script/events.out \
@@ -2417,7 +2431,9 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/far-sides.out \
 	tests/script/figures.out \
+	tests/script/find-orbit.out \
 	tests/script/find.out \
 	tests/script/fit.out \
 	tests/script/flat-places.out \
@@ -2550,6 +2566,7 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/state-rounding.out \
 	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \

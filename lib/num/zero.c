@@ -53,7 +53,7 @@ choose_units(search *s)
     const size_t n = s->p->n, m = s->p->m;
 
     for (size_t j = 0; j < n; j++)
-        s->unit[j] = s->r->u[j] != 0 ? fabs(s->r->u[j]) : 1;
+        s->unit[j] = s->p->unit != NULL ? s->p->unit[j] : s->r->u[j] != 0 ? fabs(s->r->u[j]) : 1;
     for (size_t i = 0; i < m; i++) {
         double sum = 0;
 
@@ -312,7 +312,7 @@ descend(search *s)
     memcpy(guess, s->r->u, n * sizeof *guess);
     status = search_once(s, &done);
     copy_result(s, s->r, &best);
-    for (int k = 1; k <= TRIES && status == QDOT_OK && !done; k++) {
+    for (int k = 1; k <= TRIES && status == QDOT_OK && !done && !s->p->once; k++) {
         if (best.answer == QDOT_ZERO_FLAT || best.answer == QDOT_ZERO_NOWHERE)
             break;
         for (size_t j = 0; j < n; j++) {

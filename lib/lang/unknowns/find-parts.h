@@ -38,6 +38,10 @@ size_t qdot_find_count(const qdot_find *f);
  * long it is. */
 QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from,
                                              qdot_expr *to);
+/* The guess u of a periodic orbit, *moved to the orbit by multiple shooting where motions near it grow
+ * (sim/study/shooting.h); as it was where these do not, where it does not lead to one, or where more than a return
+ * is asked for. */
+QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, double *u, bool *moved);
 /* What must vanish [qdot_find_count], of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);

@@ -17,6 +17,7 @@ typedef struct {
     qdot_trial trial;
     size_t m;
     double *at;         /* [n] where the trial is open */
+    double *unit;       /* [n] of the unknowns, from a guess that was moved */
     qdot_expr *values;  /* [n] the same, exact */
     qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
@@ -341,14 +342,19 @@ search(hunt *h, qdot_zero_result *r)
                                  .high = f->high.at};
 
     memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
+    for (size_t i = 0; i < p.n; i++)
+        h->unit[i] = r->u[i] != 0 ? fabs(r->u[i]) : 1;
     QDOT_TRY(take_values(h, r->u));
     QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
     QDOT_TRY(find_length(h, &h->length));
     if (f->returns) {
-        bool moves;
+        bool moves, moved = false;
 
         QDOT_TRY(does_not_rest(r->u, &moves, h));
         p.wanted = moves ? does_not_rest : NULL;
+        if (moves)
+            QDOT_TRY(qdot_find_shoot(f, r->u, &moved));
+        p.unit = moved ? h->unit : NULL;
     }
     QDOT_TRY(qdot_zero_find(&p, r));
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
@@ -365,12 +371,13 @@ carry_out(qdot_find *f)
                         .n = n,
                         .unknowns = f->unknowns.at,
                         .options = &f->run}};
-    double *room = qdot_calloc(3 * n + 2 * m + 1, sizeof *room);
+    double *room = qdot_calloc(4 * n + 2 * m + 1, sizeof *room);
     qdot_zero_result r = {
-        .u = room, .error = room + n, .f = room + 3 * n, .f_error = room + 3 * n + m};
+        .u = room, .error = room + n, .f = room + 4 * n, .f_error = room + 4 * n + m};
     qdot_status status = QDOT_ENOMEM;
 
     h.at = room + 2 * n;
+    h.unit = room + 3 * n;
     h.values = qdot_calloc(n + m + 1, sizeof *h.values);
     if (room != NULL && h.values != NULL) {
         h.e = h.values + n;

@@ -8,6 +8,7 @@
 #include "lang/unknowns/fit-parts.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/slopes/free-request.h"
 #include "sim/study/response.h"
 
 /* Values by the run with slopes and by an ordinary one that are further apart, relative to max(1, |value|), beside
@@ -61,67 +62,17 @@ find_guesses(qdot_fit *f)
     return QDOT_OK;
 }
 
-/* Values and start in the unknowns. */
-static qdot_status
-free_unknowns(model *x)
-{
-    qdot_session *session = x->f->session;
-    qdot_pool *pool = session->pool;
-    const qdot_run_request *had = &x->f->order.request;
-    const size_t n = session->scene->coordinates.n;
-
-    for (size_t i = 0; i < had->n_values; i++) {
-        const size_t at =
-            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, had->symbols[i]);
-
-        x->values[i] = at == session->set_symbols.n
-                           ? had->values[i]
-                           : qdot_session_bind(session, session->set_values.at[at]);
-    }
-    for (size_t i = 0; i < 2 * n; i++) {
-        const qdot_expr jet =
-            qdot_symbol_jet(pool, session->scene->coordinates.at[i % n], i >= n);
-        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
-        const bool unknown = qdot_expr_place(x->f->unknowns.names.n, x->unknowns, jet)
-                             < x->f->unknowns.names.n;
-
-        x->named[i] = unknown || at < session->start_symbols.n;
-        x->start[i] = unknown                          ? jet
-                      : at == session->start_symbols.n ? QDOT_ZERO
-                                                       : qdot_session_bind(
-                                                           session, session->start_values.at[at]);
-    }
-    return qdot_pool_check(pool);
-}
-
 static qdot_status
 make_request(model *x)
 {
     qdot_fit *f = x->f;
-    const size_t n = f->session->scene->coordinates.n;
-    qdot_kept_values kept;
-    qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < f->unknowns.names.n; k++) {
         x->unknowns[k] = f->unknowns.names.at[k].symbol;
         x->names[k] = f->unknowns.names.at[k].label;
     }
-    QDOT_TRY(qdot_session_keep_values(f->session, &kept));
-    for (size_t k = 0; k < f->unknowns.names.n && status == QDOT_OK; k++)
-        if (qdot_slopes_is_parameter(&f->unknowns, k))
-            qdot_session_set(f->session, x->unknowns[k], x->unknowns[k], &status);
-    if (status == QDOT_OK)
-        status = free_unknowns(x);
-    qdot_session_restore_values(f->session, &kept);
-    QDOT_TRY(status);
-    x->request = f->order.request;
-    x->request.values = x->values;
-    x->request.q0 = x->start;
-    x->request.v0 = x->start + n;
-    x->request.q_named = x->named;
-    x->request.v_named = x->named + n;
-    x->request.scales = NULL;
-    return QDOT_OK;
+    return qdot_free_request(f->session, f->unknowns.names.n, x->unknowns, &f->order.request, x->values,
+                             x->start, x->named, &x->request);
 }
 
 /* --- the search ------------------------------------------------------------------------------- */

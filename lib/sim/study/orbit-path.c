@@ -64,7 +64,7 @@ ask(qdot_orbit_path *x, const double *y)
 
     if (!(T > 0) || !isfinite(T))
         return qdot_fail(QDOT_EDOMAIN, "the period is not positive");
-    QDOT_TRY(qdot_response_run(x->response[x->by], x->u, times[1]));
+    QDOT_TRY(qdot_response_run(x->response[x->by], x->u, times[0], times[1]));
     return qdot_response_read(x->response[x->by], 2, times, x->values, x->slopes);
 }
 

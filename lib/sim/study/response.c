@@ -289,10 +289,9 @@ rewind_course(qdot_course *c)
 }
 
 static qdot_status
-run(qdot_response *r, double t1)
+run(qdot_response *r, double t0, double t1)
 {
     const qdot_ode_options options = {.tol = r->run_request.tol};
-    const double t0 = r->run.t0;
 
     rewind_course(&r->course);
     qdot_progress_begin(t0, t1, "run with slopes");
@@ -359,10 +358,10 @@ prepare(qdot_response *r, const double *u)
 }
 
 qdot_status
-qdot_response_run(qdot_response *r, const double *u, double t1)
+qdot_response_run(qdot_response *r, const double *u, double t0, double t1)
 {
     QDOT_TRY(prepare(r, u));
-    return run(r, t1);
+    return run(r, t0, t1);
 }
 
 qdot_status
@@ -370,7 +369,7 @@ qdot_response_at(qdot_response *r, const double *u, double *values, double *slop
 {
     QDOT_TRY(prepare(r, u));
     if (r->of.n_times > 0)
-        QDOT_TRY(run(r, r->run.t1));
+        QDOT_TRY(run(r, r->run.t0, r->run.t1));
     return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
 }
 

@@ -40,9 +40,10 @@ void qdot_response_free(qdot_response *r);
 QDOT_MUST_CHECK qdot_status qdot_response_at(qdot_response *r, const double *u, double *values,
                                              double *slopes);
 
-/* The same in parts: the run at u from t0 to a t1 of its own; then values [n_times x m] and slopes
+/* The same in parts: the run at u from t0 to t1, times of its own; then values [n_times x m] and slopes
  * [n_times x m x k] (NULL: not wanted) at any times of the latest run. */
-QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u, double t1);
+QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u, double t0,
+                                              double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
 

@@ -1,0 +1,61 @@
+/* free-request.c -- values and start in the unknowns. */
+#include "lang/slopes/free-request.h"
+
+#include "expr/walk.h"
+#include "lang/session/bind.h"
+
+/* With the unknown parameters in force as their own values. */
+static qdot_status
+fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
+     qdot_expr *values, qdot_expr *start, bool *named)
+{
+    const size_t n = session->scene->coordinates.n;
+
+    for (size_t i = 0; i < had->n_values; i++) {
+        const size_t at =
+            qdot_expr_place(session->set_symbols.n, session->set_symbols.at, had->symbols[i]);
+
+        values[i] = at == session->set_symbols.n
+                        ? had->values[i]
+                        : qdot_session_bind(session, session->set_values.at[at]);
+    }
+    for (size_t i = 0; i < 2 * n; i++) {
+        const qdot_expr jet =
+            qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
+        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet);
+        const bool unknown = qdot_expr_place(k, unknowns, jet) < k;
+
+        named[i] = unknown || at < session->start_symbols.n;
+        start[i] = unknown                          ? jet
+                   : at == session->start_symbols.n ? QDOT_ZERO
+                                                    : qdot_session_bind(
+                                                        session, session->start_values.at[at]);
+    }
+    return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
+                  const qdot_run_request *had, qdot_expr *values, qdot_expr *start, bool *named,
+                  qdot_run_request *free)
+{
+    const size_t n = session->scene->coordinates.n;
+    qdot_kept_values kept;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    for (size_t i = 0; i < k && status == QDOT_OK; i++)
+        if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_PARAM))
+            qdot_session_set(session, unknowns[i], unknowns[i], &status);
+    if (status == QDOT_OK)
+        status = fill(session, k, unknowns, had, values, start, named);
+    qdot_session_restore_values(session, &kept);
+    *free = *had;
+    free->values = values;
+    free->q0 = start;
+    free->v0 = start + n;
+    free->q_named = named;
+    free->v_named = named + n;
+    free->scales = NULL;
+    return status;
+}

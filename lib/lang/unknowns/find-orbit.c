@@ -1,0 +1,109 @@
+/* find-orbit.c -- the guess of a periodic orbit, moved to it by multiple shooting. */
+#include "base/memory.h"
+#include "lang/session/bind.h"
+#include "lang/session/measured.h"
+#include "lang/slopes/free-request.h"
+#include "lang/unknowns/find-parts.h"
+#include "sim/study/shooting.h"
+
+typedef struct {
+    const qdot_find *f;
+    size_t k, n;
+    qdot_expr *unknowns, *at; /* [k] symbols, the guesses */
+    const char **names;       /* [k] */
+    qdot_expr *values, *start; /* [n_values], [2n] */
+    bool *named;              /* [2n] */
+    qdot_request order;       /* of the run of the guess */
+    qdot_run_request free;    /* in the unknowns */
+    qdot_expr period;
+} guess;
+
+static qdot_status
+begin(guess *x)
+{
+    qdot_pool *pool = x->f->c->session->pool;
+
+    x->unknowns = qdot_calloc(2 * x->k + 2 * x->n + 1, sizeof *x->unknowns);
+    x->names = qdot_calloc(x->k + 1, sizeof *x->names);
+    x->named = qdot_calloc(2 * x->n + 1, sizeof *x->named);
+    if (!x->unknowns || !x->names || !x->named)
+        return QDOT_ENOMEM;
+    x->at = x->unknowns + x->k;
+    x->start = x->at + x->k;
+    for (size_t i = 0; i < x->k; i++) {
+        x->unknowns[i] = x->f->unknowns.at[i].symbol;
+        x->names[i] = x->f->unknowns.at[i].label;
+        x->at[i] = qdot_measured_rational(pool, x->f->guess.at[i]);
+    }
+    return qdot_pool_check(pool);
+}
+
+/* The request, start and period in the unknowns, with the guesses in force. */
+static qdot_status
+make_request(guess *x)
+{
+    qdot_session *session = x->f->c->session;
+    qdot_expr from, to, last;
+
+    QDOT_TRY(qdot_find_limits(x->f, &from, &to));
+    last = qdot_session_bind(session, to);
+    from = qdot_session_bind(session, from);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    QDOT_TRY(qdot_run_options_fill(session, &x->f->run, from, last, &x->order));
+    x->values = qdot_calloc(x->order.request.n_values + 1, sizeof *x->values);
+    if (x->values == NULL)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_free_request(session, x->k, x->unknowns, &x->order.request, x->values, x->start, x->named,
+                               &x->free));
+    for (size_t i = 0; i < x->k; i++) /* those of the statement, and parameters, are themselves in the period */
+        if (!qdot_expr_is_class(session->pool, x->unknowns[i], QDOT_COORD))
+            QDOT_TRY(qdot_session_put(session, x->unknowns[i], x->unknowns[i]));
+    x->period = qdot_session_bind(session, qdot_sub(session->pool, to, from));
+    return qdot_pool_check(session->pool);
+}
+
+static qdot_status
+shoot(guess *x, double *u, bool *moved)
+{
+    const qdot_find *f = x->f;
+    const qdot_shooting_of of = {.scene = f->c->session->scene,
+                                 .request = &x->free,
+                                 .k = x->k,
+                                 .unknowns = x->unknowns,
+                                 .names = x->names,
+                                 .start = x->start,
+                                 .period = x->period,
+                                 .low = f->low.at,
+                                 .high = f->high.at};
+    size_t segments;
+
+    return qdot_shooting_find(&of, u, moved, &segments);
+}
+
+qdot_status
+qdot_find_shoot(const qdot_find *f, double *u, bool *moved)
+{
+    qdot_session *session = f->c->session;
+    guess x = {.f = f, .k = f->unknowns.n, .n = session->scene->coordinates.n};
+    qdot_kept_values kept;
+    qdot_status status;
+
+    *moved = false;
+    if (f->conditions.n > 1 || session->scene->constraints.n > 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    status = begin(&x);
+    if (status == QDOT_OK)
+        status = qdot_trial_put(session, x.k, f->unknowns.at, x.at);
+    if (status == QDOT_OK)
+        status = make_request(&x);
+    qdot_session_restore_values(session, &kept);
+    if (status == QDOT_OK)
+        status = shoot(&x, u, moved);
+    qdot_request_free(&x.order);
+    qdot_free(x.unknowns);
+    qdot_free(x.names);
+    qdot_free(x.named);
+    qdot_free(x.values);
+    return status;
+}

@@ -1,0 +1,441 @@
+/* shooting.c -- segments of an orbit, the states between them, their gaps. */
+#include "sim/study/shooting.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "num/zero.h"
+#include "sim/study/response.h"
+#include "tape/constant.h"
+#include "tape/derivative.h"
+
+/* Below, a motion near the guess has not grown: one segment does. How much it may grow in one of them. */
+static const double tame = 30, growth_of_one = 2;
+
+/* How much may grow what the states between are first taken from. */
+static const double trusted[] = {30, 5, 1};
+
+/* Units of the states between, beside how far the motion goes: their changes count little. */
+static const double free_states = 30;
+
+/* An orbit whose unknowns are farther from their guesses, relative to these, is another one. */
+static const double near = 0.5;
+
+/* Below this part of the states' sizes accelerations and velocities are 0: a rest. */
+static const double at_rest = 1e-6;
+
+/* Local error of segments. */
+static const double tolerance = 1e-12;
+
+enum { MOST_SEGMENTS = 32, LOOKS = 16 };
+
+typedef struct {
+    const qdot_shooting_of *of;
+    size_t n, z, k, p;    /* coordinates, 2n, unknowns, parameters among these */
+    size_t K;             /* segments */
+    qdot_run_request request;
+    qdot_expr *exprs;     /* [3n] q, q', q'' */
+    qdot_expr *unknowns;  /* [z + p] of the response: a state, then parameters */
+    const char **names;   /* [z + p] */
+    size_t *place;        /* [p] of the parameters among u */
+    qdot_response *response;
+    qdot_tape *tape;      /* [z + 1] start and period, of u [k] */
+    double *tape_work;
+    double t0;
+    double *first, *slope; /* [z + 1], [(z + 1) x k] start and period, their slopes */
+    double *in;            /* [z + p] of the response */
+    double *value;         /* [LOOKS x 3n] of it */
+    double *by;            /* [LOOKS x 3n x (z + p)] */
+    double *size;          /* [z] how far each state goes */
+    double *best;          /* [k] the orbit nearest to the guess */
+} shooting;
+
+/* --- the guess ------------------------------------------------------------------------------- */
+
+/* Start and period at u, with slopes. */
+static void
+embed(shooting *x, const double *u)
+{
+    qdot_derivative_eval(x->tape, u, 0, x->k, x->first, x->slope, x->tape_work);
+}
+
+/* A run from a state over a time, read at `count` equal parts of it. */
+static qdot_status
+go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
+{
+    double times[LOOKS];
+
+    memcpy(x->in, state, x->z * sizeof *state);
+    for (size_t i = 0; i < x->p; i++)
+        x->in[x->z + i] = u[x->place[i]];
+    for (size_t i = 0; i < count; i++)
+        times[i] = i + 1 == count ? to : from + (to - from) * (double)(i + 1) / (double)count;
+    QDOT_TRY(qdot_response_run(x->response, x->in, from, to));
+    return qdot_response_read(x->response, count, times, x->value, x->by);
+}
+
+/* The largest slope of the state read at `at` by what it began at, in units of the states. */
+static double
+growth(const shooting *x, size_t at)
+{
+    const double *by = x->by + at * 3 * x->n * (x->z + x->p);
+    double most = 0;
+
+    for (size_t i = 0; i < x->z; i++)
+        for (size_t j = 0; j < x->z; j++)
+            most = fmax(most, fabs(by[i * (x->z + x->p) + j]) * x->size[j] / x->size[i]);
+    return most;
+}
+
+/* How far each state goes until time number `last`; where it stays, as far as the others of its kind, or 1. */
+static void
+find_sizes(shooting *x, size_t last)
+{
+    double most[2] = {0, 0};
+
+    for (size_t i = 0; i < x->z; i++) {
+        x->size[i] = 0;
+        for (size_t at = 0; at <= last; at++)
+            x->size[i] = fmax(x->size[i], fabs(x->value[at * 3 * x->n + i] - x->first[i]));
+        most[i / x->n] = fmax(most[i / x->n], x->size[i]);
+    }
+    for (size_t i = 0; i < x->z; i++)
+        if (!(x->size[i] > 1e-3 * most[i / x->n]))
+            x->size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
+}
+
+/* Sizes while little has grown, the growth over the whole, and the segments that it asks for. A run that fails has
+ * grown to no end. */
+static qdot_status
+count_segments(shooting *x, const double *u)
+{
+    const double T = x->first[x->z];
+    const qdot_status status = go(x, u, x->first, x->t0, x->t0 + T, LOOKS);
+    double most = 0;
+
+    x->K = MOST_SEGMENTS;
+    for (size_t i = 0; i < x->z; i++)
+        x->size[i] = 1;
+    if (status != QDOT_OK)
+        return qdot_grave(status);
+    for (size_t at = 0; at < LOOKS; at++) {
+        if (most < tame)
+            find_sizes(x, at);
+        most = fmax(most, growth(x, at));
+    }
+    if (most < tame)
+        x->K = 1;
+    else if (most < pow(growth_of_one, MOST_SEGMENTS))
+        x->K = (size_t)ceil(log(most) / log(growth_of_one));
+    return QDOT_OK;
+}
+
+/* States [K + 1] along the run from one end, at[] of them known, as long as nothing has grown more than `trust`. */
+static qdot_status
+take_states(shooting *x, const double *u, bool back, double trust, double *states, bool *known)
+{
+    const double T = x->first[x->z], from = back ? x->t0 + T : x->t0;
+
+    for (size_t k = 1; k < x->K; k++) {
+        const size_t at = back ? x->K - k : k;
+        qdot_status status;
+
+        if (known[at])
+            break;
+        status = go(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
+        if (status != QDOT_OK)
+            return qdot_grave(status);
+        if (!(growth(x, 0) < trust))
+            break;
+        memcpy(states + at * x->z, x->value, x->z * sizeof *states);
+        known[at] = true;
+    }
+    return QDOT_OK;
+}
+
+/* The states between at first. */
+static qdot_status
+guess_states(shooting *x, const double *u, double trust, double *states, bool *known)
+{
+    memset(known, 0, (x->K + 1) * sizeof *known);
+    known[0] = known[x->K] = true;
+    memcpy(states, x->first, x->z * sizeof *states);
+    memcpy(states + x->K * x->z, x->first, x->z * sizeof *states);
+    QDOT_TRY(take_states(x, u, false, trust, states, known));
+    QDOT_TRY(take_states(x, u, true, trust, states, known));
+    for (size_t a = 0; a < x->K;) {
+        size_t b = a + 1;
+
+        while (!known[b])
+            b++;
+        for (size_t k = a + 1; k < b; k++)
+            for (size_t i = 0; i < x->z; i++)
+                states[k * x->z + i] = states[a * x->z + i]
+                                       + (states[b * x->z + i] - states[a * x->z + i])
+                                             * (double)(k - a) / (double)(b - a);
+        a = b;
+    }
+    return QDOT_OK;
+}
+
+/* --- the gaps ---------------------------------------------------------------------------------- */
+
+/* J += sign dz_at/d(all) M of rows [z x (z + p)], or of one: the state at the beginning of segment `at`. */
+static void
+add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
+{
+    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->p;
+
+    for (size_t i = 0; i < x->z; i++)
+        for (size_t j = 0; j < x->z; j++) {
+            const double m = M != NULL ? M[i * width + j] : i == j;
+
+            if (at % x->K != 0)
+                J[i * all + x->k + (at - 1) * x->z + j] += sign * m;
+            for (size_t l = 0; l < x->k && at % x->K == 0; l++)
+                J[i * all + l] += sign * m * x->slope[j * x->k + l];
+        }
+}
+
+/* The gap behind segment s, and its slopes. */
+static void
+fill(const shooting *x, const double *next, size_t s, double *f, double *J)
+{
+    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->p;
+    const double part = 1 / (double)x->K;
+
+    for (size_t i = 0; i < x->z; i++)
+        f[i] = x->value[i] - next[i];
+    if (J == NULL)
+        return;
+    memset(J, 0, x->z * all * sizeof *J);
+    add_state(x, s, x->by, 1, J);
+    add_state(x, s + 1, NULL, -1, J);
+    for (size_t i = 0; i < x->z; i++) {
+        for (size_t l = 0; l < x->k; l++)
+            J[i * all + l] += part * x->value[x->n + i] * x->slope[x->z * x->k + l];
+        for (size_t l = 0; l < x->p; l++)
+            J[i * all + x->place[l]] += x->by[i * width + x->z + l];
+    }
+}
+
+static qdot_status
+evaluate(const double *u, double *f, double *error, double *slope, void *user)
+{
+    shooting *x = user;
+    const size_t all = x->k + (x->K - 1) * x->z;
+    double T;
+
+    embed(x, u);
+    T = x->first[x->z];
+    for (size_t s = 0; s < x->K; s++) {
+        const double *from = s == 0 ? x->first : u + x->k + (s - 1) * x->z;
+        const double *next = s + 1 == x->K ? x->first : u + x->k + s * x->z;
+        const double t = x->t0 + T * (double)s / (double)x->K;
+        const qdot_status status =
+            isfinite(T) ? go(x, u, from, t, t + T / (double)x->K, 1) : QDOT_EDOMAIN;
+
+        if (status != QDOT_OK) {
+            f[0] = NAN;
+            return qdot_grave(status);
+        }
+        for (size_t i = 0; i < x->z; i++)
+            error[s * x->z + i] = 10 * tolerance * fmax(1, fabs(x->value[i]));
+        fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
+    }
+    return QDOT_OK;
+}
+
+/* --- the search ---------------------------------------------------------------------------------- */
+
+/* How far u is from the guess, of any unknown relative to it, or to how far a state goes. */
+static double
+distance(const shooting *x, const double *u, const double *guess)
+{
+    double most = 0;
+
+    for (size_t j = 0; j < x->k; j++) {
+        const size_t i = qdot_expr_place(x->z, x->unknowns, x->of->unknowns[j]);
+        const double size = fmax(fabs(guess[j]), i < x->z ? x->size[i] : 0);
+
+        most = fmax(most, fabs(u[j] - guess[j]) / (size > 0 ? size : 1));
+    }
+    return most;
+}
+
+/* Whether the states between differ from the start. */
+static bool
+moves(const shooting *x, const double *states)
+{
+    for (size_t s = 1; s < x->K; s++)
+        for (size_t i = 0; i < x->z; i++)
+            if (fabs(states[(s - 1) * x->z + i] - x->first[i]) > at_rest * x->size[i])
+                return true;
+    return false;
+}
+
+/* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best [k]. */
+static qdot_status
+search(shooting *x, double trust, const double *u, double *best, double *off)
+{
+    const size_t all = x->k + (x->K - 1) * x->z, m = x->K * x->z;
+    double *room = qdot_calloc(5 * all + 2 * m + (x->K + 1) * x->z, sizeof *room);
+    bool *known = qdot_calloc(x->K + 1, sizeof *known);
+    qdot_zero_result r = {.u = room, .error = room + all, .f = room + 5 * all, .f_error = room + 5 * all + m};
+    double *const unit = room + 2 * all, *const low = unit + all, *const high = low + all,
+           *const states = r.f_error + m;
+    const qdot_zero_problem p = {
+        .n = all, .m = m, .at = evaluate, .user = x, .low = low, .high = high, .unit = unit, .once = true};
+    qdot_status status = room && known ? QDOT_OK : QDOT_ENOMEM;
+
+    embed(x, u);
+    if (status == QDOT_OK)
+        status = guess_states(x, u, trust, states, known);
+    for (size_t j = 0; j < all && status == QDOT_OK; j++) {
+        const size_t i = j < x->k ? 0 : (j - x->k) % x->z;
+
+        r.u[j] = j < x->k ? u[j] : states[x->z + j - x->k];
+        unit[j] = j >= x->k ? free_states * x->size[i] : u[j] != 0 ? fabs(u[j]) : 1;
+        low[j] = j < x->k ? x->of->low[j] : -INFINITY;
+        high[j] = j < x->k ? x->of->high[j] : INFINITY;
+    }
+    if (status == QDOT_OK)
+        status = qdot_zero_find(&p, &r);
+    if (status == QDOT_OK && r.answer == QDOT_ZERO_FOUND) {
+        const double this = distance(x, r.u, u);
+
+        embed(x, r.u);
+        if (this < *off && moves(x, r.u + x->k)) {
+            *off = this;
+            memcpy(best, r.u, x->k * sizeof *best);
+        }
+    }
+    qdot_free(room);
+    qdot_free(known);
+    return status;
+}
+
+/* --- made -------------------------------------------------------------------------------------- */
+
+static qdot_status
+make_room(shooting *x)
+{
+    const size_t width = x->z + x->k;
+
+    x->exprs = qdot_calloc(3 * x->n + width + 1, sizeof *x->exprs);
+    x->names = qdot_calloc(width + 1, sizeof *x->names);
+    x->place = qdot_calloc(x->k + 1, sizeof *x->place);
+    x->first = qdot_calloc((x->z + 1) * (1 + x->k) + width + LOOKS * 3 * x->n * (1 + width) + x->z + x->k,
+                           sizeof *x->first);
+    if (!x->exprs || !x->names || !x->place || !x->first)
+        return QDOT_ENOMEM;
+    x->unknowns = x->exprs + 3 * x->n;
+    x->slope = x->first + x->z + 1;
+    x->in = x->slope + (x->z + 1) * x->k;
+    x->value = x->in + width;
+    x->by = x->value + LOOKS * 3 * x->n;
+    x->size = x->by + LOOKS * 3 * x->n * width;
+    x->best = x->size + x->z;
+    return QDOT_OK;
+}
+
+/* Start and period of u. */
+static qdot_status
+lower(shooting *x)
+{
+    qdot_pool *pool = x->of->scene->pool;
+    qdot_expr *e = qdot_calloc(x->z + 1, sizeof *e);
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(e, x->of->start, x->z * sizeof *e);
+        e[x->z] = x->of->period;
+        status = qdot_tape_new(pool, x->k, x->of->unknowns, x->z + 1, e, &x->tape);
+    }
+    if (status == QDOT_OK) {
+        x->tape_work = qdot_malloc((qdot_derivative_work(x->tape) + 1) * sizeof *x->tape_work);
+        status = x->tape_work ? QDOT_OK : QDOT_ENOMEM;
+    }
+    qdot_free(e);
+    return status;
+}
+
+static qdot_status
+begin(shooting *x, const double *u)
+{
+    const qdot_shooting_of *of = x->of;
+    qdot_scene *s = of->scene;
+    qdot_response_of r;
+
+    QDOT_TRY(make_room(x));
+    for (size_t i = 0; i < 3 * x->n; i++)
+        x->exprs[i] = qdot_symbol_jet(s->pool, s->coordinates.at[i % x->n], (uint32_t)(i / x->n));
+    for (size_t i = 0; i < x->z; i++)
+        x->unknowns[i] = x->exprs[i];
+    for (size_t k = 0; k < x->k; k++)
+        if (qdot_expr_is_class(s->pool, of->unknowns[k], QDOT_PARAM)) {
+            x->unknowns[x->z + x->p] = of->unknowns[k];
+            x->place[x->p++] = k;
+        }
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (size_t i = 0; i < x->z + x->p; i++)
+        x->names[i] = qdot_expr_symbol(s->pool, x->unknowns[i])->name;
+    QDOT_TRY(lower(x));
+    QDOT_TRY(qdot_tape_constant(s->pool, of->request->t0, &x->t0));
+    embed(x, u);
+    x->request = *of->request;
+    x->request.q0 = x->unknowns;
+    x->request.v0 = x->unknowns + x->n;
+    x->request.q_named = x->request.v_named = NULL;
+    x->request.scales = NULL;
+    x->request.tol = tolerance;
+    x->request.t1 = qdot_add(s->pool, x->request.t0, qdot_expr_of_double(s->pool, x->first[x->z]));
+    r = (qdot_response_of){.scene = s,
+                           .request = &x->request,
+                           .k = x->z + x->p,
+                           .unknowns = x->unknowns,
+                           .names = x->names,
+                           .m = 3 * x->n,
+                           .exprs = x->exprs};
+    return qdot_response_new(&r, &x->response);
+}
+
+static void
+end(shooting *x)
+{
+    qdot_response_free(x->response);
+    qdot_tape_free(x->tape);
+    qdot_free(x->tape_work);
+    qdot_free(x->exprs);
+    qdot_free(x->names);
+    qdot_free(x->place);
+    qdot_free(x->first);
+}
+
+qdot_status
+qdot_shooting_find(const qdot_shooting_of *of, double *u, bool *found, size_t *segments)
+{
+    shooting x = {.of = of, .n = of->scene->coordinates.n, .z = 2 * of->scene->coordinates.n, .k = of->k};
+    double off = near;
+    qdot_status status = QDOT_OK;
+
+    *found = false;
+    *segments = 1;
+    if (of->scene->constraints.n > 0)
+        return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
+    status = begin(&x, u);
+    if (status == QDOT_OK)
+        status = count_segments(&x, u);
+    if (status == QDOT_OK)
+        *segments = x.K;
+    for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1; k++)
+        status = search(&x, trusted[k], u, x.best, &off);
+    *found = off < near;
+    if (status == QDOT_OK && *found)
+        memcpy(u, x.best, x.k * sizeof *u);
+    end(&x);
+    return status;
+}

@@ -1,0 +1,42 @@
+/* shooting.h -- a periodic orbit near a guess by multiple shooting, where single shooting is led away.
+ *
+ *     phi(z_k, T/K) - z_(k+1) = 0,   k = 0 .. K-1,   z_0 = z_K = start(u)
+ *
+ * in the unknowns u of the statement and the states z_1 .. z_(K-1) between K segments of equal length. phi is
+ * the motion, its slopes those of a run of each segment (response.h), so that no run goes on for longer than
+ * the motions near by take to grow a few times. The step of Newton's method (num/zero.h) counts changes of the
+ * states between little against those of u: of a family, the orbit near the guess is found.
+ *
+ * The states begin along the run of the guess, from the start on and from the end back, as long as the motions
+ * near by have not grown much; on a straight line between. Three such pieces, ever shorter, are tried,
+ * and the orbit whose u is nearest to the guess is taken.
+ *
+ * Where nothing near the run of the guess grows, one segment does: nothing is searched here.
+ *
+ * Source  Stoer & Bulirsch, Introduction to Numerical Analysis (2002), 7.3.5; Deuflhard, Newton Methods (2004), 7.1.
+ * Tests   tests/sim/test_shooting.c, tests/script/find-orbit.lag
+ */
+#ifndef QDOT_SIM_SHOOTING_H
+#define QDOT_SIM_SHOOTING_H
+
+#include "sim/model/request.h"
+
+typedef struct {
+    qdot_scene *scene;
+    /* Values in those unknowns that are parameters; t0 is the start's time. */
+    const qdot_run_request *request;
+    size_t k; /* unknowns: symbols of parameters, coordinates, velocities, times; their names for messages */
+    const qdot_expr *unknowns;
+    const char *const *names;
+    const qdot_expr *start; /* [2n] q, q' in the unknowns */
+    qdot_expr period;       /* in the unknowns */
+    const double *low, *high; /* [k] bounds, infinite where there are none */
+} qdot_shooting_of;
+
+/* u [k]: in, the guess; out, the orbit if *found, else as it was. *segments: how many were taken; 1: the motions
+ * near the guess do not grow, nothing was searched.
+ * QDOT_ENOTBUILT: constraints. Errors: those of qdot_response_new; that a run fails is none. */
+QDOT_MUST_CHECK qdot_status qdot_shooting_find(const qdot_shooting_of *of, double *u, bool *found,
+                                               size_t *segments);
+
+#endif

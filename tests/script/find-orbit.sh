@@ -1,0 +1,46 @@
+# Unstable periodic orbits from guesses of two digits: multiple shooting. Against SciPy, DOP853 with rtol 1e-13 and
+# fsolve on the half orbit.
+cat >moon.lag <<'END'
+param mu = 0.012150585609624
+coord x, y, z
+r1 = sqrt((x + mu)^2 + y^2 + z^2)
+r2 = sqrt((x - 1 + mu)^2 + y^2 + z^2)
+lagrangian ((x' - y)^2 + (y' + x)^2 + z'^2)/2 + (1 - mu)/r1 + mu/r2
+END
+numbers='s/= [-0-9.e]* ± [0-9.e-]*/= N ± ERROR/'
+
+# one of the family about L1, near the guess; the one through a given x
+qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
+find x = 0.84, y' = 0.1, T = 2.7 such that returns after T
+check value(x, 0) == 0.827 within 0.002
+check value(y', 0) == 0.09 within 0.02
+start x = 0.8261
+find y' = 0.1, T = 2.7 such that returns after T
+check value(y', 0) == 0.098730036038658 within 1e-13
+param P
+find y' = 0.1, P = 2.7 such that returns after P
+check value(P, 0) == 2.722181757053787 within 1e-11
+END
+
+# halos about L1 and L2; one that nearly falls on the Moon
+qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
+start z = 0.05
+find x = 0.82, y' = 0.14, T = 2.7 such that returns after T
+check value(x, 0) == 0.823844660756626 within 1e-11
+check value(y', 0) == 0.159703975128711 within 1e-10
+start z = 0.02
+find x = 1.12, y' = 0.18, T = 3.4 such that returns after T
+check value(x, 0) == 1.117458089412877 within 1e-10
+check value(y', 0) == 0.184509901302311 within 1e-9
+start z = -0.18
+find x = 1.02, y' = -0.1, T = 1.5 such that returns after T
+check value(x, 0) == 1.01909613581404 within 1e-11
+END
+
+# a driven pendulum about its top: theta = -0.1/(9.8 + 9) cos(3 t) to first order
+qdot -q - <<'END' 2>&1 | sed "$numbers"
+coord theta
+lagrangian theta'^2/2 - 9.8*cos(theta) + 0.1*cos(3*t)*theta
+find theta = 0.01, theta' = 0 such that returns after 4*pi/3
+check value(theta, 0) == -0.1/18.8 within 1e-6
+END
