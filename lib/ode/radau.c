@@ -622,6 +622,15 @@ power(const qdot_ode_stepper *s)
     return (double)qdot_radau_basis_get(r->kind)->stages + 1;
 }
 
+static size_t
+another(qdot_ode_stepper *s)
+{
+    radau *r = s->own;
+
+    r->kind = (r->kind + 1) % QDOT_RADAU_KINDS;
+    return QDOT_RADAU_KINDS;
+}
+
 /* Rows of F: the stages, then their number. */
 static qdot_status
 dense(qdot_ode_stepper *s, double t, double h, double *F)
@@ -662,5 +671,6 @@ const qdot_ode_kernel qdot_radau = {.powers = MOST + 1,
                                     .restart = restart,
                                     .accepted = accepted,
                                     .power = power,
+                                    .another = another,
                                     .keeps_step = true,
                                     .forward = true};

@@ -60,6 +60,8 @@ struct qdot_ode_kernel {
     void (*restart)(qdot_ode_stepper *s);
     void (*accepted)(qdot_ode_stepper *s);
     double (*power)(const qdot_ode_stepper *s); /* NULL: method->error_power */
+    /* Take its next formula, from the last on the first again; returns how many there are. NULL: one. */
+    size_t (*another)(qdot_ode_stepper *s);
     bool keeps_step; /* a new size of step is dear */
     bool forward;    /* no step may be read backwards from its end */
 };

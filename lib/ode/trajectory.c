@@ -482,11 +482,18 @@ find_polynomial(qdot_trajectory_cursor *c, bool second)
     const double *at = steps_of(tr);
     const double part = tr->method->kernel->forward ? 1 : 0.5;
     const double h = part * (at[c->at + 1 - second] - at[from]);
+    size_t formulas = 1;
     double ratio;
     qdot_status status;
 
-    qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
-    status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
+    /* where the error by the formula at hand is too large, the step was by another one */
+    for (size_t k = 0; k < formulas; k++) {
+        qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
+        status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
+        if (status != QDOT_OK || ratio <= 1 || !c->s->method->kernel->another)
+            break;
+        formulas = c->s->method->kernel->another(c->s);
+    }
     if (status == QDOT_OK && ratio <= 1)
         status = c->s->method->kernel->dense(c->s, at[from], h, c->F);
     c->fresh = false;

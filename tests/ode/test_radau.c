@@ -393,6 +393,68 @@ eigenvectors_make_the_matrix(void **state)
     }
 }
 
+/* An oscillator that passes near its centre, in polar coordinates r, phi, r', phi'; evaluations are
+ * counted. */
+static qdot_status
+near_pole_rhs(double t, const double *y, double *dydt, void *user)
+{
+    (void)t;
+    ++*(int *)user;
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    dydt[2] = y[0] * (y[3] * y[3] - 1);
+    dydt[3] = -2 * y[2] * y[3] / y[0];
+    return QDOT_OK;
+}
+
+static qdot_status
+near_pole_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    (void)t;
+    (void)user;
+    for (int i = 0; i < 16; i++)
+        dfdy[i] = 0;
+    for (int i = 0; i < 4; i++)
+        dfdt[i] = 0;
+    dfdy[2] = dfdy[7] = 1;
+    dfdy[8] = y[3] * y[3] - 1;
+    dfdy[11] = 2 * y[0] * y[3];
+    dfdy[12] = 2 * y[2] * y[3] / (y[0] * y[0]);
+    dfdy[14] = -2 * y[3] / y[0];
+    dfdy[15] = -2 * y[2] / y[0];
+    return QDOT_OK;
+}
+
+/* Steps are read by the formula that made them, whatever its stages: at 20 places for less than the run. */
+static void
+steps_are_read_by_their_formula(void **state)
+{
+    enum { places = 20 };
+    int count = 0;
+    const qdot_ode_system system = {
+        .n = 4, .rhs = near_pole_rhs, .jacobian = near_pole_jacobian, .user = &count};
+    const qdot_ode_options o = {.tol = 1e-5};
+    const double start[] = {1, 0, 0, 1e-3};
+    qdot_trajectory tr = {0};
+    qdot_trajectory_cursor *c;
+    double y[4];
+    int by_run;
+
+    (void)state;
+    assert_int_equal(qdot_trajectory_run(&tr, &system, radau(), &o, 0, 20, start), QDOT_OK);
+    by_run = count;
+    assert_int_equal(qdot_trajectory_open(&tr, &system, &c), QDOT_OK);
+    for (size_t i = 0; i + 1 < tr.count; i++)
+        for (int k = 1; k < places; k++)
+            assert_int_equal(
+                qdot_trajectory_read(c, tr.t[i] + k * (tr.t[i + 1] - tr.t[i]) / places, y),
+                QDOT_OK);
+    if (count - by_run > 2 * by_run)
+        fail_msg("%d evaluations of a run, %d to read it", by_run, count - by_run);
+    qdot_trajectory_close(c);
+    qdot_trajectory_clear(&tr);
+}
+
 int
 main(void)
 {
@@ -403,6 +465,7 @@ main(void)
         cmocka_unit_test(multipliers_keep_the_order),
         cmocka_unit_test(the_form_with_mass_is_the_same),
         cmocka_unit_test(tolerances_are_kept_where_it_is_stiff),
+        cmocka_unit_test(steps_are_read_by_their_formula),
         cmocka_unit_test(polynomials_of_steps_keep_the_tolerance),
     };
 
