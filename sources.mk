@@ -2552,6 +2552,7 @@ test_files = \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
 	tests/script/signs.out \
+	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
@@ -2745,6 +2746,7 @@ example_files = \
 	examples/holonomic-in-disguise.lag \
 	examples/horizon.lag \
 	examples/kapitza-boundary.lag \
+	examples/kapitza-boundary.svg \
 	examples/kapitza.lag \
 	examples/kapitza.svg \
 	examples/kepler.lag \

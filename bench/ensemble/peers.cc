@@ -3,8 +3,8 @@
  *     peers SCENE METHOD TARGET [THREADS] < CSV
  *     peers cpu|wall COMMAND ...     seconds of the processor, or of the clock, that the command takes
  *
- *   METHOD  dop853 (peers/dop853.hh), rkf78 (Boost.odeint); wide, wide78: the same with four members a
- *           vector (wide.hh)
+ *   METHOD  dop853 (peers/dop853.hh), rkf78 (Boost.odeint); wide, wide78: the same with eight members a
+ *           vector, or four (wide.hh)
  *   THREADS by OpenMP, by the clock; without it one, by the processor's time
  *   CSV     a header; what the scene sweeps, then the coordinates at its end
  *
@@ -126,7 +126,7 @@ run_four(const std::string &method, const numbers &starts, size_t m, double tol,
     wide y[S::size];
     double one[S::size];
 
-    for (size_t l = 0; l < 4; l++) {
+    for (size_t l = 0; l < WIDTH; l++) {
         S::at(starts[std::min(m + l, members - 1)], one);
         for (size_t i = 0; i < n; i++)
             y[i][(int)l] = one[i];
@@ -135,7 +135,7 @@ run_four(const std::string &method, const numbers &starts, size_t m, double tol,
         dop853_wide<S::size>(S::template f<wide>, S::t1, y, tol);
     else
         fehlberg<S, wide>(y, tol);
-    for (size_t l = 0; l < 4 && m + l < members; l++)
+    for (size_t l = 0; l < WIDTH && m + l < members; l++)
         for (size_t i = 0; i < n; i++)
             ends[(m + l) * n + i] = y[i][(int)l];
 }
@@ -144,13 +144,13 @@ template <class S> void
 run_all(const std::string &method, const numbers &starts, double tol, numbers &ends, int threads)
 {
     const size_t n = S::size, members = starts.size();
-    const bool fours = method.substr(0, 4) == "wide";
+    const bool vectors = method.substr(0, 4) == "wide";
 
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
-    for (size_t m = 0; m < members; m += fours ? 4 : 1) {
+    for (size_t m = 0; m < members; m += vectors ? WIDTH : 1) {
         double *y = &ends[m * n];
 
-        if (fours) {
+        if (vectors) {
             run_four<S>(method, starts, m, tol, ends);
             continue;
         }

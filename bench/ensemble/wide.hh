@@ -1,5 +1,6 @@
-/* wide.hh -- DOP853 with four members in a vector, as an expert would write it by hand: one step for all
- * of them, the worst of the four deciding; sines by glibc's vectors.
+/* wide.hh -- DOP853 with as many members in a vector as the processor has lanes, eight with AVX-512, else
+ * four, as an expert would write it by hand: one step for all of them, the worst deciding; sines by
+ * glibc's vectors.
  */
 #ifndef BENCH_ENSEMBLE_WIDE_HH
 #define BENCH_ENSEMBLE_WIDE_HH
@@ -10,23 +11,30 @@
 
 #include "dop853.hh"
 
-extern "C" {
-__m256d _ZGVdN4v_sin(__m256d);
-__m256d _ZGVdN4v_cos(__m256d);
-}
+#ifdef __AVX512F__
+enum { WIDTH = 8 };
+typedef __m512d packed;
+extern "C" packed _ZGVeN8v_sin(packed), _ZGVeN8v_cos(packed);
+#define VECTOR_OF(name) _ZGVeN8v_##name
+#else
+enum { WIDTH = 4 };
+typedef __m256d packed;
+extern "C" packed _ZGVdN4v_sin(packed), _ZGVdN4v_cos(packed);
+#define VECTOR_OF(name) _ZGVdN4v_##name
+#endif
 
 struct wide {
-    __m256d v;
+    packed v;
 
     wide() = default;
-    wide(double x) : v(_mm256_set1_pd(x)) {}
-    wide(__m256d x) : v(x) {}
+    wide(double x) : v(x - packed{}) {}
+    wide(packed x) : v(x) {}
     double &operator[](int l) { return ((double *)&v)[l]; }
-    friend wide operator+(wide a, wide b) { return wide(_mm256_add_pd(a.v, b.v)); }
-    friend wide operator-(wide a, wide b) { return wide(_mm256_sub_pd(a.v, b.v)); }
-    friend wide operator*(wide a, wide b) { return wide(_mm256_mul_pd(a.v, b.v)); }
-    friend wide operator/(wide a, wide b) { return wide(_mm256_div_pd(a.v, b.v)); }
-    wide operator-() const { return wide(_mm256_sub_pd(_mm256_setzero_pd(), v)); }
+    friend wide operator+(wide a, wide b) { return wide(a.v + b.v); }
+    friend wide operator-(wide a, wide b) { return wide(a.v - b.v); }
+    friend wide operator*(wide a, wide b) { return wide(a.v * b.v); }
+    friend wide operator/(wide a, wide b) { return wide(a.v / b.v); }
+    wide operator-() const { return wide(-v); }
     wide operator+() const { return *this; }
     wide &operator+=(wide b) { return *this = *this + b; }
     wide &operator-=(wide b) { return *this = *this - b; }
@@ -37,8 +45,8 @@ struct wide {
 inline void
 sine_cosine(wide x, wide *s, wide *c)
 {
-    s->v = _ZGVdN4v_sin(x.v);
-    c->v = _ZGVdN4v_cos(x.v);
+    s->v = VECTOR_OF(sin)(x.v);
+    c->v = VECTOR_OF(cos)(x.v);
 }
 
 inline double
@@ -46,7 +54,7 @@ worst(wide x)
 {
     double most = 0;
 
-    for (int l = 0; l < 4; l++)
+    for (int l = 0; l < WIDTH; l++)
         most = x[l] <= most ? most : x[l];
     return most;
 }
@@ -54,13 +62,13 @@ worst(wide x)
 inline wide
 larger(wide a, wide b)
 {
-    return wide(_mm256_max_pd(a.v, b.v));
+    return wide(a.v > b.v ? a.v : b.v);
 }
 
 inline wide
 size_of(wide a)
 {
-    return wide(_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.v));
+    return larger(a, -a);
 }
 
 /* y [n] from 0 to t1, as dop853 of dop853.hh; the first step is tried out. */
@@ -102,7 +110,7 @@ dop853_wide(F f, double t1, wide *y, double tol)
             e5 += fifth * fifth;
             e3 += third * third;
         }
-        for (int l = 0; l < 4; l++) {
+        for (int l = 0; l < WIDTH; l++) {
             const double size = e5[l] + e3[l] / 100;
             const double own = size > 0 ? h * e5[l] / std::sqrt(size * n) : 0;
 

@@ -101,6 +101,67 @@ bound_by_left(solver *s, const double *A, const double *E, double *error)
     }
 }
 
+static double
+modulus(const double *re, const double *im, size_t k)
+{
+    return hypot(re[k], im[k]);
+}
+
+/* Whether the moduli of eigenvalues j and k are the same within their errors. */
+static bool
+is_as_large(const double *re, const double *im, const double *error, size_t j, size_t k)
+{
+    const double size = modulus(re, im, j), rounding = 16 * DBL_EPSILON * size;
+    const double both = error[j] + error[k];
+
+    return fabs(size - modulus(re, im, k)) <= fmax(2 * both, rounding);
+}
+
+static void
+exchange(double *x, size_t j, size_t k)
+{
+    const double kept = x[j];
+
+    x[j] = x[k];
+    x[k] = kept;
+}
+
+/* Insertion sort of first..end-1: `before` is whether k has to stand before j. */
+static void
+sort(size_t first, size_t end, bool (*before)(const double *re, const double *im, size_t k, size_t j),
+     double *re, double *im, double *error)
+{
+    for (size_t i = first + 1; i < end; i++)
+        for (size_t k = i; k > first && before(re, im, k, k - 1); k--) {
+            exchange(re, k, k - 1);
+            exchange(im, k, k - 1);
+            exchange(error, k, k - 1);
+        }
+}
+
+static bool
+is_larger(const double *re, const double *im, size_t k, size_t j)
+{
+    return modulus(re, im, k) > modulus(re, im, j);
+}
+
+static bool
+is_to_the_right(const double *re, const double *im, size_t k, size_t j)
+{
+    return re[k] > re[j] || (re[k] == re[j] && im[k] > im[j]);
+}
+
+void
+qdot_eigenvalues_arrange(size_t n, double *re, double *im, double *error)
+{
+    sort(0, n, is_larger, re, im, error);
+    for (size_t first = 0, end; first < n; first = end) {
+        for (end = first + 1; end < n && is_as_large(re, im, error, end - 1, end);)
+            end++;
+        sort(first, end, is_to_the_right, re, im, error);
+    }
+}
+
 static qdot_status
 solve(solver *s, const double *A, const double *E, double *re, double *im, double *error)
 {
@@ -111,7 +172,6 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
         gsl_matrix_set(s->A, i / n, i % n, A[i]);
     if (gsl_eigen_nonsymmv(s->A, s->lambda, s->V, s->work) != GSL_SUCCESS)
         return qdot_fail(QDOT_EFAILED, "the eigenvalues were not found");
-    (void)gsl_eigen_nonsymmv_sort(s->lambda, s->V, GSL_EIGEN_SORT_ABS_DESC);
     (void)gsl_matrix_complex_memcpy(s->LU, s->V);
     const bool known =
         gsl_linalg_complex_LU_decomp(s->LU, s->order, &sign) == GSL_SUCCESS &&
@@ -123,13 +183,7 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
         error[k] = known ? error_of(s, A, E, k) : NAN;
     }
     bound_by_left(s, A, E, error);
-    for (size_t k = 0; k + 1 < n; k++)
-        if (im[k] < 0 && im[k + 1] == -im[k] && re[k + 1] == re[k]) {
-            im[k] = -im[k];
-            im[k + 1] = -im[k + 1];
-        } else if (im[k] > 0) {
-            k++; /* its partner is in its place */
-        }
+    qdot_eigenvalues_arrange(n, re, im, error);
     return QDOT_OK;
 }
 

@@ -14,9 +14,12 @@
 
 #include "base/status.h"
 
-/* A and E [n x n] row by row; re, im, error [n] in descending order of modulus, a pair with its positive
- * imaginary part first. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
+/* A and E [n x n] row by row; re, im, error [n] as _arrange puts them. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
+
+/* Put re, im, error [n] in descending order of modulus. Those whose moduli are the same within their errors stand by
+ * descending real part, and a pair with its positive imaginary part first, so that rounding does not decide on the order. */
+void qdot_eigenvalues_arrange(size_t n, double *re, double *im, double *error);
 
 #endif

@@ -96,26 +96,52 @@ depend(const qdot_saddle *s, size_t k, size_t sound, const double *part, size_t 
     return count;
 }
 
+/* The next dependency to be told, of a row k behind the sound pivots: the one of fewest rows (*count), and if it
+ * is none of those that make up for the lost rank, no longer than these and one that shares rows with them. m: there is
+ * none. */
+static size_t
+next_dependency(const qdot_saddle *s, size_t sound, bool lost, const double *part, size_t longest,
+                size_t *count)
+{
+    size_t next = s->m;
+
+    for (size_t k = sound; k < s->m; k++) {
+        size_t met, taking_part;
+
+        if (part[s->pivot[k]] > 0)
+            continue;
+        taking_part = depend(s, k, sound, part, &met);
+        if (!lost && (met == 0 || taking_part > longest))
+            continue; /* a repetition of its own */
+        if (next == s->m || taking_part < *count) {
+            next = k;
+            *count = taking_part;
+        }
+    }
+    return next;
+}
+
 void
 qdot_saddle_parts(qdot_saddle *s, double below, double *part)
 {
-    const size_t last = s->last;
+    const size_t last = s->last, rank = s->rank < s->m ? s->rank : s->m;
     size_t sound = 0; /* pivots */
-    size_t longest = 0;
+    size_t longest = 0, count = 0, k;
 
-    for (size_t k = 0; k < s->m; k++)
+    for (k = 0; k < s->m; k++)
         part[k] = 0;
     if (last >= s->m)
         return;
     while (sound < last && sound < s->n &&
            fabs(s->R[sound * s->n + sound]) > below * fabs(s->R[0]))
         sound++;
-    for (size_t k = sound; k < s->m; k++) {
+    for (size_t found = 0;; found++) {
         size_t met;
-        const size_t count = depend(s, k, sound, part, &met);
 
-        if (k > last && (met == 0 || count > longest))
-            continue; /* a repetition of its own */
+        k = next_dependency(s, sound, found < rank - sound, part, longest, &count);
+        if (k == s->m)
+            return;
+        (void)depend(s, k, sound, part, &met);
         longest = count > longest ? count : longest;
         part[s->pivot[k]] = 1;
         for (size_t j = 0; j < sound; j++)

@@ -142,9 +142,9 @@ void qdot_saddle_apply(qdot_saddle *s);
  * about R_rr column^T, after a factorisation that was not `direct`. r > 0. */
 void qdot_saddle_weakest(qdot_saddle *s, double *row, double *column);
 
-/* part [m]: the size of each row's part, 0 ... 1, in the nearest dependencies: those of the last
- * pivot and of every one below `below` times the first on the rows before; and those of omitted
- * rows that share rows with these and are no longer redundant. */
+/* part [m]: the size of each row's part, 0 ... 1, in the nearest dependencies on the pivots that are larger than
+ * `below` times the first (never the last): as many as the rank has lost, those of the fewest rows; and those of
+ * omitted rows that share rows with these and are no longer redundant. */
 void qdot_saddle_parts(qdot_saddle *s, double below, double *part);
 
 #endif

@@ -331,20 +331,21 @@ come_near(batch *b)
 {
     static const double narrowest = 0x1p-26;
     lanes *a = &b->at;
+    double s[L], least[L], near[L];
 
-    for (size_t l = 0; b->system->near && l < L; l++) {
-        const double s = fabs(a->h[l] / a->old_unit[l]);
-        double near;
-
-        if (!a->tried[l])
-            continue;
-        near = b->system->near(l, b->run->order, s,
-                               narrowest * fabs(a->t[l] / a->old_unit[l]), b->system->user);
-        if (!(near < s))
+    if (!b->system->near)
+        return;
+    for (size_t l = 0; l < L; l++) {
+        s[l] = a->tried[l] ? fabs(a->h[l] / a->old_unit[l]) : NAN;
+        least[l] = narrowest * fabs(a->t[l] / a->old_unit[l]);
+    }
+    b->system->near(b->run->order, s, least, near, b->system->user);
+    for (size_t l = 0; l < L; l++) {
+        if (!(near[l] < s[l]))
             continue;
         a->unit[l] = a->old_unit[l];
         a->tried[l] = 0;
-        try_step(b, l, near * fabs(a->old_unit[l]));
+        try_step(b, l, near[l] * fabs(a->old_unit[l]));
     }
 }
 

@@ -52,8 +52,9 @@ typedef struct {
     /* Project y + carry [n groups], each lane at its t [a group], as qdot_ode_system.project
      * does; moved [a group] as there, NaN in a lane in which that fails. NULL: no projection. */
     void (*project)(const double *t, double *y, double *carry, double *moved, void *user);
-    /* As qdot_ode_series.near, of one lane; NULL likewise. */
-    double (*near)(size_t lane, int p, double s, double least, void *user);
+    /* As qdot_ode_series.near, of all lanes, into near [a group]; an s that is a NaN is none. NULL
+     * likewise. */
+    void (*near)(int p, const double *s, const double *least, double *near, void *user);
     /* Look at a step, before it is confirmed; the last one that was looked at is taken, and the
      * member ends there if `taken` says so. NULL: nobody looks. Errors of `tried` end the run. */
     qdot_status (*tried)(const qdot_batch_step *step, void *user);

@@ -1,7 +1,12 @@
-/* lanes-near.c -- arguments of exponentials, and divisors, of one lane of a program. */
+/* lanes-near.c -- arguments of exponentials, and divisors, of the lanes of a program. */
 #include "series/lanes-near.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "series/near.h"
+
+enum { L = QDOT_LANES };
 
 static bool
 may_hide(int op)
@@ -24,48 +29,82 @@ qdot_lanes_may_hide(const qdot_lanes *lanes)
 static void
 take_series(const qdot_lanes_rows *rows, qdot_program_row row, size_t lane, int p, double *x)
 {
-    const double *from = rows->coefficients + row * rows->stride * rows->group + lane;
+    const double *from = rows->coefficients + row * rows->stride * L + lane;
 
     for (int k = 0; k <= p; k++)
-        x[k] = from[(size_t)k * rows->group];
+        x[k] = from[(size_t)k * L];
 }
 
+static qdot_program_row
+divisor_of(const qdot_program_step *step)
+{
+    const char which = qdot_recurrence_divisor(step->op);
+
+    return which == 'x' ? step->x : which == 'y' ? step->y : step->z;
+}
+
+/* Lanes in which the row may fall so far, by the sizes of its terms. */
+static void
+find_falling(const qdot_lanes_rows *rows, qdot_program_row row, int p, const double *s, bool *may)
+{
+    const double *b = rows->coefficients + row * rows->stride * L;
+    double sum[L] = {0};
+
+    for (int k = p; k > 0; k--)
+        for (size_t l = 0; l < L; l++)
+            sum[l] = (sum[l] + fabs(b[(size_t)k * L + l])) * s[l];
+    for (size_t l = 0; l < L; l++)
+        may[l] = qdot_near_sizes_may_fall(fabs(b[l]), sum[l]);
+}
+
+/* In a lane in which it may. */
 static double
 near_divisor(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p,
              double s)
 {
-    const char which = qdot_recurrence_divisor(step->op);
     double b[QDOT_SERIES_MOST + 1], quotient[QDOT_SERIES_MOST + 1];
 
-    take_series(rows, which == 'x' ? step->x : which == 'y' ? step->y : step->z, lane, p, b);
-    if (!qdot_near_may_fall(p, b, s))
-        return s;
     if (step->op == QDOT_T_DIV) {
         take_series(rows, step->to, lane, p, quotient);
         if (!qdot_near_diverges(p, quotient, s))
             return s;
     }
+    take_series(rows, divisor_of(step), lane, p, b);
     return qdot_near_divisor(p, b, step->op == QDOT_T_SQRT, s);
 }
 
-double
-qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s, double least)
+static double
+near_argument(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p, double s)
+{
+    double u[QDOT_SERIES_MOST + 1];
+
+    take_series(rows, step->x, lane, p, u);
+    return qdot_near_argument(p, u, qdot_recurrence_exponential(step->op), s);
+}
+
+void
+qdot_lanes_near(qdot_lanes *lanes, int p, const double *s, const double *least, double *near)
 {
     const qdot_lanes_rows rows = qdot_lanes_get_rows(lanes);
 
+    memcpy(near, s, L * sizeof *near);
     for (size_t i = rows.program->still; i < rows.program->length; i++) {
         const qdot_program_step *step = rows.program->steps.at + i;
-        const double times = qdot_recurrence_exponential(step->op);
-        double u[QDOT_SERIES_MOST + 1];
+        const bool exponential = qdot_recurrence_exponential(step->op) > 0;
+        bool may[L];
 
         if (!may_hide(step->op))
             continue;
-        if (times > 0) {
-            take_series(&rows, step->x, lane, p, u);
-            s = qdot_near_taken(s, qdot_near_argument(p, u, times, s), QDOT_NEAR_FINER * least);
-        } else {
-            s = qdot_near_taken(s, near_divisor(&rows, step, lane, p, s), least);
+        if (!exponential)
+            find_falling(&rows, divisor_of(step), p, near, may);
+        for (size_t l = 0; l < L; l++) {
+            if (isnan(s[l]))
+                continue;
+            if (exponential)
+                near[l] = qdot_near_taken(near[l], near_argument(&rows, step, l, p, near[l]),
+                                          QDOT_NEAR_FINER * least[l]);
+            else if (may[l])
+                near[l] = qdot_near_taken(near[l], near_divisor(&rows, step, l, p, near[l]), least[l]);
         }
     }
-    return s;
 }

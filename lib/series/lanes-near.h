@@ -1,4 +1,4 @@
-/* lanes-near.h -- how far a step of one lane may go without stepping over an exponential or a quotient
+/* lanes-near.h -- how far the steps of lanes may go without stepping over an exponential or a quotient
  * that is nothing where it begins: near.h, for a program in lanes.
  *
  * Tests  tests/script/sweep-lanes.sh
@@ -10,7 +10,8 @@
 
 /* Whether the program has such steps. */
 bool qdot_lanes_may_hide(const qdot_lanes *lanes);
-/* As qdot_taylor_near, for a lane whose rows have orders up to p. */
-double qdot_lanes_near(qdot_lanes *lanes, size_t lane, int p, double s, double least);
+/* As qdot_taylor_near, for lanes whose rows have orders up to p: near [a group] for steps s [a group], of
+ * which a NaN is none. */
+void qdot_lanes_near(qdot_lanes *lanes, int p, const double *s, const double *least, double *near);
 
 #endif

@@ -84,7 +84,7 @@ qdot_near_argument(int p, const double *u, double times, double s)
 
 /* A zero of b lies at half of a step at least whose sum is below `well_before`, if it is double; it
  * is looked for in quarters. */
-static const double cannot_fall = 1 - QDOT_NEAR_LEFT, well_before = 8;
+static const double well_before = 8;
 enum { quarters = 4, shorter = 40 };
 
 static double
@@ -110,9 +110,7 @@ falls_in(int p, const double *b, double s)
 bool
 qdot_near_may_fall(int p, const double *b, double s)
 {
-    const double size = fabs(b[0]);
-
-    return size > 0 && !(qdot_near_sum(p, b, s) <= cannot_fall * size);
+    return qdot_near_sizes_may_fall(fabs(b[0]), qdot_near_sum(p, b, s));
 }
 
 double

@@ -44,7 +44,13 @@ double qdot_near_argument(int p, const double *u, double times, double s);
 
 #define QDOT_NEAR_LEFT 0.125
 
-/* Whether b [p + 1] may fall so far in a step of s, by the sizes of its terms alone. */
+/* Whether b [p + 1] may fall so far in a step of s, by the sizes of its terms alone: |b_0| and the sum
+ * of the others. */
+static inline bool
+qdot_near_sizes_may_fall(double size, double sum)
+{
+    return size > 0 && !(sum <= (1 - QDOT_NEAR_LEFT) * size);
+}
 bool qdot_near_may_fall(int p, const double *b, double s);
 
 /* Then as much of the step (INFINITY: any) as it does not fall so far in. Of a `root` of b all, if

@@ -44,11 +44,38 @@ errors_hold_what_entries_may_do(void **state)
     }
 }
 
+/* Moduli that differ by less than their errors do not decide on the order. */
+static void
+order_holds_against_rounding(void **state)
+{
+    const double c = cos(1.83), s = sin(1.83);
+    const double wanted[6][2] = {{-2.385, 0}, {1, 0}, {c, s}, {c, -s}, {-1, 0}, {0.5, 0}};
+    const double longer[6] = {0, -1e-13, 2e-13, 2e-13, 3e-13, 0}; /* both of a pair by the same */
+
+    (void)state;
+    for (int first = 0; first < 6; first++)
+        for (int way = -1; way <= 1; way++) {
+            double re[6], im[6], error[6];
+
+            for (int i = 0; i < 6; i++) {
+                const int from = (5 * i + first) % 6;
+
+                re[i] = wanted[from][0] * (1 + way * longer[from]);
+                im[i] = wanted[from][1] * (1 + way * longer[from]);
+                error[i] = 1e-12;
+            }
+            qdot_eigenvalues_arrange(6, re, im, error);
+            for (int i = 0; i < 6; i++)
+                assert_true(hypot(re[i] - wanted[i][0], im[i] - wanted[i][1]) < 1e-12);
+        }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_and_reals_in_order),
+        cmocka_unit_test(order_holds_against_rounding),
         cmocka_unit_test(errors_hold_what_entries_may_do),
     };
 

@@ -207,6 +207,64 @@ a_lost_rank_is_told(void **state)
     qdot_saddle_clear(&s);
 }
 
+/* Row `to` of A: the sum of the rows k in 0..3 by their weights, and `off` of a random one. */
+static void
+combine(qdot_saddle *s, size_t to, const double *weight, double off)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        double sum = off * uniform();
+
+        for (size_t k = 0; k < 4; k++)
+            sum += weight[k] * s->A[k * s->n + i];
+        s->A[to * s->n + i] = sum;
+    }
+}
+
+/* Whether row k is one of the first three pivots. */
+static bool
+is_pivot(const qdot_saddle *s, size_t k)
+{
+    return s->pivot[0] == k || s->pivot[1] == k || s->pivot[2] == k;
+}
+
+/* Of six rows the sum of four says nothing new. Where a row vanishes and another repeats a third, these are named, and
+ * not that sum, wherever the pivots show the pair and whether or not the rank is lost to rounding. */
+static void
+short_dependencies_are_named(void **state)
+{
+    const double sum[4] = {1, 1, 1, 1}, twice[4] = {0, 0, 0, 2}, none[4] = {0};
+    double part[6];
+    size_t failed, seen = 0;
+    qdot_saddle s;
+
+    (void)state;
+    srand(6);
+    for (int round = 0; round < 40; round++) {
+        const double off = round % 2 ? 0 : 1e-11;
+
+        assert_int_equal(qdot_saddle_init(&s, 8, 6, false), QDOT_OK);
+        for (size_t i = 0; i < 8; i++)
+            s.M[i * 9] = 1;
+        fill_rows(&s);
+        combine(&s, 4, sum, 0);
+        assert_int_equal(qdot_saddle_faded(&s), 6);
+        assert_int_equal(qdot_saddle_factor_fully(&s, &failed), QDOT_OK);
+        assert_int_equal(s.rank, 5);
+        combine(&s, 2, none, off);
+        combine(&s, 4, sum, 0);
+        combine(&s, 5, twice, off);
+        (void)qdot_saddle_faded(&s);
+        assert_int_equal(qdot_saddle_factor_fully(&s, &failed),
+                         round % 2 ? QDOT_ESINGULAR : QDOT_OK);
+        qdot_saddle_parts(&s, 1e-3, part);
+        seen += is_pivot(&s, 3) || is_pivot(&s, 5);
+        for (size_t k = 0; k < 6 && (is_pivot(&s, 3) || is_pivot(&s, 5)); k++)
+            assert_true(k == 2 || k == 3 || k == 5 ? part[k] > 0.1 : part[k] < 1e-6);
+        qdot_saddle_clear(&s);
+    }
+    assert_true(seen > 30);
+}
+
 /* The weakest combination: w^T A = R_rr u^T in scaled form, small where rows nearly are
  * dependent, and linear in what parts them. */
 static void
@@ -383,6 +441,7 @@ main(void)
         cmocka_unit_test(repeated_rows_give_the_least_multipliers),
         cmocka_unit_test(a_mass_that_fades_keeps_its_scale),
         cmocka_unit_test(a_lost_rank_is_told),
+        cmocka_unit_test(short_dependencies_are_named),
         cmocka_unit_test(the_weakest_combination_is_found),
         cmocka_unit_test(a_pattern_is_no_other_solution),
         cmocka_unit_test(few_rows_move_least),

@@ -9,8 +9,13 @@ s/[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} *\(us\|µs\|ms\|s\|min\) \([Cc][Pp][Uu]\)/
 s/method \(rk8pd\|dop853\|taylor\), tol/method AUTO, tol/
 s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
-# Where a run failed is known to a dozen digits.
-/ failed: /s/^\(run[0-9]*: t = [^ ,]*\.\.[-0-9.]\{14\}\)[0-9]*,/\1,/
+# Where a run failed is known to ten digits.
+/ failed: /s/^\([a-z]*[0-9]*: t = [^ ,]*\.\.[-0-9.]\{12\}\)[0-9]*/\1/
+s/\( at t = [-0-9.]\{12\}\)[0-9]*/\1/g
+s/\(a singularity: [^ ]* = \)[^ ]* there, \([^ ]* = \).*/\1N there, \2N/
+s/\(does not vanish there: it is \).*/\1N/
+# What may be anything.
+s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} (error unknown)/N (error unknown)/g
 /^  apart: /s/ [0-9][0-9]* steps\{0,1\}/ STEPS/g
 /^  drift: /s/ [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\(,\|$\)/ N\2/g
 s/^\(  error of the end state: at most \).*/\1N/
@@ -18,6 +23,7 @@ s/^\(  error of the end state: at most \).*/\1N/
 /^    /s/ = -\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/ = N/g
 }
 s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/N ± ERROR/g
+s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} \([-+]\) [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\*i ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/N \2 N*i ± ERROR/g
 # Columns of numbers with errors are as wide as the errors have digits.
 s/ERROR   */ERROR  /g
 /^bifurcation  /s/   */  /g
@@ -42,6 +48,8 @@ s/kernels; machine code needs AVX2/CODE/
 # So is their order.
 s/^order: [0-9][0-9]*, by what/order: P, by what/
 s/order [0-9][0-9]*, \(.* an order; CODE\)/order P, \1/
+# So are the places where a run changes over to another method and back.
+/ the scene is stiff: /s/from t = [0-9.e+-]* on/from t = N on/g
 # What rounding leaves depends on the processor.
 s/steps were held to .*/steps were held to N/
 s/\( rows.*\), in [0-9.e+-]* s$/\1, in TIME/

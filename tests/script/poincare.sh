@@ -1,5 +1,5 @@
 # Sections of runs: every crossing, with numbers there and their errors.
-six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
+same='s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
 cat >two.lag <<'END'
 param w = 2
 coord x, y
@@ -14,7 +14,7 @@ qdot -q --json two.lag -e 'run 0..1000' -e "poincare x = 0 rising : y, y', x'" |
         if ($10 + $11 + $12 + $13 > 1e-11) wide++ }
     END { print n, "crossings,", bad + 0, "outside,", wide + 0, "wide" }'
 echo '# ways, named equations, a run made for it, part of the time, backwards'
-qdot -q two.lag - <<'END' 2>&1 | sed "$six" | grep -v -e steps -e cpu -e error -e drift
+qdot -q two.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v -e steps -e cpu -e error -e drift
 run 0..7 as forth
 poincare x = 0 : y, x' as both
 poincare x == 1/2 falling : t, y*w
@@ -26,7 +26,7 @@ poincare x' = 0 falling : x run 0..-20 tol 1e-9 as back
 table both
 END
 echo '# at events, jumps and switches: once each'
-qdot -q - <<'END' 2>&1 | sed "$six" | grep -v -e steps -e cpu -e error -e drift
+qdot -q - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v -e steps -e cpu -e error -e drift
 coord z
 particle b mass 1 at z
 gravity -2
@@ -44,7 +44,7 @@ poincare z = 0 falling : z'
 poincare z = -1 : z
 END
 echo '# of a sweep: its runs are made again'
-qdot -q two.lag - <<'END' 2>&1 | sed "$six"
+qdot -q two.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 sweep w = 1..3 step 1 run 0..10 tol 1e-9 : y as curve
 poincare x = 0 rising : y of curve as all
 poincare x = 0 : y of curve from 4 to 6
@@ -55,7 +55,7 @@ undo
 undo
 table all
 END
-sed "$six" all.csv | head -3
+awk -f six.awk all.csv | sed "$same" | head -3
 echo '# chaos: points beyond the horizon have no digits of their own'
 qdot -q --json - <<'END' 2>&1 | awk '/horizon of their run/ { told++ } /"row"/ { n++; if (/"errors":\[null/) unknown++ } END { print told, (n > 50), (unknown > 50) }'
 coord th1, th2
@@ -67,7 +67,7 @@ run 0..200 tol 1e-9
 poincare sin(th1) = 0 rising : th2, th2'
 END
 echo '# through poles, in the coordinates of the scene'
-qdot -q - <<'END' 2>&1 | sed "$six" | grep -v -e steps -e cpu -e error -e drift
+qdot -q - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v -e steps -e cpu -e error -e drift
 coord r > 0, phi
 particle p mass 1 at (r*cos(phi), r*sin(phi))
 potential r^2/2

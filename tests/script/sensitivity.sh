@@ -1,5 +1,5 @@
 # Slopes of numbers of a run by parameters and initial values, against differences and closed forms.
-six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/ ± .*//' # what is compared
+same='s/ ± .*//' # what is compared
 cat >double.lag <<'END'
 param m1, m2, L1, L2, g > 0
 coord theta1, theta2
@@ -11,10 +11,10 @@ set m1 = 1, m2 = 2*m1, L1 = 1, L2 = 1, g = 9.81
 start theta1 = L1, theta2 = 1
 END
 # what a value is made of follows it: m2 = 2*m1, theta1 = L1; without a run one is made up to the time named
-qdot -q double.lag - <<'END' 2>&1 | sed "$six"
+qdot -q double.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 sensitivity value(theta1 + theta2', 3) of m1, L1, g, theta2, theta1'
 END
-qdot -q double.lag - <<'END' 2>&1 | sed "$six" | grep -v '^  '
+qdot -q double.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v '^  '
 run 0..3 digits 25 as p with L1 = 1.00001
 run 0..3 digits 25 as n with L1 = 0.99999
 print (value(p.(theta1 + theta2'), 3) - value(n.(theta1 + theta2'), 3))/0.00002
@@ -33,7 +33,7 @@ gravity (0, -g)
 event bounce: y = x/10 falling then y' = -e*y'
 start y = 1, x' = 0.3
 END
-qdot -q ball.lag - <<'END' 2>&1 | sed "$six" | grep -v '^  '
+qdot -q ball.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v '^  '
 run 0..1
 sensitivity value(y, 1) of e, g, x, y'
 sensitivity bounce[2] of e, g
@@ -49,13 +49,13 @@ print (mean(p.y, 0..1) - mean(n.y, 0..1))/0.0002, (max(p.y, 0.5..1) - max(n.y, 0
 END
 # a ball that comes to rest: before that there are slopes; a stiff scene: by radau, as the run
 sed 's/y = x\/10/y = 0/' ball.lag >level.lag
-qdot -q level.lag - <<'END' 2>&1 | sed "$six" | grep '^d(\|error:'
+qdot -q level.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep '^d(\|error:'
 run 0..9
 sensitivity value(y, 1) + bounce[4] of e
 sensitivity value(y, 9) of e
 END
 qdot -q -e 'coord x; param c = 1e6; particle p mass 1 at x; potential x^2/2; force -c*x'"'"' on p; start x = 1' \
-    -e 'run 0..10; sensitivity 1e12*value(x, 10) of c' 2>&1 | sed "$six" | grep '^d('
+    -e 'run 0..10; sensitivity 1e12*value(x, 10) of c' 2>&1 | awk -f six.awk | sed "$same" | grep '^d('
 # constraints: what the start leaves open follows
 cat >rod.lag <<'END'
 param m, L, g > 0, k = 0.3
@@ -67,7 +67,7 @@ dissipation k*(x'^2 + y'^2)/2
 set m = 1, L = 1, g = 9.81
 start x = 0.8, x' = 0.1
 END
-qdot -q rod.lag - <<'END' 2>&1 | sed "$six" | grep -v '^  '
+qdot -q rod.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v '^  '
 run 0..2
 sensitivity value(y, 2) of m, L, k, x, x'
 run 0..2 as p with L = 1.0001

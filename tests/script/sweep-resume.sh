@@ -16,7 +16,7 @@ done
 cmp whole pieces && wc -l <pieces | tr -d ' '
 [ $kills -gt 0 ] && echo 'it was killed on the way'
 echo '# once more: all is there'
-qdot -q scene.lag -e "$sweep resume \"rows.h5\"" 2>&1 | sed 's/in [0-9.e-]* s/in S/; s/, the errors of [0-9]* unknown//'
+qdot -q scene.lag -e "$sweep resume \"rows.h5\"" 2>&1 | sed 's/in [0-9.e-]* s/in S/; s/[0-9]* failed/N failed/; s/, the errors of [0-9]* unknown//'
 echo '# another sweep, another scene, another file'
 qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "rows.h5"' 2>&1
 qdot -q scene.lag -e 'gravity (0, -1)' -e "$sweep resume \"rows.h5\"" 2>&1

@@ -1,5 +1,5 @@
 # A run for each value: numbers of it as rows, with their errors.
-six='s/\(-\{0,1\}[0-9]*\.[0-9]\{6\}\)[0-9]*/\1/g; s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
+same='s/in [0-9.e-]* s/in S/; s/  */ /g; s/^ //' # what is compared
 cat >scene.lag <<'END'
 param m > 0, k = 4, c = 0.2, F = 1, omega
 coord x
@@ -8,7 +8,7 @@ potential k*x^2/2
 force F*cos(omega*t) - c*x' on x
 set m = 1
 END
-qdot -q scene.lag - <<'END' 2>&1 | sed "$six" | sed '/^now:/,/x = /d'
+qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | sed '/^now:/,/x = /d'
 # the steady amplitude of a driven oscillator is F/sqrt((k - m*omega^2)^2 + c^2*omega^2)
 sweep omega = 1..3 step 1 run 0..200 : max(abs(x), 190..200) as curve
 table curve
@@ -21,7 +21,7 @@ set omega = 2
 run 0..1 as now
 check value(x, 1) == -0.1218486 within 1e-6
 END
-qdot -q scene.lag - <<'END' 2>&1 | sed "$six"
+qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 event cross: x = 0 falling
 set omega = 2
 start x = 1
@@ -40,11 +40,11 @@ table cloud
 run 0..1/4
 value(x, 0)
 END
-qdot -q scene.lag -e 'run 0..1 with omega = 2, x = 1; value(x, 1/2); value(m*x'"'"', 1)' | sed "$six" | tail -n 2
+qdot -q scene.lag -e 'run 0..1 with omega = 2, x = 1; value(x, 1/2); value(m*x'"'"', 1)' | awk -f six.awk | sed "$same" | tail -n 2
 # as JSON: values and errors of what was swept and of what was asked for
-qdot --json scene.lag -e 'sweep omega = [1], x = [0, 1] run 0..1 : value(1/x, 0) as r' | sed "$six; s/e-[0-9]*/e-N/g"
+qdot --json scene.lag -e 'sweep omega = [1], x = [0, 1] run 0..1 : value(1/x, 0) as r' | awk -f six.awk | sed "$same; s/e-[0-9]*/e-N/g"
 # files
-qdot -q scene.lag - <<'END' 2>&1 | sed "$six"
+qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 event cross: x = 0 rising
 sweep omega = 1..2 step 1/2 run 0..4 : x, cross[1] as r
 save r to "r.csv"
@@ -55,11 +55,11 @@ sweep omega = 1..2 count 2, x = 0..1 count 2 run 0..1 : x as s
 plot s
 sweep omega = [1, 2] run 0..1 : cross[7]
 END
-sed "$six" r.csv
-tail -n 1 r.json | sed "$six"
+awk -f six.awk r.csv | sed "$same"
+tail -n 1 r.json | awk -f six.awk | sed "$same"
 grep -c '<svg' r.svg
 # Beyond the horizon no digit is known: none is printed.
-qdot -q - <<'END' 2>&1 | sed "$six"
+qdot -q - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 coord a, b
 particle p mass 1 at (sin(a), -cos(a))
 particle q mass 1 at (sin(a) + sin(b), -cos(a) - cos(b))
@@ -68,7 +68,7 @@ start b = 2
 sweep a = 2..3 step 1 run 0..100 : a, energy as chaos
 END
 echo '# numbers over two names are a map; over uneven values, or three names, not yet'
-qdot -q scene.lag - <<'END' 2>&1 | sed "$six" | grep -v rows
+qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v rows
 set omega = 2
 sweep k = 1..2 count 2, x = -1..1 count 3 run 0..1 tol 1e-9 : k*value(x, 0), x as map
 plot map keep to "map.svg"

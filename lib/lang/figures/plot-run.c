@@ -224,6 +224,17 @@ first_times(const qdot_plot_curve *curve, double low, double high, double **time
     return QDOT_OK;
 }
 
+/* A logarithmic axis of times from 0 on begins at a power of ten, some way before the second time, and not
+ * wherever steps happen to be halved to. */
+static void
+leave_zero(double *times, size_t n)
+{
+    enum { powers_before = 3 };
+
+    if (n > 1 && times[0] == 0 && times[1] > 0)
+        times[0] = pow(10, floor(log10(times[1])) - powers_before);
+}
+
 /* The first points of a curve along its run. */
 static qdot_status
 begin(qdot_plot_panel *p, qdot_plot_curve *curve)
@@ -256,6 +267,8 @@ begin(qdot_plot_panel *p, qdot_plot_curve *curve)
         high = fmin(high, r->most);
     }
     status = first_times(curve, low, high, &times, &n);
+    if (status == QDOT_OK && p->choice.log[0] && !curve->y->vector && curve->x.session == NULL)
+        leave_zero(times, n);
     if (status == QDOT_OK)
         status = qdot_trace_begin(&curve->source, n, times, &curve->points);
     qdot_free(times);

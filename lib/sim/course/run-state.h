@@ -31,6 +31,7 @@ struct qdot_run {
     bool occurrence_errors; /* the errors of the occurrences have been found */
     bool by_clock, no_drifts; /* of the request */
     bool hidden;            /* the run has passed over something: no error is known */
+    bool singular;          /* no step was small enough at its end, for a singularity there */
     char *doubt;            /* why the error is unknown; NULL */
 
     qdot_ode_meter meter;   /* of the run's work, which that of companions is compared with */

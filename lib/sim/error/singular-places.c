@@ -26,9 +26,10 @@ enum { sections = 60, closed_in = 12, most_told = 60 };
  * too. */
 enum { few_steps = 100, parts_of_a_step = 4, most_parts = 64 };
 
-/* Some constraints, and when they were passed. */
+/* Some rows of the constraints, none where these are not known, and when they were passed. */
 typedef struct {
-    qdot_text names;
+    const qdot_constraints *of;
+    bool *rows; /* [of->m], owned */
     qdot_vec(double) times;
 } group;
 
@@ -135,28 +136,106 @@ descend(search *s, const double *t, const double *q, double *at, double *least)
     return look(s, *at, least);
 }
 
+/* Whether the constraints of two modes are the same. */
+static bool
+are_same(const qdot_constraints *a, const qdot_constraints *b)
+{
+    bool same = a->m == b->m;
+
+    for (size_t k = 0; k < a->m && same && a != b; k++)
+        same = strcmp(a->rows[k].name, b->rows[k].name) == 0;
+    return same;
+}
+
+/* Whether the rows of g are among `rows`; no row is only among none. */
+static bool
+is_among(const group *g, const bool *rows)
+{
+    bool some = false, others = false;
+
+    for (size_t k = 0; k < g->of->m; k++) {
+        if (g->rows[k] && !rows[k])
+            return false;
+        some = some || g->rows[k];
+        others = others || rows[k];
+    }
+    return some == others;
+}
+
+static void
+clear_group(group *g)
+{
+    qdot_free(g->rows);
+    qdot_free(g->times.at);
+}
+
+/* Give the places of all groups whose rows are among those of group i to it, in the order of time; to whom
+ * *i points then. */
+static qdot_status
+gather(search *s, size_t *i)
+{
+    const double way = s->course->tr.t[s->course->tr.count - 1] < s->course->tr.t[0] ? -1 : 1;
+
+    for (size_t j = s->groups.n; j-- > 0;) {
+        group *to = s->groups.at + *i, *from = s->groups.at + j;
+
+        if (j == *i || !are_same(from->of, to->of) || !is_among(from, to->rows))
+            continue;
+        for (size_t k = 0; k < from->times.n; k++) {
+            QDOT_TRY(qdot_vec_push(&to->times, from->times.at[k]));
+            for (size_t l = to->times.n - 1;
+                 l > 0 && way * to->times.at[l] < way * to->times.at[l - 1]; l--) {
+                const double later = to->times.at[l - 1];
+
+                to->times.at[l - 1] = to->times.at[l];
+                to->times.at[l] = later;
+            }
+        }
+        clear_group(from);
+        memmove(from, from + 1, (--s->groups.n - j) * sizeof *from);
+        *i -= j < *i;
+    }
+    return QDOT_OK;
+}
+
+/* The group of the rows `mine`, which it takes: one whose rows are some of these, or all and more; else a new one. */
+static qdot_status
+find_group(search *s, group *mine, size_t *i)
+{
+    qdot_status status;
+
+    for (*i = 0; *i < s->groups.n; ++*i) {
+        const group *g = s->groups.at + *i;
+
+        if (are_same(g->of, mine->of) && is_among(mine, g->rows))
+            break;
+    }
+    if (*i < s->groups.n) {
+        clear_group(mine);
+        return QDOT_OK;
+    }
+    status = qdot_vec_push(&s->groups, *mine);
+    if (status == QDOT_OK)
+        return gather(s, i);
+    clear_group(mine);
+    return status;
+}
+
 static qdot_status
 note(search *s, double t)
 {
-    qdot_text names = {0};
-    qdot_status status = QDOT_OK;
-    group *g = NULL;
+    group mine = {.of = qdot_constrained_of(s->held)};
+    size_t i;
 
-    if (!qdot_constrained_near(s->held, t, s->y, &names))
-        qdot_text_add(&names, "constraints");
-    for (size_t i = 0; i < s->groups.n && !g; i++)
-        if (strcmp(qdot_text_str(&s->groups.at[i].names), qdot_text_str(&names)) == 0)
-            g = s->groups.at + i;
-    if (!g) {
-        status = qdot_vec_push(&s->groups, ((group){.names = names}));
-        g = status == QDOT_OK ? s->groups.at + s->groups.n - 1 : NULL;
-    }
-    if (!g || g->names.at != names.at)
-        qdot_text_clear(&names);
-    if (g && g->times.n > 0 && s->most < away * s->enough)
+    mine.rows = qdot_calloc(mine.of->m, sizeof *mine.rows);
+    if (!mine.rows)
+        return QDOT_ENOMEM;
+    (void)qdot_constrained_near(s->held, t, s->y, mine.rows); /* else no row is marked */
+    QDOT_TRY(find_group(s, &mine, &i));
+    if (s->groups.at[i].times.n > 0 && s->most < away * s->enough)
         return QDOT_OK;
     s->most = 0;
-    return g ? qdot_vec_push(&g->times, t) : status;
+    return qdot_vec_push(&s->groups.at[i].times, t);
 }
 
 /* Whether q [3], at three points in a row, may come down to 0 about the middle one: it is
@@ -247,8 +326,9 @@ tell(const group *g, qdot_text *to)
 {
     const size_t told = g->times.n < most_told ? g->times.n : most_told;
 
-    qdot_text_format(to, "%s%s stop being independent about t = ", to->n > 0 ? "\n" : "",
-                     qdot_text_str(&g->names));
+    qdot_text_add(to, to->n > 0 ? "\n" : "");
+    qdot_constrained_say_dependent(g->of, g->rows, to);
+    qdot_text_add(to, " about t = ");
     for (size_t i = 0; i < told; i++)
         qdot_text_format(to, "%s%.4g",
                          i == 0                                   ? ""
@@ -284,8 +364,7 @@ qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
     for (size_t i = 0; i < s.groups.n; i++) {
         if (status == QDOT_OK)
             tell(s.groups.at + i, to);
-        qdot_text_clear(&s.groups.at[i].names);
-        qdot_free(s.groups.at[i].times.at);
+        clear_group(s.groups.at + i);
     }
     qdot_free(s.groups.at);
     qdot_trajectory_close(s.cursor);

@@ -193,11 +193,10 @@ project(const double *t, double *y, double *carry, double *moved, void *user)
     qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
 }
 
-static double
-near(size_t lane, int p, double s, double least, void *user)
+static void
+near(int p, const double *s, const double *least, double *to, void *user)
 {
-    return qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, lane, p - 2, s,
-                           least);
+    qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, p - 2, s, least, to);
 }
 
 /* --- building ------------------------------------------------------------------------ */

@@ -59,37 +59,57 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
-qdot_status
-qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
+void
+qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to)
 {
-    qdot_text name = {0};
+    size_t count = 0;
 
-    add_name(&name, c->rows[row].name, strlen(c->rows[row].name), false);
-    if (qdot_text_status(&name) == QDOT_OK)
-        qdot_fail(QDOT_ESINGULAR, "%s %.300s has no direction here",
-                  c->rows[row].multiplier == QDOT_NIL ? "the" : "constraint",
-                  qdot_text_str(&name));
-    qdot_text_clear(&name);
+    for (size_t k = 0; k < c->m; k++)
+        count += rows[k];
+    if (count == 0)
+        qdot_text_add(to, "constraints");
+    else
+        qdot_constrained_name(c, rows, to);
+    qdot_text_add(to, count == 1 ? " has no direction" : " stop being independent");
+}
+
+qdot_status
+qdot_constrained_fail_dependent(const qdot_constraints *c, const bool *rows)
+{
+    qdot_text text = {0};
+
+    qdot_constrained_say_dependent(c, rows, &text);
+    if (qdot_text_status(&text) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR, "%.300s here", qdot_text_str(&text));
+    qdot_text_clear(&text);
     return QDOT_ESINGULAR;
 }
 
-size_t
+qdot_status
+qdot_constrained_without_direction(const qdot_constraints *c, size_t row)
+{
+    bool *rows = qdot_calloc(c->m, sizeof *rows);
+    qdot_status status = QDOT_ENOMEM;
+
+    if (rows) {
+        rows[row] = true;
+        status = qdot_constrained_fail_dependent(c, rows);
+    }
+    qdot_free(rows);
+    return status;
+}
+
+bool
 qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row,
-                           double below, qdot_text *names)
+                           double below, bool *rows)
 {
     double *part = s->w; /* scratch of n + m */
-    bool *in = qdot_calloc(c->m + 1, sizeof *in);
-    size_t count = 0;
+    bool some = false;
 
-    if (!in)
-        return 0;
+    memset(rows, 0, c->m * sizeof *rows);
     qdot_saddle_parts(s, below, part);
     for (size_t k = 0; k < s->m; k++)
-        if (part[k] > QDOT_CONSTRAINED_PART) {
-            in[row ? row[k] : k] = true;
-            count++;
-        }
-    qdot_constrained_name(c, in, names);
-    qdot_free(in);
-    return count;
+        if (part[k] > QDOT_CONSTRAINED_PART)
+            rows[row ? row[k] : k] = some = true;
+    return some;
 }

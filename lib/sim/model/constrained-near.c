@@ -5,7 +5,7 @@
 #include "sim/model/constrained.h"
 
 bool
-qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text *names)
+qdot_constrained_near(qdot_constrained *h, double t, const double *y, bool *rows)
 {
     static const double near = 1e-3;
     qdot_constrained_level *all = h->at[QDOT_ACCELERATION];
@@ -20,7 +20,7 @@ qdot_constrained_near(qdot_constrained *h, double t, const double *y, qdot_text 
     if (status == QDOT_OK ? all->saddle.rank == 0 || all->saddle.quality > near
                           : failed < h->plan->n)
         return false;
-    return qdot_constrained_dependent(h->c, &all->saddle, all->row, near, names) > 0;
+    return qdot_constrained_dependent(h->c, &all->saddle, all->row, near, rows);
 }
 
 double

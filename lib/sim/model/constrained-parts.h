@@ -77,10 +77,10 @@ size_t qdot_constrained_contradicting(qdot_constrained *h);
 /* Evaluate M and A at the loaded state into a level. */
 void qdot_constrained_metric(qdot_constrained *h, qdot_constrained_level *level);
 
-/* Append the names of the rows that depend on each other (qdot_saddle_parts); returns their
- * number. row [s->m] of the constraints, NULL: all. */
-size_t qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
-                                  const size_t *row, double below, qdot_text *names);
+/* Mark in rows [c->m] those that depend on each other (qdot_saddle_parts); whether there are any.
+ * row [s->m] of the constraints, NULL: all. */
+bool qdot_constrained_dependent(const qdot_constraints *c, qdot_saddle *s,
+                                const size_t *row, double below, bool *rows);
 
 static inline const qdot_tape *
 qdot_constrained_tape(const qdot_tape *own, const qdot_tape *plans)

@@ -151,14 +151,13 @@ static qdot_status
 dependent(const qdot_constraints *c, qdot_saddle *s, const size_t *row)
 {
     static const double lost = 1e-9; /* of independence: as much as nothing */
-    qdot_text names = {0};
-    const size_t count = qdot_constrained_dependent(c, s, row, lost, &names);
+    bool *rows = qdot_calloc(c->m, sizeof *rows);
+    qdot_status status = rows ? QDOT_ESINGULAR : QDOT_ENOMEM;
 
-    if (qdot_text_status(&names) == QDOT_OK && count > 0)
-        qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names),
-                  count == 1 ? "has no direction" : "stop being independent");
-    qdot_text_clear(&names);
-    return QDOT_ESINGULAR;
+    if (rows && qdot_constrained_dependent(c, s, row, lost, rows))
+        status = qdot_constrained_fail_dependent(c, rows);
+    qdot_free(rows);
+    return status;
 }
 
 /* Fail for a row in use that has shrunk to rounding; redundant ones may. */
@@ -364,6 +363,12 @@ size_t
 qdot_constrained_rows(const qdot_constrained *h)
 {
     return h->c->m;
+}
+
+const qdot_constraints *
+qdot_constrained_of(const qdot_constrained *h)
+{
+    return h->c;
 }
 
 size_t

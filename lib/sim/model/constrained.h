@@ -137,10 +137,9 @@ double qdot_constrained_independence(qdot_constrained *constrained, double t,
 double qdot_constrained_remains(qdot_constrained *constrained, double t, const double *y,
                                 size_t *row);
 
-/* Whether the constraints that hold accelerations are nearly dependent at y; if so append which:
- * "constraints a and b". false also if that cannot be found out. */
-bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y,
-                           qdot_text *names);
+/* Whether the constraints that hold accelerations are nearly dependent at y; if so rows [m] marks
+ * which. false also if that cannot be found out. */
+bool qdot_constrained_near(qdot_constrained *constrained, double t, const double *y, bool *rows);
 
 /* A row with at least this part in a dependency (qdot_saddle_parts) is named. */
 #define QDOT_CONSTRAINED_PART 1e-6
@@ -148,11 +147,18 @@ bool qdot_constrained_near(qdot_constrained *constrained, double t, const double
  * these are many, a vector constraint is named once for all its components. */
 void qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to);
 
-/* Fail with QDOT_ESINGULAR: row `row` of A has become 0. */
+/* Append what has become of the rows marked in rows [m]: "constraint a has no direction", "constraints a and b
+ * stop being independent"; if none is marked, "constraints stop being independent". */
+void qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to);
+
+/* Fail with QDOT_ESINGULAR: the rows marked in rows [m] depend on each other; or row `row` of A has become 0. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_fail_dependent(const qdot_constraints *c,
+                                                            const bool *rows);
 QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
                                                                size_t row);
 
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
+const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
 /* Independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */
 size_t qdot_constrained_rank(const qdot_constrained *constrained);
 /* How often a matrix was factored. */

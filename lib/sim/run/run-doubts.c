@@ -66,6 +66,13 @@ qdot_run_doubt_places(qdot_run *run)
 }
 
 qdot_status
+qdot_run_doubt_end(qdot_run *run)
+{
+    run->report.error = run->report.scaled_error = NAN;
+    return qdot_run_say_doubt(run, "the run ended at a singularity, and how far from it, rounding decides");
+}
+
+qdot_status
 qdot_run_doubt_energy(qdot_run *run, double tol)
 {
     const qdot_trajectory *tr = &run->course.tr;

@@ -12,6 +12,10 @@
  * NaN, and run->doubt says why. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_run_doubt_places(qdot_run *run);
 
+/* The state at which a run comes to a singularity: its error is NaN, that of states before is known as ever. Errors:
+ * QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_run_doubt_end(qdot_run *run);
+
 /* The same, if the energy was not kept as steps under the tolerance would keep it; the drifts are
  * measured. */
 QDOT_MUST_CHECK qdot_status qdot_run_doubt_energy(qdot_run *run, double tol);

@@ -173,17 +173,18 @@ say_dependent(const qdot_run *run, qdot_text *reason)
 {
     qdot_constrained *held =
         run->course.binds.at[0] ? qdot_bind_held(run->course.binds.at[0]) : NULL;
-    qdot_text names = {0};
-    bool found = held && !strstr(qdot_text_str(reason), "independent")
-                 && !strstr(qdot_text_str(reason), "no direction")
-                 && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
-                                          last_state(run), &names);
+    bool *rows = held ? qdot_calloc(qdot_constrained_rows(held), sizeof *rows) : NULL;
+    const bool found = rows && !strstr(qdot_text_str(reason), "independent")
+                       && !strstr(qdot_text_str(reason), "no direction")
+                       && qdot_constrained_near(held, run->course.tr.t[run->course.tr.count - 1],
+                                                last_state(run), rows);
 
-    if (found)
-        qdot_text_format(reason, "; %s stop being independent there, which method taylor can "
-                                 "go over",
-                         qdot_text_str(&names));
-    qdot_text_clear(&names);
+    if (found) {
+        qdot_text_add(reason, "; ");
+        qdot_constrained_say_dependent(run->plan->constraints, rows, reason);
+        qdot_text_add(reason, " there, which method taylor can go over");
+    }
+    qdot_free(rows);
     return found;
 }
 
@@ -197,13 +198,17 @@ say_failure(qdot_run *run, qdot_status status)
     qdot_text reason = {0};
 
     qdot_text_add(&reason, why);
-    if (!say_dependent(run, &reason) && status == QDOT_EFAILED)
+    if (!say_dependent(run, &reason) && status == QDOT_EFAILED) {
+        const size_t said = reason.n;
+
         status = qdot_failure_explain(run->plan,
                                       qdot_course_systems(&run->course) + piece->mode,
                                       tr->t[tr->count - 1], last_state(run),
                                       run->t1 - run->t0, &reason);
-    else
+        run->singular = reason.n > said;
+    } else {
         status = qdot_text_status(&reason);
+    }
     if (status == QDOT_OK)
         status = qdot_run_say_why(run, qdot_text_str(&reason));
     qdot_text_clear(&reason);
@@ -417,7 +422,7 @@ run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
     run->report.reason = NULL;
     run->report.status = QDOT_RUN_DONE;
     qdot_text_truncate(&run->notice, notice);
-    run->leading = false;
+    run->leading = run->singular = false;
     return run_beside(run, tol, interrupted);
 }
 
@@ -445,6 +450,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = say_raised(run, tol);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_places(run);
+    if (status == QDOT_OK && run->singular)
+        status = qdot_run_doubt_end(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted && !run->no_drifts)

@@ -172,25 +172,33 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
 
 /* --- a step --------------------------------------------------------------------------- */
 
-/* The state at time t by the step's series: components by fours, none of which waits for another. */
+/* The state at time t by the step's series, even and odd orders apart: components by fours, none of which
+ * waits for another. */
 static void
 read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, double *to)
 {
     enum { SIDE_BY_SIDE = 4 };
-    const double at = (t - step->t) / step->unit;
+    const double at = (t - step->t) / step->unit, square = at * at;
     const size_t n = 2 * s->n, row = s->stride * L;
+    const int odd = (step->order - 1) | 1; /* the highest */
 
     for (size_t i = 0; i < n + s->varied; i++)
         to[i] = step->y[i * L];
     for (size_t i = 0; i < n; i += SIDE_BY_SIDE) {
         const size_t count = n - i < SIDE_BY_SIDE ? n - i : SIDE_BY_SIDE;
-        double sum[SIDE_BY_SIDE] = {0};
+        double sum[SIDE_BY_SIDE] = {0}, even[SIDE_BY_SIDE] = {0};
 
-        for (int k = step->order; k > 0; k--)
-            for (size_t j = 0; j < count; j++)
-                sum[j] = (sum[j] + step->x[(i + j) * row + (size_t)k * L]) * at;
+        for (size_t j = 0; j < count && odd < step->order; j++)
+            even[j] = step->x[(i + j) * row + (size_t)step->order * L];
+        for (int k = odd; k > 0; k -= 2)
+            for (size_t j = 0; j < count; j++) {
+                const double *x = step->x + (i + j) * row + (size_t)k * L;
+
+                sum[j] = sum[j] * square + x[0];
+                even[j] = even[j] * square + (k > 1 ? x[-L] : 0);
+            }
         for (size_t j = 0; j < count; j++)
-            to[i + j] += sum[j];
+            to[i + j] += sum[j] * at + even[j];
     }
 }
 

@@ -407,6 +407,7 @@ qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool
     x->error = x->im + k;
     QDOT_TRY(qdot_eigenvalues(k, B, E, x->re, x->im, x->error));
     state_trivial(x, trivial);
+    qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     judge(x);
     return QDOT_OK;
 }

@@ -23,7 +23,7 @@ typedef enum {
 typedef struct {
     size_t n; /* multipliers: 2 (n - m) */
     double *re, *im,
-        *error;     /* [n] in descending order of modulus; error 0: exactly this */
+        *error;     /* [n] as qdot_eigenvalues_arrange puts them; error 0: exactly this */
     size_t trivial; /* of them, which are 1 whatever the orbit */
     bool
         asymptotic; /* friction, applied forces: stable means that all are within the circle */
