@@ -355,6 +355,7 @@ search(hunt *h, qdot_zero_result *r)
         if (moves)
             QDOT_TRY(qdot_find_shoot(f, r->u, &moved));
         p.unit = moved ? h->unit : NULL;
+        p.once = moved; /* an orbit that no run can follow round is not looked for elsewhere */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);

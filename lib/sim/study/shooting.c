@@ -107,29 +107,29 @@ find_sizes(shooting *x, size_t last)
             x->size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
 }
 
-/* Sizes while little has grown, the growth over the whole, and the segments that it asks for. A run that fails has
- * grown to no end. */
+/* Sizes while little has grown, and the segments that are needed if all grows on as fast as until then: the run of
+ * the guess may have left for places where nothing does. A run that fails has grown to no end. */
 static qdot_status
 count_segments(shooting *x, const double *u)
 {
     const double T = x->first[x->z];
     const qdot_status status = go(x, u, x->first, x->t0, x->t0 + T, LOOKS);
     double most = 0;
+    size_t at = 0;
 
     x->K = MOST_SEGMENTS;
     for (size_t i = 0; i < x->z; i++)
         x->size[i] = 1;
     if (status != QDOT_OK)
         return qdot_grave(status);
-    for (size_t at = 0; at < LOOKS; at++) {
-        if (most < tame)
-            find_sizes(x, at);
-        most = fmax(most, growth(x, at));
+    for (; at < LOOKS && most < tame; at++) {
+        find_sizes(x, at);
+        most = growth(x, at);
     }
     if (most < tame)
         x->K = 1;
-    else if (most < pow(growth_of_one, MOST_SEGMENTS))
-        x->K = (size_t)ceil(log(most) / log(growth_of_one));
+    else if (isfinite(most))
+        x->K = (size_t)fmin(MOST_SEGMENTS, ceil(log(most) / log(growth_of_one) * LOOKS / (double)at));
     return QDOT_OK;
 }
 
