@@ -612,6 +612,7 @@ library_sources = \
 	lib/tape/finish.c \
 	lib/tape/interval.c \
 	lib/tape/keymap.c \
+	lib/tape/logistic.c \
 	lib/tape/lower.c \
 	lib/tape/shake.c \
 	lib/tape/tape.c
@@ -1126,6 +1127,7 @@ library_headers = \
 	lib/tape/interval.def \
 	lib/tape/interval.h \
 	lib/tape/keymap.h \
+	lib/tape/logistic.h \
 	lib/tape/operation.def \
 	lib/tape/shake.h \
 	lib/tape/tape.h
@@ -1313,6 +1315,7 @@ unit_tests = \
 	tests/tape/test_derivative \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
+	tests/tape/test_logistic \
 	tests/tape/test_tape
 
 script_tests = \
@@ -1372,6 +1375,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
 	tests/script/events.lag \
@@ -1379,6 +1383,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
+	tests/script/far-sides.lag \
 	tests/script/figures.sh \
 	tests/script/find-orbit.sh \
 	tests/script/find.sh \
@@ -1496,6 +1501,7 @@ script_tests = \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
+	tests/script/state-rounding.sh \
 	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
@@ -2417,6 +2423,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \
 	tests/script/events.out \
@@ -2424,6 +2431,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/far-away.out \
+	tests/script/far-sides.out \
 	tests/script/figures.out \
 	tests/script/find-orbit.out \
 	tests/script/find.out \
@@ -2558,6 +2566,7 @@ test_files = \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
+	tests/script/state-rounding.out \
 	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \

@@ -487,7 +487,8 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
         return QDOT_NIL;
     if (!qdot_pool_is_scalar(pool, e))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "hold takes numbers");
-    if (NODE(pool, e)->kind != QDOT_SUM && NODE(pool, e)->kind != QDOT_PROD)
+    if (NODE(pool, e)->kind != QDOT_SUM && NODE(pool, e)->kind != QDOT_PROD &&
+        !is_fun(pool, e, QDOT_LOG))
         return e;
     if (NODE(pool, e)->kind == QDOT_PROD &&
         qdot_rational_sgn(NUMBER(pool, arg0(pool, e))) < 0)

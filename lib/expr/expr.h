@@ -250,8 +250,8 @@ qdot_expr qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors); /* 
 qdot_expr qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args);
 qdot_expr qdot_fun1(qdot_pool *pool, qdot_fun_id id, qdot_expr x);
 /* e as one value that surrounding sums and products do not merge: hold(a + b) + c stays a sum of
- * two terms, so that a + b is computed once. For a number, a symbol or a function: e itself. Only
- * in equations for numerical runs. */
+ * two terms, so that a + b is computed once, and exp(-hold(log(a))) an exponential. For a
+ * number, a symbol or another function: e itself. Only in equations for numerical runs. */
 qdot_expr qdot_hold(qdot_pool *pool, qdot_expr e);
 /* By name: false if there is none. */
 bool qdot_fun_find(const char *name, qdot_fun_id *id);

@@ -140,8 +140,8 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
         size = most * (a * a + b * b);
         if (!isfinite(size) || !(size > 0))
             return false;
-        inverse[0] = a / size;
-        inverse[1] = -b / size;
+        re[k * n + k] = inverse[0] = a / size;
+        im[k * n + k] = inverse[1] = -b / size;
         for (size_t i = k + 1; i < n; i++) {
             if (re[i * n + k] == 0 && im[i * n + k] == 0)
                 continue;
@@ -176,16 +176,14 @@ qdot_lu_solve_complex(size_t n, const double *re, const double *im,
     for (size_t i = 1; i < n; i++)
         subtract(re + i * n, im + i * n, i, rows[i].from, i, x, y);
     for (size_t i = n; i-- > 0;) {
-        double c = re[i * n + i], d = im[i * n + i], size = fmax(fabs(c), fabs(d)), u, v;
+        const double c = re[i * n + i], d = im[i * n + i];
+        double u, v;
 
         subtract(re + i * n, im + i * n, i, i + 1, rows[i].to, x, y);
-        u = x[i] / size;
-        v = y[i] / size;
-        c /= size;
-        d /= size;
-        size = c * c + d * d;
-        x[i] = (u * c + v * d) / size;
-        y[i] = (v * c - u * d) / size;
+        u = x[i];
+        v = y[i];
+        x[i] = u * c - v * d;
+        y[i] = v * c + u * d;
     }
 }
 

@@ -30,7 +30,7 @@ bool qdot_lu_factor(size_t n, double *A, qdot_lu_row *rows);
 /* Solve with it; b [n] is the right-hand side, then the solution. */
 void qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b);
 
-/* The same for re + i im. */
+/* The same for re + i im; factors hold the inverses of the pivots. */
 bool qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows);
 void qdot_lu_solve_complex(size_t n, const double *re, const double *im,
                            const qdot_lu_row *rows, double *b_re, double *b_im);

@@ -19,8 +19,16 @@ static const double newton = 1e-3, newton_roundings = 10;
 static const double reuse = 1e-3, reuse_dear = 0.1, fast = 2e-3, slow = 0.8;
 enum { steady = 10, dear = 2 };
 
-/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. */
-static const double bounds = 0.02, fair = 0.1;
+/* The error bounds the steps where it is beyond this part of a tolerance; then this rate will do. Below
+ * the last one, steps grow at once whatever their stages. */
+static const double bounds = 0.02, fair = 0.1, lasts = 2e-3;
+
+/* A step so many times longer than the one before begins at its velocities: the polynomial of that step
+ * magnifies rounding and what is left of a transient. */
+static const double far = 5;
+
+/* Forces and accelerations agree within this part of the forces. */
+static const double agree = 0.1;
 
 /* Velocities that changes of multipliers make within h count by this: those of the step keep the
  * constraints, whatever these are. */
@@ -44,6 +52,7 @@ typedef struct {
     double *a;       /* [MOST x m] */
     double *R;       /* [MOST x m] residuals */
     double *re, *im; /* [m] */
+    double *forces;  /* [m] the sum of the sizes of their terms, where slopes were taken */
     double *weight;  /* [w] 1/(tol max(scale, |y|)) */
     double *before;  /* [MOST x w] the stages of the last step accepted */
     const qdot_radau_basis *before_basis; /* NULL: there is none */
@@ -53,6 +62,7 @@ typedef struct {
     double rate, rate_before, left; /* of the iteration */
     int iterations, since;          /* steps since the number of stages changed */
     double ratio;                   /* of the last step accepted */
+    double fell; /* by so much less than of the step before, were both of one length; 0: not known */
     double most; /* no longer steps for `cautious` more: the iteration failed with one */
     int cautious;
     bool rejected;
@@ -86,14 +96,15 @@ make(qdot_ode_stepper *s)
     r->v = r->linear.v;
     r->p = r->linear.p;
     r->w = r->p + r->m;
-    r->kind = s->tol > 1e-4 ? 0 : s->tol > 1e-8 ? 1 : 2;
-    return qdot_calloc_parts(&r->room, 8,
+    r->kind = s->tol > 1e-8 ? 1 : 2;
+    return qdot_calloc_parts(&r->room, 9,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
                                                  {&r->z, r->m}, /* more than there are */
                                                  {&r->a, MOST * r->m},
                                                  {&r->R, MOST * r->m},
                                                  {&r->re, r->m},
                                                  {&r->im, r->m},
+                                                 {&r->forces, r->m},
                                                  {&r->weight, r->w},
                                                  {&r->before, MOST * r->w}});
 }
@@ -108,7 +119,7 @@ restart(qdot_ode_stepper *s)
     r->factored = 0;
     r->rate = r->left = 1;
     r->since = 0;
-    r->ratio = 0;
+    r->ratio = r->fell = 0;
     r->cautious = 0;
     r->rejected = false;
 }
@@ -120,6 +131,13 @@ qdot_radau_keep_stages(qdot_ode_stepper *s, size_t stages)
 
     r->kind = (stages - 3) / 2;
     r->kept = true;
+}
+
+/* The larger of two; b where a is a NaN. */
+static inline double
+larger(double a, double b)
+{
+    return a > b ? a : b;
 }
 
 /* --- Newton's iteration ----------------------------------------------------------------- */
@@ -152,12 +170,19 @@ follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         }
 }
 
-/* The stages by the polynomial of the step before. */
+/* Whether the step is not much longer than the one before, if there is one. */
+static bool
+is_near(const radau *r)
+{
+    return r->before_basis && fabs(r->h) <= far * fabs(r->before_h);
+}
+
+/* The stages by the polynomial of the step before; y throughout if there is none, or none that would do. */
 static void
 predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
     radau *r = s->own;
-    const qdot_radau_basis *old = r->before_basis;
+    const qdot_radau_basis *old = is_near(r) ? r->before_basis : NULL;
     double w[MOST];
 
     if (!old)
@@ -235,13 +260,13 @@ change(radau *r, const qdot_radau_basis *b, double h)
             const double by = h * over_stages(b->stages, b->a[i], r->a + l, r->m);
 
             Z[l] += by;
-            size = fmax(size, fabs(by) * r->weight[l]);
+            size = larger(fabs(by) * r->weight[l], size);
         }
         for (size_t l = 0; l < r->m; l++) {
             const double by = r->a[i * r->m + l];
 
             Z[r->p + l] += by;
-            size = fmax(size, fabs(by) * r->weight[r->p + l]);
+            size = larger(fabs(by) * r->weight[r->p + l], size);
             if (!isfinite(by))
                 return INFINITY;
         }
@@ -301,6 +326,45 @@ weigh_algebraic(radau *r, double h)
     }
 }
 
+/* The sum of the sizes of what makes f - M a in row l of stage i: of forces as where slopes were taken. */
+static double
+terms(const radau *r, size_t i, size_t l)
+{
+    const double *mass = r->linear.mass + l * r->m, *dv = r->linear.dv + l * r->m;
+    double sum = r->forces[l];
+
+    for (size_t j = 0; j < r->v; j++)
+        sum += fabs(mass[j] * r->a[i * r->m + j]);
+    for (size_t j = r->v; j < r->m; j++)
+        sum += fabs(dv[j] * (r->z[j - r->v] + r->Z[i * r->w + r->p + j]));
+    return sum;
+}
+
+/* Whether forces and accelerations agree in all stages, as far as forces are known by now. A change may be
+ * small because the slopes at the beginning of the step are large, as where dry friction holds, and those
+ * of a stage are not, where it slides. What a much shorter step left says nothing then. */
+static bool
+forces_agree(const radau *r, const qdot_radau_basis *b)
+{
+    const double left = r->iterations == 1 && !is_near(r) ? 1 : r->left;
+
+    for (size_t i = 0; i < b->stages; i++)
+        for (size_t l = 0; l < r->v; l++) {
+            const double missing = left * fabs(r->R[i * r->m + l]);
+
+            if (missing > agree * r->forces[l] && missing > agree * terms(r, i, l))
+                return false;
+        }
+    return true;
+}
+
+/* x^(3/4) */
+static inline double
+raise(double x)
+{
+    return sqrt(x * sqrt(x));
+}
+
 /* Whether it converged; the stages, and `a` by them. */
 static qdot_status
 iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
@@ -315,7 +379,7 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
     *converged = false;
     weigh_algebraic(r, h);
     predict(s, b, h);
-    r->left = pow(fmax(r->left, DBL_EPSILON), 0.8);
+    r->left = raise(fmax(r->left, DBL_EPSILON));
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
         double size;
 
@@ -342,9 +406,11 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                 return QDOT_OK;
         }
         before = fmax(size, DBL_MIN);
-        if (r->left * size <= enough) {
+        if (r->left * size > enough)
+            continue;
+        accelerate(r, b, h);
+        if (forces_agree(r, b)) {
             *converged = true;
-            accelerate(r, b, h);
             return QDOT_OK;
         }
     }
@@ -434,6 +500,9 @@ prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool
         s->jacobians++;
         QDOT_TRY(qdot_radau_slopes(&r->linear, t, s->y, s->dydt + r->p,
                                    r->before_basis ? r->re : r->z));
+        qdot_radau_noise(&r->linear, s->y, s->dydt + r->p, r->z, r->forces);
+        for (size_t l = 0; l < r->m; l++)
+            r->forces[l] = fabs(r->forces[l]) / DBL_EPSILON;
         r->slopes = r->fresh = true;
         r->factored = 0;
     }
@@ -444,6 +513,24 @@ prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool
     *regular = qdot_radau_factor(&r->linear, b, h);
     r->factored = *regular ? h : 0;
     return QDOT_OK;
+}
+
+/* By how much the error of steps of one length falls from step to step, as a transient dies out: of the
+ * last two such factors the lesser one. 1: it does not, or is not known. */
+static double
+falls(radau *r, const qdot_radau_basis *b, double h, double ratio)
+{
+    const double grown = h / r->before_h, before = r->fell;
+    double fell = r->ratio / ratio;
+
+    if (r->before_basis != b || r->rejected) {
+        r->fell = 0;
+        return 1;
+    }
+    for (size_t i = 0; i < b->stages + 1; i++)
+        fell *= grown;
+    r->fell = fell;
+    return fmax(1, fmin(before, fell));
 }
 
 static qdot_status
@@ -473,9 +560,13 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
         *ratio = fmax(1.01, 0.1 * pow(0.9 / half, (double)b->stages + 1));
     if (!converged && !r->kept && r->kind > 0 && r->ratio <= bounds && r->since >= steady)
         r->kind--, r->since = 0;
-    r->rejected = !(*ratio <= 1);
-    if (!r->rejected)
+    if (*ratio <= 1) {
+        const double fell = falls(r, b, h, *ratio);
+
         r->ratio = *ratio;
+        *ratio /= r->rate < fast && *ratio < bounds ? fell : 1;
+    }
+    r->rejected = !(*ratio <= 1);
     if (!r->rejected && r->cautious > 0) /* as the loop aims at a tenth (whole.c) */
         *ratio = fmin(
             1, fmax(*ratio, 0.1 * pow(0.9 * fabs(h) / r->most, (double)b->stages + 1)));
@@ -497,7 +588,7 @@ choose_stages(const qdot_ode_stepper *s)
     r->cautious -= r->cautious > 0;
     if (r->kept || ++r->since < steady)
         return;
-    if (r->rate < (bound ? fair : fast) && r->kind + 1 < QDOT_RADAU_KINDS)
+    if (r->rate < (bound ? fair : fast) && r->ratio > lasts && r->kind + 1 < QDOT_RADAU_KINDS)
         r->kind++;
     else if (r->rate > slow && r->iterations > 2 && r->kind > 0 && !bound)
         r->kind--;

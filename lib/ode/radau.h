@@ -16,15 +16,19 @@
  * h; their errors are not tested, since no step takes anything from the multipliers before it. Errors
  * of velocities with which no mass moves, which follow at every moment, count h-fold, as positions.
  *
- * The iteration begins with the polynomial of the step before and ends when what is missing is below
- * NEWTON of a tolerance. The error is that of the formula with a stage more at the beginning of the
- * step: the defect there, filtered,
+ * The iteration begins with the polynomial of the step before (with y, if that was much shorter) and ends
+ * when what is missing is below NEWTON of a tolerance and forces agree with accelerations in each stage,
+ * within AGREE of their terms: where slopes are large, as in the layer of dry friction, velocities agree
+ * long before. The error is that of the formula with a stage more at the beginning of the step: the defect
+ * there, filtered,
  *
  *     e = (1 - h/lambda df/dy)^-1  h/lambda (f(t, y) - u'(t)),
  *
  * with the real eigenvalue lambda. It goes as h^(s+1), while the step errs by h^(2s) where nothing is
- * stiff, so it is safe. The number of stages rises where the iteration converges fast (its rate below
- * FAST), and falls where it does not (above SLOW).
+ * stiff, so it is safe. Where it does not bound the steps, the iteration converges fast (its rate below
+ * FAST) and the error of steps of one length fell twice in a row, as a transient dies out, it is taken to
+ * fall once more, and the step grows by that too. The number of stages rises where the iteration converges
+ * fast and the error bounds the steps, and falls where it does not converge well (above SLOW).
  *
  * Between the ends of a step stands the polynomial of its stages, with an error of h^(s+1).
  *

@@ -87,6 +87,23 @@ hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
     mpfr_ui_sub(slope, 1, slope, RN);
 }
 
+/* d = log(1 + e^a) */
+static void
+softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
+{
+    const bool positive = mpfr_sgn(a) > 0;
+
+    mpfr_set(w, a, RN);
+    if (positive)
+        mpfr_neg(w, w, RN);
+    mpfr_exp(w, w, RN);
+    mpfr_log1p(w, w, RN);
+    if (positive)
+        mpfr_add(d, a, w, RN);
+    else
+        mpfr_set(d, w, RN);
+}
+
 static void
 value(qdot_precise *p, const qdot_program_step *i)
 {
@@ -113,6 +130,7 @@ value(qdot_precise *p, const qdot_program_step *i)
     case QDOT_OP_LOG: mpfr_log(d, a, RN); break;
     case QDOT_OP_ERF: mpfr_erf(d, a, RN); break;
     case QDOT_OP_ERFC: mpfr_erfc(d, a, RN); break;
+    case QDOT_OP_SOFTPLUS: softplus(d, a, w); break;
     case QDOT_OP_ASIN: mpfr_asin(d, a, RN); break;
     case QDOT_OP_ACOS: mpfr_acos(d, a, RN); break;
     case QDOT_OP_ATAN: mpfr_atan(d, a, RN); break;

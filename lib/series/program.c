@@ -270,6 +270,7 @@ build_one(builder *b, const qdot_instruction *i, row *second)
         return to;
     case QDOT_OP_ERF:
     case QDOT_OP_ERFC:
+    case QDOT_OP_SOFTPLUS:
         to = emit(b, QDOT_T_ALONG, op, x, y, y);
         with_d(b);
         return to;

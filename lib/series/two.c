@@ -58,6 +58,17 @@ hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
     return d;
 }
 
+/* log(1 + e^a) */
+static qdot_two
+softplus(const qdot_two_functions *f, qdot_two a)
+{
+    const bool positive = a.hi > 0;
+    const qdot_two below = f->exp(positive ? qdot_two_neg(a) : a);
+    const qdot_two rest = f->log(qdot_two_add_double(below, 1));
+
+    return positive ? qdot_two_add(a, rest) : rest;
+}
+
 static void
 value(const qdot_tape_two *t, const qdot_program_step *i)
 {
@@ -85,6 +96,7 @@ value(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_LOG: d = f->log(a); break;
     case QDOT_OP_ERF: d = f->erf(a); break;
     case QDOT_OP_ERFC: d = f->erfc(a); break;
+    case QDOT_OP_SOFTPLUS: d = softplus(f, a); break;
     case QDOT_OP_ASIN: d = f->asin(a); break;
     case QDOT_OP_ACOS: d = f->acos(a); break;
     case QDOT_OP_ATAN: d = f->atan(a); break;

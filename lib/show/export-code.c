@@ -43,7 +43,7 @@ operands(uint32_t op)
 {
     if (op == QDOT_OP_COUNT)
         return 0;
-    if (op == QDOT_OP_ERF || op == QDOT_OP_ERFC)
+    if (op == QDOT_OP_ERF || op == QDOT_OP_ERFC || op == QDOT_OP_SOFTPLUS)
         return 1; /* the other is their slope */
     return qdot_operations[op].operands;
 }

@@ -42,7 +42,7 @@ const qdot_export_syntax qdot_export_matlab = {
         " break case catch classdef continue else elseif end endfunction endif endfor endwhile do until "
         "unwind_protect for function global if otherwise parfor persistent return spmd switch try while "
         "i j pi Inf NaN inf nan eps ans sin cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh "
-        "exp log sqrt power erf erfc abs sign min max floor zeros eye isreal error pick choose struct s steps step method watch first place lowest value decide cross signs check integrate within interpolate  "
+        "exp log log1p sqrt power erf erfc abs sign min max floor zeros eye isreal error pick choose struct s steps step method watch first place lowest value decide cross signs check integrate within interpolate  "
         "equations accelerations derivative jacobian energy residuals events effect bordered t state p M f "
         "A gamma acc lambda R J df h out event condition parameters "
         "side u level switches sides project residuals ",

@@ -51,6 +51,18 @@ of_tanh(double a, double r)
     return fmin(flat, sinh(r) / cosh(a) / (cosh(fmax(0, x)) * cos(r)));
 }
 
+/* log(1 + e^z): its slope e^z/(1 + e^z) has poles at +-pi i; left of them it is at most of e^x/(1 - e^x),
+ * x < 0. */
+static double
+of_softplus(double a, double r)
+{
+    const double x = a + r, small = x < 0 ? exp(x) / -expm1(x) : INFINITY;
+
+    if (!(r < M_PI))
+        return x < 0 ? r * small : NAN;
+    return r * fmin(small, r <= M_PI_2 ? 1 : 1 / sin(r));
+}
+
 /* erf: its slope 2 e^(-z^2)/sqrt(pi) is largest where x^2 - y^2 is least. */
 static double
 of_normal(double a, double r)

@@ -55,6 +55,12 @@ within(qdot_interval a, double least, double most)
     return (qdot_interval){fmin(fmax(a.lo, least), most), fmax(fmin(a.hi, most), least)};
 }
 
+static double
+softplus(double x)
+{
+    return fmax(x, 0) + log1p(exp(-fabs(x)));
+}
+
 /* Round outward. A lower bound that overflows becomes the largest double: the exact value is
  * finite. */
 static qdot_interval

@@ -1,9 +1,12 @@
 /* lower.c -- lowers the DAG to code: sums, products, functions, node by node. */
+#include <string.h>
+
 #include "expr/rational.h"
 #include "expr/walk.h"
 #include "tape/angle.h"
 #include "tape/code.h"
 #include "tape/constant.h"
+#include "tape/logistic.h"
 #include "tape/tape.h"
 
 /* Terms of a sum that share a coefficient but for its sign. */
@@ -348,15 +351,36 @@ error_function(lowering *l, qdot_fun_id f, qdot_value x)
               op(l, QDOT_OP_MUL, e, qdot_code_constant(&l->code, over)));
 }
 
+/* log(1 + e^d) reads its slope (1 + tanh(d/2))/2 too, of which log(1 + e^-d) has the same tanh. */
+static qdot_value
+softplus(lowering *l, qdot_expr d)
+{
+    const known *k = l->known + qdot_walk_index(&l->walk, d);
+    const bool minus = qdot_expr_is_negative(l->pool, k->factor);
+    qdot_expr half = qdot_mul(l->pool, QDOT_HALF, minus ? qdot_neg(l->pool, k->factor) : k->factor);
+    qdot_value x = k->bare, one_half = qdot_code_constant(&l->code, QDOT_HALF), y;
+
+    if (half != QDOT_ONE)
+        x = op(l, QDOT_OP_MUL, x, qdot_code_constant(&l->code, half));
+    y = op(l, QDOT_OP_MUL, op(l, QDOT_OP_TANH, x, 0), one_half);
+    y = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, one_half, y);
+    return op(l, QDOT_OP_SOFTPLUS, value_of(l, d), y);
+}
+
 static qdot_status
 lower_function(lowering *l, qdot_expr e, known *k)
 {
     qdot_fun_id f = (qdot_fun_id)qdot_expr_node(l->pool, e)->op;
-    qdot_expr x = qdot_expr_arg(l->pool, e, 0);
+    qdot_expr x = qdot_expr_arg(l->pool, e, 0), d;
     qdot_value s, c;
 
     if (f == QDOT_HOLD) {
         hold(l, x, k);
+        return QDOT_OK;
+    }
+    d = qdot_logistic_argument(l->pool, e);
+    if (d != QDOT_NIL && !qdot_constant_is(l->pool, d)) {
+        k->bare = softplus(l, d);
         return QDOT_OK;
     }
     if (direct[f] == QDOT_OP_SELECT) {
@@ -521,11 +545,27 @@ lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr 
     return status;
 }
 
+/* The outputs [m] with quotients of exponentials that stay finite, owned, and the walk of them. */
+static qdot_status
+with_quotients(lowering *l, size_t m, const qdot_expr *outputs, qdot_expr **finite)
+{
+    qdot_expr all = qdot_logistic_form(l->pool, qdot_list(l->pool, (uint32_t)m, outputs));
+
+    qdot_walk_end(&l->walk);
+    QDOT_TRY(qdot_pool_check(l->pool));
+    *finite = qdot_malloc(m * sizeof **finite);
+    if (!*finite)
+        return QDOT_ENOMEM;
+    memcpy(*finite, qdot_expr_args(l->pool, all), m * sizeof **finite);
+    return qdot_walk_begin_by_height(l->pool, m, *finite, &l->walk);
+}
+
 static qdot_status
 tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t m,
          const qdot_expr *outputs, qdot_tape **tape)
 {
     lowering l = {.pool = pool, .series = series};
+    qdot_expr *finite = NULL;
     qdot_status status;
 
     *tape = NULL;
@@ -537,8 +577,17 @@ tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t
         if (outputs[i] == QDOT_NIL)
             return qdot_fail(QDOT_EINVAL, "no expression to evaluate");
     QDOT_TRY(qdot_walk_begin_by_height(pool, m, outputs, &l.walk));
+    if (qdot_logistic_occurs(&l.walk)) {
+        status = with_quotients(&l, m, outputs, &finite);
+        if (status != QDOT_OK) {
+            qdot_free(finite);
+            return status;
+        }
+        outputs = finite;
+    }
     qdot_code_init(&l.code, pool, n);
     status = lower(&l, n, inputs, m, outputs, tape);
+    qdot_free(finite);
     qdot_code_clear(&l.code);
     qdot_angles_free(l.angles);
     qdot_free(l.known);

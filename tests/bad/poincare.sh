@@ -1,7 +1,7 @@
 # Sections that cannot be: where, and why.
 scene='coord x, y; param k; particle b mass 1 at (x, y); potential x^2/2 + y^2'
 while read -r line; do
-    qdot -q -e "$scene" -e 'start x = 1' -e "$line" 2>&1 | sed '/^run/,/y = /d'
+    qdot -q -e "$scene" -e 'start x = 1' -e "$line" 2>&1 | sed '/^run/,/y = /d; s/undefined at t = .*/undefined at t = T/'
 done <<'EOF'
 poincare x = 0 : y
 poincare x : y

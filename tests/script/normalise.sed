@@ -9,8 +9,9 @@ s/[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} *\(us\|µs\|ms\|s\|min\) \([Cc][Pp][Uu]\)/
 s/method \(rk8pd\|dop853\|taylor\), tol/method AUTO, tol/
 s/^\(  hint: auto\), .*/\1, .../
 s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
-# Where a run failed is known to ten digits.
-/ failed: /s/^\([a-z]*[0-9]*: t = [^ ,]*\.\.[-0-9.]\{12\}\)[0-9]*/\1/
+# Where a run failed or stopped is known to ten digits; how far many steps came, to none.
+/ failed: .* steps: at this rate/s/\.\.[0-9.]*\(, .* failed: stopped at t = \)[0-9.]*/..N\1N/
+/ \(failed\|stopped\): /s/^\([a-z]*[0-9]*: t = [^ ,]*\.\.[-0-9.]\{12\}\)[0-9]*/\1/
 s/\( at t = [-0-9.]\{12\}\)[0-9]*/\1/g
 s/\(a singularity: [^ ]* = \)[^ ]* there, \([^ ]* = \).*/\1N there, \2N/
 s/\(does not vanish there: it is \).*/\1N/
@@ -43,7 +44,7 @@ s/projected after [0-9][0-9]* steps\{0,1\}/projected after N steps/
 }
 
 # What Taylor series are computed by is a matter of the processor.
-s/machine code for AVX\(2\|-512\), [0-9.]* kB/CODE/
+s/machine code for \(SSE2\|AVX2\|AVX-512\), [0-9.]* kB/CODE/
 s/kernels; machine code needs AVX2/CODE/
 # So is their order.
 s/^order: [0-9][0-9]*, by what/order: P, by what/

@@ -74,6 +74,8 @@ smooth(fixture *f, bool parameter)
     push(f, qdot_neg(pool, s));
     push(f, qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){s, e}));
     push(f, qdot_add(pool, apply(f, QDOT_SINH, s), apply(f, QDOT_COSH, s)));
+    push(f, qdot_pow_int(pool, apply(f, QDOT_COSH, x), -3));
+    push(f, qdot_pow_int(pool, qdot_add(pool, QDOT_ONE, e), -2));
     push(f, tenth);
     push(f, qdot_mul(pool, k, qdot_add(pool, QDOT_PI, c)));
 }

@@ -57,6 +57,9 @@ check_functions(void (*check)(fixture *f, qdot_expr e, const char *what))
     begin(&f);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         check(&f, qdot_fun1(f.pool, rows[i].f, rows[i].above ? f.u : f.x), rows[i].name);
+    check(&f, qdot_pow_int(f.pool, qdot_fun1(f.pool, QDOT_COSH, f.x), -3), "cosh^-3");
+    check(&f, qdot_pow_int(f.pool, qdot_add(f.pool, QDOT_ONE, qdot_fun1(f.pool, QDOT_EXP, f.x)), -1),
+          "1/(1 + exp)");
     qdot_pool_free(f.pool);
 }
 

@@ -60,6 +60,7 @@ every_operation_agrees_with_differences(void **state)
                 const double a = points[p][0], slope = M_2_SQRTPI * exp(-a * a);
                 const double b = op == QDOT_OP_ERF    ? slope
                                  : op == QDOT_OP_ERFC ? -slope
+                                 : op == QDOT_OP_SOFTPLUS ? (1 + tanh(a / 2)) / 2
                                                       : points[p][1];
                 const double at[] = {a, b, points[p][2]};
                 double out[2], plain[2], J[6], up[2], down[2];

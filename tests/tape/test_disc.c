@@ -80,6 +80,7 @@ UNARY(EXP, cexp(a))
 UNARY(LOG, clog(a))
 UNARY(ERF, erf(creal(a)) + beside_the_line(a))
 UNARY(ERFC, erfc(creal(a)) - beside_the_line(a))
+UNARY(SOFTPLUS, creal(a) > 0 ? a + clog(1 + cexp(-a)) : clog(1 + cexp(a)))
 
 typedef number plane(number a, number b, number c);
 
@@ -89,7 +90,7 @@ static plane *const planes[QDOT_OP_COUNT] = {
     ROW(NMADD), ROW(SQRT), ROW(POW),   ROW(SINCOS), ROW(SIN),   ROW(COS),   ROW(ASIN),
     ROW(ACOS), ROW(ATAN),  ROW(ATAN2), ROW(SINH),   ROW(COSH),  ROW(TANH),  ROW(ASINH),
     ROW(ACOSH), ROW(ATANH), ROW(EXP),  ROW(LOG),
-    ROW(ERF), ROW(ERFC),
+    ROW(ERF), ROW(ERFC), ROW(SOFTPLUS),
 #undef ROW
 };
 

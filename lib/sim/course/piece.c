@@ -313,16 +313,42 @@ break_off(qdot_piece *x)
     return qdot_fail(QDOT_ELIMIT, "the piece is over");
 }
 
+/* A run is given up if the last LOOKED_AT parts of steps of a piece were so short that most_to_come would
+ * follow: a function that jumps 1e9 times in a run is never searched to the end. */
+enum { LOOKED_AT = 20000 };
+static const double most_to_come = 4e6;
+
+static qdot_status
+count_parts(qdot_piece *x, double t, size_t parts)
+{
+    const double passed = fabs(t - x->searched.since);
+    const double to_come = LOOKED_AT * (fabs(x->t1 - t) / passed);
+
+    x->searched.parts += parts;
+    if (x->searched.parts < LOOKED_AT)
+        return QDOT_OK;
+    x->searched.parts = 0;
+    x->searched.since = t;
+    if (to_come <= most_to_come) /* not so if time stands still */
+        return QDOT_OK;
+    return qdot_fail(QDOT_ELIMIT,
+                     "stopped at t = %.15g: an event or switch changes so fast that %d parts of "
+                     "steps were searched within %.3g; %.1e more would follow until t = %.10g",
+                     t, LOOKED_AT, passed, to_come, x->t1);
+}
+
 /* Search a step, shorter where it holds too many roots to be searched at once. */
 static qdot_status
 search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
 {
     for (;;) {
+        const size_t before = qdot_watch_looked_at(qdot_piece_watch(x));
         double reached;
 
         QDOT_TRY(read_series(step->t_end, x->y, x));
         QDOT_TRY(qdot_watch_step(qdot_piece_watch(x), step->t_end, x->y, step->t_end == x->t1,
                                  step, roots, n));
+        QDOT_TRY(count_parts(x, step->t, qdot_watch_looked_at(qdot_piece_watch(x)) - before));
         reached = qdot_watch_reached(qdot_piece_watch(x));
         if (reached == step->t_end)
             return QDOT_OK;
@@ -499,6 +525,8 @@ qdot_piece_integrate(qdot_piece *x)
     x->broken_off = false;
     x->first_step = true;
     x->far = false;
+    x->searched.since = x->start.t;
+    x->searched.parts = 0;
     x->noted = c->occurrences.n;
     status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped, &options, x->t1,
                                     x->start.y);

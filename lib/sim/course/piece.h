@@ -77,6 +77,10 @@ typedef struct {
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
     size_t noted;              /* occurrences before this step */
+    struct {
+        double since; /* start of the piece, or of a step */
+        size_t parts; /* looked at since then */
+    } searched;
 
     /* Reading within the step. */
     qdot_watch_reader reader;

@@ -55,8 +55,9 @@ move_along(qdot_reader *r, const double *y, int s)
     }
 }
 
-qdot_status
-qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
+/* Noise [m], and the slopes [m] along the line, dg/dh, or NULL. */
+static qdot_status
+look_along(qdot_reader *r, const size_t *pieces, double t, double *noise, double *slopes)
 {
     const size_t n = qdot_tape_inputs(r->of.tape), m = r->of.m;
     double *y = qdot_malloc((n + POINTS * m + 1) * sizeof *y), *g = y + n;
@@ -68,10 +69,19 @@ qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
         move_along(r, y, s);
         status = qdot_reader_evaluate(r, t, g + (size_t)s * m);
     }
-    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
         noise[j] = level(g + j, m);
+        if (slopes)
+            slopes[j] = (g[(POINTS - 1) * m + j] - g[j]) / ((POINTS - 1) * spacing);
+    }
     qdot_free(y);
     return status;
+}
+
+qdot_status
+qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
+{
+    return look_along(r, pieces, t, noise, NULL);
 }
 
 /* The magnitudes [k x m] of the terms of expressions at times [k], row by row; NaN where one
@@ -105,16 +115,18 @@ magnitudes_along(const qdot_reading *of, const qdot_course *const *courses, size
     return status;
 }
 
-/* Magnitudes [m] of the terms become roundings. */
+/* Magnitudes [m] of the terms become roundings; noise [2 m] scratch. */
 static qdot_status
 add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
 {
-    qdot_status status = qdot_noise_at(r, NULL, t, noise);
+    double *slopes = noise + r->of.m;
+    qdot_status status = look_along(r, NULL, t, noise, slopes);
 
     for (size_t j = 0; j < r->of.m; j++) {
         roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));
         if (status == QDOT_OK && isfinite(noise[j]))
-            roundings[j] = fmax(roundings[j], levels * noise[j]);
+            roundings[j] = fmax(roundings[j], fmax(levels * noise[j],
+                                                   DBL_EPSILON / 2 * fabs(slopes[j])));
     }
     return qdot_grave(status);
 }
@@ -124,7 +136,7 @@ qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, 
                      const double *times, const double *values, double *roundings)
 {
     size_t m = of->m;
-    double *noise = qdot_malloc((m + 1) * sizeof *noise);
+    double *noise = qdot_malloc((2 * m + 1) * sizeof *noise);
     qdot_reader r = {0};
     qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
 

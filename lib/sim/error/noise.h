@@ -21,9 +21,10 @@ QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, const size_t *pieces, 
 
 /* Bounds for the rounding of expressions [m] along their courses at times [k]: roundings [k x m],
  *
- *     max(4 noise, DBL_EPSILON max(magnitude, |g|))
+ *     max(4 noise, DBL_EPSILON/2 |dg/dh|, DBL_EPSILON max(magnitude, |g|))
  *
- * magnitude: of the terms of g (sim/model/term-magnitude.h); values [k x m]: g.
+ * dg/dh: what rounding of the state makes of g, an angle of 22 of its sine; magnitude: of the terms of
+ * g (sim/model/term-magnitude.h); values [k x m]: g.
  * Errors: as qdot_reader_read. */
 QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_reading *of,
                                                  const qdot_course *const *courses,

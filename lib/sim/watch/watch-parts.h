@@ -50,6 +50,7 @@ struct qdot_watch {
     double *final;      /* [m] g at the end of the step */
     double length;      /* of the step */
     double reached;     /* of the step, where its search ended */
+    size_t looked_at;   /* parts of all steps */
     double reach;       /* of the last part of a step that a root ended; 0: none did */
     double direction;   /* of time in it */
 

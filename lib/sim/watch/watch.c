@@ -199,6 +199,7 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
 
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(look_at_part(w, &p, at_end, &v));
+        w->looked_at++;
         if (v == QDOT_PART_GOOD) {
             from = p.b;
             depth--;
@@ -402,6 +403,12 @@ double
 qdot_watch_reached(const qdot_watch *w)
 {
     return w->reached;
+}
+
+size_t
+qdot_watch_looked_at(const qdot_watch *w)
+{
+    return w->looked_at;
 }
 
 const int *

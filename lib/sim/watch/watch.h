@@ -72,6 +72,9 @@ void qdot_watch_take(qdot_watch *w);
  * roots. Such a step is to be tried shorter. */
 double qdot_watch_reached(const qdot_watch *w);
 
+/* How many parts of steps were looked at so far. */
+size_t qdot_watch_looked_at(const qdot_watch *w);
+
 /* Whether only bounds are watched and the step, by its series, stays far from all of them: then
  * it need not be searched, and _pass accepts it. */
 bool qdot_watch_is_far(const qdot_watch *w, const qdot_ode_expanded *step);

@@ -1,0 +1,438 @@
+/* logistic.c -- products with negative powers of exponentials, as exponentials of logarithms. */
+#include "tape/logistic.h"
+
+#include "expr/calculus.h"
+#include "tape/constant.h"
+
+enum { MOST = 8 }; /* factors of one product that are treated */
+
+static bool
+is_fun(const qdot_pool *pool, qdot_expr e, qdot_fun_id f)
+{
+    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == (uint16_t)f;
+}
+
+static bool
+has_sign(const qdot_pool *pool, qdot_expr e, int sign)
+{
+    return (qdot_expr_node(pool, e)->sign & sign) == sign;
+}
+
+/* --- sums of two exponentials ---------------------------------------------------------- */
+
+/* c e^v */
+typedef struct {
+    qdot_expr c, v;
+} exponential;
+
+/* A constant, or a constant times e^v. */
+static bool
+read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
+{
+    *x = (exponential){e, QDOT_ZERO};
+    if (qdot_constant_is(pool, e))
+        return true;
+    if (is_fun(pool, e, QDOT_EXP)) {
+        *x = (exponential){QDOT_ONE, qdot_expr_arg(pool, e, 0)};
+        return true;
+    }
+    if (qdot_expr_kind(pool, e) != QDOT_PROD)
+        return false;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, e, i);
+
+        if (is_fun(pool, base, QDOT_EXP) && qdot_expr_arg(pool, e, i + 1) == QDOT_ONE &&
+            x->v == QDOT_ZERO)
+            x->v = qdot_expr_arg(pool, base, 0);
+        else if (!qdot_constant_is(pool, base) ||
+                 !qdot_constant_is(pool, qdot_expr_arg(pool, e, i + 1)))
+            return false;
+    }
+    x->c = qdot_div(pool, e, qdot_fun1(pool, QDOT_EXP, x->v));
+    return x->v != QDOT_ZERO && x->c != QDOT_NIL;
+}
+
+/* (c (e^v + ratio e^w))^-n; with d = w - v, e^(b (d + log ratio)) beside it. */
+typedef struct {
+    qdot_expr c, v, w, ratio, d;
+    qdot_expr n, b;
+} denominator;
+
+/* S = c_1 e^v + c_2 e^w, c_1 c_2 > 0, c_2 being taken out with its sign only where n is whole. */
+static bool
+read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
+{
+    exponential terms[2];
+    size_t count = 0;
+
+    if (qdot_constant_is(pool, e))
+        return false;
+    if (is_fun(pool, e, QDOT_COSH)) {
+        const qdot_expr u = qdot_expr_arg(pool, e, 0);
+
+        *x = (denominator){.c = QDOT_HALF, .v = qdot_neg(pool, u), .w = u, .ratio = QDOT_ONE};
+        return true;
+    }
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return false;
+    if (qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
+        terms[count++] = (exponential){qdot_expr_arg(pool, e, 0), QDOT_ZERO};
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        const qdot_expr term =
+            qdot_mul(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1));
+
+        if (count == 2 || term == QDOT_NIL || !read_exponential(pool, term, &terms[count++]))
+            return false;
+    }
+    if (count < 2 || terms[0].v == terms[1].v)
+        return false;
+    *x = (denominator){.c = terms[0].c,
+                       .v = terms[0].v,
+                       .w = terms[1].v,
+                       .ratio = qdot_div(pool, terms[1].c, terms[0].c)};
+    return x->ratio != QDOT_NIL && has_sign(pool, x->ratio, QDOT_POS);
+}
+
+/* a/b if that is a rational number; else nil. */
+static qdot_expr
+quotient(qdot_pool *pool, qdot_expr a, qdot_expr b)
+{
+    qdot_expr term, q;
+
+    if (a == QDOT_ZERO)
+        return QDOT_ZERO;
+    q = qdot_div(pool, a, b);
+    if (q != QDOT_NIL && qdot_expr_kind(pool, q) == QDOT_NUM)
+        return q;
+    if (qdot_expr_kind(pool, a) != QDOT_SUM || qdot_expr_kind(pool, b) != QDOT_SUM)
+        return QDOT_NIL;
+    term = qdot_mul(pool, qdot_expr_arg(pool, a, 1), qdot_expr_arg(pool, a, 2));
+    q = qdot_div(pool, term, qdot_mul(pool, qdot_expr_arg(pool, b, 1), qdot_expr_arg(pool, b, 2)));
+    if (q == QDOT_NIL || qdot_expr_kind(pool, q) != QDOT_NUM)
+        return QDOT_NIL;
+    return qdot_expand(pool, qdot_sub(pool, a, qdot_mul(pool, q, b))) == QDOT_ZERO ? q : QDOT_NIL;
+}
+
+/* b, moved by as much of r as leaves it within -n/2 ... n/2 */
+static qdot_expr
+within(qdot_pool *pool, const denominator *x, qdot_expr r)
+{
+    const qdot_expr half = qdot_mul(pool, QDOT_HALF, x->n), b = qdot_add(pool, x->b, r);
+
+    if (qdot_expr_is_negative(pool, qdot_sub(pool, half, b)))
+        return half;
+    return qdot_expr_is_negative(pool, qdot_add(pool, half, b)) ? qdot_neg(pool, half) : b;
+}
+
+/* Take what can be taken from e^*left into the denominator. */
+static void
+absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
+{
+    const qdot_expr r = quotient(pool, *left, x->d);
+    qdot_expr b;
+
+    if (r == QDOT_NIL || r == QDOT_ZERO)
+        return;
+    b = within(pool, x, r);
+    *left = qdot_sub(pool, *left, qdot_mul(pool, qdot_sub(pool, b, x->b), x->d));
+    x->b = b;
+}
+
+/* log(1 + e^d) */
+static qdot_expr
+softplus(qdot_pool *pool, qdot_expr d)
+{
+    const qdot_expr e = qdot_fun1(pool, QDOT_EXP, d);
+
+    return qdot_hold(pool, qdot_fun1(pool, QDOT_LOG, qdot_add(pool, QDOT_ONE, e)));
+}
+
+/* -(n/2 - b) l(d) - (n/2 + b) l(-d), d with its logarithm */
+static qdot_expr
+exponent_of(qdot_pool *pool, const denominator *x)
+{
+    const qdot_expr half = qdot_mul(pool, QDOT_HALF, x->n);
+    const qdot_expr d = qdot_add(pool, x->d, qdot_fun1(pool, QDOT_LOG, x->ratio));
+    const qdot_expr up = qdot_sub(pool, half, x->b), down = qdot_add(pool, half, x->b);
+    qdot_expr sum = QDOT_ZERO;
+
+    if (up != QDOT_ZERO)
+        sum = qdot_mul(pool, up, softplus(pool, d));
+    if (down != QDOT_ZERO)
+        sum = qdot_add(pool, sum, qdot_mul(pool, down, softplus(pool, qdot_neg(pool, d))));
+    return qdot_neg(pool, sum);
+}
+
+/* --- products ----------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr rest; /* other factors */
+    qdot_expr left; /* e^left of those that are exponentials */
+    qdot_expr sum;  /* a sum over the denominators; nil: none */
+    denominator under[MOST];
+    size_t n;
+} quotients;
+
+static bool
+is_negative_number(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_NUM && qdot_expr_is_negative(pool, e);
+}
+
+/* Whether b^p is (c_1 e^v + c_2 e^w)^-n; then it is noted. */
+static bool
+take_denominator(quotients *q, qdot_expr b, qdot_expr p)
+{
+    qdot_pool *pool = q->pool;
+    denominator *x = &q->under[q->n];
+    qdot_expr own;
+    long whole;
+
+    if (q->n == MOST || !is_negative_number(pool, p) || !read_sum(pool, b, x) ||
+        !(has_sign(pool, x->c, QDOT_POS) || qdot_expr_to_int(pool, p, &whole)))
+        return false;
+    x->n = qdot_neg(pool, p);
+    x->b = QDOT_ZERO;
+    x->d = qdot_expand(pool, qdot_sub(pool, x->w, x->v));
+    q->rest = qdot_mul(pool, q->rest, qdot_pow(pool, x->c, p));
+    own = qdot_mul(pool, qdot_mul(pool, QDOT_HALF, p), qdot_add(pool, x->v, x->w));
+    own = qdot_expand(pool, own);
+    if (own == QDOT_NIL)
+        return true;
+    absorb(pool, x, &own);
+    q->left = qdot_add(pool, q->left, own);
+    q->n++;
+    return true;
+}
+
+/* cosh(u)^p sinh(u)^r with p + r <= 0, one of them negative, is tanh(u)^r cosh(u)^(p + r). */
+static qdot_expr
+with_tangents(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr f = e;
+
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e) && f != QDOT_NIL; i += 2) {
+        const qdot_expr b = qdot_expr_arg(pool, e, i), r = qdot_expr_arg(pool, e, i + 1);
+        qdot_expr c, p = QDOT_ZERO, all;
+
+        if (!is_fun(pool, b, QDOT_SINH) || qdot_expr_kind(pool, r) != QDOT_NUM)
+            continue;
+        c = qdot_fun1(pool, QDOT_COSH, qdot_expr_arg(pool, b, 0));
+        for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, e); k += 2)
+            if (qdot_expr_arg(pool, e, k) == c)
+                p = qdot_expr_arg(pool, e, k + 1);
+        all = qdot_add(pool, p, r);
+        if (qdot_expr_kind(pool, all) != QDOT_NUM ||
+            (all != QDOT_ZERO && !qdot_expr_is_negative(pool, all)))
+            continue;
+        f = qdot_div(pool, f, qdot_mul(pool, qdot_pow(pool, b, r), qdot_pow(pool, c, p)));
+        f = qdot_mul(pool, f, qdot_pow(pool, qdot_fun1(pool, QDOT_TANH, qdot_expr_arg(pool, b, 0)), r));
+        f = qdot_mul(pool, f, qdot_pow(pool, c, all));
+    }
+    return f;
+}
+
+static qdot_expr form_of(qdot_pool *pool, qdot_expr e, void *user);
+
+/* c + c_1 cosh(u) + c_2 sinh(u) over *cosine, cosh(u). Nil: it is none. */
+static qdot_expr
+over_cosine(qdot_pool *pool, qdot_expr e, qdot_expr *cosine)
+{
+    qdot_expr sum, u;
+
+    *cosine = QDOT_NIL;
+    if (qdot_expr_kind(pool, e) != QDOT_SUM)
+        return QDOT_NIL;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
+        if (is_fun(pool, qdot_expr_arg(pool, e, i), QDOT_COSH))
+            *cosine = qdot_expr_arg(pool, e, i);
+    if (*cosine == QDOT_NIL)
+        return QDOT_NIL;
+    u = qdot_expr_arg(pool, *cosine, 0);
+    sum = qdot_mul(pool, qdot_expr_arg(pool, e, 0), form_of(pool, qdot_pow_int(pool, *cosine, -1), NULL));
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        const qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
+        qdot_expr term;
+
+        if (x == *cosine)
+            term = QDOT_ONE;
+        else if (is_fun(pool, x, QDOT_SINH) && qdot_expr_arg(pool, x, 0) == u)
+            term = qdot_fun1(pool, QDOT_TANH, u);
+        else if (qdot_constant_is(pool, x))
+            term = form_of(pool, qdot_div(pool, x, *cosine), NULL);
+        else
+            return QDOT_NIL;
+        sum = qdot_add(pool, sum, qdot_mul(pool, c, term));
+    }
+    return sum;
+}
+
+/* (c + c_1 cosh(u) + c_2 sinh(u))^-n over cosh(u)^n */
+static qdot_expr
+with_cosines(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr f = e;
+
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e) && f != QDOT_NIL; i += 2) {
+        const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
+        qdot_expr cosine, scaled;
+
+        if (!is_negative_number(pool, p))
+            continue;
+        scaled = over_cosine(pool, b, &cosine);
+        if (scaled != QDOT_NIL)
+            f = qdot_mul(pool, qdot_div(pool, f, qdot_pow(pool, b, p)),
+                         qdot_pow(pool, qdot_mul(pool, cosine, scaled), p));
+    }
+    return f;
+}
+
+/* Sort the factors of e. */
+static void
+sort(quotients *q, qdot_expr e)
+{
+    qdot_pool *pool = q->pool;
+
+    q->rest = qdot_expr_arg(pool, e, 0);
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e) && q->rest != QDOT_NIL; i += 2) {
+        const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
+
+        if (take_denominator(q, b, p))
+            continue;
+        if (is_fun(pool, b, QDOT_EXP) && p == QDOT_ONE)
+            q->left = qdot_add(pool, q->left, qdot_expr_arg(pool, b, 0));
+        else if (q->sum == QDOT_NIL && p == QDOT_ONE && qdot_expr_kind(pool, b) == QDOT_SUM)
+            q->sum = b;
+        else
+            q->rest = qdot_mul(pool, q->rest, qdot_pow(pool, b, p));
+    }
+}
+
+/* A sum with exponentials over the denominators, term by term. */
+static qdot_expr
+distribute(quotients *q, qdot_expr e)
+{
+    qdot_pool *pool = q->pool;
+    const qdot_expr under = qdot_div(pool, e, q->sum);
+    qdot_expr sum = QDOT_ZERO, constant = qdot_expr_arg(pool, q->sum, 0);
+
+    if (constant != QDOT_ZERO)
+        sum = form_of(pool, qdot_mul(pool, constant, under), NULL);
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, q->sum); i += 2) {
+        qdot_expr term =
+            qdot_mul(pool, qdot_expr_arg(pool, q->sum, i), qdot_expr_arg(pool, q->sum, i + 1));
+
+        term = form_of(pool, qdot_mul(pool, term, under), NULL);
+        if (term == QDOT_NIL || sum == QDOT_NIL)
+            return QDOT_NIL;
+        sum = qdot_add(pool, sum, term);
+    }
+    return sum;
+}
+
+/* Whether a term of a sum grows exponentially: e^v, cosh, sinh, or a product with one. */
+static bool
+grows(const qdot_pool *pool, qdot_expr sum)
+{
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, sum); i += 2) {
+        const qdot_expr x = qdot_expr_arg(pool, sum, i);
+
+        if (is_fun(pool, x, QDOT_EXP) || is_fun(pool, x, QDOT_COSH) || is_fun(pool, x, QDOT_SINH))
+            return true;
+        if (qdot_expr_kind(pool, x) != QDOT_PROD)
+            continue;
+        for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, x); k += 2) {
+            const qdot_expr b = qdot_expr_arg(pool, x, k);
+
+            if (is_fun(pool, b, QDOT_EXP) || is_fun(pool, b, QDOT_COSH) ||
+                is_fun(pool, b, QDOT_SINH))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* The form of a product. */
+static qdot_expr
+form_of(qdot_pool *pool, qdot_expr e, void *user)
+{
+    quotients q = {.pool = pool, .left = QDOT_ZERO, .sum = QDOT_NIL};
+    qdot_expr exponent;
+
+    (void)user;
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
+        return e;
+    e = with_cosines(pool, e);
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
+        return e;
+    e = with_tangents(pool, e);
+    if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
+        return e;
+    sort(&q, e);
+    if (q.n == 0)
+        return e;
+    if (q.sum != QDOT_NIL && grows(pool, q.sum))
+        return distribute(&q, e);
+    if (q.sum != QDOT_NIL)
+        q.rest = qdot_mul(pool, q.rest, q.sum);
+    for (size_t i = 0; i < q.n; i++)
+        absorb(pool, &q.under[i], &q.left);
+    exponent = q.left;
+    for (size_t i = 0; i < q.n; i++) {
+        const denominator *x = &q.under[i];
+        const qdot_expr by = qdot_add(pool, x->b, qdot_mul(pool, QDOT_HALF, x->n));
+
+        exponent = qdot_add(pool, exponent, exponent_of(pool, x));
+        q.rest = qdot_mul(pool, q.rest, qdot_pow(pool, x->ratio, qdot_neg(pool, by)));
+    }
+    return qdot_mul(pool, q.rest, qdot_fun1(pool, QDOT_EXP, exponent));
+}
+
+/* log(cosh(u)) */
+static qdot_expr
+logarithm(qdot_pool *pool, qdot_expr e, void *user)
+{
+    qdot_expr u, sum;
+
+    (void)user;
+    if (!is_fun(pool, e, QDOT_LOG) || !is_fun(pool, qdot_expr_arg(pool, e, 0), QDOT_COSH))
+        return e;
+    u = qdot_mul(pool, qdot_expr_int(pool, 2), qdot_expr_arg(pool, qdot_expr_arg(pool, e, 0), 0));
+    sum = qdot_add(pool, softplus(pool, u), softplus(pool, qdot_neg(pool, u)));
+    return qdot_sub(pool, qdot_mul(pool, QDOT_HALF, sum),
+                    qdot_fun1(pool, QDOT_LOG, qdot_expr_int(pool, 2)));
+}
+
+bool
+qdot_logistic_occurs(const qdot_walk *w)
+{
+    bool any = false;
+
+    for (size_t i = 0; i < w->n && !any; i++)
+        any = is_fun(w->pool, w->at[i], QDOT_EXP) || is_fun(w->pool, w->at[i], QDOT_COSH) ||
+              is_fun(w->pool, w->at[i], QDOT_SINH);
+    return any;
+}
+
+qdot_expr
+qdot_logistic_form(qdot_pool *pool, qdot_expr e)
+{
+    e = qdot_walk_replace(pool, e, QDOT_PROD, form_of, NULL);
+    return e == QDOT_NIL ? e : qdot_walk_replace(pool, e, QDOT_FUN, logarithm, NULL);
+}
+
+qdot_expr
+qdot_logistic_argument(const qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr sum, x;
+
+    if (!is_fun(pool, e, QDOT_LOG))
+        return QDOT_NIL;
+    sum = qdot_expr_arg(pool, e, 0);
+    if (qdot_expr_kind(pool, sum) != QDOT_SUM || qdot_expr_count(pool, sum) != 3 ||
+        qdot_expr_arg(pool, sum, 0) != QDOT_ONE || qdot_expr_arg(pool, sum, 2) != QDOT_ONE)
+        return QDOT_NIL;
+    x = qdot_expr_arg(pool, sum, 1);
+    return is_fun(pool, x, QDOT_EXP) ? qdot_expr_arg(pool, x, 0) : QDOT_NIL;
+}

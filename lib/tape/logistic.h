@@ -1,0 +1,33 @@
+/* logistic.h -- quotients of exponentials in a form that stays finite.
+ *
+ * 1/cosh(u)^2, 1/(1 + e^u), e^u/(1 + e^u)^2, sinh(u)/cosh(u)^3 are plain numbers for every u, but cosh
+ * and e^u are infinite in doubles beyond 709. With l(d) = log(1 + e^d), which is near |d| at most, and
+ *
+ *     (c_1 e^v + c_2 e^w)^-n = (c_1 c_2)^(-n/2) e^(-n (v + w)/2) e^(-n/2 (l(d) + l(-d))),
+ *     d = w - v + log(c_2/c_1),   c_1 c_2 > 0,   e^d = e^l(d)/e^l(-d),
+ *
+ * they are e^(-a l(d) - b l(-d)), a, b >= 0: what stands over and under is taken together before e^ is.
+ * So each has its relative precision however small it is. cosh(u) is (e^-u + e^u)/2; sinh(u)^k over
+ * cosh(u)^n is tanh(u)^k cosh(u)^(k - n); c + c_1 cosh(u) + c_2 sinh(u) is
+ * cosh(u) (c_1 + c_2 tanh(u) + c/cosh(u)). log(cosh(u)) is (l(2 u) + l(-2 u))/2 - log(2).
+ *
+ * l(d) is written log(1 + e^d), held since e^(k log a) would be a^k; lower.c makes
+ * an operation of it.
+ *
+ * Tests  tests/tape/test_logistic.c, tests/script/far-sides.lag
+ */
+#ifndef QDOT_TAPE_LOGISTIC_H
+#define QDOT_TAPE_LOGISTIC_H
+
+#include "expr/walk.h"
+
+/* Whether there is anything of the kind among the nodes of a walk. */
+bool qdot_logistic_occurs(const qdot_walk *w);
+
+/* e with its quotients in that form. Nil: a failure of the pool. */
+qdot_expr qdot_logistic_form(qdot_pool *pool, qdot_expr e);
+
+/* d, if e is log(1 + e^d); else nil. */
+qdot_expr qdot_logistic_argument(const qdot_pool *pool, qdot_expr e);
+
+#endif
