@@ -52,3 +52,20 @@ set mu = 0.93
 find x = 0.4, T = 7.3 such that returns after T
 continue orbit in mu = 0.5..1.2
 END
+
+# why a branch ends: motions near by grow to e^22 in a period; a force has no value beyond x = 2
+qdot -q - <<'END' 2>&1 | grep -o 'notice.*\|ends where.*left\|is lost: .*undefined'
+coord theta
+param w
+lagrangian theta'^2/2 - 9.8*cos(theta) + 0.1*cos(w*t)*theta
+set w = 3
+find theta = 0, theta' = 0 such that returns after 2*pi/w as top
+continue orbit in w = 0.4..4
+END
+qdot -q - <<'END' 2>&1 | grep -o 'is lost: .*undefined'
+coord x
+lagrangian x'^2/2 - x^2/2 - (2 - x)^(5/2)/50
+start x = 0.5
+find T = 6 such that returns after T
+continue orbit in x = 0.5..3
+END

@@ -44,3 +44,13 @@ lagrangian theta'^2/2 - 9.8*cos(theta) + 0.1*cos(3*t)*theta
 find theta = 0.01, theta' = 0 such that returns after 4*pi/3
 check value(theta, 0) == -0.1/18.8 within 1e-6
 END
+
+# a drive about the top in three turns: a single run has lost all but three digits by their end
+qdot -q - <<'END' 2>&1 | sed "$numbers"
+coord th
+lagrangian th'^2/2 - 9.81*cos(th)
+force -0.2*th' + 3*cos(2*t) on th
+find th = -0.2, th' = 0 such that returns after 3*pi
+check value(th, 0) == -0.218061012692907 within 1e-11
+check value(th', 0) == 0.012743090904497 within 1e-11
+END

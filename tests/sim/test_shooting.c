@@ -54,7 +54,18 @@ shoot(driven *d, size_t k, const qdot_expr *unknowns, const qdot_expr *start, qd
                                  .low = free_low,
                                  .high = free_high};
 
-    return qdot_shooting_find(&of, u, found, segments);
+    double error[2];
+    qdot_shooting_result r = {.u = u, .error = error};
+    const qdot_status status = qdot_shooting_find(&of, &r);
+
+    *found = r.found;
+    *segments = r.segments;
+    for (size_t i = 0; i < k && r.found; i++)
+        if (!(error[i] > 0 && error[i] < 1e-8))
+            fail_msg("error %g", error[i]);
+    if (r.found)
+        assert_int_equal(r.rank, k);
+    return status;
 }
 
 /* exp(6 pi) = 1.5e8 in one period of the search. */

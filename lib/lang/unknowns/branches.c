@@ -394,6 +394,7 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
         [QDOT_END_PERIOD] = "comes near a place at rest, its period grows to infinity",
         [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
         [QDOT_END_FAR] = "is not followed further",
+        [QDOT_END_BLURRED] = "ends where its orbits are too unstable: their multipliers have no digits left",
         [QDOT_END_LOST] = "is lost: the equations have no value there, or jump",
         [QDOT_END_STOPPED] = "is broken off",
     };
@@ -416,11 +417,14 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
 
         if (branch->end[side] == QDOT_END_RANGE)
             continue;
-        qdot_text_format(out, "branch[%zu] %s, at %s = ", i + 1,
-                         b->orbits && branch->end[side] == QDOT_END_LOST
-                             ? "is lost: no orbit is found further on"
-                             : words[branch->end[side]],
-                         name_of(b, n));
+        qdot_text_format(out, "branch[%zu] ", i + 1);
+        if (branch->end[side] == QDOT_END_LOST && branch->reason[side][0] != '\0')
+            qdot_text_format(out, "is lost: %s", branch->reason[side]);
+        else if (b->orbits && branch->end[side] == QDOT_END_LOST)
+            qdot_text_add(out, "is lost: no orbit is found further on");
+        else
+            qdot_text_add(out, words[branch->end[side]]);
+        qdot_text_format(out, ", at %s = ", name_of(b, n));
         write_place(b, n, y[n], out);
         for (size_t q = 0; q < b->n_told; q++) {
             qdot_text_format(out, ", %s = ", name_of(b, b->columns[q]));

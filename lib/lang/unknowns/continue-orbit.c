@@ -21,6 +21,7 @@ typedef struct {
     const qdot_continue_wish *w;
     qdot_orbit_of of;
     qdot_run_request request;
+    const char *run;   /* its name, borrowed */
     qdot_expr *values; /* of its parameters */
     double *z;         /* [2n] */
     qdot_continuation found;
@@ -79,6 +80,7 @@ find_first(job *j)
 
     QDOT_TRY(qdot_orbit_run_find(session, &orbit));
     report = qdot_run_get_report(orbit->run);
+    j->run = orbit->name;
     j->values = qdot_calloc(orbit->conditions->symbols.n + 1, sizeof *j->values);
     j->z = qdot_calloc(2 * n + 1, sizeof *j->z);
     if (!j->values || !j->z)
@@ -169,6 +171,8 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_orbit_continuation_find(&j.of, &j.found);
     if (status == QDOT_OK && j.found.width > 0)
         status = name_columns(&j, &b);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "the orbit is that of %s", j.run);
     if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.n > j.found.coordinates)
         status = qdot_answer_notice(session, "the energy is conserved: along the branch it stays "
                                              "what it is in the run");

@@ -4,7 +4,6 @@
 #include "lang/session/measured.h"
 #include "lang/slopes/free-request.h"
 #include "lang/unknowns/find-parts.h"
-#include "sim/study/shooting.h"
 
 typedef struct {
     const qdot_find *f;
@@ -63,7 +62,7 @@ make_request(guess *x)
 }
 
 static qdot_status
-shoot(guess *x, double *u, bool *moved)
+shoot(guess *x, qdot_shooting_result *r)
 {
     const qdot_find *f = x->f;
     const qdot_shooting_of of = {.scene = f->c->session->scene,
@@ -75,20 +74,19 @@ shoot(guess *x, double *u, bool *moved)
                                  .period = x->period,
                                  .low = f->low.at,
                                  .high = f->high.at};
-    size_t segments;
 
-    return qdot_shooting_find(&of, u, moved, &segments);
+    return qdot_shooting_find(&of, r);
 }
 
 qdot_status
-qdot_find_shoot(const qdot_find *f, double *u, bool *moved)
+qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
 {
     qdot_session *session = f->c->session;
     guess x = {.f = f, .k = f->unknowns.n, .n = session->scene->coordinates.n};
     qdot_kept_values kept;
     qdot_status status;
 
-    *moved = false;
+    r->found = false;
     if (f->conditions.n > 1 || session->scene->constraints.n > 0)
         return QDOT_OK;
     QDOT_TRY(qdot_session_keep_values(session, &kept));
@@ -99,7 +97,7 @@ qdot_find_shoot(const qdot_find *f, double *u, bool *moved)
         status = make_request(&x);
     qdot_session_restore_values(session, &kept);
     if (status == QDOT_OK)
-        status = shoot(&x, u, moved);
+        status = shoot(&x, r);
     qdot_request_free(&x.order);
     qdot_free(x.unknowns);
     qdot_free(x.names);

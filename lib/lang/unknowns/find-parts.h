@@ -8,6 +8,7 @@
 #define QDOT_LANG_FIND_PARTS_H
 
 #include "lang/slopes/trial.h"
+#include "sim/study/shooting.h"
 
 typedef struct {
     const qdot_token *from, *to; /* [from, to) */
@@ -38,10 +39,10 @@ size_t qdot_find_count(const qdot_find *f);
  * long it is. */
 QDOT_MUST_CHECK qdot_status qdot_find_limits(const qdot_find *f, qdot_expr *from,
                                              qdot_expr *to);
-/* The guess u of a periodic orbit, *moved to the orbit by multiple shooting where motions near it grow
+/* The guess r->u of a periodic orbit, moved to the orbit (r->found) by multiple shooting where motions near it grow
  * (sim/study/shooting.h); as it was where these do not, where it does not lead to one, or where more than a return
  * is asked for. */
-QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, double *u, bool *moved);
+QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r);
 /* What must vanish [qdot_find_count], of the latest run. */
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);

@@ -18,9 +18,11 @@ typedef struct {
     size_t m;
     double *at;         /* [n] where the trial is open */
     double *unit;       /* [n] of the unknowns, from a guess that was moved */
+    double *before;     /* [n] errors of the unknowns by the segments */
     qdot_expr *values;  /* [n] the same, exact */
     qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
+    size_t rank;        /* how many unknowns the segments fix */
     double length;      /* of the run at the guess */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
@@ -348,15 +350,23 @@ search(hunt *h, qdot_zero_result *r)
     QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
     QDOT_TRY(find_length(h, &h->length));
     if (f->returns) {
-        bool moves, moved = false;
+        qdot_shooting_result shot = {.u = r->u, .error = h->before};
+        bool moves;
 
         QDOT_TRY(does_not_rest(r->u, &moves, h));
         p.wanted = moves ? does_not_rest : NULL;
         if (moves)
-            QDOT_TRY(qdot_find_shoot(f, r->u, &moved));
-        p.unit = moved ? h->unit : NULL;
+            QDOT_TRY(qdot_find_shoot(f, &shot));
+        h->rank = shot.rank;
+        p.unit = shot.found ? h->unit : NULL;
+        p.once = shot.found; /* an orbit that no run can follow round is not looked for elsewhere */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
+    if (r->rank < h->rank) { /* beside what grows so much a single run tells nothing of what shrinks */
+        for (size_t i = 0; i < p.n; i++)
+            r->error[i] = fmax(r->error[i], h->before[i]);
+        r->rank = h->rank;
+    }
     return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
 }
 
@@ -371,13 +381,14 @@ carry_out(qdot_find *f)
                         .n = n,
                         .unknowns = f->unknowns.at,
                         .options = &f->run}};
-    double *room = qdot_calloc(4 * n + 2 * m + 1, sizeof *room);
+    double *room = qdot_calloc(5 * n + 2 * m + 1, sizeof *room);
     qdot_zero_result r = {
-        .u = room, .error = room + n, .f = room + 4 * n, .f_error = room + 4 * n + m};
+        .u = room, .error = room + n, .f = room + 5 * n, .f_error = room + 5 * n + m};
     qdot_status status = QDOT_ENOMEM;
 
     h.at = room + 2 * n;
     h.unit = room + 3 * n;
+    h.before = room + 4 * n;
     h.values = qdot_calloc(n + m + 1, sizeof *h.values);
     if (room != NULL && h.values != NULL) {
         h.e = h.values + n;

@@ -336,10 +336,14 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
         size_t i;
 
         *length = *step;
+        x->reason[0] = '\0';
         if (!qdot_path_go(x, a, *step, b, &steps) ||
             qdot_path_product(x, a->t, b->t) < straight ||
-            qdot_path_distance(x, a->y, b->y) > longer * *step)
+            qdot_path_distance(x, a->y, b->y) > longer * *step) {
+            if (steps > 1) /* there was a value where the curve would go on */
+                x->reason[0] = '\0';
             continue;
+        }
         i = passed(x, b->y, &held);
         if (i > x->n) {
             *step *= steps <= 4 ? 1.5 : 1;
@@ -416,15 +420,17 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
             return QDOT_OK;
         }
         QDOT_TRY(x->failure);
-        if (length == 0)
+        if (length == 0) {
+            memcpy(branch->reason[1], x->reason, sizeof x->reason);
             return QDOT_OK;
+        }
         QDOT_TRY(look(s, a, b, length, branch));
         if (s->all->interrupted) {
             branch->end[1] = QDOT_END_STOPPED;
             return QDOT_OK;
         }
         if (b->blurred) {
-            branch->end[1] = QDOT_END_LOST;
+            branch->end[1] = QDOT_END_BLURRED;
             return QDOT_OK;
         }
         if (s->leapt) {

@@ -15,6 +15,7 @@ typedef enum {
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, or jump */
+    QDOT_END_BLURRED, /* what is judged drowns in errors */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;
 
@@ -24,6 +25,7 @@ typedef struct {
     qdot_stability *stability; /* [n] */
     size_t *mark;              /* [n] 1 + the bifurcation that the point is; 0: none */
     qdot_branch_end end[2];    /* before its first point, behind its last */
+    char reason[2][QDOT_PATH_REASON]; /* of an end that is lost: why there was no value; "": there was one */
 } qdot_branch;
 
 typedef struct {

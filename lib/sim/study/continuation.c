@@ -89,6 +89,9 @@ join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_
     qdot_branch whole = {.end = {back->end[1], on->end[1]}};
     qdot_status status = QDOT_OK;
 
+    memcpy(whole.reason[0], back->reason[1], sizeof whole.reason[0]);
+    memcpy(whole.reason[1], on->reason[1], sizeof whole.reason[1]);
+
     for (size_t k = back->n; k-- > 0 && status == QDOT_OK;)
         status = qdot_branch_add(s->x, &whole, back->y + k * m, back->stability[k], back->mark[k]);
     if (status == QDOT_OK)

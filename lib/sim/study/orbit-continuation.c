@@ -31,7 +31,8 @@ name_ends(const qdot_path *x, qdot_continuation *all)
         qdot_branch *b = &all->branches.at[i];
 
         for (size_t side = 0; side < 2 && b->n > 3; side++)
-            if ((b->end[side] == QDOT_END_LOST || b->end[side] == QDOT_END_FAR) &&
+            if ((b->end[side] == QDOT_END_LOST || b->end[side] == QDOT_END_BLURRED ||
+                 b->end[side] == QDOT_END_FAR) &&
                 grows(x, b, side == 0 ? 2 : b->n - 3, side == 0 ? 0 : b->n - 1))
                 b->end[side] = QDOT_END_PERIOD;
     }
@@ -73,7 +74,7 @@ qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
         status = qdot_continuation_follow(&s, y, 1);
     }
     status = qdot_continuation_finish(&s, status);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !x.driven) /* the drive makes the period */
         name_ends(&x.path, out);
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED,

@@ -2,6 +2,7 @@
 #include "sim/study/orbit-path.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -142,6 +143,7 @@ evaluate(qdot_path *path, const double *y)
     status = path->failure == QDOT_OK ? ask(x, y) : path->failure;
     if (status != QDOT_OK) {
         path->failure = qdot_grave(status);
+        snprintf(path->reason, sizeof path->reason, "%.150s", qdot_last_error()->message);
         return;
     }
     fill(x, y);

@@ -18,6 +18,8 @@
 #include "mech/study/stability.h"
 #include "num/lu.h"
 
+enum { QDOT_PATH_REASON = 160 };
+
 /* A point of a curve, with the direction in which it is followed. */
 typedef struct {
     double *y, *t;     /* [width], [n + 1] in one block, owned */
@@ -50,6 +52,7 @@ struct qdot_path {
     double *F, *J;
     double *A, *b;           /* [(n + 1)^2], [n + 1] room */
     qdot_lu_row *rows;
+    char reason[QDOT_PATH_REASON]; /* why F had no value, the latest time; "": none is known */
     qdot_status failure;     /* of the latest evaluation: not QDOT_OK ends the search */
 };
 

@@ -50,7 +50,8 @@ typedef struct {
     double *value;         /* [LOOKS x 3n] of it */
     double *by;            /* [LOOKS x 3n x (z + p)] */
     double *size;          /* [z] how far each state goes */
-    double *best;          /* [k] the orbit nearest to the guess */
+    double *best;          /* [2k] the orbit nearest to the guess, its errors */
+    size_t rank;           /* of u there */
 } shooting;
 
 /* --- the guess ------------------------------------------------------------------------------- */
@@ -107,29 +108,29 @@ find_sizes(shooting *x, size_t last)
             x->size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
 }
 
-/* Sizes while little has grown, the growth over the whole, and the segments that it asks for. A run that fails has
- * grown to no end. */
+/* Sizes while little has grown, and the segments that are needed if all grows on as fast as until then: the run of
+ * the guess may have left for places where nothing does. A run that fails has grown to no end. */
 static qdot_status
 count_segments(shooting *x, const double *u)
 {
     const double T = x->first[x->z];
     const qdot_status status = go(x, u, x->first, x->t0, x->t0 + T, LOOKS);
     double most = 0;
+    size_t at = 0;
 
     x->K = MOST_SEGMENTS;
     for (size_t i = 0; i < x->z; i++)
         x->size[i] = 1;
     if (status != QDOT_OK)
         return qdot_grave(status);
-    for (size_t at = 0; at < LOOKS; at++) {
-        if (most < tame)
-            find_sizes(x, at);
-        most = fmax(most, growth(x, at));
+    for (; at < LOOKS && most < tame; at++) {
+        find_sizes(x, at);
+        most = growth(x, at);
     }
     if (most < tame)
         x->K = 1;
-    else if (most < pow(growth_of_one, MOST_SEGMENTS))
-        x->K = (size_t)ceil(log(most) / log(growth_of_one));
+    else if (isfinite(most))
+        x->K = (size_t)fmin(MOST_SEGMENTS, ceil(log(most) / log(growth_of_one) * LOOKS / (double)at));
     return QDOT_OK;
 }
 
@@ -243,7 +244,7 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
             return qdot_grave(status);
         }
         for (size_t i = 0; i < x->z; i++)
-            error[s * x->z + i] = 10 * tolerance * fmax(1, fabs(x->value[i]));
+            error[s * x->z + i] = 10 * tolerance * fmax(x->size[i], fabs(x->value[i]));
         fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
     }
     return QDOT_OK;
@@ -277,7 +278,7 @@ moves(const shooting *x, const double *states)
     return false;
 }
 
-/* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best [k]. */
+/* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best [2k]. */
 static qdot_status
 search(shooting *x, double trust, const double *u, double *best, double *off)
 {
@@ -311,6 +312,8 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
         if (this < *off && moves(x, r.u + x->k)) {
             *off = this;
             memcpy(best, r.u, x->k * sizeof *best);
+            memcpy(best + x->k, r.error, x->k * sizeof *best);
+            x->rank = r.rank > all - x->k ? r.rank - (all - x->k) : 0;
         }
     }
     qdot_free(room);
@@ -328,7 +331,7 @@ make_room(shooting *x)
     x->exprs = qdot_calloc(3 * x->n + width + 1, sizeof *x->exprs);
     x->names = qdot_calloc(width + 1, sizeof *x->names);
     x->place = qdot_calloc(x->k + 1, sizeof *x->place);
-    x->first = qdot_calloc((x->z + 1) * (1 + x->k) + width + LOOKS * 3 * x->n * (1 + width) + x->z + x->k,
+    x->first = qdot_calloc((x->z + 1) * (1 + x->k) + width + LOOKS * 3 * x->n * (1 + width) + x->z + 2 * x->k,
                            sizeof *x->first);
     if (!x->exprs || !x->names || !x->place || !x->first)
         return QDOT_ENOMEM;
@@ -416,26 +419,29 @@ end(shooting *x)
 }
 
 qdot_status
-qdot_shooting_find(const qdot_shooting_of *of, double *u, bool *found, size_t *segments)
+qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
 {
     shooting x = {.of = of, .n = of->scene->coordinates.n, .z = 2 * of->scene->coordinates.n, .k = of->k};
     double off = near;
     qdot_status status = QDOT_OK;
 
-    *found = false;
-    *segments = 1;
+    r->found = false;
+    r->segments = 1;
     if (of->scene->constraints.n > 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
-    status = begin(&x, u);
+    status = begin(&x, r->u);
     if (status == QDOT_OK)
-        status = count_segments(&x, u);
+        status = count_segments(&x, r->u);
     if (status == QDOT_OK)
-        *segments = x.K;
+        r->segments = x.K;
     for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1; k++)
-        status = search(&x, trusted[k], u, x.best, &off);
-    *found = off < near;
-    if (status == QDOT_OK && *found)
-        memcpy(u, x.best, x.k * sizeof *u);
+        status = search(&x, trusted[k], r->u, x.best, &off);
+    r->found = status == QDOT_OK && off < near;
+    if (r->found) {
+        memcpy(r->u, x.best, x.k * sizeof *r->u);
+        memcpy(r->error, x.best + x.k, x.k * sizeof *r->error);
+        r->rank = x.rank;
+    }
     end(&x);
     return status;
 }

@@ -33,10 +33,16 @@ typedef struct {
     const double *low, *high; /* [k] bounds, infinite where there are none */
 } qdot_shooting_of;
 
-/* u [k]: in, the guess; out, the orbit if *found, else as it was. *segments: how many were taken; 1: the motions
+typedef struct {
+    bool found;
+    double *u, *error; /* [k] u in: the guess; out: the orbit with its errors if it was found, else as it was */
+    size_t rank;       /* how many unknowns are fixed */
+    size_t segments;
+} qdot_shooting_result;
+
+/* r->segments: how many were taken; 1: the motions
  * near the guess do not grow, nothing was searched.
  * QDOT_ENOTBUILT: constraints. Errors: those of qdot_response_new; that a run fails is none. */
-QDOT_MUST_CHECK qdot_status qdot_shooting_find(const qdot_shooting_of *of, double *u, bool *found,
-                                               size_t *segments);
+QDOT_MUST_CHECK qdot_status qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r);
 
 #endif
