@@ -1276,6 +1276,7 @@ unit_tests = \
 	tests/show/test_table \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
+	tests/sim/test_budget \
 	tests/sim/test_constraints \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \

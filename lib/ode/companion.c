@@ -11,8 +11,17 @@
 #include "base/memory.h"
 #include "ode/scale.h"
 #include "ode/taylor-numbers.h"
+#include "ode/taylor.h"
 
 static const double unit = 0x1p-53;
+
+/* Of the run's work: what each of the two may cost. The rest of QDOT_COMPANION_MOST is for the horizon. */
+static const double shares[] = {1.55, 1.3};
+
+/* Of QDOT_COMPANION_LEAST: what a way may take before it leads anywhere, so that the others have the
+ * rest; beside a stiff method there are more of them, and series are for scenes that are not stiff,
+ * where they cost little. */
+static const double at_first = 0.8, at_first_stiff = 0.25, beside_stiff = 0.4;
 
 /* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
 static const double most_floor = 32;
@@ -23,8 +32,20 @@ static const double derived = 4;
 /* A companion's own error, as a part of its distance from the run, where the companions agree. */
 static const double most_share = 0.25;
 
+/* Nearer to its companion_tol a stiff method of ours meets the rounding of most scenes, and its steps
+ * become many. */
+static const double above_rounding = 10;
+
 /* How much coarser or finer than the run these ways are. */
-static const double coarser = 4, finer[] = {4, 8};
+static const double coarser = 4, finer[] = {16, 32};
+
+/* What both companions by Taylor series should cost, of the work of the run, and which powers of their
+ * ratio of tolerances (method.h) are tried for that. */
+static const double foreseen = 2.8, powers[] = {1, 0.75, 0.5};
+
+/* Of the work: what reading states before the end may take, the run's and both companions', which cost
+ * about so many times a step of the run. */
+static const double reading = 0.12, readings = 3.5;
 
 /* Differences before the end raise the error to at most this many times the one at the end. */
 static const double most_between = 30;
@@ -43,15 +64,17 @@ typedef struct {
     double t0;
     double *start; /* [n] the moved y0 */
     double *low;   /* [n] low-order part: the start is start + low */
-    double *now;   /* [n] low-order part of y, where that is known */
     double *y;     /* [n] the state it has reached */
     double *own;   /* [PLACES x n] its states at the times between */
-    size_t reached; /* the first `reached` of these times are done */
+    qdot_trajectory *tr; /* all of its states: the caller's, or */
+    qdot_trajectory held;
     qdot_companion_way way;
     double tol;           /* of that way */
-    double spent;         /* work on the ways before */
+    double spent;         /* work on the ways before, and on reading */
     qdot_ode_meter meter; /* on this one */
     qdot_ode_result result;
+    bool given_up; /* by its cost */
+    bool arrived;
     bool running;  /* on `thread` */
     bool finished; /* result is valid */
     pthread_t thread;
@@ -64,15 +87,17 @@ struct qdot_companion {
     const qdot_ode_meter *meter;
     double tol, t1, t1_low, t0_low; /* of the run */
     bool leading, alternates;
-    size_t samples; /* 0 or PLACES */
+    size_t samples;
     double times[PLACES];
     double *shown; /* [PLACES x n] states of the run at `times` */
     size_t n_shown;
-    atomic_bool leave; /* companions are to stop: the run ended at another time */
+    atomic_bool leave; /* the run ended before t1: companions are to stop beyond t_end */
+    double t_end;
     double share; /* factor by which the second companion's distance counts */
     double floor; /* the smallest error that is stated */
+    double steps; /* of the run */
     follower at[2];
-    size_t count;
+    size_t count, arrived;
 };
 
 bool
@@ -88,6 +113,31 @@ qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *meth
                                     ? "taylor" : method->partner);
 }
 
+/* The work of a run by Taylor series under that tolerance, relative to others of the system. */
+static double
+work_of(const qdot_ode_series *series, double tol, int more)
+{
+    const int p = qdot_ode_taylor_order(series, tol, false, more);
+
+    return qdot_ode_expansion_work(series, p) * exp(-log(qdot_step_aim(tol, false)) / p);
+}
+
+/* Of a run by Taylor series under tol: the tightest tolerance of these that both companions can afford. */
+static double
+affordable(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
+{
+    const double most = foreseen * work_of(series, tol, 0);
+    double theirs = tol, work;
+
+    for (size_t k = 0; k < sizeof powers / sizeof *powers; k++) {
+        theirs = fmax(pow(taylor->companion_ratio, powers[k]) * tol, taylor->companion_tol);
+        work = work_of(series, theirs, qdot_companion_orders(0)) + work_of(series, theirs, qdot_companion_orders(1));
+        if (work <= most)
+            break;
+    }
+    return theirs;
+}
+
 double
 qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *method,
                          double tol)
@@ -95,6 +145,8 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
     const qdot_ode_method *partner = qdot_companion_method(system, method);
     bool same = partner == method;
 
+    if (same && partner->series)
+        return affordable(system->series, partner, tol);
     if (partner->series)
         return fmax(fmin(partner->companion_ratio, method->companion_ratio) * tol,
                     partner->companion_tol);
@@ -107,15 +159,20 @@ qdot_companion_way
 qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_system *system,
                         const qdot_ode_method *method, double tol, qdot_companion_plan *plan)
 {
+    const bool gets_finer =
+        method->stiff && !method->multistep
+        && tol / finer[1] >= (method->kernel ? above_rounding : 1) * method->companion_tol;
     qdot_ode_system plain = *system;
 
     plain.series = NULL;
     *plan = (qdot_companion_plan){0};
     if (way == QDOT_COMPANION_SERIES && (!system->series || !qdot_companion_is_by_series(method)))
         way = QDOT_COMPANION_PARTNER;
-    if (way == QDOT_COMPANION_PARTNER && system->series && !method->stiff)
+    if (way == QDOT_COMPANION_PARTNER && (method->stiff ? gets_finer : system->series != NULL))
         way = QDOT_COMPANION_FINER;
-    if (way == QDOT_COMPANION_FINER && (!method->stiff || tol / finer[1] < method->companion_tol))
+    if (way == QDOT_COMPANION_PARTNER && method->stiff && method->kernel)
+        way = QDOT_COMPANION_COARSE; /* it is its own partner */
+    if (way == QDOT_COMPANION_FINER && !gets_finer)
         way = QDOT_COMPANION_COARSE;
     if (way == QDOT_COMPANION_SERIES) {
         plan->method = qdot_companion_method(system, method);
@@ -133,16 +190,25 @@ qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_sy
     return way;
 }
 
+double
+qdot_companion_left(double work, double spent)
+{
+    return fmax(0, QDOT_COMPANION_MOST * work - spent);
+}
+
 void
-qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run, const qdot_ode_method *method,
-                     const qdot_ode_system *system, qdot_companion_way way, double spent)
+qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
+                     const qdot_ode_system *system, bool stiff, qdot_companion_way way,
+                     size_t number, double spent)
 {
     m->beside = run;
-    m->factor = way == QDOT_COMPANION_SERIES && method->series ? QDOT_COMPANION_WORTH_FINER
-                                                               : QDOT_COMPANION_WORTH;
-    m->allowance = method->stiff ? QDOT_COMPANION_ALLOWANCE_STIFF : QDOT_COMPANION_ALLOWANCE;
-    if (way == QDOT_COMPANION_COARSE)
-        m->allowance = fmax(m->allowance, 3 * m->allowance - spent);
+    m->factor = shares[number];
+    m->allowance = QDOT_COMPANION_LEAST;
+    m->early_factor = way == QDOT_COMPANION_SERIES && stiff ? beside_stiff
+                      : way == QDOT_COMPANION_PARTNER       ? shares[1]
+                                                            : m->factor;
+    m->early = (stiff || way == QDOT_COMPANION_PARTNER ? at_first_stiff : at_first) * QDOT_COMPANION_LEAST;
+    m->spent = spent;
     m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
 }
 
@@ -171,6 +237,12 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
     return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
+int
+qdot_companion_orders(size_t number)
+{
+    return number ? 1 : QDOT_COMPANION_ORDERS;
+}
+
 double
 qdot_companion_first_share(size_t number)
 {
@@ -193,55 +265,44 @@ static qdot_status
 look(double t, const double *y, bool *stop, void *user)
 {
     const follower *f = user;
+    const qdot_companion *c = f->of;
 
-    (void)t;
     (void)y;
-    *stop = atomic_load_explicit(&f->of->leave, memory_order_relaxed);
+    *stop = atomic_load_explicit(&c->leave, memory_order_acquire)
+            && (c->t1 < f->t0 ? t <= c->t_end : t >= c->t_end);
     return QDOT_OK;
 }
 
-/* To t1 by one way. */
+/* To t1, or beyond the end of the run, by one way. */
 static void
-run_by(follower *f, const qdot_companion_plan *by, double t1)
+run_by(follower *f, const qdot_companion_plan *by)
 {
     const qdot_companion *c = f->of;
-    const qdot_ode_method *now = NULL;
-    qdot_ode_options options = {.tol = by->tol,
-                                .first_share = qdot_companion_first_share(f->number),
-                                .accepted = look,
-                                .user = f,
-                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)f->number,
-                                .leading = c->leading,
-                                .alternates = c->alternates,
-                                .now = &now,
-                                .end_low = c->leading ? f->now : NULL,
-                                .meter = c->meter ? &f->meter : NULL,
-                                .stiff_work = INFINITY, /* the meter bounds it */
-                                .apart = true};
-    double t = f->t0;
-    qdot_ode_stats spent = f->result.stats;
+    const qdot_ode_options options = {.tol = by->tol,
+                                      .first_share = qdot_companion_first_share(f->number),
+                                      .accepted = look,
+                                      .user = f,
+                                      .order_more = qdot_companion_orders(f->number),
+                                      .leading = c->leading,
+                                      .alternates = c->alternates,
+                                      .meter = &f->meter,
+                                      .stiff_work = INFINITY, /* the meter bounds it */
+                                      .apart = true,
+                                      .carry = f->low,
+                                      .t0_low = c->t0_low,
+                                      .t1_low = c->t1_low};
+    const qdot_ode_stats spent = f->result.stats;
 
-    qdot_companion_meter(&f->meter, c->meter, c->run, &f->system, f->way, f->spent);
+    qdot_companion_meter(&f->meter, c->meter, &f->system, c->run->stiff, f->way, f->number,
+                         f->spent);
     qdot_ode_meter_begin(&f->meter, f->t0, c->t1);
-    memcpy(f->y, f->start, c->n * sizeof *f->y);
-    for (f->reached = 0;;) {
-        bool last = t1 != c->t1 || f->reached == c->samples;
-        double to = last ? t1 : c->times[f->reached];
-
-        options.t1_low = to == c->t1 ? c->t1_low : 0;
-        options.carry = t == f->t0 ? f->low : c->leading ? f->now : NULL;
-        options.t0_low = t == f->t0 ? c->t0_low : 0;
-        options.goes_on = t != f->t0;
-        if (qdot_ode_integrate(&f->system, by->method, &options, t, to, f->y, &f->result)
-            != QDOT_OK)
-            f->result.outcome = QDOT_ODE_FAILED;
-        qdot_ode_stats_add(&spent, &f->result.stats);
-        if (last || f->result.outcome != QDOT_ODE_DONE)
-            break;
-        memcpy(f->own + f->reached++ * c->n, f->y, c->n * sizeof *f->y);
-        t = to;
-    }
-    f->result.stats = spent;
+    if (qdot_trajectory_run(f->tr, &f->system, by->method, &options, f->t0, c->t1, f->start)
+        != QDOT_OK)
+        f->tr->result.outcome = QDOT_ODE_FAILED;
+    f->result = f->tr->result;
+    qdot_ode_stats_add(&f->result.stats, &spent);
+    if (f->tr->count > 0)
+        memcpy(f->y, f->tr->y + (f->tr->count - 1) * c->n, c->n * sizeof *f->y);
 }
 
 bool
@@ -253,9 +314,9 @@ qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
     return meter->over && !qdot_ode_meter_is_stuck(meter);
 }
 
-/* To t1 by the first way from f->way on that leads there. */
+/* The same by the first way from f->way on that leads there. */
 static void
-run_ways(follower *f, double t1)
+run_ways(follower *f)
 {
     const qdot_companion *c = f->of;
     qdot_companion_plan by;
@@ -266,7 +327,8 @@ run_ways(follower *f, double t1)
         if (f->way == QDOT_COMPANION_WAYS)
             return;
         f->tol = by.tol;
-        run_by(f, &by, t1);
+        run_by(f, &by);
+        f->given_up = f->meter.over;
         if (f->result.outcome != QDOT_ODE_FAILED
             || !qdot_companion_leads_nowhere(c->run, true, &f->meter))
             return;
@@ -276,12 +338,12 @@ run_ways(follower *f, double t1)
 }
 
 static void
-run_to(follower *f, double t1)
+run_all(follower *f)
 {
     f->result = (qdot_ode_result){0};
     f->way = QDOT_COMPANION_SERIES;
     f->spent = 0;
-    run_ways(f, t1);
+    run_ways(f);
     f->finished = true;
 }
 
@@ -290,7 +352,7 @@ thread_main(void *user)
 {
     follower *f = user;
 
-    run_to(f, f->of->t1);
+    run_all(f);
     return NULL;
 }
 
@@ -300,7 +362,7 @@ release(qdot_companion *c)
     for (size_t k = 0; k < c->count; k++) {
         qdot_free(c->at[k].start);
         qdot_free(c->at[k].low);
-        qdot_free(c->at[k].now);
+        qdot_trajectory_clear(&c->at[k].held);
         qdot_free(c->at[k].y);
         qdot_free(c->at[k].own);
     }
@@ -308,13 +370,19 @@ release(qdot_companion *c)
     qdot_free(c);
 }
 
-/* No times between are used if the run is so short that two of them would be the same double. */
+/* The times between, as many as reading there is a small part of the work; none if the run is so short
+ * that two of them would be the same double. */
 static void
-choose_times(qdot_companion *c, double t0)
+choose_times(qdot_companion *c, uint64_t steps)
 {
-    c->samples = PLACES;
-    for (size_t k = 0; k < PLACES; k++) {
-        c->times[k] = t0 + places[k] * (c->t1 - t0);
+    const double t0 = c->at[0].t0, work = c->meter ? c->meter->work : 0;
+    const double left = reading * work + reading * QDOT_COMPANION_LEAST;
+    const double each = readings * work / (double)(steps > 0 ? steps : 1);
+    const size_t most = left < PLACES * each ? (size_t)(left / each) : PLACES;
+
+    c->samples = c->at[0].system.series ? most : 0;
+    for (size_t k = 0; k < c->samples; k++) {
+        c->times[k] = t0 + places[(2 * k + 1) * PLACES / (2 * most)] * (c->t1 - t0);
         if (c->times[k] == (k ? c->times[k - 1] : t0) || c->times[k] == c->t1)
             c->samples = 0;
     }
@@ -367,12 +435,14 @@ bound_at(const qdot_companion *c, const double *scales, const double *y, size_t 
     const double *of[2];
     double worst = 0;
 
-    for (size_t i = 0; i < c->count; i++) {
+    for (size_t i = 0; i < c->arrived; i++) {
         of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
         worst = fmax(worst, (i ? c->share : 1) * apart(c, scales, y, of[i]));
     }
-    return qdot_companion_bound(worst,
-                                c->count == 2 ? c->share * apart(c, scales, of[0], of[1]) : 0);
+    return qdot_companion_bound(worst, c->arrived == 2
+                                           ? c->share * apart(c, scales, of[0], of[1])
+                                           : (double)(c->count - c->arrived) * QDOT_COMPANION_ALONE
+                                                 * worst);
 }
 
 double
@@ -391,7 +461,7 @@ median_between(const qdot_companion *c, const double *scales)
 {
     double errors[PLACES];
 
-    for (size_t k = 0; k < PLACES; k++) {
+    for (size_t k = 0; k < c->samples; k++) {
         double worst = bound_at(c, scales, c->shown + k * c->n, k);
         size_t at = k;
 
@@ -399,7 +469,7 @@ median_between(const qdot_companion *c, const double *scales)
             errors[at] = errors[at - 1];
         errors[at] = worst;
     }
-    return errors[PLACES / 2];
+    return errors[c->samples / 2];
 }
 
 static qdot_status
@@ -416,8 +486,8 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
     f->low = qdot_calloc(c->n, sizeof *f->low);
     f->y = qdot_malloc(c->n * sizeof *f->y);
     f->own = qdot_malloc(PLACES * c->n * sizeof *f->own);
-    f->now = qdot_calloc(c->n, sizeof *f->now);
-    if (!f->start || !f->low || !f->now || !f->y || !f->own)
+    f->tr = request->kept[number] ? request->kept[number] : &f->held;
+    if (!f->start || !f->low || !f->y || !f->own)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
@@ -461,8 +531,6 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->share = 1;
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
-    if (request->system->series)
-        choose_times(c, request->t0);
     atomic_init(&c->leave, false);
     status = c->shown ? prepare(c, request, 0) : QDOT_ENOMEM;
     if (status == QDOT_OK && request->twin)
@@ -481,43 +549,89 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
 /* It arrived, before the run had, at a price that is too high beside that of the whole run: the
  * other ways. */
 static void
-judge(follower *f, double t1)
+judge(follower *f)
 {
     double work;
 
     while (f->of->meter && f->way != QDOT_COMPANION_WAYS
-           && f->result.outcome == QDOT_ODE_DONE && qdot_ode_meter_exceeds(&f->meter, &work)) {
+           && f->result.outcome != QDOT_ODE_FAILED && qdot_ode_meter_exceeds(&f->meter, &work)) {
         f->spent += work;
         f->way++;
+        f->given_up = true;
         f->result.outcome = QDOT_ODE_FAILED;
         snprintf(f->result.reason, sizeof f->result.reason,
-                 "it would take more than %.2g times the work of this one", f->meter.factor);
-        run_ways(f, t1);
+                 QDOT_ODE_METER_REASON, f->meter.factor);
+        run_ways(f);
     }
+}
+
+/* Its state where the run ended before t1. */
+static void
+read_end(follower *f)
+{
+    const qdot_companion *c = f->of;
+
+    if (qdot_trajectory_at(f->tr, &f->system, c->t_end, f->y) == QDOT_OK) {
+        f->result.outcome = QDOT_ODE_DONE;
+        f->result.t = c->t_end;
+    } else {
+        f->result.outcome = QDOT_ODE_FAILED;
+    }
+}
+
+/* Its states at the times between, where the run has shown its own; whether it has them. */
+static bool
+read_between(follower *f)
+{
+    const qdot_companion *c = f->of;
+    qdot_trajectory_cursor *cursor;
+    qdot_status status;
+
+    if (c->samples == 0 || c->n_shown < c->samples
+        || qdot_trajectory_open(f->tr, &f->system, &cursor) != QDOT_OK)
+        return false;
+    status = QDOT_OK;
+    for (size_t k = 0; k < c->samples && status == QDOT_OK; k++)
+        status = qdot_trajectory_read(cursor, c->times[k], f->own + k * c->n);
+    qdot_trajectory_close(cursor);
+    return status == QDOT_OK;
 }
 
 /* Its end, and whether it shows the states between, too. */
 static bool
-arrive(follower *f, bool whole, double t_end, qdot_companion_estimate *out)
+arrive(follower *f, bool whole, qdot_companion_estimate *out)
 {
     const qdot_companion *c = f->of;
-    const double t1 = whole ? c->t1 : t_end;
+    double each;
 
-    if (!whole || !f->finished)
-        run_to(f, t1);
-    judge(f, t1);
-    if (f->number == 0 || out->result.outcome == QDOT_ODE_DONE)
+    if (!f->finished)
+        run_all(f);
+    judge(f);
+    if (!whole && f->result.outcome != QDOT_ODE_FAILED)
+        read_end(f);
+    f->arrived = f->result.outcome == QDOT_ODE_DONE;
+    if (f->number == 0 || (out->known && !f->given_up))
         out->result = f->result;
     out->tol = fmax(out->tol, f->tol);
-    if (f->way > out->way)
-        out->way = f->way;
-    out->known = out->known && f->result.outcome == QDOT_ODE_DONE;
-    return whole && c->n_shown == PLACES && f->reached == PLACES;
+    if (f->number == 0 || f->arrived)
+        out->way = f->way > out->way ? f->way : out->way;
+    /* the first is enough if the second would cost too much */
+    out->known = (out->known && f->arrived) || (f->number > 0 && out->known && f->given_up);
+    each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
+    out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
+    out->of_point += each;
+    out->kept[f->number] = f->tr->count > 1 && !f->given_up;
+    if (!f->arrived || !whole || !read_between(f))
+        return f->number > 0 && f->given_up;
+    out->work += each * (double)c->samples;
+    return true;
 }
 
 void
 qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
+    c->steps = (double)steps;
+    choose_times(c, steps);
     c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit
@@ -540,22 +654,28 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     /* the neighbour of t1 stands for t1 */
     bool whole = fabs(t_end - c->t1) <= 4 * unit * fabs(c->t1), between = true;
 
+    c->t_end = t_end;
     if (!whole)
-        atomic_store(&c->leave, true);
+        atomic_store_explicit(&c->leave, true, memory_order_release);
     for (size_t k = 0; k < c->count; k++)
         if (c->at[k].running)
             pthread_join(c->at[k].thread, NULL);
-    atomic_store(&c->leave, false);
     *out = (qdot_companion_estimate){.known = true};
     for (size_t k = 0; k < c->count; k++)
-        between = arrive(c->at + k, whole, t_end, out) && between;
+        between = arrive(c->at + k, whole, out) && between;
+    between = between && c->samples > 0;
+    c->arrived = c->count == 2 && c->at[1].arrived ? 2 : 1;
+    if (whole && c->n_shown > 0 && c->meter) /* the run's own */
+        out->work += c->meter->work / fmax(1, c->steps) * (double)c->n_shown;
     out->error = out->known ? error_of(c, c->scales, y, between) : NAN;
     out->plain = out->known ? error_of(c, NULL, y, between) : NAN;
     for (size_t i = 0; i < c->n && difference; i++) {
         const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
 
         difference[i] =
-            out->known ? qdot_companion_bound_of(y[i], c->count, ends, c->share) : NAN;
+            out->known ? qdot_companion_bound_of(y[i], c->arrived, ends, c->share) : NAN;
+        if (c->arrived < c->count)
+            difference[i] += QDOT_COMPANION_ALONE * fabs(ends[0] - y[i]);
     }
     release(c);
 }

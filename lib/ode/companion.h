@@ -5,7 +5,8 @@
  *     by Taylor series if the system has them (not for radau), else by the partner of the
  *       method (method.h); for a stiff method by the partner too if series get stuck,
  *     under tol* = tol/100 (tol/30 for radau, tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
- *       more accurate than they ask for by as much), not below the method's companion_tol. If a
+ *       more accurate than they ask for by as much), or by series beside series as much less tight as the budget
+ *       needs, at most tol/10; not below the method's companion_tol. If a
  *       method is its own partner and its tolerance cannot be 4 times tighter, tol* = 10 max(tol,
  *       companion_tol): then the companion errs more, on the safe side (a tighter one would share
  *       the rounding of the coefficients, which is a drift and not noise). taylor, whose
@@ -42,18 +43,21 @@
  * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
  *
- * Ways. A companion must not have cost more than QDOT_COMPANION_WORTH (_FINER) times what the run had
- * cost by the same time, and QDOT_COMPANION_ALLOWANCE (meter.h). One that has, or that a method for
- * stiff equations was chosen to spare, is given up, and another way is tried by what is left:
+ * Ways. All that is spent on the error of a run is at most QDOT_COMPANION_MOST times what the run had
+ * cost, and 2 QDOT_COMPANION_LEAST: the first companion has 1.55, the second 1.3 of that, by all ways
+ * together. One that costs too much (meter.h) is given up, and another way is tried by what is left:
  *
- *     SERIES   Taylor series under tol*
- *     PARTNER  the partner of the method under its tol*: beside a stiff method, or without series
- *     FINER    a stiff method itself, the first under tol/4, the second under tol/8: it errs by a
- *              few times less, and the distance of the two shows by how much
+ *     SERIES   Taylor series under tol*; beside a stiff method while they cost less than 0.4 of the run
+ *     PARTNER  the partner of the method under its tol*: without series, and beside a stiff method
+ *              that has not the next way; not radau, which is its own partner
+ *     FINER    a stiff method itself, the first under tol/16, the second under tol/32: it errs by a
+ *              few times less, and the distance of the two shows by how much; not a multistep method,
+ *              whose errors follow the tolerance only roughly, and not below its companion_tol
  *     COARSE   the run's own method under 4 tol: it errs more than the run, on the safe side, and
  *              costs less
  *
- * A companion that arrives by none gives no number: known is false, the error a NaN.
+ * If the first arrives and the second is given up by its cost, `own` is 2 apart. If the first does not
+ * arrive there is no number: known is false, the error a NaN.
  *
  * The caller moves the numbers in f (parameters), in the companion's own system. If a limit is
  * not a double exactly and the method has no t1_low, the caller passes its neighbour as the
@@ -70,6 +74,7 @@
 #include "base/status.h"
 #include "ode/integrate.h"
 #include "ode/meter.h"
+#include "ode/trajectory.h"
 
 /* How a companion is integrated. */
 typedef enum {
@@ -86,6 +91,9 @@ typedef struct {
     double tol;             /* tol* */
     qdot_companion_way way; /* the last one that was needed */
     qdot_ode_result result; /* of the companion: its cost, why it did not arrive */
+    double work;            /* counted, of all ways of both */
+    double of_point;        /* that of reading both at one time */
+    bool kept[2];           /* what is in request->kept is not cut off by the meter */
 } qdot_companion_estimate;
 
 typedef struct qdot_companion qdot_companion;
@@ -98,6 +106,9 @@ typedef struct qdot_companion qdot_companion;
  * which holds in 99 cases of 100: if the method's error dominates, companions are off by a small
  * part of `apart`, and agree; if they are off by more, by rounding, `own` shows it. */
 double qdot_companion_bound(double apart, double own);
+/* If the second was given up by its cost, `own` counts as so many times `apart`. */
+#define QDOT_COMPANION_ALONE 2.0
+
 /* The same for a value x of the run and theirs [count] of the companions, 1 or 2; the distance of
  * the second is multiplied by `share`. NaN if one has no value. */
 double qdot_companion_bound_of(double x, size_t count, const double *theirs, double share);
@@ -116,6 +127,8 @@ typedef struct {
     double t0_low;                  /* likewise */
     const qdot_ode_meter *meter;    /* of the run, begun (meter.h); NULL: companions may cost what
                                        they like; likewise */
+    qdot_trajectory *kept[2];       /* {0}, where to store what each goes through, until _finish; NULL:
+                                       it is dropped; likewise */
     bool threaded; /* run them on threads of their own; if there are none, or false, they run
                       within _finish */
 } qdot_companion_request;
@@ -152,19 +165,22 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
                                            const qdot_ode_method *method, double tol,
                                            qdot_companion_plan *plan);
 
-/* A companion's work, in that of the run and in about nanoseconds. The second is for a scene at
- * rest: the run may need one step, while a companion moved by a rounding oscillates all the time. */
-#define QDOT_COMPANION_WORTH 1.5
-#define QDOT_COMPANION_WORTH_FINER 2.5 /* series beside series: so much more orders and steps may cost */
-#define QDOT_COMPANION_ALLOWANCE 1e7
-#define QDOT_COMPANION_ALLOWANCE_STIFF 2e6 /* beside a stiff method */
+/* All that is spent on the error of a run, in its work, and what each of two companions may cost in
+ * any case, in about nanoseconds: together less than the process takes to start. It is for runs of a
+ * few steps, and for a scene at rest: the run may need one step, while a companion moved by a rounding
+ * oscillates all the time. */
+#define QDOT_COMPANION_MOST 3.0
+#define QDOT_COMPANION_LEAST 1e6
 
-/* The meter of a companion by that way beside that of a run by `method`, after `spent` on the ways
- * before. The last way may use what is left of the whole, wherever, and no less than the others; parts of a system each
- * begin anew, so only their wholes are compared. */
+/* What is left of QDOT_COMPANION_MOST for a run of so much work, after so much. */
+double qdot_companion_left(double work, double spent);
+
+/* The meter of companion `number` by that way beside that of a run, by a `stiff` method or not, after `spent` on the ways before.
+ * The last way may use what is left of the whole, wherever; parts of a system each begin anew, so only
+ * their wholes are compared. */
 void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
-                          const qdot_ode_method *method, const qdot_ode_system *system,
-                          qdot_companion_way way, double spent);
+                          const qdot_ode_system *system, bool stiff, qdot_companion_way way,
+                          size_t number, double spent);
 
 /* Whether another way is worth trying, after one that `failed` or was found to cost too much: a
  * stiff method may spare what stops series, and go where a tight tolerance finds no step; else not
@@ -187,14 +203,15 @@ double qdot_companion_far(uint64_t steps);
 /* The least error stated for a run of so many steps. */
 double qdot_companion_floor(uint64_t steps);
 
-/* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1 they
- * start again, to t_end), compare, and free them.
+/* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1, until they
+ * are beyond t_end), compare, and free them.
  *   difference  [n] out, may be NULL; NaN: unknown
  * Never fails: after a failure the error is unknown and result.reason says why. */
 void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
                            double *difference, qdot_companion_estimate *out);
 
-/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more). */
+/* Additional orders of a companion by Taylor series (qdot_ode_options.order_more): at most. */
+int qdot_companion_orders(size_t number);
 #define QDOT_COMPANION_ORDERS 3
 
 /* Whether companions are first tried by series, where there are any: not those of radau, which is

@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* A mark is set when work has grown by this part, and at least by so much. */
-static const double part = 0.125, least = 5e5;
+static const double part = 0.125, least = 5e4;
 
 static const double stands_still = 0.02;
 
@@ -56,10 +56,19 @@ work_at(const qdot_ode_meter *run, double t, double *work)
     return ended;
 }
 
+/* Whether so much is too much at t, where that is known. */
 static bool
-is_too_much(const qdot_ode_meter *m, double work, double beside)
+is_too_much(const qdot_ode_meter *m, double t, double work, bool *known)
 {
-    return work > m->factor * beside + m->allowance;
+    double w;
+
+    *known = work_at(m->beside, m->direction * INFINITY, &w);
+    if (*known && m->spent + work > m->factor * w + m->allowance)
+        return true;
+    if (m->whole_only)
+        return false;
+    *known = work_at(m->beside, t, &w);
+    return *known && work > m->early_factor * w + m->early;
 }
 
 qdot_status
@@ -73,15 +82,14 @@ qdot_ode_meter_add(qdot_ode_meter *m, double t, double work)
     set_mark(m);
     if (!m->beside)
         return QDOT_OK;
-    for (double w; m->judged < atomic_load(&m->count); m->judged++) {
+    for (bool known; m->judged < atomic_load(&m->count); m->judged++) {
         const qdot_ode_mark *mark = m->marks + m->judged;
 
-        if (!work_at(m->beside, m->whole_only ? m->direction * INFINITY : mark->t, &w))
-            return QDOT_OK;
-        m->over = m->over || is_too_much(m, mark->work, w);
+        m->over = m->over || is_too_much(m, mark->t, mark->work, &known);
         if (m->over)
-            return qdot_fail(QDOT_ELIMIT, "it would take more than %.2g times the work of this one",
-                             m->factor);
+            return qdot_fail(QDOT_ELIMIT, QDOT_ODE_METER_REASON, m->factor);
+        if (!known)
+            return QDOT_OK;
     }
     return QDOT_OK;
 }
@@ -96,16 +104,15 @@ bool
 qdot_ode_meter_exceeds(const qdot_ode_meter *m, double *work)
 {
     const size_t count = atomic_load(&m->count);
-    double w;
+    bool known;
 
     for (size_t k = 0; k < count && m->beside; k++)
-        if (work_at(m->beside, m->whole_only ? m->direction * INFINITY : m->marks[k].t, &w)
-            && is_too_much(m, m->marks[k].work, w)) {
+        if (is_too_much(m, m->marks[k].t, m->marks[k].work, &known)) {
             *work = m->marks[k].work;
             return true;
         }
     *work = m->work;
-    return m->beside && is_too_much(m, m->work, m->beside->work);
+    return m->beside && is_too_much(m, m->far, m->work, &known);
 }
 
 bool

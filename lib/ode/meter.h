@@ -5,14 +5,14 @@
  * evaluations of f, Jacobians and factorisations. The unit is about a nanosecond.
  *
  * A meter keeps marks: the work W(t) when the integration had come to t, one whenever W has grown
- * by an eighth. Let w be the run's. A companion has cost too much if at some mark of its own
+ * by an eighth. Let w be the run's, taken at its first mark at or beyond t, and w1 its whole. A
+ * companion has cost too much if at some mark of its own
  *
- *     W(t) > factor w(t) + allowance,
+ *     W(t) > early_factor w(t) + early   or   spent + W(t) > factor w1 + allowance,
  *
- * w(t) taken at the run's first mark at or beyond t. So one that goes nowhere is given up early;
- * near the end the same holds for the whole. It is looked for while the companion runs, as far as
- * the run has come, and in any case afterwards (qdot_ode_meter_exceeds): the answer does not
- * depend on which of the two threads was faster.
+ * `spent` being the work of what was tried before it. So one that goes nowhere is given up early. It is
+ * looked for while the companion runs, as far as the run has come, and in any case afterwards
+ * (qdot_ode_meter_exceeds): the answer does not depend on which of the two threads was faster.
  *
  * Tests  tests/ode/test_meter.c
  */
@@ -36,6 +36,8 @@ typedef struct {
 struct qdot_ode_meter {
     const qdot_ode_meter *beside; /* of the run; NULL: no bound; borrowed */
     double factor, allowance;
+    double early_factor, early; /* these at marks */
+    double spent;      /* before, for the same end */
     double direction;  /* of time */
     double t0;
     bool whole_only;   /* parts that each begin at t0 anew: only the whole can be compared */
@@ -48,6 +50,9 @@ struct qdot_ode_meter {
     atomic_bool ended;
     qdot_ode_mark marks[QDOT_ODE_MARKS];
 };
+
+/* Why one has ended; %.2g: the factor. */
+#define QDOT_ODE_METER_REASON "it would take more than %.2g times the work of this one"
 
 /* Begin to count an integration from t0 towards t1; beside, factor and allowance are kept. */
 void qdot_ode_meter_begin(qdot_ode_meter *m, double t0, double t1);

@@ -23,7 +23,8 @@ make_run(qdot_ode_meter *m, double of_step)
 static void
 beside(qdot_ode_meter *m, const qdot_ode_meter *run, double allowance)
 {
-    *m = (qdot_ode_meter){.beside = run, .factor = 1.5, .allowance = allowance};
+    *m = (qdot_ode_meter){.beside = run, .factor = 1.5, .allowance = allowance,
+                           .early_factor = 1.5, .early = allowance};
     qdot_ode_meter_begin(m, 0, 1);
 }
 
@@ -131,7 +132,7 @@ estimate(double work, double t, bool threaded, double *limit)
     assert_int_equal(qdot_companion_start(&request, &c), QDOT_OK);
     qdot_companion_limit(c, 1000);
     qdot_companion_finish(c, t, y, NULL, &e);
-    *limit = 1.5 * run.work + 3 * QDOT_COMPANION_ALLOWANCE;
+    *limit = QDOT_COMPANION_MOST * run.work + 2 * QDOT_COMPANION_LEAST;
     return e;
 }
 
@@ -144,11 +145,11 @@ companions_keep_to_their_bound(void **state)
     for (int threaded = 0; threaded < 2; threaded++) {
         qdot_companion_estimate e = estimate(0, 300, threaded, &limit);
 
-        assert_true(e.known && e.way == QDOT_COMPANION_PARTNER);
-        assert_true(qdot_ode_work(&pendulum.system, &e.result.stats) < limit);
+        assert_true(e.known);
+        assert_true(e.work > limit / 3 && e.work < limit);
         e = estimate(1e3, 1e6, threaded, &limit);
         assert_true(!e.known && isnan(e.error));
-        assert_true(qdot_ode_work(&pendulum.system, &e.result.stats) < 1.2 * limit);
+        assert_true(e.work < 1.2 * limit);
         assert_non_null(strstr(e.result.reason, "times the work of this one"));
     }
 }
@@ -163,11 +164,12 @@ ways_follow_the_method(void **state)
         int n;
     } rows[] = {
         {"rk8pd", {QDOT_COMPANION_PARTNER, QDOT_COMPANION_COARSE}, 2},
-        {"msbdf", {QDOT_COMPANION_PARTNER, QDOT_COMPANION_FINER, QDOT_COMPANION_COARSE}, 3},
+        {"msbdf", {QDOT_COMPANION_PARTNER, QDOT_COMPANION_COARSE}, 2},
+        {"radau", {QDOT_COMPANION_FINER, QDOT_COMPANION_COARSE}, 2},
     };
 
     (void)state;
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const qdot_ode_method *method = qdot_ode_method_find(rows[k].method);
         qdot_companion_way way = QDOT_COMPANION_SERIES;
         qdot_companion_plan plan;

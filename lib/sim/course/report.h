@@ -27,6 +27,8 @@ typedef struct {
     size_t steps, rejected, evals, jacobians, factorizations;
     double cpu;                    /* s, the integration itself */
     double cpu_total;              /* s, with derivation, lowering, error estimate */
+    double work, estimate_work;    /* counted (ode/meter.h), of the integration, and of all that tells
+                                      its error */
     double error;                  /* estimate of the end state's error, max over components relative
                                       to max(1, |value|); NaN: unknown */
     double scaled_error;           /* the same relative to max(scale, |value|) */

@@ -35,6 +35,7 @@ struct qdot_run {
     char *doubt;            /* why the error is unknown; NULL */
 
     qdot_ode_meter meter;   /* of the run's work, which that of companions is compared with */
+    double of_point;        /* the work of reading both companions at one time */
     qdot_companion_way way; /* by which a companion has arrived before */
 
     /* The run whose distance from this one is the error along the way: made together with it if

@@ -88,6 +88,9 @@ count(const qdot_course *c, size_t event)
 
 /* --- the companion ------------------------------------------------------------------- */
 
+/* Of the run's work, which is known: what a companion may take before it leads anywhere. */
+static const double of_whole = 0.1;
+
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
@@ -142,14 +145,24 @@ begin_anew(qdot_course *c)
     *c = empty;
 }
 
+void
+qdot_run_drop_companions(qdot_run *run)
+{
+    begin_anew(&run->companion);
+    begin_anew(&run->twin);
+    run->has_companion = run->has_twin = false;
+    if (run->way == QDOT_COMPANION_WAYS)
+        run->way = QDOT_COMPANION_SERIES;
+}
+
 /* Companion 0 or 1 into c by that way; *has: there is one. */
 static qdot_status
 follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_meter *meter,
-          qdot_course *c, bool *has)
+          qdot_course *c, bool *has, double *spent)
 {
     qdot_ode_options options = {.tol = by->tol,
                                 .first_share = qdot_companion_first_share(number),
-                                .order_more = QDOT_COMPANION_ORDERS - 2 * (int)number,
+                                .order_more = qdot_companion_orders(number),
                                 .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .alternates = run->turns,
@@ -185,8 +198,11 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         *has = c->tr.count > 0;
         if (!*has || met_the_same(run, c))
             break;
-        if (tries == 0)
+        if (tries == 0) {
             begin_anew(c);
+            *spent += meter->work;
+            meter->spent = *spent;
+        }
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
@@ -213,27 +229,34 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
     qdot_companion_way way = run->way;
     qdot_companion_plan by;
     double spent = 0;
-    qdot_status status = meter ? QDOT_OK : QDOT_ENOMEM;
+    qdot_status status = QDOT_OK;
 
+    if (!meter)
+        return QDOT_ENOMEM;
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
     c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;
-    for (; status == QDOT_OK; way++) {
+    for (;; way++) {
         way = qdot_companion_way_from(way, number, &system, method, run->report.tol, &by);
         if (way == QDOT_COMPANION_WAYS)
             break;
-        qdot_companion_meter(meter, &run->meter, method, &system, way, spent);
+        qdot_companion_meter(meter, &run->meter, &system, method->stiff, way, number, spent);
+        meter->early = fmax(meter->early, of_whole * run->meter.work);
         c->no_series = way == QDOT_COMPANION_PARTNER;
         begin_anew(c);
         *has = false;
-        status = follow_so(run, number, &by, meter, c, has);
-        if (!qdot_companion_leads_nowhere(method,
-                                          !*has || c->tr.result.outcome == QDOT_ODE_FAILED, meter))
+        status = follow_so(run, number, &by, meter, c, has, &spent);
+        if (status != QDOT_OK
+            || !qdot_companion_leads_nowhere(method,
+                                             !*has || c->tr.result.outcome == QDOT_ODE_FAILED,
+                                             meter))
             break;
         spent += meter->work;
     }
+    run->report.estimate_work += spent + (way == QDOT_COMPANION_WAYS ? 0 : meter->work);
+    run->of_point += meter->work / (double)(c->tr.count > 1 ? c->tr.count - 1 : 1);
     qdot_free(meter);
     return status;
 }

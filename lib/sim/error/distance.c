@@ -80,7 +80,9 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     if (!(*out = d))
         return QDOT_ENOMEM;
     d->run = run;
-    d->share = fmin(1, fmax(least_share, 4 * run->companion.tr.tol / run->report.tol));
+    d->share = !run->has_twin ? QDOT_COMPANION_ALONE
+                              : fmin(1, fmax(least_share,
+                                             4 * run->companion.tr.tol / run->report.tol));
     d->m = m;
     d->at = qdot_calloc(tr->count * m + 1, sizeof *d->at);
     d->known = qdot_calloc(tr->count + 1, sizeof *d->known);

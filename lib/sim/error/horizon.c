@@ -21,7 +21,7 @@ static const double least_part = 0.01;
 enum { LOOKS = 32 };
 
 /* Of how many points a run is looked at first. */
-enum { SAMPLES = 64, MOST_POINTS = 4096 };
+enum { SAMPLES = 64, MOST_POINTS = 4096, LEAST_POINTS = 32 };
 
 typedef struct {
     const qdot_run *run;
@@ -30,7 +30,8 @@ typedef struct {
     double *y;      /* [n] the companion's */
     size_t *point;  /* [points] of the run, in order: those that are compared */
     double *t, *d;  /* [points] their times; distances there */
-    size_t points;
+    size_t points, most; /* there are, and at most so many are compared at first */
+    size_t read;         /* states of the companion */
     size_t *pieces; /* [points] their pieces */
     double threshold;
 } search;
@@ -121,6 +122,7 @@ measure_at(search *s, size_t k, size_t piece, double *d)
     qdot_status status;
 
     QDOT_TRY(qdot_interrupt_check());
+    s->read++;
     status = qdot_trajectory_read_piece(s->companion, piece, s->run->course.tr.t[k], s->y);
     if (qdot_grave(status) != QDOT_OK)
         return status;
@@ -138,7 +140,7 @@ measure(search *s)
     const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
     const size_t pieces = common_pieces(a, b);
     const size_t end = pieces < a->pieces.n ? a->pieces.at[pieces].first : a->count;
-    const size_t stride = end / MOST_POINTS + 1;
+    const size_t stride = end / s->most + 1;
     size_t piece = 0;
     double d = 0;
 
@@ -244,7 +246,7 @@ find(qdot_run *run, search *s)
     qdot_run_report *report = &run->report;
     double size = variation(run->stage.scales, a, b, 1);
     const double length = fabs(a->t[a->count - 1] - a->t[0]);
-    const size_t room = (a->count < MOST_POINTS ? a->count : MOST_POINTS) + 1;
+    const size_t room = (a->count < s->most ? a->count : s->most) + 1;
     size_t first;
     double mean;
 
@@ -274,12 +276,22 @@ find(qdot_run *run, search *s)
     return QDOT_OK;
 }
 
-static qdot_status
-find_by(qdot_run *run, const qdot_course *other)
+/* How many points may be compared, by what is left of the budget. */
+static size_t
+affordable(const qdot_run *run)
 {
-    search s = {.other = other};
+    const double left = qdot_companion_left(run->meter.work, run->report.estimate_work);
+
+    return (size_t)fmax(LEAST_POINTS, fmin(MOST_POINTS, left / run->of_point));
+}
+
+static qdot_status
+find_by(qdot_run *run, const qdot_course *other, size_t most)
+{
+    search s = {.other = other, .most = most};
     qdot_status status = find(run, &s);
 
+    run->report.estimate_work += 0.5 * run->of_point * (double)s.read;
     qdot_trajectory_close(s.companion);
     qdot_free(s.y);
     qdot_free(s.t);
@@ -292,6 +304,7 @@ qdot_horizon_find(qdot_run *run)
 {
     const qdot_trajectory *tr = &run->course.tr;
     qdot_run_report *report = &run->report;
+    size_t most;
 
     report->horizon = NAN;
     if (tr->count < 2)
@@ -300,11 +313,13 @@ qdot_horizon_find(qdot_run *run)
         || varies_by_more(run->stage.scales, tr, report->scaled_error / worth_looking))
         return QDOT_OK;
     /* one may stay beside it for a while by chance */
-    QDOT_TRY(qdot_run_twin(run));
+    if (run->way != QDOT_COMPANION_WAYS)
+        QDOT_TRY(qdot_run_twin(run));
+    most = affordable(run);
     if (run->has_companion)
-        QDOT_TRY(find_by(run, &run->companion));
+        QDOT_TRY(find_by(run, &run->companion, most));
     if (run->has_twin)
-        QDOT_TRY(find_by(run, &run->twin));
+        QDOT_TRY(find_by(run, &run->twin, most));
     return isnan(report->horizon) ? QDOT_OK : qdot_standstill_find(run, &report->standstill);
 }
 

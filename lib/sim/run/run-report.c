@@ -53,6 +53,7 @@ qdot_run_fill_report(qdot_run *run, double tol)
     r->modes = run->stage.modes.n;
     r->doubt = run->doubt;
     r->cpu = stats->cpu;
+    r->work = run->meter.work;
     r->n = p->n;
     r->n_states = p->n_states;
     r->coordinates = p->inputs;

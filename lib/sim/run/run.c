@@ -291,19 +291,11 @@ measure_multipliers(qdot_run *run)
     return qdot_multipliers_measure(run->course.binds.at, &run->course.tr, &run->multipliers);
 }
 
-/* The companions that run beside the run, and their systems. */
-typedef struct {
-    qdot_bind *shaken, *twin; /* twin NULL: only one */
-    qdot_companion *companion;
-} beside;
-
+/* Begin the companions that run beside the run; their courses keep what they go through. */
 static qdot_status
-start_companion(qdot_run *run, double tol, beside *b)
+start_companion(qdot_run *run, double tol, qdot_companion **out)
 {
-    qdot_ode_system system, twin;
-    qdot_companion_request request = {.system = &system,
-                                      .twin = &twin,
-                                      .method = run->plan->method,
+    qdot_companion_request request = {.method = run->plan->method,
                                       .tol = tol,
                                       .t0 = run->leading ? run->t0
                                                          : qdot_shake_double(
@@ -316,17 +308,17 @@ start_companion(qdot_run *run, double tol, beside *b)
                                       .leading = run->leading,
                                       .alternates = run->turns,
                                       .meter = &run->meter,
+                                      .kept = {&run->companion.tr, &run->twin.tr},
                                       .threaded = !qdot_threads_are_taken};
 
-    QDOT_TRY(qdot_bind_new(run->plan, true, &b->shaken));
-    QDOT_TRY(qdot_bind_scale(b->shaken, run->stage.scales));
-    system = qdot_bind_system(b->shaken);
     if (run->plan->method->geometric)
         request.t1 = qdot_shake_double(run->t1, run->t1_side);
-    QDOT_TRY(qdot_bind_new(run->plan, false, &b->twin));
-    QDOT_TRY(qdot_bind_scale(b->twin, run->stage.scales));
-    twin = qdot_bind_system(b->twin);
-    return qdot_companion_start(&request, &b->companion);
+    run->companion.shaken = true;
+    QDOT_TRY(qdot_course_prepare(&run->companion));
+    QDOT_TRY(qdot_course_prepare(&run->twin));
+    request.system = qdot_course_systems(&run->companion);
+    request.twin = qdot_course_systems(&run->twin);
+    return qdot_companion_start(&request, out);
 }
 
 /* Record why the error is unknown. */
@@ -346,45 +338,49 @@ static qdot_status
 run_beside(qdot_run *run, double tol, bool *interrupted)
 {
     qdot_companion_estimate estimate = {.error = 0, .plain = 0};
-    beside b = {0};
+    qdot_companion *companion = NULL;
     qdot_status status = QDOT_OK;
 
+    qdot_run_drop_companions(run);
     qdot_ode_meter_begin(&run->meter, run->t0, run->t1);
     if (run->t0 != run->t1) {
         /* Where the shaken constants have no inverse the error stays unknown. */
         estimate.error = estimate.plain = NAN;
-        status = start_companion(run, tol, &b);
+        status = start_companion(run, tol, &companion);
         if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN)
             status = QDOT_OK;
     }
     if (status == QDOT_OK)
         status = integrate(run, tol, interrupted);
-    if (b.companion && status == QDOT_OK && !*interrupted
+    if (companion)
+        qdot_companion_limit(companion, run->course.tr.result.stats.steps);
+    if (companion && status == QDOT_OK && !*interrupted
         && run->course.tr.result.outcome == QDOT_ODE_DONE)
-        status = show_states(run, b.companion);
+        status = show_states(run, companion);
     if (status == QDOT_OK)
         status = measure_multipliers(run);
-    if (b.companion) {
+    if (companion) {
         bool there = run->course.tr.count > 0;
         qdot_error failure = *qdot_last_error();
 
         double *difference = run->difference;
 
-        qdot_companion_limit(b.companion, run->course.tr.result.stats.steps);
-        qdot_companion_finish(b.companion, there ? run->course.tr.result.t : run->t1,
+        qdot_companion_finish(companion, there ? run->course.tr.result.t : run->t1,
                               there ? last_state(run) : run->start, difference,
                               &estimate);
         if (status == QDOT_OK && !*interrupted && there)
             status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr,
                                        difference, &run->multipliers);
-        run->way = estimate.known ? estimate.way : QDOT_COMPANION_SERIES;
+        run->has_companion = estimate.kept[0];
+        run->has_twin = estimate.kept[0] && estimate.kept[1];
+        run->way = run->has_twin ? estimate.way : QDOT_COMPANION_WAYS;
+        run->report.estimate_work += estimate.work;
+        run->of_point = estimate.of_point;
         if (status == QDOT_OK && !estimate.known)
             status = say_lost(run, estimate.result.reason);
         if (status != QDOT_OK || *interrupted)
             qdot_fail_again(&failure);
     }
-    qdot_bind_free(b.shaken);
-    qdot_bind_free(b.twin);
     run->report.error = estimate.plain;
     run->report.scaled_error = estimate.error;
     return status;
@@ -454,6 +450,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_run_doubt_end(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
+    if (is_whole(run) && run->stage.events.n > 0) /* those have met no event */
+        qdot_run_drop_companions(run);
     if (status == QDOT_OK && !*interrupted && !run->no_drifts)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
                                      run->stage.scales != NULL, &run->drifts);

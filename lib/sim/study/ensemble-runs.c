@@ -216,7 +216,7 @@ pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
     p->run.tol = e->tol;
     if (p->number == 0)
         return;
-    p->run.order += QDOT_COMPANION_ORDERS - 2 * ((int)p->number - 1);
+    p->run.order += qdot_companion_orders(p->number - 1);
     p->run.tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol);
 }
 

@@ -1,0 +1,93 @@
+/* test_budget.c -- what is spent on the error of a run, in counted work, beside the run. */
+#include "scenes.h"
+
+#include <math.h>
+
+#include "ode/companion.h"
+
+/* A meter is read when work has grown by an eighth, and is exceeded by as much. */
+static const double a_mark = 1.125;
+
+/* The error's work is there, and keeps to its bound. */
+static void
+keeps_to_budget(fixture *f, const char *method, double tol, bool known)
+{
+    const qdot_run_report *report;
+    qdot_run *r;
+
+    f->request.method = method;
+    f->request.tol = tol;
+    must(qdot_run_new(f->scene, &f->request, &r));
+    report = qdot_run_get_report(r);
+    assert_true(report->work > 0 && report->estimate_work > 0.01 * report->work);
+    if (report->estimate_work
+        > a_mark * (QDOT_COMPANION_MOST * report->work + 2 * QDOT_COMPANION_LEAST))
+        fail_msg("%s, tol %g: the run %g, its error %g", method, tol, report->work,
+                 report->estimate_work);
+    if (known)
+        assert_false(isnan(report->error));
+    qdot_run_free(r);
+}
+
+/* With a horizon, for which the states that the companions went through are used. */
+static void
+of_chaos(void **state)
+{
+    static const char *const methods[] = {"taylor", "dop853", "radau"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+        for (double tol = 1e-4; tol > 1e-15; tol /= 100) {
+            fixture f;
+
+            chain(&f, 2);
+            f.q0[0] = f.q0[1] = qdot_expr_int(f.pool, 2);
+            f.request.t1 = qdot_expr_int(f.pool, 60);
+            keeps_to_budget(&f, methods[k], tol, false);
+            end(&f);
+        }
+}
+
+/* Without one, by every tolerance that a person asks for: known as well. */
+static void
+of_small_swings(void **state)
+{
+    static const char *const methods[] = {"taylor", "dop853", "radau", "bsimp"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+        for (double tol = 1e-4; tol > 1e-13; tol /= 100) {
+            fixture f;
+
+            chain(&f, 2);
+            f.q0[0] = number(&f, "0.2");
+            f.request.t1 = qdot_expr_int(f.pool, 300);
+            keeps_to_budget(&f, methods[k], tol, true);
+            end(&f);
+        }
+}
+
+/* A run of one step, beside which a moved companion swings all the time: within the least. */
+static void
+at_rest(void **state)
+{
+    fixture f;
+
+    (void)state;
+    chain(&f, 1);
+    f.request.t1 = qdot_expr_int(f.pool, 20);
+    keeps_to_budget(&f, "taylor", 1e-12, true);
+    end(&f);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_chaos),
+        cmocka_unit_test(of_small_swings),
+        cmocka_unit_test(at_rest),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
