@@ -17,8 +17,11 @@
 /* Seconds of work that are worth more than one process. */
 static const double worth = 0.05;
 
-/* Rows that are made side by side: together in this process; at least, in another. */
-enum { TOGETHER = 256, LEAST = 32 };
+/* Rows that are made side by side: at most in this process; at least. */
+enum { MOST = 256, LEAST = 32 };
+
+/* Seconds after which rows are to be taken, which until then an interruption would cost. */
+static const double soon = 0.5;
 
 /* --- a row ------------------------------------------------------------------------------ */
 
@@ -178,14 +181,30 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
 
 /* --- the sweep -------------------------------------------------------------------------- */
 
+/* How many rows to make side by side where as many as before have taken these seconds. */
+static size_t
+next_together(size_t before, double seconds)
+{
+    if (seconds > soon)
+        return before / 2 > LEAST ? before / 2 : LEAST;
+    return seconds < soon / 2 && before < MOST ? 2 * before : before;
+}
+
 /* The rows first ... end - 1 that are not done, in this process. */
 static qdot_status
 run_here(qdot_sweep *s, size_t first, size_t end)
 {
+    size_t together = LEAST;
+    double begun = qdot_wall_now();
+
     for (size_t k = first, next = first; k < end; k++) {
         qdot_progress_at((double)k);
         if (s->lanes != NULL && k == next) {
-            next = end - k < TOGETHER ? end : k + TOGETHER;
+            const double now = qdot_wall_now();
+
+            together = k > first ? next_together(together, now - begun) : LEAST;
+            begun = now;
+            next = end - k < together ? end : k + together;
             QDOT_TRY(qdot_sweep_lanes_run(s->lanes, k, next - k));
         }
         if (!s->done[k])
