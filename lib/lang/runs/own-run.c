@@ -7,6 +7,7 @@
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/range.h"
 #include "lang/session/runs.h"
 
 static const char run_name[] = "the run";
@@ -107,7 +108,6 @@ read_time(qdot_cursor *c, double from, qdot_expr *latest, double *t)
 qdot_expr
 qdot_own_run_needed(const qdot_cursor *c, qdot_expr from)
 {
-    static const char *const words[] = {"value", "max", "min", "mean", "drift"};
     qdot_expr latest = QDOT_NIL;
     double start = 0, t;
 
@@ -116,11 +116,8 @@ qdot_own_run_needed(const qdot_cursor *c, qdot_expr from)
     t = start;
     for (const qdot_token *at = c->at; at->kind != QDOT_TOKEN_END; at++) {
         const qdot_token *comma = NULL, *in = at + 2;
-        bool is = false;
 
-        for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-            is = is || (at->kind == QDOT_TOKEN_NAME && strcmp(at->text, words[i]) == 0);
-        if (!is || !qdot_token_is(at + 1, "("))
+        if (at->kind != QDOT_TOKEN_NAME || !qdot_range_is_of_way(at->text) || !qdot_token_is(at + 1, "("))
             continue;
         for (int depth = 0; in->kind != QDOT_TOKEN_END && depth >= 0; in++) {
             comma = depth == 0 && qdot_token_is(in, ",") ? in : comma;

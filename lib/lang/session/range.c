@@ -26,6 +26,12 @@ qdot_range_is_word(const char *word)
     return false;
 }
 
+bool
+qdot_range_is_of_way(const char *word)
+{
+    return qdot_range_is_word(word) || strcmp(word, "value") == 0;
+}
+
 static qdot_status
 measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
               const double *range, qdot_expr *value)

@@ -5,6 +5,8 @@
 #include "lang/session/session.h"
 
 bool qdot_range_is_word(const char *word);
+/* Whether it is one of these, or `value`: words that read a run on its way. */
+bool qdot_range_is_of_way(const char *word);
 /* Of each expression [n] along the run (NULL: the latest) between range [2], NULL: all of
  * it. A list where there are several. */
 QDOT_MUST_CHECK qdot_status qdot_range_value(qdot_session *session, const char *run,

@@ -1,8 +1,6 @@
 /* columns.c -- what is asked of each run. */
 #include "lang/sweeps/columns.h"
 
-#include <string.h>
-
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
@@ -105,8 +103,7 @@ qdot_columns_read_way(const qdot_session *session, const qdot_columns *x, size_t
             continue;
         if (qdot_scene_find_event(session->scene, t->text) != NULL)
             return false;
-        way = way || ((qdot_range_is_word(t->text) || strcmp(t->text, "value") == 0)
-                      && qdot_token_is(t + 1, "("));
+        way = way || (qdot_range_is_of_way(t->text) && qdot_token_is(t + 1, "("));
     }
     return way;
 }
