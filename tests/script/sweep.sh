@@ -42,7 +42,7 @@ value(x, 0)
 END
 qdot -q scene.lag -e 'run 0..1 with omega = 2, x = 1; value(x, 1/2); value(m*x'"'"', 1)' | awk -f six.awk | sed "$same" | tail -n 2
 # as JSON: values and errors of what was swept and of what was asked for
-qdot --json scene.lag -e 'sweep omega = [1], x = [0, 1] run 0..1 : value(1/x, 0) as r' | awk -f six.awk | sed "$same; s/e-[0-9]*/e-N/g"
+qdot --json scene.lag -e 'sweep omega = [1], x = [0, 1] run 0..1 : value(1/x, 0) as r' | awk -f six.awk | sed "$same; s/[0-9.]*e-[0-9]*/TINY/g"
 # files
 qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same"
 event cross: x = 0 rising
