@@ -59,29 +59,38 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
     }
 }
 
-void
-qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to)
+/* The names, and what has become of them. */
+static const char *
+name_dependent(const qdot_constraints *c, const bool *rows, qdot_text *names)
 {
     size_t count = 0;
 
     for (size_t k = 0; k < c->m; k++)
         count += rows[k];
     if (count == 0)
-        qdot_text_add(to, "constraints");
+        qdot_text_add(names, "constraints");
     else
-        qdot_constrained_name(c, rows, to);
-    qdot_text_add(to, count == 1 ? " has no direction" : " stop being independent");
+        qdot_constrained_name(c, rows, names);
+    return count == 1 ? "has no direction" : "stop being independent";
+}
+
+void
+qdot_constrained_say_dependent(const qdot_constraints *c, const bool *rows, qdot_text *to)
+{
+    const char *became = name_dependent(c, rows, to);
+
+    qdot_text_format(to, " %s", became);
 }
 
 qdot_status
 qdot_constrained_fail_dependent(const qdot_constraints *c, const bool *rows)
 {
-    qdot_text text = {0};
+    qdot_text names = {0};
+    const char *became = name_dependent(c, rows, &names);
 
-    qdot_constrained_say_dependent(c, rows, &text);
-    if (qdot_text_status(&text) == QDOT_OK)
-        qdot_fail(QDOT_ESINGULAR, "%.300s here", qdot_text_str(&text));
-    qdot_text_clear(&text);
+    if (qdot_text_status(&names) == QDOT_OK)
+        qdot_fail(QDOT_ESINGULAR, "%.300s %s here", qdot_text_str(&names), became);
+    qdot_text_clear(&names);
     return QDOT_ESINGULAR;
 }
 
