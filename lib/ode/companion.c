@@ -620,7 +620,7 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
     out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
     out->of_point += each;
-    out->kept[f->number] = f->tr->count > 1 && !f->given_up;
+    out->kept[f->number] = f->tr->count > 1;
     if (!f->arrived || !whole || !read_between(f))
         return f->number > 0 && f->given_up;
     out->work += each * (double)c->samples;
