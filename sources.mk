@@ -373,6 +373,7 @@ library_sources = \
 	lib/ode/taylor.c \
 	lib/ode/trajectory-apart.c \
 	lib/ode/trajectory-points.c \
+	lib/ode/trajectory-read.c \
 	lib/ode/trajectory.c \
 	lib/ode/whole.c \
 	lib/ode/written.c \

@@ -1,0 +1,468 @@
+/* trajectory-read.c -- finds the points of a run, and steps from them. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/between.h"
+#include "ode/leading.h"
+#include "ode/stepper.h"
+#include "ode/taylor-numbers.h"
+#include "ode/taylor.h"
+#include "ode/trajectory.h"
+
+struct qdot_trajectory_cursor {
+    const qdot_trajectory *tr;
+    const qdot_ode_system *systems; /* [modes] */
+    const qdot_ode_system *system;  /* of the piece */
+    size_t piece;
+    bool series;         /* the step at `at` is by Taylor series, */
+    int order;           /* of this order */
+    qdot_ode_stepper *s; /* NULL: none is */
+    size_t at;           /* the stored point looked from last */
+    qdot_between between; /* of a step by a method of low order */
+    bool fresh;          /* the stepper stands, the series is expanded, at that point */
+    double *F;           /* of a kernel: the polynomial of half the step */
+    bool known;          /* F was looked for, */
+    bool second;         /* in that half, */
+    bool good;           /* and found */
+    /* Of a run in parts: */
+    qdot_trajectory_cursor **tracks; /* [tr->n_tracks] */
+    double *own;                     /* [n] a state of one */
+};
+
+/* Is a at or before b, in the direction of the run? */
+static bool
+not_beyond(const qdot_trajectory *tr, double a, double b)
+{
+    return tr->t[0] <= tr->t[tr->count - 1] ? a <= b : a >= b;
+}
+
+size_t
+qdot_trajectory_locate(const qdot_trajectory *tr, double t, size_t near)
+{
+    size_t low = 0, high = tr->count; /* t[low] is not beyond t, t[high] is */
+
+    if (near < tr->count && not_beyond(tr, tr->t[near], t)) {
+        low = near;
+        for (size_t k = near + 1; k < near + 3; k++) {
+            if (k >= tr->count || !not_beyond(tr, tr->t[k], t)) {
+                high = k < tr->count ? k : tr->count;
+                break;
+            }
+            low = k;
+        }
+    }
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (not_beyond(tr, tr->t[middle], t))
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The variable of integration at the points. */
+static const double *
+steps_of(const qdot_trajectory *tr)
+{
+    return tr->s ? tr->s : tr->t;
+}
+
+static qdot_status
+open_stepper(qdot_trajectory_cursor *c)
+{
+    const qdot_ode_method *method = c->tr->method;
+
+    if (!method->kernel)
+        method = qdot_ode_method_find(method->partner);
+    else if (!(c->F = qdot_calloc(method->kernel->powers * c->tr->n, sizeof *c->F)))
+        return QDOT_ENOMEM;
+    return qdot_ode_stepper_new(c->system, method, c->tr->tol, &c->s);
+}
+
+/* Use the system of that piece from now on. */
+static qdot_status
+enter(qdot_trajectory_cursor *c, size_t piece)
+{
+    const size_t first = c->tr->pieces.at[piece].first;
+    const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
+
+    c->piece = piece;
+    if (system->following && !c->tr->entered) /* others may have followed it elsewhere */
+        QDOT_TRY(system->following->enter(
+            steps_of(c->tr)[first], c->tr->y + first * c->tr->n,
+            c->tr->leading ? c->tr->low + first * c->tr->n : NULL,
+            system->following->user));
+    if (system == c->system)
+        return QDOT_OK;
+    c->system = system;
+    c->fresh = c->known = false;
+    c->series = c->tr->method->series;
+    if (system->series && (c->series || c->tr->turns.n > 0))
+        c->order =
+            qdot_ode_taylor_order(system->series, c->tr->tol, c->tr->leading,
+                                  c->tr->order_more);
+    if (c->series)
+        return QDOT_OK;
+    qdot_ode_stepper_free(c->s);
+    qdot_free(c->F);
+    qdot_free(c->between.P);
+    c->between.P = NULL;
+    c->s = NULL;
+    c->F = NULL;
+    return open_stepper(c);
+}
+
+/* Open a cursor for each part, with the systems of the only piece. */
+static qdot_status
+open_tracks(qdot_trajectory_cursor *c)
+{
+    const qdot_trajectory *tr = c->tr;
+
+    c->system = c->systems + tr->pieces.at[0].mode;
+    c->own = qdot_calloc(tr->n, sizeof *c->own);
+    c->tracks = qdot_calloc(tr->n_tracks, sizeof *c->tracks);
+    if (!c->own || !c->tracks)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < tr->n_tracks; k++)
+        QDOT_TRY(qdot_trajectory_open(tr->tracks + k, c->system->parts[k].system,
+                                      &c->tracks[k]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
+                     qdot_trajectory_cursor **out)
+{
+    qdot_trajectory_cursor *c;
+    qdot_status status;
+
+    *out = NULL;
+    if (tr->count == 0)
+        return qdot_fail(QDOT_EDOMAIN, "there is no run to look at");
+    c = qdot_calloc(1, sizeof *c);
+    if (!c)
+        return QDOT_ENOMEM;
+    c->tr = tr;
+    c->systems = system;
+    status = tr->n_tracks > 0 ? open_tracks(c) : enter(c, 0);
+    if (status != QDOT_OK) {
+        qdot_trajectory_close(c);
+        return status;
+    }
+    *out = c;
+    return QDOT_OK;
+}
+
+void
+qdot_trajectory_close(qdot_trajectory_cursor *c)
+{
+    if (!c)
+        return;
+    for (size_t k = 0; c->tracks && k < c->tr->n_tracks; k++)
+        qdot_trajectory_close(c->tracks[k]);
+    qdot_free(c->tracks);
+    qdot_free(c->own);
+    qdot_ode_stepper_free(c->s);
+    qdot_free(c->F);
+    qdot_free(c->between.P);
+    qdot_free(c);
+}
+
+/* Step from the stored point to t in as few steps as the tolerance allows; the last one leaves
+ * the state in s->trial without being accepted, so that the next query can start here too. */
+static qdot_status
+walk(qdot_trajectory_cursor *c, double t)
+{
+    enum { most = 2000 }; /* of a step of the run: few will do, but before a singular place */
+    qdot_ode_stepper *s = c->s;
+    double now = steps_of(c->tr)[c->at], h = t - now;
+
+    for (int tries = 0;; tries++) {
+        double ratio, factor = 0.25;
+        bool last = fabs(h) >= fabs(t - now);
+        qdot_status status;
+
+        if (last)
+            h = t - now;
+        status = qdot_ode_stepper_try(s, now, h, &ratio);
+        if (status != QDOT_OK && status != QDOT_EDOMAIN && status != QDOT_ESINGULAR)
+            return status;
+        if (status == QDOT_OK) {
+            if (ratio <= 1 && last)
+                return QDOT_OK;
+            factor = 0.9 * pow(ratio, -1 / qdot_ode_stepper_error_power(s));
+            factor = fmin(5, fmax(0.2, factor));
+            if (ratio <= 1) {
+                qdot_ode_stepper_accept(s);
+                c->fresh = false;
+                now += h;
+            }
+        }
+        h *= factor;
+        if (tries == most)
+            return qdot_fail(QDOT_EFAILED,
+                             "the state at t = %.17g cannot be found from the run: steps there "
+                             "come down to %.2g", t, fabs(h));
+        if (fabs(h) < 4 * DBL_EPSILON * fabs(now) || fabs(h) < DBL_MIN)
+            return qdot_fail(QDOT_EFAILED,
+                             "the state at t = %.17g cannot be found from the run", t);
+    }
+}
+
+/* From the series about the stored point. */
+static qdot_status
+read_series(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    const double *y0 = tr->y + c->at * tr->n;
+    const double *at = steps_of(tr) + c->at, t0 = at[0], h = at[1] - t0;
+
+    if (!c->fresh)
+        QDOT_TRY(qdot_ode_taylor_expand(c->system, c->order, t0, h, y0));
+    c->fresh = true;
+    if (tr->leading)
+        return qdot_ode_leading_read(c->system, c->order, tr->tol,
+                                     &(qdot_ode_place){t0, c->at == 0 ? tr->t0_low : 0, y0,
+                                                       tr->low + c->at * tr->n},
+                                     h, t, y);
+    qdot_ode_taylor_evaluate(c->system, c->order, t0, h, t, y0, y);
+    return QDOT_OK;
+}
+
+/* The polynomial of half the step: from its beginning, or back from its end; of the whole one
+ * where steps cannot be taken back. */
+static qdot_status
+find_polynomial(qdot_trajectory_cursor *c, bool second)
+{
+    const qdot_trajectory *tr = c->tr;
+    const size_t from = c->at + second;
+    const double *at = steps_of(tr);
+    const double part = tr->method->kernel->forward ? 1 : 0.5;
+    const double h = part * (at[c->at + 1 - second] - at[from]);
+    size_t formulas = 1;
+    double ratio;
+    qdot_status status;
+
+    /* where the error by the formula at hand is too large, the step was by another one */
+    for (size_t k = 0; k < formulas; k++) {
+        qdot_ode_stepper_start(c->s, tr->y + from * tr->n);
+        status = qdot_ode_stepper_try(c->s, at[from], h, &ratio);
+        if (status != QDOT_OK || ratio <= 1 || !c->s->method->kernel->another)
+            break;
+        formulas = c->s->method->kernel->another(c->s);
+    }
+    if (status == QDOT_OK && ratio <= 1)
+        status = c->s->method->kernel->dense(c->s, at[from], h, c->F);
+    c->fresh = false;
+    c->known = true;
+    c->second = second;
+    c->good = status == QDOT_OK && ratio <= 1;
+    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
+}
+
+/* Read by the polynomial; afterwards c->good is false if there is none. */
+static qdot_status
+read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    const double start = steps_of(tr)[c->at], end = steps_of(tr)[c->at + 1];
+    const bool forward = tr->method->kernel->forward;
+    const bool second = !forward && fabs(t - start) > fabs(end - t);
+    const double x = second ? (t - end) / (start - end) : (t - start) / (end - start);
+
+    if (!c->known || c->second != second)
+        QDOT_TRY(find_polynomial(c, second));
+    if (c->good)
+        c->s->method->kernel->at(tr->n, c->F, tr->y + (c->at + second) * tr->n,
+                                     forward ? x : 2 * x, y);
+    return QDOT_OK;
+}
+
+/* Derive the components that are not integrated, at the state read. */
+static qdot_status
+derive(const qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_ode_following *f = c->system->following;
+
+    return f ? f->derive(t, y, f->user) : QDOT_OK;
+}
+
+qdot_status
+qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
+{
+    for (size_t k = 0; k < c->tr->n_tracks; k++) {
+        const qdot_ode_part *part = c->system->parts + k;
+
+        QDOT_TRY(qdot_trajectory_read(c->tracks[k], t, c->own));
+        for (size_t i = 0; i < part->system->n; i++)
+            y[part->index[i]] = c->own[i];
+    }
+    return QDOT_OK;
+}
+
+/* The state within the step from point c->at on. */
+static qdot_status
+read_step(qdot_trajectory_cursor *c, double t, double *y)
+{
+    if (c->tracks)
+        return qdot_trajectory_read_tracks(c, t, y);
+    if (c->series) {
+        QDOT_TRY(read_series(c, t, y));
+        return derive(c, t, y);
+    }
+    if (c->F) {
+        QDOT_TRY(read_polynomial(c, t, y));
+        if (c->good)
+            return derive(c, t, y);
+    }
+    if (!c->fresh) {
+        qdot_ode_stepper_start(c->s, c->tr->y + c->at * c->tr->n);
+        c->between.known = false;
+    }
+    c->fresh = true;
+    if (qdot_between_fits(c->tr->method)) {
+        const double *t0 = steps_of(c->tr) + c->at, h = t0[1] - *t0;
+        bool done;
+        QDOT_TRY(qdot_between_read(&c->between, c->s, *t0, h, c->tr->y + (c->at + 1) * c->tr->n,
+                                   (t - *t0) / h, y, &done));
+        if (done)
+            return derive(c, t, y);
+    }
+    QDOT_TRY(walk(c, t));
+    memcpy(y, c->s->trial, c->tr->n * sizeof *y);
+    return QDOT_OK;
+}
+
+/* The same where t is a component: its root by Newton's steps, halving where they leave what is
+ * left. */
+static qdot_status
+read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
+{
+    enum { most = 200 };
+    const qdot_trajectory *tr = c->tr;
+    const double *time = tr->t + c->at;
+    double a = tr->s[c->at], b = tr->s[c->at + 1];
+    double s = a + (b - a) * ((t - time[0]) / (time[1] - time[0]));
+
+    for (int tries = 0; tries < most; tries++) {
+        double gap, next;
+
+        QDOT_TRY(read_step(c, s, y));
+        gap = y[tr->clock] - t;
+        if (gap == 0)
+            break;
+        *((gap > 0) == (time[1] > time[0]) ? &b : &a) = s;
+        next = s - gap / y[tr->clock + tr->n / 2];
+        if (!((next - a) * (b - next) > 0))
+            next = a + 0.5 * (b - a);
+        if (fabs(next - s) <= DBL_EPSILON * fabs(s) || next == a || next == b)
+            break;
+        s = next;
+    }
+    return QDOT_OK;
+}
+
+/* The state at t, which lies in the step from point k on or is that point. */
+static qdot_status
+read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+
+    if (k != c->at)
+        c->fresh = c->known = false;
+    c->at = k;
+    if (tr->turns.n > 0)
+        c->series = qdot_trajectory_method_of(tr, k)->series;
+    if (tr->t[k] == t) {
+        memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
+        return QDOT_OK;
+    }
+    return tr->s ? read_by_clock(c, t, y) : read_step(c, t, y);
+}
+
+qdot_status
+qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    double first = tr->t[0], last = tr->t[tr->count - 1];
+    size_t k, piece;
+
+    if (!(fmin(first, last) <= t && t <= fmax(first, last)))
+        return qdot_fail(QDOT_EDOMAIN,
+                         "t = %.15g is outside the run, which covers %.15g to %.15g", t,
+                         first, last);
+    k = qdot_trajectory_locate(tr, t, c->at);
+    for (piece = c->piece; tr->pieces.at[piece].first > k; piece--)
+        ;
+    while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
+        piece++;
+    if (!c->tracks)
+        QDOT_TRY(enter(c, piece));
+    return read_from(c, k, t, y);
+}
+
+qdot_status
+qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, double *y)
+{
+    const qdot_trajectory *tr = c->tr;
+    size_t low = tr->pieces.at[piece].first;
+    const size_t last = qdot_trajectory_last_of(tr, piece);
+
+    if (!c->tracks)
+        QDOT_TRY(enter(c, piece));
+    if (not_beyond(tr, t, tr->t[low]))
+        return read_from(c, low, tr->t[low], y);
+    if (not_beyond(tr, tr->t[last], t))
+        return read_from(c, last, tr->t[last], y);
+    if (c->at >= low && c->at < last && not_beyond(tr, tr->t[c->at], t)
+        && !not_beyond(tr, tr->t[c->at + 1], t))
+        return read_from(c, c->at, t, y);
+    for (size_t high = last; high - low > 1;) {
+        size_t middle = low + (high - low) / 2;
+
+        if (not_beyond(tr, tr->t[middle], t))
+            low = middle;
+        else
+            high = middle;
+    }
+    return read_from(c, low, t, y);
+}
+
+bool
+qdot_trajectory_expanded(const qdot_trajectory_cursor *c, const qdot_ode_system **of,
+                         qdot_ode_expanded *step)
+{
+    const qdot_trajectory *tr = c->tr;
+
+    if (c->tracks || !c->series || tr->s || !c->fresh)
+        return false;
+    *of = c->system;
+    *step = (qdot_ode_expanded){.t = tr->t[c->at],
+                                .t_end = tr->t[c->at + 1],
+                                .unit = qdot_step_unit(tr->t[c->at + 1] - tr->t[c->at]),
+                                .order = c->order,
+                                .y = tr->y + c->at * tr->n};
+    return true;
+}
+
+uint64_t
+qdot_trajectory_evaluations(const qdot_trajectory_cursor *c)
+{
+    return c->s ? c->s->evaluations : 0;
+}
+
+size_t
+qdot_trajectory_mode_read(const qdot_trajectory_cursor *c)
+{
+    return c->tr->pieces.at[c->piece].mode;
+}
+
+void
+qdot_trajectory_renew(qdot_trajectory_cursor *c)
+{
+    c->fresh = c->known = false;
+}
