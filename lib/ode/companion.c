@@ -579,6 +579,16 @@ read_end(follower *f)
     }
 }
 
+/* Whether it failed beyond the end of the run, before it heard of that. */
+static bool
+failed_beyond(const follower *f)
+{
+    const qdot_trajectory *tr = f->tr;
+    const double way = f->of->t1 < f->t0 ? -1 : 1;
+
+    return !f->given_up && tr->count > 0 && way * (tr->t[tr->count - 1] - f->of->t_end) >= 0;
+}
+
 /* Its states at the times between, where the run has shown its own; whether it has them. */
 static bool
 read_between(follower *f)
@@ -607,7 +617,7 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     if (!f->finished)
         run_all(f);
     judge(f);
-    if (!whole && f->result.outcome != QDOT_ODE_FAILED)
+    if (!whole && (f->result.outcome != QDOT_ODE_FAILED || failed_beyond(f)))
         read_end(f);
     f->arrived = f->result.outcome == QDOT_ODE_DONE;
     if (f->number == 0 || (out->known && !f->given_up))

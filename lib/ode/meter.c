@@ -1,6 +1,7 @@
 /* meter.c -- marks of work, and their comparison. */
 #include "ode/meter.h"
 
+#include <float.h>
 #include <math.h>
 
 /* A mark is set when work has grown by this part, and at least by so much. */
@@ -56,13 +57,23 @@ work_at(const qdot_ode_meter *run, double t, double *work)
     return ended;
 }
 
-/* Whether so much is too much at t, where that is known. */
+/* Whether t lies beyond where the run, which has ended, ended. */
+static bool
+is_beyond(const qdot_ode_meter *m, double t)
+{
+    return m->direction * (t - m->beside->far) > 4 * DBL_EPSILON * fabs(m->beside->far);
+}
+
+/* Whether so much is too much at t, where that is known. What is done beyond the end of the run
+ * depends on when that is heard of, and is not judged. */
 static bool
 is_too_much(const qdot_ode_meter *m, double t, double work, bool *known)
 {
     double w;
 
     *known = work_at(m->beside, m->direction * INFINITY, &w);
+    if (*known && is_beyond(m, t))
+        return false;
     if (*known && m->spent + work > m->factor * w + m->allowance)
         return true;
     if (m->whole_only)
