@@ -33,8 +33,8 @@ static const double derived = 4;
 static const double most_share = 0.25;
 
 /* Nearer to its companion_tol a stiff method of ours meets the rounding of most scenes, and its steps
- * become many. */
-static const double above_rounding = 10;
+ * become many; a coarse run is this far above it, so as not to share the run's rounding. */
+static const double above_rounding = 10, beyond_rounding = 10;
 
 /* How much coarser or finer than the run these ways are. */
 static const double coarser = 4, finer[] = {16, 32};
@@ -185,7 +185,7 @@ qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_sy
         plan->tol = tol / finer[number];
     } else if (way == QDOT_COMPANION_COARSE) {
         plan->method = method;
-        plan->tol = fmin(1, coarser * fmax(tol, method->companion_tol));
+        plan->tol = fmin(1, fmax(coarser * tol, beyond_rounding * method->companion_tol));
     }
     return way;
 }

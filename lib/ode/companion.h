@@ -53,7 +53,7 @@
  *     FINER    a stiff method itself, the first under tol/16, the second under tol/32: it errs by a
  *              few times less, and the distance of the two shows by how much; not a multistep method,
  *              whose errors follow the tolerance only roughly, and not below its companion_tol
- *     COARSE   the run's own method under 4 tol: it errs more than the run, on the safe side, and
+ *     COARSE   the run's own method under 4 tol, at least 10 companion_tol: it errs more than the run, on the safe side, and
  *              costs less
  *
  * If the first arrives and the second is given up by its cost, `own` is 2 apart. If the first does not
