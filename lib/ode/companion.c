@@ -19,8 +19,8 @@ static const double unit = 0x1p-53;
 static const double shares[] = {1.55, 1.3};
 
 /* Of QDOT_COMPANION_LEAST: what a way may take before it leads anywhere, so that the others have the
- * rest; beside a stiff method there are more of them, and series are for scenes that are not stiff,
- * where they cost little. */
+ * rest; beside a stiff method there are more of them, of which the finer one begins with a dear step (bsimp
+ * 4e5 in friction of tanh(1e6 v)), and series are for scenes that are not stiff, where they cost little. */
 static const double at_first = 0.8, at_first_stiff = 0.25, beside_stiff = 0.4;
 
 /* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
@@ -47,6 +47,11 @@ static const double foreseen = 2.8, powers[] = {1, 0.75, 0.5};
  * about so many times a step of the run. */
 static const double reading = 0.12, readings = 3.5;
 
+/* Where a finer way was given up by its cost: the run is that many times farther from it than from the
+ * coarse way, and than a tolerance, where the coarse one shows nothing of its error. Both go wrong alike
+ * where they step over what a finer one sees; by less than that, the two distances differ by chance. */
+static const double refutes = 10;
+
 /* Differences before the end raise the error to at most this many times the one at the end. */
 static const double most_between = 30;
 
@@ -66,6 +71,8 @@ typedef struct {
     double *low;   /* [n] low-order part: the start is start + low */
     double *y;     /* [n] the state it has reached */
     double *own;   /* [PLACES x n] its states at the times between */
+    double *left;  /* [n] where a finer way was given up, as far as one came: the state at t_left */
+    double t_left; /* t0: none */
     qdot_trajectory *tr; /* all of its states: the caller's, or */
     qdot_trajectory held;
     qdot_companion_way way;
@@ -91,6 +98,8 @@ struct qdot_companion {
     double times[PLACES];
     double *shown; /* [PLACES x n] states of the run at `times` */
     size_t n_shown;
+    const qdot_trajectory *course; /* of the run; NULL: not shown */
+    const qdot_ode_system *of_course;
     atomic_bool leave; /* the run ended before t1: companions are to stop beyond t_end */
     double t_end;
     double share; /* factor by which the second companion's distance counts */
@@ -170,8 +179,6 @@ qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_sy
         way = QDOT_COMPANION_PARTNER;
     if (way == QDOT_COMPANION_PARTNER && (method->stiff ? gets_finer : system->series != NULL))
         way = QDOT_COMPANION_FINER;
-    if (way == QDOT_COMPANION_PARTNER && method->stiff && method->kernel)
-        way = QDOT_COMPANION_COARSE; /* it is its own partner */
     if (way == QDOT_COMPANION_FINER && !gets_finer)
         way = QDOT_COMPANION_COARSE;
     if (way == QDOT_COMPANION_SERIES) {
@@ -207,7 +214,9 @@ qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
     m->early_factor = way == QDOT_COMPANION_SERIES && stiff ? beside_stiff
                       : way == QDOT_COMPANION_PARTNER       ? shares[1]
                                                             : m->factor;
-    m->early = (stiff || way == QDOT_COMPANION_PARTNER ? at_first_stiff : at_first) * QDOT_COMPANION_LEAST;
+    m->early = QDOT_COMPANION_LEAST
+               * ((stiff && way != QDOT_COMPANION_FINER) || way == QDOT_COMPANION_PARTNER ? at_first_stiff
+                                                                                          : at_first);
     m->spent = spent;
     m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
 }
@@ -314,13 +323,36 @@ qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
     return meter->over && !qdot_ode_meter_is_stuck(meter);
 }
 
+/* The way is given up: count its work, and keep where it was when it could first be seen to cost too much,
+ * which does not depend on how fast the run came. */
+static void
+give_up(follower *f)
+{
+    const qdot_companion *c = f->of;
+    const double *times = f->tr->t, direction = c->t1 < f->t0 ? -1 : 1;
+    double work, t;
+
+    (void)qdot_ode_meter_exceeds(&f->meter, &work);
+    f->spent += work;
+    if (f->way == QDOT_COMPANION_COARSE || f->tr->count < 2 || f->system.n_parts > 1)
+        return;
+    t = times[f->tr->count - 1];
+    for (size_t k = 0; k < atomic_load(&f->meter.count); k++)
+        if (f->meter.marks[k].work >= work) {
+            t = direction * fmin(direction * t, direction * f->meter.marks[k].t);
+            break;
+        }
+    if (direction * (t - f->t_left) > 0
+        && qdot_trajectory_at(f->tr, &f->system, t, f->left) == QDOT_OK)
+        f->t_left = t;
+}
+
 /* The same by the first way from f->way on that leads there. */
 static void
 run_ways(follower *f)
 {
     const qdot_companion *c = f->of;
     qdot_companion_plan by;
-    double work;
 
     for (;; f->way++) {
         f->way = qdot_companion_way_from(f->way, f->number, &f->system, c->run, c->tol, &by);
@@ -332,8 +364,7 @@ run_ways(follower *f)
         if (f->result.outcome != QDOT_ODE_FAILED
             || !qdot_companion_leads_nowhere(c->run, true, &f->meter))
             return;
-        (void)qdot_ode_meter_exceeds(&f->meter, &work);
-        f->spent += work;
+        give_up(f);
     }
 }
 
@@ -343,6 +374,7 @@ run_all(follower *f)
     f->result = (qdot_ode_result){0};
     f->way = QDOT_COMPANION_SERIES;
     f->spent = 0;
+    f->t_left = f->t0;
     run_ways(f);
     f->finished = true;
 }
@@ -365,6 +397,7 @@ release(qdot_companion *c)
         qdot_trajectory_clear(&c->at[k].held);
         qdot_free(c->at[k].y);
         qdot_free(c->at[k].own);
+        qdot_free(c->at[k].left);
     }
     qdot_free(c->shown);
     qdot_free(c);
@@ -400,6 +433,13 @@ qdot_companion_times(const qdot_companion *c, size_t *count)
 {
     *count = c->samples;
     return c->times;
+}
+
+void
+qdot_companion_show_course(qdot_companion *c, const qdot_trajectory *tr, const qdot_ode_system *system)
+{
+    c->course = tr;
+    c->of_course = system;
 }
 
 void
@@ -486,8 +526,9 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
     f->low = qdot_calloc(c->n, sizeof *f->low);
     f->y = qdot_malloc(c->n * sizeof *f->y);
     f->own = qdot_malloc(PLACES * c->n * sizeof *f->own);
+    f->left = qdot_malloc(c->n * sizeof *f->left);
     f->tr = request->kept[number] ? request->kept[number] : &f->held;
-    if (!f->start || !f->low || !f->y || !f->own)
+    if (!f->start || !f->low || !f->y || !f->own || !f->left)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
@@ -555,7 +596,7 @@ judge(follower *f)
 
     while (f->of->meter && f->way != QDOT_COMPANION_WAYS
            && f->result.outcome != QDOT_ODE_FAILED && qdot_ode_meter_exceeds(&f->meter, &work)) {
-        f->spent += work;
+        give_up(f);
         f->way++;
         f->given_up = true;
         f->result.outcome = QDOT_ODE_FAILED;
@@ -630,7 +671,8 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     each = f->meter.work / (double)(f->tr->count > 1 ? f->tr->count - 1 : 1);
     out->work += f->spent + (f->way == QDOT_COMPANION_WAYS ? 0 : f->meter.work);
     out->of_point += each;
-    out->kept[f->number] = f->tr->count > 1;
+    /* where the first alone makes the error of the end, it does so of all values */
+    out->kept[f->number] = f->tr->count > 1 && (f->number == 0 || f->arrived || !out->known);
     if (!f->arrived || !whole || !read_between(f))
         return f->number > 0 && f->given_up;
     out->work += each * (double)c->samples;
@@ -646,6 +688,28 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit
                                            : unit;
+}
+
+/* Whether a finer way, given up by its cost, had shown more error of the run than the coarse way does. */
+static bool
+is_refuted(const follower *f)
+{
+    const qdot_companion *c = f->of;
+    double *own, *coarse, said, shown;
+    bool read;
+
+    if (!c->course || !f->arrived || f->way != QDOT_COMPANION_COARSE || f->t_left == f->t0)
+        return false;
+    own = qdot_malloc(2 * c->n * sizeof *own);
+    if (!own)
+        return false;
+    coarse = own + c->n;
+    read = qdot_trajectory_at(c->course, c->of_course, f->t_left, own) == QDOT_OK
+           && qdot_trajectory_at(f->tr, &f->system, f->t_left, coarse) == QDOT_OK;
+    shown = read ? apart(c, c->scales, own, f->left) : 0;
+    said = read ? apart(c, c->scales, own, coarse) : 0;
+    qdot_free(own);
+    return shown > refutes * fmax(said, c->tol);
 }
 
 /* The error of the end y relative to these scales; `between`: that of states before it, too. */
@@ -673,6 +737,13 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     *out = (qdot_companion_estimate){.known = true};
     for (size_t k = 0; k < c->count; k++)
         between = arrive(c->at + k, whole, out) && between;
+    for (size_t k = 0; k < c->count && out->known; k++)
+        if (is_refuted(c->at + k)) {
+            out->known = out->kept[0] = out->kept[1] = false;
+            snprintf(out->result.reason, sizeof out->result.reason,
+                     "at t = %.2g, before it was given up by its cost, it was elsewhere than this one",
+                     c->at[k].t_left);
+        }
     between = between && c->samples > 0;
     c->arrived = c->count == 2 && c->at[1].arrived ? 2 : 1;
     if (whole && c->n_shown > 0 && c->meter) /* the run's own */

@@ -49,12 +49,15 @@
  *
  *     SERIES   Taylor series under tol*; beside a stiff method while they cost less than 0.4 of the run
  *     PARTNER  the partner of the method under its tol*: without series, and beside a stiff method
- *              that has not the next way; not radau, which is its own partner
+ *              that has not the next way, radau (its own partner) near its companion_tol among them
  *     FINER    a stiff method itself, the first under tol/16, the second under tol/32: it errs by a
  *              few times less, and the distance of the two shows by how much; not a multistep method,
  *              whose errors follow the tolerance only roughly, and not below its companion_tol
  *     COARSE   the run's own method under 4 tol, at least 10 companion_tol: it errs more than the run, on the safe side, and
  *              costs less
+ *
+ * A step may go over what a finer one would see, and the coarse one with it. So where a finer way was given
+ * up and the run is then ten times farther from it than from the coarse one, and than tol, there is no number.
  *
  * If the first arrives and the second is given up by its cost, `own` is 2 apart. If the first does not
  * arrive there is no number: known is false, the error a NaN.
@@ -93,7 +96,7 @@ typedef struct {
     qdot_ode_result result; /* of the companion: its cost, why it did not arrive */
     double work;            /* counted, of all ways of both */
     double of_point;        /* that of reading both at one time */
-    bool kept[2];           /* what is in request->kept is not cut off by the meter */
+    bool kept[2];           /* request->kept is there for errors of values, not by the first alone */
 } qdot_companion_estimate;
 
 typedef struct qdot_companion qdot_companion;
@@ -153,6 +156,11 @@ const double *qdot_companion_places(size_t *count);
 /* Show the state y [n] of the run at time k of these; copied. */
 void qdot_companion_show(qdot_companion *c, size_t k, const double *y);
 
+/* Show all states of the run, borrowed until _finish: where a way was given up, the run is compared with
+ * how far that had come. */
+void qdot_companion_show_course(qdot_companion *c, const qdot_trajectory *tr,
+                                const qdot_ode_system *system);
+
 typedef struct {
     const qdot_ode_method *method;
     double tol;
@@ -175,7 +183,8 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 /* What is left of QDOT_COMPANION_MOST for a run of so much work, after so much. */
 double qdot_companion_left(double work, double spent);
 
-/* The meter of companion `number` by that way beside that of a run, by a `stiff` method or not, after `spent` on the ways before.
+/* The meter of companion `number` by that way beside that of a run, by a `stiff` method or not, after
+ * `spent` on the ways before.
  * The last way may use what is left of the whole, wherever; parts of a system each begin anew, so only
  * their wholes are compared. */
 void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,

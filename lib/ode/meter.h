@@ -10,7 +10,8 @@
  *
  *     W(t) > early_factor w(t) + early   or   spent + W(t) > factor w1 + allowance,
  *
- * `spent` being the work of what was tried before it. So one that goes nowhere is given up early. It is
+ * `spent` being the work of what was tried before it; marks beyond the end of a run that ended before its
+ * goal do not count. So one that goes nowhere is given up early. It is
  * looked for while the companion runs, as far as the run has come, and in any case afterwards
  * (qdot_ode_meter_exceeds): the answer does not depend on which of the two threads was faster.
  *

@@ -44,6 +44,25 @@ what_costs_little_more_arrives(void **state)
     assert_true(fabs(work / 1.4e8 - 1) < 1e-9);
 }
 
+/* A run stopped half way: companions may have come far beyond by then, or not, and all is the same. */
+static void
+what_lies_beyond_the_end_does_not_count(void **state)
+{
+    qdot_ode_meter run = {.beside = NULL}, m;
+    double work;
+
+    (void)state;
+    qdot_ode_meter_begin(&run, 0, 1);
+    assert_int_equal(qdot_ode_meter_add(&run, 0.5, 1e6), QDOT_OK);
+    qdot_ode_meter_end(&run);
+    beside(&m, &run, 1e6);
+    assert_int_equal(qdot_ode_meter_add(&m, 0.5, 1e6), QDOT_OK);
+    assert_int_equal(qdot_ode_meter_add(&m, 0.9, 1e8), QDOT_OK);
+    assert_false(m.over || qdot_ode_meter_exceeds(&m, &work));
+    beside(&m, &run, 1e6);
+    assert_int_equal(qdot_ode_meter_add(&m, 0.5, 1e8), QDOT_ELIMIT);
+}
+
 static void
 what_goes_nowhere_is_given_up_early(void **state)
 {
@@ -194,6 +213,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_costs_little_more_arrives),
+        cmocka_unit_test(what_lies_beyond_the_end_does_not_count),
         cmocka_unit_test(what_goes_nowhere_is_given_up_early),
         cmocka_unit_test(the_faster_thread_changes_nothing),
         cmocka_unit_test(what_stands_still_is_told),

@@ -39,6 +39,25 @@ event g: (x - 3/2)^2 = 0
 run 0..3
 g[1]
 LAG
+# a layer at rest that dop853 steps over at this tolerance, and a coarser one with it
+check 1.000529815948 <<'LAG'
+coord x
+particle p mass 1 at x
+force 1e4*(1 - tanh(1e5*x')^2) - x on x
+start x = 1
+run 0..10 tol 1e-4 method dop853
+value(x, 10)
+LAG
+# stiff friction, beside which the second companion is given up: the first one counts
+check 1.3774237511724779172 <<'LAG'
+coord x
+particle p mass 1 at x
+potential x^2/2
+force -0.5*tanh(1e6*x') + sin(0.7*t) on x
+start x = 1
+run 0..20 tol 1e-6 method msbdf
+value(x, 20)
+LAG
 # beyond a horizon of its own making: an ellipse that is nearly a straight line
 check 1.829697487629513076 <<'LAG'
 coord x, y

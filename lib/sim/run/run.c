@@ -365,6 +365,8 @@ run_beside(qdot_run *run, double tol, bool *interrupted)
 
         double *difference = run->difference;
 
+        if (there)
+            qdot_companion_show_course(companion, &run->course.tr, qdot_course_systems(&run->course));
         qdot_companion_finish(companion, there ? run->course.tr.result.t : run->t1,
                               there ? last_state(run) : run->start, difference,
                               &estimate);
