@@ -17,6 +17,11 @@ static const double least_singular = 1e-8, damping = 0.01;
 static const double least_slope = 1e-12;
 /* How many times farther from the guess each search begins than the one before, the first at 0.04. */
 static const double farther = 1.6;
+/* Where a singular value is below so much of the largest, the first step is no longer than first_reach, in units of
+ * the unknowns, and each one after a whole step no longer than `reaching` times that. */
+static const double nearly_singular = 0.3, first_reach = 0.1, reaching = 4;
+/* An unknown whose error is more than so much of it, or of its unit, is not known. */
+static const double least_known = 0.1;
 /* Steps; halvings of one; parts of an interval that are searched for a change of sign; steps in which |F| must
  * halve; searches besides the first. */
 enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PARTS = 16, PATIENCE = 8, TRIES = 8 };
@@ -30,7 +35,9 @@ typedef struct {
     double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
     double *small;             /* [m] below this a function may count as 0 */
     double mu, length;         /* of the step, in units of the unknowns */
-    double *step, *from_error; /* [n] the step, and what errors of F make of it */
+    double reach;              /* the step is no longer than that */
+    double *step, *whole;      /* [n] the step, and what it were by mu = 0, of any length */
+    double *from_error;        /* [n] what errors of F make of it */
     gsl_matrix *U, *V;
     gsl_vector *singular, *work;
 } search;
@@ -111,6 +118,7 @@ find_step(search *s)
     double most;
 
     memset(s->step, 0, n * sizeof *s->step);
+    memset(s->whole, 0, n * sizeof *s->whole);
     memset(s->from_error, 0, n * sizeof *s->from_error);
     s->r->rank = 0;
     for (size_t i = 0; i < m * n; i++)
@@ -118,11 +126,18 @@ find_step(search *s)
             return false;
     decompose(s);
     most = gsl_vector_get(s->singular, 0);
-    s->mu = damping * fmin(size * size, 1) * most * most;
     while (s->r->rank < n &&
            gsl_vector_get(s->singular, s->r->rank) > least_singular * most)
         s->r->rank++;
+    s->mu = 0;
+    (void)take_step(s, s->r->f, s->whole);
+    s->mu = damping * fmin(size * size, 1) * most * most;
     s->length = take_step(s, s->r->f, s->step);
+    while (s->length > s->reach && s->mu < most * most && s->r->rank > 0 &&
+           gsl_vector_get(s->singular, s->r->rank - 1) < nearly_singular * most) {
+        s->mu = fmax(2 * s->mu, 1e-6 * most * most);
+        s->length = take_step(s, s->r->f, s->step);
+    }
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < m; i++) {
             double inverse = 0;
@@ -146,7 +161,7 @@ step_is_nothing(const search *s)
         const double error = s->from_error[j],
                      rounding = 4 * DBL_EPSILON * fabs(s->r->u[j]);
 
-        if (!(fabs(s->step[j]) <=
+        if (!(fabs(s->whole[j]) <=
               fmax(isnan(error) ? 1e-11 * s->unit[j] : error, rounding)))
             return false;
     }
@@ -168,19 +183,24 @@ is_zero(const search *s)
         for (size_t j = 0; j < n; j++)
             if (isfinite(s->slope[i * n + j]))
                 reach += fabs(s->slope[i * n + j]) *
-                         (fabs(s->step[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
+                         (fabs(s->whole[j]) + 4 * DBL_EPSILON * fabs(s->r->u[j]));
         if (!(fabs(s->r->f[i]) <= fmin(reach, s->small[i])))
             return false;
     }
     return true;
 }
 
+/* Errors of the unknowns; a zero whose place they leave open is vague. */
 static void
 state_errors(search *s)
 {
-    for (size_t j = 0; j < s->p->n; j++)
-        s->r->error[j] =
-            fabs(s->step[j]) + s->from_error[j] + DBL_EPSILON * fabs(s->r->u[j]);
+    qdot_zero_result *r = s->r;
+
+    for (size_t j = 0; j < s->p->n; j++) {
+        r->error[j] = fabs(s->whole[j]) + s->from_error[j] + DBL_EPSILON * fabs(r->u[j]);
+        if (r->answer == QDOT_ZERO_FOUND && r->error[j] > least_known * fmax(s->unit[j], fabs(r->u[j])))
+            r->answer = QDOT_ZERO_VAGUE;
+    }
 }
 
 /* --- shortened steps --------------------------------------------------------------------------- */
@@ -212,6 +232,7 @@ go(search *s, bool *gone)
     for (int h = 0; h < MOST_HALVINGS && !*gone; h++, part /= 2) {
         bool moved = false;
 
+        s->reach = part == 1 ? fmax(s->reach, reaching * s->length) : part * s->length;
         for (size_t j = 0; j < n; j++) {
             s->u[j] = within(s->p, j, s->r->u[j] + part * s->step[j]);
             moved = moved || s->u[j] != s->r->u[j];
@@ -239,6 +260,7 @@ descend_once(search *s)
     if (isnan(r->f[0]))
         return QDOT_OK;
     choose_units(s);
+    s->reach = s->p->unit != NULL ? INFINITY : first_reach; /* units are of a good guess */
     for (size_t step = 1; step < MOST_STEPS; step++) {
         const double size = norm(s, r->f);
         bool gone;
@@ -248,7 +270,7 @@ descend_once(search *s)
             break;
         }
         r->answer = QDOT_ZERO_SLOW;
-        gone = !step_is_nothing(s);
+        gone = !step_is_nothing(s) || !is_zero(s);
         if (gone && step % PATIENCE == 0) {
             gone = size < before / 2;
             before = size;
@@ -440,7 +462,7 @@ static bool
 allocate(search *s)
 {
     const size_t n = s->p->n, m = s->p->m, rows = m > n ? m : n;
-    double *room = qdot_calloc(m * n + 5 * n + 4 * m + 1, sizeof *room);
+    double *room = qdot_calloc(m * n + 6 * n + 4 * m + 1, sizeof *room);
 
     s->slope = room;
     if (room == NULL)
@@ -448,7 +470,8 @@ allocate(search *s)
     s->u = s->slope + m * n;
     s->unit = s->u + n;
     s->step = s->unit + n;
-    s->from_error = s->step + n;
+    s->whole = s->step + n;
+    s->from_error = s->whole + n;
     s->trial = s->from_error + n;
     s->f = s->trial + n;
     s->error = s->f + m;

@@ -4,13 +4,15 @@
  *
  * Where unknowns are more than independent equations, this is the least step (a solution near the guess, one of a
  * family); where equations are more, that of least squares, and F must vanish. mu = 0.01 |F|^2 |J|^2 keeps
- * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. A step
+ * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. From a guess in
+ * units of its own, mu is larger while J is nearly singular and the step longer than 0.1 units at first, and than 4
+ * times the longest whole step before later on: near a family, J nearly lets u go along it any far. A step
  * is halved until it makes |F| smaller, or the step that would follow with the same J.
  * A search in vain is begun again from places around the guess; so is one that finds a zero which is not wanted.
  *
  * One unknown of one equation between bounds with a change of sign between them: Newton and bisection.
  *
- * The error of an unknown is the last step, and what the errors of F make of it, |J^+| |dF|.
+ * The error of an unknown is the last step for mu = 0, and what the errors of F make of it, |J^+| |dF|.
  *
  * Source  Fan, Yuan, Computing 74 (2005) 23 (mu); Deuflhard, Newton Methods (2004), 3.3 (the step that would follow); Press et al., Numerical Recipes, 9.4 (rtsafe).
  * Tests   tests/num/test_zero.c
@@ -31,7 +33,7 @@ typedef struct {
                       void *user);
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
-    const double *unit;       /* [n] of u; NULL: |u| at the guess, 1 where that is 0 */
+    const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
     bool once;                /* a search in vain is not begun again */
     /* Whether the zero at u is what was looked for: else the search goes on from other places. NULL: each is. */
     qdot_status (*wanted)(const double *u, bool *is, void *user);
@@ -43,6 +45,7 @@ typedef enum {
     QDOT_ZERO_FLAT,    /* no unknown moves F */
     QDOT_ZERO_NOWHERE, /* F cannot be had at the guess */
     QDOT_ZERO_JUMP,    /* F changes its sign, and does not vanish there */
+    QDOT_ZERO_VAGUE,   /* F is 0 within its errors, of unknowns that these leave open by a tenth or more */
     QDOT_ZERO_SLOW     /* no end after many steps */
 } qdot_zero_answer;
 

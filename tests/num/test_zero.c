@@ -125,6 +125,41 @@ what_is_not_known_is_no_zero(void **state)
     assert_int_not_equal(r.answer, QDOT_ZERO_FOUND);
 }
 
+/* x + y = 3 twice, the second time with y by a thousandth more: y = 0, of values known to *user. */
+static qdot_status
+alike_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    for (size_t i = 0; i < 2; i++) {
+        const double by = i == 0 ? 1 : 1 + 1e-3;
+
+        f[i] = u[0] + by * u[1] - 3;
+        error[i] = *(const double *)user;
+        if (slope != NULL) {
+            slope[2 * i] = 1;
+            slope[2 * i + 1] = by;
+        }
+    }
+    return QDOT_OK;
+}
+
+static void
+a_zero_that_may_be_anywhere(void **state)
+{
+    double error[2] = {1e-3, 1e-9}, u[2], off[2], f[2], f_error[2];
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const qdot_zero_problem p = {.n = 2, .m = 2, .at = alike_at, .user = &error[k]};
+        qdot_zero_result r = {.u = u, .error = off, .f = f, .f_error = f_error};
+
+        u[0] = 1.5;
+        u[1] = 1;
+        assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+        assert_int_equal(r.answer, k == 0 ? QDOT_ZERO_VAGUE : QDOT_ZERO_FOUND);
+        assert_true(fabs(u[0] - 3) <= off[0] && fabs(u[1]) <= off[1]);
+    }
+}
+
 typedef struct {
     double (*of)(double);
     double from, to; /* where it can be had */
@@ -226,6 +261,7 @@ main(void)
         cmocka_unit_test(zeros_of_square_and_tall_systems),
         cmocka_unit_test(a_zero_that_is_not_wanted),
         cmocka_unit_test(what_is_not_known_is_no_zero),
+        cmocka_unit_test(a_zero_that_may_be_anywhere),
         cmocka_unit_test(a_family_gives_the_near_solution),
         cmocka_unit_test(bounds_lead_to_a_zero),
         cmocka_unit_test(what_is_no_zero_is_told),

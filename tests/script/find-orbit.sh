@@ -54,3 +54,23 @@ find th = -0.2, th' = 0 such that returns after 3*pi
 check value(th, 0) == -0.218061012692907 within 1e-11
 check value(th', 0) == 0.012743090904497 within 1e-11
 END
+
+# pendulums: one of a family along which the slopes hardly tell one from another, T = 4 K(sin(theta/2)) near the guess
+qdot -q - <<'END' 2>&1 | sed "$numbers"
+coord theta
+lagrangian theta'^2/2 + cos(theta)
+find theta = 1, T = 6.7 such that returns after T
+check value(theta, 0) == 1 within 1e-3
+find theta = 3.14, T = 34 such that returns after T
+check value(theta, 0) == 3.14 within 1e-3
+END
+
+# a drive about the top in three turns: its run comes back within its error, and no better
+qdot -q - <<'END' 2>&1 | grep -o "which is within its error: .*"
+coord th
+lagrangian th'^2/2 - 9.81*cos(th)
+force -0.2*th' + 3*cos(2*t) on th
+start th = -0.218061012692907, th' = 0.012743090904497
+run 0..3*pi tol 1e-12
+floquet
+END

@@ -17,6 +17,21 @@ is_whole(const qdot_session *session, const qdot_named_run *named)
            qdot_run_get_report(named->run)->status == QDOT_RUN_DONE;
 }
 
+/* A run that may be closed, and is not exact enough to be taken for an orbit. */
+static qdot_status
+refuse_inexact(const qdot_named_run *named, double off)
+{
+    (void)qdot_fail(QDOT_EINVAL, "%.80s ends %.2g off its start, which is within its error: too far for an orbit",
+                    named->name, off);
+    return qdot_hint("a smaller tol; where motions near the orbit grow too fast none helps");
+}
+
+static bool
+is_within_error(const qdot_named_run *named, double off)
+{
+    return off <= qdot_run_get_report(named->run)->scaled_error;
+}
+
 qdot_status
 qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
 {
@@ -45,6 +60,8 @@ qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
     }
     if (at == QDOT_NIL)
         (void)qdot_fail(QDOT_EINVAL, "no run of this scene is whole");
+    else if (is_within_error(latest, first))
+        return refuse_inexact(latest, first);
     else
         (void)qdot_fail(QDOT_EINVAL,
                         "no run ends where it began: %.80s is %.3g off in %.80s",
@@ -64,6 +81,8 @@ qdot_orbit_run_named(qdot_session *session, const char *name, qdot_named_run **o
     QDOT_TRY(qdot_floquet_return(session->scene, (*orbit)->run, &off, &where));
     if (off <= closed)
         return QDOT_OK;
+    if (is_within_error(*orbit, off))
+        return refuse_inexact(*orbit, off);
     (void)qdot_fail(QDOT_EINVAL, "%s does not end where it began: it is %.3g off", name, off);
     return qdot_hint("find x = 1, T = 2 such that returns after T");
 }

@@ -150,12 +150,25 @@ hint_at_more(const hunt *h)
                            name);
 }
 
+/* Which unknown has the largest error beside its value. */
+static size_t
+least_known(const hunt *h, const qdot_zero_result *r)
+{
+    size_t worst = 0;
+
+    for (size_t j = 1; j < h->trial.n; j++)
+        if (r->error[j] * fabs(r->u[worst]) > r->error[worst] * fabs(r->u[j]))
+            worst = j;
+    return worst;
+}
+
 /* Why there is no answer, as an error at the conditions. */
 static qdot_status
 refuse(const hunt *h, const qdot_zero_result *r)
 {
     const char *at;
     qdot_text place = {0};
+    size_t j;
 
     h->f->c->error_at = h->f->conditions.at[0].from->start;
     write_place(h->f, r->u, &place);
@@ -177,6 +190,12 @@ refuse(const hunt *h, const qdot_zero_result *r)
                         "does not vanish "
                         "there: it is %.3g",
                         at, r->f[0]);
+        break;
+    case QDOT_ZERO_VAGUE:
+        j = least_known(h, r);
+        (void)qdot_fail(QDOT_EFAILED,
+                        "at %.150s the conditions hold within their errors, which leave %.80s open by %.3g", at,
+                        h->f->unknowns.at[j].label, r->error[j]);
         break;
     case QDOT_ZERO_SLOW:
         (void)qdot_fail(
