@@ -1359,6 +1359,7 @@ script_tests = \
 	tests/script/digits-constraint-events.lag \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
+	tests/script/digits-shown.sh \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
@@ -2403,6 +2404,7 @@ test_files = \
 	tests/script/digits-constraint-events.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
+	tests/script/digits-shown.out \
 	tests/script/digits-start.out \
 	tests/script/digits-table.out \
 	tests/script/digits.csv \

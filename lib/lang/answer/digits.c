@@ -37,13 +37,15 @@ qdot_digits_of(qdot_session *session, qdot_expr e)
 static int
 meaningful(mpfr_srcptr x, int digits, double error)
 {
-    double known;
+    double known, mantissa;
+    long power;
 
     if (isnan(error)) /* no more than a double would show */
         return digits < 16 ? digits : 16;
     if (error == 0 || mpfr_zero_p(x))
         return digits;
-    known = floor((double)(mpfr_get_exp(x) - 1) * log10(2)) - floor(log10(error)) + 1;
+    mantissa = fabs(mpfr_get_d_2exp(&power, x, MPFR_RNDN));
+    known = floor(log10(mantissa) + (double)power * log10(2)) - floor(log10(error)) + 1;
     return known < 1 ? 1 : known < digits ? (int)known : digits;
 }
 
