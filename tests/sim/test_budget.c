@@ -80,6 +80,31 @@ at_rest(void **state)
     end(&f);
 }
 
+/* A stiff layer by a method that steps over it: series, which do not, would cost many times the run, and
+ * only the meter keeps them from it. */
+static void
+of_a_layer(void **state)
+{
+    fixture f;
+    qdot_expr x, v, s, force;
+
+    (void)state;
+    begin(&f);
+    x = coordinate(&f, "x");
+    v = velocity(&f, x);
+    s = qdot_fun1(f.pool, QDOT_TANH, times(&f, number(&f, "100000"), v));
+    force = times(&f, number(&f, "10000"), qdot_sub(f.pool, QDOT_ONE, times(&f, s, s)));
+    must(qdot_scene_particle(f.scene, "p", QDOT_ONE, pair(&f, x, QDOT_ZERO)));
+    must(qdot_scene_force(f.scene,
+                          &(qdot_force){.force = pair(&f, qdot_sub(f.pool, force, x), QDOT_ZERO),
+                                        .point = pair(&f, x, QDOT_ZERO),
+                                        .on = "p"}));
+    f.q0[0] = QDOT_ONE;
+    f.request.t1 = qdot_expr_int(f.pool, 10);
+    keeps_to_budget(&f, "dop853", 1e-4, false);
+    end(&f);
+}
+
 int
 main(void)
 {
@@ -87,6 +112,7 @@ main(void)
         cmocka_unit_test(of_chaos),
         cmocka_unit_test(of_small_swings),
         cmocka_unit_test(at_rest),
+        cmocka_unit_test(of_a_layer),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
