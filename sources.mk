@@ -350,6 +350,7 @@ library_sources = \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
 	lib/ode/between.c \
+	lib/ode/companion-ways.c \
 	lib/ode/companion.c \
 	lib/ode/dop853.c \
 	lib/ode/geometric/constant-steps.c \

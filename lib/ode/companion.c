@@ -4,44 +4,19 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "ode/scale.h"
-#include "ode/taylor-numbers.h"
-#include "ode/taylor.h"
 
 static const double unit = 0x1p-53;
-
-/* Of the run's work: what each of the two may cost. The rest of QDOT_COMPANION_MOST is for the horizon. */
-static const double shares[] = {1.55, 1.3};
-
-/* Of QDOT_COMPANION_LEAST: what a way may take before it leads anywhere, so that the others have the
- * rest; beside a stiff method there are more of them, of which the finer one begins with a dear step (bsimp
- * 4e5 in friction of tanh(1e6 v)), and series are for scenes that are not stiff, where they cost little. */
-static const double at_first = 0.8, at_first_stiff = 0.25, beside_stiff = 0.4;
-
-/* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
-static const double most_floor = 32;
 
 /* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
 static const double derived = 4;
 
 /* A companion's own error, as a part of its distance from the run, where the companions agree. */
 static const double most_share = 0.25;
-
-/* Nearer to its companion_tol a stiff method of ours meets the rounding of most scenes, and its steps
- * become many; a coarse run is this far above it, so as not to share the run's rounding. */
-static const double above_rounding = 10, beyond_rounding = 10;
-
-/* How much coarser or finer than the run these ways are. */
-static const double coarser = 4, finer[] = {16, 32};
-
-/* What both companions by Taylor series should cost, of the work of the run, and which powers of their
- * ratio of tolerances (method.h) are tried for that. */
-static const double foreseen = 2.8, powers[] = {1, 0.75, 0.5};
 
 /* Of the work: what reading states before the end may take, the run's and both companions', which cost
  * about so many times a step of the run. */
@@ -108,167 +83,6 @@ struct qdot_companion {
     follower at[2];
     size_t count, arrived;
 };
-
-bool
-qdot_companion_is_by_series(const qdot_ode_method *method)
-{
-    return !(method->stiff && method->kernel);
-}
-
-const qdot_ode_method *
-qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *method)
-{
-    return qdot_ode_method_find(system->series && qdot_companion_is_by_series(method)
-                                    ? "taylor" : method->partner);
-}
-
-/* The work of a run by Taylor series under that tolerance, relative to others of the system. */
-static double
-work_of(const qdot_ode_series *series, double tol, int more)
-{
-    const int p = qdot_ode_taylor_order(series, tol, false, more);
-
-    return qdot_ode_expansion_work(series, p) * exp(-log(qdot_step_aim(tol, false)) / p);
-}
-
-/* Of a run by Taylor series under tol: the tightest tolerance of these that both companions can afford. */
-static double
-affordable(const qdot_ode_series *series, const qdot_ode_method *taylor, double tol)
-{
-    const double most = foreseen * work_of(series, tol, 0);
-    double theirs = tol, work;
-
-    for (size_t k = 0; k < sizeof powers / sizeof *powers; k++) {
-        theirs = fmax(pow(taylor->companion_ratio, powers[k]) * tol, taylor->companion_tol);
-        work = work_of(series, theirs, qdot_companion_orders(0)) + work_of(series, theirs, qdot_companion_orders(1));
-        if (work <= most)
-            break;
-    }
-    return theirs;
-}
-
-double
-qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *method,
-                         double tol)
-{
-    const qdot_ode_method *partner = qdot_companion_method(system, method);
-    bool same = partner == method;
-
-    if (same && partner->series)
-        return affordable(system->series, partner, tol);
-    if (partner->series)
-        return fmax(fmin(partner->companion_ratio, method->companion_ratio) * tol,
-                    partner->companion_tol);
-    if (same && method->companion_tol > tol / 4)
-        return 10 * fmax(tol, method->companion_tol);
-    return fmax(method->companion_ratio * tol, method->companion_tol);
-}
-
-qdot_companion_way
-qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_system *system,
-                        const qdot_ode_method *method, double tol, qdot_companion_plan *plan)
-{
-    const bool gets_finer =
-        method->stiff && !method->multistep
-        && tol / finer[1] >= (method->kernel ? above_rounding : 1) * method->companion_tol;
-    qdot_ode_system plain = *system;
-
-    plain.series = NULL;
-    *plan = (qdot_companion_plan){0};
-    if (way == QDOT_COMPANION_SERIES && (!system->series || !qdot_companion_is_by_series(method)))
-        way = QDOT_COMPANION_PARTNER;
-    if (way == QDOT_COMPANION_PARTNER && (method->stiff ? gets_finer : system->series != NULL))
-        way = QDOT_COMPANION_FINER;
-    if (way == QDOT_COMPANION_FINER && !gets_finer)
-        way = QDOT_COMPANION_COARSE;
-    if (way == QDOT_COMPANION_SERIES) {
-        plan->method = qdot_companion_method(system, method);
-        plan->tol = qdot_companion_tolerance(system, method, tol);
-    } else if (way == QDOT_COMPANION_PARTNER) {
-        plan->method = qdot_companion_method(&plain, method);
-        plan->tol = qdot_companion_tolerance(&plain, method, tol);
-    } else if (way == QDOT_COMPANION_FINER) {
-        plan->method = method;
-        plan->tol = tol / finer[number];
-    } else if (way == QDOT_COMPANION_COARSE) {
-        plan->method = method;
-        plan->tol = fmin(1, fmax(coarser * tol, beyond_rounding * method->companion_tol));
-    }
-    return way;
-}
-
-double
-qdot_companion_left(double work, double spent)
-{
-    return fmax(0, QDOT_COMPANION_MOST * work - spent);
-}
-
-void
-qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
-                     const qdot_ode_system *system, bool stiff, qdot_companion_way way,
-                     size_t number, double spent)
-{
-    m->beside = run;
-    m->factor = shares[number];
-    m->allowance = QDOT_COMPANION_LEAST;
-    m->early_factor = way == QDOT_COMPANION_SERIES && stiff ? beside_stiff
-                      : way == QDOT_COMPANION_PARTNER       ? shares[1]
-                                                            : m->factor;
-    m->early = QDOT_COMPANION_LEAST
-               * ((stiff && way != QDOT_COMPANION_FINER) || way == QDOT_COMPANION_PARTNER ? at_first_stiff
-                                                                                          : at_first);
-    m->spent = spent;
-    m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
-}
-
-/* Signs without a pattern that a symmetric system could share (Knuth's multiplicative
- * hash of the index, bit 31). */
-static bool
-goes_up(size_t i, size_t number)
-{
-    return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
-}
-
-double
-qdot_companion_aside(double tol, double size, size_t i, size_t number, double by)
-{
-    by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
-    return goes_up(i, number) ? by : -by;
-}
-
-double
-qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
-{
-    const bool up = goes_up(i, number);
-
-    if (y == 0)
-        return up ? unit * scale : -unit * scale;
-    return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
-}
-
-int
-qdot_companion_orders(size_t number)
-{
-    return number ? 1 : QDOT_COMPANION_ORDERS;
-}
-
-double
-qdot_companion_first_share(size_t number)
-{
-    return number ? 0.4142 : 0.618;
-}
-
-double
-qdot_companion_far(uint64_t steps)
-{
-    return fmin(QDOT_COMPANION_FAR, fmax(1, floor(sqrt((double)steps))));
-}
-
-double
-qdot_companion_floor(uint64_t steps)
-{
-    return 2 * unit * fmin(most_floor, fmax(1, sqrt((double)steps)));
-}
 
 static qdot_status
 look(double t, const double *y, bool *stop, void *user)

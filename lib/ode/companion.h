@@ -53,8 +53,8 @@
  *     FINER    a stiff method itself, the first under tol/16, the second under tol/32: it errs by a
  *              few times less, and the distance of the two shows by how much; not a multistep method,
  *              whose errors follow the tolerance only roughly, and not below its companion_tol
- *     COARSE   the run's own method under 4 tol, at least 10 companion_tol: it errs more than the run, on the safe side, and
- *              costs less
+ *     COARSE   the run's own method under 4 tol, at least 10 companion_tol: it errs more than the run,
+ *              on the safe side, and costs less
  *
  * A step may go over what a finer one would see, and the coarse one with it. So where a finer way was given
  * up and the run is then ten times farther from it than from the coarse one, and than tol, there is no number.
