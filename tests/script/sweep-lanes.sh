@@ -98,21 +98,25 @@ gravity (-1, 0)
 constraint c: y^2 = x^3
 start x = A^2, y = A^3
 END
-for what in 'rods A 0..3 x, w, energy, low[1]' 'wall x'"'"' 0..20 x, x'"'"', low[1]' 'cusp A 0..5 x, y'; do
-    set -- $what
-    scene=$1 name=$2 time=$3
-    shift 3
+# compare TOL SCENE NAME TIME COLUMN...: few members, which are run alone, and many, by lanes; by one process and three
+compare() {
+    tol=$1 scene=$2 name=$3 time=$4
+    shift 4
     qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
-plan sweep $name = $many run $time : $*
-sweep $name = $few run $time : $* as few threads 1
-sweep $name = $many run $time : $* as many threads 1
-sweep $name = $many run $time : $* as others threads 3
+$([ $name != w ] || echo "start x' = 2")
+plan sweep $name = $many run $time $tol : $*
+sweep $name = $few run $time $tol : $* as few threads 1
+sweep $name = $many run $time $tol : $* as many threads 1
+sweep $name = $many run $time $tol : $* as others threads 3
 save few to "few.csv"
 save many to "many.csv"
 save others to "others.csv"
 END
     agree few.csv many.csv
     cmp many.csv others.csv
+}
+for what in 'rods A 0..3 x, w, energy, low[1]' 'wall x'"'"' 0..20 x, x'"'"', low[1]' 'cusp A 0..5 x, y'; do
+    compare '' $what
 done
 echo '# extrema, means and drifts along the way'
 for what in "double a 0..5 max(a), min(b, 1..4), mean(energy), value(a, 5/2), max(b'')" \
@@ -122,21 +126,7 @@ for what in "double a 0..5 max(a), min(b, 1..4), mean(energy), value(a, 5/2), ma
     "kepler phi' 0..-9 max(r), mean(phi'), value(phi', -4)" \
     "rods A 0..3 max(x), mean(w), value(x*A, 2), max(x''), max(lambda[upper])" \
     "wall x' 0..20 max(abs(x)), max(x, 10..20), mean(x'^2), max(x) - min(x)"; do
-    set -- $what
-    scene=$1 name=$2 time=$3
-    shift 3
-    qdot -q $scene.lag - <<END 2>&1 | sed -n 's/ rows\(.*\), in .*/ rows\1/p; /rror:/p; /^each/p'
-$([ $name != w ] || echo "start x' = 2")
-plan sweep $name = $many run $time tol 1e-9 : $*
-sweep $name = $few run $time tol 1e-9 : $* as few threads 1
-sweep $name = $many run $time tol 1e-9 : $* as many threads 1
-sweep $name = $many run $time tol 1e-9 : $* as others threads 3
-save few to "few.csv"
-save many to "many.csv"
-save others to "others.csv"
-END
-    agree few.csv many.csv
-    cmp many.csv others.csv
+    compare 'tol 1e-9' $what
 done
 echo '# plans'
 cut='s/^time: [^ ]* s a member, by \([0-9]*\) of them: about .*/time: by \1/; s/^processes: .*/processes: N/; s/, about as much again.*//'
