@@ -1,4 +1,4 @@
-/* parts.h -- an ensemble between its runs (ensemble-runs.c) and what is read of them (ensemble-seen.c).
+/* parts.h -- an ensemble between its runs (runs.c) and what is read of them (seen.c).
  */
 #ifndef QDOT_SIM_ENSEMBLE_PARTS_H
 #define QDOT_SIM_ENSEMBLE_PARTS_H
