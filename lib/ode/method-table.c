@@ -28,7 +28,7 @@ static const qdot_ode_method methods[] = {
     {"dop853", 8, false, false, false, 8, "dop853", 1e-2, 1e-15,
      "Runge-Kutta of order 8 with a polynomial of its own: as rk8pd, much output", NULL,
      false, &qdot_dop853, NULL},
-    {"radau", 13, true, false, true, 0, "radau", 0.03, 1e-14,
+    {"radau", 13, true, false, true, 0, "radau", 0.2, 1e-14,
      "Radau IIA, orders 5, 9 and 13: stiff scenes at any tolerance", NULL, false, &qdot_radau,
      NULL},
     {"taylor", 40, false, false, false, 0, "taylor", 1e-2, 1e-16,

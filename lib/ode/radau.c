@@ -11,8 +11,10 @@
 
 enum { MOST = QDOT_RADAU_MOST, SPACES = QDOT_RADAU_SPACES };
 
-/* What Newton's iteration may leave, in tolerances; never below so many roundings. */
-static const double newton = 1e-3, newton_roundings = 10;
+/* What Newton's iteration may leave, in tolerances; never below so many roundings. What it leaves is alike in
+ * all steps, and adds up, so while it converges it goes on to fewer of them; not with multipliers, where a
+ * run and its companions were left with an error in common that was larger than what they stated. */
+static const double newton = 1e-3, newton_roundings = 10, few_roundings = 0.5;
 
 /* Rates of the iteration: below `reuse` slopes are kept for the next step; below `fast`, above
  * `slow` the number of stages changes, after so many steps. */
@@ -374,6 +376,8 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
     const int most = 7 + (int)(b->stages - 3) * 5 / 2;
     const int judged = r->m > r->v ? 3 : 2; /* the first change hardly knows the multipliers' error */
     const double enough = fmax(newton_roundings * DBL_EPSILON / s->tol, newton);
+    const double wanted =
+        r->m > r->v ? enough : fmax(few_roundings * DBL_EPSILON / s->tol, newton);
     double before = 0;
 
     *converged = false;
@@ -406,7 +410,8 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
                 return QDOT_OK;
         }
         before = fmax(size, DBL_MIN);
-        if (r->left * size > enough)
+        if (r->left * size > enough
+            || (r->left * size > wanted && r->rate < stagnates && r->iterations < most))
             continue;
         accelerate(r, b, h);
         if (forces_agree(r, b)) {

@@ -81,6 +81,42 @@ check_order(const qdot_ode_system *system, const double *y0, const double *end,
         fail_msg("%zu stages: order %.2f (%g, %g)", stages, seen, error[0], error[1]);
 }
 
+/* y'' = -sin y */
+static qdot_status
+swing_rhs(double t, const double *y, double *dydt, void *user)
+{
+    (void)t;
+    (void)user;
+    dydt[0] = y[1];
+    dydt[1] = -sin(y[0]);
+    return QDOT_OK;
+}
+
+static qdot_status
+swing_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
+{
+    (void)t;
+    (void)user;
+    dfdy[0] = dfdy[3] = dfdt[0] = dfdt[1] = 0;
+    dfdy[1] = 1;
+    dfdy[2] = -cos(y[0]);
+    return QDOT_OK;
+}
+
+/* What the iteration leaves is alike in all steps: the energy of a pendulum over 20,000 of them. */
+static void
+what_is_left_does_not_add_up(void **state)
+{
+    const qdot_ode_system swing = {.n = 2, .rhs = swing_rhs, .jacobian = swing_jacobian};
+    double y[] = {1, 0}, drift;
+
+    (void)state;
+    march(&swing, 7, 4000, 20000, y);
+    drift = fabs(y[1] * y[1] / 2 - cos(y[0]) + cos(1));
+    if (!(drift < 1e-13))
+        fail_msg("the energy is off by %g", drift);
+}
+
 static void
 orders_are_2s_less_1(void **state)
 {
@@ -461,6 +497,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eigenvectors_make_the_matrix),
         cmocka_unit_test(orders_are_2s_less_1),
+        cmocka_unit_test(what_is_left_does_not_add_up),
         cmocka_unit_test(polynomials_are_met),
         cmocka_unit_test(multipliers_keep_the_order),
         cmocka_unit_test(the_form_with_mass_is_the_same),
