@@ -35,9 +35,14 @@ void qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, 
 /* The layer of a surface as an exact number. */
 qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
 
-/* Whether a node of an expression that is not frozen is a product with such a power of a u that
- * is in its layer by side [m]. */
-bool qdot_layers_vanishes(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
-                          const long *side, qdot_expr node);
+/* The share of a motion held in a layer, which leaves it where this passes -1 or 1. */
+qdot_expr qdot_layers_share(qdot_pool *pool, qdot_expr share);
+
+/* If a node of an expression that is not frozen is a product with such a power of a u: its value where u
+ * is in its layer by side [m], 0, or where it is held at 0, that at the rim on the side of corner [m];
+ * *rest is the product without it. Nil: it is none. */
+qdot_expr qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
+                            const long *side, const long *corner, qdot_expr node,
+                            qdot_expr *rest);
 
 #endif

@@ -304,17 +304,21 @@ typedef struct {
     qdot_expr *frozen; /* [atoms] */
 } freezer;
 
+static qdot_expr inner(const freezer *f, qdot_expr e);
+
 static qdot_expr
 look_up(qdot_pool *pool, qdot_expr node, void *user)
 {
     const freezer *f = user;
+    qdot_expr power, rest;
 
     for (size_t i = 0; i < f->done; i++)
         if (f->s->atoms.at[i] == node)
             return f->frozen[i];
-    return qdot_layers_vanishes(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, node)
-               ? QDOT_ZERO
-               : QDOT_NIL;
+    power = qdot_layers_power(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, f->corner, node,
+                              &rest);
+    return power == QDOT_NIL || power == QDOT_ZERO ? power
+                                                   : qdot_mul(pool, power, inner(f, rest));
 }
 
 static qdot_expr
