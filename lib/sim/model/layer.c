@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "expr/walk.h"
-#include "sim/model/switch.h"
 #include "tape/constant.h"
 
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
