@@ -566,6 +566,7 @@ library_sources = \
 	lib/sim/run/run.c \
 	lib/sim/run/scales.c \
 	lib/sim/run/slides.c \
+	lib/sim/run/tighter-run.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -1080,6 +1081,7 @@ library_headers = \
 	lib/sim/run/run.h \
 	lib/sim/run/scales.h \
 	lib/sim/run/slides.h \
+	lib/sim/run/tighter-run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/bifurcation.h \
@@ -1523,6 +1525,7 @@ script_tests = \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
 	tests/script/three-bodies.lag \
+	tests/script/tighter.sh \
 	tests/script/to-file.sh \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
@@ -2590,6 +2593,7 @@ test_files = \
 	tests/script/text.out \
 	tests/script/textbook.out \
 	tests/script/three-bodies.out \
+	tests/script/tighter.out \
 	tests/script/to-file.out \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
