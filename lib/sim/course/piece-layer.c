@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "ode/scale.h"
+#include "sim/model/layer.h"
 
 /* What may be left out at tolerances below this. */
 static const double least_left_out = 16 * DBL_EPSILON;
@@ -28,6 +29,12 @@ was_held(const qdot_piece *x, size_t i)
            && x->c->stage->modes.at[tr->pieces.at[n - 2].mode]->side[i] == QDOT_SIDE_SLIDES;
 }
 
+static bool
+is_in_time(const qdot_piece *x, size_t i)
+{
+    return qdot_layers_in_time(x->c->stage->switches.pool, surface(x, i));
+}
+
 /* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what has been left
  * out of velocities since, relative to its size. */
 static qdot_status
@@ -45,15 +52,16 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     if (status == QDOT_OK)
         status = qdot_piece_rates(x, leaves ? x->mode : x->start.from, beyond);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        const double out = beyond[k] - inside[k];
+        const double out = beyond[k] - inside[k], mean = x->entered ? (x->rim[k] + out) / 2 : out;
 
-        most = fmax(most, fabs(x->entered ? (x->rim[k] + out) / 2 : out)
-                              / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
+        most = fmax(most, fabs(mean) / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
+        if (leaves && is_in_time(x, i)) /* it is made good */
+            x->start.y[k] += mean * time;
     }
     qdot_free(inside);
     x->entered = !leaves;
-    if (leaves && !was_held(x, i)) /* friction makes that good as soon as it is left */
+    if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction makes that good as soon as it is left */
         c->left_out += most * time;
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
         qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");
@@ -361,7 +369,7 @@ qdot_piece_check_layers(qdot_piece *x)
         else if ((old->side[i] == 0) != (now->side[i] == 0))
             QDOT_TRY(pass_rim(x, i, old->side[i] == 0));
         /* from a power of less than 1 the motion may leave at any time */
-        if (now->side[i] == 0 && surface(x, i)->power < 1)
+        if (now->side[i] == 0 && surface(x, i)->power < 1 && !is_in_time(x, i))
             QDOT_TRY(rests(x, i, &stays));
         if (stays && !holds_velocities(x, i))
             QDOT_TRY(is_driven_back(x, i, &back));

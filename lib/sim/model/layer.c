@@ -33,9 +33,8 @@ is_base(qdot_pool *pool, qdot_expr base, qdot_expr u, int *only)
     return base == u || base == qdot_neg(pool, u);
 }
 
-/* Whether factor k of a product is a broken power; *p: its exponent. */
-static bool
-is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
+bool
+qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
     long whole;
@@ -61,7 +60,7 @@ look_at_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr pro
     int only;
 
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, product); k += 2) {
-        if (!is_broken(pool, product, k, &p))
+        if (!qdot_layers_is_broken(pool, product, k, &p))
             continue;
         for (size_t i = 0; i < m; i++)
             if (!surfaces[i].steps
@@ -111,6 +110,14 @@ qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface)
     return qdot_pow_int(pool, qdot_expr_int(pool, 2), ilogb(surface->layer));
 }
 
+bool
+qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
+{
+    return (qdot_expr_node(pool, surface->u)->holds
+            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           == 0;
+}
+
 /* A share that ends above 1 by so much: a motion held for so long is behind by its square, and beyond that
  * the forces drive it away at the rim, too. */
 enum { MORE_EXPONENT = -30 };
@@ -138,7 +145,7 @@ qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces, const
                             exponent = qdot_expr_arg(pool, node, k + 1);
             const bool held = side[i] == QDOT_SIDE_SLIDES;
 
-            if (surfaces[i].layer == 0 || (side[i] != 0 && !held) || !is_broken(pool, node, k, &p)
+            if (surfaces[i].layer == 0 || (side[i] != 0 && !held) || !qdot_layers_is_broken(pool, node, k, &p)
                 || !is_base(pool, base, surfaces[i].u, &only))
                 continue;
             *rest = qdot_div(pool, node, qdot_pow(pool, base, exponent));
