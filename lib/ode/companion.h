@@ -239,7 +239,7 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
 /* In what component i of a start y [n] = (q, q') is moved if it is 0: its scale (scales NULL: 1), or |q_i|
- * for q'_i and |q'_i| for q_i, if that is less and not 0. What starts at 1e-8 and at rest has not the errors of what
+ * for q'_i and |q'_i| for q_i, if that is less and not nothing beside it. What starts at 1e-8 and at rest has not the errors of what
  * starts at 1; where both are 0 nothing is known of the size that it will have. */
 double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
 
