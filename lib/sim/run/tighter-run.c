@@ -54,18 +54,37 @@ power_of_growth(const qdot_run *run)
     return late < most_power && fabs(late - early) < alike ? fmax(late, early) : INFINITY;
 }
 
-/* Whether the run under the tightest tolerance is likely to keep digits: neighbouring motions part
- * exponentially, or by a power of t. */
+/* Whether a run can be made under the tightest tolerance. */
+static bool
+is_open(const qdot_run *run, const qdot_run_request *request)
+{
+    return run->plan->chosen && run->plan->method->series && !request->no_drifts
+           && !request->by_clock && run->report.status != QDOT_RUN_FAILED
+           && run->meter.work < most_work && request->tol > tightest;
+}
+
+/* Whether it is likely to keep digits: neighbouring motions part exponentially, or by a power of t. */
 static bool
 is_likely(const qdot_run *run, const qdot_run_request *request)
 {
     const double known = (run->report.horizon - run->t0) / (run->t1 - run->t0);
 
-    return run->plan->chosen && run->plan->method->series && !request->no_drifts
-           && !request->by_clock && run->report.status != QDOT_RUN_FAILED
-           && run->meter.work < most_work && request->tol > tightest
-           && (known * log(tightest) / log(request->tol) > 1
-               || tightest / request->tol * pow(known, -power_of_growth(run)) < few);
+    return known * log(tightest) / log(request->tol) > 1
+           || tightest / request->tol * pow(known, -power_of_growth(run)) < few;
+}
+
+static qdot_status
+say_tighter(qdot_run *run, const qdot_run_request *request, double lost)
+{
+    qdot_text *to = qdot_run_next_notice(run);
+
+    qdot_text_format(to, "tol %.3g would leave ", request->tol);
+    if (isnan(lost))
+        qdot_text_add(to, "the error unknown");
+    else
+        qdot_text_format(to, "no digit beyond t = %.4g", lost);
+    qdot_text_format(to, ": the run is under tol %.3g", tightest);
+    return qdot_text_status(to);
 }
 
 qdot_status
@@ -77,7 +96,8 @@ qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request, const qdot_
     qdot_run *other = NULL;
     qdot_status status;
 
-    if (isnan(lost) || !is_likely(*run, request))
+    if (!is_open(*run, request)
+        || (isnan(lost) ? !isnan((*run)->report.error) : !is_likely(*run, request)))
         return QDOT_OK;
     tighter.tol = tightest;
     status = by->make(scene, &tighter, &other);
@@ -85,10 +105,7 @@ qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request, const qdot_
         && other->report.status != QDOT_RUN_FAILED) {
         by->free(*run);
         *run = other;
-        qdot_text_format(qdot_run_next_notice(*run),
-                         "tol %.3g would leave no digit beyond t = %.4g: the run is under tol %.3g",
-                         request->tol, lost, tightest);
-        return qdot_text_status(&(*run)->notice);
+        return say_tighter(*run, request, lost);
     }
     by->free(other);
     return qdot_grave(status);

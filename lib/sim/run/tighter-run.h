@@ -4,7 +4,9 @@
  * factor of about 1/tol until then. If they part exponentially, which is the fastest that lasts, one
  * under another tolerance is lost at h log(tol')/log(tol). If that is beyond the end, for the least tol'
  * of a double, the run is made once more under it, and stays so if it has no horizon then. The same if
- * they part as a power of t, so that the distance at the end is tol'/tol (t1/h)^k.
+ * they part as a power of t, so that the distance at the end is tol'/tol (t1/h)^k. And so is a run
+ * whose error is unknown, as where its companions are too costly or meet other events: it stays if that is
+ * known then.
  *
  * Tests  tests/script/tighter.sh
  */
