@@ -134,18 +134,21 @@ keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
     return QDOT_OK;
 }
 
-/* Whether steps become longer: within half of the window by more than a tenth. Then they are not bound
- * for ever, and the next window is waited for. */
-static bool
-grow(const qdot_ode_stiffness *s)
+/* Steps of length h to t1, if they go on to grow as they did from the first half of the window to the second:
+ * h exp(k n) after n of them. */
+static double
+steps_left(const qdot_ode_stiffness *s, double h, double t1)
 {
     enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
+    const double so = fabs((t1 - s->t[LAST]) / h);
     int first = 0, second = 0;
+    double growth, k;
 
-    for (size_t k = 1; k <= LAST; k++)
-        *(k <= MIDDLE ? &first : &second) += steps_to(s, k);
-    return fabs(s->t[LAST] - s->t[MIDDLE]) / second
-           > 1.1 * (fabs(s->t[MIDDLE] - s->t[0]) / first);
+    for (size_t i = 1; i <= LAST; i++)
+        *(i <= MIDDLE ? &first : &second) += steps_to(s, i);
+    growth = fabs((s->t[LAST] - s->t[MIDDLE]) * first / ((s->t[MIDDLE] - s->t[0]) * second));
+    k = 2 * log(growth) / (first + second);
+    return k > 0 ? log1p(k * so) / k : so;
 }
 
 bool
@@ -169,8 +172,8 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     if (!enough)
         return QDOT_OK;
     step = (at->t - s->t[0]) / steps_between(s);
-    left = fabs((at->t1 - at->t) / step);
-    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at) && !grow(s);
+    left = steps_left(s, step, at->t1);
+    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
     if (*stiff)
         QDOT_TRY(may_bind(at, fabs(step), stiff));
     s->count = 0;

@@ -29,7 +29,7 @@
 #include "tape/shake.h"
 
 /* The work that is left where `auto` changes over to a method for stiff scenes (ode/stiffness.h). */
-static const double worth_changing = 3e7;
+static const double worth_changing = 3e6;
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
 static const double least_tol = 2.3e-16;
