@@ -343,13 +343,6 @@ terms(const radau *r, size_t i, size_t l)
     return sum;
 }
 
-/* By how much the last change made what is missing in row l of stage i fall. */
-static double
-fall_of(const radau *r, size_t i, size_t l)
-{
-    return fabs(r->R[i * r->m + l]) / fmax(fabs(r->R_before[i * r->m + l]), DBL_MIN);
-}
-
 /* Whether forces and accelerations agree in all stages, as far as forces are known by now. A change may be
  * small because the slopes at the beginning of the step are large, as where dry friction holds, and those
  * of a stage are not, where it slides: what is missing there does not fall by such a change. What a much
@@ -357,24 +350,25 @@ fall_of(const radau *r, size_t i, size_t l)
 static bool
 forces_agree(radau *r, const qdot_radau_basis *b)
 {
-    const double left = r->iterations == 1 && !is_near(r) ? 1 : r->left;
+    const bool first = r->iterations == 1;
+    const double left = first && !is_near(r) ? 1 : r->left;
     double worst = 0;
 
     for (size_t i = 0; i < b->stages; i++)
         for (size_t l = 0; l < r->v; l++) {
-            const double missing = fabs(r->R[i * r->m + l]), mass = fabs(r->linear.mass[l * r->m + l]);
-            const double makes = fabs(r->h) * missing * r->weight[r->p + l];
-            const double fall = r->iterations == 1 ? r->fall : fall_of(r, i, l);
+            const double missing = fabs(r->R[i * r->m + l]), before = fabs(r->R_before[i * r->m + l]);
+            const double matters = harmless * fabs(r->linear.mass[l * r->m + l] / r->h) / r->weight[r->p + l];
+            const double fall = first ? r->fall : missing / fmax(before, DBL_MIN);
 
             if (left * missing > agree * r->forces[l] && left * missing > agree * terms(r, i, l))
                 return false;
-            if (makes <= harmless * mass || missing <= agree_roundings * DBL_EPSILON * terms(r, i, l))
-                continue;
-            if (fall * makes > harmless * mass && (r->iterations == 1 || fall > fell_by))
+            if (missing > matters && (first ? fall * missing > matters : fall > fell_by)
+                && missing > agree_roundings * DBL_EPSILON * terms(r, i, l))
                 return false;
-            worst = fmax(worst, fall);
+            if (!first && before > matters)
+                worst = fmax(worst, fall);
         }
-    if (r->iterations > 1)
+    if (worst > 0)
         r->fall = worst;
     return true;
 }
