@@ -3,6 +3,7 @@
 #include <stdint.h>
 
 #include "ode/companion.h"
+#include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 #include "ode/taylor.h"
 
@@ -29,6 +30,10 @@ static const double coarser = 4, finer[] = {16, 32};
 /* What both companions by Taylor series should cost, of the work of the run, and which powers of their
  * ratio of tolerances (method.h) are tried for that. */
 static const double foreseen = 2.8, powers[] = {1, 0.75, 0.5};
+
+/* Where the rounding of terms bounds the steps, those of a companion are not the run's: a drift that is
+ * made by the rounding of the same coefficients again and again would be common to both. */
+static const double term_shares[] = {0.75, 1.5};
 
 bool
 qdot_companion_is_by_series(const qdot_ode_method *method)
@@ -151,6 +156,14 @@ goes_up(size_t i, size_t number)
 }
 
 double
+qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
+{
+    const double scale = qdot_ode_scale(scales, i), beside = fabs(y[i < n / 2 ? i + n / 2 : i - n / 2]);
+
+    return y[i] == 0 && beside > 0 ? fmin(scale, beside) : scale;
+}
+
+double
 qdot_companion_aside(double tol, double size, size_t i, size_t number, double by)
 {
     by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
@@ -171,6 +184,12 @@ int
 qdot_companion_orders(size_t number)
 {
     return number ? 1 : QDOT_COMPANION_ORDERS;
+}
+
+double
+qdot_companion_term_tol(double tol, size_t number)
+{
+    return term_shares[number] * tol;
 }
 
 double

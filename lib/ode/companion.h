@@ -26,7 +26,8 @@
  * where a distance of states is max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)), s_i the scales of
  * the system (scale.h); `plain` is the same with s_i = 1.
  *
- * There are two companions, moved to either side, with three orders and one order more. One is
+ * There are two companions, moved to either side, with three orders and one order more; no term of
+ * theirs is so large that its rounding counts beside about the run's tolerance, not tol*. One is
  * not enough: if all is rounding, the difference of two random walks may be small by chance; near
  * an instability it is a single number; and if the tolerance dominates, a method may be so much
  * more accurate than requested that a companion errs as much as the run. The second companion
@@ -223,6 +224,10 @@ void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
 int qdot_companion_orders(size_t number);
 #define QDOT_COMPANION_ORDERS 3
 
+/* The tolerance beside which no rounding of a term counts in it (qdot_ode_options.term_tol), of a run
+ * under tol: about that of the run, which near rounding it would else exceed in steps by several times. */
+double qdot_companion_term_tol(double tol, size_t number);
+
 /* Whether companions are first tried by series, where there are any: not those of radau, which is
  * for scenes that would stop series and is accurate enough itself. */
 bool qdot_companion_is_by_series(const qdot_ode_method *method);
@@ -233,13 +238,18 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
+/* In what component i of a start y [n] = (q, q') is moved if it is 0: its scale (scales NULL: 1), or |q_i|
+ * for q'_i and |q'_i| for q_i, if that is less and not 0. What starts at 1e-8 and at rest has not the errors of what
+ * starts at 1; where both are 0 nothing is known of the size that it will have. */
+double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
+
 /* The distance from component i, of that size (scale.h), at which companion `number` starts, for a
  * run whose first orders are sums of two doubles: `by` times the least one. */
 double qdot_companion_aside(double tol, double size, size_t i, size_t number, double by);
 #define QDOT_COMPANION_AIMS 0.0625
 
 /* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
- * for a zero 2^-53 of its scale. */
+ * for a zero 2^-53 of `scale`. */
 double qdot_companion_moved(double y, double scale, size_t i, size_t number, double by);
 
 #endif

@@ -102,14 +102,12 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
         number ? qdot_companion_far(run->course.tr.result.stats.steps) : 1;
 
     for (size_t i = 0; i < n; i++) {
+        const double in = qdot_companion_unit(run->stage.scales, n, run->start, i);
+
         low[i] = run->start_low[i]
-                 + qdot_companion_aside(run->report.tol,
-                                        qdot_ode_size(run->stage.scales, i, run->start[i]), i,
-                                        number, by);
+                 + qdot_companion_aside(run->report.tol, fmax(in, fabs(run->start[i])), i, number, by);
         y[i] = run->leading ? run->start[i]
-                            : qdot_companion_moved(run->start[i],
-                                                   qdot_ode_scale(run->stage.scales, i), i,
-                                                   number, by);
+                            : qdot_companion_moved(run->start[i], in, i, number, by);
     }
     if (system->project) { /* along what solutions may do */
         double by;
@@ -163,6 +161,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
     qdot_ode_options options = {.tol = by->tol,
                                 .first_share = qdot_companion_first_share(number),
                                 .order_more = qdot_companion_orders(number),
+                                .term_tol = qdot_companion_term_tol(run->report.tol, number),
                                 .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .alternates = run->turns,
