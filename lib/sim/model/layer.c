@@ -9,6 +9,9 @@
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
 static const double passage = 0x1p-42;
 
+/* How much wider than the error of a step a layer is; what it may leave out, of the tolerance. */
+static const double beyond_steps = 16, share = 0.01;
+
 /* Whether `base` is 0 just where u is 0: u, -u, |u|, or the larger or smaller of u and 0. */
 static bool
 is_base(qdot_pool *pool, qdot_expr base, qdot_expr u)
@@ -84,7 +87,7 @@ qdot_layers_find(qdot_pool *pool, size_t m, qdot_surface *surfaces, size_t n,
 }
 
 void
-qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest)
+qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest, double tol)
 {
     double largest = 0;
 
@@ -93,7 +96,8 @@ qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, doubl
             largest = fmax(largest, speed[i]);
     largest = largest > 0 ? largest : 1;
     for (size_t i = 0; i < m; i++) {
-        const double width = passage * latest * (speed[i] > 0 ? speed[i] : largest);
+        const double behind = fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surfaces[i].power)));
+        const double width = fmax(passage * latest, behind) * (speed[i] > 0 ? speed[i] : largest);
 
         if (surfaces[i].power > 0 && isnormal(width)) /* a power of two: rims are exact */
             surfaces[i].layer = exp2(ilogb(width));
