@@ -39,7 +39,7 @@ is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
     const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
     long whole;
 
-    return qdot_expr_kind(pool, exponent) == QDOT_NUM &&
+    return (qdot_expr_node(pool, exponent)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0 &&
            !qdot_expr_to_int(pool, exponent, &whole) &&
            qdot_tape_constant((qdot_pool *)pool, exponent, p) == QDOT_OK;
 }
