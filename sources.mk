@@ -616,6 +616,7 @@ library_sources = \
 	lib/tape/keymap.c \
 	lib/tape/logistic.c \
 	lib/tape/lower.c \
+	lib/tape/rounding.c \
 	lib/tape/shake.c \
 	lib/tape/tape.c
 
@@ -1131,6 +1132,7 @@ library_headers = \
 	lib/tape/keymap.h \
 	lib/tape/logistic.h \
 	lib/tape/operation.def \
+	lib/tape/rounding.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
@@ -1319,6 +1321,7 @@ unit_tests = \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
 	tests/tape/test_logistic \
+	tests/tape/test_rounding \
 	tests/tape/test_tape
 
 script_tests = \
@@ -1332,6 +1335,7 @@ script_tests = \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
 	tests/script/broken-powers.lag \
+	tests/script/cancelling-forces.sh \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
 	tests/script/chart-coordinates.lag \
@@ -2374,6 +2378,7 @@ test_files = \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
 	tests/script/broken-powers.out \
+	tests/script/cancelling-forces.out \
 	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \
