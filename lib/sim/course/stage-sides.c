@@ -239,7 +239,7 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
         rates_of(&d, side, a, bend);
         for (size_t i = 0; i < m; i++)
             speed[i] = fmax(fmax(speed[i], sqrt(2 * bend[i] * fabs(d.u[i]))), fabs(d.u[i]));
-        qdot_layers_measure(m, s->switches.surfaces.at, speed, latest, tol);
+        qdot_layers_measure(s->switches.pool, m, s->switches.surfaces.at, speed, latest, tol);
     }
     qdot_free(side);
     qdot_free(a);

@@ -10,6 +10,7 @@
 #include "sim/run/run-report.h"
 #include "sim/run/run-start.h"
 #include "sim/run/scales.h"
+#include "sim/run/tighter-run.h"
 
 #include <math.h>
 #include <string.h>
@@ -590,14 +591,17 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
-/* The same, by a method for stiff scenes where `auto` finds one. */
+/* The same, by a method for stiff scenes where `auto` finds one, or under a tighter tolerance. */
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
     const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
 
     QDOT_TRY(make_decided(scene, request, out));
-    return request->digits ? QDOT_OK : qdot_run_change_over(scene, request, &by, out);
+    if (request->digits)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_change_over(scene, request, &by, out));
+    return qdot_run_tighten(scene, request, &by, out);
 }
 
 /* Make the run once more in the scales that it shows; it stays where that fails. */
