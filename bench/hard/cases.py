@@ -248,7 +248,7 @@ start x = 2 - 1e-9, y' = sqrt(1e-9/(2 - 1e-9))""", "20", {
     "x": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[0], "y": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[1]},
      ["dop853"])
 
-case("e10-heavy-and-light", """coord x, y
+case("e14-heavy-and-light", """coord x, y
 particle p mass 1e12 at x
 particle q mass 1 at y
 potential (x - y)^2/2
@@ -262,6 +262,8 @@ case("e12-on-the-separatrix", "coord x\nparticle p mass 1 at x\npotential x^4/4 
      {"x": lambda: m.sqrt(2) / m.cosh(10)}, tols=("1e-9", "1e-12"))
 case("e13-before-it-ends", "coord x\nparticle p mass 1 at x\npotential -x^4/2\nstart x = 1, x' = 1", "0.999",
      {"x": lambda: mpf(1000)}, ["dop853"])
+case("e10-separatrix", "coord a\nparticle p mass 1 at (sin(a), -cos(a))\ngravity (0, -1)\nstart a = 0, a' = 2", "25", {
+    "a": lambda: 4 * m.atan(m.exp(25)) - m.pi})
 
 # --- f: not smooth -----------------------------------------------------------------------------
 
@@ -309,24 +311,34 @@ force exp(-(t - 5)^2/(2*%s^2))/(%s*sqrt(2*pi)) on x
 start x = 0""" % (width, width), "10", {
         "x": (lambda width: lambda: m.exp(-mpf(width) ** 2 / 2) * m.sin(5))(width)})
 
-case("f9-step-of-1e-3", "coord x\nparticle p mass 1 at x\npotential tanh(1000*x - 300)/8\nstart x = 0, x' = 1", "2", {
+case("f14-step-of-1e-3", "coord x\nparticle p mass 1 at x\npotential tanh(1000*x - 300)/8\nstart x = 0, x' = 1", "2", {
     "x": lambda: mpf(3) / 10 + m.sqrt(mpf(1) / 2) * (mpf(17) / 10 - mpf(10) ** -3 * (
         m.quad(lambda u: 1 / m.sqrt(1 - (1 + m.tanh(u)) / 4) - 1, [-60, -20, -5, 0])
         + m.quad(lambda u: 1 / m.sqrt(1 - (1 + m.tanh(u)) / 4) - m.sqrt(2), [0, 5, 20, 60])))})
-case("f10-soft-wall", "coord x\nparticle p mass 1 at x\npotential exp(10000*(x - 1))\nstart x = 0, x' = 1", "2", {
+case("f15-soft-wall", "coord x\nparticle p mass 1 at x\npotential exp(10000*(x - 1))\nstart x = 0, x' = 1", "2", {
     "x": lambda: 1 - mpf(10) ** -4 * (m.log(2) + 2 * m.log(m.cosh((10000 - m.log(2)) / 2))),
     "x'": lambda: -m.tanh((10000 - m.log(2)) / 2)}, ["dop853", "bsimp"])
-case("f11-stick-and-release", """coord x
+case("f16-stick-and-release", """coord x
 particle p mass 1 at x
 force t/10 - sign(x')/2 on x
 start x = 0""", "8", {"x": lambda: mpf(27) / 60, "x'": lambda: mpf(9) / 20}, ["dop853"])
-case("f12-train-of-pulses", """coord x
+case("f17-train-of-pulses", """coord x
 particle p mass 1 at x
 force sum(exp(-1e10*(t - k)^2)*1e5/sqrt(pi), k, 1, 5) on x
 start x = 0""", "8", {"x": lambda: mpf(25), "x'": lambda: mpf(5)}, ["dop853"])
 case("f13-stiffer-on-one-side", "coord x\nparticle p mass 1 at x\npotential if(x > 0, x^2/2, 2*x^2)\nstart x = 1",
      "25", {"x": lambda: one_sided(25)},
      ["dop853", "bsimp"])
+for number, power, way in (("9", "1/2", "2/3"), ("10", "2/3", "3/4"), ("11", "9/10", "10/11")):
+    case("f%s-friction-to-the-%s" % (number, power.replace("/", "-")), """coord x
+particle p mass 1 at x
+force -abs(x')^(%s)*sign(x') on x
+start x = 0, x' = 1""" % power, "15", {"x": lambda way=way: mpf(way.split("/")[0]) / mpf(way.split("/")[1]), "x'": lambda: mpf(0)})
+case("f12-held-until-driven", """coord x
+particle p mass 1 at x
+force -sqrt(abs(x'))*sign(x') - sign(x')/2 + max(t - 3, 0)/4 on x
+start x = 0, x' = 1""", "4", {
+    "x": lambda: mpf(2) / 3 - m.log(3) / 4, "x'": lambda: mpf(0)}, ["dop853"])
 
 # --- g: constraints ----------------------------------------------------------------------------
 
@@ -417,10 +429,10 @@ case("i5-lorentzian", "coord x\nparticle p mass 1 at x\nforce 1e-6/pi/((t - 1)^2
 case("i6-beats", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce cos(1.001*t) on x\nstart x = 0", "3000",
      {"x": lambda: (m.cos(mpf("1.001") * 3000) - m.cos(3000)) / (1 - mpf("1.001") ** 2)})
 
-case("i7-airy", "coord x\nparticle p mass 1 at x\npotential t*x^2/2\nstart x = 1", "300", {
+case("i10-airy", "coord x\nparticle p mass 1 at x\npotential t*x^2/2\nstart x = 1", "300", {
     "x": lambda: (m.airyai(-300) * m.airybi(0, derivative=1) - m.airybi(-300) * m.airyai(0, derivative=1))
     / (m.airyai(0) * m.airybi(0, derivative=1) - m.airybi(0) * m.airyai(0, derivative=1))})
-case("i8-thirty-drives", """coord x
+case("i11-thirty-drives", """coord x
 particle p mass 1 at x
 force sum(cos(k*sqrt(k)*t), k, 1, 30) on x
 start x = 0""", "50", {"x": lambda: sum((1 - m.cos(k * m.sqrt(k) * 50)) / mpf(k) ** 3 for k in range(1, 31))})
@@ -428,6 +440,10 @@ case("i9-ever-faster", """coord x
 particle p mass 1 at x
 force 2*cos(1/(1.01 - t))/(1.01 - t)^3 - sin(1/(1.01 - t))/(1.01 - t)^4 on x
 start x = sin(1/1.01), x' = cos(1/1.01)/1.01^2""", "1", {"x": lambda: m.sin(100)})
+case("i7-root-of-time", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce sqrt(t) on x\nstart x = 0", "5", {
+    "x": lambda: mpf(4) / 15 * mpf(5) ** 2.5 * m.hyp1f2(1, mpf(7) / 4, mpf(9) / 4, -mpf(25) / 4)}, ["dop853"])
+case("i8-tenth-root-of-time", "coord x\nparticle p mass 1 at x\nforce t^(1/10) on x\nstart x = 0", "5", {
+    "x": lambda: mpf(5) ** (mpf(21) / 10) / (mpf(231) / 100)})
 
 # --- j: exotic forces --------------------------------------------------------------------------
 
@@ -449,7 +465,7 @@ case("j5-geodesic", "coord u, v > 0\nlagrangian (u'^2 + v'^2)/(2*v^2)\nstart u =
 case("j6-inverse-cube", "coord r > 0, f\nparticle p mass 1 at (r*cos(f), r*sin(f))\npotential 3/(2*r^2)\n"
      "start r = 1, f' = 1", "50", {"r": lambda: m.sqrt(1 + 4 * mpf(2500)), "f": lambda: m.atan(100) / 2})
 
-case("j7-hyperbolic-disc", "coord u, v\nlagrangian 2*(u'^2 + v'^2)/(1 - u^2 - v^2)^2\nstart u' = 1/2", "10",
+case("j12-hyperbolic-disc", "coord u, v\nlagrangian 2*(u'^2 + v'^2)/(1 - u^2 - v^2)^2\nstart u' = 1/2", "10",
      {"u": lambda: m.tanh(5)}, ["dop853"])
 case("j8-growing-mass", "coord x\nlagrangian exp(t/5)*(x'^2 - x^2)/2\nstart x = 1", "100", {
     "x": lambda: m.exp(-10) * (m.cos(m.sqrt(mpf("0.99")) * 100) + m.sin(m.sqrt(mpf("0.99")) * 100) / m.sqrt(mpf(99)))})
@@ -458,6 +474,10 @@ case("j9-cubic-drag", "coord x\nparticle p mass 1 at x\nforce -x'^3 on x\nstart 
 case("j10-of-first-order", "coord x, y\nlagrangian x'*y - (x^2 + y^2)/2\nstart x = 1", "20", {"x": lambda: m.cos(20)})
 case("j11-indefinite-mass", "coord x, y\nlagrangian x'*y' - x*y\nstart x = 1, y' = 1", "20",
      {"x": lambda: m.cos(20), "y": lambda: m.sin(20)})
+case("j7-far-exponentials", """coord x
+particle p mass 1 at x
+potential log(2 + exp(x)) + cosh(x)/(1 + cosh(x)^2)
+start x = 900, x' = -1""", "20", {"x": lambda: mpf(680)}, ["radau"])
 
 # --- k: events ---------------------------------------------------------------------------------
 

@@ -90,6 +90,11 @@ def kicked_by(width):
                    [5 + w * k for k in range(-14, 15)] + [mpf(10)])
 
 
+def slowing(k):
+    """x where x'' = -x'^(1 - 1/k) from x' = 1 comes to rest, by w = x'^(1/k), w' = -1/k"""
+    return numbers(lambda s, y: vector(y[1] ** k, L(-1) / k), [0, 1], k, component(0)) + [mpf(0)]
+
+
 def pendulum(start, g, t):
     return numbers(lambda s, y: vector(y[1], -L(g) * np.sin(y[0])), [start, 0], t, component(0))[0]
 
@@ -396,12 +401,13 @@ WAYS = {
     "e7-through-the-centre": (lambda: [fallen(1, 5)], KEEP),
     "e8-flyby-1e-8": (lambda: regularised(1, 1 - mpf(10) ** -8, 3), KEEP),
     "e9-nearly-straight": (lambda: [-x for x in regularised(1, 1 - mpf(10) ** -9, 20 + m.pi)], KEEP),
-    "e10-heavy-and-light": (lambda: exponential([[0, 0, 1, 0], [0, 0, 0, 1], [-mpf(10) ** -12, mpf(10) ** -12, 0, 0],
+    "e14-heavy-and-light": (lambda: exponential([[0, 0, 1, 0], [0, 0, 0, 1], [-mpf(10) ** -12, mpf(10) ** -12, 0, 0],
                                                  [1, -1, 0, 0]], [0, 1, 0, 0], 30)[:2], "1e-15"),
     "e11-nearly-equal": (lambda: exponential([[0, 0, 1, 0], [0, 0, 0, 1], [-1, "-1e-8", 0, 0], ["-1e-8", -1, 0, 0]],
                                              [1, 0, 0, 0], 1000)[:2], "1e-25"),
     "e12-on-the-separatrix": (lambda: numbers(lambda s, y: vector(y[1], y[0] - y[0] ** 3), [np.sqrt(L(2)), 0], 10, component(0)), "1e-13"),
     "e13-before-it-ends": (lambda: [1 / numbers(lambda s, y: vector(L(-1)), [1], L("0.999"), component(0))[0]], "1e-13"),
+    "e10-separatrix": (lambda: numbers(lambda s, y: vector(2 * np.cos(y[0] / 2)), [0], 25, component(0)), FINE),
     "f1-wedge": (zigzag, KEEP),
     "f2-slides-and-stays": (lambda: stepped(mpf(0), mpf(1), 2, [(mpf(2), -mpf(1) / 2)])[:1], KEEP),
     "f3-half-spring": (half_spring, KEEP),
@@ -410,15 +416,19 @@ WAYS = {
     "f6-fractional": (fractional, "1e-22"),
     "f7-kick-of-1e-8": (lambda: [kicked_by("1e-8")], KEEP),
     "f8-kick-of-1e-10": (lambda: [kicked_by("1e-10")], KEEP),
-    "f9-step-of-1e-3": (lambda: numbers(lambda s, y: vector(y[1], -125 / np.cosh(1000 * y[0] - 300) ** 2), [0, 1], 2,
+    "f14-step-of-1e-3": (lambda: numbers(lambda s, y: vector(y[1], -125 / np.cosh(1000 * y[0] - 300) ** 2), [0, 1], 2,
                                         component(0)), "1e-14"),
-    "f10-soft-wall": (lambda: numbers(lambda s, y: vector(y[1], -10000 * np.exp(10000 * (y[0] - 1))), [0, 1], 2,
+    "f15-soft-wall": (lambda: numbers(lambda s, y: vector(y[1], -10000 * np.exp(10000 * (y[0] - 1))), [0, 1], 2,
                                       component(0), component(1)), "1e-12"),
-    "f11-stick-and-release": (lambda: [duhamel(k, lambda s: s / 10 - mpf(1) / 2, [mpf(5), mpf(8)]) for k in (lambda s: s, lambda s: 1)], KEEP),
-    "f12-train-of-pulses": (lambda: [sum(duhamel(k, lambda s: mpf(10) ** 5 / m.sqrt(m.pi) * m.exp(-(mpf(10) ** 5 * (s - i)) ** 2),
+    "f16-stick-and-release": (lambda: [duhamel(k, lambda s: s / 10 - mpf(1) / 2, [mpf(5), mpf(8)]) for k in (lambda s: s, lambda s: 1)], KEEP),
+    "f17-train-of-pulses": (lambda: [sum(duhamel(k, lambda s: mpf(10) ** 5 / m.sqrt(m.pi) * m.exp(-(mpf(10) ** 5 * (s - i)) ** 2),
                                                  [i + mpf(z) / 10 ** 5 for z in range(-12, 13)] + [mpf(8)]) for i in range(1, 6))
                                      for k in (lambda s: s, lambda s: 1)], KEEP),
     "f13-stiffer-on-one-side": (lambda: [half_waves(25)], KEEP),
+    "f9-friction-to-the-1-2": (lambda: slowing(2), FINE),
+    "f10-friction-to-the-2-3": (lambda: slowing(3), FINE),
+    "f11-friction-to-the-9-10": (lambda: slowing(10), FINE),
+    "f12-held-until-driven": (lambda: [m.quad(lambda w: 2 * w ** 3 / (w + mpf(1) / 2), [0, 1]), mpf(0)], KEEP),
     "g1-pendulum": (lambda: (lambda a: [m.sin(a), -m.cos(a)])(pendulum(1, 4, 50)), FINE),
     "g2-great-circle": (lambda: numbers(sphere, [1, 0, 0, 0, L("0.6"), L("0.8")], 100, component(0), component(2)), "1e-14"),
     "g3-atwood": (lambda: (lambda x: [x[0], -x[1]])(stepped(mpf(0), mpf(0), 3, [(mpf(3), (3 - 2) * mpf(10) / (3 + 2))])), KEEP),
@@ -447,12 +457,14 @@ WAYS = {
                                        sorted([mpf(0), mpf(1), mpf(4)] + [1 + g * mpf(10) ** -k for k in range(1, 8) for g in (1, -1)]))],
                       KEEP),
     "i6-beats": (lambda: driven("1.001", 3000), KEEP),
-    "i7-airy": (lambda: numbers(lambda s, y: vector(y[1], -s * y[0]), [1, 0], 300, component(0)), "1e-13"),
-    "i8-thirty-drives": (lambda: numbers(lambda s, y: vector(y[1], sum(np.cos(k * np.sqrt(L(k)) * s) for k in range(1, 31))), [0, 0], 50,
+    "i10-airy": (lambda: numbers(lambda s, y: vector(y[1], -s * y[0]), [1, 0], 300, component(0)), "1e-13"),
+    "i11-thirty-drives": (lambda: numbers(lambda s, y: vector(y[1], sum(np.cos(k * np.sqrt(L(k)) * s) for k in range(1, 31))), [0, 0], 50,
                                          component(0)), "1e-13"),
     "i9-ever-faster": (lambda: numbers(lambda s, y: vector(y[1], 2 * np.cos(1 / (L("1.01") - s)) / (L("1.01") - s) ** 3
                                                            - np.sin(1 / (L("1.01") - s)) / (L("1.01") - s) ** 4),
                                        [np.sin(1 / L("1.01")), np.cos(1 / L("1.01")) / L("1.01") ** 2], 1, component(0)), "1e-13"),
+    "i7-root-of-time": (lambda: [m.quad(lambda u: 2 * m.sin(5 - u * u) * u * u, m.linspace(0, m.sqrt(5), 9))], KEEP),
+    "i8-tenth-root-of-time": (lambda: [m.quad(lambda u: 10 * (5 - u ** 10) * u ** 10, [0, mpf(5) ** (mpf(1) / 10)])], KEEP),
     "j1-relativistic": (lambda: numbers(lambda s, y: vector(y[1] / np.sqrt(1 + y[1] ** 2), L(1)), [0, 0], 100, component(0)),
                         FINE),
     "j2-cyclotron": (lambda: list(m.expm(matrix([[0, 0, 1, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 100, 1], [0, 0, -100, 0, 0],
@@ -464,13 +476,15 @@ WAYS = {
                                     [0, 1, 1, 0], 8, component(0), component(1)), FINE),
     "j6-inverse-cube": (lambda: (lambda p: [m.sqrt(p[0] ** 2 + p[1] ** 2), m.atan2(p[1], p[0])])(
         central(-3, 4, [1, 0, 0, 1], 50)), "1e-14"),
-    "j7-hyperbolic-disc": (lambda: numbers(lambda s, y: vector(y[1], -2 * y[0] * y[1] ** 2 / (1 - y[0] ** 2)), [0, L("0.5")], 10,
+    "j12-hyperbolic-disc": (lambda: numbers(lambda s, y: vector(y[1], -2 * y[0] * y[1] ** 2 / (1 - y[0] ** 2)), [0, L("0.5")], 10,
                                            component(0)), "1e-14"),
     "j8-growing-mass": (lambda: exponential([[0, 1], [-1, "-0.2"]], [1, 0], 100)[:1], KEEP),
     "j9-cubic-drag": (lambda: numbers(lambda s, y: vector(y[1], -y[1] ** 3), [0, 1], 1000, component(0), component(1)), "1e-14"),
     "j10-of-first-order": (lambda: exponential([[0, -1], [1, 0]], [1, 0], 20)[:1], KEEP),
     "j11-indefinite-mass": (lambda: oscillator(1, 1, 0, 20)[:1] + oscillator(1, 0, 1, 20)[:1], KEEP),
     "k1-bouncing": (lambda: slow_bounces("0.9", 15), KEEP),
+    "j7-far-exponentials": (lambda: numbers(lambda s, y: vector(y[1], -1 / (1 + 2 * np.exp(-y[0]))), [900, -1], 20, component(0)),
+                            FINE),
     "k2-graze": (lambda: oscillator(1, 1, 0, 20)[:1], KEEP),
     "k3-two-at-once": (lambda: [abs(1 - mpf(5)), abs(2 - 2 * mpf(5))], KEEP),
     "k4-kicked": (kicked, KEEP),
