@@ -102,7 +102,7 @@ qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
 static double
 beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
 {
-    if (qdot_layers_in_time(pool, surface)) /* times are exact */
+    if (surface->power < 1 || qdot_layers_in_time(pool, surface)) /* friction that holds; times are exact */
         return 0;
     return fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surface->power)));
 }

@@ -12,7 +12,7 @@
  *
  * So a layer is as thin as doubles of t can follow the motion through it, w = 2^-42 T U for times
  * up to T, where U is the larger of |u'| and sqrt(2 |u''| |u|) at the start and |u| there in a unit
- * of time. By series it is wider than the error of a step just behind its rim, where the power is too
+ * of time. By series it is, of powers above 1, wider than the error of a step just behind its rim, where the power is too
  * little for its coefficients to keep the step within their radius: u would seem to turn back to the rim.
  * That is w = 16 tol^(5/4) U, at most (tol/100)^(1/(1 + p)) U. What was left out is added up
  * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends.
