@@ -153,6 +153,13 @@ particle p mass 1 at (u + sin(u), 1 - cos(u))
 gravity (0, -1)
 start u = 2""", "2000", {"sin(u/2)": lambda: m.sin(1) * m.cos(1000)})
 
+case("b6-morse", "coord x\nparticle p mass 1 at x\npotential (1 - exp(-x))^2\nstart x = log(10)", "500",
+     {"x": lambda: m.log((1 + mpf("0.9") * m.cos(m.sqrt(mpf("0.38")) * 500)) / mpf("0.19"))}, ["dop853"])
+case("b7-calogero", "coord x > 0\nparticle p mass 1 at x\npotential x^2/2 + 1/(2*x^2)\nstart x = 3", "1000",
+     {"x": lambda: m.sqrt(mpf(41) / 9 + mpf(40) / 9 * m.cos(2000))}, ["dop853"])
+case("b8-steps-by-rounding", "coord x\nparticle p mass 1 at x\npotential x^2/2\nstart x = 1", "10000",
+     {"x": lambda: m.cos(10000)}, tols=("1e-6", "1e-9", "1e-11", "1e-12", "2e-13"))
+
 # --- c: chaos ----------------------------------------------------------------------------------
 
 case("c1-unequal-links", """coord a, b
@@ -197,6 +204,9 @@ particle p mass 1 at (u*v, (u^2 - v^2)/2)
 start u = 1, v = 1/1000, u' = -1, v' = 0""", "2", {
     "u*v": lambda: mpf(1) / 1000 - mpf(2) / 1000, "(u^2 - v^2)/2": lambda: (1 - mpf(10) ** -6) / 2 - 2})
 
+case("d7-tangent", "coord -pi/2 < u < pi/2\nparticle p mass 1 at tan(u)\npotential tan(u)^2/2\nstart u = 1.5", "100",
+     {"tan(u)": lambda: m.tan(mpf("1.5")) * m.cos(100)}, ["dop853"])
+
 # --- e: near-degenerate, far from 1 -------------------------------------------------------------
 
 case("e1-ellipse-0.9995", """coord x, y
@@ -238,6 +248,20 @@ start x = 2 - 1e-9, y' = sqrt(1e-9/(2 - 1e-9))""", "20", {
     "x": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[0], "y": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[1]},
      ["dop853"])
 
+case("e14-heavy-and-light", """coord x, y
+particle p mass 1e12 at x
+particle q mass 1 at y
+potential (x - y)^2/2
+start y = 1""", "30", {"x": lambda: (1 - m.cos(m.sqrt(1 + mpf(10) ** -12) * 30)) / (mpf(10) ** 12 + 1),
+                      "y": lambda: 1 - (1 - m.cos(m.sqrt(1 + mpf(10) ** -12) * 30)) / (1 + mpf(10) ** -12)})
+case("e11-nearly-equal", "coord x, y\nlagrangian (x'^2 + y'^2 - x^2 - y^2)/2 - 1e-8*x*y\nstart x = 1", "1000", {
+    name: (lambda sign: lambda: (m.cos(m.sqrt(1 + mpf(10) ** -8) * 1000)
+                                 + sign * m.cos(m.sqrt(1 - mpf(10) ** -8) * 1000)) / 2)(sign)
+    for name, sign in (("x", 1), ("y", -1))})
+case("e12-on-the-separatrix", "coord x\nparticle p mass 1 at x\npotential x^4/4 - x^2/2\nstart x = sqrt(2)", "10",
+     {"x": lambda: m.sqrt(2) / m.cosh(10)}, tols=("1e-9", "1e-12"))
+case("e13-before-it-ends", "coord x\nparticle p mass 1 at x\npotential -x^4/2\nstart x = 1, x' = 1", "0.999",
+     {"x": lambda: mpf(1000)}, ["dop853"])
 case("e10-separatrix", "coord a\nparticle p mass 1 at (sin(a), -cos(a))\ngravity (0, -1)\nstart a = 0, a' = 2", "25", {
     "a": lambda: 4 * m.atan(m.exp(25)) - m.pi})
 
@@ -250,6 +274,12 @@ def zigzag(t):
     n = int(m.floor((mpf(t) + q) / (2 * q)))
     s = mpf(t) - 2 * q * n
     return (-1) ** n * (1 - s * s / 2)
+
+
+def one_sided(t):
+    """x'' = -x where x > 0, -4x elsewhere, from x = 1 at rest"""
+    t = m.fmod(t + m.pi / 2, 3 * m.pi / 2)
+    return m.sin(t) if t < m.pi else -m.sin(2 * (t - m.pi)) / 2
 
 
 case("f1-wedge", "coord x\nparticle p mass 1 at x\npotential abs(x)\nstart x = 1", "50",
@@ -281,6 +311,24 @@ force exp(-(t - 5)^2/(2*%s^2))/(%s*sqrt(2*pi)) on x
 start x = 0""" % (width, width), "10", {
         "x": (lambda width: lambda: m.exp(-mpf(width) ** 2 / 2) * m.sin(5))(width)})
 
+case("f14-step-of-1e-3", "coord x\nparticle p mass 1 at x\npotential tanh(1000*x - 300)/8\nstart x = 0, x' = 1", "2", {
+    "x": lambda: mpf(3) / 10 + m.sqrt(mpf(1) / 2) * (mpf(17) / 10 - mpf(10) ** -3 * (
+        m.quad(lambda u: 1 / m.sqrt(1 - (1 + m.tanh(u)) / 4) - 1, [-60, -20, -5, 0])
+        + m.quad(lambda u: 1 / m.sqrt(1 - (1 + m.tanh(u)) / 4) - m.sqrt(2), [0, 5, 20, 60])))})
+case("f15-soft-wall", "coord x\nparticle p mass 1 at x\npotential exp(10000*(x - 1))\nstart x = 0, x' = 1", "2", {
+    "x": lambda: 1 - mpf(10) ** -4 * (m.log(2) + 2 * m.log(m.cosh((10000 - m.log(2)) / 2))),
+    "x'": lambda: -m.tanh((10000 - m.log(2)) / 2)}, ["dop853", "bsimp"])
+case("f16-stick-and-release", """coord x
+particle p mass 1 at x
+force t/10 - sign(x')/2 on x
+start x = 0""", "8", {"x": lambda: mpf(27) / 60, "x'": lambda: mpf(9) / 20}, ["dop853"])
+case("f17-train-of-pulses", """coord x
+particle p mass 1 at x
+force sum(exp(-1e10*(t - k)^2)*1e5/sqrt(pi), k, 1, 5) on x
+start x = 0""", "8", {"x": lambda: mpf(25), "x'": lambda: mpf(5)}, ["dop853"])
+case("f13-stiffer-on-one-side", "coord x\nparticle p mass 1 at x\npotential if(x > 0, x^2/2, 2*x^2)\nstart x = 1",
+     "25", {"x": lambda: one_sided(25)},
+     ["dop853", "bsimp"])
 for number, power, way in (("9", "1/2", "2/3"), ("10", "2/3", "3/4"), ("11", "9/10", "10/11")):
     case("f%s-friction-to-the-%s" % (number, power.replace("/", "-")), """coord x
 particle p mass 1 at x
@@ -320,6 +368,23 @@ constraint roll: x' + f' = 0
 force (3, 0) on disk
 start x = 0""", "10", {"x": lambda: mpf(100)})
 
+case("g6-cycloid", """coord x, y, u
+particle p mass 1 at (x, y)
+gravity (0, -1)
+constraint along: x = u + sin(u)
+constraint up: y = 1 - cos(u)
+start u = 2, x = 2 + sin(2), y = 1 - cos(2)""", "50", {"sin(u/2)": lambda: m.sin(1) * m.cos(25)})
+case("g7-blade-on-a-slope", """coord x, y, f
+body b mass 1 inertia 1 at (x, y) angle f
+constraint blade: x'*sin(f) = y'*cos(f)
+gravity (0, -1)
+start f' = 2""", "20", {"x": lambda: 5 + m.sin(80) / 16 - m.sin(40) / 4,
+                        "y": lambda: (1 - m.cos(80)) / 16 - (1 - m.cos(40)) / 4})
+case("g8-carried-circle", """coord x, y
+particle p mass 1 at (x, y)
+constraint circle: (x - t)^2 + y^2 = 1
+start x = 0, y = 1, x' = 1.7""", "10", {"x": lambda: 10 + m.sin(7), "y": lambda: m.cos(7)})
+
 # --- h: prescribed motions ---------------------------------------------------------------------
 
 case("h1-on-a-course", """coord x, y
@@ -341,6 +406,14 @@ particle p mass 1 at (x, y)
 constraint prog: x'' = -x
 start x = 1, y' = 1""", "20", {"x": lambda: m.cos(20), "y": lambda: mpf(20)})
 
+case("h5-driven-crank", """coord a, b, s
+particle p mass 1 at (cos(a), sin(a))
+particle q mass 1 at (s, 0)
+constraint along: cos(a) + 2*cos(b) = s
+constraint across: sin(a) = 2*sin(b)
+constraint drive: a = 5*t
+start a = 0, b = 0, s = 3, a' = 5""", "10", {"s": lambda: m.cos(50) + 2 * m.cos(m.asin(m.sin(50) / 2))})
+
 # --- i: driven ---------------------------------------------------------------------------------
 
 case("i1-resonance", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce cos(t) on x\nstart x = 0", "500",
@@ -356,6 +429,17 @@ case("i5-lorentzian", "coord x\nparticle p mass 1 at x\nforce 1e-6/pi/((t - 1)^2
 case("i6-beats", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce cos(1.001*t) on x\nstart x = 0", "3000",
      {"x": lambda: (m.cos(mpf("1.001") * 3000) - m.cos(3000)) / (1 - mpf("1.001") ** 2)})
 
+case("i10-airy", "coord x\nparticle p mass 1 at x\npotential t*x^2/2\nstart x = 1", "300", {
+    "x": lambda: (m.airyai(-300) * m.airybi(0, derivative=1) - m.airybi(-300) * m.airyai(0, derivative=1))
+    / (m.airyai(0) * m.airybi(0, derivative=1) - m.airybi(0) * m.airyai(0, derivative=1))})
+case("i11-thirty-drives", """coord x
+particle p mass 1 at x
+force sum(cos(k*sqrt(k)*t), k, 1, 30) on x
+start x = 0""", "50", {"x": lambda: sum((1 - m.cos(k * m.sqrt(k) * 50)) / mpf(k) ** 3 for k in range(1, 31))})
+case("i9-ever-faster", """coord x
+particle p mass 1 at x
+force 2*cos(1/(1.01 - t))/(1.01 - t)^3 - sin(1/(1.01 - t))/(1.01 - t)^4 on x
+start x = sin(1/1.01), x' = cos(1/1.01)/1.01^2""", "1", {"x": lambda: m.sin(100)})
 case("i7-root-of-time", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce sqrt(t) on x\nstart x = 0", "5", {
     "x": lambda: mpf(4) / 15 * mpf(5) ** 2.5 * m.hyp1f2(1, mpf(7) / 4, mpf(9) / 4, -mpf(25) / 4)}, ["dop853"])
 case("i8-tenth-root-of-time", "coord x\nparticle p mass 1 at x\nforce t^(1/10) on x\nstart x = 0", "5", {
@@ -381,6 +465,15 @@ case("j5-geodesic", "coord u, v > 0\nlagrangian (u'^2 + v'^2)/(2*v^2)\nstart u =
 case("j6-inverse-cube", "coord r > 0, f\nparticle p mass 1 at (r*cos(f), r*sin(f))\npotential 3/(2*r^2)\n"
      "start r = 1, f' = 1", "50", {"r": lambda: m.sqrt(1 + 4 * mpf(2500)), "f": lambda: m.atan(100) / 2})
 
+case("j12-hyperbolic-disc", "coord u, v\nlagrangian 2*(u'^2 + v'^2)/(1 - u^2 - v^2)^2\nstart u' = 1/2", "10",
+     {"u": lambda: m.tanh(5)}, ["dop853"])
+case("j8-growing-mass", "coord x\nlagrangian exp(t/5)*(x'^2 - x^2)/2\nstart x = 1", "100", {
+    "x": lambda: m.exp(-10) * (m.cos(m.sqrt(mpf("0.99")) * 100) + m.sin(m.sqrt(mpf("0.99")) * 100) / m.sqrt(mpf(99)))})
+case("j9-cubic-drag", "coord x\nparticle p mass 1 at x\nforce -x'^3 on x\nstart x' = 1", "1000",
+     {"x": lambda: m.sqrt(2001) - 1, "x'": lambda: 1 / m.sqrt(2001)}, ["bsimp"])
+case("j10-of-first-order", "coord x, y\nlagrangian x'*y - (x^2 + y^2)/2\nstart x = 1", "20", {"x": lambda: m.cos(20)})
+case("j11-indefinite-mass", "coord x, y\nlagrangian x'*y' - x*y\nstart x = 1, y' = 1", "20",
+     {"x": lambda: m.cos(20), "y": lambda: m.sin(20)})
 case("j7-far-exponentials", """coord x
 particle p mass 1 at x
 potential log(2 + exp(x)) + cosh(x)/(1 + cosh(x)^2)
@@ -422,6 +515,21 @@ particle p mass 1 at x
 start x = 0, x' = 1
 event kick: sin(pi*t) = 0 falling then x' = x'/2""", "19/2", {
     "x": lambda: sum(mpf(1) / 2 ** i * (2 if i else 1) for i in range(5)) + mpf(1) / 2 ** 5 / 2})
+
+case("k5-square-box", """coord x, y
+particle p mass 1 at (x, y)
+start x = 0.1, y = 0.2, x' = 1, y' = sqrt(2)
+event right: x = 1 rising then x' = -x'
+event left: x = 0 falling then x' = -x'
+event top: y = 1 rising then y' = -y'
+event bottom: y = 0 falling then y' = -y'""", "31", {
+    "x": lambda: m.asin(m.sin(m.pi * (mpf("31.1") - mpf(1) / 2))) / m.pi + mpf(1) / 2,
+    "y": lambda: m.asin(m.sin(m.pi * (mpf("0.2") + 31 * m.sqrt(2) - mpf(1) / 2))) / m.pi + mpf(1) / 2})
+case("k6-two-thousand-bounces", """coord y
+particle p mass 1 at y
+gravity -2
+start y = 1
+event hit: y = 0 falling then y' = -999/1000*y'""", "1000", {"y": lambda: bounces(1000, "0.999")})
 
 # --- l: scans ----------------------------------------------------------------------------------
 

@@ -311,13 +311,30 @@ def breathing():
     return [x * x + y * y, x * q - y * p]
 
 
-def bouncing():
-    """The times of the hits as a geometric sum."""
-    e = mpf("0.9")
-    n = int(m.floor(m.log(1 - (15 - 1) * (1 - e) / (2 * e)) / m.log(e)))
+def box(x, v, t):
+    """Between walls at 0 and 1, from wall to wall."""
+    x, v, t = mpf(x), mpf(v), mpf(t)
+    while True:
+        to = ((1 if v > 0 else 0) - x) / v
+        if to > t:
+            return x + v * t
+        x, v, t = mpf(1 if v > 0 else 0), -v, t - to
+
+
+def half_waves(t):
+    """Half oscillations: of pi/2 where x < 0, first, and of pi where x > 0."""
+    left, t = True, mpf(t) - m.pi / 2
+    while t > m.pi / (1 + left):
+        left, t = not left, t - m.pi / (1 + left)
+    return -m.sin(2 * t) / 2 if left else m.sin(t)
+
+
+def slow_bounces(e, t):
+    """Of 2 e^k s each, e the restitution, under gravity 2 from height 1."""
+    e = mpf(e)
+    n = int(m.floor(m.log(1 - (t - 1) * (1 - e) / (2 * e)) / m.log(e)))
     at, v = 1 + 2 * e * (1 - e ** n) / (1 - e), 2 * e ** (n + 1)
-    s = 15 - at
-    return [v * s - s * s]
+    return [v * (t - at) - (t - at) ** 2]
 
 
 def kicked():
@@ -355,6 +372,10 @@ WAYS = {
     "b3-ellipse": (lambda: regularised(1, "0.7", 3000), KEEP),
     "b4-quartic": (lambda: numbers(lambda s, y: vector(y[1], -y[0] ** 3), [1, 0], 2000, component(0)), "1e-11"),
     "b5-cycloid": (cycloid, "1e-13"),
+    "b6-morse": (lambda: numbers(lambda s, y: vector(y[1], -2 * np.exp(-y[0]) * (1 - np.exp(-y[0]))), [np.log(L(10)), 0], 500,
+                                 component(0)), "1e-12"),
+    "b7-calogero": (lambda: numbers(lambda s, y: vector(y[1], -y[0] + y[0] ** -3), [3, 0], 1000, component(0)), "1e-11"),
+    "b8-steps-by-rounding": (lambda: oscillator(1, 1, 0, 10000)[:1], KEEP),
     "c1-unequal-links": (lambda: numbers(links, [L("2.2"), -1, 0, 0], 4, links_energy), FINE),
     "c2-coupled-quartic": (lambda: numbers(quartic, [1, L("0.3"), 0, 1], 4, quartic_energy), FINE),
     "c3-spring-pendulum": (lambda: numbers(spring, [L("1.5") * np.sin(L("2.5")), -L("1.5") * np.cos(L("2.5")), 0, 0],
@@ -367,6 +388,7 @@ WAYS = {
     "d4-oscillator-in-polar": (lambda: oscillator(1, 1, 0, 30)[:1] + oscillator(1, 0, "0.001", 30)[:1], KEEP),
     "d5-great-circle": (lambda: numbers(sphere, [1, 0, 0, 0, L("1e-4"), -1], 10, component(2)), FINE),
     "d6-parabolic": (parabolic, KEEP),
+    "d7-tangent": (lambda: oscillator(1, m.tan(mpf("1.5")), 0, 100)[:1], KEEP),
     "e1-ellipse-0.9995": (lambda: regularised(1, "0.9995", 3), KEEP),
     "e2-nearly-upright": (upright, "1e-20"),
     "e3-molecule": (lambda: oscillator(m.sqrt(500 / mpf("1.6e-27")), "1e-11", 0, "1e-12")[:1], KEEP),
@@ -379,6 +401,12 @@ WAYS = {
     "e7-through-the-centre": (lambda: [fallen(1, 5)], KEEP),
     "e8-flyby-1e-8": (lambda: regularised(1, 1 - mpf(10) ** -8, 3), KEEP),
     "e9-nearly-straight": (lambda: [-x for x in regularised(1, 1 - mpf(10) ** -9, 20 + m.pi)], KEEP),
+    "e14-heavy-and-light": (lambda: exponential([[0, 0, 1, 0], [0, 0, 0, 1], [-mpf(10) ** -12, mpf(10) ** -12, 0, 0],
+                                                 [1, -1, 0, 0]], [0, 1, 0, 0], 30)[:2], "1e-15"),
+    "e11-nearly-equal": (lambda: exponential([[0, 0, 1, 0], [0, 0, 0, 1], [-1, "-1e-8", 0, 0], ["-1e-8", -1, 0, 0]],
+                                             [1, 0, 0, 0], 1000)[:2], "1e-25"),
+    "e12-on-the-separatrix": (lambda: numbers(lambda s, y: vector(y[1], y[0] - y[0] ** 3), [np.sqrt(L(2)), 0], 10, component(0)), "1e-13"),
+    "e13-before-it-ends": (lambda: [1 / numbers(lambda s, y: vector(L(-1)), [1], L("0.999"), component(0))[0]], "1e-13"),
     "e10-separatrix": (lambda: numbers(lambda s, y: vector(2 * np.cos(y[0] / 2)), [0], 25, component(0)), FINE),
     "f1-wedge": (zigzag, KEEP),
     "f2-slides-and-stays": (lambda: stepped(mpf(0), mpf(1), 2, [(mpf(2), -mpf(1) / 2)])[:1], KEEP),
@@ -388,6 +416,15 @@ WAYS = {
     "f6-fractional": (fractional, "1e-22"),
     "f7-kick-of-1e-8": (lambda: [kicked_by("1e-8")], KEEP),
     "f8-kick-of-1e-10": (lambda: [kicked_by("1e-10")], KEEP),
+    "f14-step-of-1e-3": (lambda: numbers(lambda s, y: vector(y[1], -125 / np.cosh(1000 * y[0] - 300) ** 2), [0, 1], 2,
+                                        component(0)), "1e-14"),
+    "f15-soft-wall": (lambda: numbers(lambda s, y: vector(y[1], -10000 * np.exp(10000 * (y[0] - 1))), [0, 1], 2,
+                                      component(0), component(1)), "1e-12"),
+    "f16-stick-and-release": (lambda: [duhamel(k, lambda s: s / 10 - mpf(1) / 2, [mpf(5), mpf(8)]) for k in (lambda s: s, lambda s: 1)], KEEP),
+    "f17-train-of-pulses": (lambda: [sum(duhamel(k, lambda s: mpf(10) ** 5 / m.sqrt(m.pi) * m.exp(-(mpf(10) ** 5 * (s - i)) ** 2),
+                                                 [i + mpf(z) / 10 ** 5 for z in range(-12, 13)] + [mpf(8)]) for i in range(1, 6))
+                                     for k in (lambda s: s, lambda s: 1)], KEEP),
+    "f13-stiffer-on-one-side": (lambda: [half_waves(25)], KEEP),
     "f9-friction-to-the-1-2": (lambda: slowing(2), FINE),
     "f10-friction-to-the-2-3": (lambda: slowing(3), FINE),
     "f11-friction-to-the-9-10": (lambda: slowing(10), FINE),
@@ -398,10 +435,17 @@ WAYS = {
     "g4-knife-edge": (lambda: numbers(lambda s, y: vector(np.cos(y[2]), np.sin(y[2]), L(2)), [0, 0, 0], 30,
                                       component(0), component(1)), "1e-14"),
     "g5-rolling": (lambda: stepped(mpf(0), mpf(0), 10, [(mpf(10), 3 / (1 + mpf(1) / 2))])[:1], KEEP),
+    "g6-cycloid": (lambda: numbers(lambda s, y: vector(y[1], np.sin(y[0]) * (y[1] ** 2 - 1) / (2 + 2 * np.cos(y[0]))), [2, 0], 50,
+                                   lambda y: np.sin(y[0] / 2)), "1e-14"),
+    "g7-blade-on-a-slope": (lambda: numbers(lambda s, y: vector(y[2] * np.cos(2 * s), y[2] * np.sin(2 * s), -np.sin(2 * s)), [0, 0, 0], 20,
+                                            component(0), component(1)), "1e-14"),
+    "g8-carried-circle": (lambda: (lambda x: [10 + x[1], x[0]])(numbers(lambda s, y: vector(-L("0.7") * y[1], L("0.7") * y[0]), [1, 0], 10,
+                                                                        component(0), component(1))), "1e-15"),
     "h1-on-a-course": (lambda: oscillator(3, 0, 3, 10)[:1] + stepped(mpf(0), mpf(0), 10, [(mpf(10), -1)])[:1], KEEP),
     "h2-bead-on-spoke": (lambda: (lambda s: [s * m.cos(5), s * m.sin(5)])(exponential([[0, 1], [1, 0]], [1, 0], 5)[0]), KEEP),
     "h3-breathing-circle": (breathing, KEEP),
     "h4-given-acceleration": (lambda: oscillator(1, 1, 0, 20)[:1] + stepped(mpf(0), mpf(1), 20, [(mpf(20), 0)])[:1], KEEP),
+    "h5-driven-crank": (lambda: [m.cos(50) + m.sqrt(4 - m.sin(50) ** 2)], KEEP),
     "i1-resonance": (lambda: [duhamel(m.sin, m.cos, m.linspace(0, 500, 501))], KEEP),
     "i2-fast": (lambda: driven(30000, 3), KEEP),
     "i3-chirp": (lambda: [duhamel(lambda s: s, lambda s: 2 * m.cos(s * s) - 4 * s * s * m.sin(s * s),
@@ -413,6 +457,12 @@ WAYS = {
                                        sorted([mpf(0), mpf(1), mpf(4)] + [1 + g * mpf(10) ** -k for k in range(1, 8) for g in (1, -1)]))],
                       KEEP),
     "i6-beats": (lambda: driven("1.001", 3000), KEEP),
+    "i10-airy": (lambda: numbers(lambda s, y: vector(y[1], -s * y[0]), [1, 0], 300, component(0)), "1e-13"),
+    "i11-thirty-drives": (lambda: numbers(lambda s, y: vector(y[1], sum(np.cos(k * np.sqrt(L(k)) * s) for k in range(1, 31))), [0, 0], 50,
+                                         component(0)), "1e-13"),
+    "i9-ever-faster": (lambda: numbers(lambda s, y: vector(y[1], 2 * np.cos(1 / (L("1.01") - s)) / (L("1.01") - s) ** 3
+                                                           - np.sin(1 / (L("1.01") - s)) / (L("1.01") - s) ** 4),
+                                       [np.sin(1 / L("1.01")), np.cos(1 / L("1.01")) / L("1.01") ** 2], 1, component(0)), "1e-13"),
     "i7-root-of-time": (lambda: [m.quad(lambda u: 2 * m.sin(5 - u * u) * u * u, m.linspace(0, m.sqrt(5), 9))], KEEP),
     "i8-tenth-root-of-time": (lambda: [m.quad(lambda u: 10 * (5 - u ** 10) * u ** 10, [0, mpf(5) ** (mpf(1) / 10)])], KEEP),
     "j1-relativistic": (lambda: numbers(lambda s, y: vector(y[1] / np.sqrt(1 + y[1] ** 2), L(1)), [0, 0], 100, component(0)),
@@ -426,12 +476,20 @@ WAYS = {
                                     [0, 1, 1, 0], 8, component(0), component(1)), FINE),
     "j6-inverse-cube": (lambda: (lambda p: [m.sqrt(p[0] ** 2 + p[1] ** 2), m.atan2(p[1], p[0])])(
         central(-3, 4, [1, 0, 0, 1], 50)), "1e-14"),
+    "j12-hyperbolic-disc": (lambda: numbers(lambda s, y: vector(y[1], -2 * y[0] * y[1] ** 2 / (1 - y[0] ** 2)), [0, L("0.5")], 10,
+                                           component(0)), "1e-14"),
+    "j8-growing-mass": (lambda: exponential([[0, 1], [-1, "-0.2"]], [1, 0], 100)[:1], KEEP),
+    "j9-cubic-drag": (lambda: numbers(lambda s, y: vector(y[1], -y[1] ** 3), [0, 1], 1000, component(0), component(1)), "1e-14"),
+    "j10-of-first-order": (lambda: exponential([[0, -1], [1, 0]], [1, 0], 20)[:1], KEEP),
+    "j11-indefinite-mass": (lambda: oscillator(1, 1, 0, 20)[:1] + oscillator(1, 0, 1, 20)[:1], KEEP),
+    "k1-bouncing": (lambda: slow_bounces("0.9", 15), KEEP),
     "j7-far-exponentials": (lambda: numbers(lambda s, y: vector(y[1], -1 / (1 + 2 * np.exp(-y[0]))), [900, -1], 20, component(0)),
                             FINE),
-    "k1-bouncing": (bouncing, KEEP),
     "k2-graze": (lambda: oscillator(1, 1, 0, 20)[:1], KEEP),
     "k3-two-at-once": (lambda: [abs(1 - mpf(5)), abs(2 - 2 * mpf(5))], KEEP),
     "k4-kicked": (kicked, KEEP),
+    "k5-square-box": (lambda: [box("0.1", 1, 31), box("0.2", m.sqrt(2), 31)], KEEP),
+    "k6-two-thousand-bounces": (lambda: slow_bounces("0.999", 1000), KEEP),
     "l1-amplitudes": (lambda: [pendulum(3, 1, 100), pendulum(L("0.1"), 1, 100), pendulum(1, 1, 100)], "1e-12"),
     "l2-damping": (lambda: [damped(100, 20), damped(1, 20)], KEEP),
 }

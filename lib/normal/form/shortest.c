@@ -1,6 +1,8 @@
 /* shortest.c -- makes forms of equal value and keeps the one with the fewest operations. */
 #include "normal/form/shortest.h"
 
+#include <math.h>
+
 #include "base/memory.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
@@ -234,6 +236,29 @@ forgive(qdot_pool *pool)
         qdot_pool_fail(pool);
 }
 
+/* Whether e holds the exponential of a number, one `below` 0 too, that no double holds, or nearly so: a
+ * common factor of Gaussian pulses exp(-30*(t - k)^2) leaves such ones of k. */
+static bool
+is_beyond_doubles(qdot_pool *pool, qdot_expr e, bool below)
+{
+    static const double most = 300;
+    bool beyond = false;
+    qdot_walk walk;
+
+    if (e == QDOT_NIL || qdot_walk_begin(pool, e, &walk) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < walk.n && !beyond; i++)
+        if (qdot_expr_kind(pool, walk.at[i]) == QDOT_FUN
+            && qdot_expr_node(pool, walk.at[i])->op == QDOT_EXP) {
+            const fmpq *x = qdot_expr_rational(pool, qdot_expr_arg(pool, walk.at[i], 0));
+
+            beyond = x && (below || fmpq_sgn(x) > 0)
+                     && fabs(fmpz_get_d(fmpq_numref(x))) > most * fmpz_get_d(fmpq_denref(x));
+        }
+    qdot_walk_end(&walk);
+    return beyond;
+}
+
 struct request {
     const qdot_facts *facts;
     int64_t work; /* the budget of one scalar */
@@ -300,6 +325,9 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     forgive(pool);
     if (qdot_pool_failed(pool))
         return QDOT_NIL;
+    if ((qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) && is_beyond_doubles(pool, s.best, true)
+        && !is_beyond_doubles(pool, e, false))
+        return e;
     keep(&s, e);
     return s.best;
 }

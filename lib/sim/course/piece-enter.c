@@ -196,8 +196,8 @@ level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, doub
     return level;
 }
 
-/* Whether a surface between two modes depends on the state; at one that depends on time alone T -
- * V may jump. */
+/* Whether a surface between two modes depends on the state: at one that depends on time alone T -
+ * V may jump, and at the rim of a layer (sim/model/layer.h) it does so by what the layer leaves out. */
 static bool
 is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 {
@@ -205,6 +205,7 @@ is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 
     for (size_t i = 0; i < s->surfaces.n; i++)
         if (a->side[i] != b->side[i]
+            && !(s->surfaces.at[i].layer > 0 && (a->side[i] == 0) != (b->side[i] == 0))
             && (qdot_expr_node(s->pool, s->surfaces.at[i].u)->holds
                 & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)))
             return true;

@@ -210,7 +210,7 @@ rates_of(decision *d, const long *side, const double *w, double *rate)
 }
 
 qdot_status
-qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest)
+qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, double tol)
 {
     const size_t m = qdot_switches_own(&s->switches);
     bool some = false;
@@ -239,7 +239,7 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest)
         rates_of(&d, side, a, bend);
         for (size_t i = 0; i < m; i++)
             speed[i] = fmax(fmax(speed[i], sqrt(2 * bend[i] * fabs(d.u[i]))), fabs(d.u[i]));
-        qdot_layers_measure(m, s->switches.surfaces.at, speed, latest);
+        qdot_layers_measure(s->switches.pool, m, s->switches.surfaces.at, speed, latest, tol);
     }
     qdot_free(side);
     qdot_free(a);

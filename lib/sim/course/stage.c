@@ -461,6 +461,15 @@ start_numbers(const qdot_stage *s, double *t, double *y)
     return QDOT_OK;
 }
 
+/* The tolerance under which series in doubles may go beyond their radius; 0: there are none. */
+static double
+tol_of_series(const qdot_run_request *r)
+{
+    const qdot_ode_method *method = qdot_ode_method_find(r->method); /* NULL: auto */
+
+    return r->digits == 0 && (!method || method->series) ? r->tol : 0;
+}
+
 /* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
  * first, once. */
 static qdot_status
@@ -473,7 +482,7 @@ start_sides(qdot_stage *s, const double *settled, long *side)
     if (status == QDOT_OK && s->modes.n == 0)
         status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && s->modes.n == 0)
-        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)));
+        status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)), tol_of_series(s->request));
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
     if (status == QDOT_OK)

@@ -104,9 +104,9 @@ QDOT_MUST_CHECK qdot_status qdot_stage_sides(const qdot_stage *stage, double t,
                                              const double *y, const long *old, long *side);
 
 /* Measure the layers of the surfaces (sim/model/layer.h) at the start of a run that looks at times
- * up to `latest`. Allocates. */
+ * up to `latest` under tol (0: as thin as possible). Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_stage_layers(qdot_stage *stage, double t, const double *y,
-                                              double latest);
+                                              double latest, double tol);
 
 /* Make stage->pucks, and measure the radii of the pucks at the start of a run that looks at times up to
  * `latest`. Allocates. */

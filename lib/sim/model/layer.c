@@ -9,6 +9,9 @@
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
 static const double passage = 0x1p-42;
 
+/* How much wider than the error of a step a layer is; what it may leave out, of the tolerance. */
+static const double beyond_steps = 16, share = 0.01;
+
 /* Whether `base` is 0 where u is 0: u, -u, |u|, or the larger or smaller of u and 0; *only: the sign of u
  * on the one side where it is not 0, else 0. */
 static bool
@@ -39,7 +42,7 @@ qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, doub
     const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
     long whole;
 
-    return qdot_expr_kind(pool, exponent) == QDOT_NUM &&
+    return (qdot_expr_node(pool, exponent)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0 &&
            !qdot_expr_to_int(pool, exponent, &whole) &&
            qdot_tape_constant((qdot_pool *)pool, exponent, p) == QDOT_OK;
 }
@@ -87,8 +90,26 @@ qdot_layers_find(qdot_pool *pool, size_t m, qdot_surface *surfaces, size_t n,
     return qdot_pool_check(pool);
 }
 
+bool
+qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
+{
+    return (qdot_expr_node(pool, surface->u)->holds
+            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           == 0;
+}
+
+/* What a layer is at least as wide as, over U. */
+static double
+beyond_series(const qdot_pool *pool, const qdot_surface *surface, double tol)
+{
+    if (surface->power < 1 || qdot_layers_in_time(pool, surface)) /* friction that holds; times are exact */
+        return 0;
+    return fmin(beyond_steps * pow(tol, 1.25), pow(share * tol, 1 / (1 + surface->power)));
+}
+
 void
-qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest)
+qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, const double *speed, double latest,
+                    double tol)
 {
     double largest = 0;
 
@@ -97,7 +118,7 @@ qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, doubl
             largest = fmax(largest, speed[i]);
     largest = largest > 0 ? largest : 1;
     for (size_t i = 0; i < m; i++) {
-        const double width = passage * latest * (speed[i] > 0 ? speed[i] : largest);
+        const double width = fmax(passage * latest, beyond_series(pool, &surfaces[i], tol)) * (speed[i] > 0 ? speed[i] : largest);
 
         if (surfaces[i].power > 0 && isnormal(width)) /* a power of two: rims are exact */
             surfaces[i].layer = exp2(ilogb(width));
@@ -108,14 +129,6 @@ qdot_expr
 qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface)
 {
     return qdot_pow_int(pool, qdot_expr_int(pool, 2), ilogb(surface->layer));
-}
-
-bool
-qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
-{
-    return (qdot_expr_node(pool, surface->u)->holds
-            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
-           == 0;
 }
 
 /* A share that ends above 1 by so much: a motion held for so long is behind by its square, and beyond that

@@ -12,8 +12,10 @@
  *
  * So a layer is as thin as doubles of t can follow the motion through it, w = 2^-42 T U for times
  * up to T, where U is the larger of |u'| and sqrt(2 |u''| |u|) at the start and |u| there in a unit
- * of time. What was left out is added up (sim/course/piece-layer.c): a run that leaves out more
- * than its tolerance ends.
+ * of time. By series it is, of powers above 1, wider than the error of a step just behind its rim, where the power is too
+ * little for its coefficients to keep the step within their radius: u would seem to turn back to the rim.
+ * That is w = 16 tol^(5/4) U, at most (tol/100)^(1/(1 + p)) U. What was left out is added up
+ * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends.
  *
  * Tests  tests/script/broken-powers.lag, tests/bad/broken-power-*.lag
  */
@@ -33,7 +35,8 @@ QDOT_MUST_CHECK qdot_status qdot_layers_find(qdot_pool *pool, size_t m, qdot_sur
 
 /* Set `layer` of these surfaces [m], for times up to `latest` and speed [m], U above: where it is 0,
  * the largest of them, or 1. */
-void qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, double latest);
+void qdot_layers_measure(const qdot_pool *pool, size_t m, qdot_surface *surfaces, const double *speed,
+                         double latest, double tol);
 
 /* The layer of a surface as an exact number. */
 qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
