@@ -582,6 +582,7 @@ library_sources = \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
 	lib/sim/study/floquet.c \
+	lib/sim/study/flow.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
@@ -598,6 +599,7 @@ library_sources = \
 	lib/sim/study/rest-continuation.c \
 	lib/sim/study/rest-path.c \
 	lib/sim/study/shooting.c \
+	lib/sim/study/tangents.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -1095,6 +1097,7 @@ library_headers = \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
 	lib/sim/study/floquet.h \
+	lib/sim/study/flow.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
@@ -1111,6 +1114,7 @@ library_headers = \
 	lib/sim/study/rest-continuation.h \
 	lib/sim/study/rest-path.h \
 	lib/sim/study/shooting.h \
+	lib/sim/study/tangents.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \

@@ -34,6 +34,7 @@ typedef struct {
     double *size;          /* [width] of each; of p its range */
     qdot_vec(qdot_branch) branches;
     qdot_vec(qdot_bifurcation) bifurcations;
+    bool conserved; /* of orbits: their energy is */
     bool interrupted;
 } qdot_continuation;
 

@@ -395,7 +395,7 @@ judge(qdot_floquet *x)
 }
 
 qdot_status
-qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
+qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
                 qdot_floquet *x)
 {
     x->n = k;
@@ -405,7 +405,7 @@ qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool
         return QDOT_ENOMEM;
     x->im = x->re + k;
     x->error = x->im + k;
-    QDOT_TRY(qdot_eigenvalues(k, B, E, x->re, x->im, x->error));
+    QDOT_TRY(qdot_eigenvalues_of_product(K, k, B, E, x->re, x->im, x->error));
     state_trivial(x, trivial);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     judge(x);
@@ -424,7 +424,7 @@ find_multipliers(orbit *o, qdot_floquet *x)
     if (status == QDOT_OK)
         status = qdot_floquet_rests(o->scene, o->run, &rests);
     if (status == QDOT_OK)
-        status = qdot_floquet_of(k, B, B + k * k, driven || rests ? 0 : free ? 2 : 1, !free, x);
+        status = qdot_floquet_of(1, k, B, B + k * k, driven || rests ? 0 : free ? 2 : 1, !free, x);
     qdot_free(B);
     return status;
 }

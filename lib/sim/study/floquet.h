@@ -41,9 +41,9 @@ QDOT_MUST_CHECK qdot_status qdot_floquet_return(qdot_scene *scene, qdot_run *run
 QDOT_MUST_CHECK qdot_status qdot_floquet_find(qdot_scene *scene, qdot_run *run,
                                               const qdot_run_request *request,
                                               qdot_floquet *x);
-/* The multipliers of B [k x k] with errors E, of which so many are 1 whatever the orbit; asymptotic: as above. Clear *x in
- * any case. */
-QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t k, const double *B, const double *E,
+/* The multipliers of the product of B [K x k x k] with errors E, of which so many are 1 whatever the orbit; asymptotic:
+ * as above. Clear *x in any case. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t K, size_t k, const double *B, const double *E,
                                             size_t trivial, bool asymptotic, qdot_floquet *x);
 /* Whether only a Lagrangian and holonomic constraints move the scene. */
 bool qdot_floquet_is_lagrangian(const qdot_scene *scene);

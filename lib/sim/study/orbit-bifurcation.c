@@ -26,7 +26,8 @@ typedef struct {
     qdot_path_point point;    /* the latest point; */
     qdot_bifurcation_kind kind;
     bool krein, apart;      /* apart: no crossing, two curves come near each other */
-    double *re, *im, *none; /* [2n], [4 n^2] zero errors */
+    double *re, *im, *off; /* [c] multipliers */
+    double *none;          /* [K x c x c] zero errors */
     double angle, beside;   /* of the pair nearest to the unit circle, and how far it is from it */
 } search;
 
@@ -74,7 +75,7 @@ of_pairs(search *f, size_t z)
 static double
 test(search *f)
 {
-    const size_t z = 2 * f->x->n;
+    const size_t z = f->x->c;
     double product = 1;
 
     if (f->kind == QDOT_FOLD)
@@ -82,7 +83,7 @@ test(search *f)
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
     if (!qdot_orbit_path_monodromy(f->x, f->point.y) ||
-        qdot_eigenvalues(z, f->x->B, f->none, f->re, f->im, f->none + z * z) != QDOT_OK)
+        qdot_eigenvalues_of_product(f->x->K, z, f->x->B, f->none, f->re, f->im, f->off) != QDOT_OK)
         return NAN;
     if (f->kind == QDOT_DOUBLING) {
         for (size_t k = 0; k < z; k++)
@@ -505,18 +506,19 @@ qdot_orbit_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot
                             double *other, qdot_bifurcation_answer *answer)
 {
     qdot_orbit_path *x = user;
-    const size_t z = 2 * x->n;
+    const size_t z = x->c;
     search f = {.x = x, .a = in->a, .kind = out->kind == QDOT_HOPF ? QDOT_TORUS : out->kind, .krein = !x->asymptotic};
     bool found = false;
     qdot_status status = qdot_path_point_begin(&x->path, &f.point);
 
     *answer = QDOT_BIFURCATION_NONE;
-    f.re = qdot_calloc(3 * z + z * z, sizeof *f.re);
+    f.re = qdot_calloc(3 * z + x->K * z * z, sizeof *f.re);
     if (f.re == NULL)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK) {
         f.im = f.re + z;
-        f.none = f.im + z;
+        f.off = f.im + z;
+        f.none = f.off + z;
         status = find(&f, in, out, other, &found);
     }
     if (status == QDOT_OK && found)

@@ -54,7 +54,7 @@ check_range(const qdot_orbit_path *x, double p)
 qdot_status
 qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
 {
-    const size_t most = qdot_orbit_path_width(of->scene->coordinates.n, true);
+    const size_t most = qdot_orbit_path_most(of->scene->coordinates.n);
     qdot_orbit_path x = {0};
     qdot_branch_search s = {
         .x = &x.path, .find = qdot_orbit_bifurcation_find, .user = &x, .all = out};
@@ -71,6 +71,7 @@ qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
         out->n = x.path.n;
         out->coordinates = x.path.coordinates;
         out->width = x.path.width;
+        out->conserved = x.conserved;
         status = qdot_continuation_follow(&s, y, 1);
     }
     status = qdot_continuation_finish(&s, status);
