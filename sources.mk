@@ -1311,6 +1311,7 @@ unit_tests = \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
+	tests/sim/test_tangents \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
 	tests/sim/test_variation \

@@ -7,8 +7,8 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 
-/* Below, a motion has not grown: one segment does. How much it may grow in one of them. */
-static const double tame = 30, growth_of_one = 2;
+/* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an orbit. */
+static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
 
 static qdot_status
 make_room(qdot_flow *x)
@@ -119,10 +119,16 @@ qdot_flow_growth(const qdot_flow *x, size_t look, const double *size)
     return most;
 }
 
-/* If all grows on as fast as until it was no longer tame: the run of a guess may have left for places where nothing does. */
+static size_t
+segments_for(double growth, double each, double looks)
+{
+    return isfinite(growth) ? (size_t)fmin(QDOT_FLOW_MOST_SEGMENTS, ceil(log(growth) / log(each) * looks))
+                            : QDOT_FLOW_MOST_SEGMENTS;
+}
+
 qdot_status
-qdot_flow_count_segments(qdot_flow *x, const double *state, const double *parameters, double t0, double T,
-                         double *size, size_t *segments)
+qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *parameters, double t0, double T,
+                            double *size, size_t *segments)
 {
     const qdot_status status = qdot_flow_go(x, state, parameters, t0, t0 + T, QDOT_FLOW_LOOKS);
     double most = 0;
@@ -137,12 +143,28 @@ qdot_flow_count_segments(qdot_flow *x, const double *state, const double *parame
         qdot_flow_sizes(x, state, at, size);
         most = qdot_flow_growth(x, at, size);
     }
-    if (most < tame)
-        *segments = 1;
-    else if (isfinite(most))
-        *segments = (size_t)fmin(QDOT_FLOW_MOST_SEGMENTS,
-                                 ceil(log(most) / log(growth_of_one) * QDOT_FLOW_LOOKS / (double)at));
+    *segments = most < tame ? 1 : segments_for(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *parameters, double t0, double T,
+                            size_t *segments)
+{
+    const qdot_status status = qdot_flow_go(x, state, parameters, t0, t0 + T, QDOT_FLOW_LOOKS);
+    double *size = qdot_malloc(x->z * sizeof *size), most = 0;
+
+    *segments = QDOT_FLOW_MOST_SEGMENTS;
+    if (size == NULL)
+        return QDOT_ENOMEM;
+    if (status == QDOT_OK) {
+        qdot_flow_sizes(x, state, QDOT_FLOW_LOOKS - 1, size);
+        for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
+            most = fmax(most, qdot_flow_growth(x, at, size));
+        *segments = most < tame ? 1 : segments_for(most, growth_of_orbit, 1);
+    }
+    qdot_free(size);
+    return qdot_grave(status);
 }
 
 /* --- orbits ---------------------------------------------------------------------------------- */

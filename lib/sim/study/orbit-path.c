@@ -351,15 +351,13 @@ make_flows(qdot_orbit_path *x)
     const qdot_orbit_of *of = &x->of;
     const qdot_expr h = x->conserved ? qdot_mech_energy(of->scene) : QDOT_NIL;
     const size_t p = of->family == QDOT_ORBIT_PARAMETER;
-    double *size = qdot_calloc(2 * x->n, sizeof *size);
-    qdot_status status = size ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t k = 0; k < 2 && status == QDOT_OK; k++)
-        status = qdot_flow_begin(&x->flow[k], of->scene, of->request, p, &of->parameter, h, tolerance[k], of->T);
-    if (status == QDOT_OK)
-        status = qdot_flow_count_segments(&x->flow[0], of->z, &of->p, x->t0, of->T, size, &x->K);
-    qdot_free(size);
-    return status;
+    for (size_t k = 0; k < 2; k++)
+        QDOT_TRY(qdot_flow_begin(&x->flow[k], of->scene, of->request, p, &of->parameter, h, tolerance[k], of->T));
+    x->K = of->segments;
+    if (x->K > 0)
+        return QDOT_OK;
+    return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, &x->K);
 }
 
 /* The states between segments, one after the other from the start. */

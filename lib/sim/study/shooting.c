@@ -338,7 +338,7 @@ qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
     status = begin(&x, r->u);
     if (status == QDOT_OK)
-        status = qdot_flow_count_segments(&x.flow, x.first, x.p, x.t0, x.first[x.z], x.size, &x.K);
+        status = qdot_flow_segments_of_guess(&x.flow, x.first, x.p, x.t0, x.first[x.z], x.size, &x.K);
     if (status == QDOT_OK)
         r->segments = x.K;
     for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1; k++)

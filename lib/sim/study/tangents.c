@@ -13,8 +13,8 @@
 
 /* Singular values below so much of the largest count as 0. */
 static const double least_singular = 1e-9;
-/* Of a state: a change that is rounding. */
-static const double rounding = 4e-15;
+/* Of a state: a change that is rounding. Of what F is made of: what is left of it. */
+static const double rounding = 4e-15, left = 1e-9;
 enum { STEPS = 30 };
 
 /* F as expressions [rows]. */
@@ -145,6 +145,22 @@ subtract(const qdot_tangents *x, const double *b, double *to)
     return most;
 }
 
+/* Whether F is 0 as far as its slopes know it: where they vanish, no change says so. */
+static bool
+is_met(const qdot_tangents *x)
+{
+    for (size_t k = 0; k < x->rows; k++) {
+        const double *const slopes = x->out + x->rows + k * (x->z + x->p);
+        double size = left;
+
+        for (size_t i = 0; i < x->z; i++)
+            size += fabs(slopes[i]) * fmax(1, fabs(x->in[i]));
+        if (!(fabs(x->out[k]) <= left * size))
+            return false;
+    }
+    return true;
+}
+
 qdot_status
 qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, double *state)
 {
@@ -159,7 +175,7 @@ qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, doubl
         if (!decompose(x))
             break;
         moved = subtract(x, x->out, state);
-        if (moved <= rounding || (moved < 1e-12 && moved >= before))
+        if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && is_met(x))
             return QDOT_OK;
     }
     return qdot_fail(QDOT_EFAILED, "a state cannot be brought onto the constraints");
