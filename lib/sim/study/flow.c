@@ -10,6 +10,11 @@
 /* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an orbit. */
 static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
 
+const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
+
+/* What both flows round alike, relative to a slope. */
+static const double alike = 1e-14;
+
 static qdot_status
 make_room(qdot_flow *x)
 {
@@ -228,4 +233,11 @@ qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, si
         along(x, *c, N + k * zz, N + (k + 1) % o->K * zz, ends + k * step, B + k * *c * *c);
     qdot_free(N);
     return status;
+}
+
+void
+qdot_flow_errors(size_t count, const double *B, double *coarse)
+{
+    for (size_t i = 0; i < count; i++)
+        coarse[i] = fabs(coarse[i] - B[i]) + alike * fabs(B[i]);
 }

@@ -10,6 +10,9 @@
 
 #include "sim/study/response.h"
 
+/* Local errors of two flows; how far numbers of one are from those of the other is an error. */
+extern const double qdot_flow_tolerance[2];
+
 enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
 
 /* Not to be copied: the response borrows from it. */
@@ -67,5 +70,7 @@ QDOT_MUST_CHECK qdot_status qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *
  * the segments, ends + k step [z x (z + p)]. Without constraints c = z, and B are these. */
 QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
                                               size_t *c, double *B);
+/* Errors of B [count] by a flow, from the same by the other: coarse becomes these. */
+void qdot_flow_errors(size_t count, const double *B, double *coarse);
 
 #endif

@@ -15,14 +15,8 @@
 #include "tape/constant.h"
 #include "tape/derivative.h"
 
-/* Local errors of the two runs. */
-static const double tolerance[2] = {1e-13, 1e-11};
-
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
-
-/* What both runs round alike, relative to a slope. */
-static const double alike = 1e-14;
 
 /* Of the places: changes below are rounding. */
 static const double still = 1e-12;
@@ -243,8 +237,7 @@ fill_both(qdot_orbit_path *x, const double *y)
     qdot_orbit_path_ask(x, by);
     if (!good || !qdot_orbit_path_monodromy(x, y))
         return false;
-    for (size_t i = 0; i < count; i++)
-        x->E[i] = fabs(x->E[i] - x->B[i]) + alike * fabs(x->B[i]);
+    qdot_flow_errors(count, x->B, x->E);
     return true;
 }
 
@@ -353,7 +346,8 @@ make_flows(qdot_orbit_path *x)
     const size_t p = of->family == QDOT_ORBIT_PARAMETER;
 
     for (size_t k = 0; k < 2; k++)
-        QDOT_TRY(qdot_flow_begin(&x->flow[k], of->scene, of->request, p, &of->parameter, h, tolerance[k], of->T));
+        QDOT_TRY(qdot_flow_begin(&x->flow[k], of->scene, of->request, p, &of->parameter, h, qdot_flow_tolerance[k],
+                                 of->T));
     x->K = of->segments;
     if (x->K > 0)
         return QDOT_OK;

@@ -400,6 +400,12 @@ qdot_response_at(qdot_response *r, const double *u, double *values, double *slop
     return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
 }
 
+const qdot_variation *
+qdot_response_variation(const qdot_response *r)
+{
+    return &r->variation;
+}
+
 qdot_status
 qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count, double *basis)
 {

@@ -13,7 +13,7 @@
 #ifndef QDOT_SIM_RESPONSE_H
 #define QDOT_SIM_RESPONSE_H
 
-#include "sim/model/request.h"
+#include "sim/study/variation.h"
 
 typedef struct {
     qdot_scene *scene;
@@ -48,6 +48,8 @@ QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u,
                                               double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
+/* The variational scene, where it is made once; from the first run on. */
+const qdot_variation *qdot_response_variation(const qdot_response *r);
 /* Of a whole state: orthonormal tangents [count x 2n] of the constraints where a run at u, t would begin. */
 QDOT_MUST_CHECK qdot_status qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count,
                                                    double *basis);

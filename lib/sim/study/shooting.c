@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "expr/walk.h"
 #include "num/zero.h"
-#include "sim/study/flow.h"
 #include "tape/constant.h"
 #include "tape/derivative.h"
 
@@ -40,6 +39,7 @@ typedef struct {
     double *first, *slope; /* [z + 1], [(z + 1) x k] start and period, their slopes */
     double *size;          /* [z] how far each state goes */
     double *best;          /* [2k] the orbit nearest to the guess, its errors */
+    double *states;        /* [K x z] its states; NULL: not wanted */
     size_t rank;           /* of u there */
 } shooting;
 
@@ -243,10 +243,14 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
         const double this = distance(x, r.u, u);
 
         embed(x, r.u);
-        if (this < *off && moves(x, r.u + x->k)) {
+        if (this < *off && (x->of->followed || moves(x, r.u + x->k))) {
             *off = this;
             memcpy(best, r.u, x->k * sizeof *best);
             memcpy(best + x->k, r.error, x->k * sizeof *best);
+            if (x->states != NULL) {
+                memcpy(x->states, x->first, x->z * sizeof *states);
+                memcpy(x->states + x->z, r.u + x->k, (x->K - 1) * x->z * sizeof *states);
+            }
             x->rank = r.rank > all - x->k ? r.rank - (all - x->k) : 0;
         }
     }
@@ -334,14 +338,17 @@ qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
 
     r->found = false;
     r->segments = 1;
-    if (of->scene->constraints.n > 0)
+    if (of->scene->constraints.n > 0 && memcmp(of->start, of->unknowns, x.z * sizeof *of->start) != 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
     status = begin(&x, r->u);
     if (status == QDOT_OK)
         status = qdot_flow_segments_of_guess(&x.flow, x.first, x.p, x.t0, x.first[x.z], x.size, &x.K);
     if (status == QDOT_OK)
-        r->segments = x.K;
-    for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1; k++)
+        r->segments = x.K = of->segments > 0 ? of->segments : x.K;
+    x.states = r->states;
+    if (status == QDOT_OK && of->followed)
+        status = search(&x, INFINITY, r->u, x.best, &off);
+    for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1 && !of->followed; k++)
         status = search(&x, trusted[k], r->u, x.best, &off);
     r->found = status == QDOT_OK && off < near;
     if (r->found) {
