@@ -446,6 +446,19 @@ library_sources = \
 	lib/sim/bind/bind.c \
 	lib/sim/bind/polynomial-bounds.c \
 	lib/sim/bind/pulses.c \
+	lib/sim/branches/bifurcation.c \
+	lib/sim/branches/branch.c \
+	lib/sim/branches/continuation.c \
+	lib/sim/branches/newton.c \
+	lib/sim/branches/orbit-bifurcation.c \
+	lib/sim/branches/orbit-continuation.c \
+	lib/sim/branches/orbit-path.c \
+	lib/sim/branches/orbit-period.c \
+	lib/sim/branches/orbit-shape.c \
+	lib/sim/branches/path.c \
+	lib/sim/branches/rest-bifurcation.c \
+	lib/sim/branches/rest-continuation.c \
+	lib/sim/branches/rest-path.c \
 	lib/sim/course/course.c \
 	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
@@ -471,6 +484,13 @@ library_sources = \
 	lib/sim/digits/precise-start.c \
 	lib/sim/digits/precise-value.c \
 	lib/sim/digits/precise.c \
+	lib/sim/ensemble/doubts.c \
+	lib/sim/ensemble/fit.c \
+	lib/sim/ensemble/momenta.c \
+	lib/sim/ensemble/path.c \
+	lib/sim/ensemble/runs.c \
+	lib/sim/ensemble/seen.c \
+	lib/sim/ensemble/steps.c \
 	lib/sim/error/companion.c \
 	lib/sim/error/constraint-corners.c \
 	lib/sim/error/distance.c \
@@ -569,16 +589,6 @@ library_sources = \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
-	lib/sim/study/bifurcation.c \
-	lib/sim/study/branch.c \
-	lib/sim/study/continuation.c \
-	lib/sim/study/ensemble-doubts.c \
-	lib/sim/study/ensemble-fit.c \
-	lib/sim/study/ensemble-momenta.c \
-	lib/sim/study/ensemble-path.c \
-	lib/sim/study/ensemble-runs.c \
-	lib/sim/study/ensemble-seen.c \
-	lib/sim/study/ensemble-steps.c \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
 	lib/sim/study/floquet.c \
@@ -586,18 +596,8 @@ library_sources = \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
-	lib/sim/study/newton.c \
-	lib/sim/study/orbit-bifurcation.c \
-	lib/sim/study/orbit-continuation.c \
-	lib/sim/study/orbit-path.c \
-	lib/sim/study/orbit-period.c \
-	lib/sim/study/orbit-shape.c \
-	lib/sim/study/path.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
-	lib/sim/study/rest-bifurcation.c \
-	lib/sim/study/rest-continuation.c \
-	lib/sim/study/rest-path.c \
 	lib/sim/study/shooting.c \
 	lib/sim/study/tangents.c \
 	lib/sim/study/variation-parts.c \
@@ -983,6 +983,19 @@ library_headers = \
 	lib/sim/bind/bind.h \
 	lib/sim/bind/polynomial-bounds.h \
 	lib/sim/bind/pulses.h \
+	lib/sim/branches/bifurcation.h \
+	lib/sim/branches/branch.h \
+	lib/sim/branches/continuation.h \
+	lib/sim/branches/newton.h \
+	lib/sim/branches/orbit-bifurcation.h \
+	lib/sim/branches/orbit-continuation.h \
+	lib/sim/branches/orbit-path.h \
+	lib/sim/branches/orbit-period.h \
+	lib/sim/branches/orbit-shape.h \
+	lib/sim/branches/path.h \
+	lib/sim/branches/rest-bifurcation.h \
+	lib/sim/branches/rest-continuation.h \
+	lib/sim/branches/rest-path.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/crossings.h \
@@ -999,6 +1012,13 @@ library_headers = \
 	lib/sim/digits/precise-pair.h \
 	lib/sim/digits/precise-start.h \
 	lib/sim/digits/precise.h \
+	lib/sim/ensemble/doubts.h \
+	lib/sim/ensemble/ensemble.h \
+	lib/sim/ensemble/fit.h \
+	lib/sim/ensemble/momenta.h \
+	lib/sim/ensemble/parts.h \
+	lib/sim/ensemble/path.h \
+	lib/sim/ensemble/steps.h \
 	lib/sim/error/companion.h \
 	lib/sim/error/constraint-corners.h \
 	lib/sim/error/distance.h \
@@ -1084,16 +1104,6 @@ library_headers = \
 	lib/sim/run/slides.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
-	lib/sim/study/bifurcation.h \
-	lib/sim/study/branch.h \
-	lib/sim/study/continuation.h \
-	lib/sim/study/ensemble-doubts.h \
-	lib/sim/study/ensemble-fit.h \
-	lib/sim/study/ensemble-momenta.h \
-	lib/sim/study/ensemble-parts.h \
-	lib/sim/study/ensemble-path.h \
-	lib/sim/study/ensemble-steps.h \
-	lib/sim/study/ensemble.h \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
 	lib/sim/study/floquet.h \
@@ -1101,18 +1111,8 @@ library_headers = \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
-	lib/sim/study/newton.h \
-	lib/sim/study/orbit-bifurcation.h \
-	lib/sim/study/orbit-continuation.h \
-	lib/sim/study/orbit-path.h \
-	lib/sim/study/orbit-period.h \
-	lib/sim/study/orbit-shape.h \
-	lib/sim/study/path.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
-	lib/sim/study/rest-bifurcation.h \
-	lib/sim/study/rest-continuation.h \
-	lib/sim/study/rest-path.h \
 	lib/sim/study/shooting.h \
 	lib/sim/study/tangents.h \
 	lib/sim/study/variation-parts.h \

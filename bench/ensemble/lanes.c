@@ -21,7 +21,7 @@
 #include "ode/integrate.h"
 #include "sim/bind/bind.h"
 #include "sim/plan/plan.h"
-#include "sim/study/ensemble.h"
+#include "sim/ensemble/ensemble.h"
 
 enum { MOST = 16, MOST_ROUNDS = 99 };
 

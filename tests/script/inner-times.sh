@@ -33,3 +33,24 @@ for name in double-pendulum-5 duffing foucault henon-heiles rotating-hoop swingi
     } | qdot -q --json -
 done >answers
 awk -f inner-times.awk answers
+echo '# behind a jump, which a companion does a little earlier: not the height of that jump'
+{
+    cat <<'END'
+coord x
+particle p mass 1 at x
+potential x^2/2
+force 1000*(1 - x^2)*x' on x
+start x = 2
+run 0..2000 tol 1e-10 as exact
+run 0..2000 tol 1e-4 method msbdf as r4
+run 0..2000 tol 1e-5 method msbdf as r5
+END
+    for t in 1650 1700 1750 1900 2000; do
+        printf 'value(%s.x, '"$t"')\n' exact r4 r5
+    done
+} | qdot -q --json - | awk -F'[:,]' '
+    /"name":"value/ { name = $4; value = $7; error = $9 + 0 }
+    /"name":"value\(exact/ { want = value; next }
+    /"name":"value/ { d = value > want ? value - want : want - value; n++
+        if (d > 3*error || error > 0.1) print }
+    END { print n, "values" }'

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "sim/study/ensemble.h"
+#include "sim/ensemble/ensemble.h"
 
 /* A run of the same scene alone: its end, and the error it states. */
 static inline double

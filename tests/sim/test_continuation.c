@@ -5,7 +5,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
-#include "sim/study/rest-continuation.h"
+#include "sim/branches/rest-continuation.h"
 
 static qdot_expr
 bind(void *user, qdot_expr e)

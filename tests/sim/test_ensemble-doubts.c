@@ -2,7 +2,7 @@
 #include "scenes.h"
 
 #include "sim/plan/plan.h"
-#include "sim/study/ensemble-doubts.h"
+#include "sim/ensemble/doubts.h"
 
 /* From x = -3 at a speed of 7. */
 static qdot_status

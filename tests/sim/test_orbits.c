@@ -5,8 +5,8 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
-#include "sim/study/orbit-continuation.h"
-#include "sim/study/orbit-period.h"
+#include "sim/branches/orbit-continuation.h"
+#include "sim/branches/orbit-period.h"
 
 static void
 near(double is, double truth, double within)

@@ -9,7 +9,7 @@
 #include "lang/session/measured.h"
 #include "sim/model/substitute.h"
 #include "sim/model/term-magnitude.h"
-#include "sim/study/ensemble-path.h"
+#include "sim/ensemble/path.h"
 #include "tape/constant.h"
 
 /* A member with more steps is run alone, which may do better. */

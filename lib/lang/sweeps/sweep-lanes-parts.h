@@ -5,8 +5,8 @@
 #define QDOT_LANG_SWEEP_LANES_PARTS_H
 
 #include "lang/sweeps/sweep-lanes.h"
-#include "sim/study/ensemble-fit.h"
-#include "sim/study/ensemble.h"
+#include "sim/ensemble/fit.h"
+#include "sim/ensemble/ensemble.h"
 #include "tape/tape.h"
 
 typedef struct {

@@ -8,7 +8,7 @@
 #include "lang/session/bind.h"
 #include "lang/sweeps/sweep-lanes-parts.h"
 #include "ode/companion.h"
-#include "sim/study/ensemble-path.h"
+#include "sim/ensemble/path.h"
 
 /* A member with a larger error is run alone, which may do better. */
 static const double largest_error = 1e-4;

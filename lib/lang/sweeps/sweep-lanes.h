@@ -1,9 +1,9 @@
-/* sweep-lanes.h -- the members of a sweep side by side (sim/study/ensemble.h), where they can be.
+/* sweep-lanes.h -- the members of a sweep side by side (sim/ensemble/ensemble.h), where they can be.
  *
- * They can if the scene fits (sim/study/ensemble-fit.h), what is swept is coordinates, velocities and
+ * They can if the scene fits (sim/ensemble/fit.h), what is swept is coordinates, velocities and
  * parameters that nothing but the equations and the start reads, and each column is an expression at
  * the end of the run, NAME[K], the time of an event, or contains value, max, min, mean or drift and no
- * event: these are read as of a run alone (sim/study/ensemble-path.h). A member that turns out to need more than lanes
+ * event: these are read as of a run alone (sim/ensemble/path.h). A member that turns out to need more than lanes
  * do - it fails, comes near a bound, touches an event, lives far below 1, loses its digits - is run
  * alone. So which way a row is made depends on the statement and the member only, and its bits on no
  * other member.

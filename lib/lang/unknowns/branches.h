@@ -12,7 +12,7 @@
 #define QDOT_LANG_BRANCHES_H
 
 #include "lang/session/session.h"
-#include "sim/study/continuation.h"
+#include "sim/branches/continuation.h"
 
 /* What was followed. */
 typedef struct {

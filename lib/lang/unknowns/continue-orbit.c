@@ -9,7 +9,7 @@
 #include "lang/slopes/orbit-run.h"
 #include "lang/slopes/slopes.h"
 #include "lang/session/bind.h"
-#include "sim/study/orbit-continuation.h"
+#include "sim/branches/orbit-continuation.h"
 
 enum { NAME_ROOM = 120 };
 

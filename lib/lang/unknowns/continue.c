@@ -11,7 +11,7 @@
 #include "lang/session/bind.h"
 #include "lang/slopes/slopes.h"
 #include "lang/unknowns/continue-parts.h"
-#include "sim/study/rest-continuation.h"
+#include "sim/branches/rest-continuation.h"
 
 /* --- reading ---------------------------------------------------------------------------- */
 

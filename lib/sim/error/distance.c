@@ -15,6 +15,9 @@ static const double least_turn = 0.5;
 /* A component that moves by fewer tolerances turns by rounding alone. */
 static const double tolerances = 1000;
 
+/* From one point to the next, of what the companions are off by: they jump apart. */
+static const double jump = 32;
+
 /* Points that tell what the companions are off by near t. */
 enum { near_points = 3 };
 
@@ -208,12 +211,14 @@ is_unlike(const qdot_trajectory *tr, size_t k, size_t other)
     return !(0.5 <= ratio && ratio <= 2);
 }
 
-/* Whether what the companions were off by k points away from t had died out by then, beside what
- * they are off by near it: the first few points. Beside a zero of order n they differ as k^n. */
+/* Whether what the companions were off by k points away from t tells nothing of t, beside what they are
+ * off by near it, the first few points, and between: it has died out by then, or one of them jumped
+ * there a little before the other. Beside a zero of order n they differ as k^n, from each point to the next
+ * beyond the first few at most by (4/3)^n. */
 static bool
-has_died_out(double at, double near, int k)
+is_apart(double at, double near, double between, int k)
 {
-    return k >= near_points && at > near * pow(2 * k, 3);
+    return k >= near_points && (at > near * pow(2 * k, 3) || at > jump * between);
 }
 
 /* The largest over the points on one side, from k on in steps of `way`, into out [m];
@@ -239,7 +244,7 @@ look_aside(qdot_distance *d, size_t piece, size_t k, int way, double *out, bool 
         for (size_t j = 0; j < d->m; j++) {
             if (points < near_points)
                 near[j] = fmax(near[j], at[j]);
-            if (!has_died_out(at[j], near[j], points))
+            if (!is_apart(at[j], near[j], out[j], points))
                 out[j] = fmax(out[j], at[j]);
         }
         if (k == (way > 0 ? last : first)) {

@@ -15,7 +15,8 @@
  * W_- and W_+ contain t and the stored points of its piece before and after it, until the path of
  * the state, each component in units of its span over the run, has turned by 1/2: a twelfth of a
  * period of an oscillation. Left out is what has died out by t: c(s) k >= 3 points away that is (2 k)^3
- * times all that is nearer than the third. At most QDOT_DISTANCE_POINTS; a window cut short by the end of the
+ * times all that is nearer than the third; and what lies in a jump that one of them does a little before the
+ * other: it is 32 times all that is nearer. At most QDOT_DISTANCE_POINTS; a window cut short by the end of the
  * piece is not used if the other is whole.
  *
  * Tests  tests/script/inner-times.sh

@@ -33,7 +33,7 @@ typedef struct {
     int digits;                   /* > 0: so many correct digits at the end (sim/digits/precise.h);
                                      tol is not used */
     bool lanes;                   /* for an ensemble, eight members at a time
-                                     (sim/study/ensemble.h) */
+                                     (sim/ensemble/ensemble.h) */
     bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h) */
     bool no_drifts;               /* what is conserved is not looked for: nobody reads the report */
 } qdot_run_request;

@@ -1,0 +1,69 @@
+/* bifurcation.h -- points at which curves turn, cross, or lose their stability, and how they are asked for.
+ *
+ * At a crossing with null vectors v1, v2 of F_y, psi of F_y^T, the directions alpha v1 + beta v2 of the two
+ * curves solve
+ *
+ *     c11 alpha^2 + 2 c12 alpha beta + c22 beta^2 = 0,   c_ij = v_i.(psi.F)_yy v_j.
+ *
+ * It is a pitchfork if one of them has no part along p, else transcritical.
+ *
+ * Source  Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), 5.
+ * Tests   tests/sim/test_continuation.c, test_orbits.c
+ */
+#ifndef QDOT_SIM_BIFURCATION_H
+#define QDOT_SIM_BIFURCATION_H
+
+#include "sim/branches/path.h"
+
+typedef enum {
+    QDOT_FOLD,
+    QDOT_PITCHFORK,
+    QDOT_TRANSCRITICAL,
+    QDOT_HOPF,
+    QDOT_COLLISION,   /* of frequencies */
+    QDOT_DOUBLING,    /* of orbits: a multiplier passes -1 */
+    QDOT_TORUS,       /* of orbits: a pair of multipliers passes the unit circle */
+    QDOT_KREIN,       /* of orbits: two pairs on the unit circle meet and leave it */
+    QDOT_NOT_SIMPLE   /* something else: located between two points, not followed */
+} qdot_bifurcation_kind;
+
+/* "fold", "pitchfork", "transcritical", "hopf", "hamiltonian hopf", "period doubling", "torus", "krein collision",
+ * "degenerate". */
+const char *qdot_bifurcation_name(qdot_bifurcation_kind kind);
+
+typedef struct {
+    qdot_bifurcation_kind kind;
+    double *y, *error;                 /* [width] in one block, owned */
+    double frequency, frequency_error; /* of Hopf points; of a torus, the angle of its multipliers */
+} qdot_bifurcation;
+
+/* It lies between the points at `from` and `to` from a along a->t. */
+typedef struct {
+    const qdot_path_point *a;
+    double from, to;
+} qdot_bifurcation_bracket;
+
+typedef enum {
+    QDOT_BIFURCATION_NONE,  /* there is no regular one */
+    QDOT_BIFURCATION_FOUND,
+    QDOT_BIFURCATION_APART, /* two curves come near each other there, and do not cross */
+    QDOT_BIFURCATION_REST   /* an orbit shrinks to a place at rest at out->y, and comes back as its mirror image */
+} qdot_bifurcation_answer;
+
+/* Locate that of the kind out->kind, near out->y: out->y, out->error; PITCHFORK stands for any crossing, whose
+ * kind and other curve's direction (`other` [n + 1]) are found, HOPF for an oscillation that begins. */
+typedef qdot_status qdot_bifurcation_finder(void *user, const qdot_bifurcation_bracket *in,
+                                            qdot_bifurcation *out, double *other,
+                                            qdot_bifurcation_answer *answer);
+
+/* The right singular vectors of the `count` least singular values of A [rows * columns], rows >= columns:
+ * out [count * columns], the least first. */
+QDOT_MUST_CHECK qdot_status qdot_null_vectors(size_t rows, size_t columns, const double *A,
+                                              size_t count, double *out);
+/* Which crossing it is, from c11, c12, c22 and v1, v2, and the direction of the curve that does not go along t;
+ * parts along p below `upright` of a unit direction are none. v [4 (n + 1)]: v1, v2, room. False: it is no crossing
+ * of two curves. */
+bool qdot_bifurcation_cross(const qdot_path *x, const double *c, double *v, const double *t,
+                            double upright, qdot_bifurcation_kind *kind, double *other);
+
+#endif

@@ -1,0 +1,481 @@
+/* branch.c -- steps along a curve; what lies between two points of it. */
+#include "sim/branches/branch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/interrupt.h"
+
+/* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
+static const double first_step = 2e-3, far_away = 100;
+/* Tangents of neighbouring points turn by less than acos of this. */
+static const double straight = 0.99;
+/* A chord is at most so much longer than its step along the tangent: another curve is further off. */
+static const double longer = 1.02;
+/* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
+static const double turned = 0.5, grown = 1;
+/* Bifurcations of one kind within this distance are one. */
+static const double together = 1e-6;
+/* Of a unit direction: below, it has no part along p. */
+static const double upright = 1e-9;
+/* Halvings of the way to what is not located otherwise. */
+enum { MOST_POINTS = 20000, UNKNOWN = 20 };
+
+qdot_status
+qdot_branch_add(const qdot_path *x, qdot_branch *branch, const double *y,
+                qdot_stability stability, size_t mark)
+{
+    const size_t m = x->width;
+
+    if (branch->n == branch->room) {
+        const size_t room = branch->room == 0 ? 64 : 2 * branch->room;
+        double *all = qdot_realloc(branch->y, room * m * sizeof *all);
+        qdot_stability *verdicts;
+        size_t *marks;
+
+        branch->y = all ? all : branch->y;
+        verdicts = qdot_realloc(branch->stability, room * sizeof *verdicts);
+        branch->stability = verdicts ? verdicts : branch->stability;
+        marks = qdot_realloc(branch->mark, room * sizeof *marks);
+        branch->mark = marks ? marks : branch->mark;
+        if (!all || !verdicts || !marks)
+            return QDOT_ENOMEM;
+        branch->room = room;
+    }
+    memcpy(branch->y + branch->n * m, y, m * sizeof *y);
+    branch->stability[branch->n] = stability;
+    branch->mark[branch->n++] = mark;
+    return QDOT_OK;
+}
+
+void
+qdot_branch_clear(qdot_branch *branch)
+{
+    qdot_free(branch->y);
+    qdot_free(branch->stability);
+    qdot_free(branch->mark);
+    *branch = (qdot_branch){0};
+}
+
+/* --- bifurcations between two points ---------------------------------------------------------- */
+
+/* Whether a curve has no part along p there. Where it has none all the way it does not turn. */
+static bool
+is_upright(const qdot_path *x, const qdot_path_point *a)
+{
+    return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < upright;
+}
+
+/* Whether b lies on a's side of a bifurcation of that kind. */
+static bool
+is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a,
+          const qdot_path_point *b)
+{
+    if (kind == QDOT_FOLD)
+        return a->t[x->n] * b->t[x->n] > 0 || (is_upright(x, a) && is_upright(x, b));
+    if (kind == QDOT_DOUBLING)
+        return a->flip == b->flip;
+    return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);
+}
+
+/* Halve the way from a to in->to; out->y in the middle of what is left, out->error how long that is. */
+static qdot_status
+enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
+{
+    const qdot_path_point *a = in->a;
+    const double unit = 1 / sqrt(x->weight[x->n]);
+    qdot_path_point middle;
+    double from = 0, s = in->to;
+    qdot_status status = qdot_path_point_begin(x, &middle);
+    int steps;
+
+    memcpy(out->y, a->y, x->width * sizeof *out->y);
+    for (int k = 0; k < halvings && status == QDOT_OK; k++) {
+        const double half = (from + s) / 2;
+
+        if (!qdot_path_go(x, a, half, &middle, &steps) ||
+            qdot_path_product(x, a->t, middle.t) < straight)
+            break; /* too near to a crossing, or over to the other curve */
+        memcpy(out->y, middle.y, x->width * sizeof *out->y);
+        if (out->kind == QDOT_HOPF || out->kind == QDOT_DOUBLING)
+            status = x->judge(x, &middle);
+        if (is_before(x, out->kind, a, &middle))
+            from = half;
+        else
+            s = half;
+    }
+    in->from = from;
+    in->to = s;
+    for (size_t i = 0; i <= x->n; i++)
+        out->error[i] = (s - from + 1e-8) * (i < x->n ? 1 / sqrt(x->weight[i]) : unit);
+    for (size_t i = x->n + 1; i < x->width; i++)
+        out->error[i] = NAN;
+    qdot_path_point_end(&middle);
+    return status;
+}
+
+/* The index of the same bifurcation; their number: it is new. */
+static size_t
+index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
+{
+    size_t i = 0;
+
+    while (i < s->all->bifurcations.n &&
+           (s->all->bifurcations.at[i].kind != b->kind ||
+            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) > together))
+        i++;
+    return i;
+}
+
+/* Angles as -pi < q <= pi, as far as is known. */
+static void
+turn_back(const qdot_path *x, double *y)
+{
+    for (size_t i = 0; i < x->n; i++)
+        if (x->angle[i])
+            y[i] -= 2 * M_PI * ceil((y[i] - M_PI) / (2 * M_PI) - 1e-9);
+}
+
+/* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */
+static qdot_status
+keep(qdot_branch_search *s, qdot_bifurcation *b, double *other, size_t *mark)
+{
+    const size_t i = index_of(s, b);
+    qdot_status status = QDOT_OK;
+
+    *mark = i + 1;
+    if (i < s->all->bifurcations.n) {
+        qdot_free(b->y);
+        qdot_free(other);
+        return QDOT_OK;
+    }
+    status = qdot_vec_push(&s->all->bifurcations, *b);
+    if (status != QDOT_OK)
+        qdot_free(b->y);
+    if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
+        status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
+        other = status == QDOT_OK ? NULL : other;
+    }
+    qdot_free(other);
+    return status;
+}
+
+/* It is a point of the branch, too. Takes b->y and other. */
+static qdot_status
+mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    qdot_path_point here = {0};
+    size_t mark;
+    qdot_status status = qdot_path_point_begin(x, &here);
+
+    if (status != QDOT_OK) {
+        qdot_free(b->y);
+        qdot_free(other);
+        return status;
+    }
+    memcpy(here.y, b->y, x->width * sizeof *b->y);
+    status = x->judge(x, &here);
+    memcpy(b->y + x->n + 1, here.y + x->n + 1, (x->width - x->n - 1) * sizeof *b->y);
+    if (status != QDOT_OK) {
+        qdot_free(b->y);
+        qdot_free(other);
+        qdot_path_point_end(&here);
+        return status;
+    }
+    turn_back(x, b->y);
+    status = keep(s, b, other, &mark);
+    if (status == QDOT_OK)
+        status = qdot_branch_add(x, branch, here.y, here.stability, mark);
+    qdot_path_point_end(&here);
+    return status;
+}
+
+/* The bifurcation of that kind between a and the point at `length` from it: a point of the branch.
+ * beside [n + 1]: of a crossing in this step, at which a fold is none; NULL: none. */
+static qdot_status
+locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
+       const double *beside, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    const size_t w = x->width;
+    qdot_bifurcation b = {.kind = kind, .y = qdot_calloc(2 * w, sizeof *b.y)};
+    qdot_bifurcation_bracket in = {.a = a, .to = length};
+    double *guess = qdot_calloc(w, sizeof *guess), *other = qdot_calloc(x->n + 1, sizeof *other);
+    qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
+    qdot_status status = b.y && guess && other ? QDOT_OK : QDOT_ENOMEM;
+
+    b.error = b.y + w;
+    if (status == QDOT_OK)
+        status = enclose(x, &in, x->halvings, &b);
+    if (status == QDOT_OK) {
+        memcpy(guess, b.y, w * sizeof *guess);
+        status = s->find(s->user, &in, &b, other, &answer);
+        if (answer == QDOT_BIFURCATION_FOUND && !(qdot_path_distance(x, guess, b.y) < length))
+            answer = QDOT_BIFURCATION_NONE;
+    }
+    if (status == QDOT_OK && answer == QDOT_BIFURCATION_NONE && x->halvings < UNKNOWN) {
+        b.kind = kind;
+        in = (qdot_bifurcation_bracket){.a = a, .to = length};
+        status = enclose(x, &in, UNKNOWN, &b);
+        memcpy(guess, b.y, w * sizeof *guess);
+    }
+    s->rested = status == QDOT_OK && answer == QDOT_BIFURCATION_REST;
+    if (s->rested)
+        status = qdot_branch_add(x, branch, b.y, a->stability, 0);
+    s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
+               length > together;
+    if (status == QDOT_OK && !s->leapt && !s->rested) {
+        if (answer != QDOT_BIFURCATION_FOUND) {
+            b.kind = QDOT_NOT_SIMPLE;
+            b.frequency = 0;
+            memcpy(b.y, guess, w * sizeof *guess);
+        }
+        if (beside == NULL || qdot_path_distance(x, beside, b.y) >= 1e-4) {
+            status = mark_it(s, &b, other, branch);
+            b.y = other = NULL;
+        }
+    }
+    qdot_free(b.y);
+    qdot_free(guess);
+    qdot_free(other);
+    return status;
+}
+
+/* All that lies between a and b, `length` apart. */
+static qdot_status
+look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_point *b,
+             double length, qdot_branch *branch)
+{
+    const size_t w = s->x->width, before = branch->n;
+    const bool known = a->growing >= 0 && b->growing >= 0;
+    const double *crossing = NULL;
+
+    if (length > first_step &&
+        (fabs(a->phase - b->phase) > turned || fabs(a->growth - b->growth) > grown)) {
+        s->leapt = true;
+        return QDOT_OK;
+    }
+    if (a->flip * b->flip < 0 && length > together &&
+        (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
+        s->leapt = true; /* over two at once */
+        return QDOT_OK;
+    }
+    if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
+        QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
+        if (s->leapt || s->rested)
+            return QDOT_OK;
+        if (branch->n > before)
+            crossing = branch->y + before * w;
+    }
+    if (!is_before(s->x, QDOT_FOLD, a, b) && crossing == NULL)
+        return locate(s, a, length, QDOT_FOLD, NULL, branch);
+    if (!is_before(s->x, QDOT_FOLD, a, b)) {
+        double *const at = qdot_calloc(w, sizeof *at);
+        qdot_status status = at ? QDOT_OK : QDOT_ENOMEM;
+
+        if (status == QDOT_OK) {
+            memcpy(at, crossing, w * sizeof *at);
+            status = locate(s, a, length, QDOT_FOLD, at, branch);
+        }
+        qdot_free(at);
+        return status;
+    }
+    if (crossing != NULL)
+        return QDOT_OK;
+    if (a->flip * b->flip < 0)
+        return locate(s, a, length, QDOT_DOUBLING, NULL, branch);
+    if (known && labs(a->growing - b->growing) >= s->x->least_jump)
+        return locate(s, a, length, QDOT_HOPF, NULL, branch);
+    return QDOT_OK;
+}
+
+/* --- steps -------------------------------------------------------------------------------- */
+
+/* The bound that y has passed: the index of that unknown (of p: n), *held the bound; n + 1: none. */
+static size_t
+passed(const qdot_path *x, const double *y, double *held)
+{
+    for (size_t i = 0; i <= x->n; i++) {
+        const double lo = i < x->n ? x->lo[i] : x->least, hi = i < x->n ? x->hi[i] : x->most;
+
+        *held = y[i] < lo ? lo : hi;
+        if (y[i] < lo || y[i] > hi)
+            return i;
+    }
+    return x->n + 1;
+}
+
+/* Put b where y_i has the value `held`, between a and where b is; *length. False: not found. */
+static bool
+end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_point *b,
+       double *length)
+{
+    const double part = (held - a->y[i]) / (b->y[i] - a->y[i]);
+    double far = *length;
+
+    for (size_t k = 0; k <= x->n; k++)
+        b->y[k] = a->y[k] + part * (b->y[k] - a->y[k]);
+    b->y[i] = held;
+    if (!qdot_path_hold(x, i, b->y))
+        return false;
+    *length = qdot_path_distance(x, a->y, b->y);
+    return *length <= 1.01 * far && qdot_path_tangent(x, a->t, b) &&
+           qdot_path_product(x, a->t, b->t) > straight;
+}
+
+/* One step from a to b, of a length that it adapts, at most `most`; *last: nothing lies behind b, or
+ * behind a if *length is 0. */
+static void
+go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_path_point *b,
+      double *length, qdot_branch_end *why, bool *last)
+{
+    *why = QDOT_END_LOST;
+    for (*step = fmin(*step, most); *step > x->shortest && x->failure == QDOT_OK;
+         *step /= 2) {
+        int steps;
+        double held;
+        size_t i;
+
+        *length = *step;
+        x->reason[0] = '\0';
+        if (!qdot_path_go(x, a, *step, b, &steps) ||
+            qdot_path_product(x, a->t, b->t) < straight ||
+            qdot_path_distance(x, a->y, b->y) > longer * *step) {
+            if (steps > 1) /* there was a value where the curve would go on */
+                x->reason[0] = '\0';
+            continue;
+        }
+        i = passed(x, b->y, &held);
+        if (i > x->n) {
+            *step *= steps <= 4 ? 1.5 : 1;
+            *last = false;
+            return;
+        }
+        *why = i == x->n ? QDOT_END_RANGE : QDOT_END_DOMAIN;
+        *last = true;
+        if (end_at(x, a, i, held, b, length))
+            return;
+    }
+    *length = 0;
+    *last = true;
+}
+
+/* How far a place lies from another, turns counted. */
+static double
+way(const qdot_path *x, const double *a, const double *b)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < x->n; i++)
+        sum += x->weight[i] * (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(sum);
+}
+
+/* Whether the curve is again where it began, going the same way; b's place is that of the start, then. */
+static bool
+is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a,
+          qdot_path_point *b)
+{
+    const double apart = qdot_path_distance(x, start->y, b->y),
+                 step = qdot_path_distance(x, a->y, b->y);
+
+    if (apart > step || qdot_path_product(x, start->t, b->t) < 0.9)
+        return false;
+    for (size_t i = 0; i <= x->n; i++)
+        b->y[i] = start->y[i] + (i < x->n && x->angle[i]
+                                     ? 2 * M_PI * round((b->y[i] - start->y[i]) / (2 * M_PI))
+                                     : 0);
+    return true;
+}
+
+/* Judge b, and look between a and it; an interruption on the way is noted. */
+static qdot_status
+look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
+     qdot_branch *branch)
+{
+    qdot_status status = qdot_interrupt_check();
+
+    if (status == QDOT_OK)
+        status = s->x->judge(s->x, b);
+    if (status == QDOT_OK && !b->blurred)
+        status = look_between(s, a, b, length, branch);
+    s->all->interrupted = status == QDOT_EINTR;
+    return status == QDOT_EINTR ? QDOT_OK : status;
+}
+
+/* a, then b: room. */
+static qdot_status
+follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
+       qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    double step = first_step, length, gone = 0, far = 0;
+    bool last = false;
+
+    branch->end[1] = QDOT_END_STOPPED;
+    while (!last && branch->n < MOST_POINTS) {
+        go_on(x, a, x->longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
+        if (x->failure == QDOT_EINTR) {
+            s->all->interrupted = true;
+            branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
+        QDOT_TRY(x->failure);
+        if (length == 0) {
+            memcpy(branch->reason[1], x->reason, sizeof x->reason);
+            return QDOT_OK;
+        }
+        QDOT_TRY(look(s, a, b, length, branch));
+        if (s->all->interrupted) {
+            branch->end[1] = QDOT_END_STOPPED;
+            return QDOT_OK;
+        }
+        if (b->blurred) {
+            branch->end[1] = QDOT_END_BLURRED;
+            return QDOT_OK;
+        }
+        if (s->rested) {
+            branch->end[1] = QDOT_END_REST;
+            return QDOT_OK;
+        }
+        if (s->leapt) {
+            step = length / 2;
+            last = s->leapt = false;
+            continue;
+        }
+        if (gone > 3 * length && is_closed(x, start, a, b)) {
+            branch->end[1] = QDOT_END_CLOSED;
+            return qdot_branch_add(x, branch, b->y, start->stability, 0);
+        }
+        QDOT_TRY(qdot_branch_add(x, branch, b->y, b->stability, 0));
+        gone += length;
+        far = way(x, start->y, b->y);
+        if (b->rests || (!last && far > far_away)) {
+            branch->end[1] = b->rests ? QDOT_END_REST : QDOT_END_FAR;
+            return QDOT_OK;
+        }
+        qdot_path_point_copy(x, b, a);
+        if (!last)
+            branch->end[1] = QDOT_END_STOPPED;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_branch *branch)
+{
+    qdot_path_point a = {0}, b = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &a);
+
+    if (status == QDOT_OK)
+        status = qdot_path_point_begin(s->x, &b);
+    if (status == QDOT_OK) {
+        qdot_path_point_copy(s->x, start, &a);
+        status = follow(s, start, &a, &b, branch);
+    }
+    qdot_path_point_end(&a);
+    qdot_path_point_end(&b);
+    return status;
+}

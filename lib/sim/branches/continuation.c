@@ -1,0 +1,333 @@
+/* continuation.c -- which curves are known already, and crossings to other ones. */
+#include "sim/branches/continuation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. */
+static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4};
+enum { MOST_BRANCHES = 400 };
+
+void
+qdot_continuation_clear(qdot_continuation *x)
+{
+    for (size_t i = 0; i < x->branches.n; i++)
+        qdot_branch_clear(&x->branches.at[i]);
+    for (size_t i = 0; i < x->bifurcations.n; i++)
+        qdot_free(x->bifurcations.at[i].y);
+    qdot_free(x->branches.at);
+    qdot_free(x->bifurcations.at);
+    qdot_free(x->size);
+    *x = (qdot_continuation){0};
+}
+
+/* --- what is known already --------------------------------------------------------------------- */
+
+/* Whether y lies on the curve between its points from and to; here: room. */
+static bool
+lies_between(qdot_path *x, const double *from, const double *to, const double *y,
+             qdot_path_point *here)
+{
+    const size_t n = x->n;
+    double along = 0, length = 0, off, part;
+
+    for (size_t i = 0; i <= n; i++) {
+        double d = y[i] - from[i];
+
+        if (i < n && x->angle[i])
+            d -= 2 * M_PI * round(d / (2 * M_PI));
+        along += x->weight[i] * d * (to[i] - from[i]);
+        length += x->weight[i] * (to[i] - from[i]) * (to[i] - from[i]);
+    }
+    if (!(length > 0))
+        return qdot_path_distance(x, from, y) < same;
+    part = along / length;
+    length = sqrt(length);
+    if (part < -0.01 || part > 1.01)
+        return false;
+    for (size_t i = 0; i <= n; i++)
+        here->y[i] = from[i] + part * (to[i] - from[i]);
+    off = qdot_path_distance(x, here->y, y);
+    if (off < same)
+        return true;
+    if (off > 0.1 * length)
+        return false;
+    for (size_t i = 0; i <= n; i++)
+        here->t[i] = x->weight[i] * (to[i] - from[i]);
+    return qdot_path_solve(x, here->t, here->y, &(int){0}) &&
+           qdot_path_distance(x, here->y, y) < same;
+}
+
+/* Whether it is a point of a branch. */
+static qdot_status
+is_known(qdot_branch_search *s, const double *y, bool *known)
+{
+    const size_t m = s->x->width;
+    qdot_path_point here = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &here);
+
+    *known = false;
+    for (size_t i = 0; i < s->all->branches.n && status == QDOT_OK && !*known; i++) {
+        const qdot_branch *b = &s->all->branches.at[i];
+
+        for (size_t k = 1; k < b->n && !*known; k++)
+            *known = lies_between(s->x, b->y + (k - 1) * m, b->y + k * m, y, &here);
+    }
+    qdot_path_point_end(&here);
+    return status;
+}
+
+/* --- branches ----------------------------------------------------------------------------- */
+
+/* One branch of two ways that begin at the same place: the first backwards, `middle` if not NULL, the
+ * second. */
+static qdot_status
+join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
+     size_t mark, const qdot_branch *on)
+{
+    const size_t m = s->x->width;
+    qdot_branch whole = {.end = {back->end[1], on->end[1]}};
+    qdot_status status = QDOT_OK;
+
+    memcpy(whole.reason[0], back->reason[1], sizeof whole.reason[0]);
+    memcpy(whole.reason[1], on->reason[1], sizeof whole.reason[1]);
+
+    for (size_t k = back->n; k-- > 0 && status == QDOT_OK;)
+        status = qdot_branch_add(s->x, &whole, back->y + k * m, back->stability[k], back->mark[k]);
+    if (status == QDOT_OK)
+        status = qdot_branch_add(s->x, &whole, middle, stability, mark);
+    for (size_t k = 0; k < on->n && status == QDOT_OK; k++)
+        status = qdot_branch_add(s->x, &whole, on->y + k * m, on->stability[k], on->mark[k]);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&s->all->branches, whole);
+    if (status != QDOT_OK)
+        qdot_branch_clear(&whole);
+    return status;
+}
+
+/* Let a closed branch begin, and end, at its first bifurcation. */
+static qdot_status
+turn_round(const qdot_path *x, qdot_branch *branch)
+{
+    const size_t m = x->width, last = branch->n - 1;
+    double *y = qdot_calloc(m, sizeof *y);
+    qdot_branch turned = {.end = {QDOT_END_CLOSED, QDOT_END_CLOSED}};
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+    size_t first = 0;
+
+    while (first < last && branch->mark[first] == 0)
+        first++;
+    for (size_t k = 0; k <= last && status == QDOT_OK; k++) { /* the last point is the first again */
+        const size_t from = first + k < last ? first + k : first + k - last;
+
+        for (size_t i = 0; i < m; i++)
+            y[i] = branch->y[from * m + i] +
+                   (first + k < last ? 0 : branch->y[last * m + i] - branch->y[i]);
+        status = qdot_branch_add(x, &turned, y, branch->stability[from], branch->mark[from]);
+    }
+    qdot_free(y);
+    if (status != QDOT_OK || first == last) {
+        qdot_branch_clear(&turned);
+        return status;
+    }
+    qdot_branch_clear(branch);
+    *branch = turned;
+    return QDOT_OK;
+}
+
+/* Both ways from a place whose tangent is known; p grows along the second. */
+static qdot_status
+follow_both(qdot_branch_search *s, qdot_path_point *a)
+{
+    const size_t m = s->x->n + 1;
+    qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
+    qdot_status status = s->x->judge(s->x, a);
+
+    if (a->t[m - 1] < 0)
+        for (size_t i = 0; i < m; i++)
+            a->t[i] = -a->t[i];
+    if (status == QDOT_OK && qdot_path_tangent(s->x, a->t, a))
+        status = qdot_branch_follow(s, a, &on);
+    back.end[1] = on.end[1];
+    if (status == QDOT_OK && on.end[1] != QDOT_END_CLOSED) {
+        for (size_t i = 0; i < m; i++)
+            a->t[i] = -a->t[i];
+        a->det = -a->det;
+        status = qdot_branch_follow(s, a, &back);
+    }
+    if (status == QDOT_OK)
+        status = join(s, &back, a->y, a->stability, 0, &on);
+    if (status == QDOT_OK && on.end[1] == QDOT_END_CLOSED)
+        status = turn_round(s->x, &s->all->branches.at[s->all->branches.n - 1]);
+    qdot_branch_clear(&back);
+    qdot_branch_clear(&on);
+    return status;
+}
+
+/* From a place y at its p: polished, its curve followed unless it is known. */
+static qdot_status
+follow_from(qdot_branch_search *s, const double *y)
+{
+    qdot_path *x = s->x;
+    const size_t m = x->n + 1;
+    double *up = qdot_calloc(m, sizeof *up);
+    qdot_path_point a = {0};
+    bool known = true;
+    qdot_status status = up ? qdot_path_point_begin(x, &a) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(a.y, y, m * sizeof *y);
+        up[m - 1] = 1;
+        for (size_t i = 0; i + 1 < m; i++)
+            known = known && a.y[i] >= x->lo[i] && a.y[i] <= x->hi[i];
+        if (known && qdot_path_hold(x, m - 1, a.y) &&
+            qdot_path_distance(x, a.y, y) < 1e-3 && qdot_path_tangent(x, up, &a)) {
+            status = is_known(s, a.y, &known);
+            if (status == QDOT_OK && !known)
+                status = follow_both(s, &a);
+        }
+    }
+    qdot_path_point_end(&a);
+    qdot_free(up);
+    return status;
+}
+
+/* --- crossings ----------------------------------------------------------------------------- */
+
+/* A first point a beyond a crossing at y along `other`, times `way`, by a few lengths; false: none. */
+static bool
+leap(qdot_path *x, const double *y, const double *other, double way, qdot_path_point *start,
+     qdot_path_point *a)
+{
+    const size_t m = x->n + 1;
+    int steps;
+
+    for (size_t k = 0; k < sizeof leaps / sizeof *leaps; k++) {
+        double along = 0, length;
+
+        for (size_t i = 0; i < m; i++) {
+            start->y[i] = y[i];
+            start->t[i] = way * other[i];
+        }
+        if (!qdot_path_go(x, start, leaps[k], a, &steps))
+            continue;
+        for (size_t i = 0; i < m; i++)
+            along += x->weight[i] * (a->y[i] - y[i]) * start->t[i];
+        length = qdot_path_distance(x, a->y, y);
+        if (along > 0.9 * length && a->y[m - 1] >= x->least && a->y[m - 1] <= x->most)
+            return true;
+    }
+    return false;
+}
+
+/* One arm of the other curve; empty where there is none, or it is known. */
+static qdot_status
+follow_arm(qdot_branch_search *s, const double *y, const double *other, double way,
+           qdot_branch *arm)
+{
+    qdot_path_point start = {0}, a = {0};
+    bool known = true;
+    qdot_status status = qdot_path_point_begin(s->x, &start);
+
+    arm->end[1] = QDOT_END_RANGE;
+    if (status == QDOT_OK)
+        status = qdot_path_point_begin(s->x, &a);
+    if (status == QDOT_OK && leap(s->x, y, other, way, &start, &a)) {
+        for (size_t i = 0; i < s->x->n; i++)
+            if (a.y[i] < s->x->lo[i] || a.y[i] > s->x->hi[i])
+                arm->end[1] = QDOT_END_DOMAIN;
+        if (arm->end[1] == QDOT_END_RANGE)
+            status = is_known(s, a.y, &known);
+    }
+    if (status == QDOT_OK && !known) {
+        status = s->x->judge(s->x, &a);
+        if (status == QDOT_OK)
+            status = qdot_branch_add(s->x, arm, a.y, a.stability, 0);
+        if (status == QDOT_OK)
+            status = qdot_branch_follow(s, &a, arm);
+    }
+    qdot_path_point_end(&start);
+    qdot_path_point_end(&a);
+    return status;
+}
+
+/* The other curve at a bifurcation along `other`, as one branch through it; or one arm of it. */
+static qdot_status
+follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
+{
+    const size_t m = s->x->width;
+    qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
+    qdot_path_point middle = {0};
+    qdot_status status = qdot_path_point_begin(s->x, &middle);
+
+    if (status == QDOT_OK) {
+        memcpy(middle.y, s->all->bifurcations.at[at].y, m * sizeof *middle.y);
+        status = follow_arm(s, middle.y, other, 1, &on);
+    }
+    if (status == QDOT_OK && both && on.end[1] != QDOT_END_CLOSED)
+        status = follow_arm(s, middle.y, other, -1, &back);
+    if (status == QDOT_OK && on.n + back.n > 0)
+        status = s->x->judge(s->x, &middle);
+    if (status == QDOT_OK && on.n + back.n > 0)
+        status = join(s, &back, middle.y, middle.stability, at + 1, &on);
+    qdot_branch_clear(&back);
+    qdot_branch_clear(&on);
+    qdot_path_point_end(&middle);
+    return status;
+}
+
+/* All crossings that are not done, and those that are met on the way. */
+static qdot_status
+follow_crossings(qdot_branch_search *s, size_t *done)
+{
+    qdot_status status = QDOT_OK;
+
+    for (; *done < s->crossings.n && status == QDOT_OK && !s->all->interrupted &&
+           s->all->branches.n < MOST_BRANCHES;
+         ++*done) {
+        const qdot_branch_crossing one = s->crossings.at[*done];
+
+        status = follow_other(s, one.at, one.other, true);
+    }
+    return status;
+}
+
+/* --- all ------------------------------------------------------------------------------------ */
+
+qdot_status
+qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
+{
+    const size_t m = s->x->n + 1;
+    size_t done = 0;
+
+    for (size_t k = 0; k < count && !s->all->interrupted; k++) {
+        if (s->all->branches.n >= MOST_BRANCHES)
+            return qdot_fail(QDOT_ELIMIT, "more than %d branches", MOST_BRANCHES);
+        QDOT_TRY(follow_from(s, at + k * m));
+        QDOT_TRY(follow_crossings(s, &done));
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other)
+{
+    size_t done = 0;
+
+    QDOT_TRY(follow_other(s, at, other, false));
+    return follow_crossings(s, &done);
+}
+
+qdot_status
+qdot_continuation_finish(qdot_branch_search *s, qdot_status status)
+{
+    for (size_t i = 0; i < s->crossings.n; i++)
+        qdot_free(s->crossings.at[i].other);
+    qdot_free(s->crossings.at);
+    if (status == QDOT_OK)
+        status = s->x->failure;
+    if (status != QDOT_EINTR)
+        return status;
+    s->all->interrupted = true;
+    return QDOT_OK;
+}

@@ -1,0 +1,110 @@
+/* newton.c -- Newton's iteration with a tape's derivatives. */
+#include "sim/branches/newton.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "normal/solve/isolate.h"
+#include "tape/derivative.h"
+
+enum {
+    STEPS = 30,
+    MOST_PROVED = 40 /* unknowns: the proof needs n^2 expressions */
+};
+
+qdot_status
+qdot_newton_begin(qdot_newton *s, qdot_pool *pool, size_t n)
+{
+    *s = (qdot_newton){.pool = pool, .n = n};
+    s->x = qdot_calloc(2 * n + 1, sizeof *s->x);
+    s->f_value = qdot_calloc(2 * n + n * n + 1, sizeof *s->f_value);
+    s->rows = qdot_calloc(n + 1, sizeof *s->rows);
+    if (!s->x || !s->f_value || !s->rows)
+        return QDOT_ENOMEM;
+    s->f = s->x + n;
+    s->step = s->f_value + n;
+    s->J = s->step + n;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_newton_lower(qdot_newton *s)
+{
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(qdot_tape_new(s->pool, s->n, s->x, s->n, s->f, &s->tape));
+    s->work = qdot_malloc(qdot_derivative_work(s->tape) * sizeof *s->work);
+    return s->work ? QDOT_OK : QDOT_ENOMEM;
+}
+
+void
+qdot_newton_end(qdot_newton *s)
+{
+    qdot_tape_free(s->tape);
+    qdot_free(s->x);
+    qdot_free(s->f_value);
+    qdot_free(s->rows);
+    qdot_free(s->work);
+    *s = (qdot_newton){0};
+}
+
+/* One step; its length relative to max(1, |x|), INFINITY where there is none. */
+static double
+step(qdot_newton *s, double *x)
+{
+    double most = 0;
+
+    qdot_derivative_eval(s->tape, x, 0, s->n, s->f_value, s->J, s->work);
+    for (size_t i = 0; i < s->n; i++)
+        s->step[i] = -s->f_value[i];
+    if (!qdot_lu_factor(s->n, s->J, s->rows))
+        return INFINITY;
+    qdot_lu_solve(s->n, s->J, s->rows, s->step);
+    for (size_t i = 0; i < s->n; i++) {
+        if (!isfinite(s->step[i]))
+            return INFINITY;
+        most = fmax(most, fabs(s->step[i]) / fmax(1, fabs(x[i])));
+    }
+    for (size_t i = 0; i < s->n; i++)
+        x[i] += s->step[i];
+    return most;
+}
+
+static qdot_status
+prove(qdot_newton *s, double *x, double *error)
+{
+    qdot_isolate isolate;
+
+    for (size_t i = 0; i < s->n; i++)
+        error[i] = 2 * fabs(s->step[i]) + 2e-16 * fabs(x[i]);
+    if (s->n > MOST_PROVED)
+        return QDOT_OK;
+    QDOT_TRY(qdot_isolate_begin(&isolate, s->pool, s->n, s->f, s->x));
+    for (size_t i = 0; i < s->n; i++)
+        s->f_value[i] = x[i];
+    if (qdot_isolate_prove(&isolate, s->f_value, s->step))
+        for (size_t i = 0; i < s->n; i++) {
+            x[i] = s->f_value[i];
+            error[i] = s->step[i];
+        }
+    qdot_isolate_end(&isolate);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
+{
+    double before = INFINITY;
+
+    *found = false;
+    for (int k = 0; k < STEPS; k++) {
+        const double length = step(s, x);
+
+        if (!(length < 1e3))
+            return QDOT_OK;
+        *found = length < 1e-9;
+        if (length < 1e-15 || (*found && length > before / 2))
+            break;
+        before = length;
+    }
+    return *found ? prove(s, x, error) : QDOT_OK;
+}

@@ -1,0 +1,162 @@
+/* orbit-shape.c -- an orbit at a few hundred places, and where a velocity is 0 between two of them. */
+#include "sim/branches/orbit-shape.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { PLACES = 257, HALVINGS = 60 };
+
+typedef struct {
+    qdot_orbit_read *r;
+    size_t n, m; /* coordinates, expressions */
+    double *values; /* [PLACES x m] */
+    double *one;    /* [m] at one time */
+} shape;
+
+static double
+time_of(const shape *s, size_t k)
+{
+    return s->r->orbit->t0 + s->r->orbit->T * (double)k / (PLACES - 1);
+}
+
+static qdot_status
+begin(shape *s, qdot_orbit_read *r)
+{
+    double times[PLACES];
+
+    *s = (shape){.r = r, .n = r->flow->n, .m = r->flow->m};
+    s->values = qdot_malloc((PLACES + 1) * s->m * sizeof *s->values);
+    if (s->values == NULL)
+        return QDOT_ENOMEM;
+    s->one = s->values + PLACES * s->m;
+    for (size_t k = 0; k < PLACES; k++)
+        times[k] = time_of(s, k);
+    return qdot_flow_read(r->flow, r->orbit, &r->at, PLACES, times, s->values);
+}
+
+/* s->one at a time. */
+static qdot_status
+read_one(shape *s, double time)
+{
+    return qdot_flow_read(s->r->flow, s->r->orbit, &s->r->at, 1, &time, s->one);
+}
+
+static double
+at(const shape *s, size_t k, size_t i)
+{
+    return s->values[k * s->m + i];
+}
+
+/* The place at which q_i is largest; *least its least value. */
+static size_t
+largest(const shape *s, size_t i, double *least)
+{
+    size_t best = 0;
+
+    *least = at(s, 0, i);
+    for (size_t k = 1; k < PLACES; k++) {
+        *least = fmin(*least, at(s, k, i));
+        if (at(s, k, i) > at(s, best, i))
+            best = k;
+    }
+    return best;
+}
+
+/* s->one where q_i turns, next to place k, at which it is largest; the orbit is closed. */
+static qdot_status
+turn(shape *s, size_t i, size_t k)
+{
+    const size_t v = s->n + i;
+    double from, to, middle = time_of(s, k);
+
+    if (k == PLACES - 1)
+        k = 0;
+    if (!(at(s, k, v) < 0)) {
+        from = time_of(s, k);
+        to = time_of(s, k + 1);
+    } else {
+        from = time_of(s, k > 0 ? k - 1 : PLACES - 2);
+        to = time_of(s, k > 0 ? k : PLACES - 1);
+    }
+    for (int step = 0; step < HALVINGS && from < to; step++) {
+        middle = from + (to - from) / 2;
+        QDOT_TRY(read_one(s, middle));
+        if (s->one[v] > 0)
+            from = middle;
+        else if (s->one[v] < 0)
+            to = middle;
+        else
+            break;
+        if (middle == from + (to - from) / 2)
+            break;
+    }
+    return read_one(s, middle);
+}
+
+qdot_status
+qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size)
+{
+    const size_t n = r->flow->n;
+    shape s;
+    qdot_status status = begin(&s, r);
+
+    *size = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        double least;
+        const size_t k = largest(&s, i, &least);
+
+        status = turn(&s, i, k);
+        most[i] = fmax(at(&s, k, i), s.one[i]);
+        *size = fmax(*size, (most[i] - least) / 2);
+    }
+    qdot_free(s.values);
+    return status;
+}
+
+qdot_status
+qdot_orbit_changes(qdot_orbit_read *r, double *change)
+{
+    shape s;
+    const qdot_status status = begin(&s, r);
+
+    for (size_t i = 0; i < 2 * s.n && status == QDOT_OK; i++) {
+        double least;
+        const size_t k = largest(&s, i, &least);
+
+        change[i] = (at(&s, k, i) - least) / 2;
+    }
+    qdot_free(s.values);
+    return status;
+}
+
+qdot_status
+qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z)
+{
+    const size_t n = r->flow->n;
+    shape s;
+    double most = 0;
+    size_t best = 0, where = 0;
+    qdot_status status = begin(&s, r);
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        double least;
+        const size_t k = largest(&s, i, &least);
+
+        if (at(&s, k, i) - least > most) {
+            most = at(&s, k, i) - least;
+            best = i;
+            where = k;
+        }
+    }
+    if (status == QDOT_OK)
+        status = turn(&s, best, where);
+    if (status == QDOT_OK) {
+        memcpy(z, s.one, 2 * n * sizeof *z);
+        *phase = n + best;
+        z[*phase] = 0;
+    }
+    qdot_free(s.values);
+    return status;
+}

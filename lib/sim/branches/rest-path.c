@@ -1,0 +1,60 @@
+/* rest-path.c -- the equations at rest by their tape, and what is judged at a place. */
+#include "sim/branches/rest-path.h"
+
+#include <math.h>
+
+#include "tape/derivative.h"
+
+/* Roots with real parts beyond GROWS of the fastest count as growing. */
+static const double grows = 1e-7;
+
+static void
+evaluate(qdot_path *path, const double *y)
+{
+    qdot_rest_path *x = (qdot_rest_path *)path;
+
+    qdot_derivative_eval(x->tape, y, 0, path->n + 1, path->F, path->J, x->work);
+}
+
+static qdot_status
+judge(qdot_path *path, qdot_path_point *a)
+{
+    qdot_rest_path *x = (qdot_rest_path *)path;
+    const qdot_linear_roots *r = &x->c->roots;
+    double fast = 0;
+
+    QDOT_TRY(qdot_equilibrium_curve_judge(x->c, a->y, &a->stability));
+    for (size_t i = 0; i < r->n; i++)
+        fast = fmax(fast, hypot(r->re[i], r->im[i]));
+    a->growing = r->n == 0 ? -1 : 0;
+    for (size_t i = 0; i < r->n; i++)
+        a->growing += r->re[i] > grows * fast;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least, double most)
+{
+    *x = (qdot_rest_path){.c = c};
+    QDOT_TRY(qdot_path_begin(&x->path, c->n));
+    x->path.coordinates = c->coordinates;
+    x->path.angle = c->angle;
+    x->path.lo = c->lo;
+    x->path.hi = c->hi;
+    x->path.least = least;
+    x->path.most = most;
+    x->path.at = evaluate;
+    x->path.judge = judge;
+    QDOT_TRY(qdot_tape_new(c->pool, c->n + 1, c->unknown, c->n, c->F, &x->tape));
+    x->work = qdot_malloc(qdot_derivative_work(x->tape) * sizeof *x->work);
+    return x->work ? QDOT_OK : QDOT_ENOMEM;
+}
+
+void
+qdot_rest_path_end(qdot_rest_path *x)
+{
+    qdot_path_end(&x->path);
+    qdot_tape_free(x->tape);
+    qdot_free(x->work);
+    *x = (qdot_rest_path){0};
+}

@@ -1,0 +1,24 @@
+/* rest-path.h -- curves of equilibria: F are the equations at rest, F' the exact derivative of their tape.
+ *
+ * Tests  tests/sim/test_continuation.c
+ */
+#ifndef QDOT_SIM_REST_PATH_H
+#define QDOT_SIM_REST_PATH_H
+
+#include "mech/study/equilibrium-curve.h"
+#include "sim/branches/path.h"
+#include "tape/tape.h"
+
+typedef struct {
+    qdot_path path; /* first: a pointer to it is one to this */
+    qdot_equilibrium_curve *c; /* borrowed */
+    qdot_tape *tape;           /* F */
+    double *work;
+} qdot_rest_path;
+
+/* From {0}; ended in any case. QDOT_EUNSET names a parameter without a value. */
+QDOT_MUST_CHECK qdot_status qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c,
+                                                 double least, double most);
+void qdot_rest_path_end(qdot_rest_path *x);
+
+#endif

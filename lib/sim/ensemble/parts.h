@@ -1,0 +1,62 @@
+/* parts.h -- an ensemble between its runs (runs.c) and what is read of them (seen.c).
+ */
+#ifndef QDOT_SIM_ENSEMBLE_PARTS_H
+#define QDOT_SIM_ENSEMBLE_PARTS_H
+
+#include "sim/form/ensemble-series.h"
+#include "sim/plan/plan.h"
+#include "sim/ensemble/momenta.h"
+#include "sim/ensemble/ensemble.h"
+
+/* One pass over all members, the runs themselves or their companions. */
+typedef struct {
+    qdot_ensemble_series *series; /* of companions: made when first asked for */
+    qdot_ensemble_steps *steps;   /* NULL: nobody looks */
+    size_t number;                /* 0: the runs; 1, 2: their companions */
+    qdot_batch_run run;
+    double *memory;
+    double *t1;       /* [members] as run.t1 */
+    double *momenta;  /* [n_kept] */
+    double *replaced; /* [members x n_kept] velocities that momenta stand in place of */
+    qdot_status status;
+    qdot_error error; /* of a pass on another thread */
+} qdot_ensemble_pass;
+
+struct qdot_ensemble {
+    qdot_plan *plan;                /* parameters that vary are further coordinates of it */
+    qdot_ensemble_momenta *momenta; /* of a plan that is reduced */
+    size_t n, varied;               /* a state is q [n], q' [n], parameters [varied] */
+    char **reasons;                 /* [n_reasons] why a start cannot be one; NULL: it can */
+    size_t n_reasons;
+    size_t companions; /* 1 or 2 */
+    qdot_ensemble_pass passes[QDOT_ENSEMBLE_PASSES];
+    const qdot_ensemble_watching *watching; /* NULL: nobody looks */
+    double *times; /* [n_times] at which states are kept */
+    size_t n_times;
+    uint64_t most_steps;
+    double t0, t1, t1_low, tol;
+    int t1_side;
+    int order;
+};
+
+/* The equations that are integrated. */
+static inline const qdot_plan *
+qdot_ensemble_equations(const qdot_ensemble *e)
+{
+    return e->plan->reduced ? e->plan->reduced : e->plan;
+}
+
+/* The size of a state, parameters included; how many momenta are kept. */
+static inline size_t
+qdot_ensemble_width(const qdot_ensemble *e)
+{
+    return 2 * e->n + e->varied;
+}
+
+static inline size_t
+qdot_ensemble_kept(const qdot_ensemble *e)
+{
+    return qdot_ensemble_equations(e)->n_kept;
+}
+
+#endif

@@ -1,0 +1,466 @@
+/* steps.c -- reads the steps of lanes: states at given times, events, bounds. */
+#include "sim/ensemble/steps.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "ode/taylor.h"
+#include "sim/ensemble/doubts.h"
+#include "sim/watch/watch.h"
+
+enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
+
+/* A lane: its member, what of it has been seen so far, its step as a system of its own. */
+typedef struct {
+    size_t member;
+    bool begun; /* the watch stands at the start of its member */
+    size_t passed, next;       /* times behind it; and with the step that is tried */
+    bool doubtful;             /* in that step */
+    qdot_vec(qdot_root) roots; /* of that step */
+    double *end;               /* [2N] the state at its end */
+    double *x;                 /* [2N x STRIDE] its series, for the watch */
+    double *y;                 /* [2N] the state at its start */
+    qdot_ode_series series;
+    qdot_ode_system system;
+    qdot_ode_expanded step;
+    qdot_watch *watch;         /* NULL: no events */
+    qdot_ensemble_doubts *doubts; /* NULL: nothing else to look at */
+} lane;
+
+struct qdot_ensemble_steps {
+    qdot_ensemble_steps_of of;
+    size_t n, varied, N;  /* coordinates; parameters; both */
+    size_t stride;        /* of the series of the system, in groups */
+    size_t asked;         /* occurrences of all events that are told */
+    size_t *first;        /* [events] where those of an event begin */
+    lane lanes[L];
+    size_t members;
+    double *seen;         /* [members x times x (2n + varied)] */
+    double *occurred;     /* [members x asked] */
+    size_t *count;        /* [members x events] */
+    double *sizes;        /* [members x 2n] */
+    size_t *passed;       /* [members] */
+    bool *doubtful;       /* [members] */
+    qdot_ensemble_starts *starts; /* [members]; NULL: they are not kept */
+};
+
+/* --- building ------------------------------------------------------------------------- */
+
+static void
+forget(qdot_ensemble_steps *s)
+{
+    for (size_t m = 0; s->starts && m < s->members; m++)
+        qdot_free(s->starts[m].at);
+    qdot_free(s->starts);
+    s->starts = NULL;
+    qdot_free(s->seen);
+    qdot_free(s->occurred);
+    qdot_free(s->count);
+    qdot_free(s->sizes);
+    qdot_free(s->passed);
+    qdot_free(s->doubtful);
+    s->seen = s->occurred = s->sizes = NULL;
+    s->count = s->passed = NULL;
+    s->doubtful = NULL;
+}
+
+void
+qdot_ensemble_steps_free(qdot_ensemble_steps *s)
+{
+    if (!s)
+        return;
+    forget(s);
+    for (size_t l = 0; l < L; l++) {
+        qdot_free(s->lanes[l].roots.at);
+        qdot_free(s->lanes[l].end);
+        qdot_free(s->lanes[l].x);
+        qdot_watch_free(s->lanes[l].watch);
+        qdot_ensemble_doubts_free(s->lanes[l].doubts);
+    }
+    qdot_free(s->first);
+    qdot_free(s);
+}
+
+static qdot_status
+make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
+{
+    const size_t n = 2 * s->N, events = s->of.watching->n_events;
+
+    a->end = qdot_calloc(2 * n, sizeof *a->end);
+    a->x = qdot_calloc(n * STRIDE, sizeof *a->x);
+    if (!a->end || !a->x)
+        return QDOT_ENOMEM;
+    a->y = a->end + n;
+    a->member = SIZE_MAX;
+    a->series = (qdot_ode_series){.most = QDOT_SERIES_MOST, .x = a->x, .stride = STRIDE};
+    a->system = (qdot_ode_system){.n = n, .series = &a->series};
+    if (!s->of.moved) /* of the run */
+        QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
+    return events ? qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch)
+                  : QDOT_OK;
+}
+
+static qdot_status
+make(qdot_ensemble_steps *s)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    qdot_expr *g = qdot_calloc(w->n_events + 1, sizeof *g);
+    qdot_status status = QDOT_OK;
+
+    s->first = qdot_calloc(w->n_events + 1, sizeof *s->first);
+    if (!g || !s->first)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < w->n_events && status == QDOT_OK; i++) {
+        g[i] = w->events[i].function;
+        s->first[i] = s->asked;
+        s->asked += w->events[i].count;
+    }
+    for (size_t l = 0; l < L && status == QDOT_OK; l++)
+        status = make_lane(s, g, s->lanes + l);
+    qdot_free(g);
+    return status;
+}
+
+qdot_status
+qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of, qdot_ensemble_steps **steps)
+{
+    qdot_ensemble_steps *s = qdot_calloc(1, sizeof *s);
+    qdot_status status;
+
+    *steps = NULL;
+    if (!s)
+        return QDOT_ENOMEM;
+    s->of = *of;
+    s->N = of->plan->n;
+    s->varied = of->plan->n_states;
+    s->n = s->N - s->varied;
+    status = make(s);
+    if (status == QDOT_OK)
+        *steps = s;
+    else
+        qdot_ensemble_steps_free(s);
+    return status;
+}
+
+qdot_status
+qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
+{
+    const size_t width = 2 * s->n + s->varied;
+
+    forget(s);
+    s->members = members;
+    s->seen = qdot_calloc(members * s->of.n_times * width + 1, sizeof *s->seen);
+    s->occurred = qdot_calloc(members * s->asked + 1, sizeof *s->occurred);
+    s->count = qdot_calloc(members * s->of.watching->n_events + 1, sizeof *s->count);
+    s->sizes = qdot_calloc(members * 2 * s->n + 1, sizeof *s->sizes);
+    s->passed = qdot_calloc(members + 1, sizeof *s->passed);
+    s->doubtful = qdot_calloc(members + 1, sizeof *s->doubtful);
+    if (s->of.watching->keep) {
+        s->starts = qdot_calloc(members + 1, sizeof *s->starts);
+        if (!s->starts)
+            return QDOT_ENOMEM;
+    }
+    if (!s->seen || !s->occurred || !s->count || !s->sizes || !s->passed || !s->doubtful)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < members * s->asked; i++)
+        s->occurred[i] = NAN;
+    for (size_t l = 0; l < L; l++)
+        s->lanes[l].member = SIZE_MAX;
+    return QDOT_OK;
+}
+
+/* --- a step --------------------------------------------------------------------------- */
+
+/* The state at time t by the step's series, even and odd orders apart: components by fours, none of which
+ * waits for another. */
+static void
+read_state(const qdot_ensemble_steps *s, const qdot_batch_step *step, double t, double *to)
+{
+    enum { SIDE_BY_SIDE = 4 };
+    const double at = (t - step->t) / step->unit, square = at * at;
+    const size_t n = 2 * s->n, row = s->stride * L;
+    const int odd = (step->order - 1) | 1; /* the highest */
+
+    for (size_t i = 0; i < n + s->varied; i++)
+        to[i] = step->y[i * L];
+    for (size_t i = 0; i < n; i += SIDE_BY_SIDE) {
+        const size_t count = n - i < SIDE_BY_SIDE ? n - i : SIDE_BY_SIDE;
+        double sum[SIDE_BY_SIDE] = {0}, even[SIDE_BY_SIDE] = {0};
+
+        for (size_t j = 0; j < count && odd < step->order; j++)
+            even[j] = step->x[(i + j) * row + (size_t)step->order * L];
+        for (int k = odd; k > 0; k -= 2)
+            for (size_t j = 0; j < count; j++) {
+                const double *x = step->x + (i + j) * row + (size_t)k * L;
+
+                sum[j] = sum[j] * square + x[0];
+                even[j] = even[j] * square + (k > 1 ? x[-L] : 0);
+            }
+        for (size_t j = 0; j < count; j++)
+            to[i + j] += sum[j] * at + even[j];
+    }
+}
+
+/* What the watch reads: the solution of the lane's step. */
+static qdot_status
+read_lane(double t, double *y, void *user)
+{
+    const lane *a = user;
+
+    qdot_ode_taylor_evaluate(&a->system, a->step.order, a->step.t, a->step.unit, t, a->y, y);
+    return QDOT_OK;
+}
+
+/* Where component i of a batch is in a state with parameters. */
+static size_t
+place(const qdot_ensemble_steps *s, size_t i)
+{
+    return i < s->n ? i : i < 2 * s->n ? i + s->varied : i - s->n;
+}
+
+/* The step's series and its start, in the lane. */
+static void
+copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    for (size_t i = 0; i < 2 * s->n + s->varied; i++) {
+        const double *from = step->x + i * s->stride * L;
+        double *to = a->x + place(s, i) * STRIDE;
+
+        a->y[place(s, i)] = to[0] = step->y[i * L];
+        for (int k = 1; k <= step->order && i < 2 * s->n; k++)
+            to[k] = from[(size_t)k * L];
+    }
+    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y};
+}
+
+/* The watch at the start of a member. */
+static qdot_status
+begin_watch(const qdot_ensemble_steps *s, lane *a)
+{
+    const qdot_watch_reader reader = {read_lane, a, &a->system, NULL};
+    const size_t m = s->of.watching->n_events;
+    int *before = qdot_calloc(m + 1, sizeof *before);
+    bool *on = qdot_calloc(m + 1, sizeof *on);
+    qdot_status status = before && on ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_watch_begin(a->watch, &reader, a->step.t, a->y,
+                                  &(qdot_watch_known){s->of.moved, before, NULL}, on);
+    a->begun = true;
+    qdot_free(before);
+    qdot_free(on);
+    return status;
+}
+
+/* Failures of the watch leave the member to a run alone. */
+static qdot_status
+search(const qdot_ensemble_steps *s, bool last, lane *a)
+{
+    const qdot_root *roots;
+    size_t n = 0;
+    qdot_status status = a->begun ? QDOT_OK : begin_watch(s, a);
+
+    a->roots.n = 0;
+    if (status == QDOT_OK)
+        status = qdot_watch_step(a->watch, a->step.t_end, a->end, last, &a->step, &roots, &n);
+    if (qdot_grave(status) != QDOT_OK)
+        return status;
+    a->doubtful = a->doubtful || status != QDOT_OK;
+    for (size_t k = 0; k < n && status == QDOT_OK; k++) {
+        a->doubtful = a->doubtful || roots[k].way == 0 || roots[k].within > 0;
+        QDOT_TRY(qdot_vec_push(&a->roots, roots[k]));
+    }
+    return QDOT_OK;
+}
+
+/* Whether some bound may be reached. */
+static bool
+is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    const double h = fabs((step->t_end - step->t) / step->unit);
+
+    for (size_t b = 0; b < w->n_bounds; b++) {
+        const size_t i = w->bounds[b].coordinate;
+        const double *x = step->x + i * s->stride * L;
+        double span = 0;
+
+        for (int k = step->order; k > 0; k--)
+            span = (span + fabs(x[(size_t)k * L])) * h;
+        if (!(fabs(step->y[i * L] - w->bounds[b].bound) > span))
+            return true;
+    }
+    return false;
+}
+
+/* Look at the step, and for roots in it. */
+static qdot_status
+look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    qdot_pulses_step seen = {.a = step->t,
+                             .b = step->t_end,
+                             .tol = s->of.tol,
+                             .from = a->y,
+                             .to = a->end,
+                             .read = read_lane,
+                             .user = a};
+
+    copy_series(s, step, a);
+    QDOT_TRY(read_lane(step->t_end, a->end, a));
+    if (a->doubts && !a->doubtful)
+        QDOT_TRY(qdot_ensemble_doubts_look(a->doubts, &seen, &a->doubtful));
+    return a->watch ? search(s, step->last, a) : QDOT_OK;
+}
+
+/* Take the lane's member as it stands at its start. */
+static qdot_status
+enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+{
+    a->member = step->member;
+    a->begun = false;
+    a->passed = 0;
+    for (size_t i = 0; i < 2 * s->n; i++)
+        s->sizes[step->member * 2 * s->n + i] = fabs(step->y[i * L]);
+    return a->doubts ? qdot_ensemble_doubts_begin(a->doubts) : QDOT_OK;
+}
+
+/* Keep the start of a step, once. */
+static qdot_status
+keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+{
+    const size_t width = 2 * s->n + s->varied;
+    qdot_ensemble_starts *starts = s->starts + step->member;
+
+    if (starts->n > 0 && starts->at[starts->n - width - 1] == step->t)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(starts, step->t));
+    for (size_t i = 0; i < width; i++)
+        QDOT_TRY(qdot_vec_push(starts, step->y[i * L]));
+    return QDOT_OK;
+}
+
+static qdot_status
+tried(const qdot_batch_step *step, void *user)
+{
+    qdot_ensemble_steps *s = user;
+    lane *a = s->lanes + step->lane;
+    const size_t width = 2 * s->n + s->varied;
+    double *sizes = s->sizes + step->member * 2 * s->n;
+
+    if (a->member != step->member)
+        QDOT_TRY(enter(s, step, a));
+    if (s->starts)
+        QDOT_TRY(keep_start(s, step));
+    a->next = a->passed;
+    a->step.t_end = step->t_end;
+    while (a->next < s->of.n_times
+           && (s->of.backward ? s->of.times[a->next] >= step->t_end
+                              : s->of.times[a->next] <= step->t_end)) {
+        read_state(s, step, s->of.times[a->next],
+                   s->seen + (step->member * s->of.n_times + a->next) * width);
+        a->next++;
+    }
+    a->doubtful = is_near_bound(s, step);
+    for (size_t i = 0; i < 2 * s->n; i++) {
+        const double size = fabs(step->y[i * L]);
+
+        if (size > sizes[i])
+            sizes[i] = size;
+    }
+    return a->watch || a->doubts ? look(s, step, a) : QDOT_OK;
+}
+
+/* Note the roots of the step; whether all that is asked of events has been found. */
+static bool
+note(qdot_ensemble_steps *s, lane *a)
+{
+    const qdot_ensemble_watching *w = s->of.watching;
+    size_t *count = s->count + a->member * w->n_events;
+    bool all = w->n_events > 0;
+
+    for (size_t k = 0; k < a->roots.n; k++) {
+        const qdot_root *root = a->roots.at + k;
+        const qdot_ensemble_event *e = w->events + root->function;
+        const int way = s->of.backward ? -root->way : root->way;
+
+        if (root->pole || (e->way != 0 && e->way != way))
+            continue;
+        if (count[root->function] < e->count)
+            s->occurred[a->member * s->asked + s->first[root->function] + count[root->function]]
+                = root->t;
+        count[root->function]++;
+    }
+    for (size_t i = 0; i < w->n_events; i++)
+        all = all && count[i] >= w->events[i].count;
+    return all;
+}
+
+static bool
+taken(size_t l, void *user)
+{
+    qdot_ensemble_steps *s = user;
+    lane *a = s->lanes + l;
+
+    a->passed = s->passed[a->member] = a->next;
+    s->doubtful[a->member] = s->doubtful[a->member] || a->doubtful;
+    if (s->doubtful[a->member])
+        return true; /* it is run alone */
+    if (!a->watch)
+        return false;
+    qdot_watch_take(a->watch);
+    return note(s, a) && s->of.watching->leave;
+}
+
+void
+qdot_ensemble_steps_look(qdot_ensemble_steps *s, qdot_ode_batch *system)
+{
+    system->tried = tried;
+    system->taken = taken;
+    system->looker = s;
+    s->stride = system->stride;
+}
+
+/* --- what was seen --------------------------------------------------------------------- */
+
+size_t
+qdot_ensemble_steps_passed(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->passed[member];
+}
+
+const qdot_ensemble_starts *
+qdot_ensemble_steps_starts(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->starts + member;
+}
+
+double *
+qdot_ensemble_steps_state(const qdot_ensemble_steps *s, size_t member, size_t time)
+{
+    return s->seen + (member * s->of.n_times + time) * (2 * s->n + s->varied);
+}
+
+double
+qdot_ensemble_steps_event(const qdot_ensemble_steps *s, size_t member, size_t event, size_t k)
+{
+    return s->occurred[member * s->asked + s->first[event] + k];
+}
+
+size_t
+qdot_ensemble_steps_count(const qdot_ensemble_steps *s, size_t member, size_t event)
+{
+    return s->count[member * s->of.watching->n_events + event];
+}
+
+const double *
+qdot_ensemble_steps_sizes(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->sizes + member * 2 * s->n;
+}
+
+bool
+qdot_ensemble_steps_doubtful(const qdot_ensemble_steps *s, size_t member)
+{
+    return s->doubtful[member];
+}
