@@ -59,23 +59,52 @@ size_of(const qdot_run_report *report, size_t n, size_t i, double value)
     return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
 }
 
-qdot_status
-qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
+/* How far q, then q' [2n] go by their rates at the beginning: by [2n]; their sizes. */
+static qdot_status
+find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
 {
     const size_t n = scene->coordinates.n;
     const qdot_run_report *report = qdot_run_get_report(run);
-    const double T = report->t1 - report->t0;
 
-    *rests = true;
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr e[2] = {
             jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
         double value[2];
 
         QDOT_TRY(qdot_run_values(run, 2, e, 1, &report->t0, value, NULL));
-        if (fabs(value[1] * T) > resting * size_of(report, n, i, value[0]))
-            *rests = false;
+        by[i] = fabs(value[1] * (report->t1 - report->t0));
+        size[i] = size_of(report, n, i, value[0]);
     }
+    return QDOT_OK;
+}
+
+static qdot_status
+find_reach(qdot_scene *scene, qdot_run *run, bool relative, double *reach)
+{
+    const size_t z = 2 * scene->coordinates.n;
+    double *by = qdot_calloc(2 * z, sizeof *by);
+    const qdot_status status = by ? find_ways(scene, run, by, by + z) : QDOT_ENOMEM;
+
+    *reach = 0;
+    for (size_t i = 0; i < z && status == QDOT_OK; i++)
+        *reach = fmax(*reach, by[i] / (relative ? by[z + i] : 1));
+    qdot_free(by);
+    return status;
+}
+
+qdot_status
+qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach)
+{
+    return find_reach(scene, run, false, reach);
+}
+
+qdot_status
+qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
+{
+    double reach;
+
+    QDOT_TRY(find_reach(scene, run, true, &reach));
+    *rests = !(reach > resting);
     return QDOT_OK;
 }
 
