@@ -436,6 +436,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
                .moving = system->n - system->still,
                .most_steps = run->most_steps ? (int64_t)run->most_steps : max_steps,
                .log_aim = log2(qdot_step_aim(run->tol, false))};
+    const double term_tol = run->term_tol != 0 ? run->term_tol : run->tol;
     size_t size = system->n * L;
     double *memory;
     qdot_status status;
@@ -457,7 +458,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     for (int k = 1; k <= run->order; k++) {
         b.inverse[k] = 1.0 / k;
         b.upper[k] = qdot_step_fall(b.log_aim, run->order) * (run->order - k);
-        b.lower[k] = qdot_step_term(b.log_aim);
+        b.lower[k] = qdot_step_term(log2(qdot_step_aim(term_tol, false)));
     }
     status = loop(&b);
     qdot_free(memory);

@@ -81,7 +81,7 @@ typedef struct {
 typedef struct {
     size_t members;
     int order;
-    double tol; /* as qdot_ode_options.tol: 1e-16 to 1 */
+    double tol, term_tol; /* as those of qdot_ode_options: 1e-16 to 1 */
     const double *t0, *t1; /* [members] t1 < t0 runs back */
     double t1_low;         /* the exact t1 less its double, the same for all members */
     uint64_t most_steps;   /* of a member, tried; 0: 50 million */

@@ -30,6 +30,10 @@ static const double coarser = 4, finer[] = {16, 32};
  * ratio of tolerances (method.h) are tried for that. */
 static const double foreseen = 2.8, powers[] = {1, 0.75, 0.5};
 
+/* Where the rounding of terms bounds the steps, those of a companion are not the run's: a drift that is
+ * made by the rounding of the same coefficients again and again would be common to both. */
+static const double term_shares[] = {0.75, 1.5};
+
 bool
 qdot_companion_is_by_series(const qdot_ode_method *method)
 {
@@ -171,6 +175,12 @@ int
 qdot_companion_orders(size_t number)
 {
     return number ? 1 : QDOT_COMPANION_ORDERS;
+}
+
+double
+qdot_companion_term_tol(double tol, size_t number)
+{
+    return term_shares[number] * tol;
 }
 
 double

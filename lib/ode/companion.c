@@ -106,6 +106,7 @@ run_by(follower *f, const qdot_companion_plan *by)
                                       .accepted = look,
                                       .user = f,
                                       .order_more = qdot_companion_orders(f->number),
+                                      .term_tol = qdot_companion_term_tol(c->tol, f->number),
                                       .leading = c->leading,
                                       .alternates = c->alternates,
                                       .meter = &f->meter,

@@ -26,7 +26,8 @@
  * where a distance of states is max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)), s_i the scales of
  * the system (scale.h); `plain` is the same with s_i = 1.
  *
- * There are two companions, moved to either side, with three orders and one order more. One is
+ * There are two companions, moved to either side, with three orders and one order more; no term of
+ * theirs is so large that its rounding counts beside about the run's tolerance, not tol*. One is
  * not enough: if all is rounding, the difference of two random walks may be small by chance; near
  * an instability it is a single number; and if the tolerance dominates, a method may be so much
  * more accurate than requested that a companion errs as much as the run. The second companion
@@ -222,6 +223,10 @@ void qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
 /* Additional orders of a companion by Taylor series (qdot_ode_options.order_more): at most. */
 int qdot_companion_orders(size_t number);
 #define QDOT_COMPANION_ORDERS 3
+
+/* The tolerance beside which no rounding of a term counts in it (qdot_ode_options.term_tol), of a run
+ * under tol: about that of the run, which near rounding it would else exceed in steps by several times. */
+double qdot_companion_term_tol(double tol, size_t number);
 
 /* Whether companions are first tried by series, where there are any: not those of radau, which is
  * for scenes that would stop series and is accurate enough itself. */

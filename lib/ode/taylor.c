@@ -540,6 +540,8 @@ make_room(run *r)
 static qdot_status
 prepare(run *r, double t0, double t1, const double *y)
 {
+    const double term_tol = r->options->term_tol != 0 ? r->options->term_tol : r->tol;
+
     QDOT_TRY(qdot_ode_check_limits(r->system, t0, t1, y));
     if (r->n == 0)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
@@ -553,7 +555,7 @@ prepare(run *r, double t0, double t1, const double *y)
     for (size_t i = 0; i < r->n; i++)
         r->scale[i] = 1 / qdot_ode_size(r->least, i, y[i]);
     r->log_wanted = log2(qdot_step_aim(r->tol, r->options->leading));
-    r->log_term = qdot_step_term(r->log_wanted);
+    r->log_term = qdot_step_term(log2(qdot_step_aim(term_tol, r->options->leading)));
     r->p = qdot_ode_taylor_order(r->series, r->tol, r->options->leading,
                                  r->options->order_more);
     r->highest = qdot_ode_taylor_highest(r->system, r->tol, r->options->leading,

@@ -28,6 +28,17 @@ start x = 1
 run 0..1e5 tol 1e-12
 value(x, 1e5)
 LAG
+# steps that the rounding of their terms bounds: those of companions are about as long
+for tol in 1e-11 1e-12 2e-13; do
+    check -0.952155368259014850743 <<LAG
+coord x
+particle p mass 1 at x
+potential x^2/2
+start x = 1
+run 0..10000 tol $tol
+value(x, 10000)
+LAG
+done
 # an equation with many kinks beside one that touches: parts of a step end near the place
 check 1.5 <<'LAG'
 coord x

@@ -73,9 +73,10 @@ qdot_polynomial_bounds_init(qdot_polynomial_bounds *h, const qdot_tape *tape, si
 }
 
 void
-qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h)
+qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h, const double *least)
 {
-    memset(h->scale, 0, h->n_used * sizeof *h->scale);
+    for (size_t k = 0; k < h->n_used; k++)
+        h->scale[k] = least ? least[h->used[k]] : 0;
 }
 
 void

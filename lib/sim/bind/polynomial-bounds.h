@@ -52,8 +52,9 @@ QDOT_MUST_CHECK qdot_status qdot_polynomial_bounds_init(qdot_polynomial_bounds *
                                                         size_t time);
 void qdot_polynomial_bounds_clear(qdot_polynomial_bounds *h);
 
-/* Begin a step: the size of the inputs in it decides how large rounding is. */
-void qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h);
+/* Begin a step: the size of the inputs in it, at least least [inputs] (NULL: 0), decides how large rounding
+ * is. */
+void qdot_polynomial_bounds_begin(qdot_polynomial_bounds *h, const double *least);
 
 /* Store the inputs at node j of the next stretch. */
 void qdot_polynomial_bounds_sample(qdot_polynomial_bounds *h, int j, const double *in);

@@ -408,7 +408,7 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     s->missed = false;
     if (is_short(p, s) || (!s->read && shows_at_ends(p, s)))
         return QDOT_OK;
-    qdot_polynomial_bounds_begin(&p->bounds);
+    qdot_polynomial_bounds_begin(&p->bounds, NULL);
     memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
     for (int nodes = FEW; nodes <= p->nodes; nodes *= 4) {
         QDOT_TRY(sample(p, s, s->a, s->b, nodes, &finite));

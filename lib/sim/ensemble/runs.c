@@ -218,6 +218,7 @@ pass_options(const qdot_ensemble *e, qdot_ensemble_pass *p)
         return;
     p->run.order += qdot_companion_orders(p->number - 1);
     p->run.tol = fmax(taylor->companion_ratio * e->tol, taylor->companion_tol);
+    p->run.term_tol = qdot_companion_term_tol(e->tol, p->number - 1);
 }
 
 /* The series of a companion, shaken or not. */

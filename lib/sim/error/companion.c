@@ -163,6 +163,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
     qdot_ode_options options = {.tol = by->tol,
                                 .first_share = qdot_companion_first_share(number),
                                 .order_more = qdot_companion_orders(number),
+                                .term_tol = qdot_companion_term_tol(run->report.tol, number),
                                 .t1_low = goal(run) == run->t1 ? run->t1_low : 0,
                                 .meter = meter,
                                 .alternates = run->turns,

@@ -34,7 +34,8 @@ typedef struct {
     double sure[2];           /* lower bound of the largest, upper bound of the smallest value */
     double left;              /* error of the integral from parts without a good polynomial */
     double noise;             /* evaluation noise in this step */
-    double blur;              /* change of e by a change 2^-53 max(s, |x|) of the state */
+    double blur;              /* change of e by a change of the state within its accuracy there */
+    double *least;            /* [inputs of the tape] sizes beside which they are rounding */
     size_t parts;             /* of this step so far */
     size_t most_parts;        /* limit of `parts`: lowered after a step that exceeded it */
     double typical;           /* size of the values in this step */
@@ -62,6 +63,14 @@ static inline double
 qdot_range_blur(const qdot_range_part *p)
 {
     return DBL_EPSILON * fmax(fabs(p->a), fabs(p->b)) / fabs(p->b - p->a);
+}
+
+/* By how much, relative to its size, a state between two points of the run is off from a smooth curve
+ * through it: where a method has no polynomial, steps to there are made anew for each. */
+static inline double
+qdot_range_roughness(const qdot_trajectory *tr)
+{
+    return tr->method->series || tr->method->kernel ? 0x1p-53 : 4 * tr->tol;
 }
 
 static inline double

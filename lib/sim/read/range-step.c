@@ -263,10 +263,10 @@ find_blur(scan *s, double t)
     QDOT_TRY(qdot_range_at(s, t, &value));
     for (size_t k = 0; k < r->n_courses; k++) {
         const qdot_reader_course *c = r->courses + k;
+        const double by = qdot_range_roughness(&c->course->tr);
 
         for (size_t i = 0; i < 2 * c->n; i++)
-            c->in[i] += ((i + k) % 2 ? -0x1p-53 : 0x1p-53)
-                        * qdot_ode_size(c->course->stage->scales, i, c->in[i]);
+            c->in[i] += ((i + k) % 2 ? -by : by) * qdot_ode_size(c->course->stage->scales, i, c->in[i]);
     }
     QDOT_TRY(qdot_reader_evaluate(r, t, &other));
     s->blur = fabs(other - value);
@@ -344,7 +344,7 @@ qdot_range_step(scan *s, double a, double b)
     s->length = fabs(b - a);
     s->sought = false;
     QDOT_TRY(find_noise(s, a, b));
-    qdot_polynomial_bounds_begin(&s->bounds);
+    qdot_polynomial_bounds_begin(&s->bounds, s->least);
     while (depth > 0) {
         part p = {.a = from, .b = ends[depth - 1], .tail = INFINITY};
         bool good = false, short_one = qdot_range_is_short(s, &p);

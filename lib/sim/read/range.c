@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "ode/companion.h"
+#include "ode/scale.h"
 #include "sim/error/companion.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
@@ -118,6 +119,26 @@ check_bounds(const scan *s, qdot_range_kind kind)
                      s->pole);
 }
 
+/* Changes of a state below its roughness are none: nothing hides in them. */
+static qdot_status
+find_least(scan *s)
+{
+    const qdot_reader *r = &s->reader;
+
+    s->least = qdot_calloc(qdot_tape_inputs(r->of.tape), sizeof *s->least);
+    if (!s->least)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < r->n_courses; k++) {
+        const qdot_course *c = r->courses[k].course;
+        const double rough = 0x1p53 * qdot_range_roughness(&c->tr);
+
+        for (size_t i = 0; i < 2 * r->courses[k].n; i++)
+            s->least[r->courses[k].in - r->in + (ptrdiff_t)i] =
+                rough * qdot_ode_scale(c->stage->scales, i);
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 over_courses(const question *q, const qdot_course *const *courses, double *value, double *rough)
 {
@@ -128,6 +149,8 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
     if (status == QDOT_OK)
         status = qdot_polynomial_bounds_init(&s.bounds, of->tape, 2 * of->plan->n);
     if (status == QDOT_OK)
+        status = find_least(&s);
+    if (status == QDOT_OK)
         status = scan_courses(&s, q, courses);
     if (status == QDOT_OK && !s.begun)
         status = qdot_fail(QDOT_EDOMAIN, "the range holds nothing of the run");
@@ -137,6 +160,7 @@ over_courses(const question *q, const qdot_course *const *courses, double *value
         *value = result(&s, q->kind, q->from, q->to);
         *rough = s.rough + open_of(&s, q->kind, q->from, q->to);
     }
+    qdot_free(s.least);
     qdot_polynomial_bounds_clear(&s.bounds);
     qdot_reader_clear(&s.reader);
     return status;

@@ -84,8 +84,8 @@ qdot_run_doubt_energy(qdot_run *run, double tol)
                                     fmax(tol, tr->result.stats.raised), &contradict));
     if (!contradict)
         return QDOT_OK;
-    return lose(run, "the energy, which is conserved, has not been kept: a step went over a place "
-                     "where the equations are singular");
+    return lose(run, "the energy, which is conserved, has not been kept: a step came within tol of a "
+                     "place where the equations are singular, or went over it");
 }
 
 qdot_status

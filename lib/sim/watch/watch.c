@@ -312,7 +312,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         w->bound_at_step = false;
     else
         qdot_watch_bound(w, step);
-    qdot_polynomial_bounds_begin(&w->bounds);
+    qdot_polynomial_bounds_begin(&w->bounds, NULL);
     for (size_t i = 0; i < w->m; i++) {
         w->live[i] = w->start.on[i] ||
                      qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
