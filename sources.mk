@@ -618,6 +618,7 @@ library_sources = \
 	lib/tape/keymap.c \
 	lib/tape/logistic.c \
 	lib/tape/lower.c \
+	lib/tape/rounding.c \
 	lib/tape/shake.c \
 	lib/tape/tape.c
 
@@ -1135,6 +1136,7 @@ library_headers = \
 	lib/tape/keymap.h \
 	lib/tape/logistic.h \
 	lib/tape/operation.def \
+	lib/tape/rounding.h \
 	lib/tape/shake.h \
 	lib/tape/tape.h
 
@@ -1324,6 +1326,7 @@ unit_tests = \
 	tests/tape/test_disc \
 	tests/tape/test_interval \
 	tests/tape/test_logistic \
+	tests/tape/test_rounding \
 	tests/tape/test_tape
 
 script_tests = \
@@ -1337,6 +1340,7 @@ script_tests = \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
 	tests/script/broken-powers.lag \
+	tests/script/cancelling-forces.sh \
 	tests/script/cases.sh \
 	tests/script/chaos.sh \
 	tests/script/chart-coordinates.lag \
@@ -2379,6 +2383,7 @@ test_files = \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \
 	tests/script/broken-powers.out \
+	tests/script/cancelling-forces.out \
 	tests/script/cases.awk \
 	tests/script/cases.inc \
 	tests/script/cases.json \

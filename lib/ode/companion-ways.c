@@ -3,6 +3,7 @@
 #include <stdint.h>
 
 #include "ode/companion.h"
+#include "ode/scale.h"
 #include "ode/taylor-numbers.h"
 #include "ode/taylor.h"
 
@@ -152,6 +153,14 @@ static bool
 goes_up(size_t i, size_t number)
 {
     return (uint32_t)(i + 1) * UINT32_C(2654435769) >> 31 == number % 2;
+}
+
+double
+qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
+{
+    const double scale = qdot_ode_scale(scales, i), beside = fabs(y[i < n / 2 ? i + n / 2 : i - n / 2]);
+
+    return y[i] == 0 && beside > 0 ? fmin(scale, beside) : scale;
 }
 
 double

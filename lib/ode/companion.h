@@ -238,13 +238,18 @@ const qdot_ode_method *qdot_companion_method(const qdot_ode_system *system,
 double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
+/* In what component i of a start y [n] = (q, q') is moved if it is 0: its scale (scales NULL: 1), or |q_i|
+ * for q'_i and |q'_i| for q_i, if that is less and not 0. What starts at 1e-8 and at rest has not the errors of what
+ * starts at 1; where both are 0 nothing is known of the size that it will have. */
+double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
+
 /* The distance from component i, of that size (scale.h), at which companion `number` starts, for a
  * run whose first orders are sums of two doubles: `by` times the least one. */
 double qdot_companion_aside(double tol, double size, size_t i, size_t number, double by);
 #define QDOT_COMPANION_AIMS 0.0625
 
 /* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
- * for a zero 2^-53 of its scale. */
+ * for a zero 2^-53 of `scale`. */
 double qdot_companion_moved(double y, double scale, size_t i, size_t number, double by);
 
 #endif

@@ -33,7 +33,8 @@ typedef struct {
 struct qdot_tape {
     size_t inputs, constants, outputs, length, places, operations, calls;
     double *constant;       /* [constants] */
-    signed char *side;      /* [constants] sign of the exact value less the double */
+    signed char *side;      /* [constants] sign of the exact value less the double; of a factor 1, by
+                               how many doubles rounding moves what it multiplies (rounding.h) */
     double *low;            /* [constants] that difference; 0 in a shaken tape */
     qdot_expr *exact;       /* [constants] as expressions, for any precision */
     uint32_t *output;       /* [outputs] places */

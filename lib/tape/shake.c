@@ -2,6 +2,7 @@
 #include "tape/shake.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -44,5 +45,7 @@ qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken)
 double
 qdot_shake_double(double x, int side)
 {
-    return side ? nextafter(x, side * INFINITY) : x;
+    for (int k = 0; k < abs(side); k++)
+        x = nextafter(x, side * INFINITY);
+    return x;
 }

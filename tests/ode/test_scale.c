@@ -154,6 +154,19 @@ companions_start_in_the_scale(void **state)
     assert_true(e.error < 1e-8 && e.plain <= e.error && e.plain < 1e-14);
 }
 
+/* What starts at rest at 1e-8 is moved as what is 1e-8; where nothing is known, by its scale. */
+static void
+zeros_are_moved_by_what_stands_beside_them(void **state)
+{
+    const double y[] = {1e-8, 0, 3, 0, /* q' */ 0, 0, 0, -1e-3}, scales[] = {1, 1, 1, 1, 1, 2, 1, 1};
+
+    (void)state;
+    assert_true(qdot_companion_unit(NULL, 8, y, 4) == 1e-8);
+    assert_true(qdot_companion_unit(NULL, 8, y, 1) == 1 && qdot_companion_unit(scales, 8, y, 5) == 2);
+    assert_true(qdot_companion_unit(NULL, 8, y, 6) == 1 && qdot_companion_unit(NULL, 8, y, 2) == 1);
+    assert_true(qdot_companion_unit(NULL, 8, y, 3) == 1e-3);
+}
+
 int
 main(void)
 {
@@ -161,6 +174,7 @@ main(void)
         cmocka_unit_test(size_is_at_least_the_scale),
         cmocka_unit_test(small_motions_are_as_accurate_as_others),
         cmocka_unit_test(companions_start_in_the_scale),
+        cmocka_unit_test(zeros_are_moved_by_what_stands_beside_them),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,7 +8,6 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "sim/model/substitute.h"
-#include "sim/model/term-magnitude.h"
 #include "sim/ensemble/path.h"
 #include "tape/constant.h"
 
@@ -142,15 +141,13 @@ lower_columns(qdot_sweep_lanes *x, qdot_expr *e)
 {
     const qdot_plan *p = qdot_ensemble_plan(x->ensemble);
 
-    for (size_t i = 0; i < x->outputs; i++) {
+    for (size_t i = 0; i < x->outputs; i++)
         e[i] = qdot_plan_substitute(p, e[i]);
-        e[x->outputs + i] = qdot_term_magnitude(p->pool, e[i]);
-    }
     QDOT_TRY(qdot_pool_check(p->pool));
-    QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, 2 * x->outputs, e, &x->tape));
+    QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, x->outputs, e, &x->tape));
     x->in = qdot_calloc(2 * p->n + 1, sizeof *x->in);
-    x->work = qdot_calloc(qdot_tape_work(x->tape) + 1, sizeof *x->work);
-    x->out = qdot_calloc(QDOT_ENSEMBLE_PASSES * 2 * x->outputs + 1, sizeof *x->out);
+    x->work = qdot_calloc(2 * qdot_tape_work(x->tape) + 1, sizeof *x->work);
+    x->out = qdot_calloc(QDOT_ENSEMBLE_PASSES * x->outputs + 1, sizeof *x->out);
     return x->in && x->work && x->out ? QDOT_OK : QDOT_ENOMEM;
 }
 
@@ -279,7 +276,7 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
 {
     qdot_session *session = x->s->c->session;
     double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
-    qdot_expr *e = qdot_calloc(2 * x->s->columns.at.n + 1, sizeof *e);
+    qdot_expr *e = qdot_calloc(x->s->columns.at.n + 1, sizeof *e);
     qdot_status status = swept && e ? qdot_sweep_lanes_request(x->s, 0, swept, request) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)

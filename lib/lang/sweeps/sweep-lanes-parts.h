@@ -12,7 +12,7 @@
 typedef struct {
     enum { QDOT_LANES_AT_END, QDOT_LANES_EVENT, QDOT_LANES_WAY } kind;
     size_t event, k; /* of `events`; the occurrence less 1 */
-    size_t output;   /* at the end, of the tape; its rounding stands behind all outputs */
+    size_t output;   /* at the end, of the tape */
 } qdot_sweep_lanes_column;
 
 struct qdot_sweep_lanes {
@@ -27,8 +27,8 @@ struct qdot_sweep_lanes {
     size_t outputs, n, places; /* expressions; coordinates */
     size_t ways;               /* columns that read the way of a run */
     qdot_run *run;             /* each member in turn, for these; NULL: there are none */
-    qdot_tape *tape;           /* of `outputs` columns, then of the sizes of their terms */
-    double *in, *work, *out;   /* inputs; work space; [passes x 2 outputs] */
+    qdot_tape *tape;           /* of `outputs` columns */
+    double *in, *work, *out;   /* inputs; work space, twice that of the tape; [passes x outputs] */
     qdot_vec(qdot_expr) varied;
     qdot_vec(size_t) axis; /* of varied parameters */
     double t1;

@@ -9,6 +9,7 @@
 #include "lang/sweeps/sweep-lanes-parts.h"
 #include "ode/companion.h"
 #include "sim/ensemble/path.h"
+#include "tape/rounding.h"
 
 /* A member with a larger error is run alone, which may do better. */
 static const double largest_error = 1e-4;
@@ -24,7 +25,7 @@ static const double most_between = 30;
 /* Coordinates below this may have a scale of their own (sim/run/scales.h). */
 static const double small = 1e-3, nothing = 1e-15;
 
-/* All expressions of that pass of a member at a place, into out [2 outputs]; false: it is not there. */
+/* All expressions of that pass of a member at a place, into out [outputs]; false: it is not there. */
 static bool
 evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
 {
@@ -40,7 +41,7 @@ static bool
 compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
     const double share = qdot_ensemble_share(x->ensemble, m);
-    const size_t n = 2 * x->outputs;
+    const size_t n = x->outputs;
 
     for (size_t pass = 0; pass <= x->companions; pass++)
         if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
@@ -83,6 +84,7 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
 {
     const size_t n = x->outputs;
     double *between = qdot_calloc((x->places + 1) * n + 1, sizeof *between);
+    double *const bounds = between + x->places * n;
     double sorted[PLACES];
 
     if (between == NULL)
@@ -90,9 +92,12 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
     *there = x->places <= PLACES;
     for (size_t k = 0; k < x->places && *there; k++)
         *there = compare(x, m, k, between + k * n);
-    *there = *there && compare(x, m, x->places, errors);
+    *there = *there && compare(x, m, x->places, errors)
+             && evaluate(x, 0, m, x->places, qdot_ensemble_time(x->ensemble, x->places), x->out);
+    if (*there)
+        qdot_rounding_bounds(x->tape, x->in, NULL, bounds, x->work);
     for (size_t i = 0; i < n && *there; i++) {
-        const double size = fmax(fabs(x->out[i]), x->out[n + i]);
+        const double size = bounds[i] / DBL_EPSILON;
 
         for (size_t k = 0; k < x->places; k++)
             sorted[k] = between[k * n + i];
@@ -101,7 +106,7 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
         x->unsure = x->unsure || is_of_rounding(x, m, errors[i], size)
                     || (x->companions == 1 && sorted[x->places / 2] > most_between * errors[i]);
         errors[i] = fmax(errors[i], fmin(sorted[x->places / 2], most_between * errors[i]));
-        errors[i] += DBL_EPSILON * size;
+        errors[i] += bounds[i];
         *there = is_good(values[i], errors[i]);
     }
     qdot_free(between);

@@ -8,6 +8,7 @@
 #include "series/taylor.h"
 #include "sim/bind/bind-state.h"
 #include "sim/form/residual.h"
+#include "tape/rounding.h"
 #include "tape/shake.h"
 
 static const qdot_tape *
@@ -161,6 +162,56 @@ qdot_bind_accelerations(const qdot_ode_system *system, double t, const double *y
         return qdot_constrained_accelerate(b->held, t, y, a);
     qdot_bind_load(b, t, y);
     return qdot_bind_accelerate(b, a);
+}
+
+/* Those of a block whose outputs may be off by `of`; returns what stands behind them. */
+static const double *
+sum_roundings(const qdot_plan_block *block, const double *of, const double *a, double *x)
+{
+    const double *M = of + block->n;
+
+    for (size_t i = 0; i < block->n; i++)
+        x[i] = of[i];
+    for (size_t i = 0; i < block->n && !block->constant && block->n > 1; i++)
+        for (size_t j = 0; j <= i; j++, M++) {
+            x[i] += *M * fabs(a[block->index[j]]);
+            if (i != j)
+                x[j] += *M * fabs(a[block->index[i]]);
+        }
+    return M;
+}
+
+qdot_status
+qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, const double *a,
+                    double *e)
+{
+    qdot_bind *b = system->user;
+    const qdot_plan *p = b->plan;
+    const qdot_tape *tape = p->tape ? qdot_bind_equations(b) : NULL;
+    const double *at;
+    double *of;
+
+    memset(e, 0, p->n * sizeof *e);
+    if (b->held || !tape)
+        return QDOT_OK;
+    of = qdot_malloc((qdot_tape_outputs(tape) + 2 * qdot_tape_work(tape) + 1) * sizeof *of);
+    if (!of)
+        return QDOT_ENOMEM;
+    qdot_bind_load(b, t, y);
+    qdot_rounding_bounds(tape, b->in, NULL, of, of + qdot_tape_outputs(tape));
+    at = of;
+    for (size_t k = 0; k < p->structure.blocks; k++) {
+        const qdot_plan_block *block = p->blocks + k;
+        double *x = b->blocks.at[k].x;
+
+        at = sum_roundings(block, at, a, x);
+        if (block->n > 1)
+            qdot_blocks_solve(&b->blocks, k, x);
+        for (size_t i = 0; i < block->n; i++)
+            e[block->index[i]] = fabs(x[i]);
+    }
+    qdot_free(of);
+    return QDOT_OK;
 }
 
 static qdot_status

@@ -36,6 +36,15 @@ qdot_ode_system qdot_bind_system(qdot_bind *bind);
 QDOT_MUST_CHECK qdot_status qdot_bind_accelerations(const qdot_ode_system *system,
                                                     double t, const double *y, double *a);
 
+/* After that, at the same state: e [n], what rounding makes of q'' a [n] where the equations are evaluated
+ * (tape/rounding.h),
+ *
+ *     M e = e_f + e_M |a|,   e = e_f of a block of one;
+ *
+ * 0 under constraints, and of a plan without M. Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_bind_roundings(const qdot_ode_system *system, double t,
+                                                const double *y, const double *a, double *e);
+
 /* Whether M is regular (and, unless a Lagrangian was stated, positive) at a state:
  * QDOT_ESINGULAR names the coordinate. With constraints y + low must also keep them, and its last
  * bits are corrected: qdot_constrained_start. */

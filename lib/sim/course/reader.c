@@ -7,6 +7,7 @@
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/model/sliding.h"
+#include "tape/rounding.h"
 
 void
 qdot_reader_clear(qdot_reader *r)
@@ -97,6 +98,27 @@ qdot_reader_evaluate(qdot_reader *r, double t, double *out)
     }
     qdot_tape_eval(r->of.tape, r->in, out, r->work);
     return QDOT_OK;
+}
+
+qdot_status
+qdot_reader_roundings(qdot_reader *r, double t, double *bounds)
+{
+    const size_t inputs = qdot_tape_inputs(r->of.tape);
+    double *e = qdot_calloc(inputs + 2 * qdot_tape_work(r->of.tape) + 1, sizeof *e);
+    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < r->n_courses && r->of.accelerations && status == QDOT_OK; k++) {
+        const qdot_reader_course *c = r->courses + k;
+        const double *a = c->in + 2 * c->n + 1;
+        const size_t mode = qdot_trajectory_mode_read(c->cursor);
+
+        status = qdot_bind_roundings(qdot_course_systems(c->course) + mode, t, c->in, a,
+                                     e + (a - r->in));
+    }
+    if (status == QDOT_OK)
+        qdot_rounding_bounds(r->of.tape, r->in, e, bounds, e + inputs);
+    qdot_free(e);
+    return status;
 }
 
 qdot_status

@@ -81,6 +81,10 @@ qdot_reader_has_nothing(qdot_status status)
     return status == QDOT_EDOMAIN || status == QDOT_EFAILED || status == QDOT_ESINGULAR;
 }
 
+/* Bounds for the rounding of the expressions, that of q'' included, where they were read last, at t
+ * (tape/rounding.h). Errors: QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_reader_roundings(qdot_reader *r, double t, double *bounds);
+
 /* out for the states in r->in, with the equations of the pieces that were read last. */
 QDOT_MUST_CHECK qdot_status qdot_reader_evaluate(qdot_reader *r, double t, double *out);
 

@@ -145,13 +145,13 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- runs --------------------------------------------------------------------------- */
 
-/* x [n], or as companion 1 or 2 begins beside them. */
+/* x [n], a state or parameters, or as companion 1 or 2 begins beside them. */
 static void
-put(size_t n, const double *x, size_t companion, double *to)
+put(size_t n, const double *x, bool state, size_t companion, double *to)
 {
     for (size_t i = 0; i < n; i++)
-        to[i] = companion ? qdot_companion_moved(x[i], 1, i, companion - 1,
-                                                 companion == 1 ? 1 : QDOT_COMPANION_FAR)
+        to[i] = companion ? qdot_companion_moved(x[i], state ? qdot_companion_unit(NULL, n, x, i) : 1, i,
+                                                 companion - 1, companion == 1 ? 1 : QDOT_COMPANION_FAR)
                           : x[i];
 }
 
@@ -181,9 +181,9 @@ pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const d
 
         t0[m] = e->t0;
         t1s[m] = t1;
-        put(n, y + m * n, p->number, to);
+        put(n, y + m * n, true, p->number, to);
         if (e->varied > 0)
-            put(e->varied, parameters + m * e->varied, p->number, to + n);
+            put(e->varied, parameters + m * e->varied, false, p->number, to + n);
     }
     p->run.members = members;
     p->run.t0 = t0;

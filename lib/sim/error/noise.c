@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "sim/model/term-magnitude.h"
 
 /* Nearly all errors stay within this multiple of the noise. */
 static const double levels = 4;
@@ -84,56 +83,26 @@ qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
     return look_along(r, pieces, t, noise, NULL);
 }
 
-/* The magnitudes [k x m] of the terms of expressions at times [k], row by row; NaN where one
- * has none. */
+/* Roundings [m] at t; noise [2 m] scratch. */
 static qdot_status
-magnitudes_along(const qdot_reading *of, const qdot_course *const *courses, size_t k,
-                 const double *times, double *magnitudes)
-{
-    qdot_pool *pool = of->plan->pool;
-    qdot_expr *e = qdot_malloc((of->m + 1) * sizeof *e);
-    qdot_reader r = {0};
-    qdot_reading sums = {0};
-    qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
-
-    for (size_t j = 0; j < of->m && status == QDOT_OK; j++)
-        e[j] = qdot_term_magnitude(pool, of->exprs[j]);
-    if (status == QDOT_OK)
-        status = qdot_pool_check(pool);
-    if (status == QDOT_OK)
-        status = qdot_reader_lower_beside(of, of->m, e, &sums);
-    if (status == QDOT_OK)
-        status = qdot_reader_init_along(&r, &sums, courses);
-    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
-        status = qdot_interrupt_check();
-        if (status == QDOT_OK)
-            status = qdot_reader_read(&r, NULL, times[i], magnitudes + i * of->m);
-    }
-    qdot_reader_clear(&r);
-    qdot_tape_free(sums.tape);
-    qdot_free(e);
-    return status;
-}
-
-/* Magnitudes [m] of the terms become roundings; noise [2 m] scratch. */
-static qdot_status
-add(qdot_reader *r, double t, const double *values, double *noise, double *roundings)
+find(qdot_reader *r, double t, double *noise, double *roundings)
 {
     double *slopes = noise + r->of.m;
-    qdot_status status = look_along(r, NULL, t, noise, slopes);
+    qdot_status status;
 
-    for (size_t j = 0; j < r->of.m; j++) {
-        roundings[j] = DBL_EPSILON * fmax(roundings[j], fabs(values[j]));
-        if (status == QDOT_OK && isfinite(noise[j]))
+    QDOT_TRY(qdot_reader_read(r, NULL, t, roundings));
+    QDOT_TRY(qdot_reader_roundings(r, t, roundings));
+    status = look_along(r, NULL, t, noise, slopes);
+    for (size_t j = 0; j < r->of.m && status == QDOT_OK; j++)
+        if (isfinite(noise[j]))
             roundings[j] = fmax(roundings[j], fmax(levels * noise[j],
                                                    DBL_EPSILON / 2 * fabs(slopes[j])));
-    }
     return qdot_grave(status);
 }
 
 qdot_status
 qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, size_t k,
-                     const double *times, const double *values, double *roundings)
+                     const double *times, double *roundings)
 {
     size_t m = of->m;
     double *noise = qdot_malloc((2 * m + 1) * sizeof *noise);
@@ -141,11 +110,9 @@ qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, 
     qdot_status status = noise ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = magnitudes_along(of, courses, k, times, roundings);
-    if (status == QDOT_OK)
         status = qdot_reader_init_along(&r, of, courses);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
-        status = add(&r, times[i], values + i * m, noise, roundings + i * m);
+        status = find(&r, times[i], noise, roundings + i * m);
     qdot_reader_clear(&r);
     qdot_free(noise);
     return status;

@@ -21,15 +21,13 @@ QDOT_MUST_CHECK qdot_status qdot_noise_at(qdot_reader *r, const size_t *pieces, 
 
 /* Bounds for the rounding of expressions [m] along their courses at times [k]: roundings [k x m],
  *
- *     max(4 noise, DBL_EPSILON/2 |dg/dh|, DBL_EPSILON max(magnitude, |g|))
+ *     max(4 noise, DBL_EPSILON/2 |dg/dh|, bound of its operations)
  *
- * dg/dh: what rounding of the state makes of g, an angle of 22 of its sine; magnitude: of the terms of
- * g (sim/model/term-magnitude.h); values [k x m]: g.
- * Errors: as qdot_reader_read. */
+ * dg/dh: what rounding of the state makes of g, an angle of 22 of its sine; the bound is that of
+ * tape/rounding.h. Errors: as qdot_reader_read. */
 QDOT_MUST_CHECK qdot_status qdot_noise_roundings(const qdot_reading *of,
                                                  const qdot_course *const *courses,
                                                  size_t k, const double *times,
-                                                 const double *values,
                                                  double *roundings);
 
 #endif

@@ -7,6 +7,7 @@
 #include "sim/form/eliminated.h"
 #include "sim/model/constraints.h"
 #include "sim/model/power-quotient.h"
+#include "tape/rounding.h"
 
 /* f, M, A, gamma of a plan; NULL: no memory. */
 static qdot_expr *
@@ -44,6 +45,8 @@ qdot_bordered_make(const qdot_plan *p, double tol, qdot_tape **tape)
     status = out ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, count, out, tape);
+    if (status == QDOT_OK)
+        status = qdot_rounding_show(*tape);
     qdot_free(out);
     return status;
 }

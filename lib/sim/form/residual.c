@@ -11,6 +11,7 @@
 #include "series/program.h"
 #include "series/taylor.h"
 #include "tape/keymap.h"
+#include "tape/rounding.h"
 
 /* Parents are looked for among so many functions before. */
 enum { near = 8, looked_at = 64 };
@@ -332,9 +333,12 @@ build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr Q)
     QDOT_TRY(add_forces(b, Q));
     QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, b->outputs.n, b->outputs.at,
                            &r->places));
-    if (b->forces.n > 0)
+    QDOT_TRY(qdot_rounding_show(r->places));
+    if (b->forces.n > 0) {
         QDOT_TRY(qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, b->forces.n,
                                b->forces.at, &r->forces));
+        QDOT_TRY(qdot_rounding_show(r->forces));
+    }
     return lower_masses(b);
 }
 

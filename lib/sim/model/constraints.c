@@ -8,6 +8,7 @@
 #include "sim/model/massless.h"
 #include "sim/model/rates.h"
 #include "sim/model/switch.h"
+#include "tape/rounding.h"
 
 typedef qdot_vec(qdot_expr) expressions;
 
@@ -254,6 +255,8 @@ lower_index_1(builder *b)
         status = push_all(&out, b->gamma.n, b->gamma.at);
     if (status == QDOT_OK)
         status = lower(p, &out, &b->c->equations);
+    if (status == QDOT_OK)
+        status = qdot_rounding_show(b->c->equations);
     qdot_free(out.at);
     return status;
 }

@@ -4,6 +4,7 @@
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
 #include "tape/constant.h"
+#include "tape/rounding.h"
 
 size_t
 qdot_plan_inputs(const qdot_plan *p)
@@ -188,6 +189,8 @@ qdot_plan_lower(qdot_plan *p, size_t inputs, size_t more, const qdot_expr *other
         status = qdot_pool_check(p->pool);
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, inputs, p->inputs, out.n, out.at, &p->tape);
+    if (status == QDOT_OK)
+        status = qdot_rounding_show(p->tape);
     qdot_free(out.at);
     return status;
 }
@@ -208,5 +211,5 @@ qdot_plan_lower_for_series(qdot_plan *p)
         return status;
     qdot_tape_free(p->tape);
     p->tape = tape;
-    return QDOT_OK;
+    return qdot_rounding_show(p->tape);
 }

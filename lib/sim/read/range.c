@@ -185,7 +185,7 @@ rounding(const question *q, double *error)
     }
     qdot_reader_clear(&r);
     QDOT_TRY(status);
-    QDOT_TRY(qdot_noise_roundings(&q->joint.of, own, 2, ends, values, errors));
+    QDOT_TRY(qdot_noise_roundings(&q->joint.of, own, 2, ends, errors));
     *error = (drift ? 2 : 1) * fmax(errors[0], errors[1])
              / (drift ? fmax(1, fabs(values[0])) : 1);
     return QDOT_OK;

@@ -155,7 +155,7 @@ find_errors(section *x, qdot_section *s, size_t first)
     if (status == QDOT_OK)
         status = qdot_horizon_spread(x->run, &x->reading, &course, 0, spread);
     if (status == QDOT_OK)
-        status = qdot_noise_roundings(&x->reading, &course, n, t, values, roundings);
+        status = qdot_noise_roundings(&x->reading, &course, n, t, roundings);
     for (size_t k = 0; k < n && status == QDOT_OK; k++)
         status = compare(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
     if (status == QDOT_OK)

@@ -55,7 +55,7 @@ read_errors(qdot_run *run, const qdot_reading *of, size_t k, const double *times
     roundings = spread + m;
     status = qdot_horizon_spread(run, of, &course, 0, spread);
     if (status == QDOT_OK)
-        status = qdot_noise_roundings(of, &course, k, times, values, roundings);
+        status = qdot_noise_roundings(of, &course, k, times, roundings);
     if (status == QDOT_OK)
         status = qdot_distance_new(run, of, &distance);
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
