@@ -1290,6 +1290,7 @@ unit_tests = \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble-doubts \
+	tests/sim/test_ensemble-path \
 	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
