@@ -586,6 +586,7 @@ library_sources = \
 	lib/sim/run/run.c \
 	lib/sim/run/scales.c \
 	lib/sim/run/slides.c \
+	lib/sim/run/tighter-run.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -1103,6 +1104,7 @@ library_headers = \
 	lib/sim/run/run.h \
 	lib/sim/run/scales.h \
 	lib/sim/run/slides.h \
+	lib/sim/run/tighter-run.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/exponents.h \
@@ -1411,6 +1413,7 @@ script_tests = \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
 	tests/script/formula-file.sh \
+	tests/script/friction-to-rest.lag \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
@@ -1532,6 +1535,7 @@ script_tests = \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
 	tests/script/three-bodies.lag \
+	tests/script/tighter.sh \
 	tests/script/to-file.sh \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
@@ -2461,6 +2465,7 @@ test_files = \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
 	tests/script/formula-file.out \
+	tests/script/friction-to-rest.out \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \
@@ -2599,6 +2604,7 @@ test_files = \
 	tests/script/text.out \
 	tests/script/textbook.out \
 	tests/script/three-bodies.out \
+	tests/script/tighter.out \
 	tests/script/to-file.out \
 	tests/script/undo-included.out \
 	tests/script/undo.out \

@@ -238,6 +238,9 @@ start x = 2 - 1e-9, y' = sqrt(1e-9/(2 - 1e-9))""", "20", {
     "x": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[0], "y": lambda: -kepler(1, 1 - mpf(10) ** -9, 20 + m.pi)[1]},
      ["dop853"])
 
+case("e10-separatrix", "coord a\nparticle p mass 1 at (sin(a), -cos(a))\ngravity (0, -1)\nstart a = 0, a' = 2", "25", {
+    "a": lambda: 4 * m.atan(m.exp(25)) - m.pi})
+
 # --- f: not smooth -----------------------------------------------------------------------------
 
 
@@ -277,6 +280,17 @@ potential x^2/2
 force exp(-(t - 5)^2/(2*%s^2))/(%s*sqrt(2*pi)) on x
 start x = 0""" % (width, width), "10", {
         "x": (lambda width: lambda: m.exp(-mpf(width) ** 2 / 2) * m.sin(5))(width)})
+
+for number, power, way in (("9", "1/2", "2/3"), ("10", "2/3", "3/4"), ("11", "9/10", "10/11")):
+    case("f%s-friction-to-the-%s" % (number, power.replace("/", "-")), """coord x
+particle p mass 1 at x
+force -abs(x')^(%s)*sign(x') on x
+start x = 0, x' = 1""" % power, "15", {"x": lambda way=way: mpf(way.split("/")[0]) / mpf(way.split("/")[1]), "x'": lambda: mpf(0)})
+case("f12-held-until-driven", """coord x
+particle p mass 1 at x
+force -sqrt(abs(x'))*sign(x') - sign(x')/2 + max(t - 3, 0)/4 on x
+start x = 0, x' = 1""", "4", {
+    "x": lambda: mpf(2) / 3 - m.log(3) / 4, "x'": lambda: mpf(0)}, ["dop853"])
 
 # --- g: constraints ----------------------------------------------------------------------------
 
@@ -342,6 +356,11 @@ case("i5-lorentzian", "coord x\nparticle p mass 1 at x\nforce 1e-6/pi/((t - 1)^2
 case("i6-beats", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce cos(1.001*t) on x\nstart x = 0", "3000",
      {"x": lambda: (m.cos(mpf("1.001") * 3000) - m.cos(3000)) / (1 - mpf("1.001") ** 2)})
 
+case("i7-root-of-time", "coord x\nparticle p mass 1 at x\npotential x^2/2\nforce sqrt(t) on x\nstart x = 0", "5", {
+    "x": lambda: mpf(4) / 15 * mpf(5) ** 2.5 * m.hyp1f2(1, mpf(7) / 4, mpf(9) / 4, -mpf(25) / 4)}, ["dop853"])
+case("i8-tenth-root-of-time", "coord x\nparticle p mass 1 at x\nforce t^(1/10) on x\nstart x = 0", "5", {
+    "x": lambda: mpf(5) ** (mpf(21) / 10) / (mpf(231) / 100)})
+
 # --- j: exotic forces --------------------------------------------------------------------------
 
 case("j1-relativistic", "coord x\nlagrangian 1 - sqrt(1 - x'^2) + x\nstart x = 0", "100",
@@ -361,6 +380,11 @@ case("j5-geodesic", "coord u, v > 0\nlagrangian (u'^2 + v'^2)/(2*v^2)\nstart u =
      {"u": lambda: m.tanh(8), "v": lambda: 1 / m.cosh(8)})
 case("j6-inverse-cube", "coord r > 0, f\nparticle p mass 1 at (r*cos(f), r*sin(f))\npotential 3/(2*r^2)\n"
      "start r = 1, f' = 1", "50", {"r": lambda: m.sqrt(1 + 4 * mpf(2500)), "f": lambda: m.atan(100) / 2})
+
+case("j7-far-exponentials", """coord x
+particle p mass 1 at x
+potential log(2 + exp(x)) + cosh(x)/(1 + cosh(x)^2)
+start x = 900, x' = -1""", "20", {"x": lambda: mpf(680)}, ["radau"])
 
 # --- k: events ---------------------------------------------------------------------------------
 

@@ -90,6 +90,11 @@ def kicked_by(width):
                    [5 + w * k for k in range(-14, 15)] + [mpf(10)])
 
 
+def slowing(k):
+    """x where x'' = -x'^(1 - 1/k) from x' = 1 comes to rest, by w = x'^(1/k), w' = -1/k"""
+    return numbers(lambda s, y: vector(y[1] ** k, L(-1) / k), [0, 1], k, component(0)) + [mpf(0)]
+
+
 def pendulum(start, g, t):
     return numbers(lambda s, y: vector(y[1], -L(g) * np.sin(y[0])), [start, 0], t, component(0))[0]
 
@@ -374,6 +379,7 @@ WAYS = {
     "e7-through-the-centre": (lambda: [fallen(1, 5)], KEEP),
     "e8-flyby-1e-8": (lambda: regularised(1, 1 - mpf(10) ** -8, 3), KEEP),
     "e9-nearly-straight": (lambda: [-x for x in regularised(1, 1 - mpf(10) ** -9, 20 + m.pi)], KEEP),
+    "e10-separatrix": (lambda: numbers(lambda s, y: vector(2 * np.cos(y[0] / 2)), [0], 25, component(0)), FINE),
     "f1-wedge": (zigzag, KEEP),
     "f2-slides-and-stays": (lambda: stepped(mpf(0), mpf(1), 2, [(mpf(2), -mpf(1) / 2)])[:1], KEEP),
     "f3-half-spring": (half_spring, KEEP),
@@ -382,6 +388,10 @@ WAYS = {
     "f6-fractional": (fractional, "1e-22"),
     "f7-kick-of-1e-8": (lambda: [kicked_by("1e-8")], KEEP),
     "f8-kick-of-1e-10": (lambda: [kicked_by("1e-10")], KEEP),
+    "f9-friction-to-the-1-2": (lambda: slowing(2), FINE),
+    "f10-friction-to-the-2-3": (lambda: slowing(3), FINE),
+    "f11-friction-to-the-9-10": (lambda: slowing(10), FINE),
+    "f12-held-until-driven": (lambda: [m.quad(lambda w: 2 * w ** 3 / (w + mpf(1) / 2), [0, 1]), mpf(0)], KEEP),
     "g1-pendulum": (lambda: (lambda a: [m.sin(a), -m.cos(a)])(pendulum(1, 4, 50)), FINE),
     "g2-great-circle": (lambda: numbers(sphere, [1, 0, 0, 0, L("0.6"), L("0.8")], 100, component(0), component(2)), "1e-14"),
     "g3-atwood": (lambda: (lambda x: [x[0], -x[1]])(stepped(mpf(0), mpf(0), 3, [(mpf(3), (3 - 2) * mpf(10) / (3 + 2))])), KEEP),
@@ -403,6 +413,8 @@ WAYS = {
                                        sorted([mpf(0), mpf(1), mpf(4)] + [1 + g * mpf(10) ** -k for k in range(1, 8) for g in (1, -1)]))],
                       KEEP),
     "i6-beats": (lambda: driven("1.001", 3000), KEEP),
+    "i7-root-of-time": (lambda: [m.quad(lambda u: 2 * m.sin(5 - u * u) * u * u, m.linspace(0, m.sqrt(5), 9))], KEEP),
+    "i8-tenth-root-of-time": (lambda: [m.quad(lambda u: 10 * (5 - u ** 10) * u ** 10, [0, mpf(5) ** (mpf(1) / 10)])], KEEP),
     "j1-relativistic": (lambda: numbers(lambda s, y: vector(y[1] / np.sqrt(1 + y[1] ** 2), L(1)), [0, 0], 100, component(0)),
                         FINE),
     "j2-cyclotron": (lambda: list(m.expm(matrix([[0, 0, 1, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 100, 1], [0, 0, -100, 0, 0],
@@ -414,6 +426,8 @@ WAYS = {
                                     [0, 1, 1, 0], 8, component(0), component(1)), FINE),
     "j6-inverse-cube": (lambda: (lambda p: [m.sqrt(p[0] ** 2 + p[1] ** 2), m.atan2(p[1], p[0])])(
         central(-3, 4, [1, 0, 0, 1], 50)), "1e-14"),
+    "j7-far-exponentials": (lambda: numbers(lambda s, y: vector(y[1], -1 / (1 + 2 * np.exp(-y[0]))), [900, -1], 20, component(0)),
+                            FINE),
     "k1-bouncing": (bouncing, KEEP),
     "k2-graze": (lambda: oscillator(1, 1, 0, 20)[:1], KEEP),
     "k3-two-at-once": (lambda: [abs(1 - mpf(5)), abs(2 - 2 * mpf(5))], KEEP),

@@ -160,7 +160,7 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
 {
     const double scale = qdot_ode_scale(scales, i), beside = fabs(y[i < n / 2 ? i + n / 2 : i - n / 2]);
 
-    return y[i] == 0 && beside > 0 ? fmin(scale, beside) : scale;
+    return y[i] == 0 && beside > unit * scale ? fmin(scale, beside) : scale;
 }
 
 double

@@ -294,10 +294,8 @@ bound_at(const qdot_companion *c, const double *scales, const double *y, size_t 
         of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
         worst = fmax(worst, (i ? c->share : 1) * apart(c, scales, y, of[i]));
     }
-    return qdot_companion_bound(worst, c->arrived == 2
-                                           ? c->share * apart(c, scales, of[0], of[1])
-                                           : (double)(c->count - c->arrived) * QDOT_COMPANION_ALONE
-                                                 * worst);
+    return qdot_companion_bound(worst, c->arrived == 2 ? c->share * apart(c, scales, of[0], of[1])
+                                                       : QDOT_COMPANION_ALONE * worst);
 }
 
 double
@@ -307,7 +305,7 @@ qdot_companion_bound_of(double x, size_t count, const double *theirs, double sha
 
     return count == 2 ? qdot_companion_bound(fmax(apart, share * fabs(theirs[1] - x)),
                                              share * fabs(theirs[1] - theirs[0]))
-                      : qdot_companion_bound(apart, 0);
+                      : qdot_companion_bound(apart, QDOT_COMPANION_ALONE * apart);
 }
 
 /* The median of the error bounds at the times between. */
@@ -569,8 +567,6 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
 
         difference[i] =
             out->known ? qdot_companion_bound_of(y[i], c->arrived, ends, c->share) : NAN;
-        if (c->arrived < c->count)
-            difference[i] += QDOT_COMPANION_ALONE * fabs(ends[0] - y[i]);
     }
     release(c);
 }

@@ -60,7 +60,7 @@
  * A step may go over what a finer one would see, and the coarse one with it. So where a finer way was given
  * up and the run is then ten times farther from it than from the coarse one, and than tol, there is no number.
  *
- * If the first arrives and the second is given up by its cost, `own` is 2 apart. If the first does not
+ * If there is one, as the second is given up by its cost, `own` is 2 apart. If the first does not
  * arrive there is no number: known is false, the error a NaN.
  *
  * The caller moves the numbers in f (parameters), in the companion's own system. If a limit is
@@ -103,14 +103,14 @@ typedef struct {
 typedef struct qdot_companion qdot_companion;
 
 /* The error stated for a number, from its largest distance `apart` from those of the companions
- * and the distance `own` between these (0: there is one companion),
+ * and the distance `own` between these,
  *
  *     bound = 5/4 apart + own,
  *
  * which holds in 99 cases of 100: if the method's error dominates, companions are off by a small
  * part of `apart`, and agree; if they are off by more, by rounding, `own` shows it. */
 double qdot_companion_bound(double apart, double own);
-/* If the second was given up by its cost, `own` counts as so many times `apart`. */
+/* Where there is one companion, `own` counts as so many times `apart`. */
 #define QDOT_COMPANION_ALONE 2.0
 
 /* The same for a value x of the run and theirs [count] of the companions, 1 or 2; the distance of
@@ -239,7 +239,7 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
                                 const qdot_ode_method *method, double tol);
 
 /* In what component i of a start y [n] = (q, q') is moved if it is 0: its scale (scales NULL: 1), or |q_i|
- * for q'_i and |q'_i| for q_i, if that is less and not 0. What starts at 1e-8 and at rest has not the errors of what
+ * for q'_i and |q'_i| for q_i, if that is less and not nothing beside it. What starts at 1e-8 and at rest has not the errors of what
  * starts at 1; where both are 0 nothing is known of the size that it will have. */
 double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
 

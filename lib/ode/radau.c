@@ -27,8 +27,9 @@ static const double bounds = 0.02, fair = 0.1, lasts = 2e-3;
  * magnifies rounding and what is left of a transient. */
 static const double far = 5;
 
-/* Forces and accelerations agree within this part of the forces. */
-static const double agree = 0.1;
+/* Forces and accelerations agree within this part of the forces; and what is missing makes less than so many
+ * tolerances of velocity within the step, is less than so many roundings, or falls to such a part by a change. */
+static const double agree = 0.1, harmless = 0.1, agree_roundings = 1000, fell_by = 0.5;
 
 /* Velocities that changes of multipliers make within h count by this: those of the step keep the
  * constraints, whatever these are. */
@@ -50,7 +51,7 @@ typedef struct {
     double *Z;       /* [MOST x w] the stages less y and z */
     double *z;       /* multipliers about which those of the stages are */
     double *a;       /* [MOST x m] */
-    double *R;       /* [MOST x m] residuals */
+    double *R, *R_before; /* [MOST x m] residuals, and those of the change before */
     double *re, *im; /* [m] */
     double *forces;  /* [m] the sum of the sizes of their terms, where slopes were taken */
     double *weight;  /* [w] 1/(tol max(scale, |y|)) */
@@ -60,6 +61,7 @@ typedef struct {
     bool slopes, fresh;             /* there are slopes; at the present y */
     double factored;                /* the step for which the matrices are; 0: none */
     double rate, rate_before, left; /* of the iteration */
+    double fall; /* of what was missing in forces, by the last change */
     int iterations, since;          /* steps since the number of stages changed */
     double ratio;                   /* of the last step accepted */
     double fell; /* by so much less than of the step before, were both of one length; 0: not known */
@@ -97,11 +99,12 @@ make(qdot_ode_stepper *s)
     r->p = r->linear.p;
     r->w = r->p + r->m;
     r->kind = s->tol > 1e-8 ? 1 : 2;
-    return qdot_calloc_parts(&r->room, 9,
+    return qdot_calloc_parts(&r->room, 10,
                              (const qdot_part[]){{&r->Z, MOST * r->w},
                                                  {&r->z, r->m}, /* more than there are */
                                                  {&r->a, MOST * r->m},
                                                  {&r->R, MOST * r->m},
+                                                 {&r->R_before, MOST * r->m},
                                                  {&r->re, r->m},
                                                  {&r->im, r->m},
                                                  {&r->forces, r->m},
@@ -117,7 +120,7 @@ restart(qdot_ode_stepper *s)
     r->before_basis = NULL;
     r->slopes = r->fresh = false;
     r->factored = 0;
-    r->rate = r->left = 1;
+    r->rate = r->left = r->fall = 1;
     r->since = 0;
     r->ratio = r->fell = 0;
     r->cautious = 0;
@@ -342,19 +345,31 @@ terms(const radau *r, size_t i, size_t l)
 
 /* Whether forces and accelerations agree in all stages, as far as forces are known by now. A change may be
  * small because the slopes at the beginning of the step are large, as where dry friction holds, and those
- * of a stage are not, where it slides. What a much shorter step left says nothing then. */
+ * of a stage are not, where it slides: what is missing there does not fall by such a change. What a much
+ * shorter step left says nothing then. */
 static bool
-forces_agree(const radau *r, const qdot_radau_basis *b)
+forces_agree(radau *r, const qdot_radau_basis *b)
 {
-    const double left = r->iterations == 1 && !is_near(r) ? 1 : r->left;
+    const bool first = r->iterations == 1;
+    const double left = first && !is_near(r) ? 1 : r->left;
+    double worst = 0;
 
     for (size_t i = 0; i < b->stages; i++)
         for (size_t l = 0; l < r->v; l++) {
-            const double missing = left * fabs(r->R[i * r->m + l]);
+            const double missing = fabs(r->R[i * r->m + l]), before = fabs(r->R_before[i * r->m + l]);
+            const double matters = harmless * fabs(r->linear.mass[l * r->m + l] / r->h) / r->weight[r->p + l];
+            const double fall = first ? r->fall : missing / fmax(before, DBL_MIN);
 
-            if (missing > agree * r->forces[l] && missing > agree * terms(r, i, l))
+            if (left * missing > agree * r->forces[l] && left * missing > agree * terms(r, i, l))
                 return false;
+            if (missing > matters && (first ? fall * missing > matters : fall > fell_by)
+                && missing > agree_roundings * DBL_EPSILON * terms(r, i, l))
+                return false;
+            if (!first && before > matters)
+                worst = fmax(worst, fall);
         }
+    if (worst > 0)
+        r->fall = worst;
     return true;
 }
 
@@ -380,9 +395,12 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
     weigh_algebraic(r, h);
     predict(s, b, h);
     r->left = raise(fmax(r->left, DBL_EPSILON));
+    r->fall = is_near(r) ? raise(fmax(r->fall, DBL_EPSILON)) : 1;
     for (r->iterations = 1; r->iterations <= most; r->iterations++) {
-        double size;
+        double size, *R = r->R_before;
 
+        r->R_before = r->R;
+        r->R = R;
         QDOT_TRY(residuals(s, b, t, h));
         solve(r, b);
         size = change(r, b, h);

@@ -67,38 +67,50 @@ are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
     return true;
 }
 
-/* Whether stability may bound steps of length h: h |df/dy| by differences, which is no less than h by the fastest
- * rate. */
+/* |df/dy| by differences of so much to either side, in units of the sizes of components; room [3n]. */
 static qdot_status
-may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
+steepness(const qdot_ode_stiff_step *at, double by, double *room, double *slope)
 {
     const qdot_ode_system *system = at->system;
     const size_t n = at->n;
-    double *y, *f, *moved, sum = 0;
-    qdot_status status;
+    double *y = room, *f = y + n, *moved = f + n, sum = 0;
 
-    *may = true;
-    if (!system)
-        return QDOT_OK;
-    y = qdot_malloc(3 * n * sizeof *y);
-    if (!y)
-        return QDOT_ENOMEM;
-    f = y + n;
-    moved = f + n;
     memcpy(y, at->y, n * sizeof *y);
-    status = system->rhs(at->t, y, f, system->user);
-    for (size_t j = 0; j < n && status == QDOT_OK; j++) {
-        const double size = qdot_ode_size(at->scales, j, y[j]), by = difference * size;
+    QDOT_TRY(system->rhs(at->t, y, f, system->user));
+    for (size_t k = 0; k < 2 * n; k++) {
+        const size_t j = k / 2;
 
-        y[j] += by;
-        status = system->rhs(at->t, y, moved, system->user);
+        y[j] += (k % 2 ? -by : by) * qdot_ode_size(at->scales, j, y[j]);
+        QDOT_TRY(system->rhs(at->t, y, moved, system->user));
         y[j] = at->y[j];
         for (size_t i = 0; i < n; i++)
-            sum += pow((moved[i] - f[i]) / (difference * qdot_ode_size(at->scales, i, y[i])), 2);
+            sum += pow((moved[i] - f[i]) / (by * qdot_ode_size(at->scales, i, y[i])), 2);
     }
-    if (status == QDOT_OK)
-        *may = !(h * sqrt(sum) < least_bound);
-    qdot_free(y);
+    *slope = sqrt(0.5 * sum);
+    return QDOT_OK;
+}
+
+/* Whether stability may bound steps of length h: h |df/dy| is no less than h by the fastest rate. Slopes are
+ * taken from near by to as far as steps may err: a motion that is held in a layer narrower than that jumps
+ * from side to side of it. */
+static qdot_status
+may_bind(const qdot_ode_stiff_step *at, double h, bool *may)
+{
+    double *room, slope = 0;
+    qdot_status status = QDOT_OK;
+
+    *may = true;
+    if (!at->system)
+        return QDOT_OK;
+    room = qdot_malloc(3 * at->n * sizeof *room);
+    if (!room)
+        return QDOT_ENOMEM;
+    *may = false;
+    for (double by = difference; status == QDOT_OK && !*may && by <= fmax(difference, at->noise); by *= 10) {
+        status = steepness(at, by, room, &slope);
+        *may = status != QDOT_OK || !(h * slope < least_bound);
+    }
+    qdot_free(room);
     return qdot_grave(status);
 }
 
@@ -134,18 +146,21 @@ keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
     return QDOT_OK;
 }
 
-/* Whether steps become longer: within half of the window by more than a tenth. Then they are not bound
- * for ever, and the next window is waited for. */
-static bool
-grow(const qdot_ode_stiffness *s)
+/* Steps of length h to t1, if they go on to grow as they did from the first half of the window to the second:
+ * h exp(k n) after n of them. */
+static double
+steps_left(const qdot_ode_stiffness *s, double h, double t1)
 {
     enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
+    const double so = fabs((t1 - s->t[LAST]) / h);
     int first = 0, second = 0;
+    double growth, k;
 
-    for (size_t k = 1; k <= LAST; k++)
-        *(k <= MIDDLE ? &first : &second) += steps_to(s, k);
-    return fabs(s->t[LAST] - s->t[MIDDLE]) / second
-           > 1.1 * (fabs(s->t[MIDDLE] - s->t[0]) / first);
+    for (size_t i = 1; i <= LAST; i++)
+        *(i <= MIDDLE ? &first : &second) += steps_to(s, i);
+    growth = fabs((s->t[LAST] - s->t[MIDDLE]) * first / ((s->t[MIDDLE] - s->t[0]) * second));
+    k = 2 * log(growth) / (first + second);
+    return k > 0 ? log1p(k * so) / k : so;
 }
 
 bool
@@ -169,8 +184,8 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     if (!enough)
         return QDOT_OK;
     step = (at->t - s->t[0]) / steps_between(s);
-    left = fabs((at->t1 - at->t) / step);
-    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at) && !grow(s);
+    left = steps_left(s, step, at->t1);
+    *stiff = !at->implicit && left * at->work > worth && are_smooth(s, at);
     if (*stiff)
         QDOT_TRY(may_bind(at, fabs(step), stiff));
     s->count = 0;

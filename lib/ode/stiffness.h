@@ -10,7 +10,11 @@
  * at seven more places without a pattern, which no motion does that its steps h follow;
  * noise is what these leave of the fast one. A fast force of t leaves as little, and no method can skip it: there
  * h |df/dy| is small, in units of max(s_i, |y_i|), while where stability bounds h it is not. It matters if much work is left (in about nanoseconds;
- * meter.h): the run ends, and says so. So does a run by any method that after a million steps would
+ * meter.h), where steps that became longer within the window are taken to go on so,
+ *
+ *     h(n) = h exp(k n),   n = log(1 + k (t1 - t)/h)/k:
+ *
+ * the run ends, and says so. So does a run by any method that after a million steps would
  * need more than it may take.
  *
  * Tests  tests/ode/test_stiffness.c, tests/script/stiff-told.sh, stiff-auto.lag

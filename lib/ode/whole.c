@@ -357,10 +357,9 @@ count_work(run *r)
 static qdot_status
 look_for_stiffness(run *r)
 {
-    const qdot_ode_stats stats = {.evaluations = r->s->evaluations};
+    const qdot_ode_stats stats = {.evaluations = r->s->evaluations + r->looked};
     const uint64_t steps = r->result->stats.steps;
     const double work = qdot_ode_work(r->s->system, &stats) / (double)(steps ? steps : 1);
-
     const qdot_ode_stiff_step at = {.system = r->s->system,
                                     .n = r->s->system->n,
                                     .t = r->t,

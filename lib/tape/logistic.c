@@ -170,6 +170,7 @@ typedef struct {
     qdot_expr rest; /* other factors */
     qdot_expr left; /* e^left of those that are exponentials */
     qdot_expr sum;  /* a sum over the denominators; nil: none */
+    qdot_expr from; /* the factor that it is */
     denominator under[MOST];
     size_t n;
 } quotients;
@@ -235,57 +236,181 @@ with_tangents(qdot_pool *pool, qdot_expr e)
 
 static qdot_expr form_of(qdot_pool *pool, qdot_expr e, void *user);
 
-/* c + c_1 cosh(u) + c_2 sinh(u) over *cosine, cosh(u). Nil: it is none. */
-static qdot_expr
-over_cosine(qdot_pool *pool, qdot_expr e, qdot_expr *cosine)
+/* c cosh(u)^a sinh(u)^b, a, b >= 0; u nil: it is c alone. */
+typedef struct {
+    qdot_expr c, u;
+    long a, b;
+} cosines;
+
+/* Whether x is base^k, k > 0, of cosh or sinh; then it is added to t. */
+static bool
+take_cosine(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 {
-    qdot_expr sum, u;
+    const bool cosine = is_fun(pool, base, QDOT_COSH);
+    long k;
 
-    *cosine = QDOT_NIL;
-    if (qdot_expr_kind(pool, e) != QDOT_SUM)
-        return QDOT_NIL;
-    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
-        if (is_fun(pool, qdot_expr_arg(pool, e, i), QDOT_COSH))
-            *cosine = qdot_expr_arg(pool, e, i);
-    if (*cosine == QDOT_NIL)
-        return QDOT_NIL;
-    u = qdot_expr_arg(pool, *cosine, 0);
-    sum = qdot_mul(pool, qdot_expr_arg(pool, e, 0), form_of(pool, qdot_pow_int(pool, *cosine, -1), NULL));
-    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
-        const qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
-        qdot_expr term;
-
-        if (x == *cosine)
-            term = QDOT_ONE;
-        else if (is_fun(pool, x, QDOT_SINH) && qdot_expr_arg(pool, x, 0) == u)
-            term = qdot_fun1(pool, QDOT_TANH, u);
-        else if (qdot_constant_is(pool, x))
-            term = form_of(pool, qdot_div(pool, x, *cosine), NULL);
-        else
-            return QDOT_NIL;
-        sum = qdot_add(pool, sum, qdot_mul(pool, c, term));
-    }
-    return sum;
+    if ((!cosine && !is_fun(pool, base, QDOT_SINH)) || !qdot_expr_to_int(pool, exponent, &k) ||
+        k < 1 || (t->u != QDOT_NIL && t->u != qdot_expr_arg(pool, base, 0)))
+        return false;
+    t->u = qdot_expr_arg(pool, base, 0);
+    *(cosine ? &t->a : &t->b) += k;
+    return true;
 }
 
-/* (c + c_1 cosh(u) + c_2 sinh(u))^-n over cosh(u)^n */
+static bool
+read_cosines(qdot_pool *pool, qdot_expr x, cosines *t)
+{
+    *t = (cosines){.c = x, .u = QDOT_NIL};
+    if (qdot_constant_is(pool, x))
+        return true;
+    t->c = QDOT_ONE;
+    if (qdot_expr_kind(pool, x) != QDOT_PROD)
+        return take_cosine(pool, x, QDOT_ONE, t);
+    t->c = qdot_expr_arg(pool, x, 0);
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2) {
+        const qdot_expr base = qdot_expr_arg(pool, x, i), k = qdot_expr_arg(pool, x, i + 1);
+
+        if (qdot_constant_is(pool, base) && qdot_constant_is(pool, k))
+            t->c = qdot_mul(pool, t->c, qdot_pow(pool, base, k));
+        else if (!take_cosine(pool, base, k, t))
+            return false;
+    }
+    return t->c != QDOT_NIL;
+}
+
+/* A sum S = large scaled, large > 0, where `scaled` stays finite. */
+typedef struct {
+    qdot_expr large, scaled;
+} factored;
+
+/* A polynomial of cosh(u) and sinh(u) as cosh(u)^N (its terms by tanh(u) and 1/cosh(u)); whether it is one. */
+static bool
+over_cosine(qdot_pool *pool, qdot_expr e, factored *f)
+{
+    const uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr u = QDOT_NIL, cosine, tangent;
+    long N = 0;
+    cosines t;
+
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        if (!read_cosines(pool, qdot_expr_arg(pool, e, i), &t) ||
+            (t.u != QDOT_NIL && u != QDOT_NIL && t.u != u))
+            return false;
+        u = t.u != QDOT_NIL ? t.u : u;
+        N = t.a + t.b > N ? t.a + t.b : N;
+    }
+    if (u == QDOT_NIL)
+        return false;
+    cosine = qdot_fun1(pool, QDOT_COSH, u);
+    tangent = qdot_fun1(pool, QDOT_TANH, u);
+    f->large = qdot_pow_int(pool, cosine, N);
+    f->scaled = qdot_mul(pool, qdot_expr_arg(pool, e, 0),
+                         form_of(pool, qdot_pow_int(pool, cosine, -N), NULL));
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr term;
+
+        (void)read_cosines(pool, qdot_expr_arg(pool, e, i), &t);
+        term = form_of(pool, qdot_mul(pool, t.c, qdot_pow_int(pool, cosine, t.a + t.b - N)), NULL);
+        term = qdot_mul(pool, term, qdot_pow_int(pool, tangent, t.b));
+        f->scaled = qdot_add(pool, f->scaled, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1), term));
+    }
+    return f->scaled != QDOT_NIL;
+}
+
+/* Term i of a sum, 0 its constant, as an exponential. */
+static bool
+read_term(qdot_pool *pool, qdot_expr e, uint32_t i, exponential *x)
+{
+    qdot_expr term = qdot_expr_arg(pool, e, 0);
+
+    if (i > 0)
+        term = qdot_mul(pool, qdot_expr_arg(pool, e, 2 * i - 1), qdot_expr_arg(pool, e, 2 * i));
+    return term != QDOT_NIL && read_exponential(pool, term, x);
+}
+
+/* sum c_i e^(k_i u), k_i rational, as (e^(k u) + e^(K u)) (the terms over that), k and K the least and the
+ * largest; whether it is one. */
+static bool
+over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
+{
+    const uint32_t n = (qdot_expr_count(pool, e) + 1) / 2;
+    qdot_expr u = QDOT_NIL, low = QDOT_NIL, high = QDOT_NIL, pair;
+    exponential x;
+
+    for (uint32_t i = qdot_expr_arg(pool, e, 0) == QDOT_ZERO; i < n; i++) {
+        qdot_expr k;
+
+        if (!read_term(pool, e, i, &x))
+            return false;
+        u = u == QDOT_NIL && x.v != QDOT_ZERO ? x.v : u;
+        k = x.v == QDOT_ZERO ? QDOT_ZERO : quotient(pool, x.v, u);
+        if (k == QDOT_NIL)
+            return false;
+        if (low == QDOT_NIL || qdot_expr_is_negative(pool, qdot_sub(pool, k, low)))
+            low = k;
+        if (high == QDOT_NIL || qdot_expr_is_negative(pool, qdot_sub(pool, high, k)))
+            high = k;
+    }
+    if (u == QDOT_NIL || low == high)
+        return false;
+    pair = qdot_add(pool, qdot_fun1(pool, QDOT_EXP, qdot_mul(pool, low, u)),
+                    qdot_fun1(pool, QDOT_EXP, qdot_mul(pool, high, u)));
+    f->large = pair;
+    f->scaled = QDOT_ZERO;
+    for (uint32_t i = qdot_expr_arg(pool, e, 0) == QDOT_ZERO; i < n; i++) {
+        qdot_expr term;
+
+        (void)read_term(pool, e, i, &x);
+        term = qdot_mul(pool, x.c, qdot_fun1(pool, QDOT_EXP, x.v));
+        f->scaled = qdot_add(pool, f->scaled, form_of(pool, qdot_div(pool, term, pair), NULL));
+    }
+    return f->scaled != QDOT_NIL;
+}
+
+/* Whether e is such a sum, but none of two exponentials of one sign (read_sum). */
+static bool
+factor(qdot_pool *pool, qdot_expr e, factored *f)
+{
+    denominator x;
+
+    return qdot_expr_kind(pool, e) == QDOT_SUM && !read_sum(pool, e, &x) &&
+           (over_cosine(pool, e, f) || over_exponentials(pool, e, f));
+}
+
+/* Negative powers of such sums by those of their factors. */
 static qdot_expr
-with_cosines(qdot_pool *pool, qdot_expr e)
+with_factors(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr f = e;
 
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e) && f != QDOT_NIL; i += 2) {
         const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
-        qdot_expr cosine, scaled;
+        factored by;
 
-        if (!is_negative_number(pool, p))
+        if (!is_negative_number(pool, p) || !factor(pool, b, &by))
             continue;
-        scaled = over_cosine(pool, b, &cosine);
-        if (scaled != QDOT_NIL)
-            f = qdot_mul(pool, qdot_div(pool, f, qdot_pow(pool, b, p)),
-                         qdot_pow(pool, qdot_mul(pool, cosine, scaled), p));
+        f = qdot_div(pool, f, qdot_pow(pool, b, p));
+        f = qdot_mul(pool, f, qdot_mul(pool, qdot_pow(pool, by.large, p),
+                                       qdot_pow(pool, by.scaled, p)));
     }
     return f;
+}
+
+/* A sum, or cosh(u) or sinh(u) as (e^u +- e^-u)/2; else nil. */
+static qdot_expr
+as_sum(qdot_pool *pool, qdot_expr b)
+{
+    qdot_expr up, down;
+
+    if (qdot_expr_kind(pool, b) == QDOT_SUM)
+        return b;
+    if (!is_fun(pool, b, QDOT_COSH) && !is_fun(pool, b, QDOT_SINH))
+        return QDOT_NIL;
+    up = qdot_fun1(pool, QDOT_EXP, qdot_expr_arg(pool, b, 0));
+    down = qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_expr_arg(pool, b, 0)));
+    if (is_fun(pool, b, QDOT_SINH))
+        down = qdot_neg(pool, down);
+    return qdot_add(pool, qdot_mul(pool, QDOT_HALF, up), qdot_mul(pool, QDOT_HALF, down));
 }
 
 /* Sort the factors of e. */
@@ -302,8 +427,8 @@ sort(quotients *q, qdot_expr e)
             continue;
         if (is_fun(pool, b, QDOT_EXP) && p == QDOT_ONE)
             q->left = qdot_add(pool, q->left, qdot_expr_arg(pool, b, 0));
-        else if (q->sum == QDOT_NIL && p == QDOT_ONE && qdot_expr_kind(pool, b) == QDOT_SUM)
-            q->sum = b;
+        else if (q->sum == QDOT_NIL && p == QDOT_ONE && as_sum(pool, b) != QDOT_NIL)
+            q->sum = as_sum(pool, q->from = b);
         else
             q->rest = qdot_mul(pool, q->rest, qdot_pow(pool, b, p));
     }
@@ -314,7 +439,7 @@ static qdot_expr
 distribute(quotients *q, qdot_expr e)
 {
     qdot_pool *pool = q->pool;
-    const qdot_expr under = qdot_div(pool, e, q->sum);
+    const qdot_expr under = qdot_div(pool, e, q->from);
     qdot_expr sum = QDOT_ZERO, constant = qdot_expr_arg(pool, q->sum, 0);
 
     if (constant != QDOT_ZERO)
@@ -363,7 +488,7 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
-    e = with_cosines(pool, e);
+    e = with_factors(pool, e);
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
     e = with_tangents(pool, e);
@@ -389,19 +514,55 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
     return qdot_mul(pool, q.rest, qdot_fun1(pool, QDOT_EXP, exponent));
 }
 
-/* log(cosh(u)) */
+/* log(c_1 e^v + c_2 e^w), c_1 and c_2 > 0 */
+static qdot_expr
+logarithm_of_sum(qdot_pool *pool, const denominator *x)
+{
+    const qdot_expr d = qdot_expand(pool, qdot_sub(pool, x->w, x->v)),
+                    at = qdot_add(pool, d, qdot_fun1(pool, QDOT_LOG, x->ratio));
+    const qdot_expr minus = qdot_neg(pool, at), c = qdot_fun1(pool, QDOT_LOG, x->c);
+    qdot_expr sum;
+
+    if (x->v == QDOT_ZERO)
+        return qdot_add(pool, c, softplus(pool, at));
+    if (x->w == QDOT_ZERO)
+        return qdot_add(pool, qdot_add(pool, c, qdot_fun1(pool, QDOT_LOG, x->ratio)),
+                        softplus(pool, minus));
+    sum = qdot_add(pool, softplus(pool, at), softplus(pool, minus));
+    sum = qdot_add(pool, sum, qdot_fun1(pool, QDOT_LOG, x->ratio));
+    sum = qdot_add(pool, sum, qdot_add(pool, x->v, x->w));
+    return qdot_add(pool, c, qdot_mul(pool, QDOT_HALF, qdot_expand(pool, sum)));
+}
+
+/* log of cosh(u)^N, or of two exponentials */
+static qdot_expr
+logarithm_of(qdot_pool *pool, qdot_expr large)
+{
+    const bool power = qdot_expr_kind(pool, large) == QDOT_PROD;
+    const qdot_expr base = power ? qdot_expr_arg(pool, large, 1) : large,
+                    N = power ? qdot_expr_arg(pool, large, 2) : QDOT_ONE;
+    denominator x;
+
+    return read_sum(pool, base, &x) ? qdot_mul(pool, N, logarithm_of_sum(pool, &x)) : QDOT_NIL;
+}
+
+/* log(S) of sums that grow exponentially, and of cosh(u) */
 static qdot_expr
 logarithm(qdot_pool *pool, qdot_expr e, void *user)
 {
-    qdot_expr u, sum;
+    const bool is_log = is_fun(pool, e, QDOT_LOG);
+    const qdot_expr S = is_log ? qdot_expr_arg(pool, e, 0) : e;
+    denominator x;
+    factored f;
 
     (void)user;
-    if (!is_fun(pool, e, QDOT_LOG) || !is_fun(pool, qdot_expr_arg(pool, e, 0), QDOT_COSH))
+    if (!is_log || qdot_logistic_argument(pool, e) != QDOT_NIL)
         return e;
-    u = qdot_mul(pool, qdot_expr_int(pool, 2), qdot_expr_arg(pool, qdot_expr_arg(pool, e, 0), 0));
-    sum = qdot_add(pool, softplus(pool, u), softplus(pool, qdot_neg(pool, u)));
-    return qdot_sub(pool, qdot_mul(pool, QDOT_HALF, sum),
-                    qdot_fun1(pool, QDOT_LOG, qdot_expr_int(pool, 2)));
+    if (read_sum(pool, S, &x))
+        return has_sign(pool, x.c, QDOT_POS) ? logarithm_of_sum(pool, &x) : e;
+    if (!factor(pool, S, &f))
+        return e;
+    return qdot_add(pool, logarithm_of(pool, f.large), qdot_fun1(pool, QDOT_LOG, f.scaled));
 }
 
 bool

@@ -8,8 +8,13 @@
  *
  * they are e^(-a l(d) - b l(-d)), a, b >= 0: what stands over and under is taken together before e^ is.
  * So each has its relative precision however small it is. cosh(u) is (e^-u + e^u)/2; sinh(u)^k over
- * cosh(u)^n is tanh(u)^k cosh(u)^(k - n); c + c_1 cosh(u) + c_2 sinh(u) is
- * cosh(u) (c_1 + c_2 tanh(u) + c/cosh(u)). log(cosh(u)) is (l(2 u) + l(-2 u))/2 - log(2).
+ * cosh(u)^n is tanh(u)^k cosh(u)^(k - n). A sum of more is a factor and what stays finite,
+ *
+ *     sum c_ab cosh(u)^a sinh(u)^b = cosh(u)^N sum c_ab tanh(u)^b cosh(u)^(a + b - N)
+ *     sum c_i e^(k_i u) = (e^(k u) + e^(K u)) sum c_i e^(k_i u)/(e^(k u) + e^(K u)),   k <= k_i <= K,
+ *
+ * and so are logarithms, log(c_1 e^v + c_2 e^w) = log(c_1) + v + l(d), or, if neither v nor w is 0,
+ * (log(c_1 c_2) + v + w + l(d) + l(-d))/2.
  *
  * l(d) is written log(1 + e^d), held since e^(k log a) would be a^k; lower.c makes
  * an operation of it.

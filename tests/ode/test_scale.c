@@ -158,11 +158,11 @@ companions_start_in_the_scale(void **state)
 static void
 zeros_are_moved_by_what_stands_beside_them(void **state)
 {
-    const double y[] = {1e-8, 0, 3, 0, /* q' */ 0, 0, 0, -1e-3}, scales[] = {1, 1, 1, 1, 1, 2, 1, 1};
+    const double y[] = {1e-8, 1e-17, 3, 0, /* q' */ 0, 0, 0, -1e-3}, scales[] = {1, 1, 1, 1, 1, 2, 1, 1};
 
     (void)state;
     assert_true(qdot_companion_unit(NULL, 8, y, 4) == 1e-8);
-    assert_true(qdot_companion_unit(NULL, 8, y, 1) == 1 && qdot_companion_unit(scales, 8, y, 5) == 2);
+    assert_true(qdot_companion_unit(NULL, 8, y, 5) == 1 && qdot_companion_unit(scales, 8, y, 5) == 2);
     assert_true(qdot_companion_unit(NULL, 8, y, 6) == 1 && qdot_companion_unit(NULL, 8, y, 2) == 1);
     assert_true(qdot_companion_unit(NULL, 8, y, 3) == 1e-3);
 }

@@ -9,9 +9,9 @@
 
 #include "ode/stiffness.h"
 
-/* After how many steps of h of the motion (x, x') it is told, of 20,000; 0: never. */
+/* After how many steps of the motion (x, x'), the k-th of h exp(growth k), it is told, of 20,000; 0: never. */
 static int
-told_after(double (*x)(double), double (*v)(double), double h, double t1, double work)
+told_after_growing(double (*x)(double), double (*v)(double), double h, double growth, double t1, double work)
 {
     qdot_ode_stiffness s = {0};
     const qdot_ode_options options = {.tol = 1e-9};
@@ -19,7 +19,7 @@ told_after(double (*x)(double), double (*v)(double), double h, double t1, double
     int k = 0;
 
     for (; k < 20000 && !stiff; k++) {
-        const double t = k * h, y[] = {x(t), v(t)};
+        const double t = growth > 0 ? h * expm1(growth * k) / growth : k * h, y[] = {x(t), v(t)};
         const qdot_ode_stiff_step at = {
             .n = 2, .t = t, .t1 = t1, .y = y, .noise = 1e-9, .work = work, .most = 50000000};
 
@@ -31,6 +31,12 @@ told_after(double (*x)(double), double (*v)(double), double h, double t1, double
     }
     qdot_ode_stiffness_clear(&s);
     return stiff ? k : 0;
+}
+
+static int
+told_after(double (*x)(double), double (*v)(double), double h, double t1, double work)
+{
+    return told_after_growing(x, v, h, 0, t1, work);
 }
 
 static double
@@ -91,6 +97,16 @@ nor_one_that_ends_soon(void **state)
 {
     (void)state;
     assert_int_equal(told_after(sinks, speed, 2e-3, 1e3, 100), 0);
+}
+
+/* Steps that grow by an eighth in 250: of 1e9 at their present length about 3e4 are left. */
+static void
+steps_that_grow_end_sooner(void **state)
+{
+    (void)state;
+    assert_true(told_after_growing(sinks, speed, 2e-3, 5e-4, 2e6, 1e6) > 500);
+    assert_int_equal(told_after_growing(sinks, speed, 2e-3, 5e-4, 2e6, 1e4), 0);
+    assert_true(told_after(sinks, speed, 2e-3, 2e6, 1e4) > 500);
 }
 
 /* Steps that turn, more than there may be: a million of them are awaited. */
@@ -159,6 +175,7 @@ main(void)
         cmocka_unit_test(a_motion_on_a_line_is_told),
         cmocka_unit_test(one_that_turns_is_not),
         cmocka_unit_test(nor_one_that_ends_soon),
+        cmocka_unit_test(steps_that_grow_end_sooner),
         cmocka_unit_test(too_many_steps_are_told),
         cmocka_unit_test(a_fast_force_is_not_stiff),
     };

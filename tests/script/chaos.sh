@@ -19,9 +19,9 @@ coord a
 particle p mass 1 at (sin(a), -cos(a))
 gravity (0, -1)
 start a = 0, a' = 2
-run 0..30 tol 1e-6
-value(a, 30)
-check value(energy, 30) == 1 within 1e-6
+run 0..60 tol 1e-6
+value(a, 60)
+check value(energy, 60) == 1 within 1e-6
 # none is conserved
 reset
 coord x

@@ -67,6 +67,41 @@ of_small_swings(void **state)
         }
 }
 
+/* An event that changes nothing: the companions of the end's error have met it, too, and tell that of its
+ * times. */
+static void
+of_an_event(void **state)
+{
+    static const char *const methods[] = {"taylor", "dop853", "radau"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        fixture f;
+        qdot_event lowest = {.name = (char *)"lowest", .right = QDOT_ZERO};
+        const qdot_run_occurrence *list;
+        double spent;
+        qdot_run *r;
+        size_t n;
+
+        chain(&f, 2);
+        lowest.left = qdot_symbol_get(f.pool, QDOT_COORD, "theta[1]");
+        must(qdot_scene_event(f.scene, &lowest));
+        f.q0[0] = number(&f, "0.2");
+        f.request.t1 = qdot_expr_int(f.pool, 60);
+        f.request.tol = 1e-9;
+        f.request.method = methods[k];
+        must(qdot_run_new(f.scene, &f.request, &r));
+        spent = qdot_run_get_report(r)->estimate_work;
+        must(qdot_run_occurrences(r, &list, &n));
+        assert_true(n > 10 && list[n - 1].error < 1e-6);
+        assert_true(qdot_run_get_report(r)->estimate_work == spent);
+        assert_true(spent <= a_mark * (QDOT_COMPANION_MOST * qdot_run_get_report(r)->work
+                                       + 2 * QDOT_COMPANION_LEAST));
+        qdot_run_free(r);
+        end(&f);
+    }
+}
+
 /* A run of one step, beside which a moved companion swings all the time: within the least. */
 static void
 at_rest(void **state)
@@ -111,6 +146,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_chaos),
         cmocka_unit_test(of_small_swings),
+        cmocka_unit_test(of_an_event),
         cmocka_unit_test(at_rest),
         cmocka_unit_test(of_a_layer),
     };

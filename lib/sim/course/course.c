@@ -59,6 +59,26 @@ resume(qdot_piece *x)
                                   x->options, x->start.t, x->start.y);
 }
 
+/* What rests where a piece starts; an event that is met there, *over: one that stops the run, is carried
+ * out, and sides are decided anew if it changes the state. */
+static qdot_status
+come_to_rest(qdot_piece *x, bool anew, bool *over)
+{
+    for (;;) {
+        QDOT_TRY(qdot_piece_stop_pucks(x, anew));
+        x->roots.n = 0;
+        QDOT_TRY(qdot_piece_stop_in_layers(x));
+        if (x->roots.n == 0)
+            return QDOT_OK;
+        x->start.jumped = false;
+        QDOT_TRY(qdot_piece_act(x, over));
+        if (*over || !x->start.jumped)
+            return QDOT_OK;
+        QDOT_TRY(qdot_piece_sides(x, NULL));
+        anew = true;
+    }
+}
+
 /* Integrate piece after piece from y0 [n] at x->start.t. */
 static qdot_status
 loop(qdot_piece *x, const double *y0)
@@ -77,7 +97,7 @@ loop(qdot_piece *x, const double *y0)
         status = qdot_trajectory_run(&c->tr, &c->systems.at[x->mode], x->method, x->options,
                                      x->start.t, x->start.t, y0);
     if (status == QDOT_OK)
-        status = qdot_piece_stop_pucks(x, true);
+        status = come_to_rest(x, true, &over);
     while (status == QDOT_OK && !over) {
         status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')
@@ -98,14 +118,14 @@ loop(qdot_piece *x, const double *y0)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
+        if (status == QDOT_OK && !over)
+            status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
+        if (status == QDOT_OK && !over)
+            status = come_to_rest(x, x->start.jumped, &over);
         if (status == QDOT_OK && over && x->start.jumped)
             status = resume(x);
         if (status == QDOT_OK && over)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
-        if (status == QDOT_OK && !over)
-            status = qdot_piece_sides(x, x->start.jumped ? NULL : qdot_piece_mode(x)->side);
-        if (status == QDOT_OK && !over)
-            status = qdot_piece_stop_pucks(x, x->start.jumped);
         if (x->start.t == x->t1 && !over) {
             if (x->start.jumped && status == QDOT_OK)
                 status = resume(x);

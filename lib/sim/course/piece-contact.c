@@ -102,10 +102,10 @@ size_of_place(qdot_piece *x, size_t surface, double *size)
         y[i] = x->start.y[i] * (i < x->n / 2 ? 1 + by : 1);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t,
-                                         x->start.y, surface, 0, &u0);
+                                         x->start.y, surface, 0, &u0, NULL);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, y,
-                                         surface, 0, &u1);
+                                         surface, 0, &u1, NULL);
     *size = fabs(u1 - u0) / by;
     x->mode = free;
     qdot_free(y);
@@ -186,8 +186,10 @@ qdot_piece_keep_contacts(qdot_piece *x)
 
         if (x->side[i] != QDOT_SIDE_SLIDES || qdot_piece_mode(x)->side[i] != QDOT_SIDE_SLIDES)
             continue;
-        QDOT_TRY(qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place));
-        QDOT_TRY(qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 1, &rate));
+        QDOT_TRY(
+            qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place, NULL));
+        QDOT_TRY(
+            qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 1, &rate, NULL));
         place *= s->surfaces.at[i].reaction;
         rate *= s->surfaces.at[i].reaction;
         if (fabs(place) <= alike && fabs(rate) <= alike)

@@ -39,7 +39,7 @@ qdot_piece_enter(qdot_piece *x)
 /* A start farther than this from a surface is not on it. */
 static const double away = 1e-9;
 
-/* What pucks that come to rest are slowed down by: twice their radius. */
+/* What pucks that come to rest are slowed down by, twice their radius, and what comes to rest in a layer. */
 static double
 slowest(const qdot_piece *x)
 {
@@ -47,6 +47,8 @@ slowest(const qdot_piece *x)
 
     for (size_t i = 0; i < x->c->stage->switches.pucks.n; i++)
         most = fmax(most, 2 * x->c->stage->switches.pucks.at[i].radius);
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n; i++)
+        most = fmax(most, 2 * x->c->stage->switches.surfaces.at[i].layer);
     return most;
 }
 
@@ -109,7 +111,7 @@ qdot_piece_carry(qdot_piece *x)
             continue;
         }
         if (w->kind == QDOT_WATCH_SURFACE && slides(old, w->index) && !slides(next, w->index)
-            && !x->start.jumped) {
+            && !x->start.jumped && x->c->stage->switches.surfaces.at[w->index].layer == 0) {
             x->residual[i] = 0;
             x->put_aside = true;
         }

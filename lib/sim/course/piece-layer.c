@@ -1,10 +1,13 @@
-/* piece-layer.c -- checks that a layer about a branch point (sim/model/layer.h) may be passed. */
+/* piece-layer.c -- checks that a layer about a branch point (sim/model/layer.h) may be passed, and finds what
+ * comes to rest in one. */
 #include "sim/course/piece.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "ode/scale.h"
+#include "sim/model/layer.h"
 
 /* What may be left out at tolerances below this. */
 static const double least_left_out = 16 * DBL_EPSILON;
@@ -13,6 +16,23 @@ static const qdot_surface *
 surface(const qdot_piece *x, size_t i)
 {
     return &x->c->stage->switches.surfaces.at[i];
+}
+
+/* Whether the motion was held at u = 0 of surface i before the piece in its layer. */
+static bool
+was_held(const qdot_piece *x, size_t i)
+{
+    const qdot_trajectory *tr = &x->c->tr;
+    const size_t n = tr->pieces.n;
+
+    return n > 1
+           && x->c->stage->modes.at[tr->pieces.at[n - 2].mode]->side[i] == QDOT_SIDE_SLIDES;
+}
+
+static bool
+is_in_time(const qdot_piece *x, size_t i)
+{
+    return qdot_layers_in_time(x->c->stage->switches.pool, surface(x, i));
 }
 
 /* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what has been left
@@ -32,15 +52,16 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     if (status == QDOT_OK)
         status = qdot_piece_rates(x, leaves ? x->mode : x->start.from, beyond);
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        const double out = beyond[k] - inside[k];
+        const double out = beyond[k] - inside[k], mean = x->entered ? (x->rim[k] + out) / 2 : out;
 
-        most = fmax(most, fabs(x->entered ? (x->rim[k] + out) / 2 : out)
-                              / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
+        most = fmax(most, fabs(mean) / qdot_ode_size(c->stage->scales, k, x->start.y[k]));
         x->rim[k] = out;
+        if (leaves && is_in_time(x, i)) /* it is made good */
+            x->start.y[k] += mean * time;
     }
     qdot_free(inside);
     x->entered = !leaves;
-    if (leaves)
+    if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction makes that good as soon as it is left */
         c->left_out += most * time;
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
         qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");
@@ -72,6 +93,265 @@ rests(qdot_piece *x, size_t i, bool *yes)
     return status;
 }
 
+/* --- coming to rest -------------------------------------------------------------------------------- */
+
+/* The force of friction is compared at the rim and at so much of the way to it. */
+static const double deeper = 0x1p-10;
+
+/* The motion held at u = 0 of a surface at the start of a piece: y and its rates [n], the slopes of u by
+ * q' [n/2] (`order` 1) or, if u holds none, by q (0), and u at the start. */
+typedef struct {
+    int order;
+    double *y, *rates, *slopes, u;
+} held_motion;
+
+/* How fast |u|, of order 0 |du/dt|, falls at u = way `at` with the equations of that side, more than in the
+ * motion held: *a. */
+static qdot_status
+decelerate(qdot_piece *x, size_t i, const held_motion *held, int way, double at, double *a)
+{
+    const size_t n = x->n / 2;
+    const qdot_ode_system *system;
+    double *y = qdot_malloc(2 * x->n * sizeof *y), *rates = y + x->n, square = 0;
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    *a = 0;
+    x->side[i] = way;
+    if (status == QDOT_OK)
+        status = qdot_piece_enter(x);
+    if (status == QDOT_OK) {
+        memcpy(y, held->y, x->n * sizeof *y);
+        for (size_t k = 0; k < n; k++)
+            square += held->slopes[k] * held->slopes[k];
+        for (size_t k = 0; k < n; k++)
+            y[(size_t)held->order * n + k] += way * at / square * held->slopes[k];
+        system = x->c->systems.at + x->mode;
+        status = system->rhs(x->start.t, y, rates, system->user);
+    }
+    for (size_t k = 0; k < n && status == QDOT_OK; k++)
+        *a -= way * (held->order == 1 ? x->direction : 1) * held->slopes[k] * (rates[n + k] - held->rates[n + k]);
+    qdot_free(y);
+    return status;
+}
+
+/* What is left until rest: the time, what is uncertain of it, and the way in units of time times velocity. */
+typedef struct {
+    double time, doubt, mean;
+} remainder_of_motion;
+
+/* u falls as c u^p from u0, p < 1: u0/(a(w) (1 - p)) (u0/w)^-p, and the mean of u until then is u0 (1 - p)/(2 - p). */
+static double
+time_by(double u0, double w, double rim, double p)
+{
+    return w / (rim * (1 - p)) * pow(u0 / w, 1 - p);
+}
+
+/* What rounding of the velocities leaves of u. */
+static double
+noise_of(const qdot_piece *x, const double *slopes)
+{
+    const size_t n = x->n / 2;
+    double sum = 0;
+
+    for (size_t k = 0; k < n; k++)
+        sum += 2 * DBL_EPSILON * fabs(slopes[k])
+               * qdot_ode_size(x->c->stage->scales, n + k, x->start.y[n + k]);
+    return sum;
+}
+
+/* How friction brings u at the start to rest, a = c u^p on either side: an infinite time if that never ends,
+ * or if there is a side on which it does not. */
+static qdot_status
+find_rest(qdot_piece *x, size_t i, const held_motion *held, remainder_of_motion *left)
+{
+    const double w = surface(x, i)->layer, u0 = fmin(fabs(held->u), w);
+
+    *left = (remainder_of_motion){0};
+    for (int way = -1; way <= 1; way += 2) {
+        double rim, half, inside, p, q;
+
+        QDOT_TRY(decelerate(x, i, held, way, w, &rim));
+        QDOT_TRY(decelerate(x, i, held, way, sqrt(deeper) * w, &half));
+        QDOT_TRY(decelerate(x, i, held, way, deeper * w, &inside));
+        p = inside > 0 ? log(inside / rim) / log(deeper) : 0;
+        q = half > 0 ? log(half / rim) / (log(deeper) / 2) : 0;
+        if (!(rim > 0 && p < 1))
+            left->time = INFINITY;
+        if (!(way * held->u > 0) || isinf(left->time))
+            continue;
+        left->time = time_by(u0, w, rim, p);
+        left->doubt = fabs(time_by(u0, w, rim, q) - left->time)
+                      + noise_of(x, held->slopes) / (rim * pow(u0 / w, p));
+        left->mean = (1 - p) / (2 - p);
+    }
+    return QDOT_OK;
+}
+
+/* The way until rest is known but for the change of the forces in that time, and may err by so much. */
+static const double way_left_out = 1e-12;
+
+/* Whether that is so of the motion that is held. */
+static bool
+may_go(const qdot_piece *x, const held_motion *held, const remainder_of_motion *left)
+{
+    const size_t n = x->n / 2;
+    const double duration = fabs(x->t1 - x->c->tr.t[0]);
+    bool may = isfinite(left->time);
+
+    for (size_t k = 0; k < n && may; k++)
+        may = fabs(x->start.y[n + k] - held->y[n + k])
+                  * fmax(left->doubt, left->time * (left->time / duration))
+              <= way_left_out * qdot_ode_size(x->c->stage->scales, k, x->start.y[k]);
+    return may;
+}
+
+/* Make the motion that is held go through the time until rest, at its mean velocity until then. */
+static qdot_status
+go_to_rest(qdot_piece *x, size_t i, const held_motion *held, const remainder_of_motion *left)
+{
+    qdot_course *c = x->c;
+    const size_t n = x->n / 2;
+    const double end = x->start.t + x->direction * left->time,
+                 after = x->direction * (end - x->t1) > 0 ? x->t1 : end;
+
+    for (size_t k = 0; k < n; k++)
+        held->y[k] += left->mean * (after - x->start.t) * (x->start.y[n + k] - held->y[n + k]);
+    memcpy(x->start.y, held->y, x->n * sizeof *held->y);
+    if (after == x->start.t)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&c->rests, ((qdot_course_rest){i, x->start.t, after})));
+    x->late = left->doubt;
+    QDOT_TRY(qdot_trajectory_resume(&c->tr, &c->systems.at[x->mode], x->mode, true, x->options, after,
+                                    x->start.y));
+    x->start.t = after;
+    x->start.from = x->mode;
+    memcpy(x->start.y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *x->start.y);
+    return QDOT_OK;
+}
+
+/* Hold the motion on surface i at the start of a piece, in a mode of its own; free held->slopes. */
+static qdot_status
+hold(qdot_piece *x, size_t i, int order, held_motion *held)
+{
+    const qdot_sliding_rows *rows;
+    const qdot_ode_system *system;
+    double *y = qdot_calloc(3 * x->n, sizeof *y), moved;
+
+    *held = (held_motion){.order = order, .y = y + x->n, .rates = y + 2 * x->n, .slopes = y};
+    x->side[i] = QDOT_SIDE_SLIDES;
+    if (!y)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_piece_enter(x));
+    rows = &qdot_piece_mode(x)->held;
+    system = x->c->systems.at + x->mode;
+    memcpy(held->y, x->start.y, x->n * sizeof *y);
+    QDOT_TRY(qdot_sliding_rows_keep(rows, x->n / 2, x->start.t, held->y, &moved));
+    QDOT_TRY(qdot_sliding_rows_value(rows, x->n / 2, x->start.t, x->start.y, i, order, &held->u,
+                                     held->slopes));
+    return system->rhs(x->start.t, held->y, held->rates, system->user);
+}
+
+/* Whether the motion comes to rest on surface i, in whose layer it is, and what is left of its way is
+ * next to nothing; then it goes there, and x->mode is the one that holds it. */
+static qdot_status
+may_hold(qdot_piece *x, size_t i, bool *may)
+{
+    held_motion held;
+    remainder_of_motion left = {.time = INFINITY};
+    qdot_status status = hold(x, i, 1, &held);
+    const size_t mode = x->mode;
+
+    if (status == QDOT_OK)
+        status = find_rest(x, i, &held, &left);
+    *may = status == QDOT_OK && may_go(x, &held, &left);
+    x->side[i] = QDOT_SIDE_SLIDES;
+    x->mode = mode;
+    if (*may)
+        status = go_to_rest(x, i, &held, &left);
+    qdot_free(held.slopes);
+    return *may ? status : qdot_grave(status);
+}
+
+/* Whether forces drive the motion, at rest in the layer of surface i, back into it from both rims: then it
+ * stays. */
+static qdot_status
+is_driven_back(qdot_piece *x, size_t i, bool *yes)
+{
+    const size_t mode = x->mode;
+    held_motion held;
+    double up = 0, down = 0;
+    qdot_status status = hold(x, i, 0, &held);
+
+    if (status == QDOT_OK)
+        status = decelerate(x, i, &held, 1, surface(x, i)->layer, &up);
+    if (status == QDOT_OK)
+        status = decelerate(x, i, &held, -1, surface(x, i)->layer, &down);
+    *yes = status == QDOT_OK && up > 0 && down > 0;
+    qdot_free(held.slopes);
+    x->side[i] = 0;
+    x->mode = mode;
+    return qdot_grave(status);
+}
+
+static bool
+holds_velocities(const qdot_piece *x, size_t i)
+{
+    return (qdot_expr_node(x->c->stage->switches.pool, surface(x, i)->u)->holds
+            & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           != 0;
+}
+
+/* Events whose function is 0 where the motion has come to rest, and was not before. */
+static qdot_status
+meet_events(qdot_piece *x)
+{
+    const size_t m = qdot_piece_mode(x)->m;
+    int *signs = qdot_calloc(m + 1, sizeof *signs);
+    double *g = qdot_calloc(m + 1, sizeof *g);
+    qdot_status status = signs && g ? QDOT_OK : QDOT_ENOMEM;
+
+    x->t_act = x->start.t;
+    x->roots.n = 0;
+    if (status == QDOT_OK && m > 0)
+        status = qdot_watch_look(qdot_piece_watch(x), x->start.t, x->start.y, signs, g);
+    for (size_t k = 0; k < x->c->stage->events.n && status == QDOT_OK; k++) {
+        const qdot_root root = {
+            .function = k, .t = x->start.t, .way = -x->signs[k], .blur = x->late};
+
+        if (x->signs[k] != 0 && signs[k] == 0)
+            status = qdot_piece_meet(x, &root);
+    }
+    qdot_free(signs);
+    qdot_free(g);
+    return status;
+}
+
+qdot_status
+qdot_piece_stop_in_layers(qdot_piece *x)
+{
+    const qdot_mode *old = qdot_piece_mode(x);
+    size_t mode = x->mode;
+    qdot_status status = QDOT_OK;
+    bool any = false;
+
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n && status == QDOT_OK; i++) {
+        bool may = false;
+
+        if (surface(x, i)->layer == 0 || x->side[i] != 0
+            || (old->side[i] == QDOT_SIDE_SLIDES && !x->start.jumped)
+            || !holds_velocities(x, i))
+            continue;
+        status = may_hold(x, i, &may);
+        x->side[i] = may ? QDOT_SIDE_SLIDES : 0;
+        mode = may ? x->mode : mode;
+        x->mode = mode;
+        any |= may;
+    }
+    return status == QDOT_OK && any ? meet_events(x) : status;
+}
+
+/* --- passing -------------------------------------------------------------------------------------------- */
+
 qdot_status
 qdot_piece_check_layers(qdot_piece *x)
 {
@@ -80,7 +360,7 @@ qdot_piece_check_layers(qdot_piece *x)
     const size_t surfaces = x->c->stage->switches.surfaces.n;
 
     for (size_t i = 0; i < surfaces && x->c->reason[0] == '\0'; i++) {
-        bool stays = false;
+        bool stays = false, back = false;
 
         if (surface(x, i)->layer == 0)
             continue;
@@ -89,9 +369,11 @@ qdot_piece_check_layers(qdot_piece *x)
         else if ((old->side[i] == 0) != (now->side[i] == 0))
             QDOT_TRY(pass_rim(x, i, old->side[i] == 0));
         /* from a power of less than 1 the motion may leave at any time */
-        if (now->side[i] == 0 && surface(x, i)->power < 1)
+        if (now->side[i] == 0 && surface(x, i)->power < 1 && !is_in_time(x, i))
             QDOT_TRY(rests(x, i, &stays));
-        if (stays)
+        if (stays && !holds_velocities(x, i))
+            QDOT_TRY(is_driven_back(x, i, &back));
+        if (stays && !back)
             qdot_piece_stop_at(x, i, 0, "nothing says when the motion, at rest, leaves", "");
     }
     return QDOT_OK;

@@ -12,6 +12,8 @@
 static const double behind = 64 * DBL_EPSILON;
 /* or of the time of the run. */
 static const double little = 0x1p-60;
+/* The cosine beyond which two directions are one. */
+static const double straight = 0.999;
 /* If it has none to start with, at that of so little of the time of the run. */
 static const double least = 0x1p-85;
 
@@ -174,7 +176,24 @@ leave_late(qdot_piece *x, double late)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, late);
 }
 
-/* Puck i starts from rest. */
+/* Whether puck i moves the way e already, as behind a start by creeping: not by rest's velocities. */
+static bool
+moves_along(const qdot_piece *x, const qdot_puck *puck, const double *rest, const double *e)
+{
+    double along = 0, d2 = 0, e2 = 0;
+
+    for (size_t c = 0; c < puck->k; c++) {
+        const size_t at = x->n / 2 + puck->velocity[c];
+        const double d = x->start.y[at] - rest[at];
+
+        along += d * e[c];
+        d2 += d * d;
+        e2 += e[c] * e[c];
+    }
+    return along > straight * sqrt(d2 * e2);
+}
+
+/* Puck i starts from rest, or goes on where it has. */
 static qdot_status
 start_one(qdot_piece *x, size_t i, double speed)
 {
@@ -191,11 +210,13 @@ start_one(qdot_piece *x, size_t i, double speed)
             friction = fmax(friction, fabs(r.K[c]));
         from = fmax(a * fmax(behind * fabs(x->start.t), little * duration),
                     friction * least * duration);
-        memcpy(x->start.y, rest, x->n * sizeof *rest);
-        for (size_t c = 0; c < puck->k; c++)
-            change(puck, c, from * e[c], x->start.y + x->n / 2);
-        if (a > 0)
-            leave_late(x, (speed + from) / a);
+        if (!(speed > from && moves_along(x, puck, rest, e))) {
+            memcpy(x->start.y, rest, x->n * sizeof *rest);
+            for (size_t c = 0; c < puck->k; c++)
+                change(puck, c, from * e[c], x->start.y + x->n / 2);
+            if (a > 0)
+                leave_late(x, (speed + from) / a);
+        }
     }
     qdot_free(rest);
     return status;

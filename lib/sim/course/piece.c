@@ -99,6 +99,17 @@ note(qdot_piece *x, const qdot_root *root)
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
 }
 
+qdot_status
+qdot_piece_meet(qdot_piece *x, const qdot_root *root)
+{
+    if (!is_occurrence(x, root))
+        return QDOT_OK;
+    QDOT_TRY(note(x, root));
+    if (qdot_piece_mode(x)->watched[root->function].kind == QDOT_WATCH_EVENT)
+        x->c->occurrences.at[x->c->occurrences.n - 1].blur = root->blur;
+    return qdot_vec_push(&x->roots, *root);
+}
+
 /* A bound of a domain on which the piece starts without moving inwards. */
 static const qdot_watched *
 leaves_domain(qdot_piece *x)

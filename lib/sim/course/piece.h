@@ -148,6 +148,11 @@ QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 /* Part of it: what the layers that are left have left out, and whether one is entered for good where
  * its power makes that one motion of many (sim/model/layer.h). */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_layers(qdot_piece *x);
+/* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
+ * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
+QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);
+/* An event that is met where a piece starts: it is noted, and in x->roots, if its way fits. */
+QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 
 /* A piece ends at the first double after its root, x->late behind it. The motion goes on as if it
  * had ended there: over this time it undoes the motion in mode `before` and moves in mode `behind`

@@ -253,7 +253,7 @@ watch_puck(qdot_mode *m, const qdot_puck *puck, qdot_watched w)
 static qdot_status
 watch_surfaces(const qdot_stage *s, qdot_mode *m)
 {
-    static const long ends[] = {-1, 1};
+    static const long ends[] = {-1, 1}, layer[] = {0, 0};
 
     for (size_t i = 0; i < s->switches.surfaces.n; i++) {
         const qdot_surface *x = &s->switches.surfaces.at[i];
@@ -269,7 +269,10 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
         if (m->side[i] == QDOT_SIDE_SLIDES) {
             w.velocity = true;
             if (!x->contact)
-                watch_between(pool, m, w, m->plan->share[i], ends, ends);
+                watch_between(pool, m, w,
+                              x->layer > 0 ? qdot_layers_share(pool, m->plan->share[i])
+                                           : m->plan->share[i],
+                              ends, x->layer > 0 ? layer : ends);
             w.inside = 1;
             if (x->contact) /* a reaction only pushes */
                 watch_function(m, m->plan->share[i], w);

@@ -9,29 +9,32 @@
 /* The time that a motion spends in a layer, relative to the latest one: 1024 doubles of it. */
 static const double passage = 0x1p-42;
 
-/* Whether `base` is 0 just where u is 0: u, -u, |u|, or the larger or smaller of u and 0. */
+/* Whether `base` is 0 where u is 0: u, -u, |u|, or the larger or smaller of u and 0; *only: the sign of u
+ * on the one side where it is not 0, else 0. */
 static bool
-is_base(qdot_pool *pool, qdot_expr base, qdot_expr u)
+is_base(qdot_pool *pool, qdot_expr base, qdot_expr u, int *only)
 {
     const bool function = qdot_expr_kind(pool, base) == QDOT_FUN;
     const qdot_fun_id id =
         function ? (qdot_fun_id)qdot_expr_node(pool, base)->op : QDOT_SIGN;
 
+    *only = 0;
     if (id == QDOT_ABS)
         base = qdot_expr_arg(pool, base, 0);
     if ((id == QDOT_MAX || id == QDOT_MIN) && qdot_expr_count(pool, base) == 2) {
         const qdot_expr a = qdot_expr_arg(pool, base, 0),
                         b = qdot_expr_arg(pool, base, 1);
 
-        if (a == QDOT_ZERO || b == QDOT_ZERO)
+        if (a == QDOT_ZERO || b == QDOT_ZERO) {
             base = a == QDOT_ZERO ? b : a;
+            *only = (id == QDOT_MAX) == (base == u) ? 1 : -1;
+        }
     }
     return base == u || base == qdot_neg(pool, u);
 }
 
-/* Whether factor k of a product is a broken power; *p: its exponent. */
-static bool
-is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
+bool
+qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p)
 {
     const qdot_expr exponent = qdot_expr_arg(pool, product, k + 1);
     long whole;
@@ -54,13 +57,14 @@ static void
 look_at_product(qdot_pool *pool, size_t m, qdot_surface *surfaces, qdot_expr product)
 {
     double p;
+    int only;
 
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, product); k += 2) {
-        if (!is_broken(pool, product, k, &p))
+        if (!qdot_layers_is_broken(pool, product, k, &p))
             continue;
         for (size_t i = 0; i < m; i++)
             if (!surfaces[i].steps
-                && is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u))
+                && is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, &only))
                 note_power(&surfaces[i], p);
     }
 }
@@ -107,17 +111,47 @@ qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface)
 }
 
 bool
-qdot_layers_vanishes(qdot_pool *pool, size_t m, const qdot_surface *surfaces, const long *side,
-                     qdot_expr node)
+qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface)
+{
+    return (qdot_expr_node(pool, surface->u)->holds
+            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
+           == 0;
+}
+
+/* A share that ends above 1 by so much: a motion held for so long is behind by its square, and beyond that
+ * the forces drive it away at the rim, too. */
+enum { MORE_EXPONENT = -30 };
+
+qdot_expr
+qdot_layers_share(qdot_pool *pool, qdot_expr share)
+{
+    const qdot_expr more = qdot_pow_int(pool, qdot_expr_int(pool, 2), MORE_EXPONENT);
+
+    return qdot_mul(pool, qdot_sub(pool, QDOT_ONE, more), share);
+}
+
+qdot_expr
+qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces, const long *side,
+                  const long *corner, qdot_expr node, qdot_expr *rest)
 {
     double p;
+    int only;
 
     if (!side || qdot_expr_kind(pool, node) != QDOT_PROD)
-        return false;
+        return QDOT_NIL;
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
-        for (size_t i = 0; i < m; i++)
-            if (surfaces[i].layer > 0 && side[i] == 0 && is_broken(pool, node, k, &p)
-                && is_base(pool, qdot_expr_arg(pool, node, k), surfaces[i].u))
-                return true;
-    return false;
+        for (size_t i = 0; i < m; i++) {
+            const qdot_expr base = qdot_expr_arg(pool, node, k),
+                            exponent = qdot_expr_arg(pool, node, k + 1);
+            const bool held = side[i] == QDOT_SIDE_SLIDES;
+
+            if (surfaces[i].layer == 0 || (side[i] != 0 && !held) || !qdot_layers_is_broken(pool, node, k, &p)
+                || !is_base(pool, base, surfaces[i].u, &only))
+                continue;
+            *rest = qdot_div(pool, node, qdot_pow(pool, base, exponent));
+            return held && only != -corner[i]
+                       ? qdot_pow(pool, qdot_layers_rim(pool, &surfaces[i]), exponent)
+                       : QDOT_ZERO;
+        }
+    return QDOT_NIL;
 }

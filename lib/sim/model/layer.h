@@ -1,6 +1,6 @@
 /* layer.h -- layers about the branch points of powers.
  *
- *     |u|^p,  max(u, 0)^p,  if(u < 0, 0, u^p),     p > 0 no integer
+ *     |u|^p,  max(u, 0)^p,  if(u < 0, 0, u^p),  (t - a)^p     p > 0 no integer
  *
  * have no Taylor series at u = 0, and neither has a motion that passes there: no step can. But
  * the power is small there. In a layer |u| <= w it counts as 0, as side 0 of the surface u = 0;
@@ -22,6 +22,9 @@
 
 #include "sim/model/surface.h"
 
+/* Whether factor k of a product is a broken power; *p: its exponent. */
+bool qdot_layers_is_broken(const qdot_pool *pool, qdot_expr product, uint32_t k, double *p);
+
 /* Set `power` of every surface [m] whose u stands under such a power in e [n], to the least of its
  * exponents. None has one whose u stands under a negative broken power as well: the force is
  * infinite there. */
@@ -35,9 +38,17 @@ void qdot_layers_measure(size_t m, qdot_surface *surfaces, const double *speed, 
 /* The layer of a surface as an exact number. */
 qdot_expr qdot_layers_rim(qdot_pool *pool, const qdot_surface *surface);
 
-/* Whether a node of an expression that is not frozen is a product with such a power of a u that
- * is in its layer by side [m]. */
-bool qdot_layers_vanishes(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
-                          const long *side, qdot_expr node);
+/* The share of a motion held in a layer, which leaves it where this passes -1 or 1. */
+qdot_expr qdot_layers_share(qdot_pool *pool, qdot_expr share);
+
+/* Whether u is of the time alone: what its layer leaves out is known. */
+bool qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface);
+
+/* If a node of an expression that is not frozen is a product with such a power of a u: its value where u
+ * is in its layer by side [m], 0, or where it is held at 0, that at the rim on the side of corner [m];
+ * *rest is the product without it. Nil: it is none. */
+qdot_expr qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
+                            const long *side, const long *corner, qdot_expr node,
+                            qdot_expr *rest);
 
 #endif

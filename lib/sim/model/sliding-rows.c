@@ -79,21 +79,27 @@ qdot_sliding_rows_make(const qdot_plan *p, const qdot_switches *s, const long *s
 
 qdot_status
 qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t, const double *y,
-                        size_t surface, int order, double *value)
+                        size_t surface, int order, double *value, double *slopes)
 {
     const size_t outputs = rows->rows * (1 + n);
     double *in = qdot_calloc(2 * n + 1 + outputs + qdot_tape_work(rows->tape) + 1, sizeof *in);
     double *out = in + 2 * n + 1;
 
     *value = 0;
+    if (slopes)
+        memset(slopes, 0, n * sizeof *slopes);
     if (!in)
         return QDOT_ENOMEM;
     memcpy(in, y, 2 * n * sizeof *y);
     in[2 * n] = t;
     qdot_tape_eval(rows->tape, in, out, out + outputs);
-    for (size_t r = 0; r < rows->rows; r++)
-        if (rows->surface[r] == surface && rows->order[r] == order)
-            *value = out[r];
+    for (size_t r = 0; r < rows->rows; r++) {
+        if (rows->surface[r] != surface || rows->order[r] != order)
+            continue;
+        *value = out[r];
+        if (slopes)
+            memcpy(slopes, out + rows->rows + r * n, n * sizeof *slopes);
+    }
     qdot_free(in);
     return QDOT_OK;
 }

@@ -58,10 +58,11 @@ QDOT_MUST_CHECK qdot_status qdot_sliding_rows_make(const qdot_plan *p, const qdo
                                                    qdot_sliding_rows *rows);
 void qdot_sliding_rows_clear(qdot_sliding_rows *rows);
 
-/* The value of the row of that order of a surface at a state; 0 if there is none. Allocates. */
+/* The value of the row of that order of a surface at a state, and its slopes [n] (NULL: not asked for); 0
+ * if there is none. Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_sliding_rows_value(const qdot_sliding_rows *rows, size_t n, double t,
                                                     const double *y, size_t surface, int order,
-                                                    double *value);
+                                                    double *value, double *slopes);
 
 /* Move y [2n] by the shortest way onto the rows; *moved the largest change of a component over max(1,
  * |component|), infinite if that fails. Allocates. */

@@ -5,7 +5,17 @@
 #ifndef QDOT_SIM_SURFACE_H
 #define QDOT_SIM_SURFACE_H
 
+#include <limits.h>
+
 #include "expr/expr.h"
+
+/* The side of a surface along which the motion slides (sim/model/sliding.h): u is held at 0. */
+#define QDOT_SIDE_SLIDES LONG_MAX
+/* A puck that has begun to move, so slowly that its direction is that of its shares
+ * (sim/model/puck.h). Other surfaces have no such mode. */
+#define QDOT_SIDE_CREEPS (-1)
+/* For freezing: what switches there stays as it is. */
+#define QDOT_SIDE_OPEN LONG_MIN
 
 typedef struct {
     qdot_expr u;  /* as in the equations, with parameter values */

@@ -5,10 +5,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
 #include "sim/model/layer.h"
 #include "sim/model/substitute.h"
+#include "tape/constant.h"
 
 void
 qdot_switches_clear(qdot_switches *s)
@@ -259,6 +261,45 @@ see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
     return status;
 }
 
+/* Whether `base` is linear in t, of nothing else, and 0 at a time of the run. */
+static bool
+vanishes_in_time(qdot_pool *pool, const qdot_run_request *request, qdot_expr base)
+{
+    const qdot_expr slope = qdot_diff(pool, base, QDOT_T), now = QDOT_T;
+    qdot_expr ends[2];
+    double at[2];
+
+    if (slope == QDOT_NIL || slope == QDOT_ZERO || qdot_expr_kind(pool, slope) != QDOT_NUM
+        || (qdot_expr_node(pool, base)->holds & ~(uint32_t)QDOT_HAS_TIME) != 0)
+        return false;
+    ends[0] = qdot_subs(pool, base, 1, &now, &request->t0);
+    ends[1] = qdot_subs(pool, base, 1, &now, &request->t1);
+    for (size_t k = 0; k < 2; k++)
+        if (ends[k] == QDOT_NIL || qdot_tape_constant(pool, ends[k], &at[k]) != QDOT_OK)
+            return false;
+    return at[0] * at[1] <= 0;
+}
+
+/* Collect broken powers of times that the run begins at, ends at or passes (sim/model/layer.h), as |t - a|. */
+static qdot_status
+collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
+{
+    qdot_pool *pool = s->pool;
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin(pool, e, &walk);
+    double p;
+
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD && status == QDOT_OK
+                             && k + 1 < qdot_expr_count(pool, walk.at[i]);
+             k += 2)
+            if (qdot_layers_is_broken(pool, walk.at[i], k, &p) && p > 0
+                && vanishes_in_time(pool, request, qdot_expr_arg(pool, walk.at[i], k)))
+                status = add_atom(s, qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, walk.at[i], k)));
+    qdot_walk_end(&walk);
+    return status;
+}
+
 qdot_status
 qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_switches *s)
 {
@@ -279,6 +320,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
                                    request->values);
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, e[i]));
+        QDOT_TRY(collect_times(s, request, e[i]));
     }
     s->mass = e[0];
     s->forcing = e[1];
@@ -304,17 +346,21 @@ typedef struct {
     qdot_expr *frozen; /* [atoms] */
 } freezer;
 
+static qdot_expr inner(const freezer *f, qdot_expr e);
+
 static qdot_expr
 look_up(qdot_pool *pool, qdot_expr node, void *user)
 {
     const freezer *f = user;
+    qdot_expr power, rest;
 
     for (size_t i = 0; i < f->done; i++)
         if (f->s->atoms.at[i] == node)
             return f->frozen[i];
-    return qdot_layers_vanishes(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, node)
-               ? QDOT_ZERO
-               : QDOT_NIL;
+    power = qdot_layers_power(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, f->corner, node,
+                              &rest);
+    return power == QDOT_NIL || power == QDOT_ZERO ? power
+                                                   : qdot_mul(pool, power, inner(f, rest));
 }
 
 static qdot_expr

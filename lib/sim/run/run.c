@@ -10,6 +10,7 @@
 #include "sim/run/run-report.h"
 #include "sim/run/run-start.h"
 #include "sim/run/scales.h"
+#include "sim/run/tighter-run.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,7 +30,7 @@
 #include "tape/shake.h"
 
 /* The work that is left where `auto` changes over to a method for stiff scenes (ode/stiffness.h). */
-static const double worth_changing = 3e7;
+static const double worth_changing = 3e6;
 
 /* The spacing of doubles is 2.2e-16 of their size: no step can be more accurate. */
 static const double least_tol = 2.3e-16;
@@ -275,14 +276,11 @@ show_states(qdot_run *run, qdot_companion *companion)
     return qdot_grave(status);
 }
 
-/* Whether nothing can divide the run into pieces. */
+/* Whether nothing is met on the way, and nothing can divide the run into pieces. */
 static bool
-is_whole(const qdot_run *run)
+is_alone(const qdot_run *run)
 {
-    for (size_t i = 0; i < run->stage.events.n; i++)
-        if (run->stage.events.at[i].stop || run->stage.events.at[i].then)
-            return false;
-    return run->stage.switches.surfaces.n == 0;
+    return run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
 static qdot_status
@@ -438,8 +436,8 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     for (size_t i = 0; i < 2 * run->plan->n; i++)
         run->difference[i] = NAN;
     /* events are found by doubles */
-    run->leading = run->plan->leading && is_whole(run) && run->stage.events.n == 0;
-    status = is_whole(run) ? run_beside(run, tol, interrupted)
+    run->leading = run->plan->leading && is_alone(run);
+    status = is_alone(run) ? run_beside(run, tol, interrupted)
                            : run_after(run, tol, interrupted);
     if (status == QDOT_OK && run->course.tr.result.unfit)
         status = run_in_doubles(run, tol, notice, interrupted);
@@ -452,8 +450,6 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         status = qdot_run_doubt_end(run);
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
-    if (is_whole(run) && run->stage.events.n > 0) /* those have met no event */
-        qdot_run_drop_companions(run);
     if (status == QDOT_OK && !*interrupted && !run->no_drifts)
         status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
                                      run->stage.scales != NULL, &run->drifts);
@@ -480,7 +476,7 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
     bool conserved = false;
 
     *better = tol;
-    if (!is_whole(run) || run->stage.events.n > 0)
+    if (!is_alone(run))
         return QDOT_OK;
     QDOT_TRY(qdot_long_run_tolerance(&it, better));
     if (*better != tol)
@@ -590,14 +586,17 @@ make_decided(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     }
 }
 
-/* The same, by a method for stiff scenes where `auto` finds one. */
+/* The same, by a method for stiff scenes where `auto` finds one, or under a tighter tolerance. */
 static qdot_status
 make_whole(qdot_scene *scene, const qdot_run_request *request, qdot_run **out)
 {
     const qdot_run_maker by = {make_decided, qdot_run_values, qdot_run_free};
 
     QDOT_TRY(make_decided(scene, request, out));
-    return request->digits ? QDOT_OK : qdot_run_change_over(scene, request, &by, out);
+    if (request->digits)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_change_over(scene, request, &by, out));
+    return qdot_run_tighten(scene, request, &by, out);
 }
 
 /* Make the run once more in the scales that it shows; it stays where that fails. */

@@ -100,7 +100,8 @@ qdot_slides_tell(qdot_run *run)
 
         for (size_t k = 0; k < run->course.tr.pieces.n; k++)
             slid = slid || slides(run, k, i);
-        if (run->stage.switches.surfaces.at[i].contact) /* no equation holds its side */
+        if (run->stage.switches.surfaces.at[i].contact /* no equation holds its side */
+            || run->stage.switches.surfaces.at[i].layer > 0) /* its powers are 0 at u = 0 */
             slid = false;
         run->plan->read_side[i] = slid ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
         QDOT_TRY(tell(run, i));
