@@ -16,10 +16,10 @@ check value(x, 0) == 0.827 within 0.002
 check value(y', 0) == 0.09 within 0.02
 start x = 0.8261
 find y' = 0.1, T = 2.7 such that returns after T
-check value(y', 0) == 0.098730036038658 within 1e-13
+check value(y', 0) == 0.0987300360386536649 within 1e-13
 param P
 find y' = 0.1, P = 2.7 such that returns after P
-check value(P, 0) == 2.722181757053787 within 1e-11
+check value(P, 0) == 2.72218175705373697 within 1e-12
 END
 
 # halos about L1 and L2; one that nearly falls on the Moon
