@@ -593,12 +593,14 @@ library_sources = \
 	lib/sim/study/exponents.c \
 	lib/sim/study/extremum.c \
 	lib/sim/study/floquet.c \
+	lib/sim/study/flow.c \
 	lib/sim/study/left-out.c \
 	lib/sim/study/longtime.c \
 	lib/sim/study/method-run.c \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
 	lib/sim/study/shooting.c \
+	lib/sim/study/tangents.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
@@ -1108,12 +1110,14 @@ library_headers = \
 	lib/sim/study/exponents.h \
 	lib/sim/study/extremum.h \
 	lib/sim/study/floquet.h \
+	lib/sim/study/flow.h \
 	lib/sim/study/left-out.h \
 	lib/sim/study/longtime.h \
 	lib/sim/study/method-run.h \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
 	lib/sim/study/shooting.h \
+	lib/sim/study/tangents.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
 	lib/sim/study/variation.h \
@@ -1288,6 +1292,7 @@ unit_tests = \
 	tests/sim/test_cost \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble-doubts \
+	tests/sim/test_ensemble-path \
 	tests/sim/test_ensemble-steps \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
@@ -1311,6 +1316,7 @@ unit_tests = \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
+	tests/sim/test_tangents \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
 	tests/sim/test_variation \

@@ -10,6 +10,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
+#include "base/memory.h"
+
 typedef struct {
     size_t n;
     gsl_matrix *A;
@@ -197,5 +199,115 @@ qdot_eigenvalues(size_t n, const double *A, const double *E, double *re, double 
 
     release(&s);
     gsl_set_error_handler(before);
+    return status;
+}
+
+/* --- products ------------------------------------------------------------------------------------ */
+
+/* The K-th powers of [count] numbers, with what their errors make of them. */
+static void
+raise(size_t K, size_t count, double *re, double *im, double *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double size = modulus(re, im, i), angle = (double)K * atan2(im[i], re[i]);
+        const double power = pow(size, (double)K);
+
+        error[i] = pow(size + error[i], (double)K) - power + (double)K * DBL_EPSILON * power;
+        re[i] = power * cos(angle);
+        im[i] = power * sin(angle);
+    }
+}
+
+/* Of the numbers that are not taken the one nearest to (x, y); n: none is left. */
+static size_t
+nearest_to(double x, double y, size_t n, const double *re, const double *im, const bool *taken)
+{
+    size_t best = n;
+
+    for (size_t i = 0; i < n; i++)
+        if (!taken[i] && (best == n || hypot(re[i] - x, im[i] - y) < hypot(re[best] - x, im[best] - y)))
+            best = i;
+    return best;
+}
+
+/* Take the K numbers nearest to (x, y): their mean *re, *im; *error: theirs, and how far they are from it. Whether what is
+ * nearest to the conjugate (x, -y) is among them: then they are one real number. */
+static bool
+take(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, double y, double *re, double *im,
+     double *error)
+{
+    const double *const a = all, *const b = all + n, *const off = all + 2 * n;
+    const size_t mate = nearest_to(x, -y, n, a, b, taken);
+    bool real = false;
+
+    *re = *im = *error = 0;
+    for (size_t k = 0; k < K; k++) {
+        const size_t i = own[k] = nearest_to(x, y, n, a, b, taken);
+
+        taken[i] = true;
+        real = real || i == mate;
+        *re += a[i] / (double)K;
+        *im += b[i] / (double)K;
+    }
+    *im = real ? 0 : *im;
+    for (size_t k = 0; k < K; k++)
+        *error = fmax(*error, off[own[k]] + hypot(a[own[k]] - *re, (real ? 0 : b[own[k]]) - *im));
+    return real;
+}
+
+/* [n] numbers of which each stands K times in all [3 x K n], in descending order of modulus: re, im, error. */
+static void
+gather(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
+{
+    const size_t count = K * n;
+
+    for (size_t i = 0, first = 0; i < n; i++) {
+        while (taken[first])
+            first++;
+        if (take(K, count, all, taken, own, all[first], all[count + first], &re[i], &im[i], &error[i]) || i + 1 == n)
+            continue;
+        (void)take(K, count, all, taken, own, re[i], -im[i], &re[i + 1], &im[i + 1], &error[i + 1]);
+        re[i + 1] = re[i];
+        im[i + 1] = -im[i];
+        error[i + 1] = fmax(error[i], error[i + 1]);
+        i++;
+    }
+}
+
+qdot_status
+qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E, double *re, double *im,
+                            double *error)
+{
+    const size_t count = K * n;
+    double *C, *D, *all;
+    size_t *own;
+    bool *taken;
+    qdot_status status = QDOT_ENOMEM;
+
+    if (K == 1)
+        return qdot_eigenvalues(n, A, E, re, im, error);
+    C = qdot_calloc(2 * count * count + 3 * count, sizeof *C);
+    own = qdot_calloc(K, sizeof *own);
+    taken = qdot_calloc(count, sizeof *taken);
+    if (C && own && taken) {
+        D = C + count * count;
+        all = D + count * count;
+        for (size_t k = 0; k < K; k++)
+            for (size_t i = 0; i < n * n; i++) {
+                const size_t at = ((k + 1) % K * n + i / n) * count + k * n + i % n;
+
+                C[at] = A[k * n * n + i];
+                D[at] = E[k * n * n + i];
+            }
+        status = qdot_eigenvalues(count, C, D, all, all + count, all + 2 * count);
+    }
+    if (status == QDOT_OK) {
+        raise(K, count, all, all + count, all + 2 * count);
+        gather(K, n, all, taken, own, re, im, error);
+        qdot_eigenvalues_arrange(n, re, im, error);
+    }
+    qdot_free(C);
+    qdot_free(own);
+    qdot_free(taken);
     return status;
 }

@@ -4,7 +4,12 @@
  *
  * Where several lie together this first order of their distance is about that distance itself.
  *
- * Source  Golub & Van Loan, Matrix Computations, 4th ed., 7.2.2; GSL (QR with double shifts).
+ * Those of a product A_(K-1) ... A_0, each with errors, are the K-th powers of those of the matrix of K x K blocks with A_k
+ * in row k + 1, column k (row 0 for the last): each comes K times. A product loses those that are less than its largest
+ * entry by 1e16; these have the errors of what its factors do to their own vectors.
+ *
+ * Source  Golub & Van Loan, Matrix Computations, 4th ed., 7.2.2; GSL (QR with double shifts); Watkins, SIAM
+ *         Review 47 (2005) 3 (products).
  * Tests   tests/num/test_eigenvalues.c
  */
 #ifndef QDOT_NUM_EIGENVALUES_H
@@ -17,6 +22,10 @@
 /* A and E [n x n] row by row; re, im, error [n] as _arrange puts them. Errors: QDOT_EFAILED, QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_eigenvalues(size_t n, const double *A, const double *E,
                                              double *re, double *im, double *error);
+
+/* The same of the product of A [K x n x n], the first to act first, with errors E [K x n x n]. */
+QDOT_MUST_CHECK qdot_status qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E,
+                                                        double *re, double *im, double *error);
 
 /* Put re, im, error [n] in descending order of modulus. Those whose moduli are the same within their errors stand by
  * descending real part, and a pair with its positive imaginary part first, so that rounding does not decide on the order. */

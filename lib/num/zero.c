@@ -13,6 +13,8 @@
 
 /* Singular values below so much of the largest count as 0; how strongly |F| shortens steps. */
 static const double least_singular = 1e-8, damping = 0.01;
+/* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by this error then. */
+static const double finest = 1e-10;
 /* Unknowns whose change by themselves changes F by less than this part of it do not move F. */
 static const double least_slope = 1e-12;
 /* How many times farther from the guess each search begins than the one before, the first at 0.04. */
@@ -58,6 +60,7 @@ static void
 choose_units(search *s)
 {
     const size_t n = s->p->n, m = s->p->m;
+    double most = 0;
 
     for (size_t j = 0; j < n; j++)
         s->unit[j] = s->p->unit != NULL ? s->p->unit[j] : s->r->u[j] != 0 ? fabs(s->r->u[j]) : 1;
@@ -67,7 +70,13 @@ choose_units(search *s)
         for (size_t j = 0; j < n; j++)
             sum += fabs(s->slope[i * n + j]) * s->unit[j];
         sum = fmax(sum, fabs(s->r->f[i]));
-        s->unit_f[i] = sum > 0 ? sum : 1;
+        s->unit_f[i] = sum;
+        most = fmax(most, sum);
+    }
+    for (size_t i = 0; i < m; i++) {
+        if (s->r->f_error[i] > finest * s->unit_f[i])
+            s->unit_f[i] = fmax(s->unit_f[i], fmin(s->r->f_error[i] / finest, most));
+        s->unit_f[i] = s->unit_f[i] > 0 ? s->unit_f[i] : 1;
         if (s->small[i] == 0) /* at the guess */
             s->small[i] = fmax(1e-3 * fabs(s->r->f[i]), 1e-9 * s->unit_f[i]);
     }

@@ -27,6 +27,7 @@ typedef struct {
     qdot_vec(double) values;
     qdot_vec(qdot_csv_place) places;
     size_t columns, rows;
+    qdot_csv *csv; /* takes the names */
 } reader;
 
 /* --- errors -------------------------------------------------------------------------------- */
@@ -214,6 +215,26 @@ has_number(reader *r)
     return found;
 }
 
+/* The words of a line before the first row, of the first such line. */
+static qdot_status
+read_names(reader *r)
+{
+    const char *at = r->line.at;
+    piece cell;
+
+    if (r->csv->names.n > 0)
+        return QDOT_OK;
+    while (next_cell(r, &at, &cell)) {
+        qdot_csv_name name = {qdot_strndup(cell.at, (size_t)(cell.end - cell.at)), place_of(r, cell.at)};
+
+        if (name.word == NULL || qdot_vec_push(&r->csv->names, name) != QDOT_OK) {
+            qdot_free(name.word);
+            return QDOT_ENOMEM;
+        }
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 read_row(reader *r)
 {
@@ -269,9 +290,9 @@ read_line(reader *r, piece line)
     line = r->line;
     strip(&line);
     r->line.end = line.end; /* columns count from the line's begin */
-    if (line.at >= line.end || (r->rows == 0 && !has_number(r)))
+    if (line.at >= line.end)
         return QDOT_OK;
-    return read_row(r);
+    return r->rows == 0 && !has_number(r) ? read_names(r) : read_row(r);
 }
 
 static qdot_status
@@ -302,10 +323,13 @@ read_lines(reader *r, const char *text, size_t length)
 qdot_status
 qdot_csv_read_text(const char *name, const char *text, size_t length, qdot_csv *csv)
 {
-    reader r = {.name = name};
+    reader r = {.name = name, .csv = csv};
     const qdot_status status = read_lines(&r, text, length);
 
-    *csv = (qdot_csv){r.columns, r.rows, r.values.at, r.places.at};
+    csv->columns = r.columns;
+    csv->rows = r.rows;
+    csv->at = r.values.at;
+    csv->places = r.places.at;
     return status;
 }
 
@@ -314,6 +338,9 @@ qdot_csv_clear(qdot_csv *csv)
 {
     qdot_free(csv->at);
     qdot_free(csv->places);
+    for (size_t i = 0; i < csv->names.n; i++)
+        qdot_free(csv->names.at[i].word);
+    qdot_free(csv->names.at);
     *csv = (qdot_csv){0};
 }
 

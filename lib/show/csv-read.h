@@ -2,7 +2,7 @@
  *
  * A line holds one row; its numbers stand between commas, semicolons, or blanks and tabs: the first row
  * decides which. Lines may end in LF, CRLF or CR. Blank lines, `#` and `%` up to the end of a line, a byte order mark and
- * lines of words before the first row (its names, its units) are passed over. Numbers have a decimal point, in quotes or not.
+ * lines of words before the first row (its names, its units) are passed over; the names are kept. Numbers have a decimal point, in quotes or not.
  *
  * Whatever else stands there is an error that begins with its place, FILE:LINE:COLUMN (both from 1, columns in
  * characters), as data.csv:7:12: `x` is not a number.
@@ -14,16 +14,24 @@
 
 #include <stddef.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 
 typedef struct {
     size_t line, column; /* where a number begins */
 } qdot_csv_place;
 
+/* A word of the first line of words. */
+typedef struct {
+    char *word;
+    qdot_csv_place place;
+} qdot_csv_name;
+
 typedef struct {
     size_t columns, rows;
     double *at;             /* [rows x columns] all finite */
     qdot_csv_place *places; /* [rows x columns] */
+    qdot_vec(qdot_csv_name) names;
 } qdot_csv;
 
 /* Read the file. Start from {0}; clear it in any case. QDOT_EIO: it cannot be read;

@@ -60,6 +60,8 @@ data '0,1,0.1\n1,2,0\n' 't, x, sigma'
 data '0,1\n1,2\n' 't, x, sigma'
 data '0,1,2,3\n1,2,2,3\n'
 data '0,1e400\n'
+data 'x,t\n1,0\n0.8,0.5\n'
+data "# measured\nt;x'\ns;m/s\n0;1\n0.5;0.8\n"
 # a sum that no step makes less; a run that ends before the data do; a guess outside a domain
 printf '0,1\n1,2\n2,300\n3,-7\n4,11\n' >wild.csv
 try 'param w = 1; potential x*cos(w*t); fit w, x to "wild.csv" : t, x'

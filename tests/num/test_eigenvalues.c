@@ -70,6 +70,78 @@ order_holds_against_rounding(void **state)
         }
 }
 
+enum { N = 5, FACTORS = 12 };
+
+/* P_k: no two of its columns are one direction. */
+static double
+turned(int k, int i, int j)
+{
+    return (i == j ? 2 : 0) + sin(1.3 * k + 2.1 * i + 0.7 * j * j + 0.4 * i * j);
+}
+
+/* X <- P_k^-1 (Gauss with row exchanges). */
+static void
+invert(int k, double X[N][N])
+{
+    double M[N][2 * N];
+
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < 2 * N; j++)
+            M[i][j] = j < N ? turned(k, i, j) : j - N == i;
+    for (int p = 0; p < N; p++) {
+        int best = p;
+
+        for (int i = p; i < N; i++)
+            best = fabs(M[i][p]) > fabs(M[best][p]) ? i : best;
+        for (int j = 0; j < 2 * N; j++) {
+            const double kept = M[p][j];
+
+            M[p][j] = M[best][j];
+            M[best][j] = kept;
+        }
+        for (int i = 0; i < N; i++) {
+            const double by = i == p ? 0 : M[i][p] / M[p][p];
+
+            for (int j = 0; j < 2 * N; j++)
+                M[i][j] -= by * M[p][j];
+        }
+    }
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            X[i][j] = M[i][N + j] / M[i][i];
+}
+
+/* A_k = P_(k+1) D_k P_k^-1: 5e12, -3, a pair, 1e-10 of a product that as one matrix holds no more than the first two. */
+static void
+a_product_keeps_its_least_eigenvalue(void **state)
+{
+    const double root = 1.0 / FACTORS, wanted[N][2] = {
+        {5e12, 0}, {-3, 0}, {0.7 * cos(2.4), 0.7 * sin(2.4)}, {0.7 * cos(2.4), -0.7 * sin(2.4)}, {1e-10, 0}};
+    const double size = pow(0.7, root), c = size * cos(2.4 * root), s = size * sin(2.4 * root);
+    double A[FACTORS][N][N] = {{{0}}}, E[FACTORS][N][N] = {{{0}}}, re[N], im[N], error[N];
+
+    (void)state;
+    for (int k = 0; k < FACTORS; k++) {
+        const double D[N][N] = {{pow(5e12, root)}, {0, k == 0 ? -pow(3, root) : pow(3, root)}, {0, 0, c, -s},
+                                {0, 0, s, c}, {0, 0, 0, 0, pow(1e-10, root)}};
+        double X[N][N];
+
+        invert(k, X);
+        for (int i = 0; i < N; i++)
+            for (int j = 0; j < N; j++)
+                for (int a = 0; a < N; a++)
+                    for (int b = 0; b < N; b++)
+                        A[k][i][j] += turned((k + 1) % FACTORS, i, a) * D[a][b] * X[b][j];
+    }
+    assert_int_equal(qdot_eigenvalues_of_product(FACTORS, N, &A[0][0][0], &E[0][0][0], re, im, error), QDOT_OK);
+    for (int i = 0; i < N; i++) {
+        const double size = hypot(wanted[i][0], wanted[i][1]);
+
+        if (!(hypot(re[i] - wanted[i][0], im[i] - wanted[i][1]) <= error[i] && error[i] < 1e-8 * size))
+            fail_msg("%d: %.17g + %.17g i, error %g", i, re[i], im[i], error[i]);
+    }
+}
+
 int
 main(void)
 {
@@ -77,6 +149,7 @@ main(void)
         cmocka_unit_test(pairs_and_reals_in_order),
         cmocka_unit_test(order_holds_against_rounding),
         cmocka_unit_test(errors_hold_what_entries_may_do),
+        cmocka_unit_test(a_product_keeps_its_least_eigenvalue),
     };
 
     return cmocka_run_group_tests_name("eigenvalues", tests, NULL, NULL);

@@ -47,3 +47,14 @@ start x = 1
 find T = -6 such that returns after T
 floquet
 END
+# on top of a sphere that a drive shakes, under a constraint: two equal pairs whose product is 1
+qdot -q --json - <<'END' 2>&1 | grep -v '"run"' | sed 's/"error":[0-9.e-]*/"error":small/; s/\([0-9]\.[0-9]\{8\}\)[0-9]*/\1/g'
+coord x, y, z
+particle b mass 1 at (x, y, z)
+constraint s: x^2 + y^2 + z^2 = 1
+gravity (0, 0, -9.81)
+force (0, 0, 2*cos(3*t)) on b
+start x = 0, y = 0, z = 1
+run 0..2*pi/3
+floquet
+END

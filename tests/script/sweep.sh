@@ -67,14 +67,18 @@ gravity (0, -9.81)
 start b = 2
 sweep a = 2..3 step 1 run 0..100 : a, energy as chaos
 END
-echo '# numbers over two names are a map; over uneven values, or three names, not yet'
+echo '# numbers over two names are a map, of uneven values with cells of their widths; over three a map for each value of the first'
 qdot -q scene.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep -v rows
 set omega = 2
 sweep k = 1..2 count 2, x = -1..1 count 3 run 0..1 tol 1e-9 : k*value(x, 0), x as map
 plot map keep to "map.svg"
 sweep k = [1, 2, 4], x = -1..1 count 3 run 0..1 tol 1e-9 : x as uneven
-plot uneven to "uneven.svg"
+plot uneven keep to "uneven.svg"
 sweep k = [1, 2], x = [0, 1], c = [0, 1] run 0..1 tol 1e-9 : x as cube
-plot cube to "cube.svg"
+plot cube keep to "cube.svg"
+sweep k = 1..2 count 20, x = [0, 1], c = [0, 1] run 0..1 tol 1e-9 : x as long
+plot long
 END
 sed -n '1,/^$/p' map.dat
+awk 'NF == 3 && $2 == 0 {if ($3 != last) print $1, $3; last = $3}' uneven.dat | awk '{printf "%.4f %.6f\n", $1, $2}' # cells from 1, 1.5, 3
+grep -o "^set title '[^']*'" cube.gp

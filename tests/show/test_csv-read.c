@@ -23,6 +23,26 @@ reads(const char *text, size_t columns, size_t rows, const double *numbers)
     qdot_csv_clear(&csv);
 }
 
+/* Those of the first line of words, with their places; of the first row there are none. */
+static void
+names_are_kept(void **state)
+{
+    const char *text = "# measured\n t , \"theta'\"\ns, 1/s\n0, 1\n";
+    qdot_csv csv = {0};
+
+    (void)state;
+    assert_int_equal(qdot_csv_read_text("x", text, strlen(text), &csv), QDOT_OK);
+    assert_int_equal(csv.names.n, 2);
+    assert_string_equal(csv.names.at[0].word, "t");
+    assert_string_equal(csv.names.at[1].word, "theta'");
+    assert_int_equal(csv.names.at[1].place.line, 2);
+    assert_int_equal(csv.names.at[1].place.column, 7);
+    qdot_csv_clear(&csv);
+    assert_int_equal(qdot_csv_read_text("x", "0 1\n", 4, &csv), QDOT_OK);
+    assert_int_equal(csv.names.n, 0);
+    qdot_csv_clear(&csv);
+}
+
 static void
 tables(void **state)
 {
@@ -87,6 +107,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables),
         cmocka_unit_test(places_of_errors),
+        cmocka_unit_test(names_are_kept),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

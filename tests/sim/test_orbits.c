@@ -51,7 +51,7 @@ a_limit_cycle(void **state)
     (void)state;
     mu = van_der_pol(&f);
     must(qdot_orbit_continuation_find(&(qdot_orbit_of){f.scene, &f.request, QDOT_ORBIT_PARAMETER, mu,
-                                                       1, 6.66, z, 0.5, 2},
+                                                       1, 6.66, z, 0.5, 2, 0},
                                       &x));
     assert_int_equal(x.branches.n, 1);
     assert_int_equal(x.bifurcations.n, 0);
@@ -71,13 +71,45 @@ a_limit_cycle(void **state)
     end(&f);
 }
 
+/* The same cycle in three segments, whose states are further unknowns behind the period. */
+static void
+a_cycle_in_segments(void **state)
+{
+    const double z[] = {2.0086, 0};
+    qdot_continuation x = {0};
+    bool met = false;
+    fixture f;
+    qdot_expr mu;
+
+    (void)state;
+    mu = van_der_pol(&f);
+    must(qdot_orbit_continuation_find(&(qdot_orbit_of){f.scene, &f.request, QDOT_ORBIT_PARAMETER, mu,
+                                                       1, 6.66, z, 0.9, 1.1, 3},
+                                      &x));
+    assert_int_equal(x.branches.n, 1);
+    assert_int_equal(x.n, 3 + 2 * 2);
+    for (size_t k = 0; k < x.branches.at[0].n; k++) {
+        const double *y = x.branches.at[0].y + k * x.width;
+
+        near(y[x.n + 1], y[0], 1e-12);
+        if (y[x.n] == 1) {
+            met = true;
+            near(y[2], 6.6632868593231302, 1e-13);
+            near(y[x.n + 3], 8.596950636e-4, 1e-12); /* exp of the mean of mu (1 - x^2), by SciPy */
+        }
+    }
+    assert_true(met);
+    qdot_continuation_clear(&x);
+    end(&f);
+}
+
 static qdot_status
 follow_cycle(fixture *f, qdot_expr mu, qdot_continuation *x)
 {
     const double z[] = {2.0086, 0};
 
     return qdot_orbit_continuation_find(&(qdot_orbit_of){f->scene, &f->request, QDOT_ORBIT_PARAMETER,
-                                                         mu, 1, 6.66, z, 0.9, 1.1},
+                                                         mu, 1, 6.66, z, 0.9, 1.1, 0},
                                         x);
 }
 
@@ -166,7 +198,7 @@ a_family(void **state)
         must(qdot_orbit_continuation_find(
             &(qdot_orbit_of){f.scene, &f.request, by_energy ? QDOT_ORBIT_ENERGY : QDOT_ORBIT_START,
                              by_energy ? QDOT_NIL : q, 1, 6.7, z, range[by_energy][0],
-                             range[by_energy][1]},
+                             range[by_energy][1], 0},
             &x));
         assert_int_equal(x.branches.n, 1);
         for (size_t k = 0; k < x.branches.at[0].n; k++) {
@@ -183,7 +215,7 @@ a_family(void **state)
 }
 
 /* theta'' = -(1 + a cos 2t) sin theta - theta'/10: rest is an orbit, whose multiplier passes -1 at a of Mathieu's equation,
- * by SciPy 0.20010934214887. */
+ * by SciPy 0.20010934214887. From there the orbits of period 2 pi: at a = 1 (SciPy) it goes to 1.66042842625753. */
 static void
 a_period_doubling(void **state)
 {
@@ -204,7 +236,7 @@ a_period_doubling(void **state)
     must(qdot_scene_dissipation(f.scene,
                                 times(&f, number(&f, "0.1"), half_square(&f, velocity(&f, q)))));
     must(qdot_orbit_continuation_find(&(qdot_orbit_of){f.scene, &f.request, QDOT_ORBIT_PARAMETER, a,
-                                                       0.1, M_PI, z, 0, 1},
+                                                       0.1, M_PI, z, 0, 1, 0},
                                       &x));
     assert_int_equal(x.bifurcations.n, 1);
     b = &x.bifurcations.at[0];
@@ -213,6 +245,15 @@ a_period_doubling(void **state)
     assert_true(b->error[3] < 1e-12);
     near(b->y[2], M_PI, 1e-15);
     near(b->y[5], 1, 1e-11); /* the modulus of its multipliers */
+    assert_int_equal(x.branches.n, 2);
+    for (size_t k = 0; k < x.branches.at[1].n; k++) {
+        const double *y = x.branches.at[1].y + k * x.width;
+
+        near(y[2], 2 * M_PI, 1e-15);
+        assert_int_equal(x.branches.at[1].mark[k], y[3] == b->y[3]);
+        if (y[3] == 1)
+            near(y[4], 1.66042842625753, 1e-11);
+    }
     qdot_continuation_clear(&x);
     end(&f);
 }
@@ -250,7 +291,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_limit_cycle),     cmocka_unit_test(keeps_what_is_known),
+        cmocka_unit_test(a_limit_cycle), cmocka_unit_test(a_cycle_in_segments),     cmocka_unit_test(keeps_what_is_known),
         cmocka_unit_test(a_family),          cmocka_unit_test(a_period_doubling),
         cmocka_unit_test(a_drives_period),   cmocka_unit_test(survives_failed_allocations_too),
     };

@@ -44,7 +44,7 @@ of_an_oscillator(void **state)
     const qdot_expr unknowns[] = {f.symbols[0], f.symbols[1], x},
                     exprs[] = {x, times(&f, f.symbols[1], velocity(&f, x))};
 
-    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 3, unknowns, names, 2, exprs,
+    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 3, unknowns, names, false, 2, exprs,
                                                5, t},
                            &r));
     for (size_t j = 0; j < sizeof u / sizeof *u; j++) {
@@ -97,7 +97,7 @@ through_a_bounce(void **state)
     f.request.t1 = number(&f, "0.6");
     const qdot_expr unknowns[] = {f.symbols[0], y};
 
-    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 2, unknowns, names, 1, &y, 2, t},
+    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 2, unknowns, names, false, 1, &y, 2, t},
                            &r));
     for (size_t j = 0; j < sizeof u / sizeof *u; j++) {
         const double e = u[j][0], h = u[j][1], tau = sqrt(2 * h / g), s = t[1] - tau;
@@ -143,7 +143,7 @@ along_a_circle(void **state)
     f.request.t1 = number(&f, "0.7");
     const qdot_expr unknowns[] = {f.symbols[0], velocity(&f, x)};
 
-    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 2, unknowns, names, 1, &x, 2, t},
+    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 2, unknowns, names, false, 1, &x, 2, t},
                            &r));
     for (size_t j = 0; j < sizeof u / sizeof *u; j++) {
         must(qdot_response_at(r, u[j], values, slopes));
@@ -180,7 +180,7 @@ of_a_double_pendulum(void **state)
     f.q0[1] = times(&f, QDOT_HALF, unknowns[0]);
     f.v0[1] = unknowns[3];
     f.request.t1 = qdot_expr_int(f.pool, 2);
-    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 4, unknowns, names, 1, &b, 3, t},
+    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, 4, unknowns, names, false, 1, &b, 3, t},
                            &r));
     must(qdot_response_at(r, u, values, slopes));
     for (size_t k = 0; k < 4; k++) {
@@ -266,7 +266,7 @@ intervals_hold_the_truth(void **state)
         t[i] = 6.0 * (double)(i + 1) / POINTS;
     const qdot_expr unknowns[] = {f.symbols[0], f.symbols[1], theta};
 
-    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, UNKNOWNS, unknowns, names, 1,
+    must(qdot_response_new(&(qdot_response_of){f.scene, &f.request, UNKNOWNS, unknowns, names, false, 1,
                                                &theta, POINTS, t},
                            &s.r));
     must(qdot_response_at(s.r, truth, exact, slopes));

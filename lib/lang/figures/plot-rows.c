@@ -8,6 +8,9 @@
 #include "lang/figures/plot-branches.h"
 #include "lang/session/row-tables.h"
 
+/* Places along an uneven axis; panels of a figure. */
+enum { FINE = 400, MOST_PANELS = 12 };
+
 /* The branches that `plot` alone shows: those of the latest `continue` without a name. */
 static qdot_row_table *
 branches_alone(const qdot_cursor *c)
@@ -73,89 +76,173 @@ is_ordered(const qdot_row_table *t)
     return up || down;
 }
 
-/* --- over two names ------------------------------------------------------------------- */
+/* --- over several names --------------------------------------------------------------- */
 
-/* Whether axis k of what was swept has n values, evenly, the rows of each value of the first together;
- * its ends. */
-static bool
-is_even(const qdot_row_table *t, int k, size_t n, size_t fast, double *least, double *most)
+/* The values of one of the last two names; `shown` places even between their ends, and which value stands at each: that
+ * nearest to it, so that a cell of an uneven axis ends halfway to the next. */
+typedef struct {
+    size_t column, stride, n; /* of the table; rows from one value to the next; values */
+    size_t shown;
+    double least, most;
+    size_t *of; /* [shown] */
+} axis;
+
+/* Panels and what they need; n of them. */
+typedef struct {
+    qdot_panel *panels;
+    qdot_curve *curves;
+    qdot_figure_map *maps;
+    double *numbers;
+    qdot_text *titles; /* [n] */
+    axis axis[2];
+    size_t n;
+    qdot_branch_drawing branches; /* in place of all that */
+} drawing;
+
+static double
+value_at(const qdot_row_table *t, const axis *a, size_t i)
 {
-    const size_t stride = k == 0 ? fast : 1;
-    const double *v = t->values + k;
+    return t->values[i * a->stride * t->n + a->column];
+}
 
-    *least = v[0];
-    *most = v[(n - 1) * stride * t->n];
-    for (size_t i = 0; i < t->rows; i++) {
-        const double part = n > 1 ? (double)(i / stride % n) / ((double)n - 1) : 0;
+static bool
+is_even(const qdot_row_table *t, const axis *a)
+{
+    for (size_t i = 1; i + 1 < a->n; i++) {
+        const double even = a->least + (a->most - a->least) * (double)i / ((double)a->n - 1);
 
-        if (!(fabs(v[i * t->n] - (*least + part * (*most - *least)))
-              <= 1e-9 * fabs(*most - *least)))
+        if (!(fabs(value_at(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
             return false;
     }
     return true;
 }
 
-/* A map for each number: maps and panels [columns], values [columns x rows]. */
 static qdot_status
-fill_maps(const qdot_row_table *t, qdot_figure_map *maps, qdot_panel *panels, double *values)
+place_values(const qdot_row_table *t, axis *a)
 {
-    size_t fast = 1, slow; /* values of the second name, of the first */
-    double least[2], most[2];
+    bool even;
 
-    while (fast < t->rows && t->values[fast * t->n] == t->values[0])
+    a->least = value_at(t, a, 0);
+    a->most = value_at(t, a, a->n - 1);
+    even = is_even(t, a);
+    a->shown = even ? a->n : FINE;
+    a->of = qdot_calloc(a->shown, sizeof *a->of);
+    if (a->of == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < a->shown; k++) {
+        const double x = a->least + (a->most - a->least) * (double)k / ((double)a->shown - 1);
+
+        a->of[k] = even ? k : 0;
+        for (size_t i = 1; i < a->n && !even; i++)
+            if (fabs(value_at(t, a, i) - x) < fabs(value_at(t, a, a->of[k]) - x))
+                a->of[k] = i;
+    }
+    return QDOT_OK;
+}
+
+/* Whether rows i and j have the same values of the first `count` names. */
+static bool
+is_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (t->values[i * t->n + k] != t->values[j * t->n + k])
+            return false;
+    return true;
+}
+
+/* The last two names; how many rows have one value of each name before these. */
+static qdot_status
+find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
+{
+    const size_t outer = t->n_swept - 2;
+    size_t fast = 1;
+
+    *rows = 1;
+    while (*rows < t->rows && is_same(t, *rows, 0, outer))
+        ++*rows;
+    while (fast < *rows && is_same(t, fast, 0, outer + 1))
         fast++;
-    slow = t->rows / fast;
-    if (slow * fast != t->rows)
+    if (*rows % fast != 0 || t->rows % *rows != 0)
         return qdot_fail(QDOT_EINVAL, "%s is interrupted: it has no rectangle of rows", t->name);
-    if (!is_even(t, 0, slow, fast, &least[0], &most[0])
-        || !is_even(t, 1, fast, fast, &least[1], &most[1]))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure over two names with uneven values");
-    for (size_t j = 0; j < t->n - 2; j++) {
-        qdot_figure_map *m = &maps[j];
-        double *v = values + j * t->rows;
+    axes[0] = (axis){.column = outer, .stride = fast, .n = *rows / fast};
+    axes[1] = (axis){.column = outer + 1, .stride = 1, .n = fast};
+    QDOT_TRY(place_values(t, &axes[0]));
+    return place_values(t, &axes[1]);
+}
 
-        *m = (qdot_figure_map){.label = {t->labels[2 + j], true}, .n = {slow, fast},
-                               .least = {least[0], least[1]}, .most = {most[0], most[1]},
-                               .value = v};
-        for (size_t k = 0; k < t->rows; k++)
-            v[k % fast * slow + k / fast] = t->values[k * t->n + 2 + j];
-        panels[j].axis[0] = (qdot_figure_label){t->labels[0], true};
-        panels[j].axis[1] = (qdot_figure_label){t->labels[1], true};
-        panels[j].map = m;
+/* "k = 1, m = 2": the values of the names before the last two. */
+static qdot_status
+write_title(const qdot_row_table *t, size_t row, qdot_text *out)
+{
+    for (size_t k = 0; k + 2 < t->n_swept; k++)
+        qdot_text_format(out, "%s%s = %.6g", k > 0 ? ", " : "", t->labels[k], t->values[row * t->n + k]);
+    return qdot_text_status(out);
+}
+
+/* The map of number j over the rows from `row` on. */
+static void
+fill_map(const qdot_row_table *t, const axis *axes, size_t row, size_t j, qdot_figure_map *m, double *v)
+{
+    const size_t wide = axes[0].shown, high = axes[1].shown;
+
+    *m = (qdot_figure_map){.label = {t->labels[t->n_swept + j], true}, .n = {wide, high},
+                           .least = {axes[0].least, axes[1].least}, .most = {axes[0].most, axes[1].most},
+                           .value = v};
+    for (size_t y = 0; y < high; y++)
+        for (size_t x = 0; x < wide; x++)
+            v[y * wide + x] = t->values[(row + axes[0].of[x] * axes[0].stride + axes[1].of[y]) * t->n +
+                                        t->n_swept + j];
+}
+
+/* A panel for each number, and each value of the names before the last two. */
+static qdot_status
+draw_maps(const qdot_row_table *t, drawing *d)
+{
+    const size_t numbers = t->n - t->n_swept;
+    size_t rows, cells;
+
+    QDOT_TRY(find_axes(t, d->axis, &rows));
+    if (t->rows / rows * numbers > MOST_PANELS) {
+        (void)qdot_fail(QDOT_EINVAL, "a figure of %zu panels, one for each value of %s and each number: at most %d",
+                        t->rows / rows * numbers, t->labels[0], MOST_PANELS);
+        return qdot_hint("sweep %.40s over fewer values", t->labels[0]);
+    }
+    cells = d->axis[0].shown * d->axis[1].shown;
+    d->n = t->rows / rows * numbers;
+    d->panels = qdot_calloc(d->n, sizeof *d->panels);
+    d->maps = qdot_calloc(d->n, sizeof *d->maps);
+    d->titles = qdot_calloc(d->n, sizeof *d->titles);
+    d->numbers = qdot_calloc(d->n * cells, sizeof *d->numbers);
+    if (!d->panels || !d->maps || !d->titles || !d->numbers)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < d->n; k++) {
+        const size_t row = k / numbers * rows;
+
+        fill_map(t, d->axis, row, k % numbers, &d->maps[k], d->numbers + k * cells);
+        QDOT_TRY(write_title(t, row, &d->titles[k]));
+        if (t->n_swept > 2)
+            d->panels[k].title = (qdot_figure_label){qdot_text_str(&d->titles[k]), true};
+        d->panels[k].axis[0] = (qdot_figure_label){t->labels[d->axis[0].column], true};
+        d->panels[k].axis[1] = (qdot_figure_label){t->labels[d->axis[1].column], true};
+        d->panels[k].map = &d->maps[k];
     }
     return QDOT_OK;
 }
 
 /* --- the figure ----------------------------------------------------------------------- */
 
-/* Panels [t->n] and what they need; *n of them. */
-typedef struct {
-    qdot_panel *panels;
-    qdot_curve *curves;
-    qdot_figure_map *maps;
-    double *numbers;
-    size_t n;
-    qdot_branch_drawing branches; /* in place of all that */
-} drawing;
-
 static qdot_status
 draw(const qdot_row_table *t, drawing *d)
 {
     if (t->marks != NULL)
         return qdot_plot_branches_draw(t, &d->branches);
-    d->panels = qdot_calloc(t->n, sizeof *d->panels);
+    if (t->n_swept > 1 && !t->scattered && t->rows > 0)
+        return draw_maps(t, d);
+    d->panels = qdot_calloc(1, sizeof *d->panels);
     d->curves = qdot_calloc(t->n, sizeof *d->curves);
-    d->maps = qdot_calloc(t->n, sizeof *d->maps);
     d->numbers = qdot_calloc(2 * t->n * t->rows + 1, sizeof *d->numbers);
-    if (!d->panels || !d->curves || !d->maps || !d->numbers)
+    if (!d->panels || !d->curves || !d->numbers)
         return QDOT_ENOMEM;
-    if (t->n_swept == 2 && !t->scattered && t->rows > 0) {
-        d->n = t->n - 2;
-        return fill_maps(t, d->maps, d->panels, d->numbers);
-    }
-    if (t->n_swept > 1 && !t->scattered)
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: a figure of what was swept over %zu names",
-                         t->n_swept);
     d->n = 1;
     d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa(t)], true}, {"", false}},
                                 .curves = d->curves,
@@ -164,6 +251,21 @@ draw(const qdot_row_table *t, drawing *d)
     if (d->panels[0].n == 1)
         d->panels[0].axis[1] = d->curves[0].label;
     return QDOT_OK;
+}
+
+static void
+clear(drawing *d)
+{
+    qdot_plot_branches_free(&d->branches);
+    for (size_t k = 0; k < d->n && d->titles != NULL; k++)
+        qdot_text_clear(&d->titles[k]);
+    for (size_t k = 0; k < 2; k++)
+        qdot_free(d->axis[k].of);
+    qdot_free(d->titles);
+    qdot_free(d->panels);
+    qdot_free(d->curves);
+    qdot_free(d->maps);
+    qdot_free(d->numbers);
 }
 
 qdot_status
@@ -194,10 +296,6 @@ qdot_plot_rows(qdot_cursor *c)
             qdot_figure_option_apply(&of_panel, &panels[i]);
         status = qdot_figure_file_show(c->session, &figure, choice.path);
     }
-    qdot_plot_branches_free(&d.branches);
-    qdot_free(d.panels);
-    qdot_free(d.curves);
-    qdot_free(d.maps);
-    qdot_free(d.numbers);
+    clear(&d);
     return status;
 }

@@ -6,8 +6,9 @@
 #include "lang/session/runs.h"
 #include "sim/study/floquet.h"
 
-/* How far a run may be from its start, beside max(scale, |value|), and count as an orbit. */
-static const double closed = 1e-7;
+/* A run whose end is within its error of its start, and not farther than this, is taken for one of an orbit that no run
+ * in doubles follows round: whoever uses it finds that. */
+static const double inexact = 0.1;
 
 static bool
 is_whole(const qdot_session *session, const qdot_named_run *named)
@@ -17,19 +18,10 @@ is_whole(const qdot_session *session, const qdot_named_run *named)
            qdot_run_get_report(named->run)->status == QDOT_RUN_DONE;
 }
 
-/* A run that may be closed, and is not exact enough to be taken for an orbit. */
-static qdot_status
-refuse_inexact(const qdot_named_run *named, double off)
-{
-    (void)qdot_fail(QDOT_EINVAL, "%.80s ends %.2g off its start, which is within its error: too far for an orbit",
-                    named->name, off);
-    return qdot_hint("a smaller tol; where motions near the orbit grow too fast none helps");
-}
-
 static bool
 is_within_error(const qdot_named_run *named, double off)
 {
-    return off <= qdot_run_get_report(named->run)->scaled_error;
+    return off <= fmin(inexact, qdot_run_get_report(named->run)->scaled_error);
 }
 
 qdot_status
@@ -48,7 +40,7 @@ qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
             continue;
         QDOT_TRY(
             qdot_floquet_return(session->scene, session->runs.at[i].run, &off, &where));
-        if (off <= closed) {
+        if (off <= QDOT_FLOQUET_CLOSED) {
             *orbit = &session->runs.at[i];
             return QDOT_OK;
         }
@@ -58,10 +50,11 @@ qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
             latest = &session->runs.at[i];
         }
     }
+    *orbit = latest;
     if (at == QDOT_NIL)
         (void)qdot_fail(QDOT_EINVAL, "no run of this scene is whole");
     else if (is_within_error(latest, first))
-        return refuse_inexact(latest, first);
+        return QDOT_OK;
     else
         (void)qdot_fail(QDOT_EINVAL,
                         "no run ends where it began: %.80s is %.3g off in %.80s",
@@ -79,10 +72,8 @@ qdot_orbit_run_named(qdot_session *session, const char *name, qdot_named_run **o
     if (!is_whole(session, *orbit))
         return qdot_fail(QDOT_EINVAL, "%s is not a whole run of this scene", name);
     QDOT_TRY(qdot_floquet_return(session->scene, (*orbit)->run, &off, &where));
-    if (off <= closed)
+    if (off <= QDOT_FLOQUET_CLOSED || is_within_error(*orbit, off))
         return QDOT_OK;
-    if (is_within_error(*orbit, off))
-        return refuse_inexact(*orbit, off);
     (void)qdot_fail(QDOT_EINVAL, "%s does not end where it began: it is %.3g off", name, off);
     return qdot_hint("find x = 1, T = 2 such that returns after T");
 }

@@ -142,7 +142,7 @@ name_columns(job *j, qdot_branches *b)
     for (size_t i = 0; i < n; i++)
         snprintf(j->text[behind + i], NAME_ROOM, "max(%.100s)",
                  qdot_expr_symbol(s->pool, s->coordinates.at[i])->name);
-    for (size_t i = 0; i < 2 * n; i++)
+    for (size_t i = 0; behind + n + i < width; i++)
         snprintf(j->text[behind + n + i], NAME_ROOM, "abs(floquet[%zu])", i + 1);
     for (size_t i = 0; i < n; i++)
         j->columns[k++] = behind + i;
@@ -152,8 +152,8 @@ name_columns(job *j, qdot_branches *b)
     for (size_t i = 0; i < 2 * n; i++)
         if (strcmp(j->text[i], j->text[j->found.n]) != 0)
             j->columns[k++] = i;
-    for (size_t i = 0; i < 2 * n; i++)
-        j->columns[k++] = behind + n + i;
+    for (size_t i = behind + n; i < width; i++)
+        j->columns[k++] = i;
     b->n_columns = k;
     b->names = j->names;
     b->columns = j->columns;
@@ -173,7 +173,7 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
         status = name_columns(&j, &b);
     if (status == QDOT_OK)
         status = qdot_answer_notice(session, "the orbit is that of %s", j.run);
-    if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.n > j.found.coordinates)
+    if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.conserved)
         status = qdot_answer_notice(session, "the energy is conserved: along the branch it stays "
                                              "what it is in the run");
     status = qdot_continue_conclude(session, w, &b, status);

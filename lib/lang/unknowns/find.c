@@ -12,6 +12,9 @@
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
+/* A motion that goes less far than so much of the guess's is none. */
+static const double shrunk = 0.1;
+
 typedef struct {
     qdot_find *f;
     qdot_trial trial;
@@ -24,6 +27,7 @@ typedef struct {
     bool bounded;       /* without slopes there is still bisection */
     size_t rank;        /* how many unknowns the segments fix */
     double length;      /* of the run at the guess */
+    double reach;       /* of an orbit's guess (sim/study/floquet.h) */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
 
@@ -99,19 +103,29 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
     return QDOT_OK;
 }
 
-/* An orbit, if one was looked for: a motion that rests returns after any time. */
 static qdot_status
-does_not_rest(const double *u, bool *is, void *user)
+find_reach(hunt *h, const double *u, double *reach, bool *rests)
 {
-    hunt *h = user;
     qdot_session *session = h->trial.session;
     qdot_named_run *named;
-    bool rests;
 
     QDOT_TRY(open_at(h, u));
     QDOT_TRY(qdot_runs_find(session, NULL, &named));
-    QDOT_TRY(qdot_floquet_rests(session->scene, named->run, &rests));
-    *is = !rests;
+    QDOT_TRY(qdot_floquet_reach(session->scene, named->run, reach));
+    return qdot_floquet_rests(session->scene, named->run, rests);
+}
+
+/* An orbit, if one was looked for: a motion that rests returns after any time, and so does one so small that it might,
+ * within its errors. */
+static qdot_status
+is_orbit(const double *u, bool *is, void *user)
+{
+    hunt *h = user;
+    double reach;
+    bool rests;
+
+    QDOT_TRY(find_reach(h, u, &reach, &rests));
+    *is = !rests && reach > shrunk * h->reach;
     return QDOT_OK;
 }
 
@@ -322,19 +336,35 @@ tell_end(const hunt *h)
                               to, said);
 }
 
+static qdot_status
+refuse_shrunk(const hunt *h, const qdot_zero_result *r)
+{
+    qdot_text place = {0};
+
+    h->f->c->error_at = h->f->conditions.at[0].from->start;
+    write_place(h->f, r->u, &place);
+    (void)qdot_fail(QDOT_EFAILED, "no orbit found: from the guess the motion shrinks to a place at rest, by now to %.150s",
+                    qdot_text_str(&place));
+    qdot_text_clear(&place);
+    return qdot_hint("another guess, or other values of the start that stay as they are");
+}
+
 /* The values found hold from now on, of names that are declared; the run is the latest. */
 static qdot_status
 conclude(hunt *h, const qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_session *session = f->c->session;
-    bool moves = true;
+    double reach = INFINITY;
+    bool rests = false;
 
     QDOT_TRY(open_at(h, r->u));
     QDOT_TRY(check_length(h));
     QDOT_TRY(tell_end(h));
     if (f->returns)
-        QDOT_TRY(does_not_rest(r->u, &moves, h));
+        QDOT_TRY(find_reach(h, r->u, &reach, &rests));
+    if (!rests && reach <= shrunk * h->reach)
+        return refuse_shrunk(h, r);
     qdot_trial_close(&h->trial);
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
@@ -343,7 +373,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
             qdot_answer_number(session, f->unknowns.at[i].label, r->u[i], r->error[i]));
-    if (!moves)
+    if (rests)
         QDOT_TRY(qdot_answer_notice(
             session, "this is a rest: velocities and accelerations are 0 at its start"));
     return tell_family(h, r);
@@ -370,11 +400,11 @@ search(hunt *h, qdot_zero_result *r)
     QDOT_TRY(find_length(h, &h->length));
     if (f->returns) {
         qdot_shooting_result shot = {.u = r->u, .error = h->before};
-        bool moves;
+        bool rests;
 
-        QDOT_TRY(does_not_rest(r->u, &moves, h));
-        p.wanted = moves ? does_not_rest : NULL;
-        if (moves)
+        QDOT_TRY(find_reach(h, r->u, &h->reach, &rests));
+        p.wanted = rests ? NULL : is_orbit;
+        if (!rests)
             QDOT_TRY(qdot_find_shoot(f, &shot));
         h->rank = shot.rank;
         p.unit = shot.found ? h->unit : NULL;

@@ -35,6 +35,40 @@ check_columns(qdot_cursor *c, const qdot_fit *f, const qdot_csv *csv)
                : qdot_hint("one expression for each column of the file");
 }
 
+/* Whether it is the time, a coordinate or a velocity. */
+static bool
+is_of_motion(const qdot_fit *f, const char *name)
+{
+    const qdot_scene *s = f->session->scene;
+
+    for (size_t i = 0; i < 2 * s->coordinates.n; i++) {
+        const qdot_expr z = qdot_symbol_jet(s->pool, s->coordinates.at[i / 2], i % 2);
+
+        if (strcmp(name, qdot_expr_symbol(s->pool, z)->name) == 0)
+            return true;
+    }
+    return strcmp(name, "t") == 0;
+}
+
+/* No column that the file calls by a name of the motion is taken for another of these. */
+static qdot_status
+check_names(const qdot_fit *f, const qdot_csv *csv)
+{
+    for (size_t i = 0; i < f->columns.n && csv->names.n == csv->columns; i++) {
+        const qdot_csv_name *name = &csv->names.at[i];
+        const qdot_fit_column *column = &f->columns.at[i];
+        const char *label = column->kind == QDOT_FIT_TIME ? "t" : column->label;
+
+        if ((column->kind != QDOT_FIT_TIME && column->kind != QDOT_FIT_VALUE) || strcmp(name->word, label) == 0 ||
+            !is_of_motion(f, label) || !is_of_motion(f, name->word))
+            continue;
+        (void)qdot_csv_fail(f->path, &name->place, "the file calls this column `%.40s`, the statement %.40s", name->word,
+                            label);
+        return qdot_hint("the columns in the order of the file, or another name there");
+    }
+    return QDOT_OK;
+}
+
 /* The time, values and standard errors of a row. */
 static qdot_status
 take_row(qdot_fit *f, const qdot_csv *csv, size_t row, size_t to)
@@ -91,6 +125,7 @@ take(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
 
     QDOT_TRY(check_columns(c, f, csv));
     c->error_at = f->path_at->start;
+    QDOT_TRY(check_names(f, csv));
     QDOT_TRY(check_times(f, csv));
     f->rows = csv->rows;
     f->t = qdot_calloc(csv->rows * (1 + 2 * f->m), sizeof *f->t);

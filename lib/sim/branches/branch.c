@@ -221,9 +221,12 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
         status = enclose(x, &in, UNKNOWN, &b);
         memcpy(guess, b.y, w * sizeof *guess);
     }
+    s->rested = status == QDOT_OK && answer == QDOT_BIFURCATION_REST;
+    if (s->rested)
+        status = qdot_branch_add(x, branch, b.y, a->stability, 0);
     s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
                length > together;
-    if (status == QDOT_OK && !s->leapt) {
+    if (status == QDOT_OK && !s->leapt && !s->rested) {
         if (answer != QDOT_BIFURCATION_FOUND) {
             b.kind = QDOT_NOT_SIMPLE;
             b.frequency = 0;
@@ -261,7 +264,7 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     }
     if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
         QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
-        if (s->leapt)
+        if (s->leapt || s->rested)
             return QDOT_OK;
         if (branch->n > before)
             crossing = branch->y + before * w;
@@ -431,6 +434,10 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
         }
         if (b->blurred) {
             branch->end[1] = QDOT_END_BLURRED;
+            return QDOT_OK;
+        }
+        if (s->rested) {
+            branch->end[1] = QDOT_END_REST;
             return QDOT_OK;
         }
         if (s->leapt) {

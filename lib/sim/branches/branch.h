@@ -34,6 +34,7 @@ typedef struct {
     double *size;          /* [width] of each; of p its range */
     qdot_vec(qdot_branch) branches;
     qdot_vec(qdot_bifurcation) bifurcations;
+    bool conserved; /* of orbits: their energy is */
     bool interrupted;
 } qdot_continuation;
 
@@ -51,6 +52,7 @@ typedef struct {
     qdot_vec(qdot_branch_crossing) crossings;
     bool leapt; /* the latest step went over to another curve, which does not cross this one, or over two
                    bifurcations: it is made again, shorter */
+    bool rested; /* in the latest step an orbit shrank to a place at rest */
 } qdot_branch_search;
 
 QDOT_MUST_CHECK qdot_status qdot_branch_add(const qdot_path *x, qdot_branch *branch,

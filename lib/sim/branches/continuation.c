@@ -251,25 +251,25 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     return status;
 }
 
-/* The other curve at a crossing, as one branch through it. */
+/* The other curve at a bifurcation along `other`, as one branch through it; or one arm of it. */
 static qdot_status
-follow_other(qdot_branch_search *s, const qdot_branch_crossing *crossing)
+follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
 {
     const size_t m = s->x->width;
-    qdot_branch back = {0}, on = {0};
+    qdot_branch back = {.end = {QDOT_END_RANGE, QDOT_END_RANGE}}, on = {0};
     qdot_path_point middle = {0};
     qdot_status status = qdot_path_point_begin(s->x, &middle);
 
     if (status == QDOT_OK) {
-        memcpy(middle.y, s->all->bifurcations.at[crossing->at].y, m * sizeof *middle.y);
-        status = follow_arm(s, middle.y, crossing->other, 1, &on);
+        memcpy(middle.y, s->all->bifurcations.at[at].y, m * sizeof *middle.y);
+        status = follow_arm(s, middle.y, other, 1, &on);
     }
-    if (status == QDOT_OK && on.end[1] != QDOT_END_CLOSED)
-        status = follow_arm(s, middle.y, crossing->other, -1, &back);
+    if (status == QDOT_OK && both && on.end[1] != QDOT_END_CLOSED)
+        status = follow_arm(s, middle.y, other, -1, &back);
     if (status == QDOT_OK && on.n + back.n > 0)
         status = s->x->judge(s->x, &middle);
     if (status == QDOT_OK && on.n + back.n > 0)
-        status = join(s, &back, middle.y, middle.stability, crossing->at + 1, &on);
+        status = join(s, &back, middle.y, middle.stability, at + 1, &on);
     qdot_branch_clear(&back);
     qdot_branch_clear(&on);
     qdot_path_point_end(&middle);
@@ -287,7 +287,7 @@ follow_crossings(qdot_branch_search *s, size_t *done)
          ++*done) {
         const qdot_branch_crossing one = s->crossings.at[*done];
 
-        status = follow_other(s, &one);
+        status = follow_other(s, one.at, one.other, true);
     }
     return status;
 }
@@ -307,6 +307,15 @@ qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
         QDOT_TRY(follow_crossings(s, &done));
     }
     return QDOT_OK;
+}
+
+qdot_status
+qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other)
+{
+    size_t done = 0;
+
+    QDOT_TRY(follow_other(s, at, other, false));
+    return follow_crossings(s, &done);
 }
 
 qdot_status

@@ -25,8 +25,10 @@ typedef struct {
     const qdot_path_point *a; /* from where s is counted; */
     qdot_path_point point;    /* the latest point; */
     qdot_bifurcation_kind kind;
-    bool krein, apart;      /* apart: no crossing, two curves come near each other */
-    double *re, *im, *none; /* [2n], [4 n^2] zero errors */
+    bool krein;
+    bool apart, rests;      /* no crossing: two curves come near each other; the orbit is none */
+    double *re, *im, *off; /* [c] multipliers */
+    double *none;          /* [K x c x c] zero errors */
     double angle, beside;   /* of the pair nearest to the unit circle, and how far it is from it */
 } search;
 
@@ -74,7 +76,7 @@ of_pairs(search *f, size_t z)
 static double
 test(search *f)
 {
-    const size_t z = 2 * f->x->n;
+    const size_t z = f->x->c;
     double product = 1;
 
     if (f->kind == QDOT_FOLD)
@@ -82,7 +84,7 @@ test(search *f)
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
     if (!qdot_orbit_path_monodromy(f->x, f->point.y) ||
-        qdot_eigenvalues(z, f->x->B, f->none, f->re, f->im, f->none + z * z) != QDOT_OK)
+        qdot_eigenvalues_of_product(f->x->K, z, f->x->B, f->none, f->re, f->im, f->off) != QDOT_OK)
         return NAN;
     if (f->kind == QDOT_DOUBLING) {
         for (size_t k = 0; k < z; k++)
@@ -395,6 +397,26 @@ point_up(const qdot_path *x, double *t)
     t[most] = fabs(t[most]);
 }
 
+/* p stays along it to first order. */
+qdot_status
+qdot_orbit_bifurcation_double(qdot_orbit_path *orbit, const double *y, double *t)
+{
+    qdot_path *x = &orbit->path;
+    const size_t m = x->n + 1;
+    double *v = qdot_calloc(4 * m, sizeof *v), size;
+    qdot_status status = v ? find_null_vectors(x, y, v, v + 2 * m) : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < m && status == QDOT_OK; i++)
+        t[i] = v[2 * m - 1] * v[i] - v[m - 1] * v[m + i];
+    size = status == QDOT_OK ? sqrt(qdot_path_product(x, t, t)) : 1;
+    for (size_t i = 0; i < m && status == QDOT_OK; i++)
+        t[i] /= size;
+    if (status == QDOT_OK)
+        point_up(x, t);
+    qdot_free(v);
+    return status;
+}
+
 static qdot_status
 classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other, bool *found)
 {
@@ -474,8 +496,11 @@ find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, doubl
     if (status == QDOT_OK)
         memcpy(t, f->kind == QDOT_PITCHFORK ? in->a->t : f->point.t, m * sizeof *t);
     if (*found && f->kind == QDOT_PITCHFORK) {
-        f->apart = off > apart;
-        *found = !f->apart;
+        f->rests = f->point.rests;
+        f->apart = !f->rests && off > apart;
+        *found = !f->apart && !f->rests;
+        if (f->rests)
+            memcpy(out->y, y, w * sizeof *out->y);
     }
     if (status == QDOT_OK && *found && f->kind == QDOT_PITCHFORK)
         status = classify(f, y, &f->kind, other, found);
@@ -505,24 +530,25 @@ qdot_orbit_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot
                             double *other, qdot_bifurcation_answer *answer)
 {
     qdot_orbit_path *x = user;
-    const size_t z = 2 * x->n;
+    const size_t z = x->c;
     search f = {.x = x, .a = in->a, .kind = out->kind == QDOT_HOPF ? QDOT_TORUS : out->kind, .krein = !x->asymptotic};
     bool found = false;
     qdot_status status = qdot_path_point_begin(&x->path, &f.point);
 
     *answer = QDOT_BIFURCATION_NONE;
-    f.re = qdot_calloc(3 * z + z * z, sizeof *f.re);
+    f.re = qdot_calloc(3 * z + x->K * z * z, sizeof *f.re);
     if (f.re == NULL)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK) {
         f.im = f.re + z;
-        f.none = f.im + z;
+        f.off = f.im + z;
+        f.none = f.off + z;
         status = find(&f, in, out, other, &found);
     }
     if (status == QDOT_OK && found)
         *answer = QDOT_BIFURCATION_FOUND;
-    else if (f.apart)
-        *answer = QDOT_BIFURCATION_APART;
+    else if (f.apart || f.rests)
+        *answer = f.rests ? QDOT_BIFURCATION_REST : QDOT_BIFURCATION_APART;
     qdot_free(f.re);
     qdot_path_point_end(&f.point);
     return status;

@@ -24,5 +24,8 @@
 QDOT_MUST_CHECK qdot_status qdot_orbit_bifurcation_find(void *x, const qdot_bifurcation_bracket *in,
                                                         qdot_bifurcation *out, double *other,
                                                         qdot_bifurcation_answer *answer);
+/* The direction t [n + 1] of the curve of orbits that close after two turns only, at y, an orbit that is gone round twice,
+ * a multiplier of which is -1 in one turn: what F_y has to 0 beside the tangent of its own curve. */
+QDOT_MUST_CHECK qdot_status qdot_orbit_bifurcation_double(qdot_orbit_path *x, const double *y, double *t);
 
 #endif

@@ -2,12 +2,16 @@
 #include "sim/branches/orbit-continuation.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "sim/branches/orbit-bifurcation.h"
 
 /* A curve whose period has grown so many times, and goes on to do nothing else, leads to an orbit without one. */
 static const double long_period = 2, mostly = 0.5;
+
+/* Orbits that close after more turns of the first are not followed. */
+enum { MOST_TURNS = 4 };
 
 /* Between points from and to of a branch, both at an end of it. */
 static bool
@@ -51,31 +55,158 @@ check_range(const qdot_orbit_path *x, double p)
                      p, of->least, of->most);
 }
 
+/* --- period doubling ----------------------------------------------------------------------------- */
+
+static qdot_status
+open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation *out)
+{
+    const size_t most = qdot_orbit_path_most(of->scene->coordinates.n);
+
+    *out = (qdot_continuation){0};
+    *y = qdot_calloc(most, sizeof **y);
+    out->size = qdot_calloc(most, sizeof *out->size);
+    if (*y == NULL || out->size == NULL)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_orbit_path_begin(x, of, out->size, *y));
+    out->n = x->path.n;
+    out->coordinates = x->path.coordinates;
+    out->width = x->path.width;
+    out->conserved = x->conserved;
+    return QDOT_OK;
+}
+
+/* Rows [width] of x, for orbits in fewer segments: the states between later ones are left out. */
+static void
+shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
+{
+    memcpy(out, y, to->n * sizeof *out);
+    memcpy(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
+}
+
+/* Move the branches and bifurcations of `from` to `to`; the first bifurcation is number `at` there. */
+static qdot_status
+merge(const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
+{
+    const size_t w = to->width, before = to->bifurcations.n;
+
+    to->interrupted = to->interrupted || from->interrupted;
+    for (size_t i = 1; i < from->bifurcations.n; i++) {
+        qdot_bifurcation b = from->bifurcations.at[i];
+        double *const y = qdot_calloc(2 * w, sizeof *y);
+
+        if (y == NULL)
+            return QDOT_ENOMEM;
+        shorten(x, to, b.y, y);
+        shorten(x, to, b.error, y + w);
+        b.y = y;
+        b.error = y + w;
+        if (qdot_vec_push(&to->bifurcations, b) != QDOT_OK) {
+            qdot_free(y);
+            return QDOT_ENOMEM;
+        }
+    }
+    for (size_t i = 0; i < from->branches.n; i++) {
+        qdot_branch *const b = &from->branches.at[i];
+
+        for (size_t k = 0; k < b->n; k++) {
+            shorten(x, to, b->y + k * from->width, b->y + k * w); /* forwards: w is not larger */
+            if (b->mark[k] > 0)
+                b->mark[k] = b->mark[k] == 1 ? at + 1 : before + b->mark[k] - 1;
+        }
+        QDOT_TRY(qdot_vec_push(&to->branches, *b));
+        *b = (qdot_branch){0};
+    }
+    return QDOT_OK;
+}
+
+static qdot_status double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first,
+                              qdot_continuation *out);
+
+/* From the bifurcation, number `at` of out, the orbits that close after two turns. */
+static qdot_status
+follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns, size_t at, qdot_continuation *out)
+{
+    const size_t z = 2 * once->n, start = z + 1 + once->conserved;
+    const double *const from = out->bifurcations.at[at].y;
+    qdot_orbit_of doubled = *of;
+    qdot_orbit_path x = {0};
+    qdot_continuation found;
+    qdot_branch_search s = {.x = &x.path, .find = qdot_orbit_bifurcation_find, .user = &x, .all = &found};
+    qdot_bifurcation b = out->bifurcations.at[at];
+    double *y = NULL;
+    qdot_status status;
+
+    doubled.z = from;
+    doubled.p = from[once->path.n];
+    doubled.T = 2 * from[z];
+    doubled.segments = 2 * once->K;
+    b.y = NULL;
+    status = open(&x, &doubled, &y, &found);
+    if (status == QDOT_OK) {
+        b.y = qdot_calloc(2 * x.path.width + x.path.n + 1, sizeof *b.y);
+        status = b.y ? QDOT_OK : QDOT_ENOMEM;
+    }
+    if (status == QDOT_OK) {
+        memcpy(b.y, from, once->path.n * sizeof *y);
+        b.y[z] = doubled.T;
+        memcpy(b.y + once->path.n, from, z * sizeof *y);
+        memcpy(b.y + once->path.n + z, from + start, (once->K - 1) * z * sizeof *y);
+        b.y[x.path.n] = doubled.p;
+        b.error = b.y + x.path.width;
+        status = qdot_vec_push(&found.bifurcations, b);
+    }
+    if (status != QDOT_OK)
+        qdot_free(b.y);
+    if (status == QDOT_OK)
+        status = qdot_orbit_bifurcation_double(&x, b.y, b.error + x.path.width);
+    if (status == QDOT_OK)
+        status = qdot_continuation_arm(&s, 0, b.error + x.path.width);
+    status = qdot_continuation_finish(&s, status);
+    if (status == QDOT_OK && !x.driven)
+        name_ends(&x.path, &found);
+    if (status == QDOT_OK)
+        status = double_all(&doubled, &x, 2 * turns, 1, &found);
+    if (status == QDOT_OK)
+        status = merge(&x.path, &found, at, out);
+    qdot_continuation_clear(&found);
+    qdot_free(y);
+    qdot_orbit_path_end(&x);
+    return status;
+}
+
+/* Of all period doublings from number `first` on. */
+static qdot_status
+double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first, qdot_continuation *out)
+{
+    const size_t n = out->bifurcations.n;
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = first; i < n && status == QDOT_OK && turns < MOST_TURNS && !out->interrupted; i++)
+        if (out->bifurcations.at[i].kind == QDOT_DOUBLING && 2 * x->K <= QDOT_FLOW_MOST_SEGMENTS)
+            status = qdot_grave(follow_double(of, x, turns, i, out));
+    return status;
+}
+
+/* --- all ------------------------------------------------------------------------------------------ */
+
 qdot_status
 qdot_orbit_continuation_find(const qdot_orbit_of *of, qdot_continuation *out)
 {
-    const size_t most = qdot_orbit_path_width(of->scene->coordinates.n, true);
     qdot_orbit_path x = {0};
     qdot_branch_search s = {
         .x = &x.path, .find = qdot_orbit_bifurcation_find, .user = &x, .all = out};
-    double *y = qdot_calloc(most, sizeof *y);
-    qdot_status status = QDOT_ENOMEM;
+    double *y = NULL;
+    qdot_status status = open(&x, of, &y, out);
 
-    *out = (qdot_continuation){0};
-    out->size = qdot_calloc(most, sizeof *out->size);
-    if (y != NULL && out->size != NULL)
-        status = qdot_orbit_path_begin(&x, of, out->size, y);
     if (status == QDOT_OK)
         status = check_range(&x, y[x.path.n]);
-    if (status == QDOT_OK) {
-        out->n = x.path.n;
-        out->coordinates = x.path.coordinates;
-        out->width = x.path.width;
+    if (status == QDOT_OK)
         status = qdot_continuation_follow(&s, y, 1);
-    }
     status = qdot_continuation_finish(&s, status);
     if (status == QDOT_OK && !x.driven) /* the drive makes the period */
         name_ends(&x.path, out);
+    if (status == QDOT_OK)
+        status = double_all(of, &x, 1, 0, out);
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED,
                            "no orbit near the run can be followed: it is not isolated (another "

@@ -15,14 +15,8 @@
 #include "tape/constant.h"
 #include "tape/derivative.h"
 
-/* Local errors of the two runs. */
-static const double tolerance[2] = {1e-13, 1e-11};
-
 /* Of the change over an orbit: below, a velocity is 0. Of the first orbit's size: below, an orbit is a rest. */
 static const double nothing = 1e-9, at_rest = 1e-4;
-
-/* What both runs round alike, relative to a slope. */
-static const double alike = 1e-14;
 
 /* Of the places: changes below are rounding. */
 static const double still = 1e-12;
@@ -37,36 +31,90 @@ static const double blurred = 0.03;
 static const double exact = 1e-12, shortest = 1e-6, longest = 2e-2;
 
 size_t
-qdot_orbit_path_width(size_t n, bool conserved)
+qdot_orbit_path_most(size_t n)
 {
-    return 2 * n + 1 + conserved + 1 + 3 * n;
+    return 2 * n * QDOT_FLOW_MOST_SEGMENTS + 3 + 3 * n;
 }
 
 /* --- one evaluation ------------------------------------------------------------------------- */
 
-/* Expressions: q, q', q'', then h: at the start (0) and the end (1); their slopes by unknown j. */
-static double
-value_of(const qdot_orbit_path *x, size_t end, size_t i)
+/* Unknowns of the flow: 2n, and p where it is a parameter. */
+static size_t
+width_of(const qdot_orbit_path *x)
 {
-    return x->values[end * (3 * x->n + x->conserved) + i];
+    return x->flow[0].z + x->flow[0].p;
+}
+
+/* Where the state between segment k - 1 and k stands in y; 0 for the last end, too. */
+static size_t
+place_of(const qdot_orbit_path *x, size_t k)
+{
+    return k % x->K == 0 ? 0 : 2 * x->n + 1 + x->conserved + (k % x->K - 1) * 2 * x->n;
+}
+
+static qdot_flow_orbit
+orbit_of(const qdot_orbit_path *x, const double *y)
+{
+    return (qdot_flow_orbit){.K = x->K,
+                             .t0 = x->t0,
+                             .T = y[2 * x->n],
+                             .first = y,
+                             .others = y + 2 * x->n + 1 + x->conserved,
+                             .parameters = y + x->path.n};
+}
+
+/* Expressions: q, q', q'', then h: at the start of segment k (end 0) and its end (1); their slopes by unknown j of the flow. */
+static double
+value_of(const qdot_orbit_path *x, size_t k, size_t end, size_t i)
+{
+    return x->values[(2 * k + end) * x->flow[0].m + i];
 }
 
 static double
-slope_of(const qdot_orbit_path *x, size_t end, size_t i, size_t j)
+slope_of(const qdot_orbit_path *x, size_t k, size_t end, size_t i, size_t j)
 {
-    return x->slopes[(end * (3 * x->n + x->conserved) + i) * x->k + j];
+    return x->slopes[((2 * k + end) * x->flow[0].m + i) * width_of(x) + j];
 }
 
-/* The run at y, its numbers. */
+/* The runs at y, their numbers. */
 static qdot_status
 ask(qdot_orbit_path *x, const double *y)
 {
-    const double T = y[2 * x->n], times[2] = {x->t0, x->t0 + T};
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_flow *const f = &x->flow[x->by];
+    const size_t two = 2 * f->m, width = width_of(x);
 
-    if (!(T > 0) || !isfinite(T))
+    if (!(o.T > 0) || !isfinite(o.T))
         return qdot_fail(QDOT_EDOMAIN, "the period is not positive");
-    QDOT_TRY(qdot_response_run(x->response[x->by], x->u, times[0], times[1]));
-    return qdot_response_read(x->response[x->by], 2, times, x->values, x->slopes);
+    for (size_t k = 0; k < x->K; k++) {
+        QDOT_TRY(qdot_flow_go(f, qdot_flow_state(f, &o, k), o.parameters, qdot_flow_time(&o, k),
+                              qdot_flow_time(&o, k + 1), 0));
+        memcpy(x->values + k * two, f->value, two * sizeof *x->values);
+        memcpy(x->slopes + k * two * width, f->by, two * width * sizeof *x->slopes);
+    }
+    return QDOT_OK;
+}
+
+/* The gap behind segment k, and its slopes; with a longer period it begins later and ends later. */
+static void
+fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
+{
+    const size_t z = 2 * x->n, m = x->path.n + 1, from = place_of(x, k), to = place_of(x, k + 1);
+    const double begins = (double)k / (double)x->K, ends = (double)(k + 1) / (double)x->K;
+
+    for (size_t i = 0; i < z; i++) {
+        double rate = ends * value_of(x, k, 1, x->n + i);
+
+        F[i] = value_of(x, k, 1, i) - y[to + i];
+        for (size_t j = 0; j < z; j++) {
+            J[i * m + from + j] = slope_of(x, k, 1, i, j);
+            rate -= begins * slope_of(x, k, 1, i, j) * value_of(x, k, 0, x->n + j);
+        }
+        if (width_of(x) > z)
+            J[i * m + x->path.n] = slope_of(x, k, 1, i, z);
+        J[i * m + to + i] -= 1;
+        J[i * m + z] = rate;
+    }
 }
 
 /* F and F' from these numbers. */
@@ -74,21 +122,18 @@ static void
 fill(qdot_orbit_path *x, const double *y)
 {
     qdot_path *path = &x->path;
-    const size_t z = 2 * x->n, m = path->n + 1, energy = 3 * x->n;
+    const size_t z = 2 * x->n, m = path->n + 1, energy = 3 * x->n, last = (x->K - 1) * z;
     double *F = path->F, *J = path->J;
 
     memset(J, 0, path->n * m * sizeof *J);
-    for (size_t i = 0; i < z; i++) {
-        F[i] = value_of(x, 1, i) - y[i];
-        for (size_t j = 0; j < x->k; j++)
-            J[i * m + (j < z ? j : path->n)] = slope_of(x, 1, i, j);
-        J[i * m + i] -= 1;
-        J[i * m + z] = value_of(x, 1, x->n + i);
-        if (x->conserved) {
-            J[i * m + z + 1] = slope_of(x, 0, energy, i);
-            F[i] += y[z + 1] * J[i * m + z + 1];
-        }
+    for (size_t k = 0; k < x->K; k++)
+        fill_gap(x, y, k, F + k * z, J + k * z * m);
+    for (size_t i = 0; i < z && x->conserved; i++) {
+        J[(last + i) * m + z + 1] = slope_of(x, 0, 0, energy, i);
+        F[last + i] += y[z + 1] * slope_of(x, 0, 0, energy, i);
     }
+    F += last;
+    J += last * m;
     J += z * m;
     if (x->driven) {
         double in[1] = {y[path->n]}, period = 0, slope = 0;
@@ -100,24 +145,24 @@ fill(qdot_orbit_path *x, const double *y)
     } else {
         F[z] = y[x->phase] - x->held;
         J[x->phase] = 1;
-        path->gauge = value_of(x, 0, x->n + x->phase) / x->rate;
+        path->gauge = value_of(x, 0, 0, x->n + x->phase) / x->rate;
     }
     if (!x->conserved)
         return;
     J += m;
     if (x->of.family == QDOT_ORBIT_START) {
         for (size_t i = 0; i < z; i++)
-            J[i] = x->unknowns[i] == x->of.parameter;
+            J[i] = x->flow[0].unknowns[i] == x->of.parameter;
         J[path->n] = -1;
         F[z + 1] = -y[path->n];
         for (size_t i = 0; i < z; i++)
             F[z + 1] += J[i] * y[i];
         return;
     }
-    F[z + 1] = value_of(x, 0, energy) -
+    F[z + 1] = value_of(x, 0, 0, energy) -
                (x->of.family == QDOT_ORBIT_ENERGY ? y[path->n] : x->energy);
-    for (size_t j = 0; j < x->k; j++)
-        J[j < z ? j : path->n] = slope_of(x, 0, energy, j);
+    for (size_t j = 0; j < width_of(x); j++)
+        J[j < z ? j : path->n] = slope_of(x, 0, 0, energy, j);
     if (x->of.family == QDOT_ORBIT_ENERGY)
         J[path->n] = -1;
 }
@@ -127,15 +172,11 @@ static void
 evaluate(qdot_path *path, const double *y)
 {
     qdot_orbit_path *x = (qdot_orbit_path *)path;
-    const size_t z = 2 * x->n;
     qdot_status status;
 
     if (x->known && memcmp(x->y, y, (path->n + 1) * sizeof *y) == 0)
         return;
     x->known = false;
-    memcpy(x->u, y, z * sizeof *y);
-    if (x->k > z)
-        x->u[z] = y[path->n];
     path->F[0] = NAN;
     for (size_t i = 0; i <= path->n; i++)
         if (!isfinite(y[i]))
@@ -153,18 +194,25 @@ evaluate(qdot_path *path, const double *y)
     x->known = true;
 }
 
+/* B of what was evaluated last. */
+static qdot_status
+fill_factors(qdot_orbit_path *x, const double *y)
+{
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_flow *const f = &x->flow[x->by];
+    const size_t step = f->m * width_of(x);
+
+    return qdot_flow_factors(f, &o, x->slopes + step, 2 * step, &x->c, x->B);
+}
+
 bool
 qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y)
 {
-    const size_t z = 2 * x->n;
-
     evaluate(&x->path, y);
     if (!x->known)
         return false;
-    for (size_t i = 0; i < z; i++)
-        for (size_t j = 0; j < z; j++)
-            x->B[i * z + j] = slope_of(x, 1, i, j);
-    return true;
+    x->path.failure = qdot_grave(fill_factors(x, y));
+    return x->path.failure == QDOT_OK;
 }
 
 void
@@ -180,17 +228,16 @@ qdot_orbit_path_ask(qdot_orbit_path *x, size_t by)
 static bool
 fill_both(qdot_orbit_path *x, const double *y)
 {
-    const size_t z = 2 * x->n, by = x->by;
+    const size_t by = x->by, count = x->K * x->c * x->c;
     bool good;
 
     qdot_orbit_path_ask(x, !by);
     good = qdot_orbit_path_monodromy(x, y);
-    memcpy(x->E, x->B, z * z * sizeof *x->E);
+    memcpy(x->E, x->B, count * sizeof *x->E);
     qdot_orbit_path_ask(x, by);
     if (!good || !qdot_orbit_path_monodromy(x, y))
         return false;
-    for (size_t i = 0; i < z * z; i++)
-        x->E[i] = fabs(x->E[i] - x->B[i]) + alike * fabs(x->B[i]);
+    qdot_flow_errors(count, x->B, x->E);
     return true;
 }
 
@@ -228,6 +275,22 @@ judge_by(const qdot_orbit_path *x, const qdot_floquet *f, qdot_path_point *a)
                                                           : QDOT_STABLE_TO_FIRST_ORDER;
 }
 
+/* The orbit asked for last, to be read. */
+static qdot_orbit_read
+read_of(qdot_orbit_path *x, const qdot_flow_orbit *o)
+{
+    return (qdot_orbit_read){.flow = &x->flow[x->by], .orbit = o, .at = x->K - 1};
+}
+
+static qdot_status
+shape(qdot_orbit_path *x, const double *y, double *most, double *size)
+{
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_orbit_read r = read_of(x, &o);
+
+    return qdot_orbit_shape(&r, most, size);
+}
+
 /* Verdict, largest values, multipliers. */
 static qdot_status
 judge(qdot_path *path, qdot_path_point *a)
@@ -245,14 +308,13 @@ judge(qdot_path *path, qdot_path_point *a)
     a->blurred = true;
     if (!fill_both(x, a->y))
         return path->failure;
-    status = qdot_floquet_of(2 * x->n, x->B, x->E, trivial_of(x), x->asymptotic, &f);
+    status = qdot_floquet_of(x->K, x->c, x->B, x->E, trivial_of(x), x->asymptotic, &f);
     if (status == QDOT_OK)
         judge_by(x, &f, a);
     else
         status = qdot_grave(status);
     if (status == QDOT_OK)
-        status = qdot_orbit_shape(x->response[x->by], x->n, x->conserved, x->t0, a->y[2 * x->n],
-                                  a->y + path->n + 1, &size);
+        status = shape(x, a->y, a->y + path->n + 1, &size);
     a->rests = !x->driven && size < at_rest * x->size;
     qdot_floquet_clear(&f);
     return status;
@@ -260,68 +322,49 @@ judge(qdot_path *path, qdot_path_point *a)
 
 /* --- made ----------------------------------------------------------------------------------- */
 
-static qdot_expr
-jet(const qdot_orbit_path *x, size_t i)
-{
-    const qdot_scene *s = x->of.scene;
-
-    return qdot_symbol_jet(s->pool, s->coordinates.at[i % x->n], (uint32_t)(i / x->n));
-}
-
 static qdot_status
 make_room(qdot_orbit_path *x)
 {
-    const size_t z = 2 * x->n, m = 3 * x->n + x->conserved;
+    const size_t two = x->K * 2 * x->flow[0].m, factors = x->K * 4 * x->n * x->n;
 
-    x->exprs = qdot_calloc(m + x->k + 1, sizeof *x->exprs);
-    x->names = qdot_calloc(x->k + 1, sizeof *x->names);
-    x->values = qdot_calloc(2 * m + 2 * m * x->k + 2 * z * z + 2 * (x->path.n + 1) + x->k,
-                            sizeof *x->values);
-    if (!x->exprs || !x->names || !x->values)
+    x->values = qdot_calloc(two * (1 + width_of(x)) + 2 * factors + x->path.n + 1, sizeof *x->values);
+    if (!x->values)
         return QDOT_ENOMEM;
-    x->unknowns = x->exprs + m;
-    x->slopes = x->values + 2 * m;
-    x->B = x->slopes + 2 * m * x->k;
-    x->E = x->B + z * z;
-    x->y = x->E + z * z;
-    x->u = x->y + x->path.n + 1;
+    x->slopes = x->values + two;
+    x->B = x->slopes + two * width_of(x);
+    x->E = x->B + factors;
+    x->y = x->E + factors;
     return QDOT_OK;
 }
 
-/* Both responses. */
+/* Both flows, and how many segments the first orbit needs. */
 static qdot_status
-make_responses(qdot_orbit_path *x)
+make_flows(qdot_orbit_path *x)
 {
-    qdot_scene *s = x->of.scene;
-    const size_t z = 2 * x->n, m = 3 * x->n + x->conserved;
+    const qdot_orbit_of *of = &x->of;
+    const qdot_expr h = x->conserved ? qdot_mech_energy(of->scene) : QDOT_NIL;
+    const size_t p = of->family == QDOT_ORBIT_PARAMETER;
 
-    for (size_t i = 0; i < 3 * x->n; i++)
-        x->exprs[i] = jet(x, i);
-    if (x->conserved)
-        x->exprs[3 * x->n] = qdot_mech_energy(s);
-    for (size_t j = 0; j < x->k; j++) {
-        x->unknowns[j] = j < z ? jet(x, j) : x->of.parameter;
-        x->names[j] = qdot_expr_symbol(s->pool, x->unknowns[j])->name;
-    }
-    QDOT_TRY(qdot_pool_check(s->pool));
-    for (size_t k = 0; k < 2; k++) {
-        qdot_run_request *r = &x->request[k];
-        const qdot_response_of of = {.scene = s,
-                                     .request = r,
-                                     .k = x->k,
-                                     .unknowns = x->unknowns,
-                                     .names = x->names,
-                                     .m = m,
-                                     .exprs = x->exprs};
+    for (size_t k = 0; k < 2; k++)
+        QDOT_TRY(qdot_flow_begin(&x->flow[k], of->scene, of->request, p, &of->parameter, h, qdot_flow_tolerance[k],
+                                 of->T));
+    x->K = of->segments;
+    if (x->K > 0)
+        return QDOT_OK;
+    return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, &x->K);
+}
 
-        *r = *x->of.request;
-        r->q0 = x->unknowns;
-        r->v0 = x->unknowns + x->n;
-        r->q_named = r->v_named = NULL;
-        r->scales = NULL;
-        r->tol = tolerance[k];
-        r->t1 = qdot_add(s->pool, r->t0, qdot_expr_of_double(s->pool, x->of.T));
-        QDOT_TRY(qdot_response_new(&of, &x->response[k]));
+/* The states between segments, one after the other from the start. */
+static qdot_status
+follow_states(qdot_orbit_path *x, double *y)
+{
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_flow *const f = &x->flow[0];
+
+    for (size_t k = 0; k + 1 < x->K; k++) {
+        QDOT_TRY(qdot_flow_go(f, qdot_flow_state(f, &o, k), o.parameters, qdot_flow_time(&o, k),
+                              qdot_flow_time(&o, k + 1), 1));
+        memcpy(y + place_of(x, k + 1), f->value, f->z * sizeof *y);
     }
     return QDOT_OK;
 }
@@ -335,9 +378,9 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
 
     x->phase = z;
     for (size_t i = 0; i < x->n; i++) { /* a velocity that is 0 */
-        const double rate = fabs(value_of(x, 0, z + i)) / change[x->n + i];
+        const double rate = fabs(value_of(x, 0, 0, z + i)) / change[x->n + i];
 
-        if (x->unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
+        if (x->flow[0].unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
             fabs(y[x->n + i]) <= nothing * change[x->n + i]) {
             best = rate;
             x->phase = x->n + i;
@@ -345,18 +388,20 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
     }
     if (x->phase < z) {
         y[x->phase] = x->held = 0;
-        x->rate = value_of(x, 0, x->n + x->phase);
+        x->rate = value_of(x, 0, 0, x->n + x->phase);
         return QDOT_OK;
     }
     if (x->of.family != QDOT_ORBIT_START) {
-        QDOT_TRY(qdot_orbit_turn(x->response[0], x->n, x->conserved, x->t0, x->of.T, &x->phase, y));
+        const qdot_flow_orbit o = orbit_of(x, y);
+        qdot_orbit_read r = read_of(x, &o);
+
         x->held = 0;
-        return QDOT_OK;
+        return qdot_orbit_turn(&r, &x->phase, y);
     }
     for (size_t i = 0; i < x->n; i++) {
         const double rate = fabs(y[x->n + i]) / change[i];
 
-        if (x->unknowns[i] != x->of.parameter && rate > best) {
+        if (x->flow[0].unknowns[i] != x->of.parameter && rate > best) {
             best = rate;
             x->phase = i;
             x->held = y[i];
@@ -370,12 +415,14 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
 
 /* Sizes of the unknowns: how far each of z changes, or where it stays the others of its kind. */
 static qdot_status
-find_sizes(qdot_orbit_path *x, double *size)
+find_sizes(qdot_orbit_path *x, const double *y, double *size)
 {
     const size_t n = x->n;
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_orbit_read r = read_of(x, &o);
     double most[2] = {0, 0}, far = 0;
 
-    QDOT_TRY(qdot_orbit_changes(x->response[0], n, x->conserved, x->t0, x->of.T, size));
+    QDOT_TRY(qdot_orbit_changes(&r, size));
     for (size_t i = 0; i < 2 * n; i++)
         most[i / n] = fmax(most[i / n], size[i]);
     for (size_t i = 0; i < n; i++)
@@ -393,6 +440,8 @@ find_sizes(qdot_orbit_path *x, double *size)
     size[2 * n] = x->of.T;
     if (x->conserved)
         size[2 * n + 1] = 1;
+    for (size_t k = 1; k < x->K; k++)
+        memcpy(size + place_of(x, k), size, 2 * n * sizeof *size);
     return QDOT_OK;
 }
 
@@ -407,20 +456,18 @@ make_first(qdot_orbit_path *x, double *size, double *y)
     if (x->conserved)
         y[z + 1] = 0;
     y[n] = x->of.p;
-    memcpy(x->u, y, z * sizeof *y);
-    if (x->k > z)
-        x->u[z] = y[n];
+    QDOT_TRY(follow_states(x, y));
     QDOT_TRY(ask(x, y));
-    QDOT_TRY(find_sizes(x, size));
+    QDOT_TRY(fill_factors(x, y)); /* how many there are */
+    QDOT_TRY(find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
-    if (x->phase < z && !(fabs(x->rate) > 0)) /* it was moved */
-    {
-        memcpy(x->u, y, z * sizeof *y);
+    if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start was moved */
+        QDOT_TRY(follow_states(x, y));
         QDOT_TRY(ask(x, y));
-        x->rate = value_of(x, 0, x->n + x->phase);
+        x->rate = value_of(x, 0, 0, x->n + x->phase);
     }
-    x->energy = x->conserved ? value_of(x, 0, 3 * x->n) : 0;
+    x->energy = x->conserved ? value_of(x, 0, 0, 3 * x->n) : 0;
     if (x->of.family == QDOT_ORBIT_ENERGY)
         y[n] = x->energy;
     return QDOT_OK;
@@ -467,9 +514,6 @@ check(qdot_orbit_path *x)
 {
     qdot_scene *s = x->of.scene;
 
-    if (s->constraints.n > 0)
-        return qdot_fail(QDOT_ENOTBUILT,
-                         "not built yet: branches of orbits of a scene with constraints");
     x->asymptotic = !qdot_floquet_is_lagrangian(s);
     QDOT_TRY(qdot_orbit_is_driven(s, x->of.request, &x->driven));
     if (!x->driven)
@@ -489,11 +533,13 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
 
     *x = (qdot_orbit_path){.of = *of, .n = of->scene->coordinates.n};
     x->phase = 2 * x->n;
-    x->k = 2 * x->n + (of->family == QDOT_ORBIT_PARAMETER);
     QDOT_TRY(check(x));
-    QDOT_TRY(qdot_path_begin(path, 2 * x->n + 1 + x->conserved));
+    QDOT_TRY(qdot_tape_constant(of->scene->pool, of->request->t0, &x->t0));
+    if (x->driven)
+        QDOT_TRY(make_period(x));
+    QDOT_TRY(make_flows(x));
+    QDOT_TRY(qdot_path_begin(path, 2 * x->n * x->K + 1 + x->conserved));
     path->coordinates = 2 * x->n + 1;
-    path->width = qdot_orbit_path_width(x->n, x->conserved);
     path->least = of->least;
     path->most = of->most;
     path->exact = exact;
@@ -514,12 +560,9 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->lo = x->domain;
     path->hi = x->domain + path->n;
     path->angle = x->angle;
-    QDOT_TRY(qdot_tape_constant(of->scene->pool, of->request->t0, &x->t0));
     QDOT_TRY(make_room(x));
-    if (x->driven)
-        QDOT_TRY(make_period(x));
-    QDOT_TRY(make_responses(x));
     QDOT_TRY(make_first(x, size, y));
+    path->width = path->n + 1 + x->n + x->c;
     size[path->n] = of->most - of->least;
     for (size_t i = path->n + 1; i < path->width; i++)
         size[i] = i - path->n - 1 < x->n ? size[i - path->n - 1] : 1;
@@ -531,11 +574,9 @@ void
 qdot_orbit_path_end(qdot_orbit_path *x)
 {
     for (size_t k = 0; k < 2; k++)
-        qdot_response_free(x->response[k]);
+        qdot_flow_end(&x->flow[k]);
     qdot_tape_free(x->period);
     qdot_free(x->period_work);
-    qdot_free(x->exprs);
-    qdot_free(x->names);
     qdot_free(x->values);
     qdot_free(x->domain);
     qdot_free(x->angle);

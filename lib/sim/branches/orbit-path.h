@@ -6,12 +6,16 @@
  *     q_k' = 0, or q_k = c          a phase                       T = T(p)   where a drive has its period
  *     h(z, p) = E                   where the energy h is conserved
  *
+ * Where motions near by grow, the period is cut into K segments (flow.h), with a state at the beginning of each as further
+ * unknowns behind these, z_k+1 - phi(z_k) = 0 as further equations. Under constraints all states are brought onto them first:
+ * what F has to 0 lies on them.
+ *
  * The unknowns are z, T and, where h is conserved, lambda, which is 0: it takes the place of the equation that
  * depends on the others. Orbits of such a scene are families even at one value of all parameters: p is then the
  * energy, or a number of the start; with a parameter of the scene the energy stays what it was.
  *
- * F' is exact, by the variational equations (response.h), and so is B = dz(T)/dz, whose eigenvalues are the
- * multipliers. Their errors are how far B is from that of a second run, of a tolerance 100 times as large.
+ * F' is exact, by the variational equations (response.h), and so are the slopes B of the segments along the constraints; the
+ * eigenvalues of their product are the multipliers. Their errors are how far B is from that of a second run, of a tolerance 100 times as large.
  *
  * The phase: a velocity that is 0 at the start stays so, the one that changes fastest; else the start is moved to a turning
  * point of a coordinate; where p is a number of the start, the coordinate that changes fastest is held. The determinant
@@ -24,7 +28,7 @@
 #define QDOT_SIM_ORBIT_PATH_H
 
 #include "sim/branches/path.h"
-#include "sim/study/response.h"
+#include "sim/study/flow.h"
 #include "tape/tape.h"
 
 /* What p is. */
@@ -39,12 +43,13 @@ typedef struct {
     double p, T;         /* of the first orbit; the energy is found */
     const double *z;     /* [2n] its start */
     double least, most;
+    size_t segments;     /* 0: as many as it needs */
 } qdot_orbit_of;
 
 typedef struct {
     qdot_path path; /* first: a pointer to it is one to this */
     qdot_orbit_of of;
-    size_t n, k;    /* coordinates; unknowns of the responses: 2n, and p where it is a parameter */
+    size_t n, K, c; /* coordinates; segments; multipliers: 2n, less what constraints fix */
     bool driven, conserved, asymptotic;
     size_t phase;   /* the number of z that is held; 2n: none */
     double held, rate; /* its value; its rate at the first orbit */
@@ -53,30 +58,26 @@ typedef struct {
     double t0;
     qdot_tape *period; /* T from p, of a drive; */
     double *period_work;
-    qdot_expr *exprs, *unknowns;
-    const char **names;
-    qdot_run_request request[2];
-    qdot_response *response[2]; /* fine, coarse */
+    qdot_flow flow[2];          /* fine, coarse; the further expression is h */
     size_t by;                  /* which of them is asked */
-    double *values, *slopes;    /* of the latest evaluation: [2 x m], [2 x m x k] */
+    double *values, *slopes;    /* of the latest evaluation: [K x 2 x m], [K x 2 x m x (2n + p)] */
     double *y;                  /* [n + 1] where that was; */
     bool known;                 /* it was without failure */
-    double *B, *E;              /* [2n x 2n] */
-    double *u;                  /* [k] room */
+    double *B, *E;              /* [K x c x c] */
     double *domain;             /* [2 path.n] of the unknowns: least, largest */
     bool *angle;                /* [path.n] none is one */
 } qdot_orbit_path;
 
-/* From {0}, of->z taken over; ended in any case. QDOT_ENOTBUILT: constraints; QDOT_EINVAL: the drive has not the period
+/* From {0}, of->z taken over; ended in any case. QDOT_EINVAL: the drive has not the period
  * of the orbit, it rests, or p is of another kind. y [path.n + 1] is the first place, size
  * [path.width] how large each number is. */
 QDOT_MUST_CHECK qdot_status qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of,
                                                   double *size, double *y);
 void qdot_orbit_path_end(qdot_orbit_path *x);
 
-/* How many numbers stand in y: unknowns, p, then the largest value of each coordinate [n], the moduli of the
- * multipliers [2n]. */
-size_t qdot_orbit_path_width(size_t n, bool conserved);
+/* In y: unknowns, p, then the largest value of each coordinate [n], the moduli of the multipliers [c]. The most that there
+ * are of a scene: */
+size_t qdot_orbit_path_most(size_t n);
 
 /* B at y, as the response asked has it; false: there is none. E is not changed. */
 bool qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y);

@@ -9,9 +9,8 @@
 enum { PLACES = 257, HALVINGS = 60 };
 
 typedef struct {
-    qdot_response *r;
+    qdot_orbit_read *r;
     size_t n, m; /* coordinates, expressions */
-    double t0, T;
     double *values; /* [PLACES x m] */
     double *one;    /* [m] at one time */
 } shape;
@@ -19,22 +18,29 @@ typedef struct {
 static double
 time_of(const shape *s, size_t k)
 {
-    return s->t0 + s->T * (double)k / (PLACES - 1);
+    return s->r->orbit->t0 + s->r->orbit->T * (double)k / (PLACES - 1);
 }
 
 static qdot_status
-begin(shape *s, qdot_response *r, size_t n, bool energy, double t0, double T)
+begin(shape *s, qdot_orbit_read *r)
 {
     double times[PLACES];
 
-    *s = (shape){.r = r, .n = n, .m = 3 * n + energy, .t0 = t0, .T = T};
+    *s = (shape){.r = r, .n = r->flow->n, .m = r->flow->m};
     s->values = qdot_malloc((PLACES + 1) * s->m * sizeof *s->values);
     if (s->values == NULL)
         return QDOT_ENOMEM;
     s->one = s->values + PLACES * s->m;
     for (size_t k = 0; k < PLACES; k++)
         times[k] = time_of(s, k);
-    return qdot_response_read(r, PLACES, times, s->values, NULL);
+    return qdot_flow_read(r->flow, r->orbit, &r->at, PLACES, times, s->values);
+}
+
+/* s->one at a time. */
+static qdot_status
+read_one(shape *s, double time)
+{
+    return qdot_flow_read(s->r->flow, s->r->orbit, &s->r->at, 1, &time, s->one);
 }
 
 static double
@@ -76,7 +82,7 @@ turn(shape *s, size_t i, size_t k)
     }
     for (int step = 0; step < HALVINGS && from < to; step++) {
         middle = from + (to - from) / 2;
-        QDOT_TRY(qdot_response_read(s->r, 1, &middle, s->one, NULL));
+        QDOT_TRY(read_one(s, middle));
         if (s->one[v] > 0)
             from = middle;
         else if (s->one[v] < 0)
@@ -86,15 +92,15 @@ turn(shape *s, size_t i, size_t k)
         if (middle == from + (to - from) / 2)
             break;
     }
-    return qdot_response_read(s->r, 1, &middle, s->one, NULL);
+    return read_one(s, middle);
 }
 
 qdot_status
-qdot_orbit_shape(qdot_response *r, size_t n, bool energy, double t0, double T, double *most,
-                 double *size)
+qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size)
 {
+    const size_t n = r->flow->n;
     shape s;
-    qdot_status status = begin(&s, r, n, energy, t0, T);
+    qdot_status status = begin(&s, r);
 
     *size = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -110,12 +116,12 @@ qdot_orbit_shape(qdot_response *r, size_t n, bool energy, double t0, double T, d
 }
 
 qdot_status
-qdot_orbit_changes(qdot_response *r, size_t n, bool energy, double t0, double T, double *change)
+qdot_orbit_changes(qdot_orbit_read *r, double *change)
 {
     shape s;
-    const qdot_status status = begin(&s, r, n, energy, t0, T);
+    const qdot_status status = begin(&s, r);
 
-    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++) {
+    for (size_t i = 0; i < 2 * s.n && status == QDOT_OK; i++) {
         double least;
         const size_t k = largest(&s, i, &least);
 
@@ -126,13 +132,13 @@ qdot_orbit_changes(qdot_response *r, size_t n, bool energy, double t0, double T,
 }
 
 qdot_status
-qdot_orbit_turn(qdot_response *r, size_t n, bool energy, double t0, double T, size_t *phase,
-                double *z)
+qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z)
 {
+    const size_t n = r->flow->n;
     shape s;
     double most = 0;
     size_t best = 0, where = 0;
-    qdot_status status = begin(&s, r, n, energy, t0, T);
+    qdot_status status = begin(&s, r);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double least;

@@ -2,18 +2,17 @@
 #include "sim/study/floquet.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-#include <gsl/gsl_linalg.h>
 
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "num/eigenvalues.h"
 #include "ode/scale.h"
-#include "sim/model/substitute.h"
-#include "sim/study/variation.h"
-#include "tape/constant.h"
+#include "sim/study/shooting.h"
+
+/* A run that is so near to its start at its end is followed all round by the states between segments; how far the start of an
+ * orbit may be from that of the run, relative to max(1, |z|). */
+static const double followed = 1e-3, near_start = 1e-6;
 
 /* Change by the first rates over the time of a run, beside max(scale, |value|), that is none. */
 static const double resting = 1e-9;
@@ -28,15 +27,14 @@ static const double near_one = 1e-2;
 typedef struct {
     qdot_scene *scene;
     qdot_run *run;
-    qdot_run_request request;
-    size_t n, k;   /* coordinates; directions */
-    double *basis; /* [k x 2n] orthonormal directions on the constraints at the start */
-    double *z;     /* [2n] the start */
-    qdot_expr *exact;      /* [2n] the same; then [k x 2n] the basis */
-    qdot_variation_by *by; /* [k] */
-    char (*names)[24];     /* [k] */
-    qdot_variation v;
-    qdot_run *varied;
+    const qdot_run_request *request;
+    size_t n, K, c;   /* coordinates; segments; multipliers */
+    double t0, T;
+    double *states;   /* [most K x 2n] at the beginnings of the segments */
+    double *ends;     /* [most K x 2n x 2n] slopes at their ends by these */
+    double *B, *E;    /* [most K x 2n x 2n] of them, [K x c x c] */
+    qdot_flow flow;
+    const qdot_variation *v; /* of the flow */
 } orbit;
 
 void
@@ -61,23 +59,52 @@ size_of(const qdot_run_report *report, size_t n, size_t i, double value)
     return qdot_ode_size(report->scales, i < n ? i : report->n + i - n, value);
 }
 
-qdot_status
-qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
+/* How far q, then q' [2n] go by their rates at the beginning: by [2n]; their sizes. */
+static qdot_status
+find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
 {
     const size_t n = scene->coordinates.n;
     const qdot_run_report *report = qdot_run_get_report(run);
-    const double T = report->t1 - report->t0;
 
-    *rests = true;
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr e[2] = {
             jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
         double value[2];
 
         QDOT_TRY(qdot_run_values(run, 2, e, 1, &report->t0, value, NULL));
-        if (fabs(value[1] * T) > resting * size_of(report, n, i, value[0]))
-            *rests = false;
+        by[i] = fabs(value[1] * (report->t1 - report->t0));
+        size[i] = size_of(report, n, i, value[0]);
     }
+    return QDOT_OK;
+}
+
+static qdot_status
+find_reach(qdot_scene *scene, qdot_run *run, bool relative, double *reach)
+{
+    const size_t z = 2 * scene->coordinates.n;
+    double *by = qdot_calloc(2 * z, sizeof *by);
+    const qdot_status status = by ? find_ways(scene, run, by, by + z) : QDOT_ENOMEM;
+
+    *reach = 0;
+    for (size_t i = 0; i < z && status == QDOT_OK; i++)
+        *reach = fmax(*reach, by[i] / (relative ? by[z + i] : 1));
+    qdot_free(by);
+    return status;
+}
+
+qdot_status
+qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach)
+{
+    return find_reach(scene, run, false, reach);
+}
+
+qdot_status
+qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests)
+{
+    double reach;
+
+    QDOT_TRY(find_reach(scene, run, true, &reach));
+    *rests = !(reach > resting);
     return QDOT_OK;
 }
 
@@ -102,112 +129,6 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
     return QDOT_OK;
 }
 
-/* --- directions ------------------------------------------------------------------------------ */
-
-/* The value of e, with the numbers of the request, at the start. */
-static qdot_status
-at_start(const orbit *o, qdot_expr e, double *value)
-{
-    qdot_pool *pool = o->scene->pool;
-    const qdot_expr t = QDOT_T;
-
-    e = qdot_substitute(pool, e, o->request.n_values, o->request.symbols,
-                        o->request.values);
-    for (size_t i = 0; i < 2 * o->n && e != QDOT_NIL; i++) {
-        const qdot_expr z = jet(o->scene, i);
-
-        e = qdot_subs(pool, e, 1, &z, &o->exact[i]);
-    }
-    e = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &o->request.t0);
-    QDOT_TRY(qdot_pool_check(pool));
-    return qdot_tape_constant(pool, e, value);
-}
-
-/* Rows of conditions on dz: f and its rate of holonomic constraints, f of those of velocities. */
-static qdot_status
-fill_conditions(const orbit *o, gsl_matrix *A, size_t *rows)
-{
-    qdot_pool *pool = o->scene->pool;
-
-    *rows = 0;
-    for (size_t c = 0; c < o->scene->constraints.n; c++) {
-        const qdot_constraint *of = &o->scene->constraints.at[c];
-        const size_t orders = of->kind == QDOT_HOLONOMIC  ? 2
-                              : of->kind == QDOT_VELOCITY ? 1
-                                                          : 0;
-        qdot_expr f = of->f;
-
-        for (size_t r = 0; r < orders; r++, f = qdot_ddt(pool, f), ++*rows)
-            for (size_t i = 0; i < 2 * o->n; i++) {
-                double value;
-
-                QDOT_TRY(at_start(o, qdot_diff(pool, f, jet(o->scene, i)), &value));
-                gsl_matrix_set(A, *rows, i, value);
-            }
-    }
-    return qdot_pool_check(pool);
-}
-
-/* The basis: what A maps to 0. */
-static qdot_status
-find_tangents(orbit *o)
-{
-    const size_t z = 2 * o->n;
-    gsl_matrix *A = gsl_matrix_calloc(z + 2 * o->scene->constraints.n, z),
-               *V = gsl_matrix_alloc(z, z);
-    gsl_vector *S = gsl_vector_alloc(z), *work = gsl_vector_alloc(z);
-    size_t rows = 0, rank = 0;
-    qdot_status status = A && V && S && work ? fill_conditions(o, A, &rows) : QDOT_ENOMEM;
-
-    if (status == QDOT_OK && gsl_linalg_SV_decomp(A, V, S, work) != 0)
-        status = qdot_fail(QDOT_EFAILED, "the constraints have no tangents at the start");
-    for (size_t i = 0; i < z && status == QDOT_OK; i++)
-        rank += gsl_vector_get(S, i) > 1e-9 * gsl_vector_get(S, 0);
-    o->k = z - rank;
-    for (size_t k = 0; k < o->k && status == QDOT_OK; k++)
-        for (size_t i = 0; i < z; i++)
-            o->basis[k * z + i] = gsl_matrix_get(V, i, rank + k);
-    gsl_matrix_free(A);
-    gsl_matrix_free(V);
-    gsl_vector_free(S);
-    gsl_vector_free(work);
-    return status;
-}
-
-/* The start, and directions there: of each coordinate and velocity, or the tangents. */
-static qdot_status
-find_directions(orbit *o)
-{
-    const size_t z = 2 * o->n;
-    const double t0 = qdot_run_get_report(o->run)->t0;
-
-    for (size_t i = 0; i < z; i++) {
-        const qdot_expr e = jet(o->scene, i);
-
-        QDOT_TRY(qdot_run_values(o->run, 1, &e, 1, &t0, &o->z[i], NULL));
-        o->exact[i] = o->scene->constraints.n == 0
-                          ? (i < o->n ? o->request.q0 : o->request.v0)[i % o->n]
-                          : qdot_expr_of_double(o->scene->pool, o->z[i]);
-    }
-    o->request.q0 = o->exact;
-    o->request.v0 = o->exact + o->n;
-    o->request.q_named = o->request.v_named = NULL;
-    o->k = z;
-    for (size_t i = 0; i < z; i++)
-        o->basis[i * z + i] = 1;
-    if (o->scene->constraints.n > 0)
-        QDOT_TRY(find_tangents(o));
-    for (size_t k = 0; k < o->k; k++) {
-        qdot_expr *start = o->exact + (k + 1) * z;
-
-        for (size_t i = 0; i < z; i++)
-            start[i] = qdot_expr_of_double(o->scene->pool, o->basis[k * z + i]);
-        snprintf(o->names[k], sizeof o->names[k], "s%zu", k + 1);
-        o->by[k] = (qdot_variation_by){.name = o->names[k], .start = start};
-    }
-    return qdot_pool_check(o->scene->pool);
-}
-
 /* --- the equations ----------------------------------------------------------------------------- */
 
 static bool
@@ -221,7 +142,7 @@ static bool
 holds_time(const orbit *o)
 {
     for (size_t i = 0; i < o->n; i++)
-        if (has_time(o, o->v.a[i]))
+        if (has_time(o, o->v->a[i]))
             return true;
     for (size_t k = 0; k < o->scene->events.n; k++) {
         const qdot_event *e = &o->scene->events.at[k];
@@ -267,7 +188,7 @@ check_same(orbit *o, qdot_expr of)
         const double at = report->t0 + T * (double)k / (ASKED + 0.385);
         double value[2];
 
-        QDOT_TRY(qdot_run_values(o->varied, 2, e, 1, &at, value, NULL));
+        QDOT_TRY(qdot_run_values(o->run, 2, e, 1, &at, value, NULL));
         most = fmax(most, fabs(value[0]));
         off = isnan(value[1]) ? INFINITY : fmax(off, fabs(value[1]));
     }
@@ -284,7 +205,7 @@ check_period(orbit *o)
     qdot_pool *pool = o->scene->pool;
 
     for (size_t i = 0; i < o->n; i++)
-        QDOT_TRY(check_same(o, o->v.a[i]));
+        QDOT_TRY(check_same(o, o->v->a[i]));
     for (size_t k = 0; k < o->scene->events.n; k++) {
         const qdot_event *e = &o->scene->events.at[k];
         qdot_expr g = qdot_sub(pool, e->left, e->right);
@@ -292,9 +213,9 @@ check_period(orbit *o)
         if (e->targets.n == 0)
             continue;
         g = e->way == 0 ? qdot_mul(pool, g, g) : g;
-        QDOT_TRY(check_same(o, qdot_variation_with_numbers(&o->v, g)));
+        QDOT_TRY(check_same(o, qdot_variation_with_numbers(o->v, g)));
         for (size_t i = 0; i < e->targets.n; i++)
-            QDOT_TRY(check_same(o, qdot_variation_with_numbers(&o->v, e->values.at[i])));
+            QDOT_TRY(check_same(o, qdot_variation_with_numbers(o->v, e->values.at[i])));
     }
     return QDOT_OK;
 }
@@ -312,27 +233,6 @@ qdot_floquet_is_lagrangian(const qdot_scene *s)
 }
 
 /* --- multipliers ----------------------------------------------------------------------------- */
-
-/* What the directions have become, by the directions: B and its errors E [k x k]. */
-static qdot_status
-fill_monodromy(orbit *o, double *B, double *E)
-{
-    const size_t z = 2 * o->n, k = o->k;
-    const double t1 = qdot_run_get_report(o->varied)->t1;
-
-    for (size_t j = 0; j < k; j++)
-        for (size_t i = 0; i < z; i++) {
-            const qdot_expr y = qdot_variation_slope_jet(&o->v, j, i % o->n, i >= o->n);
-            double value, error;
-
-            QDOT_TRY(qdot_run_values(o->varied, 1, &y, 1, &t1, &value, &error));
-            for (size_t l = 0; l < k; l++) {
-                B[l * k + j] += o->basis[l * z + i] * value;
-                E[l * k + j] += fabs(o->basis[l * z + i]) * error;
-            }
-        }
-    return QDOT_OK;
-}
 
 /* The multipliers nearest to 1 are 1. */
 static void
@@ -395,7 +295,7 @@ judge(qdot_floquet *x)
 }
 
 qdot_status
-qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
+qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
                 qdot_floquet *x)
 {
     x->n = k;
@@ -405,27 +305,108 @@ qdot_floquet_of(size_t k, const double *B, const double *E, size_t trivial, bool
         return QDOT_ENOMEM;
     x->im = x->re + k;
     x->error = x->im + k;
-    QDOT_TRY(qdot_eigenvalues(k, B, E, x->re, x->im, x->error));
+    QDOT_TRY(qdot_eigenvalues_of_product(K, k, B, E, x->re, x->im, x->error));
     state_trivial(x, trivial);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     judge(x);
     return QDOT_OK;
 }
 
+/* B of the flow of a tolerance. */
+static qdot_status
+fill_factors(orbit *o, double tol, double *B)
+{
+    const size_t z = 2 * o->n;
+    const qdot_flow_orbit of = {.K = o->K, .t0 = o->t0, .T = o->T, .first = o->states, .others = o->states + z};
+
+    qdot_flow_end(&o->flow);
+    QDOT_TRY(qdot_flow_begin(&o->flow, o->scene, o->request, 0, NULL, QDOT_NIL, tol, o->T));
+    for (size_t k = 0; k < o->K; k++) {
+        QDOT_TRY(qdot_flow_go(&o->flow, o->states + k * z, NULL, qdot_flow_time(&of, k), qdot_flow_time(&of, k + 1), 1));
+        memcpy(o->ends + k * z * z, o->flow.by, z * z * sizeof *o->ends);
+    }
+    return qdot_flow_factors(&o->flow, &of, o->ends, z * z, &o->c, B);
+}
+
 static qdot_status
 find_multipliers(orbit *o, qdot_floquet *x)
 {
-    const size_t k = o->k;
-    const bool driven = holds_time(o), free = qdot_floquet_is_lagrangian(o->scene);
-    double *B = qdot_calloc(2 * k * k + 1, sizeof *B);
-    bool rests = false;
-    qdot_status status = B ? fill_monodromy(o, B, B + k * k) : QDOT_ENOMEM;
+    const bool free = qdot_floquet_is_lagrangian(o->scene);
+    bool driven, rests;
 
+    QDOT_TRY(fill_factors(o, qdot_flow_tolerance[1], o->E));
+    QDOT_TRY(fill_factors(o, qdot_flow_tolerance[0], o->B));
+    qdot_flow_errors(o->K * o->c * o->c, o->B, o->E);
+    o->v = qdot_response_variation(o->flow.response);
+    driven = holds_time(o);
+    QDOT_TRY(qdot_floquet_rests(o->scene, o->run, &rests));
+    return qdot_floquet_of(o->K, o->c, o->B, o->E, driven || rests ? 0 : free ? 2 : 1, !free, x);
+}
+
+/* --- the orbit ----------------------------------------------------------------------------------- */
+
+/* The start and the period from the run, the segments that its motions near by need. */
+static qdot_status
+begin(orbit *o)
+{
+    const qdot_run_report *report = qdot_run_get_report(o->run);
+    const size_t n = o->n, z = 2 * n, most = QDOT_FLOW_MOST_SEGMENTS;
+
+    o->t0 = report->t0;
+    o->T = report->t1 - report->t0;
+    o->states = qdot_calloc(most * z * (1 + 3 * z) + 1, sizeof *o->states);
+    if (o->states == NULL)
+        return QDOT_ENOMEM;
+    o->ends = o->states + most * z;
+    o->B = o->ends + most * z * z;
+    o->E = o->B + most * z * z;
+    for (size_t i = 0; i < z; i++) {
+        const qdot_expr e = jet(o->scene, i);
+
+        QDOT_TRY(qdot_run_values(o->run, 1, &e, 1, &report->t0, &o->states[i], NULL));
+    }
+    QDOT_TRY(qdot_flow_begin(&o->flow, o->scene, o->request, 0, NULL, QDOT_NIL, qdot_flow_tolerance[0], o->T));
+    QDOT_TRY(qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, &o->K));
+    o->v = qdot_response_variation(o->flow.response);
+    return QDOT_OK;
+}
+
+/* The states between segments, with start and period where all of it closes (shooting.h): of one segment whose run comes
+ * back, the run's. off: how far it does not. */
+static qdot_status
+close_up(orbit *o, double off)
+{
+    const size_t z = 2 * o->n, k = z + !holds_time(o);
+    qdot_pool *pool = o->scene->pool;
+    qdot_expr *u = qdot_calloc(z + 1, sizeof *u);
+    double *at = qdot_calloc(4 * (z + 1), sizeof *at), *const low = at + 2 * (z + 1), *const high = low + z + 1;
+    qdot_shooting_of of = {.scene = o->scene, .request = o->request, .k = k, .unknowns = u, .start = u,
+                           .low = low, .high = high, .segments = o->K, .followed = off < followed};
+    qdot_shooting_result r = {.u = at, .error = at + z + 1, .states = o->states};
+    qdot_status status = u && at ? QDOT_OK : QDOT_ENOMEM;
+    double moved = 0;
+
+    for (size_t i = 0; i < k && status == QDOT_OK; i++) {
+        u[i] = i < z ? jet(o->scene, i) : qdot_symbol_get(pool, QDOT_FORMAL, "T");
+        at[i] = i < z ? o->states[i] : o->T;
+        low[i] = -INFINITY;
+        high[i] = INFINITY;
+    }
+    if (status == QDOT_OK) {
+        of.period = k > z ? u[z] : qdot_expr_of_double(pool, o->T);
+        status = qdot_pool_check(pool);
+    }
+    memcpy(o->ends, o->states, z * sizeof *o->ends);
     if (status == QDOT_OK)
-        status = qdot_floquet_rests(o->scene, o->run, &rests);
-    if (status == QDOT_OK)
-        status = qdot_floquet_of(k, B, B + k * k, driven || rests ? 0 : free ? 2 : 1, !free, x);
-    qdot_free(B);
+        status = qdot_shooting_find(&of, &r);
+    for (size_t i = 0; i < z && status == QDOT_OK; i++)
+        moved = fmax(moved, fabs(at[i] - o->ends[i]) / fmax(1, fabs(at[i])));
+    if (status == QDOT_OK && !(r.found && moved < near_start))
+        status = qdot_fail(QDOT_EFAILED, "the run ends %.2g off its start, and no orbit was found so near to it", off);
+    if (status == QDOT_OK && k > z)
+        o->T = at[z];
+    qdot_free(u);
+    qdot_free(at);
     return status;
 }
 
@@ -434,18 +415,14 @@ find_multipliers(orbit *o, qdot_floquet *x)
 static qdot_status
 follow(orbit *o, qdot_floquet *x)
 {
-    qdot_run_request request;
-    const qdot_run_report *report;
+    qdot_expr where;
+    double off;
 
-    QDOT_TRY(find_directions(o));
-    QDOT_TRY(qdot_variation_make(o->scene, &o->request, o->k, o->by, &o->v));
-    request = qdot_variation_request(&o->v);
-    QDOT_TRY(qdot_run_new(o->v.scene, &request, &o->varied));
-    report = qdot_run_get_report(o->varied);
-    if (report->status != QDOT_RUN_DONE)
-        return qdot_fail(QDOT_EFAILED, "the run with slopes ended early: %.300s",
-                         report->reason != NULL ? report->reason : "at an event");
+    QDOT_TRY(qdot_floquet_return(o->scene, o->run, &off, &where));
+    QDOT_TRY(begin(o));
     QDOT_TRY(check_period(o));
+    if (o->K > 1 || off > QDOT_FLOQUET_CLOSED)
+        QDOT_TRY(close_up(o, off));
     return find_multipliers(o, x);
 }
 
@@ -453,23 +430,10 @@ qdot_status
 qdot_floquet_find(qdot_scene *scene, qdot_run *run, const qdot_run_request *request,
                   qdot_floquet *x)
 {
-    const size_t n = scene->coordinates.n, z = 2 * n;
-    orbit o = {.scene = scene, .run = run, .request = *request, .n = n};
-    qdot_status status = QDOT_ENOMEM;
+    orbit o = {.scene = scene, .run = run, .request = request, .n = scene->coordinates.n};
+    const qdot_status status = follow(&o, x);
 
-    o.basis = qdot_calloc(z * z + z + 1, sizeof *o.basis);
-    o.exact = qdot_calloc(z * (z + 1) + 1, sizeof *o.exact);
-    o.by = qdot_calloc(z + 1, sizeof *o.by);
-    o.names = qdot_calloc(z + 1, sizeof *o.names);
-    if (o.basis && o.exact && o.by && o.names) {
-        o.z = o.basis + z * z;
-        status = follow(&o, x);
-    }
-    qdot_run_free(o.varied);
-    qdot_variation_clear(&o.v);
-    qdot_free(o.basis);
-    qdot_free(o.exact);
-    qdot_free(o.by);
-    qdot_free(o.names);
+    qdot_flow_end(&o.flow);
+    qdot_free(o.states);
     return status;
 }

@@ -1,6 +1,10 @@
-/* floquet.h -- the multipliers of a periodic orbit, by the variational equations (variation.h).
+/* floquet.h -- the multipliers of a periodic orbit, by the slopes of its flow (flow.h).
  *
  *     dz(T) = B dz(0),   z = (q, q') on the constraints;   multipliers: the eigenvalues of B
+ *
+ * Where motions near by grow, B is the product of the slopes over segments, between states that are found with the start
+ * and the period (shooting.h), so that all closes also where no run in doubles comes back. Errors are how far B is by a
+ * tolerance 100 times as large.
  *
  * Where the equations hold no time and the orbit is no rest, one multiplier is 1, that of a shift in time; where
  * they come from a Lagrangian, a second, that of the energy. These are stated as 1. Without friction multipliers
@@ -13,6 +17,9 @@
 #define QDOT_SIM_FLOQUET_H
 
 #include "sim/run/run.h"
+
+/* How far a run may be from its start, beside max(scale, |value|), and come back as exactly as an orbit does. */
+#define QDOT_FLOQUET_CLOSED 1e-7
 
 typedef enum {
     QDOT_FLOQUET_STABLE,
@@ -30,20 +37,23 @@ typedef struct {
     qdot_floquet_verdict verdict;
 } qdot_floquet;
 
-/* Whether the run began at rest: no q or q' changes by its rate there, over the time of the run. */
+/* How far the run goes by the rates at its beginning over its time, the largest of q and q'. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_reach(qdot_scene *scene, qdot_run *run, double *reach);
+/* Whether it began at rest: none of them changes, relative to max(scale, |value|). */
 QDOT_MUST_CHECK qdot_status qdot_floquet_rests(qdot_scene *scene, qdot_run *run, bool *rests);
 /* Whether the run ends where it began: *off, the largest difference of a q or q', relative to max(scale, |value|);
  * *where, that jet. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_return(qdot_scene *scene, qdot_run *run,
                                                 double *off, qdot_expr *where);
 /* The multipliers of the run, which ends where it began; its request. Clear *x in any case. QDOT_EINVAL: the
- * equations do not have the period of the orbit; errors of qdot_variation_make and of its run. */
+ * equations do not have the period of the orbit; QDOT_EFAILED: no orbit is near the run; errors of qdot_response_new and
+ * of its runs. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_find(qdot_scene *scene, qdot_run *run,
                                               const qdot_run_request *request,
                                               qdot_floquet *x);
-/* The multipliers of B [k x k] with errors E, of which so many are 1 whatever the orbit; asymptotic: as above. Clear *x in
- * any case. */
-QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t k, const double *B, const double *E,
+/* The multipliers of the product of B [K x k x k] with errors E, of which so many are 1 whatever the orbit; asymptotic:
+ * as above. Clear *x in any case. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t K, size_t k, const double *B, const double *E,
                                             size_t trivial, bool asymptotic, qdot_floquet *x);
 /* Whether only a Lagrangian and holonomic constraints move the scene. */
 bool qdot_floquet_is_lagrangian(const qdot_scene *scene);

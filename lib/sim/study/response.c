@@ -12,7 +12,9 @@
 #include "sim/model/parameter-states.h"
 #include "sim/model/substitute.h"
 #include "sim/study/method-run.h"
+#include "sim/study/tangents.h"
 #include "sim/study/variation.h"
+#include "tape/constant.h"
 
 struct qdot_response {
     qdot_response_of of;
@@ -22,6 +24,9 @@ struct qdot_response {
     size_t *place;          /* [n_parameters] their places among the unknowns */
     qdot_tape *start;       /* from u: q, q' [2n], then their slopes by each unknown [k x 2n] */
     double *starts, *work;  /* [(1 + k) 2n], of the tape */
+    double t0;              /* of the request */
+    double *in;             /* [n_parameters] of them, for: */
+    qdot_tangents tangents;
     bool once, made;        /* the scene is made once; it is made */
 
     /* the scene made; with constraints from numbers: */
@@ -62,6 +67,7 @@ qdot_response_free(qdot_response *r)
     if (!r)
         return;
     unmake(r);
+    qdot_tangents_end(&r->tangents);
     qdot_tape_free(r->start);
     qdot_free(r->parameters);
     qdot_free(r->place);
@@ -84,7 +90,7 @@ make_room(qdot_response *r)
                        sizeof *r->u);
     r->by = qdot_calloc(k + 1, sizeof *r->by);
     r->exprs = qdot_calloc(r->of.m * (1 + k) + 1, sizeof *r->exprs);
-    r->y = qdot_calloc(2 * all + 2 * k + r->of.m * (1 + k) + 1, sizeof *r->y);
+    r->y = qdot_calloc(2 * all + 2 * k + r->of.m * (1 + k) + k + 1, sizeof *r->y);
     if (!r->parameters || !r->place || !r->u || !r->by || !r->exprs || !r->y)
         return QDOT_ENOMEM;
     r->values = r->u + k;
@@ -92,6 +98,7 @@ make_room(qdot_response *r)
     r->settled = r->first + 2 * (all + k);
     r->slopes = r->settled + 2 * n;
     r->out = r->y + 2 * all + 2 * k;
+    r->in = r->out + r->of.m * (1 + k);
     return QDOT_OK;
 }
 
@@ -121,6 +128,24 @@ lower_start(qdot_response *r)
     }
     qdot_free(all);
     return status;
+}
+
+/* Where constraints leave all of the start open: bring it onto them, and slopes along them. */
+static qdot_status
+settle(qdot_response *r, const double *u, double t)
+{
+    const size_t z = 2 * r->n;
+
+    for (size_t i = 0; i < r->n_parameters; i++)
+        r->in[i] = u[r->place[i]];
+    QDOT_TRY(qdot_tangents_settle(&r->tangents, t, r->in, r->starts));
+    for (size_t k = 0, i = 0; k < r->of.k; k++) {
+        const bool parameter = i < r->n_parameters && r->place[i] == k;
+
+        qdot_tangents_project(&r->tangents, parameter ? i : SIZE_MAX, r->starts + (1 + k) * z);
+        i += parameter;
+    }
+    return QDOT_OK;
 }
 
 /* y of the scene made: q, slopes, parameters, then their velocities. */
@@ -154,7 +179,7 @@ free_all(qdot_response *r)
             (qdot_variation_by){.name = r->of.names[k],
                                 .parameter = parameter ? r->of.unknowns[k] : QDOT_NIL,
                                 .values = parameter ? r->of.request->values : NULL,
-                                .start = r->slopes + k * 2 * r->n};
+                                .start = r->tangents.tape == NULL ? r->slopes + k * 2 * r->n : NULL};
         i += parameter;
     }
     for (size_t i = 0; i < r->of.k * 2 * r->n; i++)
@@ -340,14 +365,16 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
     return status;
 }
 
-/* Make what is not made, and the start at u. */
+/* Make what is not made, and the start at u and t. */
 static qdot_status
-prepare(qdot_response *r, const double *u)
+prepare(qdot_response *r, const double *u, double t)
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
     for (size_t i = 0; i < (1 + r->of.k) * 2 * r->n; i++)
         if (!isfinite(r->starts[i]))
             return qdot_fail(QDOT_EDOMAIN, "the start is undefined");
+    if (r->once)
+        QDOT_TRY(settle(r, u, t));
     if (!r->made || !r->once) {
         unmake(r);
         QDOT_TRY(make(r, u));
@@ -360,17 +387,33 @@ prepare(qdot_response *r, const double *u)
 qdot_status
 qdot_response_run(qdot_response *r, const double *u, double t0, double t1)
 {
-    QDOT_TRY(prepare(r, u));
+    QDOT_TRY(prepare(r, u, t0));
     return run(r, t0, t1);
 }
 
 qdot_status
 qdot_response_at(qdot_response *r, const double *u, double *values, double *slopes)
 {
-    QDOT_TRY(prepare(r, u));
+    QDOT_TRY(prepare(r, u, r->t0));
     if (r->of.n_times > 0)
         QDOT_TRY(run(r, r->run.t0, r->run.t1));
     return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
+}
+
+const qdot_variation *
+qdot_response_variation(const qdot_response *r)
+{
+    return &r->variation;
+}
+
+qdot_status
+qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count, double *basis)
+{
+    qdot_tape_eval(r->start, u, r->starts, r->work);
+    QDOT_TRY(settle(r, u, t));
+    *count = 2 * r->n - (r->tangents.tape != NULL ? r->tangents.rank : 0);
+    qdot_tangents_basis(&r->tangents, basis);
+    return QDOT_OK;
 }
 
 /* --- all -------------------------------------------------------------------------------------- */
@@ -387,12 +430,18 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
     r->of = *of;
     r->pool = of->scene->pool;
     r->n = of->scene->coordinates.n;
-    r->once = of->scene->constraints.n == 0;
+    r->once = of->scene->constraints.n == 0 || of->whole;
     status = make_room(r);
     for (size_t k = 0; k < of->k && status == QDOT_OK; k++)
         if (!qdot_expr_is_class(r->pool, of->unknowns[k], QDOT_COORD)) {
             r->parameters[r->n_parameters] = of->unknowns[k];
             r->place[r->n_parameters++] = k;
         }
-    return status == QDOT_OK ? lower_start(r) : status;
+    if (status == QDOT_OK)
+        status = lower_start(r);
+    if (status == QDOT_OK)
+        status = qdot_tape_constant(r->pool, of->request->t0, &r->t0);
+    if (status == QDOT_OK && r->once)
+        status = qdot_tangents_begin(&r->tangents, of->scene, of->request, r->n_parameters, r->parameters);
+    return status;
 }

@@ -3,16 +3,17 @@
  *     e_j(t_i; u),     d e_j(t_i; u)/d u_k
  *
  * The unknowns u are parameters and values of the start. One run of the variational equations
- * (variation.h) gives all of it; no companion runs beside it. Without constraints its scene is made once, with
+ * (variation.h) gives all of it; no companion runs beside it. Its scene is made once, with
  * the parameters among u as further coordinates (parameter-states.h), so that the equations are derived and
- * lowered once for all u. With constraints it is made anew for every u, since its start follows from them.
+ * lowered once for all u. With constraints that is so where the whole state is unknown, which is brought onto them
+ * (tangents.h); else it is made anew for every u, since its start follows from them.
  *
  * Tests  tests/sim/test_response.c
  */
 #ifndef QDOT_SIM_RESPONSE_H
 #define QDOT_SIM_RESPONSE_H
 
-#include "sim/model/request.h"
+#include "sim/study/variation.h"
 
 typedef struct {
     qdot_scene *scene;
@@ -22,6 +23,7 @@ typedef struct {
     size_t k; /* unknowns: symbols of parameters, coordinates, velocities; their names for messages */
     const qdot_expr *unknowns;
     const char *const *names;
+    bool whole; /* the unknowns begin with q, q', each its own start */
     size_t m; /* expressions of the scene, with parameters */
     const qdot_expr *exprs;
     size_t n_times; /* times within t0..t1, in the order of the run */
@@ -46,5 +48,10 @@ QDOT_MUST_CHECK qdot_status qdot_response_run(qdot_response *r, const double *u,
                                               double t1);
 QDOT_MUST_CHECK qdot_status qdot_response_read(qdot_response *r, size_t n_times, const double *times,
                                                double *values, double *slopes);
+/* The variational scene, where it is made once; from the first run on. */
+const qdot_variation *qdot_response_variation(const qdot_response *r);
+/* Of a whole state: orthonormal tangents [count x 2n] of the constraints where a run at u, t would begin. */
+QDOT_MUST_CHECK qdot_status qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count,
+                                                   double *basis);
 
 #endif

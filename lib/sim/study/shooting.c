@@ -5,15 +5,10 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "expr/calculus.h"
 #include "expr/walk.h"
 #include "num/zero.h"
-#include "sim/study/response.h"
 #include "tape/constant.h"
 #include "tape/derivative.h"
-
-/* Below, a motion near the guess has not grown: one segment does. How much it may grow in one of them. */
-static const double tame = 30, growth_of_one = 2;
 
 /* How much may grow what the states between are first taken from. */
 static const double trusted[] = {30, 5, 1};
@@ -30,27 +25,21 @@ static const double at_rest = 1e-6;
 /* Local error of segments. */
 static const double tolerance = 1e-12;
 
-enum { MOST_SEGMENTS = 32, LOOKS = 16 };
-
 typedef struct {
     const qdot_shooting_of *of;
-    size_t n, z, k, p;    /* coordinates, 2n, unknowns, parameters among these */
-    size_t K;             /* segments */
-    qdot_run_request request;
-    qdot_expr *exprs;     /* [3n] q, q', q'' */
-    qdot_expr *unknowns;  /* [z + p] of the response: a state, then parameters */
-    const char **names;   /* [z + p] */
-    size_t *place;        /* [p] of the parameters among u */
-    qdot_response *response;
-    qdot_tape *tape;      /* [z + 1] start and period, of u [k] */
+    size_t z, k;           /* 2n, unknowns */
+    size_t K;              /* segments */
+    qdot_flow flow;
+    qdot_expr *parameters; /* [flow.p] among the unknowns */
+    size_t *place;         /* [flow.p] their places there */
+    double *p;             /* [flow.p] */
+    qdot_tape *tape;       /* [z + 1] start and period, of u [k] */
     double *tape_work;
     double t0;
     double *first, *slope; /* [z + 1], [(z + 1) x k] start and period, their slopes */
-    double *in;            /* [z + p] of the response */
-    double *value;         /* [LOOKS x 3n] of it */
-    double *by;            /* [LOOKS x 3n x (z + p)] */
     double *size;          /* [z] how far each state goes */
     double *best;          /* [2k] the orbit nearest to the guess, its errors */
+    double *states;        /* [K x z] its states; NULL: not wanted */
     size_t rank;           /* of u there */
 } shooting;
 
@@ -63,75 +52,13 @@ embed(shooting *x, const double *u)
     qdot_derivative_eval(x->tape, u, 0, x->k, x->first, x->slope, x->tape_work);
 }
 
-/* A run from a state over a time, read at `count` equal parts of it. */
+/* The motion from a state at the parameters among u, as qdot_flow_go has it. */
 static qdot_status
 go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
 {
-    double times[LOOKS];
-
-    memcpy(x->in, state, x->z * sizeof *state);
-    for (size_t i = 0; i < x->p; i++)
-        x->in[x->z + i] = u[x->place[i]];
-    for (size_t i = 0; i < count; i++)
-        times[i] = i + 1 == count ? to : from + (to - from) * (double)(i + 1) / (double)count;
-    QDOT_TRY(qdot_response_run(x->response, x->in, from, to));
-    return qdot_response_read(x->response, count, times, x->value, x->by);
-}
-
-/* The largest slope of the state read at `at` by what it began at, in units of the states. */
-static double
-growth(const shooting *x, size_t at)
-{
-    const double *by = x->by + at * 3 * x->n * (x->z + x->p);
-    double most = 0;
-
-    for (size_t i = 0; i < x->z; i++)
-        for (size_t j = 0; j < x->z; j++)
-            most = fmax(most, fabs(by[i * (x->z + x->p) + j]) * x->size[j] / x->size[i]);
-    return most;
-}
-
-/* How far each state goes until time number `last`; where it stays, as far as the others of its kind, or 1. */
-static void
-find_sizes(shooting *x, size_t last)
-{
-    double most[2] = {0, 0};
-
-    for (size_t i = 0; i < x->z; i++) {
-        x->size[i] = 0;
-        for (size_t at = 0; at <= last; at++)
-            x->size[i] = fmax(x->size[i], fabs(x->value[at * 3 * x->n + i] - x->first[i]));
-        most[i / x->n] = fmax(most[i / x->n], x->size[i]);
-    }
-    for (size_t i = 0; i < x->z; i++)
-        if (!(x->size[i] > 1e-3 * most[i / x->n]))
-            x->size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
-}
-
-/* Sizes while little has grown, and the segments that are needed if all grows on as fast as until then: the run of
- * the guess may have left for places where nothing does. A run that fails has grown to no end. */
-static qdot_status
-count_segments(shooting *x, const double *u)
-{
-    const double T = x->first[x->z];
-    const qdot_status status = go(x, u, x->first, x->t0, x->t0 + T, LOOKS);
-    double most = 0;
-    size_t at = 0;
-
-    x->K = MOST_SEGMENTS;
-    for (size_t i = 0; i < x->z; i++)
-        x->size[i] = 1;
-    if (status != QDOT_OK)
-        return qdot_grave(status);
-    for (; at < LOOKS && most < tame; at++) {
-        find_sizes(x, at);
-        most = growth(x, at);
-    }
-    if (most < tame)
-        x->K = 1;
-    else if (isfinite(most))
-        x->K = (size_t)fmin(MOST_SEGMENTS, ceil(log(most) / log(growth_of_one) * LOOKS / (double)at));
-    return QDOT_OK;
+    for (size_t i = 0; i < x->flow.p; i++)
+        x->p[i] = u[x->place[i]];
+    return qdot_flow_go(&x->flow, state, x->p, from, to, count);
 }
 
 /* States [K + 1] along the run from one end, at[] of them known, as long as nothing has grown more than `trust`. */
@@ -149,9 +76,9 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
         status = go(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
         if (status != QDOT_OK)
             return qdot_grave(status);
-        if (!(growth(x, 0) < trust))
+        if (!(qdot_flow_growth(&x->flow, 0, x->size) < trust))
             break;
-        memcpy(states + at * x->z, x->value, x->z * sizeof *states);
+        memcpy(states + at * x->z, x->flow.value, x->z * sizeof *states);
         known[at] = true;
     }
     return QDOT_OK;
@@ -188,7 +115,7 @@ guess_states(shooting *x, const double *u, double trust, double *states, bool *k
 static void
 add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
 {
-    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->p;
+    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->flow.p;
 
     for (size_t i = 0; i < x->z; i++)
         for (size_t j = 0; j < x->z; j++) {
@@ -201,25 +128,32 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
         }
 }
 
-/* The gap behind segment s, and its slopes. */
+/* The gap behind segment s, and its slopes; of the flow the beginning and the end of the segment are known. With a longer
+ * period the segment begins later, and ends later. */
 static void
 fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
-    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + x->p;
-    const double part = 1 / (double)x->K;
+    const qdot_flow *const g = &x->flow;
+    const size_t all = x->k + (x->K - 1) * x->z, width = x->z + g->p;
+    const double *const end = g->value + g->m, *const by = g->by + g->m * width;
+    const double begins = (double)s / (double)x->K, ends = (double)(s + 1) / (double)x->K;
 
     for (size_t i = 0; i < x->z; i++)
-        f[i] = x->value[i] - next[i];
+        f[i] = end[i] - next[i];
     if (J == NULL)
         return;
     memset(J, 0, x->z * all * sizeof *J);
-    add_state(x, s, x->by, 1, J);
+    add_state(x, s, by, 1, J);
     add_state(x, s + 1, NULL, -1, J);
     for (size_t i = 0; i < x->z; i++) {
+        double rate = ends * end[g->n + i];
+
+        for (size_t j = 0; j < x->z; j++)
+            rate -= begins * by[i * width + j] * g->value[g->n + j];
         for (size_t l = 0; l < x->k; l++)
-            J[i * all + l] += part * x->value[x->n + i] * x->slope[x->z * x->k + l];
-        for (size_t l = 0; l < x->p; l++)
-            J[i * all + x->place[l]] += x->by[i * width + x->z + l];
+            J[i * all + l] += rate * x->slope[x->z * x->k + l];
+        for (size_t l = 0; l < g->p; l++)
+            J[i * all + x->place[l]] += by[i * width + x->z + l];
     }
 }
 
@@ -237,14 +171,14 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
         const double *next = s + 1 == x->K ? x->first : u + x->k + s * x->z;
         const double t = x->t0 + T * (double)s / (double)x->K;
         const qdot_status status =
-            isfinite(T) ? go(x, u, from, t, t + T / (double)x->K, 1) : QDOT_EDOMAIN;
+            isfinite(T) ? go(x, u, from, t, t + T / (double)x->K, 0) : QDOT_EDOMAIN;
 
         if (status != QDOT_OK) {
             f[0] = NAN;
             return qdot_grave(status);
         }
         for (size_t i = 0; i < x->z; i++)
-            error[s * x->z + i] = 10 * tolerance * fmax(x->size[i], fabs(x->value[i]));
+            error[s * x->z + i] = 10 * tolerance * fmax(x->size[i], fabs(x->flow.value[x->flow.m + i]));
         fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
     }
     return QDOT_OK;
@@ -259,7 +193,7 @@ distance(const shooting *x, const double *u, const double *guess)
     double most = 0;
 
     for (size_t j = 0; j < x->k; j++) {
-        const size_t i = qdot_expr_place(x->z, x->unknowns, x->of->unknowns[j]);
+        const size_t i = qdot_expr_place(x->z, x->flow.unknowns, x->of->unknowns[j]);
         const double size = fmax(fabs(guess[j]), i < x->z ? x->size[i] : 0);
 
         most = fmax(most, fabs(u[j] - guess[j]) / (size > 0 ? size : 1));
@@ -309,10 +243,14 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
         const double this = distance(x, r.u, u);
 
         embed(x, r.u);
-        if (this < *off && moves(x, r.u + x->k)) {
+        if (this < *off && (x->of->followed || moves(x, r.u + x->k))) {
             *off = this;
             memcpy(best, r.u, x->k * sizeof *best);
             memcpy(best + x->k, r.error, x->k * sizeof *best);
+            if (x->states != NULL) {
+                memcpy(x->states, x->first, x->z * sizeof *states);
+                memcpy(x->states + x->z, r.u + x->k, (x->K - 1) * x->z * sizeof *states);
+            }
             x->rank = r.rank > all - x->k ? r.rank - (all - x->k) : 0;
         }
     }
@@ -326,22 +264,15 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
 static qdot_status
 make_room(shooting *x)
 {
-    const size_t width = x->z + x->k;
-
-    x->exprs = qdot_calloc(3 * x->n + width + 1, sizeof *x->exprs);
-    x->names = qdot_calloc(width + 1, sizeof *x->names);
+    x->parameters = qdot_calloc(x->k + 1, sizeof *x->parameters);
     x->place = qdot_calloc(x->k + 1, sizeof *x->place);
-    x->first = qdot_calloc((x->z + 1) * (1 + x->k) + width + LOOKS * 3 * x->n * (1 + width) + x->z + 2 * x->k,
-                           sizeof *x->first);
-    if (!x->exprs || !x->names || !x->place || !x->first)
+    x->first = qdot_calloc((x->z + 1) * (1 + x->k) + x->z + 3 * x->k, sizeof *x->first);
+    if (!x->parameters || !x->place || !x->first)
         return QDOT_ENOMEM;
-    x->unknowns = x->exprs + 3 * x->n;
     x->slope = x->first + x->z + 1;
-    x->in = x->slope + (x->z + 1) * x->k;
-    x->value = x->in + width;
-    x->by = x->value + LOOKS * 3 * x->n;
-    x->size = x->by + LOOKS * 3 * x->n * width;
+    x->size = x->slope + (x->z + 1) * x->k;
     x->best = x->size + x->z;
+    x->p = x->best + 2 * x->k;
     return QDOT_OK;
 }
 
@@ -371,49 +302,29 @@ begin(shooting *x, const double *u)
 {
     const qdot_shooting_of *of = x->of;
     qdot_scene *s = of->scene;
-    qdot_response_of r;
+    size_t p = 0;
 
     QDOT_TRY(make_room(x));
-    for (size_t i = 0; i < 3 * x->n; i++)
-        x->exprs[i] = qdot_symbol_jet(s->pool, s->coordinates.at[i % x->n], (uint32_t)(i / x->n));
-    for (size_t i = 0; i < x->z; i++)
-        x->unknowns[i] = x->exprs[i];
     for (size_t k = 0; k < x->k; k++)
         if (qdot_expr_is_class(s->pool, of->unknowns[k], QDOT_PARAM)) {
-            x->unknowns[x->z + x->p] = of->unknowns[k];
-            x->place[x->p++] = k;
+            x->parameters[p] = of->unknowns[k];
+            x->place[p++] = k;
         }
-    QDOT_TRY(qdot_pool_check(s->pool));
-    for (size_t i = 0; i < x->z + x->p; i++)
-        x->names[i] = qdot_expr_symbol(s->pool, x->unknowns[i])->name;
     QDOT_TRY(lower(x));
     QDOT_TRY(qdot_tape_constant(s->pool, of->request->t0, &x->t0));
     embed(x, u);
-    x->request = *of->request;
-    x->request.q0 = x->unknowns;
-    x->request.v0 = x->unknowns + x->n;
-    x->request.q_named = x->request.v_named = NULL;
-    x->request.scales = NULL;
-    x->request.tol = tolerance;
-    x->request.t1 = qdot_add(s->pool, x->request.t0, qdot_expr_of_double(s->pool, x->first[x->z]));
-    r = (qdot_response_of){.scene = s,
-                           .request = &x->request,
-                           .k = x->z + x->p,
-                           .unknowns = x->unknowns,
-                           .names = x->names,
-                           .m = 3 * x->n,
-                           .exprs = x->exprs};
-    return qdot_response_new(&r, &x->response);
+    for (size_t i = 0; i < p; i++)
+        x->p[i] = u[x->place[i]];
+    return qdot_flow_begin(&x->flow, s, of->request, p, x->parameters, QDOT_NIL, tolerance, x->first[x->z]);
 }
 
 static void
 end(shooting *x)
 {
-    qdot_response_free(x->response);
+    qdot_flow_end(&x->flow);
     qdot_tape_free(x->tape);
     qdot_free(x->tape_work);
-    qdot_free(x->exprs);
-    qdot_free(x->names);
+    qdot_free(x->parameters);
     qdot_free(x->place);
     qdot_free(x->first);
 }
@@ -421,20 +332,23 @@ end(shooting *x)
 qdot_status
 qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
 {
-    shooting x = {.of = of, .n = of->scene->coordinates.n, .z = 2 * of->scene->coordinates.n, .k = of->k};
+    shooting x = {.of = of, .z = 2 * of->scene->coordinates.n, .k = of->k};
     double off = near;
     qdot_status status = QDOT_OK;
 
     r->found = false;
     r->segments = 1;
-    if (of->scene->constraints.n > 0)
+    if (of->scene->constraints.n > 0 && memcmp(of->start, of->unknowns, x.z * sizeof *of->start) != 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
     status = begin(&x, r->u);
     if (status == QDOT_OK)
-        status = count_segments(&x, r->u);
+        status = qdot_flow_segments_of_guess(&x.flow, x.first, x.p, x.t0, x.first[x.z], x.size, &x.K);
     if (status == QDOT_OK)
-        r->segments = x.K;
-    for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1; k++)
+        r->segments = x.K = of->segments > 0 ? of->segments : x.K;
+    x.states = r->states;
+    if (status == QDOT_OK && of->followed)
+        status = search(&x, INFINITY, r->u, x.best, &off);
+    for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1 && !of->followed; k++)
         status = search(&x, trusted[k], r->u, x.best, &off);
     r->found = status == QDOT_OK && off < near;
     if (r->found) {

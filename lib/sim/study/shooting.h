@@ -11,7 +11,8 @@
  * near by have not grown much; on a straight line between. Three such pieces, ever shorter, are tried,
  * and the orbit whose u is nearest to the guess is taken.
  *
- * Where nothing near the run of the guess grows, one segment does: nothing is searched here.
+ * Where nothing near the run of the guess grows, one segment does: nothing is searched here. An orbit whose run comes back
+ * within its error is brought to its end by the same search, in any number of segments.
  *
  * Source  Stoer & Bulirsch, Introduction to Numerical Analysis (2002), 7.3.5; Deuflhard, Newton Methods (2004), 7.1.
  * Tests   tests/sim/test_shooting.c, tests/script/find-orbit.lag
@@ -19,7 +20,7 @@
 #ifndef QDOT_SIM_SHOOTING_H
 #define QDOT_SIM_SHOOTING_H
 
-#include "sim/model/request.h"
+#include "sim/study/flow.h"
 
 typedef struct {
     qdot_scene *scene;
@@ -31,6 +32,8 @@ typedef struct {
     const qdot_expr *start; /* [2n] q, q' in the unknowns */
     qdot_expr period;       /* in the unknowns */
     const double *low, *high; /* [k] bounds, infinite where there are none */
+    size_t segments;          /* 0: as many as the guess needs */
+    bool followed;            /* the guess is an orbit as far as its run knows: the states begin along it, all round */
 } qdot_shooting_of;
 
 typedef struct {
@@ -38,11 +41,12 @@ typedef struct {
     double *u, *error; /* [k] u in: the guess; out: the orbit with its errors if it was found, else as it was */
     size_t rank;       /* how many unknowns are fixed */
     size_t segments;
+    double *states;    /* [QDOT_FLOW_MOST_SEGMENTS x 2n] at the beginnings of the segments of what was found; NULL: not wanted */
 } qdot_shooting_result;
 
 /* r->segments: how many were taken; 1: the motions
  * near the guess do not grow, nothing was searched.
- * QDOT_ENOTBUILT: constraints. Errors: those of qdot_response_new; that a run fails is none. */
+ * QDOT_ENOTBUILT: constraints, where the unknowns are not all of q, q'. Errors: those of qdot_response_new; that a run fails is none. */
 QDOT_MUST_CHECK qdot_status qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r);
 
 #endif

@@ -1,0 +1,76 @@
+/* flow.h -- the flow phi of a scene, z(t1) = phi(z(t0); p), with its slopes by z = (q, q') and parameters p.
+ *
+ * Any state may be begun at: under constraints it is brought onto them first, and so are slopes (tangents.h). The motion
+ * over a long time is cut into segments so that slopes grow little in each of them (multiple shooting).
+ *
+ * Tests   tests/sim/test_shooting.c, test_orbits.c
+ */
+#ifndef QDOT_SIM_FLOW_H
+#define QDOT_SIM_FLOW_H
+
+#include "sim/study/response.h"
+
+/* Local errors of two flows; how far numbers of one are from those of the other is an error. */
+extern const double qdot_flow_tolerance[2];
+
+enum { QDOT_FLOW_LOOKS = 16, QDOT_FLOW_MOST_SEGMENTS = 32 };
+
+/* Not to be copied: the response borrows from it. */
+typedef struct {
+    size_t n, z, p, m; /* coordinates, 2n, parameters; expressions: q, q', q'', then one more where there is one */
+    qdot_run_request request;
+    qdot_expr *exprs, *unknowns; /* [m], [z + p] */
+    const char **names;
+    double *in;    /* [z + p] */
+    double *value; /* [QDOT_FLOW_LOOKS x m] what was read last, */
+    double *by;    /* [QDOT_FLOW_LOOKS x m x (z + p)] its slopes */
+    qdot_response *response;
+} qdot_flow;
+
+/* Values of the request with the parameters [p] free; its start is not used. more: a further expression, or nil. From
+ * {0}; ended in any case. Errors: those of qdot_response_new. */
+QDOT_MUST_CHECK qdot_status qdot_flow_begin(qdot_flow *x, qdot_scene *scene, const qdot_run_request *request,
+                                            size_t p, const qdot_expr *parameters, qdot_expr more, double tol,
+                                            double length);
+void qdot_flow_end(qdot_flow *x);
+
+/* The motion from a state [z] and parameters [p], read at the end, or at `count` equal parts of the time; count 0: at its
+ * beginning, then its end. Errors: those of qdot_response_run. */
+QDOT_MUST_CHECK qdot_status qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double from,
+                                         double to, size_t count);
+
+/* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
+ * or 1. size [z] */
+void qdot_flow_sizes(const qdot_flow *x, const double *state, size_t last, double *size);
+/* The largest slope of a state at a look by what it began at, in units size [z] of the states. */
+double qdot_flow_growth(const qdot_flow *x, size_t look, const double *size);
+/* Segments that are needed over T from a state, 1 where slopes stay tame. Of the guess of an orbit, if all grows on as fast
+ * as until it was no longer tame: its run may have left for places where nothing does; *size [z] as far as slopes are. Of an
+ * orbit, by the largest growth along it, as few as runs can bear. That a run fails is none: it has grown to no end. */
+QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *parameters,
+                                                        double t0, double T, double *size, size_t *segments);
+QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *parameters,
+                                                        double t0, double T, size_t *segments);
+
+/* A closed orbit in K segments, z_k at t0 + k T/K. */
+typedef struct {
+    size_t K;
+    double t0, T;
+    const double *first, *others; /* z_0 [z]; z_1 .. z_(K-1) */
+    const double *parameters;
+} qdot_flow_orbit;
+
+double qdot_flow_time(const qdot_flow_orbit *o, size_t k);
+const double *qdot_flow_state(const qdot_flow *x, const qdot_flow_orbit *o, size_t k);
+/* The flow's expressions at times within the period, in their order, by the motion in the segment of each: values
+ * [count x m]. *at: the segment of the latest motion, SIZE_MAX: of none; it is the last one read afterwards. */
+QDOT_MUST_CHECK qdot_status qdot_flow_read(qdot_flow *x, const qdot_flow_orbit *o, size_t *at, size_t count,
+                                           const double *times, double *values);
+/* What the tangents of the constraints at z_k become at z_(k+1), of those there: B [K x c x c], from the slopes at the ends of
+ * the segments, ends + k step [z x (z + p)]. Without constraints c = z, and B are these. */
+QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
+                                              size_t *c, double *B);
+/* Errors of B [count] by a flow, from the same by the other: coarse becomes these. */
+void qdot_flow_errors(size_t count, const double *B, double *coarse);
+
+#endif

@@ -1,0 +1,40 @@
+/* tangents.h -- states z = (q, q') on the constraints of a scene, and directions along these, in numbers.
+ *
+ *     F(z; p) = 0:   f and df/dt of holonomic constraints, f of those of velocities
+ *     z <- z - F_z^+ F        until F = 0: the state of least change
+ *     s <- s - F_z^+ (F_z s + F_p)       a slope of z by p, or by what moves the start (without F_p)
+ *
+ * F_z^+ by singular values. Without constraints nothing changes, and every direction is a tangent.
+ *
+ * Source  Golub & Van Loan, Matrix Computations, 5.5.2.
+ * Tests   tests/sim/test_tangents.c
+ */
+#ifndef QDOT_SIM_TANGENTS_H
+#define QDOT_SIM_TANGENTS_H
+
+#include <gsl/gsl_matrix.h>
+
+#include "sim/model/request.h"
+#include "tape/tape.h"
+
+typedef struct {
+    size_t z, p, rows, rank; /* 2n; parameters; of F; of F_z at the latest state */
+    qdot_tape *tape;         /* from z, p, t: F [rows], then F_z and F_p [rows x (z + p)]; NULL: no constraints */
+    double *in, *out, *work;
+    gsl_matrix *U, *V;       /* of F_z at the latest state */
+    gsl_vector *S, *room;
+} qdot_tangents;
+
+/* The request's values, with parameters [p] free. From {0}; ended in any case. */
+QDOT_MUST_CHECK qdot_status qdot_tangents_begin(qdot_tangents *x, qdot_scene *scene, const qdot_run_request *request,
+                                                size_t p, const qdot_expr *parameters);
+void qdot_tangents_end(qdot_tangents *x);
+
+/* Bring state [2n] onto the constraints at t. QDOT_EFAILED: it cannot be brought there. */
+QDOT_MUST_CHECK qdot_status qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, double *state);
+/* At the state settled last: make slope [2n] one along the constraints; by the parameter of that number, SIZE_MAX: by none. */
+void qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope);
+/* At the state settled last: orthonormal tangents [count x 2n]; count = 2n - rank. */
+void qdot_tangents_basis(const qdot_tangents *x, double *basis);
+
+#endif
