@@ -320,7 +320,7 @@ search_once(search *s, bool *done)
 
     QDOT_TRY(descend_once(s));
     *done = s->r->answer == QDOT_ZERO_FOUND;
-    return *done && p->wanted ? p->wanted(s->r->u, done, p->user) : QDOT_OK;
+    return *done && p->wanted ? p->wanted(s->r->u, s->r->rank, done, p->user) : QDOT_OK;
 }
 
 /* Newton's method from the guess; in vain, from places around it, ever farther off. If all are in vain the answer

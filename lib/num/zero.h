@@ -35,8 +35,8 @@ typedef struct {
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
     const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
     bool once;                /* a search in vain is not begun again */
-    /* Whether the zero at u is what was looked for: else the search goes on from other places. NULL: each is. */
-    qdot_status (*wanted)(const double *u, bool *is, void *user);
+    /* Whether a zero, u and rank of it, is what was looked for: else the search goes on from other places. NULL: each is. */
+    qdot_status (*wanted)(const double *u, size_t rank, bool *is, void *user);
 } qdot_zero_problem;
 
 typedef enum {

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "ode/apart.h"
 #include "ode/integrate.h"
+#include "ode/meter.h"
 
 static const size_t most_bytes = (size_t)2 << 30;
 
@@ -134,7 +135,9 @@ record(double t, const double *y, bool *stop, void *user)
 {
     recorder *r = user;
 
-    if (r->tr->count % looks == 0)
+    const qdot_ode_meter *meter = r->options->meter;
+
+    if (r->tr->count % looks == 0 && !(meter && meter->beside)) /* a companion goes as far as its run */
         QDOT_TRY(foresee(r, t));
     if (r->options->now)
         *r->options->now = r->now;

@@ -15,10 +15,17 @@ static const double unit = 0x1p-53;
 
 enum { OPERANDS = 3 };
 
-/* Values of an operation, of SINCOS two, and their slopes by its operands. */
+/* Values of an operation, of SINCOS two, and their slopes by its operands; and a product within it, which
+ * is rounded before it is added. */
 typedef struct {
-    double value[2], slope[2][OPERANDS];
+    double value[2], slope[2][OPERANDS], product;
 } results;
+
+static bool
+adds_product(uint32_t op)
+{
+    return op == QDOT_OP_MADD || op == QDOT_OP_MSUB || op == QDOT_OP_NMADD;
+}
 
 static void
 look(const qdot_instruction *i, const double *work, results *r)
@@ -49,6 +56,7 @@ look(const qdot_instruction *i, const double *work, results *r)
     }
     r->value[0] = d;
     r->value[1] = e;
+    r->product = adds_product(i->op) ? a * b : i->op == QDOT_OP_MOD ? a - d : 0;
 }
 
 /* How many units an operation's own rounding may be; of functions that C libraries have to two units or
@@ -95,12 +103,12 @@ part(double slope, double by)
 
 /* The error of a result, from those of the operands. */
 static double
-error_of(const qdot_instruction *i, const double *value, const double *slope,
-         const double *errors)
+error_of(const qdot_instruction *i, const results *r, int result, const double *errors)
 {
-    double square = own(i->op) * unit * *value;
+    const double *slope = r->slope[result], sum = own(i->op) * unit * r->value[result],
+                 product = unit * r->product;
+    double square = sum * sum + product * product;
 
-    square *= square;
     for (int k = 0; k < qdot_operations[i->op].operands; k++) {
         const double by = part(slope[k], errors[place_of(i, k)]);
 
@@ -136,7 +144,7 @@ qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_i
 
         look(i, work, &r);
         for (int k = 0; k < 2; k++)
-            e[k] = error_of(i, r.value + k, r.slope[k], errors);
+            e[k] = error_of(i, &r, k, errors);
         work[i->to] = r.value[0];
         errors[i->to] = e[0];
         if (i->op == QDOT_OP_SINCOS) {
@@ -281,13 +289,13 @@ carry_out(marking *m, size_t at)
         const double *slope = r.slope[k];
 
         show(m, i, slope, by[k]);
-        error[k] = error_of(i, r.value + k, slope, m->errors);
+        error[k] = error_of(i, &r, k, m->errors);
         if (is_hidden(error[k], r.value[k], by[k]))
             mark(m, at, slope, error[k], by[k][FACTORS]);
     }
     for (int k = 0; k < 2; k++) {
         show(m, i, r.slope[k], by[k]);
-        error[k] = error_of(i, r.value + k, r.slope[k], m->errors);
+        error[k] = error_of(i, &r, k, m->errors);
     }
     for (int k = 0; k < (i->op == QDOT_OP_SINCOS ? 2 : 1); k++) {
         const uint32_t to = k ? i->y : i->to;

@@ -4,8 +4,8 @@
  *
  *     e_d^2 = sum_k (dd/da_k e_k)^2 + (w u d)^2,   u = 2^-53,
  *
- * w = 0 if it is exact, as a sign is, 2 of hyperbolic functions and some others, else 1; e of a constant
- * is known, inputs have none. Errors of different operations count as independent of each other.
+ * w = 0 if it is exact, as a sign is, 2 of hyperbolic functions and some others, else 1; a product within an
+ * operation, as of a b + c, adds u a b. e of a constant is known, inputs have none. Errors of different operations count as independent of each other.
  *
  * Two runs from starts a rounding apart do not show that error where the operands hardly know of
  * the inputs: cos(x) - 1 at x = 1e-5 is off by 1e-16 in both. Such a result is one with

@@ -75,9 +75,10 @@ sine_at(const double *u, double *f, double *error, double *slope, void *user)
 }
 
 static qdot_status
-is_beyond_the_first(const double *u, bool *is, void *user)
+is_beyond_the_first(const double *u, size_t rank, bool *is, void *user)
 {
     (void)user;
+    (void)rank;
     *is = u[0] > 4.1;
     return QDOT_OK;
 }

@@ -79,6 +79,14 @@ lagrangian (x'^2 + y'^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3
 find x = 0.2, y' = 0.2, T = 6.3 such that returns after T
 END
 
+# far from its guess, small and alone: a drive moves it so, (x, x') = (-3, 2)/50
+qdot -q --json - <<'END' 2>&1 | sed -n "s/.*\"name\":\"\(x'*\)\",\"value\":\(-*[0-9.]*\),.*/\1 \2/p" | awk '{printf "%s %.9f\n", $1, $2}'
+coord x
+lagrangian x'^2/2 - x^2/2
+force -x'/2 + cos(2*t)/5 on x
+find x = 5, x' = 0 such that returns after pi
+END
+
 # a drive about the top in three turns: its run comes back within its error only; multipliers by segments, the third powers of those
 # of one turn (SciPy: 12992.056123, 4.106263751e-5)
 qdot -q --json - <<'END' 2>&1 | sed -n 's/.*"name":"\(floquet.[12].\)","value":\([0-9.]\{8\}\).*/\1 \2/p'

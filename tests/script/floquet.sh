@@ -47,6 +47,14 @@ start x = 1
 find T = -6 such that returns after T
 floquet
 END
+# a pendulum near its top beside a free motion: all multipliers are 1, and found in pairs that errors of slopes split
+qdot -q - <<'END' 2>&1 | grep -o 'run1: und.*'
+coord th, z
+lagrangian th'^2/2 + cos(th) + z'^2/2
+start th = 3.1
+find T = 16 such that returns after T
+floquet
+END
 # on top of a sphere that a drive shakes, under a constraint: two equal pairs whose product is 1
 qdot -q --json - <<'END' 2>&1 | grep -v '"run"' | sed 's/"error":[0-9.e-]*/"error":small/; s/\([0-9]\.[0-9]\{8\}\)[0-9]*/\1/g'
 coord x, y, z

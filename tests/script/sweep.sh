@@ -74,6 +74,8 @@ sweep k = 1..2 count 2, x = -1..1 count 3 run 0..1 tol 1e-9 : k*value(x, 0), x a
 plot map keep to "map.svg"
 sweep k = [1, 2, 4], x = -1..1 count 3 run 0..1 tol 1e-9 : x as uneven
 plot uneven keep to "uneven.svg"
+sweep k = [1, 4, 2], x = [0, 1] run 0..1 tol 1e-9 : k as mixed
+plot mixed keep to "mixed.svg"
 sweep k = [1, 2], x = [0, 1], c = [0, 1] run 0..1 tol 1e-9 : x as cube
 plot cube keep to "cube.svg"
 sweep k = 1..2 count 20, x = [0, 1], c = [0, 1] run 0..1 tol 1e-9 : x as long
@@ -81,4 +83,5 @@ plot long
 END
 sed -n '1,/^$/p' map.dat
 awk 'NF == 3 && $2 == 0 {if ($3 != last) print $1, $3; last = $3}' uneven.dat | awk '{printf "%.4f %.6f\n", $1, $2}' # cells from 1, 1.5, 3
+awk 'NF == 3 && $2 == 0 && $3 != last {print $3; last = $3}' mixed.dat # in their order along the axis
 grep -o "^set title '[^']*'" cube.gp

@@ -106,6 +106,38 @@ cancelling_terms_are_shaken(void **state)
     qdot_pool_free(pool);
 }
 
+/* A product that is rounded before it is added: 10^4 x - 20007 near 0, x modulo 2/3. */
+static void
+products_within_operations_count(void **state)
+{
+    qdot_pool *pool = qdot_pool_new();
+    const qdot_expr x = coordinate(pool, "x", 0);
+    const qdot_expr third = qdot_div(pool, qdot_expr_int(pool, 2), qdot_expr_int(pool, 3));
+    const qdot_expr e[] = {
+        qdot_sub(pool, qdot_mul(pool, qdot_expr_int(pool, 10000), x), qdot_expr_int(pool, 20007)),
+        qdot_fun(pool, QDOT_MOD, 2, (const qdot_expr[]){qdot_mul(pool, x, x), third}),
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof e / sizeof *e; i++) {
+        qdot_tape *tape = lowered(pool, 1, &x, 1, e + i);
+        size_t rounded = 0;
+
+        for (double at = 2.0007; at < 2.0008; at += 1e-6) {
+            const long double exact = at;
+            const double off = (double)fabsl((long double)evaluate(tape, &at)
+                                             - reference(pool, e[i], 1, &x, &exact).v);
+
+            rounded += off > 0;
+            if (!(off <= bound(tape, &at)))
+                fail_msg("%zu at %.17g: off by %g, bound %g", i, at, off, bound(tape, &at));
+        }
+        assert_true(rounded > 20);
+        qdot_tape_free(tape);
+    }
+    qdot_pool_free(pool);
+}
+
 /* What moving the inputs shows has no factors: products, forces of a spring and of a mass. */
 static void
 other_sums_stay_as_they_are(void **state)
@@ -186,6 +218,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cancelling_terms_are_shaken),
+        cmocka_unit_test(products_within_operations_count),
         cmocka_unit_test(other_sums_stay_as_they_are),
         cmocka_unit_test(bounds_hold_and_values_stay),
     };

@@ -108,7 +108,7 @@ value_at(const qdot_row_table *t, const axis *a, size_t i)
 static bool
 is_even(const qdot_row_table *t, const axis *a)
 {
-    for (size_t i = 1; i + 1 < a->n; i++) {
+    for (size_t i = 0; i < a->n && a->n > 1; i++) {
         const double even = a->least + (a->most - a->least) * (double)i / ((double)a->n - 1);
 
         if (!(fabs(value_at(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
@@ -117,13 +117,31 @@ is_even(const qdot_row_table *t, const axis *a)
     return true;
 }
 
+/* The ends, of values in any order; where they descend the axis does. */
+static void
+find_ends(const qdot_row_table *t, axis *a)
+{
+    const double first = value_at(t, a, 0), last = value_at(t, a, a->n - 1);
+
+    a->least = a->most = first;
+    for (size_t i = 1; i < a->n; i++) {
+        a->least = fmin(a->least, value_at(t, a, i));
+        a->most = fmax(a->most, value_at(t, a, i));
+    }
+    if (first > last) {
+        const double least = a->least;
+
+        a->least = a->most;
+        a->most = least;
+    }
+}
+
 static qdot_status
 place_values(const qdot_row_table *t, axis *a)
 {
     bool even;
 
-    a->least = value_at(t, a, 0);
-    a->most = value_at(t, a, a->n - 1);
+    find_ends(t, a);
     even = is_even(t, a);
     a->shown = even ? a->n : FINE;
     a->of = qdot_calloc(a->shown, sizeof *a->of);
@@ -163,7 +181,7 @@ find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
     while (fast < *rows && is_same(t, fast, 0, outer + 1))
         fast++;
     if (*rows % fast != 0 || t->rows % *rows != 0)
-        return qdot_fail(QDOT_EINVAL, "%s is interrupted: it has no rectangle of rows", t->name);
+        return qdot_fail(QDOT_EINVAL, "%s has no rectangle of rows: it is interrupted, or a value stands in it twice", t->name);
     axes[0] = (axis){.column = outer, .stride = fast, .n = *rows / fast};
     axes[1] = (axis){.column = outer + 1, .stride = 1, .n = fast};
     QDOT_TRY(place_values(t, &axes[0]));

@@ -12,7 +12,7 @@
 #include "num/zero.h"
 #include "sim/study/floquet.h"
 
-/* A motion that goes less far than so much of the guess's is none. */
+/* A motion of a family that goes less far than so much of the guess's is none. */
 static const double shrunk = 0.1;
 
 typedef struct {
@@ -115,17 +115,24 @@ find_reach(hunt *h, const double *u, double *reach, bool *rests)
     return qdot_floquet_rests(session->scene, named->run, rests);
 }
 
-/* An orbit, if one was looked for: a motion that rests returns after any time, and so does one so small that it might,
- * within its errors. */
+/* A motion near a rest, where F is of higher order, so small that it returns within its errors. Conditions that fix all
+ * unknowns are of first order. */
+static bool
+has_shrunk(const hunt *h, double reach, size_t rank)
+{
+    return reach <= shrunk * h->reach && rank < h->f->unknowns.n && h->rank < h->f->unknowns.n;
+}
+
+/* An orbit, if one was looked for: a motion that rests returns after any time. */
 static qdot_status
-is_orbit(const double *u, bool *is, void *user)
+is_orbit(const double *u, size_t rank, bool *is, void *user)
 {
     hunt *h = user;
     double reach;
     bool rests;
 
     QDOT_TRY(find_reach(h, u, &reach, &rests));
-    *is = !rests && reach > shrunk * h->reach;
+    *is = !rests && !has_shrunk(h, reach, rank);
     return QDOT_OK;
 }
 
@@ -363,7 +370,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     QDOT_TRY(tell_end(h));
     if (f->returns)
         QDOT_TRY(find_reach(h, r->u, &reach, &rests));
-    if (!rests && reach <= shrunk * h->reach)
+    if (!rests && has_shrunk(h, reach, r->rank))
         return refuse_shrunk(h, r);
     qdot_trial_close(&h->trial);
     for (size_t i = 0; i < f->unknowns.n; i++)

@@ -310,12 +310,12 @@ qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
 }
 
 qdot_status
-qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other)
+qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other, bool crossings)
 {
     size_t done = 0;
 
     QDOT_TRY(follow_other(s, at, other, false));
-    return follow_crossings(s, &done);
+    return crossings ? follow_crossings(s, &done) : QDOT_OK;
 }
 
 qdot_status

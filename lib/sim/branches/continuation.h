@@ -18,8 +18,9 @@ void qdot_continuation_clear(qdot_continuation *x);
 /* Follow the curves from places at [count * (n + 1)]; what is known already stays in s->all. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_follow(qdot_branch_search *s, const double *at,
                                                      size_t count);
-/* Follow one arm of the other curve at s->all->bifurcations[at], along `other` [n + 1]. */
-QDOT_MUST_CHECK qdot_status qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other);
+/* Follow one arm of the other curve at s->all->bifurcations[at], along `other` [n + 1]; and the curves that cross it. */
+QDOT_MUST_CHECK qdot_status qdot_continuation_arm(qdot_branch_search *s, size_t at, const double *other,
+                                                  bool crossings);
 /* In any case behind it: frees what is left of the search. Where it was interrupted, what is known stays, and
  * the status is QDOT_OK. */
 QDOT_MUST_CHECK qdot_status qdot_continuation_finish(qdot_branch_search *s, qdot_status status);

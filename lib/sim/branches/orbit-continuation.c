@@ -10,8 +10,9 @@
 /* A curve whose period has grown so many times, and goes on to do nothing else, leads to an orbit without one. */
 static const double long_period = 2, mostly = 0.5;
 
-/* Orbits that close after more turns of the first are not followed. */
-enum { MOST_TURNS = 4 };
+/* Orbits that close after more turns of the first are not followed; of those that close after the most turns these many
+ * branches, from the first bifurcation on. */
+enum { MOST_TURNS = 4, MOST_DOUBLED = 4 };
 
 /* Between points from and to of a branch, both at an end of it. */
 static bool
@@ -79,8 +80,8 @@ open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation 
 static void
 shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
 {
-    memcpy(out, y, to->n * sizeof *out);
-    memcpy(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
+    memmove(out, y, to->n * sizeof *out); /* merge() shortens in place */
+    memmove(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
 }
 
 /* Move the branches and bifurcations of `from` to `to`; the first bifurcation is number `at` there. */
@@ -160,7 +161,7 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     if (status == QDOT_OK)
         status = qdot_orbit_bifurcation_double(&x, b.y, b.error + x.path.width);
     if (status == QDOT_OK)
-        status = qdot_continuation_arm(&s, 0, b.error + x.path.width);
+        status = qdot_continuation_arm(&s, 0, b.error + x.path.width, 2 * turns < MOST_TURNS);
     status = qdot_continuation_finish(&s, status);
     if (status == QDOT_OK && !x.driven)
         name_ends(&x.path, &found);
@@ -178,12 +179,16 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
 static qdot_status
 double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first, qdot_continuation *out)
 {
-    const size_t n = out->bifurcations.n;
+    const size_t n = out->bifurcations.n, most = 2 * turns < MOST_TURNS ? n : turns < MOST_TURNS ? MOST_DOUBLED : 0;
     qdot_status status = QDOT_OK;
+    size_t done = 0;
 
-    for (size_t i = first; i < n && status == QDOT_OK && turns < MOST_TURNS && !out->interrupted; i++)
-        if (out->bifurcations.at[i].kind == QDOT_DOUBLING && 2 * x->K <= QDOT_FLOW_MOST_SEGMENTS)
-            status = qdot_grave(follow_double(of, x, turns, i, out));
+    for (size_t i = first; i < n && done < most && status == QDOT_OK && !out->interrupted; i++) {
+        if (out->bifurcations.at[i].kind != QDOT_DOUBLING || 2 * x->K > QDOT_FLOW_MOST_SEGMENTS)
+            continue;
+        status = qdot_grave(follow_double(of, x, turns, i, out));
+        done++;
+    }
     return status;
 }
 

@@ -102,16 +102,23 @@ loop(qdot_piece *x, const double *y0)
         status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')
             qdot_piece_stop(x, true);
-        if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0')
+        if (status == QDOT_OK && c->tr.count > 0) {
+            x->start.t = c->tr.t[c->tr.count - 1];
+            memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
+        }
+        if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0') {
+            if (status == QDOT_OK && x->start.t == x->t1 && qdot_piece_end_in_layers(x))
+                status = resume(x);
             break;
+        }
         if (c->most_pieces > 0 && c->tr.pieces.n > c->most_pieces) {
             qdot_piece_stop(x, true);
             break;
         }
         x->start.from = x->mode;
         x->start.jumped = false;
-        x->start.t = c->tr.t[c->tr.count - 1];
-        memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
+        if (changes_state(x))
+            (void)qdot_piece_end_in_layers(x);
         status = qdot_piece_keep(x, NULL);
         qdot_piece_find_delay(x);
         if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x))

@@ -35,14 +35,22 @@ is_in_time(const qdot_piece *x, size_t i)
     return qdot_layers_in_time(x->c->stage->switches.pool, surface(x, i));
 }
 
+/* The time of the piece that ends, with its sign, by which C w^p at the rim is multiplied. */
+static double
+time_within(const qdot_piece *x, size_t i)
+{
+    const qdot_trajectory *tr = &x->c->tr;
+
+    return (x->start.t - tr->t[tr->pieces.at[tr->pieces.n - 1].first]) / (1 + surface(x, i)->power);
+}
+
 /* Entering a layer: the force that it leaves out, into x->rim [n]. Leaving it: what has been left
  * out of velocities since, relative to its size. */
 static qdot_status
 pass_rim(qdot_piece *x, size_t i, bool leaves)
 {
     qdot_course *c = x->c;
-    const double began = c->tr.t[c->tr.pieces.at[c->tr.pieces.n - 1].first];
-    const double time = fabs(x->start.t - began) / (1 + surface(x, i)->power);
+    const double time = time_within(x, i);
     double *inside = qdot_malloc(2 * x->n * sizeof *inside), *beyond = inside + x->n,
            most = 0;
     qdot_status status = inside ? QDOT_OK : QDOT_ENOMEM;
@@ -62,10 +70,27 @@ pass_rim(qdot_piece *x, size_t i, bool leaves)
     qdot_free(inside);
     x->entered = !leaves;
     if (leaves && !is_in_time(x, i) && !was_held(x, i)) /* friction makes that good as soon as it is left */
-        c->left_out += most * time;
+        c->left_out += most * fabs(time);
     if (status == QDOT_OK && c->left_out > fmax(x->options->tol, least_left_out))
         qdot_piece_stop_at(x, i, 0, "a power of what passes 0 so slowly cannot be followed at", "");
     return status;
+}
+
+bool
+qdot_piece_end_in_layers(qdot_piece *x)
+{
+    const qdot_mode *mode = qdot_piece_mode(x);
+    bool any = false;
+
+    for (size_t i = 0; i < x->c->stage->switches.surfaces.n && x->entered; i++) {
+        if (surface(x, i)->layer == 0 || mode->side[i] != 0 || !is_in_time(x, i))
+            continue;
+        for (size_t k = 0; k < x->n; k++)
+            x->start.y[k] += x->rim[k] * time_within(x, i);
+        x->entered = false;
+        any = true;
+    }
+    return any;
 }
 
 /* In the layer of surface i: whether the motion, by its velocities and accelerations now, is there

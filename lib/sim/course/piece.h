@@ -148,6 +148,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 /* Part of it: what the layers that are left have left out, and whether one is entered for good where
  * its power makes that one motion of many (sim/model/layer.h). */
 QDOT_MUST_CHECK qdot_status qdot_piece_check_layers(qdot_piece *x);
+/* Add to x->start.y what a layer of the time has left out where a piece ends at its middle, by the end of the
+ * run or a jump; whether there is one. */
+bool qdot_piece_end_in_layers(qdot_piece *x);
 /* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
  * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);

@@ -11,6 +11,9 @@
 #ifndef QDOT_SIM_ENSEMBLE_H
 #define QDOT_SIM_ENSEMBLE_H
 
+#include <math.h>
+
+#include "ode/companion.h"
 #include "sim/model/equations.h"
 #include "sim/run/run.h"
 #include "sim/ensemble/steps.h"
@@ -26,6 +29,17 @@ typedef struct {
     size_t steps, rejected;
     double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
+
+/* The error of a number x of a member, theirs [companions] those of its companions, the second's distance
+ * counting by `share`. An only companion was meant to be one: under a hundredth of the tolerance it errs by a
+ * three hundredth of the run, so its distance is not counted more than once, as that of a single run is whose
+ * second one was given up. */
+static inline double
+qdot_ensemble_error_of(double x, size_t companions, const double *theirs, double share)
+{
+    return companions == 1 ? qdot_companion_bound(fabs(theirs[0] - x), 0)
+                           : qdot_companion_bound_of(x, companions, theirs, share);
+}
 
 /* Prepare runs of `request`: its values, limits and tolerance; method "auto" or "taylor".
  * The starts are given to qdot_ensemble_run: q0 and v0 must be NULL.

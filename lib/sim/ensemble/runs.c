@@ -400,7 +400,7 @@ end_error(const qdot_ensemble *e, size_t m)
     for (size_t i = 0; i < 2 * e->n; i++) {
         const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
 
-        error = fmax(error, qdot_companion_bound_of(y[0][i], e->companions, theirs, share) /
+        error = fmax(error, qdot_ensemble_error_of(y[0][i], e->companions, theirs, share) /
                                 fmax(1, fabs(y[0][i])));
     }
     return error;

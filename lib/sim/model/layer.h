@@ -15,7 +15,8 @@
  * of time. By series it is, of powers above 1, wider than the error of a step just behind its rim, where the power is too
  * little for its coefficients to keep the step within their radius: u would seem to turn back to the rim.
  * That is w = 16 tol^(5/4) U, at most (tol/100)^(1/(1 + p)) U. What was left out is added up
- * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends.
+ * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends. In a layer of the time it is
+ * known, and added to the velocities.
  *
  * Tests  tests/script/broken-powers.lag, tests/bad/broken-power-*.lag
  */

@@ -282,7 +282,7 @@ judge(qdot_floquet *x)
 
         if (error == 0)
             continue; /* 1 whatever the orbit */
-        if (size - error > 1) {
+        if (size - 2 * error > 1) {
             x->verdict = QDOT_FLOQUET_UNSTABLE;
             return;
         }
