@@ -27,6 +27,7 @@ s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0
 s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} \([-+]\) [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}\*i ± [0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\}/N \2 N*i ± ERROR/g
 # Columns of numbers with errors are as wide as the errors have digits.
 s/ERROR   */ERROR  /g
+s/ERROR  0   */ERROR  0  /g
 /^bifurcation  /s/   */  /g
 
 # Rounding: what is left of an exact zero depends on the machine's sin and cos. A tolerance

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/unknowns/continue-parts.h"
@@ -160,6 +161,14 @@ name_columns(job *j, qdot_branches *b)
     return QDOT_OK;
 }
 
+/* Ctrl-C is heard: what is known so far is told, for which names are made. */
+static qdot_status
+hear(qdot_session *session)
+{
+    qdot_interrupt_clear();
+    return qdot_pool_check(session->pool) == QDOT_ENOMEM ? QDOT_ENOMEM : QDOT_OK;
+}
+
 qdot_status
 qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
 {
@@ -169,6 +178,8 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
 
     if (status == QDOT_OK)
         status = qdot_orbit_continuation_find(&j.of, &j.found);
+    if (status == QDOT_OK && j.found.interrupted)
+        status = hear(session);
     if (status == QDOT_OK && j.found.width > 0)
         status = name_columns(&j, &b);
     if (status == QDOT_OK)

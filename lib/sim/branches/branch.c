@@ -412,10 +412,11 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
 {
     qdot_path *x = s->x;
     double step = first_step, length, gone = 0, far = 0;
+    const size_t most = s->most_points > 0 ? s->most_points : MOST_POINTS;
     bool last = false;
 
     branch->end[1] = QDOT_END_STOPPED;
-    while (!last && branch->n < MOST_POINTS) {
+    while (!last && branch->n < most) {
         go_on(x, a, x->longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
         if (x->failure == QDOT_EINTR) {
             s->all->interrupted = true;

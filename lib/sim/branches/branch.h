@@ -52,6 +52,7 @@ typedef struct {
     qdot_vec(qdot_branch_crossing) crossings;
     bool leapt; /* the latest step went over to another curve, which does not cross this one, or over two
                    bifurcations: it is made again, shorter */
+    size_t most_points; /* of a branch; 0: as many as any may have */
     bool rested; /* in the latest step an orbit shrank to a place at rest */
 } qdot_branch_search;
 

@@ -11,8 +11,8 @@
 static const double long_period = 2, mostly = 0.5;
 
 /* Orbits that close after more turns of the first are not followed; of those that close after the most turns these many
- * branches, from the first bifurcation on. */
-enum { MOST_TURNS = 4, MOST_DOUBLED = 4 };
+ * branches, from the first bifurcation on, of so many points. */
+enum { MOST_TURNS = 4, MOST_DOUBLED = 4, MOST_POINTS = 500 };
 
 /* Between points from and to of a branch, both at an end of it. */
 static bool
@@ -141,6 +141,7 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     doubled.p = from[once->path.n];
     doubled.T = 2 * from[z];
     doubled.segments = 2 * once->K;
+    s.most_points = 2 * turns < MOST_TURNS ? 0 : MOST_POINTS;
     b.y = NULL;
     status = open(&x, &doubled, &y, &found);
     if (status == QDOT_OK) {
