@@ -52,6 +52,10 @@ jet(const qdot_scene *s, size_t i)
     return qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n);
 }
 
+/* A multiplier is beyond the circle by so many errors at least: one that is 1 twice is found as a pair apart by
+ * the root of their error, of which the error to first order shows an eighth and more. */
+static const double surely = 8;
+
 /* What differences of the i-th of q, then q', count beside. */
 static double
 size_of(const qdot_run_report *report, size_t n, size_t i, double value)
@@ -282,7 +286,7 @@ judge(qdot_floquet *x)
 
         if (error == 0)
             continue; /* 1 whatever the orbit */
-        if (size - 2 * error > 1) {
+        if (size - surely * error > 1) {
             x->verdict = QDOT_FLOQUET_UNSTABLE;
             return;
         }
