@@ -18,7 +18,7 @@ starts(double *y)
 }
 
 static qdot_run *
-make_path(fixture *f, qdot_ensemble **e)
+make_path(fixture *f, uint64_t most_steps, qdot_ensemble **e)
 {
     qdot_run *r = NULL;
 
@@ -26,7 +26,7 @@ make_path(fixture *f, qdot_ensemble **e)
     f->request.t1 = qdot_expr_int(f->pool, 4);
     f->request.tol = 1e-12;
     *e = prepare(f, 0, NULL);
-    must(qdot_ensemble_follow(*e, &kept, MOST_STEPS));
+    must(qdot_ensemble_follow(*e, &kept, most_steps));
     must(qdot_ensemble_path_new(&(qdot_ensemble_path_of){*e, f->scene, &f->request, 0, NULL}, &r));
     return r;
 }
@@ -43,7 +43,7 @@ a_member_is_read_as_a_run(void **state)
     fixture f;
 
     (void)state;
-    way = make_path(&f, &ensemble);
+    way = make_path(&f, MOST_STEPS, &ensemble);
     e[0] = f.scene->coordinates.at[0];
     e[1] = qdot_symbol_jet(f.pool, f.scene->coordinates.at[1], 1);
     e[2] = qdot_symbol_jet(f.pool, f.scene->coordinates.at[1], 2);
@@ -92,8 +92,7 @@ a_member_that_is_left_has_no_way(void **state)
     fixture f;
 
     (void)state;
-    way = make_path(&f, &ensemble);
-    must(qdot_ensemble_follow(ensemble, &kept, 3));
+    way = make_path(&f, 3, &ensemble);
     starts(y);
     must(qdot_ensemble_run(ensemble, MEMBERS, y, NULL, true, results));
     for (size_t m = 0; m < MEMBERS; m++) {
@@ -122,7 +121,7 @@ lives_on_without_memory(void **state)
         qdot_status status;
         fixture f;
 
-        way = make_path(&f, &ensemble);
+        way = make_path(&f, MOST_STEPS, &ensemble);
         starts(y);
         must(qdot_ensemble_run(ensemble, MEMBERS, y, NULL, true, results));
         qdot_run_free(way);
