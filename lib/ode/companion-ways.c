@@ -163,8 +163,9 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
     return y[i] == 0 && beside > unit * scale ? fmin(scale, beside) : scale;
 }
 
-double
-qdot_companion_aside(double tol, double size, size_t i, size_t number, double by)
+/* The distance from component i, of that size (scale.h), at which companion `number` of a run in two doubles starts. */
+static double
+aside(double tol, double size, size_t i, size_t number, double by)
 {
     by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
     return goes_up(i, number) ? by : -by;
@@ -178,6 +179,19 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
     if (y == 0)
         return up ? unit * scale : -unit * scale;
     return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+}
+
+void
+qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double by,
+                      double tol, double *start, double *low)
+{
+    for (size_t i = 0; i < n; i++) {
+        const double in = qdot_companion_unit(scales, n, y, i);
+
+        start[i] = low ? y[i] : qdot_companion_moved(y[i], in, i, number, by);
+        if (low)
+            low[i] += aside(tol, fmax(in, fabs(y[i])), i, number, by);
+    }
 }
 
 int

@@ -345,15 +345,8 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    for (size_t i = 0; i < c->n; i++) {
-        const double y = request->y0[i], far = number ? QDOT_COMPANION_FAR : 1;
-        const double in = qdot_companion_unit(c->scales, c->n, request->y0, i);
-
-        if (c->leading)
-            f->low[i] += qdot_companion_aside(request->tol, fmax(in, fabs(y)), i, number, far);
-        f->start[i] = c->leading ? y
-                                 : qdot_companion_moved(y, in, i, number, far);
-    }
+    qdot_companion_beside(c->scales, c->n, request->y0, number, number ? QDOT_COMPANION_FAR : 1,
+                          request->tol, f->start, c->leading ? f->low : NULL);
     if (f->system.project) { /* only along what solutions may do */
         double by;
 

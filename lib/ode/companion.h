@@ -243,13 +243,15 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
  * starts at 1; where both are 0 nothing is known of the size that it will have. */
 double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
 
-/* The distance from component i, of that size (scale.h), at which companion `number` starts, for a
- * run whose first orders are sums of two doubles: `by` times the least one. */
-double qdot_companion_aside(double tol, double size, size_t i, size_t number, double by);
-#define QDOT_COMPANION_AIMS 0.0625
-
 /* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
  * for a zero 2^-53 of `scale`. */
 double qdot_companion_moved(double y, double scale, size_t i, size_t number, double by);
+
+/* The start [n] of companion `number` beside that of its run, y [n]: moved by that; or, for a run whose first orders are
+ * sums of two doubles, y itself, and low [n], what is known of it beyond, is moved by `by` times the least distance
+ * above. low NULL: it is no such run, and tol does not count. */
+#define QDOT_COMPANION_AIMS 0.0625
+void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double by,
+                           double tol, double *start, double *low);
 
 #endif

@@ -145,14 +145,19 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* --- runs --------------------------------------------------------------------------- */
 
-/* x [n], a state or parameters, or as companion 1 or 2 begins beside them. */
+/* A state y [n] and parameters [varied], or as companion 1 or 2 begins beside them, one after the other. */
 static void
-put(size_t n, const double *x, bool state, size_t companion, double *to)
+put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
-    for (size_t i = 0; i < n; i++)
-        to[i] = companion ? qdot_companion_moved(x[i], state ? qdot_companion_unit(NULL, n, x, i) : 1, i,
-                                                 companion - 1, companion == 1 ? 1 : QDOT_COMPANION_FAR)
-                          : x[i];
+    const double by = companion == 1 ? 1 : QDOT_COMPANION_FAR;
+
+    if (companion)
+        qdot_companion_beside(NULL, n, y, companion - 1, by, 0, to, NULL);
+    else
+        memcpy(to, y, n * sizeof *to);
+    for (size_t i = 0; i < varied; i++)
+        to[n + i] = companion ? qdot_companion_moved(parameters[i], 1, i, companion - 1, by)
+                              : parameters[i];
 }
 
 /* From {.run.order, .run.tol}. */
@@ -181,9 +186,7 @@ pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const d
 
         t0[m] = e->t0;
         t1s[m] = t1;
-        put(n, y + m * n, true, p->number, to);
-        if (e->varied > 0)
-            put(e->varied, parameters + m * e->varied, false, p->number, to + n);
+        put(n, y + m * n, e->varied, e->varied > 0 ? parameters + m * e->varied : NULL, p->number, to);
     }
     p->run.members = members;
     p->run.t0 = t0;

@@ -101,14 +101,9 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     const double by =
         number ? qdot_companion_far(run->course.tr.result.stats.steps) : 1;
 
-    for (size_t i = 0; i < n; i++) {
-        const double in = qdot_companion_unit(run->stage.scales, n, run->start, i);
-
-        low[i] = run->start_low[i]
-                 + qdot_companion_aside(run->report.tol, fmax(in, fabs(run->start[i])), i, number, by);
-        y[i] = run->leading ? run->start[i]
-                            : qdot_companion_moved(run->start[i], in, i, number, by);
-    }
+    memcpy(low, run->start_low, n * sizeof *low);
+    qdot_companion_beside(run->stage.scales, n, run->start, number, by, run->report.tol, y,
+                          run->leading ? low : NULL);
     if (system->project) { /* along what solutions may do */
         double by;
 
