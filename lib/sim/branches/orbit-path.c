@@ -95,25 +95,22 @@ ask(qdot_orbit_path *x, const double *y)
     return QDOT_OK;
 }
 
-/* The gap behind segment k, and its slopes; with a longer period it begins later and ends later. */
+/* The gap behind segment k, and its slopes. */
 static void
 fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
     const size_t z = 2 * x->n, m = x->path.n + 1, from = place_of(x, k), to = place_of(x, k + 1);
-    const double begins = (double)k / (double)x->K, ends = (double)(k + 1) / (double)x->K;
+    const qdot_flow *const f = &x->flow[0];
+    const double *const values = x->values + 2 * k * f->m, *const slopes = x->slopes + 2 * k * f->m * width_of(x);
 
     for (size_t i = 0; i < z; i++) {
-        double rate = ends * value_of(x, k, 1, x->n + i);
-
         F[i] = value_of(x, k, 1, i) - y[to + i];
-        for (size_t j = 0; j < z; j++) {
+        for (size_t j = 0; j < z; j++)
             J[i * m + from + j] = slope_of(x, k, 1, i, j);
-            rate -= begins * slope_of(x, k, 1, i, j) * value_of(x, k, 0, x->n + j);
-        }
         if (width_of(x) > z)
             J[i * m + x->path.n] = slope_of(x, k, 1, i, z);
         J[i * m + to + i] -= 1;
-        J[i * m + z] = rate;
+        J[i * m + z] = qdot_flow_by_period(f, values, slopes, k, x->K, i);
     }
 }
 

@@ -96,8 +96,10 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
     return qdot_response_read(x->response, count > 0 ? count : 2, times, x->value, x->by);
 }
 
-void
-qdot_flow_sizes(const qdot_flow *x, const double *state, size_t last, double *size)
+/* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
+ * or 1. size [z] */
+static void
+find_sizes(const qdot_flow *x, const double *state, size_t last, double *size)
 {
     double most[2] = {0, 0};
 
@@ -145,7 +147,7 @@ qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *par
     if (status != QDOT_OK)
         return qdot_grave(status);
     for (; at < QDOT_FLOW_LOOKS && most < tame; at++) {
-        qdot_flow_sizes(x, state, at, size);
+        find_sizes(x, state, at, size);
         most = qdot_flow_growth(x, at, size);
     }
     *segments = most < tame ? 1 : segments_for(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
@@ -163,7 +165,7 @@ qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *par
     if (size == NULL)
         return QDOT_ENOMEM;
     if (status == QDOT_OK) {
-        qdot_flow_sizes(x, state, QDOT_FLOW_LOOKS - 1, size);
+        find_sizes(x, state, QDOT_FLOW_LOOKS - 1, size);
         for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
             most = fmax(most, qdot_flow_growth(x, at, size));
         *segments = most < tame ? 1 : segments_for(most, growth_of_orbit, 1);
@@ -178,6 +180,18 @@ double
 qdot_flow_time(const qdot_flow_orbit *o, size_t k)
 {
     return k == o->K ? o->t0 + o->T : o->t0 + o->T * (double)k / (double)o->K;
+}
+
+double
+qdot_flow_by_period(const qdot_flow *x, const double *values, const double *slopes, size_t k, size_t K, size_t i)
+{
+    const size_t width = x->z + x->p;
+    const double *const end = values + x->m, *const by = slopes + (x->m + i) * width;
+    double rate = (double)(k + 1) / (double)K * end[x->n + i];
+
+    for (size_t j = 0; j < x->z; j++)
+        rate -= (double)k / (double)K * by[j] * values[x->n + j];
+    return rate;
 }
 
 const double *

@@ -39,9 +39,6 @@ void qdot_flow_end(qdot_flow *x);
 QDOT_MUST_CHECK qdot_status qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double from,
                                          double to, size_t count);
 
-/* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
- * or 1. size [z] */
-void qdot_flow_sizes(const qdot_flow *x, const double *state, size_t last, double *size);
 /* The largest slope of a state at a look by what it began at, in units size [z] of the states. */
 double qdot_flow_growth(const qdot_flow *x, size_t look, const double *size);
 /* Segments that are needed over T from a state, 1 where slopes stay tame. Of the guess of an orbit, if all grows on as fast
@@ -61,6 +58,10 @@ typedef struct {
 } qdot_flow_orbit;
 
 double qdot_flow_time(const qdot_flow_orbit *o, size_t k);
+/* dz_i/dT at the end of segment k of K, z at its beginning held: with a longer period it begins later, and ends later. values
+ * [2 x m], slopes [2 x m x (z + p)]: at its beginning, then its end (qdot_flow_go, count 0). */
+double qdot_flow_by_period(const qdot_flow *x, const double *values, const double *slopes, size_t k, size_t K,
+                           size_t i);
 const double *qdot_flow_state(const qdot_flow *x, const qdot_flow_orbit *o, size_t k);
 /* The flow's expressions at times within the period, in their order, by the motion in the segment of each: values
  * [count x m]. *at: the segment of the latest motion, SIZE_MAX: of none; it is the last one read afterwards. */

@@ -128,15 +128,13 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
         }
 }
 
-/* The gap behind segment s, and its slopes; of the flow the beginning and the end of the segment are known. With a longer
- * period the segment begins later, and ends later. */
+/* The gap behind segment s, and its slopes; of the flow the beginning and the end of the segment are known. */
 static void
 fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
     const qdot_flow *const g = &x->flow;
     const size_t all = x->k + (x->K - 1) * x->z, width = x->z + g->p;
     const double *const end = g->value + g->m, *const by = g->by + g->m * width;
-    const double begins = (double)s / (double)x->K, ends = (double)(s + 1) / (double)x->K;
 
     for (size_t i = 0; i < x->z; i++)
         f[i] = end[i] - next[i];
@@ -146,10 +144,8 @@ fill(const shooting *x, const double *next, size_t s, double *f, double *J)
     add_state(x, s, by, 1, J);
     add_state(x, s + 1, NULL, -1, J);
     for (size_t i = 0; i < x->z; i++) {
-        double rate = ends * end[g->n + i];
+        const double rate = qdot_flow_by_period(g, g->value, g->by, s, x->K, i);
 
-        for (size_t j = 0; j < x->z; j++)
-            rate -= begins * by[i * width + j] * g->value[g->n + j];
         for (size_t l = 0; l < x->k; l++)
             J[i * all + l] += rate * x->slope[x->z * x->k + l];
         for (size_t l = 0; l < g->p; l++)
