@@ -422,14 +422,16 @@ sort(quotients *q, qdot_expr e)
     q->rest = qdot_expr_arg(pool, e, 0);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e) && q->rest != QDOT_NIL; i += 2) {
         const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
+        qdot_expr sum;
 
         if (take_denominator(q, b, p))
             continue;
         if (is_fun(pool, b, QDOT_EXP) && p == QDOT_ONE)
             q->left = qdot_add(pool, q->left, qdot_expr_arg(pool, b, 0));
-        else if (q->sum == QDOT_NIL && p == QDOT_ONE && as_sum(pool, b) != QDOT_NIL)
-            q->sum = as_sum(pool, q->from = b);
-        else
+        else if (q->sum == QDOT_NIL && p == QDOT_ONE && (sum = as_sum(pool, b)) != QDOT_NIL) {
+            q->sum = sum;
+            q->from = b;
+        } else
             q->rest = qdot_mul(pool, q->rest, qdot_pow(pool, b, p));
     }
 }

@@ -96,15 +96,16 @@ write_correlations(const qdot_fit *f, qdot_text *out)
 static void
 write_residuals(const qdot_fit *f, qdot_text *out)
 {
+    const char *plural = f->freedom == 1 ? "" : "s";
+
     if (f->weighted) {
-        qdot_text_format(out, "chi^2 = %.4g of %zu degree%s of freedom", f->found.chi2, f->freedom,
-                         f->freedom == 1 ? "" : "s");
+        qdot_text_format(out, "chi^2 = %.4g of %zu degree%s of freedom", f->found.chi2, f->freedom, plural);
         if (f->freedom > 0)
             qdot_text_format(out, ": so much or more by chance in %.3g %%",
                              100 * gsl_cdf_chisq_Q(f->found.chi2, (double)f->freedom));
     } else {
         qdot_text_format(out, "residuals: %.3g root mean square, %zu degree%s of freedom",
-                         sqrt(f->found.chi2 / (double)f->found.n), f->freedom, f->freedom == 1 ? "" : "s");
+                         sqrt(f->found.chi2 / (double)f->found.n), f->freedom, plural);
     }
     qdot_text_char(out, '\n');
     if (f->freedom > 0 || f->weighted)
