@@ -30,8 +30,8 @@ QDOT_MUST_CHECK qdot_status qdot_drifts_set(qdot_drifts *drifts, const qdot_drif
  *
  *     |E - E_0| > 100 sum_k sum_i |E(y_k + tol max(1, |y_ki|) e_i) - E(y_k)|,  y_k all stored states,
  *
- * or one of these is within tol of the end of E's domain:
- * then a step went over a place where the equations are singular. Errors: as qdot_drifts_measure. */
+ * or one of these is within tol of the end of E's domain: then a step came within tol of a place where the
+ * equations are singular, or went over it. Errors: as qdot_drifts_measure. */
 QDOT_MUST_CHECK qdot_status qdot_drifts_contradict(const qdot_drifts *drifts,
                                                    const qdot_plan *plan,
                                                    const qdot_trajectory *tr, double tol,
