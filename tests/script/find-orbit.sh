@@ -22,6 +22,24 @@ find y' = 0.1, P = 2.7 such that returns after P
 check value(P, 0) == 2.72218175705373697 within 1e-12
 END
 
+# Lyapunov orbits about L1, small to large, of NASA/JPL's catalogue of Three-Body Periodic Orbits (ssd.jpl.nasa.gov)
+qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
+param P
+set mu = 1.215058560962404e-2
+start x = 0.830023864314168
+find y' = 0.06, P = 2.7 such that returns after P
+check P == 2.702881200253821 within 1e-11
+check value(y', 0) == 0.06088309999599009 within 1e-12
+start x = 0.8007325761918545
+find y' = 0.35, P = 3.3 such that returns after P
+check P == 3.297097386764505 within 1e-12
+check value(y', 0) == 0.35248700747556716 within 1e-12
+start x = 0.7076756180347542
+find y' = 0.62, P = 5.7 such that returns after P
+check P == 5.709795908302705 within 1e-12
+check value(y', 0) == 0.621513254358129 within 1e-12
+END
+
 # halos about L1 and L2; one that nearly falls on the Moon
 qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
 start z = 0.05
