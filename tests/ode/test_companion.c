@@ -94,6 +94,40 @@ tolerances_follow_the_table(void **state)
     assert_true(qdot_companion_tolerance(&pendulum.system, rkf45, 1e-15) == rkf45->companion_tol);
 }
 
+/* bsimp goes over what is narrow: it is compared with radau, which does not, and not with itself. */
+static void
+companions_of_stiff_methods_are_by_radau(void **state)
+{
+    const qdot_ode_method *radau = qdot_ode_method_find("radau");
+
+    (void)state;
+    for_each_method(k) {
+        const qdot_ode_method *m = qdot_ode_method_at(k);
+        qdot_companion_plan plan;
+
+        if (!m->stiff || m == radau)
+            continue;
+        assert_int_equal(qdot_companion_way_from(QDOT_COMPANION_SERIES, 0, &pendulum.system, m, 1e-6, &plan),
+                         QDOT_COMPANION_PARTNER);
+        assert_ptr_equal(plan.method, radau);
+        assert_true(plan.tol >= radau->companion_tol && plan.tol < 1e-9);
+    }
+}
+
+/* In one unstable direction: a run off by 1, its companions by the rounding of their own. */
+static void
+companions_on_either_side_show_their_middle(void **state)
+{
+    const double beside[] = {1 - 3e4, 1 + 3e4}, alike[] = {1e-3, 1.1e-3};
+
+    (void)state;
+    assert_true(qdot_companion_apart(0, 2, beside) == 1 && qdot_companion_apart(0, 1, alike) == 1e-3);
+    assert_true(fabs(qdot_companion_bound_of(1, 2, beside) / 6e4 - 1) < 1e-12);
+    assert_true(fabs(qdot_companion_bound_of(1, 2, alike) / 1.25 - 1) < 1e-3);
+    assert_true(fabs(qdot_companion_bound_of(1, 1, alike) / (3.25 * (1 - 1e-3)) - 1) < 1e-12);
+    assert_true(isnan(qdot_companion_bound_of(NAN, 2, alike)));
+}
+
 /* A linear flow whose run is exact in doubles: only the moved start can tell. */
 static qdot_status
 growth(double t, const double *y, double *dydt, void *user)
@@ -122,7 +156,7 @@ zeros_of_the_start_are_moved_too(void **state)
     assert_true(y[0] == 0);
     /* two companions, moved to either side by 2^-53, which resolve a value far below their
      * tolerance only roughly */
-    assert_true(fabs(e.error / qdot_companion_bound(0x1p-53 * exp(10), 0x1p-52 * exp(10)) - 1)
+    assert_true(fabs(e.error / qdot_companion_bound(0, 0x1p-52 * exp(10)) - 1)
                 < 0.05);
 }
 
@@ -210,6 +244,8 @@ main(void)
         cmocka_unit_test(the_stated_error_is_honest),
         cmocka_unit_test(a_thread_changes_nothing),
         cmocka_unit_test(tolerances_follow_the_table),
+        cmocka_unit_test(companions_of_stiff_methods_are_by_radau),
+        cmocka_unit_test(companions_on_either_side_show_their_middle),
         cmocka_unit_test(zeros_of_the_start_are_moved_too),
         cmocka_unit_test(a_run_that_stops_early_is_compared_where_it_stopped),
         cmocka_unit_test(a_companion_that_fails_leaves_the_error_unknown),
