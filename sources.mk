@@ -1484,7 +1484,7 @@ script_tests = \
 	tests/script/plot-two-runs.sh \
 	tests/script/poincare.sh \
 	tests/script/poisson.lag \
-	tests/script/poles.lag \
+	tests/script/poles.sh \
 	tests/script/processor.sh \
 	tests/script/puck.lag \
 	tests/script/pulse-train.lag \

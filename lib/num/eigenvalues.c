@@ -103,6 +103,36 @@ bound_by_left(solver *s, const double *A, const double *E, double *error)
     }
 }
 
+/* |w| |v| of the k-th, 1 where its vectors are one. */
+static double
+condition(const solver *s, size_t k)
+{
+    double left = 0, right = 0;
+
+    for (size_t i = 0; i < s->n; i++) {
+        left = hypot(left, gsl_complex_abs(gsl_matrix_complex_get(s->W, k, i)));
+        right = hypot(right, gsl_complex_abs(gsl_matrix_complex_get(s->V, i, k)));
+    }
+    return left * right;
+}
+
+/* The errors of those that are near to another, by nearly one vector. */
+static void
+take_roots(const solver *s, double *error)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        const double first = error[k];
+        double nearest = INFINITY;
+
+        for (size_t j = 0; j < s->n; j++)
+            if (j != k)
+                nearest = fmin(nearest, gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j),
+                                                                        gsl_vector_complex_get(s->lambda, k))));
+        if (4 * sqrt(first * nearest) >= nearest)
+            error[k] = fmax(2 * sqrt(first * nearest), first / condition(s, k));
+    }
+}
+
 static double
 modulus(const double *re, const double *im, size_t k)
 {
@@ -185,6 +215,7 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
         error[k] = known ? error_of(s, A, E, k) : NAN;
     }
     bound_by_left(s, A, E, error);
+    take_roots(s, error);
     qdot_eigenvalues_arrange(n, re, im, error);
     return QDOT_OK;
 }

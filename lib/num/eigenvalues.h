@@ -2,13 +2,19 @@
  *
  *     d lambda = |w E v| / |w v|     for the right and left vectors v, w of lambda, |dA| <= E
  *
- * Where several lie together this first order of their distance is about that distance itself.
+ * Where two lie together, by nearly one vector, d^2 times 4 is known to e |lambda_1 - lambda_2|, e of this first
+ * order, and d to the root: with 4 times as much, as |dA| may be more than E,
+ *
+ *     error = 2 sqrt(e |lambda_1 - lambda_2|)    where that is at least half of their distance,
+ *
+ * and not less than what E makes of an eigenvalue whose vectors are one.
  *
  * Those of a product A_(K-1) ... A_0, each with errors, are the K-th powers of those of the matrix of K x K blocks with A_k
  * in row k + 1, column k (row 0 for the last): each comes K times. A product loses those that are less than its largest
  * entry by 1e16; these have the errors of what its factors do to their own vectors.
  *
- * Source  Golub & Van Loan, Matrix Computations, 4th ed., 7.2.2; GSL (QR with double shifts); Watkins, SIAM
+ * Source  Golub & Van Loan, Matrix Computations, 4th ed., 7.2.2; Wilkinson, The Algebraic Eigenvalue Problem, 2.22;
+ *         GSL (QR with double shifts); Watkins, SIAM
  *         Review 47 (2005) 3 (products).
  * Tests   tests/num/test_eigenvalues.c
  */

@@ -13,9 +13,11 @@ static const double unit = 0x1p-53;
 static const double shares[] = {1.55, 1.3};
 
 /* Of QDOT_COMPANION_LEAST: what a way may take before it leads anywhere, so that the others have the
- * rest; beside a stiff method there are more of them, of which the finer one begins with a dear step (bsimp
- * 4e5 in friction of tanh(1e6 v)), and series are for scenes that are not stiff, where they cost little. */
-static const double at_first = 0.8, at_first_stiff = 0.25, beside_stiff = 0.4;
+ * rest. Beside a stiff method there are more of them, of which the finer one begins with a dear step (bsimp
+ * 4e5 in friction of tanh(1e6 v)); series are for scenes that are not stiff, where they cost little; radau is
+ * all that a multistep method has. */
+static const double at_first = 0.8, at_first_stiff = 0.25, at_first_multistep = 0.75;
+static const double beside_stiff = 0.4;
 
 /* The smallest error stated is 2u sqrt(steps), u = 2^-53; the root counts at most this. */
 static const double most_floor = 32;
@@ -44,8 +46,9 @@ qdot_companion_is_by_series(const qdot_ode_method *method)
 const qdot_ode_method *
 qdot_companion_method(const qdot_ode_system *system, const qdot_ode_method *method)
 {
-    return qdot_ode_method_find(system->series && qdot_companion_is_by_series(method)
-                                    ? "taylor" : method->partner);
+    return qdot_ode_method_find(system->series && qdot_companion_is_by_series(method) ? "taylor"
+                                : method->stiff                                       ? "radau"
+                                                                                      : method->partner);
 }
 
 /* The work of a run by Taylor series under that tolerance, relative to others of the system. */
@@ -87,7 +90,7 @@ qdot_companion_tolerance(const qdot_ode_system *system, const qdot_ode_method *m
                     partner->companion_tol);
     if (same && method->companion_tol > tol / 4)
         return 10 * fmax(tol, method->companion_tol);
-    return fmax(method->companion_ratio * tol, method->companion_tol);
+    return fmax(method->companion_ratio * tol, (method->stiff ? partner : method)->companion_tol);
 }
 
 qdot_companion_way
@@ -103,7 +106,7 @@ qdot_companion_way_from(qdot_companion_way way, size_t number, const qdot_ode_sy
     *plan = (qdot_companion_plan){0};
     if (way == QDOT_COMPANION_SERIES && (!system->series || !qdot_companion_is_by_series(method)))
         way = QDOT_COMPANION_PARTNER;
-    if (way == QDOT_COMPANION_PARTNER && (method->stiff ? gets_finer : system->series != NULL))
+    if (way == QDOT_COMPANION_PARTNER && (method->stiff ? method->kernel && gets_finer : system->series != NULL))
         way = QDOT_COMPANION_FINER;
     if (way == QDOT_COMPANION_FINER && !gets_finer)
         way = QDOT_COMPANION_COARSE;
@@ -131,18 +134,21 @@ qdot_companion_left(double work, double spent)
 
 void
 qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
-                     const qdot_ode_system *system, bool stiff, qdot_companion_way way,
+                     const qdot_ode_system *system, const qdot_ode_method *method, qdot_companion_way way,
                      size_t number, double spent)
 {
     m->beside = run;
     m->factor = shares[number];
     m->allowance = QDOT_COMPANION_LEAST;
-    m->early_factor = way == QDOT_COMPANION_SERIES && stiff ? beside_stiff
+    m->early_factor = way == QDOT_COMPANION_SERIES && method->stiff ? beside_stiff
                       : way == QDOT_COMPANION_PARTNER       ? shares[1]
                                                             : m->factor;
-    m->early = QDOT_COMPANION_LEAST
-               * ((stiff && way != QDOT_COMPANION_FINER) || way == QDOT_COMPANION_PARTNER ? at_first_stiff
-                                                                                          : at_first);
+    m->early = at_first;
+    if (way == QDOT_COMPANION_PARTNER)
+        m->early = method->stiff && method->multistep ? at_first_multistep : at_first_stiff;
+    else if (method->stiff && way != QDOT_COMPANION_FINER)
+        m->early = at_first_stiff;
+    m->early *= QDOT_COMPANION_LEAST;
     m->spent = spent;
     m->whole_only = system->n_parts > 1 || way == QDOT_COMPANION_COARSE;
 }
@@ -165,32 +171,33 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
 
 /* The distance from component i, of that size (scale.h), at which companion `number` of a run in two doubles starts. */
 static double
-aside(double tol, double size, size_t i, size_t number, double by)
+aside(double tol, double size, size_t i, size_t number)
 {
-    by *= QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
+    const double by = QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
+
     return goes_up(i, number) ? by : -by;
 }
 
 double
-qdot_companion_moved(double y, double scale, size_t i, size_t number, double by)
+qdot_companion_moved(double y, double scale, size_t i, size_t number)
 {
     const bool up = goes_up(i, number);
 
     if (y == 0)
         return up ? unit * scale : -unit * scale;
-    return y + by * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+    return nextafter(y, up ? INFINITY : -INFINITY);
 }
 
 void
-qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double by,
-                      double tol, double *start, double *low)
+qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double tol,
+                      double *start, double *low)
 {
     for (size_t i = 0; i < n; i++) {
         const double in = qdot_companion_unit(scales, n, y, i);
 
-        start[i] = low ? y[i] : qdot_companion_moved(y[i], in, i, number, by);
+        start[i] = low ? y[i] : qdot_companion_moved(y[i], in, i, number);
         if (low)
-            low[i] += aside(tol, fmax(in, fabs(y[i])), i, number, by);
+            low[i] += aside(tol, fmax(in, fabs(y[i])), i, number);
     }
 }
 
@@ -210,12 +217,6 @@ double
 qdot_companion_first_share(size_t number)
 {
     return number ? 0.4142 : 0.618;
-}
-
-double
-qdot_companion_far(uint64_t steps)
-{
-    return fmin(QDOT_COMPANION_FAR, fmax(1, floor(sqrt((double)steps))));
 }
 
 double

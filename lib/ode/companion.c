@@ -15,8 +15,9 @@ static const double unit = 0x1p-53;
 /* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
 static const double derived = 4;
 
-/* A companion's own error, as a part of its distance from the run, where the companions agree. */
-static const double most_share = 0.25;
+/* A companion's own error, as a part of its distance from the run, where the companions agree; where they do not,
+ * and the run is far from both. */
+static const double most_share = 0.25, unlike_share = 2;
 
 /* Of the work: what reading states before the end may take, the run's and both companions', which cost
  * about so many times a step of the run. */
@@ -77,7 +78,6 @@ struct qdot_companion {
     const qdot_ode_system *of_course;
     atomic_bool leave; /* the run ended before t1: companions are to stop beyond t_end */
     double t_end;
-    double share; /* factor by which the second companion's distance counts */
     double floor; /* the smallest error that is stated */
     double steps; /* of the run */
     follower at[2];
@@ -117,7 +117,7 @@ run_by(follower *f, const qdot_companion_plan *by)
                                       .t1_low = c->t1_low};
     const qdot_ode_stats spent = f->result.stats;
 
-    qdot_companion_meter(&f->meter, c->meter, &f->system, c->run->stiff, f->way, f->number,
+    qdot_companion_meter(&f->meter, c->meter, &f->system, c->run, f->way, f->number,
                          f->spent);
     qdot_ode_meter_begin(&f->meter, f->t0, c->t1);
     if (qdot_trajectory_run(f->tr, &f->system, by->method, &options, f->t0, c->t1, f->start)
@@ -264,7 +264,7 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
     c->n_shown = k + 1;
 }
 
-/* max |a - b| / max(s, min(|a|, |b|)) over components. */
+/* max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
 static double
 apart(const qdot_companion *c, const double *scales, const double *a, const double *b)
 {
@@ -279,33 +279,42 @@ apart(const qdot_companion *c, const double *scales, const double *a, const doub
 double
 qdot_companion_bound(double apart, double own)
 {
-    return (1 + most_share) * apart + own;
-}
-
-/* Error bound of the run's state y, relative to these scales, from the companions' states at time k
- * (SIZE_MAX: at the end). The distance of the second companion counts by the factor `share`. */
-static double
-bound_at(const qdot_companion *c, const double *scales, const double *y, size_t k)
-{
-    const double *of[2];
-    double worst = 0;
-
-    for (size_t i = 0; i < c->arrived; i++) {
-        of[i] = k == SIZE_MAX ? c->at[i].y : c->at[i].own + k * c->n;
-        worst = fmax(worst, (i ? c->share : 1) * apart(c, scales, y, of[i]));
-    }
-    return qdot_companion_bound(worst, c->arrived == 2 ? c->share * apart(c, scales, of[0], of[1])
-                                                       : QDOT_COMPANION_ALONE * worst);
+    return (1 + most_share) * apart + unlike_share * fmin(apart, own) + own;
 }
 
 double
-qdot_companion_bound_of(double x, size_t count, const double *theirs, double share)
+qdot_companion_apart(double x, size_t count, const double *theirs)
 {
-    const double apart = fabs(theirs[0] - x);
+    return fabs(count == 2 ? (theirs[0] - x) / 2 + (theirs[1] - x) / 2 : theirs[0] - x);
+}
 
-    return count == 2 ? qdot_companion_bound(fmax(apart, share * fabs(theirs[1] - x)),
-                                             share * fabs(theirs[1] - theirs[0]))
-                      : qdot_companion_bound(apart, QDOT_COMPANION_ALONE * apart);
+double
+qdot_companion_bound_of(double x, size_t count, const double *theirs)
+{
+    const double apart = qdot_companion_apart(x, count, theirs);
+
+    return qdot_companion_bound(apart, count == 2 ? fabs(theirs[1] - theirs[0])
+                                                  : QDOT_COMPANION_ALONE * apart);
+}
+
+/* Error bound of the run's state y, relative to these scales, from the companions' states at time k
+ * (SIZE_MAX: at the end). */
+static double
+bound_at(const qdot_companion *c, const double *scales, const double *y, size_t k)
+{
+    double worst = 0;
+
+    for (size_t i = 0; i < c->n; i++) {
+        double theirs[2], least = fabs(y[i]);
+
+        for (size_t j = 0; j < c->arrived; j++) {
+            theirs[j] = k == SIZE_MAX ? c->at[j].y[i] : c->at[j].own[k * c->n + i];
+            least = fmin(least, fabs(theirs[j]));
+        }
+        worst = fmax(worst, qdot_companion_bound_of(y[i], c->arrived, theirs)
+                                / qdot_ode_size(scales, i, least));
+    }
+    return worst;
 }
 
 /* The median of the error bounds at the times between. */
@@ -345,8 +354,8 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    qdot_companion_beside(c->scales, c->n, request->y0, number, number ? QDOT_COMPANION_FAR : 1,
-                          request->tol, f->start, c->leading ? f->low : NULL);
+    qdot_companion_beside(c->scales, c->n, request->y0, number, request->tol, f->start,
+                          c->leading ? f->low : NULL);
     if (f->system.project) { /* only along what solutions may do */
         double by;
 
@@ -374,7 +383,6 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->t0_low = request->t0_low;
     c->leading = request->leading;
     c->alternates = request->alternates;
-    c->share = 1;
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
     atomic_init(&c->leave, false);
@@ -489,7 +497,6 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     c->steps = (double)steps;
     choose_times(c, steps);
-    c->share = qdot_companion_far(steps) / QDOT_COMPANION_FAR;
     c->floor = !c->leading                    ? qdot_companion_floor(steps)
                : c->at[0].system.following ? derived * unit
                                            : unit;
@@ -559,7 +566,7 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
         const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
 
         difference[i] =
-            out->known ? qdot_companion_bound_of(y[i], c->arrived, ends, c->share) : NAN;
+            out->known ? qdot_companion_bound_of(y[i], c->arrived, ends) : NAN;
     }
     release(c);
 }

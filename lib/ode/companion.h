@@ -3,8 +3,8 @@
  * Let y be the end state of a run under tol from y0. Its companion integrates the same system
  *
  *     by Taylor series if the system has them (not for radau), else by the partner of the
- *       method (method.h); for a stiff method by the partner too if series get stuck,
- *     under tol* = tol/100 (tol/5 for radau, tol/10^4 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
+ *       method (method.h), for a stiff method by radau, also if series get stuck,
+ *     under tol* = tol/100 (tol/5 for radau, tol/10 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
  *       more accurate than they ask for by as much), or by series beside series as much less tight as the budget
  *       needs, at most tol/10; not below the method's companion_tol. If a
  *       method is its own partner and its tolerance cannot be 4 times tighter, tol* = 10 max(tol,
@@ -19,29 +19,25 @@
  * rounding of the inputs (its zeros too) and, as all roundings of the second run differ,
  * that of the run itself.
  *
- *     apart_i = max_k |y_i - y*_k,i|,   own_i = |y*_1,i - y*_2,i|
- *     error   = max(floor, bound(apart, own))     (qdot_companion_bound)
+ *     apart_i = |y_i - (y*_1,i + y*_2,i)/2|,   own_i = |y*_1,i - y*_2,i|
+ *     error   = max(floor, max_i bound(apart_i, own_i))     (qdot_companion_bound)
  *     floor   = 2^-52 min(sqrt(steps), 32)
  *
- * where a distance of states is max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)), s_i the scales of
- * the system (scale.h); `plain` is the same with s_i = 1.
+ * relative to max(s_i, |y_i|), s_i the scales of the system (scale.h); `plain` is the same with s_i = 1.
  *
  * There are two companions, moved to either side, with three orders and one order more; no term of
  * theirs is so large that its rounding counts beside about the run's tolerance, not tol*. One is
  * not enough: if all is rounding, the difference of two random walks may be small by chance; near
  * an instability it is a single number; and if the tolerance dominates, a method may be so much
- * more accurate than requested that a companion errs as much as the run. The second companion
- * shows the amplification of the scene reliably. It starts QDOT_COMPANION_FAR doubles away (zeros
- * 2^-53: their scale is unknown), and its distances are weighted by min(1,
- * sqrt(steps)/QDOT_COMPANION_FAR), the distance to which a random walk of one rounding a step
- * would have moved the start.
+ * more accurate than requested that a companion errs as much as the run. They start on opposite
+ * sides: their distance shows the amplification of the scene, of which their middle is free.
  *
  * A run whose first orders are sums of two doubles (leading.h) has exact inputs and errs by far
  * less than a rounding a step. Its companions are of the same kind and start
  *
  *     QDOT_COMPANION_AIMS eps max(s_i, |y_i|)
  *
- * away, and three times that, where eps is the error that its steps aim at; the floor is 2^-53,
+ * away, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
  *
  * Ways. All that is spent on the error of a run is at most QDOT_COMPANION_MOST times what the run had
@@ -49,8 +45,8 @@
  * together. One that costs too much (meter.h) is given up, and another way is tried by what is left:
  *
  *     SERIES   Taylor series under tol*; beside a stiff method while they cost less than 0.4 of the run
- *     PARTNER  the partner of the method under its tol*: without series, and beside a stiff method
- *              that has not the next way, radau (its own partner) near its companion_tol among them
+ *     PARTNER  the partner of the method under its tol*: without series; radau beside a stiff method (radau
+ *              itself only near its companion_tol, where the next way is not)
  *     FINER    a stiff method itself, the first under tol/16, the second under tol/32: it errs by a
  *              few times less, and the distance of the two shows by how much; not a multistep method,
  *              whose errors follow the tolerance only roughly, and not below its companion_tol
@@ -105,17 +101,21 @@ typedef struct qdot_companion qdot_companion;
 /* The error stated for a number, from its largest distance `apart` from those of the companions
  * and the distance `own` between these,
  *
- *     bound = 5/4 apart + own,
+ *     bound = 5/4 apart + 2 min(apart, own) + own.
  *
- * which holds in 99 cases of 100: if the method's error dominates, companions are off by a small
- * part of `apart`, and agree; if they are off by more, by rounding, `own` shows it. */
+ * If the method's error dominates, companions are off by a small part of `apart`, and agree. If all is
+ * the rounding of the three runs, errors with one normal distribution in one unstable direction, it is below
+ * the run's in 3 cases of 100, and below half of it in 0.7; its median is 5 times that. If rounding is little
+ * beside what moving the start by one double makes, it is 2 of these. */
 double qdot_companion_bound(double apart, double own);
-/* Where there is one companion, `own` counts as so many times `apart`. */
-#define QDOT_COMPANION_ALONE 2.0
+/* Where there is one companion, `own` counts as so many times `apart`: the bound is 13/4 of that. */
+#define QDOT_COMPANION_ALONE (2.0 / 3)
 
-/* The same for a value x of the run and theirs [count] of the companions, 1 or 2; the distance of
- * the second is multiplied by `share`. NaN if one has no value. */
-double qdot_companion_bound_of(double x, size_t count, const double *theirs, double share);
+/* The distance of a value x of the run from the middle of theirs [count] of the companions, 1 or 2. */
+double qdot_companion_apart(double x, size_t count, const double *theirs);
+
+/* The bound for such a value. NaN if one has no value. */
+double qdot_companion_bound_of(double x, size_t count, const double *theirs);
 
 typedef struct {
     const qdot_ode_system *system;  /* for the companion alone if `threaded`; borrowed
@@ -184,12 +184,12 @@ qdot_companion_way qdot_companion_way_from(qdot_companion_way way, size_t number
 /* What is left of QDOT_COMPANION_MOST for a run of so much work, after so much. */
 double qdot_companion_left(double work, double spent);
 
-/* The meter of companion `number` by that way beside that of a run, by a `stiff` method or not, after
+/* The meter of companion `number` by that way beside that of a run by `method`, after
  * `spent` on the ways before.
  * The last way may use what is left of the whole, wherever; parts of a system each begin anew, so only
  * their wholes are compared. */
 void qdot_companion_meter(qdot_ode_meter *m, const qdot_ode_meter *run,
-                          const qdot_ode_system *system, bool stiff, qdot_companion_way way,
+                          const qdot_ode_system *system, const qdot_ode_method *method, qdot_companion_way way,
                           size_t number, double spent);
 
 /* Whether another way is worth trying, after one that `failed` or was found to cost too much: a
@@ -204,11 +204,6 @@ void qdot_companion_limit(qdot_companion *c, uint64_t steps);
 /* The first step of a companion, as a part of that which the run would take: a few steps may grow
  * alike whatever the tolerance, and err alike. */
 double qdot_companion_first_share(size_t number);
-
-/* The distance, in doubles, at which the second companion starts: that of a random walk of so
- * many steps, from 1 to QDOT_COMPANION_FAR. */
-double qdot_companion_far(uint64_t steps);
-#define QDOT_COMPANION_FAR 3.0
 
 /* The least error stated for a run of so many steps. */
 double qdot_companion_floor(uint64_t steps);
@@ -243,15 +238,14 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
  * starts at 1; where both are 0 nothing is known of the size that it will have. */
 double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
 
-/* The start of companion 0 or 1 in component i: `by` doubles, a whole number, to the side of y;
- * for a zero 2^-53 of `scale`. */
-double qdot_companion_moved(double y, double scale, size_t i, size_t number, double by);
+/* The start of companion 0 or 1 in component i: the double to the side of y; for a zero 2^-53 of `scale`. */
+double qdot_companion_moved(double y, double scale, size_t i, size_t number);
 
 /* The start [n] of companion `number` beside that of its run, y [n]: moved by that; or, for a run whose first orders are
- * sums of two doubles, y itself, and low [n], what is known of it beyond, is moved by `by` times the least distance
+ * sums of two doubles, y itself, and low [n], what is known of it beyond, is moved by the distance
  * above. low NULL: it is no such run, and tol does not count. */
-#define QDOT_COMPANION_AIMS 0.0625
-void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double by,
-                           double tol, double *start, double *low);
+#define QDOT_COMPANION_AIMS 0.125
+void qdot_companion_beside(const double *scales, size_t n, const double *y, size_t number, double tol,
+                           double *start, double *low);
 
 #endif

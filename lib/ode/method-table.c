@@ -19,7 +19,7 @@ static const qdot_ode_method methods[] = {
     {"msadams", 12, false, true, false, 0, "rk8pd", 1e-2, 5e-16,
      "Adams, orders 1 to 12: smooth scenes whose evaluation is expensive",
      &gsl_odeiv2_step_msadams, false, NULL, NULL},
-    {"msbdf", 5, true, true, true, 0, "bsimp", 1e-4, 3e-16,
+    {"msbdf", 5, true, true, true, 0, "bsimp", 0.1, 3e-16,
      "backward differences, orders 1 to 5: stiff scenes, moderate tolerances",
      &gsl_odeiv2_step_msbdf, false, NULL, NULL},
     {"bsimp", 12, true, false, true, 0, "bsimp", 1e-10, 3e-16,

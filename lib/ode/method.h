@@ -19,8 +19,8 @@ typedef struct qdot_ode_method {
     bool multistep;      /* keeps a history: cannot start at full order */
     bool stiff;          /* stability does not limit its step */
     int error_power;     /* its error estimate goes as h to this power; 0: present order + 1 */
-    const char *partner; /* the one-step method of its companion run (companion.h) and,
-                            unless it has a kernel, of its output between steps
+    const char *partner; /* the one-step method of its companion run (companion.h; of a stiff method
+                            it is radau) and, unless it has a kernel, of its output between steps
                             (trajectory.h) */
     double companion_ratio; /* how much tighter the companion's tolerance is */
     double companion_tol;   /* the smallest companion tolerance that still improves accuracy */

@@ -44,6 +44,38 @@ errors_hold_what_entries_may_do(void **state)
     }
 }
 
+/* [a 1; -d a] is [a 1; 0 a] to an error of d: what is two apart by its root is one. */
+static void
+a_pair_with_one_vector_is_known_to_the_root(void **state)
+{
+    (void)state;
+    for (double d = 1e-18; d < 1e-8; d *= 100)
+        for (int way = -1; way <= 1; way += 2) {
+            const double A[4] = {2.385, 1, way * d, 2.385}, E[4] = {0, 0, d, 0}, none[4] = {0};
+            double re[2], im[2], error[2];
+
+            assert_int_equal(qdot_eigenvalues(2, A, E, re, im, error), QDOT_OK);
+            for (int k = 0; k < 2; k++) {
+                assert_true(hypot(re[k] - 2.385, im[k]) <= error[k]);
+                assert_true(error[k] <= 4 * sqrt(d + 1e-14));
+            }
+            assert_int_equal(qdot_eigenvalues(2, A, none, re, im, error), QDOT_OK);
+            assert_true(error[0] < 2e-6 * fmin(1, 1e-9 / sqrt(d)) + 3e-7);
+        }
+}
+
+/* One that comes twice with two vectors is as exact as the entries. */
+static void
+one_with_two_vectors_is_as_exact_as_its_entries(void **state)
+{
+    const double A[4] = {2.385, 0, 0, 2.385 + 1e-15}, E[4] = {1e-10, 1e-10, 1e-10, 1e-10};
+    double re[2], im[2], error[2];
+
+    (void)state;
+    assert_int_equal(qdot_eigenvalues(2, A, E, re, im, error), QDOT_OK);
+    assert_true(error[0] >= 1e-10 && error[0] < 4e-10 && error[1] >= 1e-10 && error[1] < 4e-10);
+}
+
 /* Moduli that differ by less than their errors do not decide on the order. */
 static void
 order_holds_against_rounding(void **state)
@@ -147,6 +179,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_and_reals_in_order),
+        cmocka_unit_test(a_pair_with_one_vector_is_known_to_the_root),
+        cmocka_unit_test(one_with_two_vectors_is_as_exact_as_its_entries),
         cmocka_unit_test(order_holds_against_rounding),
         cmocka_unit_test(errors_hold_what_entries_may_do),
         cmocka_unit_test(a_product_keeps_its_least_eigenvalue),

@@ -92,6 +92,22 @@ tolerances_follow_the_table(void **state)
     assert_true(qdot_companion_tolerance(&pendulum.system, rk8pd, 1e-13) == rk8pd->companion_tol);
     assert_true(fabs(qdot_companion_tolerance(&pendulum.system, rk8pd, 1e-15) / 5e-14 - 1) < 1e-12);
     assert_true(qdot_companion_tolerance(&pendulum.system, rkf45, 1e-15) == rkf45->companion_tol);
+    assert_true(qdot_companion_tolerance(&pendulum.system, qdot_ode_method_find("bsimp"), 1e-9)
+                == qdot_ode_method_find("radau")->companion_tol);
+}
+
+/* In one unstable direction: a run off by 1, its companions by the rounding of their own. */
+static void
+companions_on_either_side_show_their_middle(void **state)
+{
+    const double beside[] = {1 - 3e4, 1 + 3e4}, alike[] = {1e-3, 1.1e-3};
+
+    (void)state;
+    assert_true(qdot_companion_apart(0, 2, beside) == 1 && qdot_companion_apart(0, 1, alike) == 1e-3);
+    assert_true(fabs(qdot_companion_bound_of(1, 2, beside) / 6e4 - 1) < 1e-12);
+    assert_true(fabs(qdot_companion_bound_of(1, 2, alike) / 1.25 - 1) < 1e-3);
+    assert_true(fabs(qdot_companion_bound_of(1, 1, alike) / (3.25 * (1 - 1e-3)) - 1) < 1e-12);
+    assert_true(isnan(qdot_companion_bound_of(NAN, 2, alike)));
 }
 
 /* A linear flow whose run is exact in doubles: only the moved start can tell. */
@@ -122,7 +138,7 @@ zeros_of_the_start_are_moved_too(void **state)
     assert_true(y[0] == 0);
     /* two companions, moved to either side by 2^-53, which resolve a value far below their
      * tolerance only roughly */
-    assert_true(fabs(e.error / qdot_companion_bound(0x1p-53 * exp(10), 0x1p-52 * exp(10)) - 1)
+    assert_true(fabs(e.error / qdot_companion_bound(0, 0x1p-52 * exp(10)) - 1)
                 < 0.05);
 }
 
@@ -210,6 +226,7 @@ main(void)
         cmocka_unit_test(the_stated_error_is_honest),
         cmocka_unit_test(a_thread_changes_nothing),
         cmocka_unit_test(tolerances_follow_the_table),
+        cmocka_unit_test(companions_on_either_side_show_their_middle),
         cmocka_unit_test(zeros_of_the_start_are_moved_too),
         cmocka_unit_test(a_run_that_stops_early_is_compared_where_it_stopped),
         cmocka_unit_test(a_companion_that_fails_leaves_the_error_unknown),

@@ -111,7 +111,7 @@ qdot -q --json - <<'END' 2>&1 | sed -n 's/.*"name":"\(floquet.[12].\)","value":\
 coord th
 lagrangian th'^2/2 - 9.81*cos(th)
 force -0.2*th' + 3*cos(2*t) on th
-start th = -0.218061012692907, th' = 0.012743090904497
+start th = -0.21806101269290711805, th' = 0.01274309090449789140
 run 0..3*pi tol 1e-12
 floquet
 END

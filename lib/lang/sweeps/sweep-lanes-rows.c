@@ -40,7 +40,6 @@ evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, dou
 static bool
 compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
-    const double share = qdot_ensemble_share(x->ensemble, m);
     const size_t n = x->outputs;
 
     for (size_t pass = x->companions + 1; pass-- > 0;) /* the run's own inputs stay */
@@ -49,7 +48,7 @@ compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
     for (size_t i = 0; i < x->outputs; i++) {
         const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
 
-        errors[i] = qdot_ensemble_error_of(x->out[i], x->companions, theirs, share);
+        errors[i] = qdot_ensemble_error_of(x->out[i], x->companions, theirs);
     }
     return true;
 }
@@ -135,7 +134,7 @@ read_event(qdot_sweep_lanes *x, size_t m, const qdot_sweep_lanes_column *of, siz
         t[pass] = qdot_ensemble_event_time(x->ensemble, pass, m, of->event, of->k);
     if (!isnan(t[0])) {
         *to = t[0];
-        *error = qdot_ensemble_error_of(t[0], x->companions, t + 1, 1);
+        *error = qdot_ensemble_error_of(t[0], x->companions, t + 1);
         x->unsure = x->unsure || is_of_rounding(x, m, *error, fabs(t[0]));
         *error += DBL_EPSILON * fabs(t[0]);
         *there = isfinite(*error); /* a run alone compares the same times */

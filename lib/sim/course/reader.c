@@ -131,7 +131,7 @@ qdot_reader_read(qdot_reader *r, const size_t *pieces, double t, double *out)
                                 : qdot_trajectory_read_piece(c->cursor, pieces[k], t, c->in));
         for (size_t i = 0; i < 2 * c->n && r->moved > 0; i++)
             c->in[i] = qdot_companion_moved(c->in[i], qdot_ode_scale(c->course->stage->scales, i),
-                                            i, (size_t)r->moved - 1, 1);
+                                            i, (size_t)r->moved - 1);
     }
     return qdot_reader_evaluate(r, t, out);
 }

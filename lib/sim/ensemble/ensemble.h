@@ -30,15 +30,14 @@ typedef struct {
     double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
 
-/* The error of a number x of a member, theirs [companions] those of its companions, the second's distance
- * counting by `share`. An only companion was meant to be one: under a hundredth of the tolerance it errs by a
+/* The error of a number x of a member, theirs [companions] those of its companions. An only companion was meant to be one: under a hundredth of the tolerance it errs by a
  * three hundredth of the run, so its distance is not counted more than once, as that of a single run is whose
  * second one was given up. */
 static inline double
-qdot_ensemble_error_of(double x, size_t companions, const double *theirs, double share)
+qdot_ensemble_error_of(double x, size_t companions, const double *theirs)
 {
     return companions == 1 ? qdot_companion_bound(fabs(theirs[0] - x), 0)
-                           : qdot_companion_bound_of(x, companions, theirs, share);
+                           : qdot_companion_bound_of(x, companions, theirs);
 }
 
 /* Prepare runs of `request`: its values, limits and tolerance; method "auto" or "taylor".
@@ -97,7 +96,6 @@ size_t qdot_ensemble_places(const qdot_ensemble *e);
 double qdot_ensemble_time(const qdot_ensemble *e, size_t place);
 const double *qdot_ensemble_sizes(const qdot_ensemble *e, size_t member);
 const qdot_plan *qdot_ensemble_plan(const qdot_ensemble *e);
-double qdot_ensemble_share(const qdot_ensemble *e, size_t member);
 
 /* The whole way of a pass of a member, if the starts of steps are kept (sim/ensemble/path.h):
  * the number of its points, the end among them, 0 if it did not arrive; point i, as for _state. */

@@ -149,14 +149,12 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 static void
 put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
-    const double by = companion == 1 ? 1 : QDOT_COMPANION_FAR;
-
     if (companion)
-        qdot_companion_beside(NULL, n, y, companion - 1, by, 0, to, NULL);
+        qdot_companion_beside(NULL, n, y, companion - 1, 0, to, NULL);
     else
         memcpy(to, y, n * sizeof *to);
     for (size_t i = 0; i < varied; i++)
-        to[n + i] = companion ? qdot_companion_moved(parameters[i], 1, i, companion - 1, by)
+        to[n + i] = companion ? qdot_companion_moved(parameters[i], 1, i, companion - 1)
                               : parameters[i];
 }
 
@@ -392,7 +390,7 @@ arrived(const qdot_ensemble *e, const qdot_ensemble_pass *companions, size_t m)
 static double
 end_error(const qdot_ensemble *e, size_t m)
 {
-    const double *y[QDOT_ENSEMBLE_PASSES], share = qdot_ensemble_share(e, m);
+    const double *y[QDOT_ENSEMBLE_PASSES];
     double error = 0x1p-53;
 
     for (size_t k = 0; k <= e->companions; k++) {
@@ -403,7 +401,7 @@ end_error(const qdot_ensemble *e, size_t m)
     for (size_t i = 0; i < 2 * e->n; i++) {
         const double theirs[] = {y[1][i], e->companions == 2 ? y[2][i] : 0};
 
-        error = fmax(error, qdot_ensemble_error_of(y[0][i], e->companions, theirs, share) /
+        error = fmax(error, qdot_ensemble_error_of(y[0][i], e->companions, theirs) /
                                 fmax(1, fabs(y[0][i])));
     }
     return error;

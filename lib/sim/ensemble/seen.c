@@ -199,9 +199,3 @@ qdot_ensemble_reads(const qdot_ensemble *e, size_t k)
     }
     return reads;
 }
-
-double
-qdot_ensemble_share(const qdot_ensemble *e, size_t m)
-{
-    return fmin(1, sqrt((double)e->passes[0].run.results[m].steps) / QDOT_COMPANION_FAR);
-}

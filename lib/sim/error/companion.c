@@ -98,11 +98,9 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
              double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
-    const double by =
-        number ? qdot_companion_far(run->course.tr.result.stats.steps) : 1;
 
     memcpy(low, run->start_low, n * sizeof *low);
-    qdot_companion_beside(run->stage.scales, n, run->start, number, by, run->report.tol, y,
+    qdot_companion_beside(run->stage.scales, n, run->start, number, run->report.tol, y,
                           run->leading ? low : NULL);
     if (system->project) { /* along what solutions may do */
         double by;
@@ -236,7 +234,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
         way = qdot_companion_way_from(way, number, &system, method, run->report.tol, &by);
         if (way == QDOT_COMPANION_WAYS)
             break;
-        qdot_companion_meter(meter, &run->meter, &system, method->stiff, way, number, spent);
+        qdot_companion_meter(meter, &run->meter, &system, method, way, number, spent);
         meter->early = fmax(meter->early, of_whole * run->meter.work);
         c->no_series = way == QDOT_COMPANION_PARTNER;
         begin_anew(c);
@@ -372,7 +370,7 @@ qdot_run_end_error(qdot_run *run, double *difference)
     for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
         const double size = qdot_ode_size(run->stage.scales, i, y[i]);
         const double theirs[] = {of[i], of[tr->n + i]};
-        const double by = qdot_companion_bound_of(y[i], companions, theirs, 1) + of[2 * tr->n + i];
+        const double by = qdot_companion_bound_of(y[i], companions, theirs) + of[2 * tr->n + i];
 
         scaled = fmax(scaled, by / size);
         plain = fmax(plain, by / fmax(1, fabs(y[i])));
@@ -380,7 +378,7 @@ qdot_run_end_error(qdot_run *run, double *difference)
     }
     if (status == QDOT_OK && known) {
         const double late =
-            qdot_companion_bound_of(t, companions, ends, 1) / fmax(1, fabs(t));
+            qdot_companion_bound_of(t, companions, ends) / fmax(1, fabs(t));
 
         run->report.error = fmax(plain, late);
         run->report.scaled_error = fmax(scaled, late);

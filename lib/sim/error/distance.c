@@ -112,8 +112,8 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
 
 /* --- differences --------------------------------------------------------------------- */
 
-/* At t in a piece: the larger of the differences from `values` into out [m], what the
- * companions may be off by themselves into own [m]. NaN where one has no values. */
+/* At t in a piece: the distance of `values` from the middle of the companions' into out [m], what these
+ * may be off by themselves into own [m]. NaN where one has no values. */
 static qdot_status
 compare(qdot_distance *d, size_t piece, double t, const double *values, double *out,
         double *own)
@@ -121,8 +121,6 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
     double *first = d->work, *theirs = first;
     bool there = qdot_run_covered(d->run, t);
 
-    for (size_t j = 0; j < d->m; j++)
-        out[j] = own[j] = 0;
     for (size_t k = 0; k < d->n_others && there; k++, theirs += d->m) {
         const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
         const size_t same = piece < pieces ? piece : pieces - 1; /* one without length */
@@ -131,18 +129,12 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
         if (status != QDOT_OK && !qdot_reader_has_nothing(status))
             return status;
         there = status == QDOT_OK;
-        for (size_t j = 0; j < d->m && there; j++) {
-            double by = fabs(theirs[j] - values[j]);
-
-            out[j] = by >= out[j] || isnan(by) ? by : out[j];
-            if (k > 0)
-                own[j] = fabs(theirs[j] - first[j]);
-        }
     }
     for (size_t j = 0; j < d->m; j++) {
-        if (!there)
-            out[j] = NAN;
-        own[j] = fmax(own[j], d->share * out[j]);
+        const double both[] = {first[j], first[(d->n_others - 1) * d->m + j]};
+
+        out[j] = there ? qdot_companion_apart(values[j], d->n_others, both) : NAN;
+        own[j] = there ? fmax(fabs(both[1] - both[0]), d->share * out[j]) : 0;
     }
     return QDOT_OK;
 }

@@ -2,10 +2,10 @@
  *
  * With g along the run y and its companions y*_1, y*_2 (ode/companion.h),
  *
- *     d(t) = max_k |g(y(t)) - g(y*_k(t))|
+ *     d(t) = |g(y(t)) - (g(y*_1(t)) + g(y*_2(t)))/2|
  *     c(t) = max(|g(y*_1(t)) - g(y*_2(t))|, share d(t)),   share = 4 tol* / tol in [1/32, 1]
  *
- * are the distance from the companions and an estimate of their own error. Both pass through zero
+ * are the distance from the middle of the companions and an estimate of their own error. Both pass through zero
  * as g oscillates; so at one time they may be small by chance, and
  *
  *     error = bound(d(t), max c(s) over s in W),   W = W_- or W_+, whichever gives less

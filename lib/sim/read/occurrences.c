@@ -77,7 +77,7 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
         for (size_t j = 0; j < companions; j++)
             theirs[j] = time_of_partner(own, others + j, o->event, k);
         if (companions > 0)
-            by = qdot_companion_bound_of(o->t, companions, theirs, 1);
+            by = qdot_companion_bound_of(o->t, companions, theirs);
         status = qdot_vec_push(
             &run->occurrences,
             ((qdot_run_occurrence){run->stage.events.at[o->event].name, o->t,

@@ -214,7 +214,7 @@ compare(const question *q, size_t k, double x, double *error)
     }
     if (qdot_horizon_passed(run, last))
         QDOT_TRY(qdot_horizon_spread(run, &q->joint.of, q->joint.courses, k, &spread));
-    *error = fmax(qdot_companion_bound_of(x, count, theirs, 1), spread);
+    *error = fmax(qdot_companion_bound_of(x, count, theirs), spread);
     return QDOT_OK;
 }
 

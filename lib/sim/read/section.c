@@ -107,11 +107,11 @@ compare(section *x, size_t k, const double *values, double *t_error, double *err
     }
     if (others == 0)
         return QDOT_OK;
-    *t_error = qdot_companion_bound_of(own->t[k], others, times, 1) + DBL_EPSILON * fabs(own->t[k]);
+    *t_error = qdot_companion_bound_of(own->t[k], others, times) + DBL_EPSILON * fabs(own->t[k]);
     for (size_t j = 0; j < m; j++) {
         for (size_t i = 0; i < others; i++)
             theirs[i] = read[i * m + j];
-        errors[j] = qdot_companion_bound_of(values[j], others, theirs, 1);
+        errors[j] = qdot_companion_bound_of(values[j], others, theirs);
     }
     return QDOT_OK;
 }

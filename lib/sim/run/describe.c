@@ -399,6 +399,7 @@ describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
                      "error: two companion runs by %s, at a tighter tolerance, on threads of "
                      "their own\n",
                      p->smooth && qdot_companion_is_by_series(p->method) ? "taylor"
+                     : p->method->stiff                                  ? "radau"
                                                                          : p->method->partner);
     if (status == QDOT_OK)
         status = say_switches(&stage, out);

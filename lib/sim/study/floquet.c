@@ -17,9 +17,8 @@ static const double followed = 1e-3, near_start = 1e-6;
 /* Change by the first rates over the time of a run, beside max(scale, |value|), that is none. */
 static const double resting = 1e-9;
 
-/* A multiplier is beyond the circle by so many errors at least: one that is 1 twice is found as a pair apart by
- * the root of their error, of which the error to first order shows an eighth and more. */
-static const double surely = 8;
+/* A multiplier is beyond the circle by so many errors at least. */
+static const double surely = 2;
 
 /* How far accelerations may differ after a period, beside their largest value; times where it is asked. */
 static const double same = 1e-7;
