@@ -83,7 +83,11 @@ turn_to(following *f, size_t i)
     if (!turns(m) || !isfinite(x) || !isfinite(y))
         return;
     f->most[i] = fmax(f->most[i], hypot(x, y));
-    if (hypot(x, y) > no_direction * f->most[i])
+    if (!(hypot(x, y) > no_direction * f->most[i]))
+        return;
+    if (m->cut)
+        f->next[i] = m->middle * turn / 2 + remainder(atan2(y, x) - m->middle * turn / 2, turn);
+    else
         f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
 }
 
@@ -196,7 +200,7 @@ static void
 half_turns(following *f)
 {
     for (size_t i = 0; i < f->m; i++)
-        if (f->next[i] - f->now[i] < -turn / 4)
+        if (!f->x->chart.moved.at[i].cut && f->next[i] - f->now[i] < -turn / 4)
             f->next[i] += turn;
 }
 
