@@ -283,15 +283,11 @@ bend_at(const qdot_watch_part *p, const double *d, double x)
 static double
 between(const qdot_watch_part *p, double x0, double x1, int way)
 {
-    for (int k = 0; k < 60 && x1 - x0 > 1e-16; k++) {
-        double x = 0.5 * (x0 + x1);
-
-        if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x)) == way)
-            x1 = x;
-        else
-            x0 = x;
-    }
-    return x1;
+    if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x0)) == way)
+        return x0;
+    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x1)) == way
+               ? qdot_chebyshev_root(p->n, p->c, x0, x1)
+               : x1;
 }
 
 /* Whether the slope at the zero at the start of the part is nothing beside the function there. */
