@@ -258,13 +258,15 @@ is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, 
         *touch = false;
         return QDOT_OK;
     }
+    v = fmin(fabs(v), fabs(w->g[i])); /* beside a root of even order v is rounding of the polynomial */
+    *touch |= v <= 0x1p-48 * size;
     if (*touch)
         return QDOT_OK;
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
-    *touch = fabs(v) <= noise;
-    if (*touch && fabs(v) * by > noise * rounding)
-        *within = fabs(v) / noise * by;
+    *touch = v <= noise;
+    if (*touch && v * by > noise * rounding)
+        *within = v / noise * by;
     return QDOT_OK;
 }
 
