@@ -345,8 +345,9 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    qdot_companion_beside(c->scales, c->n, request->y0, number, number ? QDOT_COMPANION_FAR : 1,
-                          request->tol, f->start, c->leading ? f->low : NULL);
+    qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number,
+                          number ? QDOT_COMPANION_FAR : 1, request->tol, f->start,
+                          c->leading ? f->low : NULL);
     if (f->system.project) { /* only along what solutions may do */
         double by;
 
