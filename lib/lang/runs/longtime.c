@@ -217,9 +217,7 @@ qdot_longtime_statement(qdot_cursor *c)
     c->error_at = start->start;
     l.tol = chosen.tol;
     l.method = chosen.method;
-    status = qdot_request_fill(session, &order);
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &order);
+    status = qdot_request_between(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_longtime_measure(session->scene, &order.request, &l);
     if (l.interrupted)

@@ -3,6 +3,7 @@
 
 #include "expr/calculus.h"
 #include "lang/commands/value-check.h"
+#include "lang/commands/warnings.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/scales.h"
@@ -138,6 +139,14 @@ qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_re
     o->request.t0 = qdot_session_bind(session, qdot_measured_as_rationals(session, from));
     o->request.t1 = qdot_session_bind(session, qdot_measured_as_rationals(session, to));
     return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_request_between(qdot_session *session, qdot_expr from, qdot_expr to, qdot_request *o)
+{
+    QDOT_TRY(qdot_request_fill(session, o));
+    QDOT_TRY(qdot_request_limits(session, from, to, o));
+    return qdot_warnings_start(session);
 }
 
 /* --- why it failed -------------------------------------------------------------------- */

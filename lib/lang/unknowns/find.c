@@ -386,6 +386,96 @@ conclude(hunt *h, const qdot_zero_result *r)
     return tell_family(h, r);
 }
 
+/* --- along the motion ------------------------------------------------------------------------ */
+
+/* Where each unknown stands among the coordinates and velocities that must return, which are all unknown. False: they
+ * are not, or more is asked for. */
+static bool
+find_places(const hunt *h, size_t *place)
+{
+    const qdot_session *session = h->f->c->session;
+    const size_t n = session->scene->coordinates.n;
+
+    if (!h->f->returns || h->m != 2 * n || h->trial.n != 2 * n)
+        return false;
+    for (size_t j = 0; j < 2 * n; j++) {
+        place[j] = 0;
+        while (place[j] < 2 * n &&
+               h->f->unknowns.at[j].symbol != qdot_symbol_jet(session->pool,
+                                                              session->scene->coordinates.at[place[j] % n],
+                                                              place[j] >= n))
+            place[j]++;
+        if (place[j] == 2 * n)
+            return false;
+    }
+    return true;
+}
+
+/* Where motions are damped, that of the guess may come to an orbit to which Newton's method does not lead: start anew
+ * from each return, u <- u + f(u), until that moves u by a thousandth of what it did. *returns: how many; 0: it comes to none. */
+static qdot_status
+follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t *returns)
+{
+    enum { most = 400, trend = 32 };
+    const qdot_find *of = h->f;
+    double first = 0, before = INFINITY;
+
+    *returns = 0;
+    for (size_t k = 0; k <= most; k++) {
+        double left = 0;
+
+        QDOT_TRY(evaluate(u, f, error, NULL, h));
+        for (size_t i = 0; i < h->m; i++)
+            left = isfinite(f[i]) ? fmax(left, fabs(f[i])) : INFINITY;
+        if (k == 0)
+            first = left;
+        if (left <= 1e-3 * first) {
+            *returns = k;
+            return QDOT_OK;
+        }
+        if (!isfinite(left) || (k % trend == 0 && left > 0.8 * before))
+            return QDOT_OK;
+        before = k % trend == 0 ? left : before;
+        for (size_t j = 0; j < h->trial.n; j++) {
+            u[j] += f[place[j]];
+            if (!(u[j] >= of->low.at[j] && u[j] <= of->high.at[j]))
+                return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The search that came to nothing, once more from where the guess comes to. r is as it was where that does not help. */
+static qdot_status
+search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
+{
+    const size_t n = h->trial.n;
+    size_t returns = 0, *place = qdot_calloc(n, sizeof *place);
+    double *room = qdot_calloc(2 * n + 2 * h->m, sizeof *room);
+    qdot_zero_result again = {
+        .u = room, .error = room + n, .f = room + 2 * n, .f_error = room + 2 * n + h->m};
+    qdot_status status = place != NULL && room != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && find_places(h, place)) {
+        memcpy(again.u, h->f->guess.at, n * sizeof *again.u);
+        status = follow(h, place, again.f, again.f_error, again.u, &returns);
+        if (status == QDOT_OK && returns > 0)
+            status = qdot_zero_find(p, &again);
+        if (status == QDOT_OK && returns > 0 && again.answer == QDOT_ZERO_FOUND) {
+            memcpy(r->u, again.u, n * sizeof *r->u);
+            memcpy(r->error, again.error, n * sizeof *r->error);
+            r->answer = again.answer;
+            r->rank = again.rank;
+            status = qdot_answer_notice(
+                h->f->c->session, "no return near the guess was found: this is the one that its motion comes to after %zu",
+                returns);
+        }
+    }
+    qdot_free(place);
+    qdot_free(room);
+    return status;
+}
+
 /* --- all ----------------------------------------------------------------------------------- */
 
 static qdot_status
@@ -418,6 +508,8 @@ search(hunt *h, qdot_zero_result *r)
         p.once = shot.found; /* an orbit that no run can follow round is not looked for elsewhere */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
+    if (r->answer != QDOT_ZERO_FOUND && !p.once)
+        QDOT_TRY(search_behind(h, &p, r));
     if (r->rank < h->rank) { /* beside what grows so much a single run tells nothing of what shrinks */
         for (size_t i = 0; i < p.n; i++)
             r->error[i] = fmax(r->error[i], h->before[i]);
