@@ -551,6 +551,7 @@ library_sources = \
 	lib/sim/model/rates.c \
 	lib/sim/model/sliding-rows.c \
 	lib/sim/model/sliding.c \
+	lib/sim/model/still.c \
 	lib/sim/model/substitute.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
@@ -1075,6 +1076,7 @@ library_headers = \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
 	lib/sim/model/sliding.h \
+	lib/sim/model/still.h \
 	lib/sim/model/substitute.h \
 	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
@@ -1426,6 +1428,7 @@ script_tests = \
 	tests/script/help-search.lag \
 	tests/script/help.lag \
 	tests/script/hidden-forces.lag \
+	tests/script/high-power.lag \
 	tests/script/history.lag \
 	tests/script/horizon.sh \
 	tests/script/identities.sh \
@@ -1521,6 +1524,7 @@ script_tests = \
 	tests/script/start-consistent.lag \
 	tests/script/start-mass.lag \
 	tests/script/state-rounding.sh \
+	tests/script/stays.lag \
 	tests/script/sticking.lag \
 	tests/script/stiff-auto.lag \
 	tests/script/stiff-told.sh \
@@ -2479,6 +2483,7 @@ test_files = \
 	tests/script/help-search.out \
 	tests/script/help.out \
 	tests/script/hidden-forces.out \
+	tests/script/high-power.out \
 	tests/script/history.out \
 	tests/script/horizon.out \
 	tests/script/identities-angles.inc \
@@ -2591,6 +2596,7 @@ test_files = \
 	tests/script/start-consistent.out \
 	tests/script/start-mass.out \
 	tests/script/state-rounding.out \
+	tests/script/stays.out \
 	tests/script/sticking.out \
 	tests/script/stiff-auto.out \
 	tests/script/stiff-told.out \

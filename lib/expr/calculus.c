@@ -354,3 +354,21 @@ qdot_subs(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from,
     qdot_free(pairs);
     return result;
 }
+
+qdot_status
+qdot_jumps(qdot_pool *pool, qdot_expr e, uint32_t holds, bool *yes)
+{
+    static const qdot_fun_id those[] = {QDOT_FLOOR, QDOT_MOD, QDOT_SIGN, QDOT_IF};
+    qdot_walk w;
+
+    *yes = false;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n; i++)
+        for (size_t j = 0; j < sizeof those / sizeof *those; j++)
+            *yes = *yes
+                   || (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN
+                       && NODE(pool, w.at[i])->op == those[j]
+                       && (NODE(pool, w.at[i])->holds & holds) != 0);
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}

@@ -31,4 +31,8 @@ qdot_expr qdot_collect(qdot_pool *pool, qdot_expr e, qdot_expr x);
 /* Coefficient of x^n in e, e polynomial in x: collected first. QDOT_EDOMAIN if it is not. */
 qdot_expr qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n);
 
+/* Whether e holds floor, mod, sign or `if` of something that moves with one of `holds`
+ * (QDOT_HAS_...): its derivative is that between the jumps. */
+QDOT_MUST_CHECK qdot_status qdot_jumps(qdot_pool *pool, qdot_expr e, uint32_t holds, bool *yes);
+
 #endif

@@ -354,7 +354,8 @@ prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
         return QDOT_ENOMEM;
     if (request->carry)
         memcpy(f->low, request->carry, c->n * sizeof *f->low);
-    qdot_companion_beside(c->scales, c->n, request->y0, number, request->tol, f->start,
+    qdot_companion_beside(request->units ? request->units : c->scales, c->n, request->y0, number,
+                          request->tol, f->start,
                           c->leading ? f->low : NULL);
     if (f->system.project) { /* only along what solutions may do */
         double by;

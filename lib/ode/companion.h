@@ -126,6 +126,8 @@ typedef struct {
     double t1_low;                  /* the exact t1 less t1 (run.h) */
     const double *y0;               /* [n] borrowed during _start */
     const double *carry;            /* [n] the exact start less y0; NULL: 0; likewise */
+    const double *units;            /* [n] in what y0 is moved where it is 0 (qdot_companion_unit);
+                                       NULL: the system's scales; likewise */
     bool alternates;                /* of the run (run.h), */
     bool leading;                   /* likewise */
     double t0_low;                  /* likewise */

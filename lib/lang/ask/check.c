@@ -452,24 +452,30 @@ answer_by_rate(qdot_session *session, question *q, qdot_assumed *f, bool *done)
 }
 
 /* `conserved E`: by its rate, else with accelerations put in; past the work budget that is
- * undecided. */
+ * undecided, and where E jumps with time. */
 static qdot_status
 answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
 {
     qdot_session *session = c->session;
-    bool done;
+    qdot_decision decision = {.verdict = QDOT_UNDECIDED};
+    bool done, jumps;
     qdot_status status;
 
-    QDOT_TRY(answer_by_rate(session, q, f, &done));
-    if (done)
-        return QDOT_OK;
+    QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
+    if (!jumps) {
+        QDOT_TRY(answer_by_rate(session, q, f, &done));
+        if (done)
+            return QDOT_OK;
+    }
     q->left = qdot_ddt(session->pool, q->left);
     q->right = QDOT_ZERO;
     QDOT_TRY(qdot_pool_check(session->pool));
+    if (jumps) {
+        QDOT_TRY(qdot_answer_notice(session, "it jumps with time: its rate is that between jumps"));
+        return qdot_answer_check(session, q->left, q->right, &decision);
+    }
     status = qdot_assumed_motion(session, f);
     if (status == QDOT_ELIMIT) {
-        qdot_decision decision = {.verdict = QDOT_UNDECIDED};
-
         QDOT_TRY(qdot_answer_notice(session, "%s", qdot_last_error()->message));
         return qdot_answer_check(session, q->left, q->right, &decision);
     }

@@ -6,7 +6,8 @@
  *
  * with Q what is applied beside V and R the reactions, so h is conserved when dL/dt and
  * the power of Q vanish and every constraint works at no power: f (q, t) = 0 at -lambda
- * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'.
+ * df/dt, f(q, q', t) = 0 at lambda sum df/dq' q', f(q'') at lambda sum df/dq'' q'. Where L jumps
+ * at a time, as that of a stiffness switched then, dL/dt is infinite though it is 0 before and after.
  */
 #include "expr/calculus.h"
 #include "mech/dynamics/energy.h"
@@ -169,6 +170,12 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
                           qdot_is_zero(pool, power, &on_manifold));
         }
         status = qdot_pool_check(pool);
+    }
+    if (status == QDOT_OK && *conserved) {
+        bool jumps;
+
+        status = qdot_jumps(pool, qdot_mech_energy(s), QDOT_HAS_TIME, &jumps);
+        *conserved = !jumps;
     }
     qdot_free(relations);
     if (status == QDOT_OK) {

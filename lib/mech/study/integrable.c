@@ -406,32 +406,14 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
     return QDOT_OK;
 }
 
-/* Whether it holds what jumps: its derivative is that between the jumps, and so would be an
- * integral. */
-static qdot_status
-jumps(const forms *f, size_t k, bool *yes)
-{
-    static const qdot_fun_id those[] = {QDOT_FLOOR, QDOT_MOD, QDOT_SIGN, QDOT_IF};
-    qdot_walk w;
-
-    *yes = false;
-    QDOT_TRY(qdot_walk_begin(f->pool, f->s->constraints.at[f->of[k]].f, &w));
-    for (size_t i = 0; i < w.n; i++)
-        for (size_t j = 0; j < sizeof those / sizeof *those; j++)
-            *yes = *yes
-                   || (qdot_expr_kind(f->pool, w.at[i]) == QDOT_FUN
-                       && qdot_expr_node(f->pool, w.at[i])->op == those[j]);
-    qdot_walk_end(&w);
-    return QDOT_OK;
-}
-
 static qdot_status
 decide(forms *f, size_t k, bool alone, qdot_integrability *result)
 {
     bool *held, jump;
     qdot_status status;
 
-    QDOT_TRY(jumps(f, k, &jump));
+    /* an integral would be that between the jumps */
+    QDOT_TRY(qdot_jumps(f->pool, f->s->constraints.at[f->of[k]].f, UINT32_MAX, &jump));
     if (jump) {
         result->decision = (qdot_decision){.verdict = QDOT_UNDECIDED};
         return QDOT_OK;

@@ -502,9 +502,12 @@ search_linear(search *f)
         status = qdot_null_space(f->pool, rows(f), m, e, &basis, &count);
     for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
         qdot_expr one = shortest(f, m, e, basis + k * m);
+        bool jumps = true;
 
         status = qdot_pool_check(f->pool);
-        if (status == QDOT_OK && one != QDOT_NIL)
+        if (status == QDOT_OK && one != QDOT_NIL) /* where L's slopes jump, it may */
+            status = qdot_jumps(f->pool, one, UINT32_MAX, &jumps);
+        if (status == QDOT_OK && !jumps)
             status = qdot_vec_push(&f->found, one);
     }
     qdot_free(basis);
@@ -520,7 +523,7 @@ conserved(search *f)
 {
     qdot_cyclic *list = NULL;
     size_t count = 0;
-    bool *cyclic = qdot_calloc(f->n + 1, sizeof *cyclic), energy = false;
+    bool *cyclic = qdot_calloc(f->n + 1, sizeof *cyclic), energy = false, jumps = false;
     qdot_status status =
         cyclic == NULL ? QDOT_ENOMEM : qdot_mech_cyclic(f->s, &list, &count);
 
@@ -547,6 +550,8 @@ conserved(search *f)
         f->L = qdot_mech_lagrangian(f->s);
         status = qdot_pool_check(f->pool);
         if (status == QDOT_OK)
+            status = qdot_jumps(f->pool, f->L, QDOT_HAS_TIME, &jumps);
+        if (status == QDOT_OK && !jumps)
             status = search_linear(f);
     }
     qdot_free(list);

@@ -196,8 +196,8 @@ level_at(const qdot_mode *m, double t, const double *y, size_t n, size_t k, doub
     return level;
 }
 
-/* Whether a surface between two modes depends on the state: at one that depends on time alone T -
- * V may jump, and at the rim of a layer (sim/model/layer.h) it does so by what the layer leaves out. */
+/* Whether a surface between two modes depends on the state. The rim of a layer (sim/model/layer.h)
+ * is none of them: there T - V jumps by what the layer leaves out. */
 static bool
 is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
 {
@@ -212,8 +212,37 @@ is_wall(const qdot_piece *x, const qdot_mode *a, const qdot_mode *b)
     return false;
 }
 
+/* At a surface that depends on time alone T - V may jump, but not the momenta dL/dq', whose rates
+ * dL/dq are finite: set c->reason if one jumps by more than differences of T - V err by. */
+static void
+check_momenta(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
+{
+    const size_t n = x->n / 2;
+    const double *y = x->start.y;
+
+    for (size_t k = n; k < 2 * n && x->c->reason[0] == '\0'; k++) {
+        double p[2], size = 0;
+
+        for (int side = 0; side < 2; side++) {
+            const qdot_mode *m = side ? b : a;
+            const double here = level_at(m, x->start.t, y, x->n, SIZE_MAX, in, in + x->n + 1);
+            const double there = level_at(m, x->start.t, y, x->n, k, in, in + x->n + 1);
+
+            p[side] = (there - here) / (in[k] - y[k]);
+            size = fmax(size, fmax(fabs(p[side]), fabs(here)));
+        }
+        if (fabs(p[1] - p[0]) > 1e-6 * size)
+            snprintf(x->c->reason, sizeof x->c->reason,
+                     "stopped at t = %.15g: the momentum of %s would jump there by %.6g, which is "
+                     "an infinite force: an event says what it does, as `event NAME: t = %.6g "
+                     "then %s' = ...`",
+                     x->start.t, b->plan->names[k - n], p[1] - p[0], x->start.t,
+                     b->plan->names[k - n]);
+    }
+}
+
 /* Set c->reason if T - V jumps across a surface at (t, y) by more than a small change of the
- * state changes it. */
+ * state changes it, or a momentum across one in time. */
 static qdot_status
 check_level(qdot_piece *x)
 {
@@ -223,12 +252,17 @@ check_level(qdot_piece *x)
     size_t work = 1;
     double *in, jump, least = 0;
 
-    if (x->start.from == x->mode || !a->level || !b->level || !is_wall(x, a, b))
+    if (x->start.from == x->mode || !a->level || !b->level)
         return QDOT_OK;
     work += qdot_tape_work(a->level) + qdot_tape_work(b->level);
     in = qdot_calloc(n + 1 + work, sizeof *in);
     if (!in)
         return QDOT_ENOMEM;
+    if (!is_wall(x, a, b)) {
+        check_momenta(x, a, b, in);
+        qdot_free(in);
+        return QDOT_OK;
+    }
     jump = level_at(b, t, y, n, SIZE_MAX, in, in + n + 1)
            - level_at(a, t, y, n, SIZE_MAX, in, in + n + 1);
     for (size_t k = 0; k <= n; k++)

@@ -15,6 +15,7 @@ struct qdot_run {
     qdot_multipliers multipliers;
     double *start;        /* [2n] y at t0 */
     double *start_low;    /* [2n] the exact start less y */
+    double *units;        /* [2n] by which companions are moved (sim/model/still.h) */
     double *difference;   /* [2n] estimates of the errors of the end state; NaN: unknown */
     size_t factored;      /* number of matrices factored by the integration */
     double t0, t1;        /* as requested */

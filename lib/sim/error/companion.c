@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
+#include "sim/model/still.h"
 #include "tape/shake.h"
 
 /* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
@@ -99,8 +100,9 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
 {
     const size_t n = 2 * run->plan->n;
 
+    QDOT_TRY(qdot_still_find(run->plan, system, t0, run->start, run->start_low, run->units));
     memcpy(low, run->start_low, n * sizeof *low);
-    qdot_companion_beside(run->stage.scales, n, run->start, number, run->report.tol, y,
+    qdot_companion_beside(run->units, n, run->start, number, run->report.tol, y,
                           run->leading ? low : NULL);
     if (system->project) { /* along what solutions may do */
         double by;

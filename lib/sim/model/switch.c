@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
+#include "mech/dynamics/quantity.h"
 #include "sim/model/layer.h"
 #include "sim/model/substitute.h"
 #include "tape/constant.h"
@@ -151,38 +152,20 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
     return found;
 }
 
-/* q' M q' / 2 of a mass matrix with parameter values. */
-static qdot_expr
-kinetic(qdot_scene *scene, qdot_expr mass)
-{
-    qdot_pool *pool = scene->pool;
-    const size_t n = scene->coordinates.n;
-    qdot_expr sum = QDOT_ZERO;
-
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) {
-            qdot_expr v = qdot_symbol_jet(pool, scene->coordinates.at[i], 1);
-            qdot_expr w = qdot_symbol_jet(pool, scene->coordinates.at[j], 1);
-            qdot_expr entry = qdot_expr_arg(pool, mass, (uint32_t)(i * n + j));
-
-            sum = qdot_add(pool, sum, qdot_mul(pool, entry, qdot_mul(pool, v, w)));
-        }
-    return qdot_mul(pool, QDOT_HALF, sum);
-}
-
 /* Make s->level from T, each declared potential and a stated Lagrangian, if they switch. */
 static qdot_status
-find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
-           qdot_expr mass)
+find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request)
 {
     qdot_pool *pool = s->pool;
     qdot_status status = QDOT_OK;
     qdot_expr sum = QDOT_ZERO;
 
-    if (switches(s, mass, &status))
-        sum = kinetic(scene, mass);
-    if (switches(s, scene->lagrangian, &status))
+    if (scene->lagrangian == QDOT_NIL)
+        sum = qdot_mech_kinetic(scene);
+    else
         sum = scene->lagrangian;
+    if (!switches(s, sum, &status))
+        sum = QDOT_ZERO;
     for (size_t i = 0; i < scene->potentials.n; i++)
         if (switches(s, scene->potentials.at[i].e, &status))
             sum = qdot_sub(pool, sum, scene->potentials.at[i].e);
@@ -332,7 +315,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, f));
     }
-    QDOT_TRY(find_level(s, scene, request, e[0]));
+    QDOT_TRY(find_level(s, scene, request));
     return s->level == QDOT_NIL ? QDOT_OK : collect(s, s->level);
 }
 

@@ -145,9 +145,10 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
 void
 qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double low, double high)
 {
-    const double off = qdot_range_miss(s, p);
+    double off;
 
     enclose(s, p->a, p->b, p->n);
+    off = fmin(qdot_range_miss(s, p), s->bounds.box->hi - s->bounds.box->lo);
     s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));
     s->lowest = fmin(s->lowest, fmax(s->bounds.box->lo, low - off));
     s->left += off * fabs(p->b - p->a);

@@ -31,7 +31,8 @@ read_start(qdot_run *run, const qdot_run_request *request)
 
     run->start_low = qdot_calloc(2 * n, sizeof *run->start_low);
     run->start = qdot_calloc(2 * n, sizeof *run->start);
-    if (!run->start || !run->start_low)
+    run->units = qdot_calloc(2 * n, sizeof *run->units);
+    if (!run->start || !run->start_low || !run->units)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_plan_number(run->plan, request->t0, &run->t0, &run->t0_side, &run->t0_low));
     QDOT_TRY(qdot_plan_number(run->plan, request->t1, &run->t1, &run->t1_side, &run->t1_low));

@@ -27,6 +27,7 @@
 #include "sim/error/horizon.h"
 #include "sim/error/singular-places.h"
 #include "sim/model/parameter-states.h"
+#include "sim/model/still.h"
 #include "tape/shake.h"
 
 /* The work that is left where `auto` changes over to a method for stiff scenes (ode/stiffness.h). */
@@ -60,6 +61,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->doubt);
     qdot_free(run->start);
     qdot_free(run->start_low);
+    qdot_free(run->units);
     qdot_free(run->difference);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
@@ -303,6 +305,7 @@ start_companion(qdot_run *run, double tol, qdot_companion **out)
                                       .t1_low = run->t1_low,
                                       .y0 = run->start,
                                       .carry = run->start_low,
+                                      .units = run->units,
                                       .leading = run->leading,
                                       .alternates = run->turns,
                                       .meter = &run->meter,
@@ -316,6 +319,8 @@ start_companion(qdot_run *run, double tol, qdot_companion **out)
     QDOT_TRY(qdot_course_prepare(&run->twin));
     request.system = qdot_course_systems(&run->companion);
     request.twin = qdot_course_systems(&run->twin);
+    QDOT_TRY(qdot_still_find(run->plan, request.system, run->t0, run->start, run->start_low,
+                              run->units));
     return qdot_companion_start(&request, out);
 }
 

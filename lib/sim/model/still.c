@@ -1,0 +1,127 @@
+/* still.c -- the largest set of coordinates whose equations hold at 0, found by dropping others. */
+#include "sim/model/still.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "ode/scale.h"
+#include "sim/model/constraints.h"
+
+typedef struct {
+    const qdot_plan *plan;
+    bool *still;         /* [n] */
+    size_t n_zeros;
+    qdot_expr *of, *to;  /* [2n] q and q' of these; 0 */
+} set;
+
+static qdot_expr
+on(const set *z, qdot_expr e)
+{
+    return qdot_subs(z->plan->pool, e, z->n_zeros, z->of, z->to);
+}
+
+static bool
+holds(const set *z, size_t i)
+{
+    const qdot_constraints *c = z->plan->constraints;
+    const size_t n = z->plan->n;
+
+    for (size_t j = 0; j < n; j++)
+        if (!z->still[j] && on(z, z->plan->M[i * n + j]) != QDOT_ZERO)
+            return false;
+    for (size_t k = 0; c && k < c->n_slopes; k++)
+        if (c->slopes[k].column == i && on(z, c->A[k]) != QDOT_ZERO)
+            return false;
+    return on(z, z->plan->f[i]) == QDOT_ZERO;
+}
+
+/* Whether M depends on no coordinate there. */
+static bool
+is_regular(const set *z)
+{
+    for (size_t k = 0; k < z->plan->n * z->plan->n; k++) {
+        const qdot_expr e = on(z, z->plan->M[k]);
+
+        if (e == QDOT_NIL || (qdot_expr_node(z->plan->pool, e)->holds & QDOT_HAS_COORD))
+            return false;
+    }
+    return true;
+}
+
+/* Drop those whose equations do not hold, until none is left to drop. */
+static qdot_status
+reduce(set *z)
+{
+    const qdot_plan *p = z->plan;
+    bool dropped = true;
+
+    while (dropped) {
+        dropped = false;
+        z->n_zeros = 0;
+        for (size_t k = 0; k < 2 * p->n; k++)
+            if (z->still[k % p->n]) {
+                z->to[z->n_zeros] = QDOT_ZERO;
+                z->of[z->n_zeros++] = p->inputs[k];
+            }
+        for (size_t i = 0; i < p->n; i++)
+            if (z->still[i] && !holds(z, i)) {
+                z->still[i] = false;
+                dropped = true;
+            }
+    }
+    if (!is_regular(z))
+        memset(z->still, 0, p->n * sizeof *z->still);
+    return qdot_grave(qdot_pool_check(p->pool)); /* there may be no value there */
+}
+
+/* Those that are 0 and at rest, and are not accelerated. */
+static bool
+begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
+      double *rate)
+{
+    const size_t n = z->plan->n;
+    bool any = false, known = false;
+
+    for (size_t i = 0; i < n - z->plan->n_states; i++) {
+        const size_t v = n + i;
+
+        if (y[i] != 0 || y[v] != 0 || low[i] != 0 || low[v] != 0)
+            continue;
+        if (!known && system->rhs(t0, y, rate, system->user) != QDOT_OK)
+            return false;
+        known = true;
+        z->still[i] = rate[v] == 0;
+        any = any || z->still[i];
+    }
+    return any;
+}
+
+qdot_status
+qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system, double t0,
+                 const double *y, const double *low, double *units)
+{
+    const size_t n = plan->n;
+    set z = {.plan = plan};
+    double *rate;
+    qdot_status status;
+
+    for (size_t i = 0; i < 2 * n; i++)
+        units[i] = qdot_ode_scale(system->scales, i);
+    if (!plan->M || !plan->f || plan->massless)
+        return QDOT_OK;
+    z.still = qdot_calloc(n, sizeof *z.still);
+    z.of = qdot_malloc(4 * n * sizeof *z.of);
+    rate = qdot_malloc(2 * n * sizeof *rate);
+    status = z.still && z.of && rate ? QDOT_OK : QDOT_ENOMEM;
+    z.to = z.of + 2 * n;
+    if (status == QDOT_OK && begin(&z, system, t0, y, low, rate))
+        status = reduce(&z);
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
+        if (z.still[i % n])
+            units[i] = 0;
+    qdot_free(z.still);
+    qdot_free(z.of);
+    qdot_free(rate);
+    return status;
+}
