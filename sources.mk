@@ -607,6 +607,7 @@ library_sources = \
 	lib/sim/study/workprecision.c \
 	lib/sim/watch/watch-exclusion.c \
 	lib/sim/watch/watch-roots.c \
+	lib/sim/watch/watch-rough.c \
 	lib/sim/watch/watch-values.c \
 	lib/sim/watch/watch.c \
 	lib/tape/angle.c \
@@ -1391,6 +1392,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-stays.lag \
 	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
@@ -2443,6 +2445,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-stays.out \
 	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \

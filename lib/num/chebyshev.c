@@ -1,6 +1,7 @@
 /* chebyshev.c -- fits, Clenshaw's sums, and roots by halving. */
 #include "num/chebyshev.h"
 
+#include <float.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -155,8 +156,8 @@ qdot_chebyshev_size(int n, const double *c)
 {
     double largest = 0;
 
-    for (int k = 0; k < n; k++)
-        largest = fmax(largest, fabs(c[k]));
+    for (int k = 0; k < n; k++) /* NaN counts as nothing */
+        largest = fabs(c[k]) > largest ? fabs(c[k]) : largest;
     return largest;
 }
 
@@ -206,36 +207,47 @@ changes(double a, double b)
     return (a < 0) != (b < 0);
 }
 
-/* The only root of p on a piece whose ends differ in sign. */
-static double
-refine(const piece *p)
+/* The Illinois method. */
+double
+qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 {
-    double lo = -1, hi = 1, at_lo = p->at_lo, at_hi = p->at_hi, x = 0;
+    const double rounding = 4 * DBL_EPSILON * qdot_chebyshev_spread(n, c);
+    double at_lo = qdot_chebyshev_at(n, c, lo), at_hi = qdot_chebyshev_at(n, c, hi), x = lo;
+
+    int kept = 0; /* the end that the last step has kept: -1 lo, 1 hi */
 
     for (int k = 0; k < 100; k++) {
         double now;
 
-        /* Illinois */
         x = at_hi != at_lo ? hi - at_hi * (hi - lo) / (at_hi - at_lo) : 0.5 * (lo + hi);
         if (!(x > lo && x < hi) || k % 8 == 7)
             x = 0.5 * (lo + hi);
         if (x == lo || x == hi)
             break;
-        now = qdot_chebyshev_at(p->n, p->c, x);
-        if (now == 0)
+        now = qdot_chebyshev_at(n, c, x);
+        if (fabs(now) <= rounding)
             break;
         if (changes(at_lo, now)) {
             hi = x;
             at_hi = now;
-            at_lo *= 0.5;
+            at_lo *= kept < 0 ? 0.5 : 1;
+            kept = -1;
         } else {
             lo = x;
             at_lo = now;
-            at_hi *= 0.5;
+            at_hi *= kept > 0 ? 0.5 : 1;
+            kept = 1;
         }
-        if (hi - lo < 1e-16)
-            break;
     }
+    return x;
+}
+
+/* The only root of p on a piece whose ends differ in sign. */
+static double
+refine(const piece *p)
+{
+    const double x = qdot_chebyshev_root(p->n, p->c, -1, 1);
+
     return 0.5 * (p->lo + p->hi) + 0.5 * (p->hi - p->lo) * x;
 }
 

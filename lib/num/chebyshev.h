@@ -61,6 +61,9 @@ double qdot_chebyshev_ellipse(int n, const double *c, double noise, double rho);
 /* The sign of p if the bound shows that it is the same throughout, else 0. */
 int qdot_chebyshev_sign(int n, const double *c);
 
+/* The root of p between lo and hi, at which it has different signs, where it is monotone. */
+double qdot_chebyshev_root(int n, const double *c, double lo, double hi);
+
 /* The x at which p changes its sign, ascending, into roots [n]; returns their number. Of several
  * within 2^-44 of one another an odd number counts as one, an even number as none. */
 int qdot_chebyshev_crossings(int n, const double *c, double *roots);

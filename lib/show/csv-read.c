@@ -317,7 +317,8 @@ read_lines(reader *r, const char *text, size_t length)
     }
     if (r->rows > 0)
         return QDOT_OK;
-    return qdot_fail(QDOT_EINVAL, "%.150s has no row of numbers", r->name);
+    (void)qdot_fail(QDOT_EINVAL, "%.150s has no row of numbers", r->name);
+    return qdot_hint("rows are numbers with decimal points, between commas, semicolons, blanks or tabs");
 }
 
 qdot_status

@@ -19,3 +19,6 @@ printf 'param m = 1\ncoord x <= 1\nparticle p mass m at (x, 0)\npotential x\nsta
     qdot -q - 2>&1 | grep failed
 printf 'coord x, y\nparticle p mass 1 at (x, y)\nforce (1/2 - sign(x'"'"')*(2 + sign(y'"'"')), 1/2 - sign(y'"'"')*(2 + sign(x'"'"'))) on p\nstart x'"'"' = 1, y'"'"' = 1\nrun 0..30\n' |
     qdot -q - 2>&1 | grep failed
+# a root at the very end lies before it or behind it: one occurrence, or none and a word of it
+printf 'coord x\nparticle p mass 1 at x\npotential x^2/2\nstart x = 1\nevent e: x = 0\nevent far: x = 1/2\nrun 0..pi/2 method dop853\nevents\nrun 0..1.2\nevents\n' |
+    qdot -q - 2>&1 | grep -c '^e\[1\]\|^e  at the end'

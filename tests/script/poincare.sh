@@ -75,3 +75,12 @@ start r = 1, phi = 1
 run 0..7
 poincare r = 1/2 : phi, r'
 END
+echo '# times that the run does not have'
+qdot -q - <<'END' 2>&1 | grep notice
+coord theta
+lagrangian theta'^2/2 + cos(theta)
+start theta = 1
+run 0..5
+poincare theta = 0 : theta' from 2 to 40
+poincare theta = 0 : theta' from 4 to 2
+END

@@ -224,6 +224,43 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
+/* What the end of the run leaves open. */
+static qdot_status
+add_open(qdot_run *run, qdot_text *text)
+{
+    const char *name = "";
+    bool undecided;
+
+    for (size_t k = 0; name; k++) {
+        QDOT_TRY(qdot_run_event_at_end(run, k, &name, &undecided));
+        if (undecided)
+            qdot_text_format(text,
+                             "%s  at the end of the run its sides are equal within their errors: "
+                             "whether it occurs there is not known\n",
+                             name);
+    }
+    return QDOT_OK;
+}
+
+/* The number of an occurrence among those of its event; counts [distinct events] of those before. */
+typedef struct {
+    const char *event;
+    size_t n;
+} event_count;
+typedef qdot_vec(event_count) event_counts;
+
+static qdot_status
+count(event_counts *counts, const char *event, size_t *k)
+{
+    for (size_t i = 0; i < counts->n; i++)
+        if (strcmp(counts->at[i].event, event) == 0) {
+            *k = ++counts->at[i].n;
+            return QDOT_OK;
+        }
+    *k = 1;
+    return qdot_vec_push(counts, ((event_count){event, 1}));
+}
+
 qdot_status
 qdot_event_list(qdot_cursor *c)
 {
@@ -231,6 +268,7 @@ qdot_event_list(qdot_cursor *c)
     const qdot_run_occurrence *list;
     qdot_named_run *run;
     qdot_text text = {0};
+    event_counts counts = {0};
     qdot_status status = QDOT_OK;
     size_t n;
 
@@ -244,14 +282,17 @@ qdot_event_list(qdot_cursor *c)
                    ? list_exact(session, run->run, list, n)
                    : list_numbers(session, list, n);
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        size_t k = 1;
+        size_t k;
 
-        for (size_t j = 0; j < i; j++)
-            k += strcmp(list[j].event, list[i].event) == 0;
-        status =
-            add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
+        status = count(&counts, list[i].event, &k);
+        if (status == QDOT_OK)
+            status =
+                add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
     }
+    qdot_free(counts.at);
     if (n == 0)
-        qdot_text_format(&text, "no event occurred in %s", run->name);
+        qdot_text_format(&text, "no event occurred in %s\n", run->name);
+    if (status == QDOT_OK)
+        status = add_open(run->run, &text);
     return qdot_answer_written(session, "events", status, &text);
 }

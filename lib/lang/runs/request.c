@@ -2,6 +2,7 @@
 #include "lang/runs/request.h"
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
 #include "lang/session/bind.h"
@@ -24,7 +25,7 @@ start_value(const qdot_session *session, qdot_expr jet, bool *named)
 {
     for (size_t i = 0; i < session->start_symbols.n; i++)
         if (session->start_symbols.at[i] == jet) {
-            *named = true;
+            *named = qdot_expr_place(session->start_open.n, session->start_open.at, jet) == session->start_open.n;
             return session->start_values.at[i];
         }
     *named = false;

@@ -330,7 +330,8 @@ tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                                     "is known",
                                     p->beyond));
     if (!session->json) {
-        qdot_text_format(&text, "%s: %zu points", t->name, t->rows - p->failed);
+        qdot_text_format(&text, "%s: %zu point%s", t->name, t->rows - p->failed,
+                         t->rows - p->failed == 1 ? "" : "s");
         if (p->failed > 0)
             qdot_text_format(&text, ", %zu failed", p->failed);
         qdot_text_char(&text, '\n');
@@ -341,6 +342,19 @@ tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                : QDOT_OK;
 }
 
+/* A notice where the run does not cover the times asked for. */
+static qdot_status
+tell_limits(qdot_session *session, const poincare *p, const qdot_run *run)
+{
+    const qdot_run_report *r = qdot_run_get_report(run);
+    const double first = fmin(r->t0, r->t1), last = fmax(r->t0, r->t1);
+
+    if (!p->limited || (fmin(p->limits[0], p->limits[1]) >= first && fmax(p->limits[0], p->limits[1]) <= last))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "the run covers %.10g to %.10g, not all of %.10g to %.10g", r->t0, r->t1,
+                              p->limits[0], p->limits[1]);
+}
+
 static qdot_status
 find_of_run(qdot_cursor *c, poincare *p)
 {
@@ -349,6 +363,7 @@ find_of_run(qdot_cursor *c, poincare *p)
     if (p->run_at != NULL)
         QDOT_TRY(qdot_run_carry_out(c, p->run_at, &p->run));
     QDOT_TRY(qdot_runs_find(c->session, NULL, &run));
+    QDOT_TRY(tell_limits(c->session, p, run->run));
     QDOT_TRY(make_table(c->session, p));
     return find_points(c, p, run->run, NULL);
 }

@@ -144,7 +144,7 @@ tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double
 
     if (session->json)
         return QDOT_OK;
-    qdot_text_format(&text, "%s: %zu rows", t->name, t->rows);
+    qdot_text_format(&text, "%s: %zu row%s", t->name, t->rows, t->rows == 1 ? "" : "s");
     if (s->members.axes.random)
         qdot_text_format(&text, ", seed %lu", s->members.axes.seed);
     if (s->failed > 0)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "lang/answer/answer.h"
 #include "lang/commands/set.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
@@ -190,7 +191,8 @@ read_run(qdot_cursor *c, qdot_find *f)
     f->run.treatment = f->latest->treatment;
     if (f->latest->digits > 0) {
         f->run.tol = 1e-12;
-        return QDOT_OK;
+        return qdot_answer_notice(c->session, "%s has %d digits; what is found has those of doubles", named->name,
+                                  f->latest->digits);
     }
     f->run.method = f->latest->method;
     return QDOT_OK;

@@ -295,6 +295,19 @@ add_pair(qdot_chart *c, const qdot_chart_group *g, int start, pair *p)
     return QDOT_OK;
 }
 
+/* Whether coordinate k of a plane group alone is positive by its domain: of parabolic ones either may
+ * be, of elliptic ones u. */
+static bool
+is_positive(const qdot_pool *pool, const qdot_scene *s, const qdot_chart_group *g, size_t k)
+{
+    const bool parabolic = g->kind == QDOT_CHART_PARABOLIC;
+    const qdot_symbol *own = qdot_expr_symbol(pool, s->coordinates.at[g->index[k]]);
+    const qdot_symbol *other = qdot_expr_symbol(pool, s->coordinates.at[g->index[1 - k]]);
+
+    return (parabolic || (g->kind == QDOT_CHART_ELLIPTIC && k == 0)) && own->lo == QDOT_ZERO &&
+           other->lo == QDOT_NIL;
+}
+
 /* An angle atan2(y, x) that is no coordinate, by which those of the group are read. */
 static qdot_status
 add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, qdot_expr y,
@@ -302,6 +315,7 @@ add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, q
 {
     const qdot_symbol *u = qdot_expr_symbol(c->pool, coordinate(c, g->index[0]));
     const qdot_symbol *v = qdot_expr_symbol(c->pool, coordinate(c, g->index[1]));
+    const bool second = is_positive(c->pool, c->of, g, 1);
 
     return qdot_vec_push(
         &c->moved,
@@ -309,6 +323,8 @@ add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, q
                             .sort = QDOT_CHART_ANGLE,
                             .x = x,
                             .y = y,
+                            .cut = second || is_positive(c->pool, c->of, g, 0),
+                            .middle = second,
                             .bare = own_symbol(c, "angle of turn", g->index[0]),
                             .given = given,
                             .sign = p->sign,
@@ -353,7 +369,10 @@ put_parabolic(qdot_chart *c, const qdot_chart_group *g, int start)
     for (size_t k = 0; k < 2; k++)
         QDOT_TRY(add_moved(c, g->index[k],
                            (qdot_chart_moved){.value = k ? eta : xi,
-                                              .ends = {p.sign ? QDOT_ZERO : QDOT_NIL, QDOT_NIL},
+                                              .ends = {p.sign || is_positive(pool, c->of, g, k)
+                                                           ? QDOT_ZERO
+                                                           : QDOT_NIL,
+                                                       QDOT_NIL},
                                               .rate = rate[k],
                                               .sign = p.sign}));
     return QDOT_OK;
@@ -434,7 +453,8 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
                                                 .value = apply(c, QDOT_ASINH, e.sinh),
                                                 .cosine = e.cosh,
                                                 .sine = e.sinh,
-                                                .ends = {g->kind == QDOT_CHART_PROLATE
+                                                .ends = {g->kind == QDOT_CHART_PROLATE ||
+                                                                 is_positive(pool, c->of, g, 0)
                                                              ? QDOT_ZERO
                                                              : QDOT_NIL,
                                                          QDOT_NIL},
@@ -526,6 +546,10 @@ qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g)
     const qdot_expr a = s->coordinates.at[g->index[0]], b = s->coordinates.at[g->index[1]];
     const uint16_t sine = g->turned ? QDOT_COS : QDOT_SIN, cosine = g->turned ? QDOT_SIN : QDOT_COS;
 
+    if (g->kind == QDOT_CHART_PARABOLIC || g->kind == QDOT_CHART_ELLIPTIC)
+        for (size_t k = 0; k < 2; k++) /* a domain ends on a whole line */
+            if (is_positive(pool, s, g, k))
+                return k ? b : a;
     switch (g->kind) {
     case QDOT_CHART_PLANE: return a;
     case QDOT_CHART_SPACE: return qdot_mul(pool, a, qdot_fun1(pool, sine, b));

@@ -30,6 +30,8 @@
  *     sinh u = S^(1/2) cos(beta/2),         sin v = S^(1/2) sin(beta/2)
  *
  * where S = sinh^2 u + sin^2 v, S^2 = (x^2 + y^2 - 1)^2 + 4 y^2, beta = atan2(2 y, x^2 + y^2 - 1).
+ * In the plane (u, v) and (-u, -v) are one place. In a domain u > 0, or xi > 0, or eta > 0, the angle
+ * has no turns: where u would become negative, on the line between the foci, v jumps to -v.
  *
  * A body whose axes are R = Rz(phi) Rx(theta) Rz(psi) becomes masses at its centre and at the
  * columns c_j of R(e):
@@ -85,6 +87,8 @@ typedef struct {
     qdot_expr x, y;         /* the angle is atan2(y, x), to whole turns; */
     qdot_expr factor;       /* or nil: y = factor sin(half of the angle `half` of these) */
     size_t half;
+    bool cut;        /* the angle stays within half a turn of `middle` half turns */
+    int middle;
     qdot_expr bare;  /* a symbol for the angle outside of sin and cos */
     qdot_expr rate;  /* q', or nil: that of value, of x and y */
     qdot_expr given; /* in the coordinates given */

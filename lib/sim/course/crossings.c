@@ -52,7 +52,7 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     if (qdot_watch_first(w)[0] != 0)
         s->sign = qdot_watch_first(w)[0];
     for (size_t i = 0; i < n; i++) {
-        s->sign = roots[i].way != 0 ? roots[i].way : s->sign;
+        s->sign = roots[i].stays ? 0 : roots[i].way != 0 ? roots[i].way : s->sign;
         if (!roots[i].pole)
             QDOT_TRY(take(s, &roots[i]));
     }

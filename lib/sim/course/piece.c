@@ -71,7 +71,7 @@ is_occurrence(const qdot_piece *x, const qdot_root *root)
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
                                x->c->stage->events.at[w->index].way == way);
-    return root->way != 0 && root->way != w->inside;
+    return root->way != 0 && root->way != w->inside && !root->stays;
 }
 
 static bool

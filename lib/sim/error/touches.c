@@ -1,6 +1,7 @@
 /* touches.c -- an event's function at its touches, with errors. */
 #include "sim/error/touches.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "sim/course/reader.h"
@@ -86,6 +87,61 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
     status = open_look(run, event, &l);
     if (status == QDOT_OK)
         status = look_at_all(run, event, &l, widths, tol);
+    close_look(&l);
+    return status;
+}
+
+/* Whether an occurrence of the event is at the end. */
+static bool
+ends_on(const qdot_run *run, size_t event, double t)
+{
+    for (size_t i = run->course.occurrences.n; i-- > 0;)
+        if (run->course.occurrences.at[i].event == event)
+            return fabs(run->course.occurrences.at[i].t - t) <= 4 * DBL_EPSILON * fabs(t);
+    return false;
+}
+
+/* The size of g: its largest value at a few times of the run. */
+static qdot_status
+find_size(look *l, const qdot_trajectory *tr, double *size)
+{
+    enum { PLACES = 8 };
+    const double t0 = tr->t[0], t1 = tr->t[tr->count - 1];
+
+    *size = 0;
+    for (int k = 0; k < PLACES; k++) {
+        double g;
+        const qdot_status status =
+            qdot_reader_at(&l->reader, SIZE_MAX, t0 + (t1 - t0) * ((k + 0.5) / PLACES), &g);
+
+        if (status == QDOT_OK)
+            *size = fmax(*size, fabs(g));
+        else if (!qdot_reader_has_nothing(status))
+            return status;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_touches_end(qdot_run *run, size_t event, bool *undecided)
+{
+    static const double small = 1e-3; /* beside a jump the error is as large as g */
+    const qdot_trajectory *tr = &run->course.tr;
+    const double t = tr->t[tr->count - 1];
+    look l = {0};
+    double g, error, size;
+    qdot_status status = QDOT_OK;
+
+    *undecided = false;
+    if (tr->count < 2 || ends_on(run, event, t))
+        return QDOT_OK;
+    status = open_look(run, event, &l);
+    if (status == QDOT_OK)
+        status = look_at(&l, t, &g, &error);
+    if (status == QDOT_OK)
+        status = find_size(&l, tr, &size);
+    if (status == QDOT_OK)
+        *undecided = g != 0 && fabs(g) <= 2 * error && fabs(g) <= small * size;
     close_look(&l);
     return status;
 }

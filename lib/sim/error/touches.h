@@ -23,4 +23,8 @@
 QDOT_MUST_CHECK qdot_status qdot_touches_look(qdot_run *run, size_t event, double *widths,
                                               double *tol);
 
+/* Whether the function of event `event` is 0 at the end of the run but for its error, without a root found
+ * there: what has a root just before the end has it behind it by other rounding. */
+QDOT_MUST_CHECK qdot_status qdot_touches_end(qdot_run *run, size_t event, bool *undecided);
+
 #endif

@@ -114,6 +114,14 @@ find_errors(qdot_run *run)
 }
 
 qdot_status
+qdot_run_event_at_end(qdot_run *run, size_t k, const char **name, bool *undecided)
+{
+    *name = k < run->stage.events.n ? run->stage.events.at[k].name : NULL;
+    *undecided = false;
+    return *name && !run->precise ? qdot_touches_end(run, k, undecided) : QDOT_OK;
+}
+
+qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
     if (!run->occurrence_errors)

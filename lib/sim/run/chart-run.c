@@ -83,7 +83,11 @@ turn_to(following *f, size_t i)
     if (!turns(m) || !isfinite(x) || !isfinite(y))
         return;
     f->most[i] = fmax(f->most[i], hypot(x, y));
-    if (hypot(x, y) > no_direction * f->most[i])
+    if (!(hypot(x, y) > no_direction * f->most[i]))
+        return;
+    if (m->cut)
+        f->next[i] = m->middle * turn / 2 + remainder(atan2(y, x) - m->middle * turn / 2, turn);
+    else
         f->next[i] += remainder(atan2(y, x) - f->now[i], turn);
 }
 
@@ -154,7 +158,9 @@ go(following *f, double t, bool jumps)
 }
 
 /* Where a singular place is passed exactly the sign of the distance changes, and angles go on: r
- * becomes -r. In a domain the sign stays, and angles jump by half a turn. */
+ * becomes -r. In a domain the sign stays, and angles jump by half a turn. Rounding beside the motion
+ * turns that by up to 10^-16 over no_direction and more: what is nearer to half a turn than to none is
+ * one. */
 static void
 change_signs(following *f)
 {
@@ -163,7 +169,7 @@ change_signs(following *f)
     for (size_t i = 0; i < f->m; i++) {
         const size_t k = c->moved.at[i].sign;
 
-        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 2 * (1 - 1e-3)))
+        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 4))
             continue;
         if (k <= 64)
             f->passed |= (uint64_t)1 << (k - 1);
@@ -189,12 +195,12 @@ change_branches(following *f)
     }
 }
 
-/* Angles that still jump by half a turn do so upward, whatever rounding says. */
+/* Angles that still jump by about half a turn do so upward, whatever rounding says. */
 static void
 half_turns(following *f)
 {
     for (size_t i = 0; i < f->m; i++)
-        if (f->next[i] - f->now[i] < -turn / 2 * (1 - 1e-3))
+        if (!f->x->chart.moved.at[i].cut && f->next[i] - f->now[i] < -turn / 4)
             f->next[i] += turn;
 }
 

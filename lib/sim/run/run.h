@@ -91,6 +91,11 @@ QDOT_MUST_CHECK qdot_status qdot_run_range_along(const qdot_run_expression *x,
                                                  qdot_range_kind kind, const double *range,
                                                  double *value, double *error);
 
+/* Event k of the run, *name, NULL if there are no more; *undecided: whether it occurs at the end of the run,
+ * which the errors leave open. */
+QDOT_MUST_CHECK qdot_status qdot_run_event_at_end(qdot_run *run, size_t k, const char **name,
+                                                  bool *undecided);
+
 /* The occurrences of events [*n], in the order of the run, with the errors of their times from
  * the companion; borrowed. */
 QDOT_MUST_CHECK qdot_status qdot_run_occurrences(qdot_run *run,

@@ -12,6 +12,7 @@ typedef struct {
     double residual; /* |g| at the doubles on both sides of it, the larger */
     bool exact;      /* g is 0 at t */
     bool pole;       /* g changes its sign through infinity: it is no root */
+    bool stays;      /* g is 0 from here on for a while; `way` leads to 0, from the sign before */
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
      * run: not negative. */
     double late, blur;

@@ -1,8 +1,9 @@
 /* watch-parts.h -- the members of a watch.
  *
  * For watch.c only, which goes over a step part by part: values of the functions
- * (watch-values.c), proofs that a part holds no further roots (watch-exclusion.c), and the
- * polynomial of one function on one part with its roots (watch-roots.c).
+ * (watch-values.c), proofs that a part holds no further roots (watch-exclusion.c), the
+ * polynomial of one function on one part with its roots (watch-roots.c), and roots on a part of a few
+ * thousand doubles in which no polynomial represents the function (watch-rough.c).
  *
  * Tests  as watch.h
  */
@@ -19,7 +20,8 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
 
 /* The signs up to which a step has been searched. */
 struct qdot_watch_state {
-    int *sign;  /* [m] the last sign that was not 0; 0: none yet */
+    int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
+                   g stays 0 */
     bool *on;   /* [m] the step starts on a zero of g */
     double *g0; /* [m] g at that zero */
 };
@@ -52,10 +54,12 @@ struct qdot_watch {
     double reached;     /* of the step, where its search ended */
     size_t looked_at;   /* parts of all steps */
     double reach;       /* of the last part of a step that a root ended; 0: none did */
+    double part_before; /* the start of the part before the present one, in this step */
     double direction;   /* of time in it */
 
     /* The step's start, and the search so far. */
     double t, *y; /* [2n] */
+    double least; /* it is that of the piece, which was moved by a rounding of this; else 0 */
     struct qdot_watch_state start, now;
     int *first;      /* [m] */
     bool *slow;      /* [m] g leaves its zero at the start with a slope lost in rounding */
@@ -137,8 +141,40 @@ qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, i
 /* After a fit: the size below which function i cannot be told from rounding. */
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
+/* Whether a fit is good enough only because all it misses is rounding: a kink may be hidden there. */
+bool qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i);
+
 /* Append the roots of function i on the part to w->roots; w->now advances to the part's end. */
 QDOT_MUST_CHECK qdot_status qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p,
                                              size_t i);
+
+/* g at t, before a root or from it on. */
+typedef struct {
+    double t, g;
+} qdot_watch_end;
+
+/* Where between ends [2], near guess, function i changes its sign to `way`, or becomes 0: *root, and
+ * the doubles beside it, ends out. *found false if the signs are equal, since a polynomial overshoots
+ * beside a jump and a pole: ends[1] has g if it is that after a root. */
+QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i,
+                                             int way, double guess, qdot_watch_end *ends,
+                                             qdot_root *root, bool *found);
+
+/* Append the root from which on g_i is 0, |g_i| <= least: it is at `to`, not at `from`. Its sign before is
+ * w->now.sign, which becomes 0. */
+QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
+                                            double least);
+
+/* --- jumps, kinks (watch-rough.c) ---------------------------------------------------- */
+
+/* As qdot_watch_roots, by the values themselves, for a part of a few thousand doubles of t in which no
+ * polynomial represents the function: it jumps there, or has a kink. */
+QDOT_MUST_CHECK qdot_status qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p,
+                                                   size_t i, int nodes);
+
+/* Append what qdot_watch_roots may miss where the fit is noisy, a function that keeps its sign at the
+ * nodes: a touch, or two roots beside a kink. */
+QDOT_MUST_CHECK qdot_status qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i,
+                                                  int nodes);
 
 #endif

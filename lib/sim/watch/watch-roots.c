@@ -46,6 +46,14 @@ vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
     return size == 0 || size <= (p->from_zero ? 1e5 : 16) * w->noise[i];
 }
 
+/* Of a function that vanishes on the part: whether it is 0, not just so flat at a root that rounding is all
+ * that is seen there. */
+static bool
+stays_zero(const qdot_watch *w, const qdot_watch_part *p)
+{
+    return qdot_chebyshev_size(p->n, p->c) == 0 || fabs(p->b - p->a) >= 0.0625 * w->length;
+}
+
 double
 qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -53,6 +61,12 @@ qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 
     return fmax(part * w->size[i],
                 isnan(w->noise[i]) ? 0 : (w->now.on[i] ? noise_of_slope : 8) * w->noise[i]);
+}
+
+bool
+qdot_watch_is_noisy(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    return qdot_chebyshev_tail(p->n, p->c) > resolved * w->size[i];
 }
 
 static void
@@ -93,25 +107,20 @@ qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
 
 /* --- locating a root in doubles of t ------------------------------------------------- */
 
-/* g at t, before the root or from the root on. */
-typedef struct {
-    double t, g;
-} end;
-
 /* Evaluate g_i at t, which becomes ends[*over]; *over: whether g_i has changed its sign to `way`.
  *  */
 static qdot_status
-narrow(qdot_watch *w, size_t i, int way, double t, end *ends, bool *over)
+narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *over)
 {
     QDOT_TRY(qdot_watch_value_at(w, t, w->g));
     *over = w->g[i] == 0 || qdot_watch_sign(w->g[i]) == way;
-    ends[*over] = (end){t, w->g[i]};
+    ends[*over] = (qdot_watch_end){t, w->g[i]};
     return QDOT_OK;
 }
 
 /* Where between two neighbouring doubles the root is; the first may not have been evaluated. */
 static qdot_status
-refine(qdot_watch *w, end *ends, qdot_root *root)
+refine(qdot_watch *w, qdot_watch_end *ends, qdot_root *root)
 {
     const double step = fabs(ends[1].t - ends[0].t);
     double noise, rise;
@@ -129,11 +138,9 @@ refine(qdot_watch *w, end *ends, qdot_root *root)
     return QDOT_OK;
 }
 
-/* Find the root between ends [2] of different signs, near guess; *found false if the signs are
- * equal, since a polynomial overshoots beside a jump and a pole: ends[1] has g if it is that after
- * a root. */
+/* The doubles beside the root between ends [2], as qdot_watch_cross. */
 static qdot_status
-locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
+locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
 {
     const double lo = ends[0].t, hi = ends[1].t;
     double step = 4 * (nextafter(fabs(guess), INFINITY) - fabs(guess));
@@ -169,7 +176,7 @@ locate(qdot_watch *w, size_t i, int way, end *ends, double guess, bool *found)
 /* Whether g changes its sign through infinity between neighbouring doubles: away from there it is
  * much smaller. Only asked where its values are not small beside those of the part. */
 static qdot_status
-is_pole(qdot_watch *w, const qdot_watch_part *p, const end *ends, const qdot_root *root, bool *pole)
+is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, const qdot_root *root, bool *pole)
 {
     const double away = 4096 * (ends[1].t - ends[0].t), low = fmin(p->a, p->b),
                  high = fmax(p->a, p->b);
@@ -189,6 +196,45 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const end *ends, const qdot_roo
         any = true;
     }
     *pole = any;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
+                 qdot_watch_end *ends, qdot_root *root, bool *found)
+{
+    QDOT_TRY(locate(w, i, way, ends, guess, found));
+    if (!*found)
+        return QDOT_OK;
+    *root = (qdot_root){.function = i,
+                        .t = ends[1].t,
+                        .way = way,
+                        .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
+                        .exact = ends[1].g == 0};
+    if (root->exact)
+        return QDOT_OK;
+    QDOT_TRY(refine(w, ends, root));
+    return is_pole(w, p, ends, root, &root->pole);
+}
+
+qdot_status
+qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
+{
+    for (;;) {
+        const double middle = from + 0.5 * (to - from);
+
+        if (middle == from || middle == to)
+            break;
+        QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
+        *(fabs(w->g[i]) <= least ? &to : &from) = middle;
+    }
+    QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
+                                            .t = to,
+                                            .way = -w->now.sign[i],
+                                            .residual = least,
+                                            .exact = least == 0,
+                                            .stays = true}));
+    w->now.sign[i] = 0;
     return QDOT_OK;
 }
 
@@ -212,13 +258,15 @@ is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, 
         *touch = false;
         return QDOT_OK;
     }
+    v = fmin(fabs(v), fabs(w->g[i])); /* beside a root of even order v is rounding of the polynomial */
+    *touch |= v <= 0x1p-48 * size;
     if (*touch)
         return QDOT_OK;
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
-    *touch = fabs(v) <= noise;
-    if (*touch && fabs(v) * by > noise * rounding)
-        *within = fabs(v) / noise * by;
+    *touch = v <= noise;
+    if (*touch && v * by > noise * rounding)
+        *within = v / noise * by;
     return QDOT_OK;
 }
 
@@ -237,15 +285,11 @@ bend_at(const qdot_watch_part *p, const double *d, double x)
 static double
 between(const qdot_watch_part *p, double x0, double x1, int way)
 {
-    for (int k = 0; k < 60 && x1 - x0 > 1e-16; k++) {
-        double x = 0.5 * (x0 + x1);
-
-        if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x)) == way)
-            x1 = x;
-        else
-            x0 = x;
-    }
-    return x1;
+    if (qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x0)) == way)
+        return x0;
+    return qdot_watch_sign(qdot_chebyshev_at(p->n, p->c, x1)) == way
+               ? qdot_chebyshev_root(p->n, p->c, x0, x1)
+               : x1;
 }
 
 /* Whether the slope at the zero at the start of the part is nothing beside the function there. */
@@ -285,18 +329,51 @@ off_extremum(const qdot_watch_part *p)
     return slope < bend * fabs(p->b - p->a) ? slope / bend : 0;
 }
 
-/* Treat the zero at the start of the part: count it as a root if the sign before differs. */
+/* How long it takes from the start of the part until the function has changed by g. */
+static double
+time_of_change(const qdot_watch_part *p, double g)
+{
+    const double length = fabs(p->b - p->a);
+    double part = DBL_EPSILON;
+
+    while (part < 1 && fabs(qdot_chebyshev_at(p->n, p->c, 2 * part - 1)) * part < g)
+        part *= 2;
+    return part * length;
+}
+
+/* The function changes its sign near the start of the part, where it is 0 but for rounding. */
+static qdot_status
+cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
+{
+    qdot_watch_end ends[2] = {{w->part_before, 0}, {p->b, 0}};
+    qdot_root root;
+    bool found = false;
+
+    if (w->now.g0[i] != 0)
+        QDOT_TRY(qdot_watch_cross(w, p, i, sign, p->a, ends, &root, &found));
+    if (!found) /* it was before this step */
+        root = (qdot_root){.function = i,
+                           .t = p->a,
+                           .way = sign,
+                           .blur = w->now.g0[i] != 0 ? time_of_change(p, fabs(w->now.g0[i])) : 0,
+                           .exact = true};
+    return qdot_watch_push(w, root);
+}
+
+/* Treat the zero at the start of the part: count it as a root if the sign before differs, or as a touch if
+ * it does not. */
 static qdot_status
 pass_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
 {
-    int before = w->now.sign[i];
+    const int before = w->now.sign[i];
 
-    if (before != 0 && sign != 0)
+    if (before != 0 && sign == before)
         QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                                 .t = p->a,
-                                                .way = before == sign ? 0 : sign,
-                                                .blur = before == sign ? off_extremum(p) : 0,
+                                                .blur = off_extremum(p),
                                                 .exact = true}));
+    else if (before != 0 && sign != 0)
+        QDOT_TRY(cross_start(w, p, i, sign));
     w->now.sign[i] = sign != 0 ? sign : before;
     return QDOT_OK;
 }
@@ -319,6 +396,16 @@ grazes_at_end(const qdot_watch_part *p)
         return false;
     qdot_chebyshev_derivative(p->n, p->c, d);
     return fabs(qdot_chebyshev_at(p->n - 1, d, 1)) <= 0x1p-20 * size;
+}
+
+/* Whether the function jumps to 0 at the end of the part. */
+static bool
+falls_at_end(const qdot_watch_part *p)
+{
+    const double size = qdot_chebyshev_size(p->n, p->c);
+
+    return fabs(p->at_end) <= 0x1p-46 * size
+           && fabs(qdot_chebyshev_at(p->n, p->c, 1) - p->at_end) > least_of_size * size;
 }
 
 /* The root found last, if it is a touch of function i; else NULL. */
@@ -371,6 +458,27 @@ flat_width(const qdot_watch_part *p, const double *d, double x)
     return width * fabs(p->b - p->a) / 2;
 }
 
+/* The function vanishes on the part, at the end of which it may jump. */
+static qdot_status
+be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    const double noise = w->noise[i] > 0 ? 16 * w->noise[i] : 0,
+                 start = p->from_zero ? fabs(w->now.g0[i]) : 0;
+    const bool leaves = fabs(p->at_end) > fmax(noise, start);
+
+    if (w->now.sign[i] != 0 && (leaves || stays_zero(w, p)))
+        QDOT_TRY(qdot_watch_stay(w, i, p->a,
+                                 p->from_zero
+                                     ? p->a
+                                     : qdot_watch_time(p, qdot_chebyshev_node(p->n, p->n - 1)),
+                                 noise));
+    if (leaves)
+        w->now.sign[i] = qdot_watch_sign(p->at_end);
+    w->now.on[i] = !leaves;
+    w->now.g0[i] = p->at_end;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
@@ -381,11 +489,8 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 
     if (w->fresh[i] && p->from_zero && is_flat(p))
         w->slow[i] = true;
-    if (vanishes(w, p, i)) {
-        w->now.on[i] = true;
-        w->now.g0[i] = p->at_end;
-        return QDOT_OK;
-    }
+    if (vanishes(w, p, i))
+        return be_zero(w, p, i);
     if (p->from_zero) {
         sign = leaves_to(w, p, i);
         QDOT_TRY(pass_start(w, p, i, sign));
@@ -421,20 +526,11 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         }
         if (there != 0 && sign != 0 && there != sign) {
             double guess = qdot_watch_time(p, between(p, x_from, x[e], there));
-            end ends[2] = {{sure, 0}, {to, 0}};
+            qdot_watch_end ends[2] = {{sure, 0}, {to, 0}};
+            qdot_root root;
 
-            QDOT_TRY(locate(w, i, there, ends, guess, &found));
-            if (found && !is_start_again(p, ends[1].t)) {
-                qdot_root root = {.function = i,
-                                  .t = ends[1].t,
-                                  .way = there,
-                                  .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
-                                  .exact = ends[1].g == 0};
-
-                if (!root.exact) {
-                    QDOT_TRY(refine(w, ends, &root));
-                    QDOT_TRY(is_pole(w, p, ends, &root, &root.pole));
-                }
+            QDOT_TRY(qdot_watch_cross(w, p, i, there, guess, ends, &root, &found));
+            if (found && !is_start_again(p, root.t)) {
                 forget_roundings(w, i, from);
                 QDOT_TRY(qdot_watch_push(w, root));
             }
@@ -454,7 +550,7 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
     if (grazes)
         forget_touch(w, p, i);
     w->grazed[i] = grazes && sign != 0;
-    w->now.on[i] = grazes || p->at_end == 0;
+    w->now.on[i] = grazes || p->at_end == 0 || falls_at_end(p);
     w->now.g0[i] = p->at_end;
     return QDOT_OK;
 }

@@ -97,6 +97,35 @@ find_noise(qdot_watch *w, const qdot_watch_part *p)
     return lessen_noise(w, p->b, w->noise);
 }
 
+/* Whether function i is 0 at an end of the part, and at the node beside it, but not throughout: where the
+ * part is not much longer than rounding a polynomial goes through the kink between. */
+static bool
+is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    const bool start = w->now.on[i] && w->now.g0[i] == 0 && g[nodes - 1] == 0,
+               end = g[0] == 0 && p->at_end == 0;
+
+    return (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
+}
+
+/* The roots of function i on a part that is divided no further. */
+static qdot_status
+roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+{
+    const size_t before = w->roots.n;
+    const int sign = w->now.sign[i];
+    const bool rough = qdot_watch_fit(w, p, i, nodes) == QDOT_PART_MORE_NODES,
+               off = !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
+
+    if (rough || is_partly_zero(w, p, i, nodes))
+        return qdot_watch_rough_roots(w, p, i, nodes);
+    QDOT_TRY(qdot_watch_roots(w, p, i));
+    if (!off || w->now.on[i] || w->now.sign[i] != sign || w->roots.n != before)
+        return QDOT_OK;
+    return qdot_watch_seek_least(w, p, i, nodes);
+}
+
 static qdot_status
 look_at_part(qdot_watch *w, qdot_watch_part *p,
              const double *at_end, qdot_watch_verdict *v)
@@ -124,16 +153,15 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     }
     if (*v != QDOT_PART_GOOD && !is_short(w, p))
         return QDOT_OK;
-    if (*v == QDOT_PART_START_CUT) /* a zero left so slowly that only rounding is seen yet */
+    if (*v != QDOT_PART_GOOD) /* a zero left so slowly that only rounding is seen yet; or it is rough */
         QDOT_TRY(find_noise(w, p));
     *v = QDOT_PART_GOOD;
     w->nodes = nodes > LEAST ? nodes : LEAST;
     for (size_t i = 0; i < w->m; i++) {
         if (!w->live[i])
             continue;
-        (void)qdot_watch_fit(w, p, i, nodes);
         p->at_end = at_end[i];
-        QDOT_TRY(qdot_watch_roots(w, p, i));
+        QDOT_TRY(roots_of(w, p, i, nodes));
     }
     return QDOT_OK;
 }
@@ -191,6 +219,7 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
     if (cut != t)
         QDOT_TRY(wait_until(w, cut, ends, &depth));
     w->reach = 0;
+    w->part_before = w->t;
     while (depth > 0) {
         qdot_watch_part p = {.a = from, .b = ends[depth - 1]};
         const double *at_end = w->ends + (size_t)(depth - 1) * w->m;
@@ -201,6 +230,7 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
         QDOT_TRY(look_at_part(w, &p, at_end, &v));
         w->looked_at++;
         if (v == QDOT_PART_GOOD) {
+            w->part_before = p.a;
             from = p.b;
             depth--;
             *whole = !ends_before(w, p.b, earlier);
@@ -295,6 +325,41 @@ end_on_zero(qdot_watch *w, double t)
     return QDOT_OK;
 }
 
+/* Whether the state in z at a time is that of the start but for rounding. */
+static bool
+is_start(const qdot_watch *w, double t, const double *z)
+{
+    const double by = 4 * DBL_EPSILON;
+
+    if (w->bounds.reads_time && fabs(t - w->t) > by * fmax(w->least, fabs(t)))
+        return false;
+    for (size_t k = 0; k < 2 * w->n; k++)
+        if (fabs(z[k] - w->y[k]) > by * fmax(w->least, fabs(z[k])))
+            return false;
+    return true;
+}
+
+/* Where a start was moved by a rounding, a function that then becomes 0 was 0 at the start. */
+static qdot_status
+forget_start(qdot_watch *w)
+{
+    size_t n = 0;
+
+    for (size_t i = 0; i < w->roots.n; i++) {
+        const qdot_root *root = &w->roots.at[i];
+        bool is = false;
+
+        if (root->way == 0 || root->stays) {
+            QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
+            is = is_start(w, root->t, w->z);
+        }
+        if (!is)
+            w->roots.at[n++] = *root;
+    }
+    w->roots.n = n;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
                 const qdot_ode_expanded *step, const qdot_root **roots, size_t *n)
@@ -333,6 +398,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
             w->now.on[i] = false;
         }
     sort_roots(w);
+    if (w->least > 0)
+        QDOT_TRY(forget_start(w));
     *roots = w->roots.at;
     *n = w->roots.n;
     w->in[2 * w->n] = t;
@@ -363,6 +430,7 @@ void
 qdot_watch_take(qdot_watch *w)
 {
     copy_state(w, &w->start, &w->now);
+    w->least = 0;
     memcpy(w->y, w->in, 2 * w->n * sizeof *w->y);
     w->t = w->in[2 * w->n];
 }
@@ -377,20 +445,38 @@ qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader, double t, con
     return qdot_watch_value(w, t, w->g);
 }
 
+/* Whether g_i = g at a state is rounding. Where g_i jumps from there a rounding of the state changes it
+ * as much as a larger change does: that tells nothing. */
+static qdot_status
+is_rounding(qdot_watch *w, double t, const double *y, double least, size_t i, double g, bool *is)
+{
+    double noise, more;
+
+    *is = g == 0;
+    if (*is)
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, least, i, &noise));
+    if (fabs(g) > 2 * noise)
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_noise(w, t, y, 1024 * DBL_EPSILON, least, i, &more));
+    *is = more > 4 * noise;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
                  const qdot_watch_known *known, bool *on)
 {
     w->reader = *reader;
+    w->least = known->least;
     memcpy(w->y, y, 2 * w->n * sizeof *y);
     w->t = t;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
     for (size_t i = 0; i < w->m; i++) {
-        double g = w->start.g0[i], noise;
+        const double g = w->start.g0[i];
 
-        QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, known->least, i, &noise));
-        w->start.on[i] = fabs(g) <= 2 * noise;
+        QDOT_TRY(is_rounding(w, t, y, known->least, i, g, &w->start.on[i]));
         if (known->residual && known->residual[i] >= 0)
             w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * known->residual[i];
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);

@@ -18,7 +18,11 @@
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
- * Tests  tests/script/events.lag, event-roots.lag, narrow-events.lag
+ * A function may stay 0: its root is then where it becomes 0. Beside a jump or a kink no polynomial
+ * represents it: there, in a part of a few thousand doubles of t, its values alone are looked at
+ * (watch-rough.c).
+ *
+ * Tests  tests/script/events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H

@@ -1,0 +1,212 @@
+/* watch-rough.c -- roots of a function beside its jump or kink, by its values.
+ *
+ * Its signs at the nodes of the part and at its end, where |g| within rounding counts as 0, are gone
+ * through in order. Where they do not change, the least |g| is sought: there may be two roots beside a
+ * kink, a kink at 0, or a jump to it.
+ */
+#include "sim/watch/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+
+/* As a fraction of t; what rounding of the states moves a kink by. */
+static const double few_doubles = 32 * DBL_EPSILON;
+
+/* One function on the part, as far as the point `at`. */
+typedef struct {
+    qdot_watch *w;
+    const qdot_watch_part *p;
+    size_t i;
+    double least; /* |g| up to which it counts as 0 */
+    double at;
+    double zero; /* since when it is 0; NaN: it is not */
+    double from; /* the point before */
+    int *sign;   /* the last that was not 0 */
+} walk;
+
+/* The root between two points, at the second of which g has the sign `way`. */
+static qdot_status
+cross(walk *x, double from, double to, int way)
+{
+    qdot_watch_end ends[2] = {{from, 0}, {to, 0}};
+    qdot_root root;
+    bool found;
+
+    *x->sign = way;
+    QDOT_TRY(qdot_watch_cross(x->w, x->p, x->i, way, from + 0.5 * (to - from), ends, &root,
+                              &found));
+    return found ? qdot_watch_push(x->w, root) : QDOT_OK;
+}
+
+/* It has become 0 between x->from and x->zero; `touches`: and has its sign again. */
+static qdot_status
+stay(walk *x, bool touches)
+{
+    const int sign = *x->sign;
+
+    QDOT_TRY(qdot_watch_stay(x->w, x->i, x->from, x->zero, x->least));
+    if (!touches)
+        return QDOT_OK;
+    *x->sign = sign;
+    x->w->roots.at[x->w->roots.n - 1].way = 0;
+    x->w->roots.at[x->w->roots.n - 1].stays = false;
+    return QDOT_OK;
+}
+
+/* Go on to a point. */
+static qdot_status
+go(walk *x, double t, double g)
+{
+    const int s = fabs(g) <= x->least ? 0 : qdot_watch_sign(g), before = *x->sign;
+    const double last = x->at;
+
+    x->at = t;
+    if (s == 0) {
+        if (isnan(x->zero)) {
+            x->zero = t;
+            x->from = last;
+        }
+        return QDOT_OK;
+    }
+    if (before == 0)
+        *x->sign = s;
+    else if (s != before)
+        QDOT_TRY(cross(x, isnan(x->zero) ? last : x->from, t, s));
+    else if (!isnan(x->zero))
+        QDOT_TRY(stay(x, true));
+    x->zero = NAN;
+    return QDOT_OK;
+}
+
+/* g at t with its sign before positive. */
+static qdot_status
+height(const walk *x, double t, double *g)
+{
+    QDOT_TRY(qdot_watch_value_at(x->w, t, x->w->g));
+    *g = *x->sign * x->w->g[x->i];
+    return QDOT_OK;
+}
+
+/* Whether the least g, at t, is 0 but for rounding of t: on one side it changes by as much within a few
+ * doubles. */
+static qdot_status
+is_at_zero(const walk *x, double t, double g, bool *is)
+{
+    const double by = few_doubles * fabs(t);
+    double change = INFINITY;
+
+    for (int side = -1; side <= 1; side += 2) {
+        const double there = t + side * by;
+        double beside;
+
+        if (there < fmin(x->p->a, x->p->b) || there > fmax(x->p->a, x->p->b))
+            continue;
+        QDOT_TRY(height(x, there, &beside));
+        change = fmin(change, fabs(beside - g));
+    }
+    *is = g <= x->least || (isfinite(change) && g <= 2 * change);
+    return QDOT_OK;
+}
+
+/* The least g about the point t[1], where it is g, between t[0] and t[2]. */
+static qdot_status
+seek_least(walk *x, double *t, double g)
+{
+    const qdot_watch_part *p = x->p;
+    bool touches;
+
+    while (g > 0) {
+        const bool left = fabs(t[1] - t[0]) > fabs(t[2] - t[1]);
+        const double middle = t[1] + 0.5 * ((left ? t[0] : t[2]) - t[1]);
+        double there;
+
+        if (middle == t[1] || middle == (left ? t[0] : t[2]))
+            break;
+        QDOT_TRY(height(x, middle, &there));
+        if (there < g) {
+            t[left ? 2 : 0] = t[1];
+            t[1] = middle;
+            g = there;
+        } else {
+            t[left ? 0 : 2] = middle;
+        }
+    }
+    if (g < 0) {
+        const int sign = *x->sign;
+
+        QDOT_TRY(cross(x, p->a, t[1], -sign));
+        return cross(x, t[1], p->b, sign);
+    }
+    if (fabs(t[1] - p->a) <= few_doubles * fabs(t[1]))
+        return QDOT_OK; /* it comes from there */
+    QDOT_TRY(is_at_zero(x, t[1], g, &touches));
+    if (!touches)
+        return QDOT_OK;
+    if (fabs(t[1] - p->b) <= few_doubles * fabs(t[1])) { /* what comes behind it decides */
+        x->w->now.on[x->i] = true;
+        return QDOT_OK;
+    }
+    return qdot_watch_push(x->w, (qdot_root){.function = x->i,
+                                             .t = t[1],
+                                             .residual = g,
+                                             .blur = DBL_EPSILON * fabs(t[1])});
+}
+
+static walk
+begin(qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    return (walk){w, p, i, w->noise[i] > 0 ? w->noise[i] : 0, p->a, NAN, p->a, &w->now.sign[i]};
+}
+
+qdot_status
+qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    const int sign = w->now.sign[i];
+    walk x = begin(w, p, i);
+    int k = 0;
+    double t[3];
+
+    for (int j = 1; j < nodes; j++)
+        k = sign * g[j] < sign * g[k] ? j : k;
+    for (int j = -1; j <= 1; j++)
+        t[j + 1] = k - j >= nodes ? p->a
+                   : k - j < 0    ? p->b
+                                  : qdot_watch_time(p, qdot_chebyshev_node(nodes, k - j));
+    return seek_least(&x, t, sign * g[k]);
+}
+
+qdot_status
+qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    const int before = w->now.sign[i];
+    const bool off = !w->now.on[i] && before != 0;
+    const size_t roots = w->roots.n;
+    walk x = begin(w, p, i);
+
+    if (w->now.on[i]) {
+        x.zero = p->a;
+        x.least = fmax(x.least, fabs(w->now.g0[i]));
+    }
+    for (int j = nodes - 1; j >= 0; j--)
+        QDOT_TRY(go(&x, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), g[j]));
+    w->now.on[i] = false;
+    if (!isnan(x.zero) && fabs(p->at_end) <= x.least) { /* else it jumps at the end */
+        if (*x.sign != 0)
+            QDOT_TRY(stay(&x, false));
+        w->now.on[i] = true;
+    } else if (p->at_end == 0) { /* what comes behind it decides */
+        w->now.on[i] = true;
+    } else {
+        QDOT_TRY(go(&x, p->b, p->at_end));
+        if (off && roots == w->roots.n && before == *x.sign)
+            QDOT_TRY(qdot_watch_seek_least(w, p, i, nodes));
+    }
+    if (w->fresh[i]) {
+        w->first[i] = qdot_watch_sign(g[nodes - 1]);
+        w->fresh[i] = false;
+    }
+    w->now.g0[i] = p->at_end;
+    return QDOT_OK;
+}
