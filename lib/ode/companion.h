@@ -4,7 +4,7 @@
  *
  *     by Taylor series if the system has them (not for radau), else by the partner of the
  *       method (method.h), for a stiff method by radau, also if series get stuck,
- *     under tol* = tol/100 (tol/5 for radau, tol/10 for msbdf; tol/10^10 for bsimp, which at loose tolerances is
+ *     under tol* = tol/100 (tol/5 for radau, tol/10 for msbdf; tol/10^6 for bsimp, which at loose tolerances is
  *       more accurate than they ask for by as much), or by series beside series as much less tight as the budget
  *       needs, at most tol/10; not below the method's companion_tol. If a
  *       method is its own partner and its tolerance cannot be 4 times tighter, tol* = 10 max(tol,

@@ -22,7 +22,7 @@ static const qdot_ode_method methods[] = {
     {"msbdf", 5, true, true, true, 0, "bsimp", 0.1, 3e-16,
      "backward differences, orders 1 to 5: stiff scenes, moderate tolerances",
      &gsl_odeiv2_step_msbdf, false, NULL, NULL},
-    {"bsimp", 12, true, false, true, 0, "bsimp", 1e-10, 3e-16,
+    {"bsimp", 12, true, false, true, 0, "bsimp", 1e-6, 3e-16,
      "implicit Bulirsch-Stoer: stiff scenes that are smooth, tight tolerances",
      &gsl_odeiv2_step_bsimp, false, NULL, NULL},
     {"dop853", 8, false, false, false, 8, "dop853", 1e-2, 1e-15,
