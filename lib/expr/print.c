@@ -534,12 +534,3 @@ qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style s
     qdot_free(p.next.at);
     return p.status != QDOT_OK ? p.status : qdot_text_status(out);
 }
-
-qdot_status
-qdot_print_formula(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
-{
-    qdot_text_add(out, style == QDOT_MATHML ? QDOT_PRINT_MATH : "");
-    QDOT_TRY(qdot_print(pool, e, style, out));
-    qdot_text_add(out, style == QDOT_MATHML ? "</math>" : "");
-    return qdot_text_status(out);
-}

@@ -74,6 +74,7 @@ typedef struct {
      * tolerance needs. */
     const double *carry;
     int order_more;
+    double past;       /* taylor only: steps that runs of this system took before (written.h) */
     double term_tol; /* taylor only: that beside which no rounding of a term counts; default: tol */
     /* taylor only: whether the first orders of every step are in two doubles (leading.h), which
      * the system must support; the exact t0 less t0; where to store, while `accepted` runs, a

@@ -471,7 +471,7 @@ loop(run *r)
     if (r->options->h_first > 0)
         r->unit = qdot_step_unit(r->options->h_first);
     r->first_unit = r->direction * fabs(r->unit);
-    r->written = qdot_ode_written_begin(r->series, r->p, r->highest);
+    r->written = qdot_ode_written_begin(r->series, r->p, r->highest, r->options->past);
     qdot_ode_taylor_run_set_unit(r, r->first_unit);
     status = qdot_ode_taylor_run_begin(r, r->t, r->y);
     if (qdot_ode_may_be_undefined(status)) {

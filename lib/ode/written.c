@@ -18,10 +18,10 @@ pays(const qdot_ode_written *w, double steps, double left)
 }
 
 qdot_ode_written
-qdot_ode_written_begin(const qdot_ode_series *series, int p, int most)
+qdot_ode_written_begin(const qdot_ode_series *series, int p, int most, double past)
 {
     const qdot_ode_code *code = &series->code;
-    qdot_ode_written w = {.code = code, .worth = series->cost.worth, .p = p, .most = most};
+    qdot_ode_written w = {.code = code, .worth = series->cost.worth - past * p, .p = p, .most = most};
 
     w.done = !code->write || code->there(p, code->user);
     w.first = !w.done;

@@ -6,7 +6,8 @@
  * generated before that step is taken, and its expansion is repeated by the code. If an earlier run
  * left code that fits, the first step is expanded by it, and the length of that step decides by the
  * same rule whether the code stays in use. So the last bits of a run do not depend on whether
- * another run came before it.
+ * another run came before it, but where its caller counts the steps of those (ode/run.h, past):
+ * what these would have saved is no cost any more.
  *
  * Tests  tests/ode/test_written.c
  */
@@ -25,8 +26,8 @@ typedef struct {
     bool first;    /* no decision by the first step has been made yet */
 } qdot_ode_written;
 
-/* Begin a run whose expansions have order p; `most`: as in qdot_ode_written. */
-qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p, int most);
+/* Begin a run whose expansions have order p; `most`: as in qdot_ode_written; past: steps of such runs before. */
+qdot_ode_written qdot_ode_written_begin(const qdot_ode_series *series, int p, int most, double past);
 
 /* Generate the code now, whatever it costs. */
 QDOT_MUST_CHECK qdot_status qdot_ode_written_now(qdot_ode_written *written);

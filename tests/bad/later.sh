@@ -7,6 +7,7 @@ integral(x^2, x)
 limit(sin(x)/x, x = 0)
 euler_lagrange(x, x, x, t)
 hamiltonian p[x]^2/2
+hamiltonian (p[x]^2 + x^2)/2
 force (-mu*abs(lambda[floor])*sign(x'), 0) on b
 dissipation lambda[floor]*x'^2
 run 0..1 method gauss4

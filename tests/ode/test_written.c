@@ -71,7 +71,7 @@ static void
 after_first(counts *c, double left, bool there, bool again)
 {
     const qdot_ode_series series = series_of(c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20, 0);
     bool said;
 
     assert_true(w.first);
@@ -103,7 +103,7 @@ later_steps_say_it_too(void **state)
 {
     counts c = {0};
     const qdot_ode_series series = series_of(&c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20, 0);
     bool again;
 
     (void)state;
@@ -114,6 +114,23 @@ later_steps_say_it_too(void **state)
     assert_int_equal(c.written, 1);
     assert_int_equal(qdot_ode_written_next(&w, 2, 1000), QDOT_OK);
     assert_int_equal(c.written, 1);
+}
+
+/* worth 300 of order 20: 15 steps; the first step says 9, half as many again as are left. */
+static void
+steps_of_runs_before_count(void **state)
+{
+    (void)state;
+    for (int past = 0; past < 8; past++) {
+        counts c = {0};
+        const qdot_ode_series series = series_of(&c);
+        qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20, past);
+        bool again;
+
+        assert_int_equal(qdot_ode_written_first(&w, 6, &again), QDOT_OK);
+        assert_int_equal(c.written, past > 6);
+        assert_int_equal(again, past > 6);
+    }
 }
 
 static void
@@ -151,7 +168,7 @@ companions_share_it(void **state)
             assert_int_equal(qdot_ode_taylor_highest(&system, theirs, false, more), highest);
             assert_true(highest >= qdot_ode_taylor_order(&series, theirs, false, more));
         }
-        w = qdot_ode_written_begin(&series, 20, highest);
+        w = qdot_ode_written_begin(&series, 20, highest, 0);
         assert_int_equal(c.most, highest);
         c.most = 0;
         assert_int_equal(qdot_ode_written_first(&w, 1000, &again), QDOT_OK);
@@ -164,13 +181,13 @@ where_it_is_or_cannot_be_nothing_is_asked(void **state)
 {
     counts c = {.there = true};
     qdot_ode_series series = series_of(&c);
-    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20);
+    qdot_ode_written w = qdot_ode_written_begin(&series, 20, 20, 0);
 
     (void)state;
     assert_false(w.first);
     assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
     series = (qdot_ode_series){.most = 20};
-    w = qdot_ode_written_begin(&series, 20, 20);
+    w = qdot_ode_written_begin(&series, 20, 20, 0);
     assert_false(w.first);
     assert_int_equal(qdot_ode_written_next(&w, 10, 1e9), QDOT_OK);
     assert_int_equal(c.taken + c.written + c.dropped, 0);
@@ -182,6 +199,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_lay_there_changes_nothing),
         cmocka_unit_test(later_steps_say_it_too),
+        cmocka_unit_test(steps_of_runs_before_count),
         cmocka_unit_test(companions_share_it),
         cmocka_unit_test(what_cannot_be_written_is_not_expanded_again),
         cmocka_unit_test(where_it_is_or_cannot_be_nothing_is_asked),

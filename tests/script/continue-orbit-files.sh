@@ -69,3 +69,15 @@ start x = 0.5
 find T = 6 such that returns after T
 continue orbit in x = 0.5..3
 END
+
+# a period doubling at the end of the range: no orbits of twice the period within it
+qdot -q - <<'END' 2>&1 | grep 'twice the period'
+param F
+coord x
+particle b mass 1 at x
+potential x^4/4 - x^2/2
+force -x'/4 + F*cos(t) on b
+set F = 2.5
+find x = 1.2, x' = 2.4 such that returns after 2*pi
+continue orbit in F = 2.3..2.6543258
+END

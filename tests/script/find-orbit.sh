@@ -22,6 +22,24 @@ find y' = 0.1, P = 2.7 such that returns after P
 check value(P, 0) == 2.72218175705373697 within 1e-12
 END
 
+# Lyapunov orbits about L1, small to large, of NASA/JPL's catalogue of Three-Body Periodic Orbits (ssd.jpl.nasa.gov)
+qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
+param P
+set mu = 1.215058560962404e-2
+start x = 0.830023864314168
+find y' = 0.06, P = 2.7 such that returns after P
+check P == 2.702881200253821 within 1e-11
+check value(y', 0) == 0.06088309999599009 within 1e-12
+start x = 0.8007325761918545
+find y' = 0.35, P = 3.3 such that returns after P
+check P == 3.297097386764505 within 1e-12
+check value(y', 0) == 0.35248700747556716 within 1e-12
+start x = 0.7076756180347542
+find y' = 0.62, P = 5.7 such that returns after P
+check P == 5.709795908302705 within 1e-12
+check value(y', 0) == 0.621513254358129 within 1e-12
+END
+
 # halos about L1 and L2; one that nearly falls on the Moon
 qdot -q moon.lag - <<'END' 2>&1 | sed "$numbers"
 start z = 0.05
@@ -96,4 +114,13 @@ force -0.2*th' + 3*cos(2*t) on th
 start th = -0.218061012692907, th' = 0.012743090904497
 run 0..3*pi tol 1e-12
 floquet
+END
+
+# Newton's method stops on the way to the larger of a driven oscillator's orbits, to which the guess comes by itself (SciPy, from
+# rest over 60 periods: 0.902702, 0.529732)
+qdot -q - <<'END' 2>&1 | sed 's/\(0\.[0-9]\{10\}\).*/\1/; s/after [0-9]* *$/after some/'
+coord x
+lagrangian x'^2/2 - x^2/2 - x^4/4
+force -x'/10 + 3/10*cos(1.2*t) on x
+find x = 0.1, x' = 0.1 such that returns after 2*pi/1.2
 END

@@ -73,3 +73,28 @@ check value(k, 0) == 0.25 within 1e-12
 END
 # numbers of JSON
 qdot -q --json pendulum.lag -e "find theta' = 0..5 such that value(theta, 3) = 0" | sed 's/\([0-9]\.[0-9]\{11\}\)[0-9]*/\1/; s/"error":[0-9]e-1[0-9.]*/"error":small/'
+
+# on a rod: y follows x, below; SciPy by the angle: -0.5008993626206685. An x that no point of the rod has is none
+qdot -q - <<'END' 2>&1 | sed 's/= [-0-9.e]* ± [0-9.e-]*/= N ± ERROR/' | grep -v '^  '
+coord x, y
+particle p mass 1 at (x, y)
+gravity (0, -9.81)
+constraint rod: x^2 + y^2 = 1
+start x = 0.8, y = -0.6, x' = 0, y' = 0
+find x = 0.9 such that value(x, 1) = 0.5
+check value(x, 0) == -0.500899362620668 within 1e-12
+run 0..1 as again
+check value(again.x, 1) == 0.5 within 1e-12
+find x' = 1 such that value(x, 1) = 0.4
+check value(x*x' + y*y', 0) == 0 within 1e-13
+find x = 1.5 such that value(x, 1) = 0.5
+END
+qdot -q - <<'END' 2>&1 | grep 'error\|hint'
+coord x, y, u, v
+particle p mass 1 at (x, y)
+particle q mass 1 at (u, v)
+constraint rod: x^2 + y^2 = 1
+constraint arm: (u - x)^2 + (v - y)^2 = 1
+start x = 0.8, y = -0.6, u = 0.8, v = -1.6
+find x = 0.7 such that value(u, 1) = 0.5
+END

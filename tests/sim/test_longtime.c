@@ -59,7 +59,7 @@ symplectic_methods_do_not_drift(void **state)
     must(qdot_longtime_measure(f.scene, &f.request, &l));
     assert_int_equal(l.n, qdot_ode_method_count());
     assert_int_equal(l.left_out.n, 0);
-    assert_string_equal(l.chosen, "taylor");
+    assert_string_equal(l.chosen->name, "taylor");
     assert_true(l.chosen_tol == 1e-5 && !l.chosen_long);
     for (size_t k = 0; k < l.n; k++) {
         const qdot_longtime_row *r = l.rows + k;

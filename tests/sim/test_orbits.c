@@ -258,6 +258,46 @@ a_period_doubling(void **state)
     end(&f);
 }
 
+/* x'' = x - x^3 - x'/4 + F cos t: between two period doublings of an orbit lies one branch of twice its period, and
+ * between two of that one of four times: each is found once, and ends at both. */
+static void
+doubled_orbits_end_where_they_become_one(void **state)
+{
+    const double z[] = {1.207002813, 2.36979258};
+    qdot_continuation x = {0};
+    qdot_expr q, F, square;
+    fixture f;
+
+    (void)state;
+    begin(&f);
+    q = coordinate(&f, "x");
+    F = set_free(&f, "F");
+    square = times(&f, q, q);
+    must(qdot_scene_particle(f.scene, "a", QDOT_ONE, q));
+    must(qdot_scene_potential(f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.25"), times(&f, square, square)),
+                                                half_square(&f, q))));
+    must(qdot_scene_potential(f.scene,
+                              qdot_neg(f.pool, times(&f, F, times(&f, q, qdot_fun1(f.pool, QDOT_COS, QDOT_T))))));
+    must(qdot_scene_dissipation(f.scene, times(&f, number(&f, "0.25"), half_square(&f, velocity(&f, q)))));
+    must(qdot_orbit_continuation_find(
+        &(qdot_orbit_of){f.scene, &f.request, QDOT_ORBIT_PARAMETER, F, 2.5, 2 * M_PI, z, 2.3, 3.6, 0}, &x));
+    assert_int_equal(x.branches.n, 3);
+    for (size_t k = 1; k < 3; k++) {
+        const qdot_branch *const b = &x.branches.at[k];
+        const size_t from = b->mark[0] - 1, to = b->mark[b->n - 1] - 1;
+
+        assert_int_equal(x.bifurcations.at[from].kind, QDOT_DOUBLING);
+        assert_int_equal(x.bifurcations.at[to].kind, QDOT_DOUBLING);
+        near(b->y[2], 2 * x.bifurcations.at[to].y[2], 1e-12);
+        near(fabs(x.bifurcations.at[to].y[3] - x.bifurcations.at[from].y[3]), k == 1 ? 0.8844750378234 : 0.7069784989292,
+             1e-11);
+    }
+    for (size_t i = 0; i < x.bifurcations.n; i++)
+        assert_true(x.bifurcations.at[i].reached == (x.bifurcations.at[i].y[2] < 7 * M_PI));
+    qdot_continuation_clear(&x);
+    end(&f);
+}
+
 /* F cos(w t): the period follows w; beside cos(t) it does not. */
 static void
 a_drives_period(void **state)
@@ -293,6 +333,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_limit_cycle), cmocka_unit_test(a_cycle_in_segments),     cmocka_unit_test(keeps_what_is_known),
         cmocka_unit_test(a_family),          cmocka_unit_test(a_period_doubling),
+        cmocka_unit_test(doubled_orbits_end_where_they_become_one),
         cmocka_unit_test(a_drives_period),   cmocka_unit_test(survives_failed_allocations_too),
     };
 

@@ -78,7 +78,7 @@ of_an_oscillator(void **state)
         {"x'", QDOT_NIL, NULL, speed},
     };
 
-    must(qdot_variation_make(f.scene, &f.request, 4, by, &v));
+    must(qdot_variation_make(f.scene, &f.request, 4, by, true, &v));
     r = run_of(&v);
     is = slope(&v, r, x, 0, &error);
     same(is, error, t * sin(w * t) * w / 2);
@@ -132,7 +132,7 @@ through_a_bounce(void **state)
         {"y", QDOT_NIL, NULL, place},
     };
 
-    must(qdot_variation_make(f.scene, &f.request, 3, by, &v));
+    must(qdot_variation_make(f.scene, &f.request, 3, by, true, &v));
     r = run_of(&v);
     is = slope(&v, r, y, 0, &error);
     same(is, error, g * tau * s);
@@ -180,7 +180,7 @@ along_a_circle(void **state)
     const qdot_variation_by by[] = {{"L", f.symbols[0], with_free(&f, by_L, 0), none},
                                     {"x'", QDOT_NIL, NULL, speed}};
 
-    must(qdot_variation_make(f.scene, &f.request, 2, by, &v));
+    must(qdot_variation_make(f.scene, &f.request, 2, by, true, &v));
     r = run_of(&v);
     is = slope(&v, r, x, 0, &error);
     same(is, error, sin(t) - t * cos(t));
@@ -193,7 +193,7 @@ along_a_circle(void **state)
     f.request.q_named = whole;
     const qdot_variation_by by_y[] = {{"y", QDOT_NIL, NULL, place}};
 
-    assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, by_y, &v), QDOT_EINVAL);
+    assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, by_y, true, &v), QDOT_EINVAL);
     qdot_variation_clear(&v);
     end(&f);
 }
@@ -212,7 +212,7 @@ jumps_are_refused(void **state)
     x = coordinate(&f, "x");
     must(qdot_scene_particle(f.scene, "a", QDOT_ONE, x));
     must(qdot_scene_potential(f.scene, qdot_fun1(f.pool, QDOT_ABS, x)));
-    assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, &by, &v),
+    assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, &by, true, &v),
                      QDOT_ENOTBUILT);
     qdot_variation_clear(&v);
     end(&f);

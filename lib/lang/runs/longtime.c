@@ -56,10 +56,10 @@ growth(const qdot_longtime_row *r, qdot_text *out)
 static void
 chosen(const qdot_longtime *l, qdot_text *out)
 {
-    qdot_text_format(out, "auto would take %s, tol %.0e%s", l->chosen, l->chosen_tol,
-                     l->chosen_long ? ": more than 20000 steps are foreseen, and truncation is to "
+    qdot_text_format(out, "auto would take %s, tol %.0e: %s", l->chosen->name, l->chosen_tol,
+                     l->chosen_long ? "more than 20000 steps are foreseen, and truncation is to "
                                       "stay below rounding"
-                                    : "");
+                                    : l->chosen->fits);
 }
 
 static void
@@ -217,9 +217,7 @@ qdot_longtime_statement(qdot_cursor *c)
     c->error_at = start->start;
     l.tol = chosen.tol;
     l.method = chosen.method;
-    status = qdot_request_fill(session, &order);
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &order);
+    status = qdot_request_between(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_longtime_measure(session->scene, &order.request, &l);
     if (l.interrupted)

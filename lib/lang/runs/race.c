@@ -187,12 +187,9 @@ qdot_race_statement(qdot_cursor *c)
     if (!qdot_cursor_is_end(c))
         return refuse_option(c);
     c->error_at = start->start;
-    status = qdot_request_fill(c->session, &order);
-    if (status == QDOT_OK) {
-        order.request.method = "auto";
-        order.request.tol = 1e-12;
-        status = qdot_request_limits(c->session, from, to, &order);
-    }
+    status = qdot_request_between(c->session, from, to, &order);
+    order.request.method = "auto";
+    order.request.tol = 1e-12;
     if (status == QDOT_OK) {
         status = qdot_race_hold(c->session->scene, &order.request, &race);
         if (status == QDOT_OK) {

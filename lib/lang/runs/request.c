@@ -2,7 +2,9 @@
 #include "lang/runs/request.h"
 
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "lang/commands/value-check.h"
+#include "lang/commands/warnings.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/scales.h"
@@ -23,7 +25,7 @@ start_value(const qdot_session *session, qdot_expr jet, bool *named)
 {
     for (size_t i = 0; i < session->start_symbols.n; i++)
         if (session->start_symbols.at[i] == jet) {
-            *named = true;
+            *named = qdot_expr_place(session->start_open.n, session->start_open.at, jet) == session->start_open.n;
             return session->start_values.at[i];
         }
     *named = false;
@@ -138,6 +140,14 @@ qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_re
     o->request.t0 = qdot_session_bind(session, qdot_measured_as_rationals(session, from));
     o->request.t1 = qdot_session_bind(session, qdot_measured_as_rationals(session, to));
     return qdot_pool_check(session->pool);
+}
+
+qdot_status
+qdot_request_between(qdot_session *session, qdot_expr from, qdot_expr to, qdot_request *o)
+{
+    QDOT_TRY(qdot_request_fill(session, o));
+    QDOT_TRY(qdot_request_limits(session, from, to, o));
+    return qdot_warnings_start(session);
 }
 
 /* --- why it failed -------------------------------------------------------------------- */

@@ -19,6 +19,9 @@ QDOT_MUST_CHECK qdot_status qdot_request_fill(qdot_session *session, qdot_reques
 /* Its limits, which are constants of the session. */
 QDOT_MUST_CHECK qdot_status qdot_request_limits(qdot_session *session, qdot_expr from,
                                                 qdot_expr to, qdot_request *o);
+/* Both, for a statement that integrates by itself; a notice where no `start` was said. */
+QDOT_MUST_CHECK qdot_status qdot_request_between(qdot_session *session, qdot_expr from,
+                                                 qdot_expr to, qdot_request *o);
 void qdot_request_free(qdot_request *o);
 
 /* QDOT_ESINGULAR if a mass or moment of inertia is negative by its values: which, and of what. */

@@ -239,9 +239,7 @@ qdot_workprecision_statement(qdot_cursor *c)
     QDOT_TRY(qdot_read_range(c, &from, &to));
     QDOT_TRY(qdot_error_time_read(c, QDOT_FIGURE_OPTIONS, &chosen.figure, &chosen.panel));
     c->error_at = start->start;
-    status = qdot_request_fill(session, &order);
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &order);
+    status = qdot_request_between(session, from, to, &order);
     if (status == QDOT_OK)
         status = qdot_workprecision_measure(session->scene, &order.request, &w);
     if (w.interrupted)

@@ -63,6 +63,7 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->set_symbols.at);
     qdot_free(session->set_values.at);
     qdot_free(session->start_symbols.at);
+    qdot_free(session->start_open.at);
     qdot_free(session->start_values.at);
     qdot_free(session->scale_symbols.at);
     qdot_free(session->scale_values.at);

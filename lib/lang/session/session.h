@@ -92,6 +92,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_member) members;
     qdot_vec(qdot_expr) set_symbols, set_values; /* values of parameters, the latest */
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
+    qdot_vec(qdot_expr) start_open; /* of these, while `find` changes others: constraints may change them */
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;

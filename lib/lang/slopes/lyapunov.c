@@ -152,9 +152,7 @@ qdot_lyapunov_statement(qdot_cursor *c)
     QDOT_TRY(qdot_error_time_read(c, "`tol`, " QDOT_FIGURE_OPTIONS, &chosen.figure,
                                   &chosen.panel));
     c->error_at = start->start;
-    status = qdot_request_fill(session, &order);
-    if (status == QDOT_OK)
-        status = qdot_request_limits(session, from, to, &order);
+    status = qdot_request_between(session, from, to, &order);
     order.request.tol = chosen.tol > 0 ? chosen.tol : tol_default;
     order.request.method = "auto";
     if (status == QDOT_OK)

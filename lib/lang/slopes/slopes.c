@@ -370,7 +370,7 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     QDOT_TRY(shorten(s, e, first));
     QDOT_TRY(find_directions(s));
     QDOT_TRY(find_start(s, name));
-    QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by,
+    QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by, true,
                                  &s->variation));
     request = qdot_variation_request(&s->variation);
     status = qdot_run_new(s->variation.scene, &request, &run);

@@ -415,7 +415,7 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
     for (int side = 0; side < 2; side++) {
         const double *y = branch->y + (side == 0 ? 0 : branch->n - 1) * b->found->width;
 
-        if (branch->end[side] == QDOT_END_RANGE)
+        if (branch->end[side] == QDOT_END_RANGE || branch->end[side] == QDOT_END_HALF)
             continue;
         qdot_text_format(out, "branch[%zu] ", i + 1);
         if (branch->end[side] == QDOT_END_LOST && branch->reason[side][0] != '\0')

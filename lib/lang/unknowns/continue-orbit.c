@@ -187,6 +187,13 @@ qdot_continue_orbit(qdot_session *session, const qdot_continue_wish *w)
     if (status == QDOT_OK && j.of.family == QDOT_ORBIT_PARAMETER && j.found.conserved)
         status = qdot_answer_notice(session, "the energy is conserved: along the branch it stays "
                                              "what it is in the run");
+    for (size_t i = 0; i < j.found.bifurcations.n && status == QDOT_OK; i++) {
+        const qdot_bifurcation *const one = &j.found.bifurcations.at[i];
+
+        if (one->reason[0] != '\0')
+            status = qdot_answer_notice(session, "orbits of twice the period from %s = %.7g are not followed: %s",
+                                        b.names[j.found.n], one->y[j.found.n], one->reason);
+    }
     status = qdot_continue_conclude(session, w, &b, status);
     qdot_continuation_clear(&j.found);
     qdot_free(j.text);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/statement.h"
 #include "lang/unknowns/find-parts.h"
@@ -15,6 +16,9 @@
 /* A motion of a family that goes less far than so much of the guess's is none. */
 static const double shrunk = 0.1;
 
+/* Constraints have moved a value of the start by more than rounding. */
+static const double moved = 1e-9;
+
 typedef struct {
     qdot_find *f;
     qdot_trial trial;
@@ -22,6 +26,7 @@ typedef struct {
     double *at;         /* [n] where the trial is open */
     double *unit;       /* [n] of the unknowns, from a guess that was moved */
     double *before;     /* [n] errors of the unknowns by the segments */
+    double *start;      /* [start_open.n] of the session, at the solution */
     qdot_expr *values;  /* [n] the same, exact */
     qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
@@ -30,6 +35,78 @@ typedef struct {
     double reach;       /* of an orbit's guess (sim/study/floquet.h) */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
+
+/* --- the start --------------------------------------------------------------------------------- */
+
+static bool
+is_unknown(const qdot_find *f, qdot_expr symbol)
+{
+    for (size_t i = 0; i < f->unknowns.n; i++)
+        if (f->unknowns.at[i].symbol == symbol)
+            return true;
+    return false;
+}
+
+/* Where unknowns of the start and values that it names beside them leave constraints of positions (or velocities) too
+ * few to solve for, those values follow: the ones nearest to what was named. */
+static qdot_status
+open_start(const qdot_find *f, bool velocities)
+{
+    qdot_session *session = f->c->session;
+    const qdot_scene *scene = session->scene;
+    size_t held = 0, named = 0, before = session->start_open.n, open = scene->coordinates.n;
+    bool some = false;
+
+    for (size_t i = 0; i < scene->constraints.n; i++)
+        held += scene->constraints.at[i].kind == QDOT_HOLONOMIC
+                || (velocities && scene->constraints.at[i].kind == QDOT_VELOCITY);
+    for (size_t i = 0; i < scene->coordinates.n; i++) {
+        const qdot_expr q = scene->coordinates.at[i], jet = qdot_symbol_jet(session->pool, q, velocities);
+
+        some = some || is_unknown(f, q) || is_unknown(f, jet);
+        open -= is_unknown(f, jet);
+        if (is_unknown(f, jet)
+            || qdot_expr_place(session->start_symbols.n, session->start_symbols.at, jet) == session->start_symbols.n)
+            continue;
+        named++;
+        QDOT_TRY(qdot_vec_push(&session->start_open, jet));
+    }
+    if (!some || open - named >= held || open > held) /* enough are open, or it is not known which */
+        session->start_open.n = before;
+    return QDOT_OK;
+}
+
+/* Those values as the run of the solution has them hold, too, from now on: numbers [start_open.n]. */
+static qdot_status
+read_start(const hunt *h, double *numbers)
+{
+    const qdot_session *session = h->trial.session;
+    const double t0 = qdot_run_get_report(h->trial.run)->t0;
+
+    return session->start_open.n == 0
+               ? QDOT_OK
+               : qdot_run_values(h->trial.run, session->start_open.n, session->start_open.at, 1, &t0, numbers, NULL);
+}
+
+static qdot_status
+keep_start(qdot_session *session, const double *numbers)
+{
+    for (size_t i = 0; i < session->start_open.n; i++) {
+        qdot_text name = {0};
+        qdot_status status = qdot_print(session->pool, session->start_open.at[i], QDOT_PLAIN, &name);
+
+        if (status == QDOT_OK)
+            status = qdot_session_put(session, session->start_open.at[i],
+                                      qdot_measured_rational(session->pool, numbers[i]));
+        if (status == QDOT_OK)
+            status = qdot_answer_notice(session, "by the constraints %s starts at %.10g", qdot_text_str(&name),
+                                        numbers[i]);
+        qdot_text_clear(&name);
+        QDOT_TRY(status);
+    }
+    session->start_open.n = 0;
+    return qdot_pool_check(session->pool);
+}
 
 /* --- the functions --------------------------------------------------------------------------- */
 
@@ -65,6 +142,27 @@ find_limits(hunt *h)
     return status;
 }
 
+/* Constraints that no open value fulfils move all: the run is none of these unknowns then. */
+static qdot_status
+check_start(const hunt *h)
+{
+    const qdot_session *session = h->trial.session;
+    const double t0 = qdot_run_get_report(h->trial.run)->t0;
+
+    for (size_t i = 0; i < h->trial.n && session->scene->constraints.n > 0; i++) {
+        const qdot_slope_name *one = &h->trial.unknowns[i];
+        double value;
+
+        if (!qdot_expr_is_class(session->pool, one->symbol, QDOT_COORD))
+            continue;
+        QDOT_TRY(qdot_run_values(h->trial.run, 1, &one->symbol, 1, &t0, &value, NULL));
+        if (!(fabs(value - h->at[i]) <= moved * fmax(1, fabs(value))))
+            return qdot_fail(QDOT_EDOMAIN, "the constraints do not let %.100s start at %.10g beside what `start` names",
+                             one->label, h->at[i]);
+    }
+    return QDOT_OK;
+}
+
 /* Open the trial at u and read what must vanish. */
 static qdot_status
 open_at(hunt *h, const double *u)
@@ -75,6 +173,7 @@ open_at(hunt *h, const double *u)
     QDOT_TRY(take_values(h, u));
     QDOT_TRY(find_limits(h));
     QDOT_TRY(qdot_trial_open(&h->trial, h->values));
+    QDOT_TRY(check_start(h));
     return qdot_find_residuals(h->f, h->trial.from, h->e);
 }
 
@@ -366,6 +465,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     bool rests = false;
 
     QDOT_TRY(open_at(h, r->u));
+    QDOT_TRY(read_start(h, h->start));
     QDOT_TRY(check_length(h));
     QDOT_TRY(tell_end(h));
     if (f->returns)
@@ -376,6 +476,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     for (size_t i = 0; i < f->unknowns.n; i++)
         if (!qdot_expr_is_class(session->pool, f->unknowns.at[i].symbol, QDOT_FORMAL))
             QDOT_TRY(qdot_trial_put(session, 1, &f->unknowns.at[i], &h->values[i]));
+    QDOT_TRY(keep_start(session, h->start));
     QDOT_TRY(keep_run(f, h->trial.from, h->trial.to));
     for (size_t i = 0; i < f->unknowns.n; i++)
         QDOT_TRY(
@@ -384,6 +485,96 @@ conclude(hunt *h, const qdot_zero_result *r)
         QDOT_TRY(qdot_answer_notice(
             session, "this is a rest: velocities and accelerations are 0 at its start"));
     return tell_family(h, r);
+}
+
+/* --- along the motion ------------------------------------------------------------------------ */
+
+/* Where each unknown stands among the coordinates and velocities that must return, which are all unknown. False: they
+ * are not, or more is asked for. */
+static bool
+find_places(const hunt *h, size_t *place)
+{
+    const qdot_session *session = h->f->c->session;
+    const size_t n = session->scene->coordinates.n;
+
+    if (!h->f->returns || h->m != 2 * n || h->trial.n != 2 * n)
+        return false;
+    for (size_t j = 0; j < 2 * n; j++) {
+        place[j] = 0;
+        while (place[j] < 2 * n &&
+               h->f->unknowns.at[j].symbol != qdot_symbol_jet(session->pool,
+                                                              session->scene->coordinates.at[place[j] % n],
+                                                              place[j] >= n))
+            place[j]++;
+        if (place[j] == 2 * n)
+            return false;
+    }
+    return true;
+}
+
+/* Where motions are damped, that of the guess may come to an orbit to which Newton's method does not lead: start anew
+ * from each return, u <- u + f(u), until that moves u by a thousandth of what it did. *returns: how many; 0: it comes to none. */
+static qdot_status
+follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t *returns)
+{
+    enum { most = 400, trend = 32 };
+    const qdot_find *of = h->f;
+    double first = 0, before = INFINITY;
+
+    *returns = 0;
+    for (size_t k = 0; k <= most; k++) {
+        double left = 0;
+
+        QDOT_TRY(evaluate(u, f, error, NULL, h));
+        for (size_t i = 0; i < h->m; i++)
+            left = isfinite(f[i]) ? fmax(left, fabs(f[i])) : INFINITY;
+        if (k == 0)
+            first = left;
+        if (left <= 1e-3 * first) {
+            *returns = k;
+            return QDOT_OK;
+        }
+        if (!isfinite(left) || (k % trend == 0 && left > 0.8 * before))
+            return QDOT_OK;
+        before = k % trend == 0 ? left : before;
+        for (size_t j = 0; j < h->trial.n; j++) {
+            u[j] += f[place[j]];
+            if (!(u[j] >= of->low.at[j] && u[j] <= of->high.at[j]))
+                return QDOT_OK;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* The search that came to nothing, once more from where the guess comes to. r is as it was where that does not help. */
+static qdot_status
+search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
+{
+    const size_t n = h->trial.n;
+    size_t returns = 0, *place = qdot_calloc(n, sizeof *place);
+    double *room = qdot_calloc(2 * n + 2 * h->m, sizeof *room);
+    qdot_zero_result again = {
+        .u = room, .error = room + n, .f = room + 2 * n, .f_error = room + 2 * n + h->m};
+    qdot_status status = place != NULL && room != NULL ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK && find_places(h, place)) {
+        memcpy(again.u, h->f->guess.at, n * sizeof *again.u);
+        status = follow(h, place, again.f, again.f_error, again.u, &returns);
+        if (status == QDOT_OK && returns > 0)
+            status = qdot_zero_find(p, &again);
+        if (status == QDOT_OK && returns > 0 && again.answer == QDOT_ZERO_FOUND) {
+            memcpy(r->u, again.u, n * sizeof *r->u);
+            memcpy(r->error, again.error, n * sizeof *r->error);
+            r->answer = again.answer;
+            r->rank = again.rank;
+            status = qdot_answer_notice(
+                h->f->c->session, "no return near the guess was found: this is the one that its motion comes to after %zu",
+                returns);
+        }
+    }
+    qdot_free(place);
+    qdot_free(room);
+    return status;
 }
 
 /* --- all ----------------------------------------------------------------------------------- */
@@ -418,6 +609,8 @@ search(hunt *h, qdot_zero_result *r)
         p.once = shot.found; /* an orbit that no run can follow round is not looked for elsewhere */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
+    if (r->answer != QDOT_ZERO_FOUND && !p.once)
+        QDOT_TRY(search_behind(h, &p, r));
     if (r->rank < h->rank) { /* beside what grows so much a single run tells nothing of what shrinks */
         for (size_t i = 0; i < p.n; i++)
             r->error[i] = fmax(r->error[i], h->before[i]);
@@ -437,7 +630,7 @@ carry_out(qdot_find *f)
                         .n = n,
                         .unknowns = f->unknowns.at,
                         .options = &f->run}};
-    double *room = qdot_calloc(5 * n + 2 * m + 1, sizeof *room);
+    double *room = qdot_calloc(5 * n + 2 * m + 2 * f->c->session->scene->coordinates.n + 1, sizeof *room);
     qdot_zero_result r = {
         .u = room, .error = room + n, .f = room + 5 * n, .f_error = room + 5 * n + m};
     qdot_status status = QDOT_ENOMEM;
@@ -445,12 +638,18 @@ carry_out(qdot_find *f)
     h.at = room + 2 * n;
     h.unit = room + 3 * n;
     h.before = room + 4 * n;
+    h.start = room + 5 * n + 2 * m;
     h.values = qdot_calloc(n + m + 1, sizeof *h.values);
     if (room != NULL && h.values != NULL) {
         h.e = h.values + n;
-        status = search(&h, &r);
+        status = open_start(f, false);
     }
+    if (status == QDOT_OK)
+        status = open_start(f, true);
+    if (status == QDOT_OK)
+        status = search(&h, &r);
     qdot_trial_close(&h.trial);
+    f->c->session->start_open.n = 0;
     qdot_free(h.values);
     qdot_free(room);
     return status;

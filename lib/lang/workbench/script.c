@@ -79,7 +79,8 @@ is_definition(const qdot_token *name, bool word)
     return qdot_token_is(next, "=");
 }
 
-/* Whether the token begins an operand, written as a word or a number. */
+/* Whether the token begins the operand of a statement: a name, a number, or a bracket that is
+ * not written close to the statement's word. */
 static bool
 begins_operand(const qdot_token *token)
 {
@@ -88,7 +89,8 @@ begins_operand(const qdot_token *token)
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (qdot_token_is_word(token, words[i]))
             return false;
-    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER;
+    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER ||
+           (qdot_token_is(token, "(") && !token->glued);
 }
 
 /* Whether the statement's word is meant as a name here: `run*2`, a user's own `scene`. */

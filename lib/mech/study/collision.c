@@ -594,10 +594,10 @@ make(work *k)
     split_accelerations(k);
     find_pair(k);
     QDOT_TRY(qdot_pool_check(k->pool));
+    k->c->strength = k->strength;
     if (is_hindered(k))
         return QDOT_OK;
     k->c->parts = k->m;
-    k->c->strength = k->strength;
     express_coordinates(k);
     for (size_t i = 0; i < to->coordinates.n; i++)
         kinetic =

@@ -64,7 +64,7 @@ typedef struct {
     size_t parts;      /* of u, its first coordinates; then come t, the integral of h, and Q and w of
                           each coordinate that stays */
     qdot_expr time;    /* its coordinate t */
-    qdot_expr strength; /* k */
+    qdot_expr strength; /* k; 0 where no force is as 1/R^2 */
     char hindrance[200];
     qdot_collision_pair pair;
     qdot_expr R; /* a symbol for R while the scene is made */

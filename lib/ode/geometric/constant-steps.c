@@ -13,10 +13,15 @@
 #include "ode/meter.h"
 #include "ode/scale.h"
 
-enum { trial_steps = 64, measured = 16, most_undefined = 60 };
+enum { trial_steps = 64, most_trial = 4000, window = 32, measured = 16, most_undefined = 60 };
 
 /* The trial aims at this part of the tolerance; its shortest step times `safe` is taken. */
 static const double aim = 0.5, safe = 0.9, most_growth = 5;
+
+/* At a singular place the steps of the trial are so much shorter than others: this part of the longest
+ * is then taken, and shortened where that place comes. Behind one the trial goes on while the shortest
+ * of a window is so much longer than that of the one before. */
+static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
 
 /* Differences of states below this, relative to max(1, |y_i|), are rounding. */
 static const double rounding = 8 * DBL_EPSILON;
@@ -29,6 +34,7 @@ typedef struct {
     double h; /* positive */
     double *before, *halves, *full; /* [4n] state with its low part; [2n] (q, q') */
     double work;      /* that has been counted */
+    double length;    /* that steps from a singular place grow to; else 0 */
     int undefined;    /* tries in a row from this t that met no f */
 } run;
 
@@ -80,6 +86,18 @@ write_state(qdot_geometric *g, double t, double *y)
                : qdot_fail(QDOT_EDOMAIN, "the state is not finite");
 }
 
+/* The state behind a step, into y [2n]. Where the run ends at roots of functions it is looked at, so
+ * the force must be defined there: nodes of collocation all lie before the end. */
+static qdot_status
+write_end(run *r, double t, double *y)
+{
+    const size_t n = r->g.n;
+
+    QDOT_TRY(write_state(&r->g, t, y));
+    return r->options->at_doubles ? qdot_geometric_force(&r->g, t, y, y + n, r->g.rates + n)
+                                  : QDOT_OK;
+}
+
 static void
 keep(run *r)
 {
@@ -120,7 +138,7 @@ measure(run *r, double h, double *ratio)
     if (status == QDOT_OK)
         status = step(r, r->t, h);
     if (status == QDOT_OK)
-        status = write_state(&r->g, r->t + h, r->full);
+        status = write_end(r, r->t + h, r->full);
     if (status != QDOT_OK) {
         go_back(r);
         return status;
@@ -185,37 +203,92 @@ stopped(const run *r)
     return why.hint[0] ? qdot_hint("%s", why.hint) : QDOT_EFAILED;
 }
 
-/* Find the length: steps of varying ones from the start, to which the state then returns. */
+/* The lengths of the trial. */
+typedef struct {
+    double first, shortest, longest;
+    double now, before; /* the shortest of the window at hand, and of the one before */
+    bool grows;
+} lengths;
+
+static void
+note(lengths *l, double h)
+{
+    if (l->longest == 0)
+        l->first = h;
+    l->shortest = fmin(l->shortest, h);
+    l->longest = fmax(l->longest, h);
+    l->now = fmin(l->now, h);
+}
+
+/* Whether step k of the trial is made. */
+static bool
+goes_on(lengths *l, int k)
+{
+    if (k > 0 && k % window == 0) {
+        l->grows = l->grows && (k == window || l->now > growing * l->before);
+        l->before = l->now;
+        l->now = INFINITY;
+    }
+    return k < (l->grows ? most_trial : trial_steps);
+}
+
+/* Steps of varying lengths from the start, which these are noted of. */
 static qdot_status
-find_length(run *r)
+try_lengths(run *r, lengths *l)
 {
     const double distance = fabs(r->t1 - r->t), t0 = r->t;
-    double *start = qdot_malloc(4 * r->g.n * sizeof *start), shortest = INFINITY;
-    qdot_status status = start ? first_length(r, distance) : QDOT_ENOMEM;
 
-    if (status == QDOT_OK)
-        memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
-    for (int k = 0; status == QDOT_OK && k < trial_steps && fabs(r->t - t0) < distance; k++) {
+    for (int k = 0; fabs(r->t - t0) < distance && goes_on(l, k); k++) {
         const double h = fmin(r->h, distance - fabs(r->t - t0));
         double ratio;
+        const qdot_status status = measure(r, r->direction * h, &ratio);
 
-        status = measure(r, r->direction * h, &ratio);
         if (qdot_ode_may_be_undefined(status) && h > least_length(r)) {
             r->h = 0.25 * h;
-            status = QDOT_OK;
             continue;
         }
-        if (status != QDOT_OK)
-            break;
+        QDOT_TRY(status);
         r->h = h * factor_of(r, ratio);
         if (ratio > 1) {
             go_back(r);
-            status = r->h > least_length(r) ? QDOT_OK : too_small(r);
+            if (!(r->h > least_length(r)))
+                return too_small(r);
             continue;
         }
         r->t += r->direction * h;
         if (r->h < most_growth * h) /* else the tolerance did not limit it */
-            shortest = fmin(shortest, r->h);
+            note(l, r->h);
+    }
+    return QDOT_OK;
+}
+
+/* The length that the trial shows. */
+static void
+choose_length(run *r, const lengths *l)
+{
+    const double length = safe * of_longest * l->longest;
+
+    if (!isfinite(l->shortest))
+        return;
+    r->h = safe * l->shortest;
+    if (!(l->longest > singular * l->shortest))
+        return;
+    r->h = fmin(safe * l->first, length);
+    r->length = r->h < length ? length : 0;
+}
+
+/* Find the length by a trial, after which the state is that of the start. */
+static qdot_status
+find_length(run *r)
+{
+    const double t0 = r->t;
+    double *start = qdot_malloc(4 * r->g.n * sizeof *start);
+    lengths l = {.shortest = INFINITY, .now = INFINITY, .grows = true};
+    qdot_status status = start ? first_length(r, fabs(r->t1 - r->t)) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(start, r->g.y, 4 * r->g.n * sizeof *start);
+        status = try_lengths(r, &l);
     }
     /* what ends the trial ends the run, there */
     if (qdot_ode_may_be_undefined(status))
@@ -224,8 +297,7 @@ find_length(run *r)
         memcpy(r->g.y, start, 4 * r->g.n * sizeof *start);
         r->g.known = false;
         r->t = t0;
-        if (isfinite(shortest))
-            r->h = safe * shortest;
+        choose_length(r, &l);
     }
     qdot_free(start);
     return status;
@@ -281,10 +353,19 @@ step_plainly(run *r, double h)
     keep(r);
     status = step(r, r->t, h);
     if (status == QDOT_OK)
-        status = write_state(&r->g, r->t + h, r->full);
+        status = write_end(r, r->t + h, r->full);
     if (status != QDOT_OK)
         go_back(r);
     return status;
+}
+
+/* The step after one from near a singular place, until the length of the others is reached. */
+static void
+grow(run *r, double h, double ratio)
+{
+    r->h = fmin(r->length, h * factor_of(r, ratio));
+    if (r->h == r->length)
+        r->length = 0;
 }
 
 static qdot_status
@@ -293,7 +374,8 @@ advance(run *r, bool *stop)
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
     const bool last = r->h >= rest * (1 - 1e-12);
     const double h = last ? rest : r->h;
-    const bool look = r->result->stats.steps % measured == 0 && !(r->options->h_fixed > 0);
+    const bool look = (r->length > 0 || r->result->stats.steps % measured == 0)
+                      && !(r->options->h_fixed > 0);
     double ratio = 0;
     qdot_status status;
 
@@ -304,8 +386,11 @@ advance(run *r, bool *stop)
     status = look ? measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
     if (status != QDOT_OK)
         return undefined(r, h, status);
-    if (ratio <= 1)
+    if (ratio <= 1) {
+        if (r->length > 0 && !last)
+            grow(r, h, ratio);
         return take(r, h, last, stop);
+    }
     go_back(r);
     r->result->stats.rejected++;
     r->h = h * fmin(safe, factor_of(r, ratio));
@@ -326,7 +411,7 @@ count_work(run *r)
 static qdot_status
 check_length(const run *r)
 {
-    const double steps = fabs(r->t1 - r->t) / r->h;
+    const double steps = fabs(r->t1 - r->t) / fmax(r->h, r->length);
 
     if (steps < (double)qdot_ode_most_steps(r->options))
         return QDOT_OK;

@@ -17,7 +17,9 @@
  *     ratio = max_i |y_i - y_i,halves| / (tol max(s_i, |y_i|)),     y = (q, q').
  *
  * Every sixteenth step is measured like that. If its ratio is above 1 the step is repeated with a
- * shorter length, and all that follow have that one: the length never grows.
+ * shorter length, and all that follow have that one: the length never grows. But for a start so near
+ * a singular place, as the rim of a contact of fractional power, that the steps of the trial grow
+ * 10^4-fold: there all are measured, and grow to the shortest of the trial's later half.
  *
  * Rounding. The state is a sum y + low of two doubles, and each increment is added to it without
  * error (VIII.5). Coefficients whose doubles are off have the rest beside them: else the energy

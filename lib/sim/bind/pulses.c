@@ -55,7 +55,7 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
                        .most = MOST_PARTS};
     QDOT_TRY(qdot_polynomial_bounds_init(&p->bounds, tape, 2 * n));
     at = qdot_calloc(inputs + qdot_tape_work(tape) + outputs + (2 * MOST + 6) * m +
-                         (MOST_PARTS + DEEPEST + 1) * (m + 1),
+                         (MOST_PARTS + DEEPEST + 1) * (m + 1) + 4 * n,
                      sizeof *at);
     if (!at)
         return QDOT_ENOMEM;
@@ -69,7 +69,8 @@ qdot_pulses_init(qdot_pulses *p, const qdot_plan *plan, const qdot_tape *tape,
     p->left = p->allowed + m;
     p->values = p->left + m;
     p->whole = p->values + m * MOST;
-    p->parts = p->whole + m * MOST;
+    p->ends = p->whole + m * MOST;
+    p->parts = p->ends + 4 * p->n;
     return QDOT_OK;
 }
 
@@ -97,6 +98,16 @@ interpolate(const qdot_pulses *p, const qdot_pulses_step *s, double t, double *y
     }
 }
 
+/* The state at t, by what the step has. */
+static qdot_status
+state_at(qdot_pulses *p, qdot_pulses_step *s, double t, double *y)
+{
+    if (s->read)
+        return s->read(t, y, s->user);
+    interpolate(p, s, t, y);
+    return QDOT_OK;
+}
+
 static double
 time_at(double a, double b, int nodes, int j)
 {
@@ -111,10 +122,7 @@ sample(qdot_pulses *p, qdot_pulses_step *s, double a, double b, int nodes, bool 
     for (int j = 0; j < nodes && *finite; j++) {
         const double t = time_at(a, b, nodes, j);
 
-        if (s->read)
-            QDOT_TRY(s->read(t, p->in, s->user));
-        else
-            interpolate(p, s, t, p->in);
+        QDOT_TRY(state_at(p, s, t, p->in));
         p->in[2 * p->n] = t;
         qdot_tape_eval(p->tape, p->in, p->out, p->work);
         s->evaluations++;
@@ -216,13 +224,49 @@ allow(qdot_pulses *p, const qdot_pulses_step *s)
     }
 }
 
+/* Whether the step is so short that what falls off like an exponential cannot fall off on it: its
+ * state within what the ends and their velocities let it be, and as much again. */
+static bool
+is_short(qdot_pulses *p, const qdot_pulses_step *s)
+{
+    const size_t n = p->n;
+    const double h = fabs(s->b - s->a);
+    qdot_polynomial_bounds *bounds = &p->bounds;
+    size_t last;
+
+    for (size_t i = 0; i < n; i++) {
+        const double v0 = s->from[n + i], v1 = s->to[n + i], bend = fabs(bend_of(p, s, i));
+
+        bounds->centre[i] = 0.5 * (s->from[i] + s->to[i]);
+        bounds->radius[i] = h * (fmax(fabs(v0), fabs(v1)) + 2 * bend);
+        bounds->centre[n + i] = 0.5 * (v0 + v1);
+        bounds->radius[n + i] = fabs(v1 - v0) + 4 * bend;
+    }
+    bounds->centre[2 * n] = 0.5 * (s->a + s->b);
+    bounds->radius[2 * n] = 0.5 * h;
+    return qdot_disc_hiders(p->tape, p->hiding, bounds->centre, bounds->radius, short_reach,
+                            &last, bounds->work) == 0;
+}
+
+/* Whether nothing can fall off on the part a ... b alone. */
+static qdot_status
+is_short_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, bool *is)
+{
+    const qdot_pulses_step part = {.a = a, .b = b, .from = p->ends, .to = p->ends + 2 * p->n};
+
+    QDOT_TRY(state_at(p, s, a, p->ends));
+    QDOT_TRY(state_at(p, s, b, p->ends + 2 * p->n));
+    *is = is_short(p, &part);
+    return QDOT_OK;
+}
+
 /* Examine the parts of a step whose points do not suffice, from left to right; *all: as many as that
  * takes. */
 static qdot_status
 look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 {
     double ends[DEEPEST + 1], from = s->a, peak = 0;
-    bool finite;
+    bool finite, sure;
     int looked = 0;
 
     memset(p->beyond, 0, p->m * sizeof *p->beyond);
@@ -235,7 +279,10 @@ look_at_parts(qdot_pulses *p, qdot_pulses_step *s, bool *all)
 
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(sample(p, s, from, to, FEW, &finite));
-        if (finite && depth < DEEPEST && looked < p->most && !is_sure(p, from, to, FEW)) {
+        sure = !finite || is_sure(p, from, to, FEW);
+        if (!sure)
+            QDOT_TRY(is_short_part(p, s, from, to, &sure));
+        if (!sure && depth < DEEPEST && looked < p->most) {
             ends[depth++] = 0.5 * (from + to);
             continue;
         }
@@ -268,30 +315,6 @@ find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
             s->part = fabs(part[row] - part[0]);
             return;
         }
-}
-
-/* Whether the step is so short that what falls off like an exponential cannot fall off on it: its
- * state within what the ends and their velocities let it be, and as much again. */
-static bool
-is_short(qdot_pulses *p, const qdot_pulses_step *s)
-{
-    const size_t n = p->n;
-    const double h = fabs(s->b - s->a);
-    qdot_polynomial_bounds *bounds = &p->bounds;
-    size_t last;
-
-    for (size_t i = 0; i < n; i++) {
-        const double v0 = s->from[n + i], v1 = s->to[n + i], bend = fabs(bend_of(p, s, i));
-
-        bounds->centre[i] = 0.5 * (s->from[i] + s->to[i]);
-        bounds->radius[i] = h * (fmax(fabs(v0), fabs(v1)) + 2 * bend);
-        bounds->centre[n + i] = 0.5 * (v0 + v1);
-        bounds->radius[n + i] = fabs(v1 - v0) + 4 * bend;
-    }
-    bounds->centre[2 * n] = 0.5 * (s->a + s->b);
-    bounds->radius[2 * n] = 0.5 * h;
-    return qdot_disc_hiders(p->tape, p->hiding, bounds->centre, bounds->radius, short_reach,
-                            &last, bounds->work) == 0;
 }
 
 /* The disc about four numbers. */

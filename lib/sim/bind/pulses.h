@@ -41,6 +41,7 @@ typedef struct {
     double *all;     /* [m] and of what they show */
     double *allowed; /* [m] what may be missed in the step, */
     double *left;    /* [m] and on parts that are not known yet */
+    double *ends;    /* [4n] the states at both ends of a part */
     double *
         parts; /* [n_parts x (1 + m)] where each begins; how much its values change, by its length */
     size_t n_parts;

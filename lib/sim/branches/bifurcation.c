@@ -13,7 +13,7 @@ qdot_bifurcation_name(qdot_bifurcation_kind kind)
 {
     static const char *const names[] = {
         "fold",  "pitchfork",       "transcritical", "hopf", "hamiltonian hopf", "period doubling",
-        "torus", "krein collision", "degenerate"};
+        "period doubling", "torus", "krein collision", "degenerate"};
 
     return names[kind];
 }

@@ -22,19 +22,22 @@ typedef enum {
     QDOT_HOPF,
     QDOT_COLLISION,   /* of frequencies */
     QDOT_DOUBLING,    /* of orbits: a multiplier passes -1 */
+    QDOT_HALVING,     /* of orbits of twice a period: they end there at one of that period */
     QDOT_TORUS,       /* of orbits: a pair of multipliers passes the unit circle */
     QDOT_KREIN,       /* of orbits: two pairs on the unit circle meet and leave it */
     QDOT_NOT_SIMPLE   /* something else: located between two points, not followed */
 } qdot_bifurcation_kind;
 
-/* "fold", "pitchfork", "transcritical", "hopf", "hamiltonian hopf", "period doubling", "torus", "krein collision",
- * "degenerate". */
+/* "fold", "pitchfork", "transcritical", "hopf", "hamiltonian hopf", "period doubling", "period doubling",
+ * "torus", "krein collision", "degenerate". */
 const char *qdot_bifurcation_name(qdot_bifurcation_kind kind);
 
 typedef struct {
     qdot_bifurcation_kind kind;
     double *y, *error;                 /* [width] in one block, owned */
     double frequency, frequency_error; /* of Hopf points; of a torus, the angle of its multipliers */
+    bool reached; /* of a period doubling: a branch of orbits of twice the period begins or ends there; */
+    char reason[QDOT_PATH_REASON]; /* why none was followed from there; "": it was, or that was not tried */
 } qdot_bifurcation;
 
 /* It lies between the points at `from` and `to` from a along a->t. */

@@ -76,6 +76,8 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
         return a->t[x->n] * b->t[x->n] > 0 || (is_upright(x, a) && is_upright(x, b));
     if (kind == QDOT_DOUBLING)
         return a->flip == b->flip;
+    if (kind == QDOT_HALVING)
+        return qdot_path_halves(x, a->y, b->y) > 0;
     return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);
 }
 
@@ -221,14 +223,16 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
         status = enclose(x, &in, UNKNOWN, &b);
         memcpy(guess, b.y, w * sizeof *guess);
     }
-    s->rested = status == QDOT_OK && answer == QDOT_BIFURCATION_REST;
-    if (s->rested)
+    s->over = kind == QDOT_HALVING                ? QDOT_END_HALF
+              : answer == QDOT_BIFURCATION_REST ? QDOT_END_REST
+                                                : QDOT_END_STOPPED;
+    if (status == QDOT_OK && s->over == QDOT_END_REST)
         status = qdot_branch_add(x, branch, b.y, a->stability, 0);
     s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
                length > together;
-    if (status == QDOT_OK && !s->leapt && !s->rested) {
+    if (status == QDOT_OK && !s->leapt && s->over != QDOT_END_REST) {
         if (answer != QDOT_BIFURCATION_FOUND) {
-            b.kind = QDOT_NOT_SIMPLE;
+            b.kind = kind == QDOT_HALVING ? kind : QDOT_NOT_SIMPLE;
             b.frequency = 0;
             memcpy(b.y, guess, w * sizeof *guess);
         }
@@ -257,6 +261,10 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
         s->leapt = true;
         return QDOT_OK;
     }
+    if (!is_before(s->x, QDOT_HALVING, a, b)) {
+        s->leapt = length > first_step;
+        return s->leapt ? QDOT_OK : locate(s, a, length, QDOT_HALVING, NULL, branch);
+    }
     if (a->flip * b->flip < 0 && length > together &&
         (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
         s->leapt = true; /* over two at once */
@@ -264,7 +272,7 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     }
     if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
         QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
-        if (s->leapt || s->rested)
+        if (s->leapt || s->over != QDOT_END_STOPPED)
             return QDOT_OK;
         if (branch->n > before)
             crossing = branch->y + before * w;
@@ -397,6 +405,7 @@ look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double
 {
     qdot_status status = qdot_interrupt_check();
 
+    s->over = QDOT_END_STOPPED;
     if (status == QDOT_OK)
         status = s->x->judge(s->x, b);
     if (status == QDOT_OK && !b->blurred)
@@ -437,8 +446,8 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
             branch->end[1] = QDOT_END_BLURRED;
             return QDOT_OK;
         }
-        if (s->rested) {
-            branch->end[1] = QDOT_END_REST;
+        if (s->over != QDOT_END_STOPPED) {
+            branch->end[1] = s->over;
             return QDOT_OK;
         }
         if (s->leapt) {

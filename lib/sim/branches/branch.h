@@ -13,6 +13,7 @@ typedef enum {
     QDOT_END_CLOSED,  /* it came back to where it began */
     QDOT_END_FAR,     /* it goes on to infinity */
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
+    QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
     QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, or jump */
     QDOT_END_BLURRED, /* what is judged drowns in errors */
@@ -53,7 +54,7 @@ typedef struct {
     bool leapt; /* the latest step went over to another curve, which does not cross this one, or over two
                    bifurcations: it is made again, shorter */
     size_t most_points; /* of a branch; 0: as many as any may have */
-    bool rested; /* in the latest step an orbit shrank to a place at rest */
+    qdot_branch_end over; /* the latest step led to that end of the branch; QDOT_END_STOPPED: it goes on */
 } qdot_branch_search;
 
 QDOT_MUST_CHECK qdot_status qdot_branch_add(const qdot_path *x, qdot_branch *branch,

@@ -83,6 +83,8 @@ test(search *f)
         return f->point.t[f->x->path.n];
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
+    if (f->kind == QDOT_HALVING)
+        return qdot_path_halves(&f->x->path, f->a->y, f->point.y);
     if (!qdot_orbit_path_monodromy(f->x, f->point.y) ||
         qdot_eigenvalues_of_product(f->x->K, z, f->x->B, f->none, f->re, f->im, f->off) != QDOT_OK)
         return NAN;
@@ -284,6 +286,13 @@ widen(search *f, double *lo, double *hi)
     }
 }
 
+/* Two curves cross there: orbits cannot be had at it, but beside it. */
+static bool
+crosses(const search *f)
+{
+    return f->kind == QDOT_PITCHFORK || f->kind == QDOT_HALVING;
+}
+
 /* The bifurcation between lo and hi: y [width] with what belongs to it, how far s may be off. */
 static qdot_status
 locate(search *f, double lo, double hi, double *y, double *off, bool *found)
@@ -294,7 +303,7 @@ locate(search *f, double lo, double hi, double *y, double *off, bool *found)
     if (f->kind == QDOT_TORUS && f->krein) {
         QDOT_TRY(halve(f, &lo, &hi, found));
         *off = 1e-10 + hi - lo;
-    } else if (f->kind == QDOT_PITCHFORK) {
+    } else if (crosses(f)) {
         *found = find_crossing(f, lo, hi, off);
     } else {
         if (f->kind == QDOT_TORUS)
@@ -304,7 +313,7 @@ locate(search *f, double lo, double hi, double *y, double *off, bool *found)
     }
     if (path->failure != QDOT_OK)
         return path->failure;
-    if (*found && f->kind != QDOT_PITCHFORK)
+    if (*found && !crosses(f))
         *found = !isnan(test_at(f, (lo + hi) / 2));
     if (*found) {
         QDOT_TRY(path->judge(path, &f->point));
@@ -494,7 +503,7 @@ find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, doubl
     const bool pair = fabs(sin(angle)) > off_axis && (f->krein || f->beside < on_circle);
 
     if (status == QDOT_OK)
-        memcpy(t, f->kind == QDOT_PITCHFORK ? in->a->t : f->point.t, m * sizeof *t);
+        memcpy(t, crosses(f) ? in->a->t : f->point.t, m * sizeof *t);
     if (*found && f->kind == QDOT_PITCHFORK) {
         f->rests = f->point.rests;
         f->apart = !f->rests && off > apart;

@@ -2,6 +2,7 @@
 #include "sim/branches/orbit-continuation.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -13,6 +14,9 @@ static const double long_period = 2, mostly = 0.5;
 /* Orbits that close after more turns of the first are not followed; of those that close after the most turns these many
  * branches, from the first bifurcation on, of so many points. */
 enum { MOST_TURNS = 4, MOST_DOUBLED = 4, MOST_POINTS = 500 };
+
+/* Beside errors, relative to the sizes of all: places of one period doubling, as two branches have it. */
+static const double alike = 1e-6;
 
 /* Between points from and to of a branch, both at an end of it. */
 static bool
@@ -84,40 +88,85 @@ shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double
     memmove(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
 }
 
+/* Whether y, rows of `to`, at which orbits of twice the period end, is that period doubling: of its first state, or of
+ * the one after half of it. */
+static bool
+is_doubling(const qdot_path *once, const qdot_continuation *to, const qdot_bifurcation *d, const double *y)
+{
+    const size_t n = to->n, z = once->coordinates - 1;
+    const double *const error = y + to->width;
+
+    for (size_t k = 0; k < (once->half > 0 ? 2 : 1) && d->kind == QDOT_DOUBLING; k++) {
+        double off = (fabs(y[n] - d->y[n]) - error[n] - d->error[n]) / to->size[n];
+
+        for (size_t i = 0, j = k * once->half; i < z; i++, j++)
+            off = fmax(off, (fabs(y[i] - d->y[j]) - error[i] - d->error[j]) / to->size[i]);
+        if (off < alike)
+            return true;
+    }
+    return false;
+}
+
+/* Move a bifurcation of x to `to`, once's, if it is not there yet; *number: 1 + its index there. */
+static qdot_status
+merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b, qdot_continuation *to,
+                  size_t *number)
+{
+    const size_t w = to->width, T = once->coordinates - 1;
+    double *const y = qdot_calloc(2 * w, sizeof *y);
+    size_t i = b.kind == QDOT_HALVING ? 0 : to->bifurcations.n;
+    qdot_status status = QDOT_OK;
+
+    if (y == NULL)
+        return QDOT_ENOMEM;
+    shorten(x, to, b.y, y);
+    shorten(x, to, b.error, y + w);
+    while (i < to->bifurcations.n && !is_doubling(once, to, &to->bifurcations.at[i], y))
+        i++;
+    *number = i + 1;
+    if (i < to->bifurcations.n) {
+        to->bifurcations.at[i].reached = true;
+        qdot_free(y);
+        return QDOT_OK;
+    }
+    if (b.kind == QDOT_HALVING) { /* of an orbit that no branch has */
+        b.kind = QDOT_DOUBLING;
+        b.reached = true;
+        y[T] /= 2;
+        y[w + T] /= 2;
+    }
+    b.y = y;
+    b.error = y + w;
+    status = qdot_vec_push(&to->bifurcations, b);
+    if (status != QDOT_OK)
+        qdot_free(y);
+    return status;
+}
+
 /* Move the branches and bifurcations of `from` to `to`; the first bifurcation is number `at` there. */
 static qdot_status
-merge(const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
+merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t at, qdot_continuation *to)
 {
-    const size_t w = to->width, before = to->bifurcations.n;
+    size_t *number = qdot_calloc(from->bifurcations.n, sizeof *number);
+    qdot_status status = number ? QDOT_OK : QDOT_ENOMEM;
 
     to->interrupted = to->interrupted || from->interrupted;
-    for (size_t i = 1; i < from->bifurcations.n; i++) {
-        qdot_bifurcation b = from->bifurcations.at[i];
-        double *const y = qdot_calloc(2 * w, sizeof *y);
-
-        if (y == NULL)
-            return QDOT_ENOMEM;
-        shorten(x, to, b.y, y);
-        shorten(x, to, b.error, y + w);
-        b.y = y;
-        b.error = y + w;
-        if (qdot_vec_push(&to->bifurcations, b) != QDOT_OK) {
-            qdot_free(y);
-            return QDOT_ENOMEM;
-        }
-    }
-    for (size_t i = 0; i < from->branches.n; i++) {
+    for (size_t i = 1; i < from->bifurcations.n && status == QDOT_OK; i++)
+        status = merge_bifurcation(once, x, from->bifurcations.at[i], to, &number[i]);
+    for (size_t i = 0; i < from->branches.n && status == QDOT_OK; i++) {
         qdot_branch *const b = &from->branches.at[i];
 
+        number[0] = at + 1;
         for (size_t k = 0; k < b->n; k++) {
-            shorten(x, to, b->y + k * from->width, b->y + k * w); /* forwards: w is not larger */
-            if (b->mark[k] > 0)
-                b->mark[k] = b->mark[k] == 1 ? at + 1 : before + b->mark[k] - 1;
+            shorten(x, to, b->y + k * from->width, b->y + k * to->width); /* forwards: rows are not longer */
+            b->mark[k] = b->mark[k] > 0 ? number[b->mark[k] - 1] : 0;
         }
-        QDOT_TRY(qdot_vec_push(&to->branches, *b));
-        *b = (qdot_branch){0};
+        status = qdot_vec_push(&to->branches, *b);
+        if (status == QDOT_OK)
+            *b = (qdot_branch){0};
     }
-    return QDOT_OK;
+    qdot_free(number);
+    return status;
 }
 
 static qdot_status double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size_t first,
@@ -133,7 +182,7 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     qdot_orbit_path x = {0};
     qdot_continuation found;
     qdot_branch_search s = {.x = &x.path, .find = qdot_orbit_bifurcation_find, .user = &x, .all = &found};
-    qdot_bifurcation b = out->bifurcations.at[at];
+    qdot_bifurcation b = {.kind = QDOT_HALVING};
     double *y = NULL;
     qdot_status status;
 
@@ -142,7 +191,6 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
     doubled.T = 2 * from[z];
     doubled.segments = 2 * once->K;
     s.most_points = 2 * turns < MOST_TURNS ? 0 : MOST_POINTS;
-    b.y = NULL;
     status = open(&x, &doubled, &y, &found);
     if (status == QDOT_OK) {
         b.y = qdot_calloc(2 * x.path.width + x.path.n + 1, sizeof *b.y);
@@ -168,8 +216,12 @@ follow_double(const qdot_orbit_of *of, const qdot_orbit_path *once, size_t turns
         name_ends(&x.path, &found);
     if (status == QDOT_OK)
         status = double_all(&doubled, &x, 2 * turns, 1, &found);
-    if (status == QDOT_OK)
-        status = merge(&x.path, &found, at, out);
+    if (status == QDOT_OK && found.branches.n == 0 && !found.interrupted)
+        status = qdot_fail(QDOT_EFAILED, "none is found within the range");
+    if (status == QDOT_OK) {
+        out->bifurcations.at[at].reached = true;
+        status = merge(&once->path, &x.path, &found, at, out);
+    }
     qdot_continuation_clear(&found);
     qdot_free(y);
     qdot_orbit_path_end(&x);
@@ -185,9 +237,17 @@ double_all(const qdot_orbit_of *of, const qdot_orbit_path *x, size_t turns, size
     size_t done = 0;
 
     for (size_t i = first; i < n && done < most && status == QDOT_OK && !out->interrupted; i++) {
-        if (out->bifurcations.at[i].kind != QDOT_DOUBLING || 2 * x->K > QDOT_FLOW_MOST_SEGMENTS)
+        qdot_bifurcation *b = &out->bifurcations.at[i];
+
+        if (b->kind != QDOT_DOUBLING || b->reached)
             continue;
-        status = qdot_grave(follow_double(of, x, turns, i, out));
+        status = 2 * x->K > QDOT_FLOW_MOST_SEGMENTS
+                     ? qdot_fail(QDOT_EFAILED, "they would need more than %d segments", QDOT_FLOW_MOST_SEGMENTS)
+                     : follow_double(of, x, turns, i, out);
+        b = &out->bifurcations.at[i];
+        if (status != QDOT_OK)
+            snprintf(b->reason, sizeof b->reason, "%.150s", qdot_last_error()->message);
+        status = qdot_grave(status);
         done++;
     }
     return status;

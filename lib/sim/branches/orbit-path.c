@@ -537,6 +537,7 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     QDOT_TRY(make_flows(x));
     QDOT_TRY(qdot_path_begin(path, 2 * x->n * x->K + 1 + x->conserved));
     path->coordinates = 2 * x->n + 1;
+    path->half = of->segments > 0 ? place_of(x, x->K / 2) : 0;
     path->least = of->least;
     path->most = of->most;
     path->exact = exact;

@@ -43,7 +43,7 @@ typedef struct {
     double p, T;         /* of the first orbit; the energy is found */
     const double *z;     /* [2n] its start */
     double least, most;
-    size_t segments;     /* 0: as many as it needs */
+    size_t segments;     /* of an orbit of twice a period; 0: it is none, as many as it needs */
 } qdot_orbit_of;
 
 typedef struct {

@@ -96,6 +96,16 @@ qdot_path_product(const qdot_path *x, const double *a, const double *b)
 }
 
 double
+qdot_path_halves(const qdot_path *x, const double *a, const double *b)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i + 1 < x->coordinates && x->half > 0; i++) /* but the period */
+        sum += x->weight[i] * (a[x->half + i] - a[i]) * (b[x->half + i] - b[i]);
+    return x->half > 0 ? sum : 1;
+}
+
+double
 qdot_path_distance(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;

@@ -45,6 +45,7 @@ struct qdot_path {
     double shortest, longest; /* steps along the curve */
     int least_jump;          /* of `growing`, which says that an oscillation begins */
     int halvings;            /* of the way to a bifurcation, before it is located */
+    size_t half;             /* of orbits of twice a period: where the state after half of it stands in y; 0: it is none */
     /* F [n], F' [n * (n + 1)] at y; not finite: there is no value. A grave failure: x->failure. */
     void (*at)(qdot_path *x, const double *y);
     /* a->stability, growing, flip, and y behind n + 1. */
@@ -69,6 +70,9 @@ void qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_
 /* The inner product. The distance of two places, angles modulo full turns. */
 double qdot_path_product(const qdot_path *x, const double *a, const double *b);
 double qdot_path_distance(const qdot_path *x, const double *a, const double *b);
+
+/* Of orbits of twice a period, d the state after half of it less the first: d(a).d(b), 0 where one has half the period. */
+double qdot_path_halves(const qdot_path *x, const double *a, const double *b);
 
 /* Solve F(y) = 0, g.(y - y as it was) = 0 from the guess y; *steps; false: no zero near. */
 bool qdot_path_solve(qdot_path *x, const double *g, double *y, int *steps);

@@ -50,7 +50,7 @@ go_through(search *s, const qdot_course *course, bool *found, double *t)
                                      .tol = tr->tol,
                                      .from = tr->y + j * tr->n,
                                      .to = tr->y + (j + 1) * tr->n,
-                                     .read = read_run,
+                                     .read = tr->method->geometric ? NULL : read_run,
                                      .user = s};
 
             QDOT_TRY(qdot_pulses_look(&s->pulses, &step));

@@ -29,13 +29,14 @@ typedef struct {
 } nearness;
 
 static qdot_status
-measure_start(const qdot_scene *s, const qdot_run_request *request, qdot_expr distance,
-              nearness *x)
+measure_start(const qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
+              qdot_expr distance, nearness *x)
 {
     double value;
 
     QDOT_TRY(qdot_chart_start_sign(s, request, distance, &x->sign, &value));
-    x->least = x->most = fabs(value);
+    x->least = fabs(value);
+    x->most = run ? x->least : 1; /* M, singular in doubles, has told that it is near */
     return QDOT_OK;
 }
 
@@ -81,22 +82,23 @@ measure_run(const qdot_run *run, qdot_expr distance, nearness *x)
 }
 
 /* Put the groups whose singular place was near before the others: *near of them; and the signs
- * [groups] of their distances. */
+ * [groups] of their distances. *at_place: the start, of which no run could be made, is one. */
 static qdot_status
 choose_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *run,
-              qdot_chart_groups *groups, int *sign, size_t *near)
+              qdot_chart_groups *groups, int *sign, size_t *near, bool *at_place)
 {
     *near = 0;
     for (size_t i = 0; i < groups->n; i++) {
         const qdot_chart_group g = groups->at[i];
         nearness x;
 
-        QDOT_TRY(measure_start(s, request, g.distance, &x));
+        QDOT_TRY(measure_start(s, request, run, g.distance, &x));
         if (run)
             QDOT_TRY(measure_run(run, g.distance, &x));
         sign[i] = x.sign;
         if (!(x.least <= near_place * fmin(1, x.most)))
             continue;
+        *at_place |= !run && x.least == 0;
         groups->at[i] = groups->at[*near];
         sign[i] = sign[*near];
         groups->at[*near] = g;
@@ -246,20 +248,21 @@ change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
     qdot_chart_groups groups = {0};
     size_t near = 0;
     int *sign = NULL;
+    bool at_place = false;
     qdot_status status = qdot_chart_find(s, false, &groups);
 
     *out = NULL;
     if (status == QDOT_OK && groups.n > 0) {
         sign = qdot_calloc(groups.n, sizeof *sign);
         status =
-            sign ? choose_groups(s, request, run, &groups, sign, &near) : QDOT_ENOMEM;
+            sign ? choose_groups(s, request, run, &groups, sign, &near, &at_place) : QDOT_ENOMEM;
     }
     if (status == QDOT_OK && near > 0) {
         const qdot_chart_groups first = {.n = near, .at = groups.at};
 
-        status = run_without(s, request, by, &first, sign, run == NULL, out);
+        status = run_without(s, request, by, &first, sign, at_place, out);
         if (!*out && near < groups.n && status != QDOT_ENOMEM && status != QDOT_EINTR)
-            status = run_without(s, request, by, &groups, sign, run == NULL, out);
+            status = run_without(s, request, by, &groups, sign, at_place, out);
     }
     qdot_free(groups.at);
     qdot_free(sign);

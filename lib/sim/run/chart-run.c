@@ -154,7 +154,9 @@ go(following *f, double t, bool jumps)
 }
 
 /* Where a singular place is passed exactly the sign of the distance changes, and angles go on: r
- * becomes -r. In a domain the sign stays, and angles jump by half a turn. */
+ * becomes -r. In a domain the sign stays, and angles jump by half a turn. Rounding beside the motion
+ * turns that by up to 10^-16 over no_direction and more: what is nearer to half a turn than to none is
+ * one. */
 static void
 change_signs(following *f)
 {
@@ -163,7 +165,7 @@ change_signs(following *f)
     for (size_t i = 0; i < f->m; i++) {
         const size_t k = c->moved.at[i].sign;
 
-        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 2 * (1 - 1e-3)))
+        if (k == 0 || !(fabs(f->next[i] - f->now[i]) > turn / 4))
             continue;
         if (k <= 64)
             f->passed |= (uint64_t)1 << (k - 1);
@@ -189,12 +191,12 @@ change_branches(following *f)
     }
 }
 
-/* Angles that still jump by half a turn do so upward, whatever rounding says. */
+/* Angles that still jump by about half a turn do so upward, whatever rounding says. */
 static void
 half_turns(following *f)
 {
     for (size_t i = 0; i < f->m; i++)
-        if (f->next[i] - f->now[i] < -turn / 2 * (1 - 1e-3))
+        if (f->next[i] - f->now[i] < -turn / 4)
             f->next[i] += turn;
 }
 

@@ -522,11 +522,11 @@ say_collision(const ground *g, qdot_run *run)
     return status == QDOT_OK ? qdot_text_status(&run->notice) : status;
 }
 
-/* Why the run that failed was not carried through. */
+/* Why the run that failed was not carried through. Points without a force as 1/R^2 do not collide. */
 static qdot_status
 say_hindrance(const ground *g, qdot_run *run)
 {
-    if (run->report.status != QDOT_RUN_FAILED)
+    if (run->report.status != QDOT_RUN_FAILED || g->x->collision.strength == QDOT_ZERO)
         return QDOT_OK;
     qdot_text_format(qdot_run_next_notice(run), "the collision is not passed: %s",
                      g->x->collision.hindrance);

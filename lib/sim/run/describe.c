@@ -171,7 +171,7 @@ say_code(qdot_bind *bind, double tol, int p, qdot_text *out)
         QDOT_TRY(series->prepare(p, series->user));
     if (series->code.write) {
         qdot_ode_written written = qdot_ode_written_begin(
-            series, p, qdot_ode_taylor_highest(&system, tol, system.leading, 0));
+            series, p, qdot_ode_taylor_highest(&system, tol, system.leading, 0), 0);
 
         QDOT_TRY(qdot_ode_written_now(&written));
     }

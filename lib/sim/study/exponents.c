@@ -375,7 +375,7 @@ qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_expon
         by[i] = (qdot_variation_by){.name = names[i]};
     }
     if (status == QDOT_OK)
-        status = qdot_variation_make(scene, &request, k, by, &v);
+        status = qdot_variation_make(scene, &request, k, by, true, &v);
     if (status == QDOT_OK) {
         pursuit p = {
             .x = x, .v = &v, .request = &request, .n = n, .k = k, .all = (k + 1) * n};

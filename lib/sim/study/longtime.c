@@ -14,7 +14,7 @@
 #include "sim/study/method-run.h"
 
 /* Work of a run in nanoseconds; how much more than foretold it may take. */
-static const double budget_default = 3e9, slack = 4;
+static const double budget_default = 1e10, slack = 4;
 
 static const double tolerances[] = {1e-12, 1e-10, 1e-8, 1e-6, 1e-4};
 
@@ -299,7 +299,7 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
                                    .tol = tol};
 
         status = qdot_long_run_tolerance(&run, &out->chosen_tol);
-        out->chosen = m.plan->method->name;
+        out->chosen = m.plan->method;
         out->chosen_long = out->chosen_tol < tol;
     }
     qdot_method_run_clear(&m);

@@ -27,6 +27,7 @@
 
 #include <stdint.h>
 
+#include "ode/method.h"
 #include "sim/run/run.h"
 #include "sim/study/left-out.h"
 
@@ -47,14 +48,14 @@ typedef struct {
 typedef struct {
     const char *method; /* the only one; NULL: all */
     double tol;         /* of all; 0: as above */
-    double budget;      /* work of a run, in about nanoseconds; 0: 3e9, of the only one without bound */
+    double budget;      /* work of a run, in about nanoseconds; 0: 1e10, of the only one without bound */
     size_t n, capacity;
     qdot_longtime_row *rows;
     qdot_methods_left_out left_out;
     bool interrupted;
-    /* What `auto` would take, of all methods: its name, NULL where it was not asked, the tolerance, and
-     * whether that is for a long run (sim/run/long-run.h). */
-    const char *chosen;
+    /* What `auto` would take, of all methods: NULL where it was not asked; the tolerance, and whether
+     * that is for a long run (sim/run/long-run.h). */
+    const qdot_ode_method *chosen;
     double chosen_tol;
     bool chosen_long;
 } qdot_longtime;

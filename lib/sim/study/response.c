@@ -40,6 +40,7 @@ struct qdot_response {
     qdot_run_request run_request;
     qdot_method_run run;
     qdot_course course;
+    double steps; /* of its runs so far */
     qdot_expr *exprs; /* [m (1 + k)] each expression, then its slopes */
     qdot_reading reading;
     double *y, *out; /* [2 (1 + k) n + 2 n_parameters], [m (1 + k)] */
@@ -58,6 +59,7 @@ unmake(qdot_response *r)
     r->run = (qdot_method_run){0};
     qdot_parameter_states_clear(&r->states);
     qdot_variation_clear(&r->variation);
+    r->steps = 0;
     r->made = false;
 }
 
@@ -283,7 +285,7 @@ make(qdot_response *r, const double *u)
         free_all(r);
     else
         QDOT_TRY(put_numbers(r, u));
-    QDOT_TRY(qdot_variation_make(r->of.scene, &r->request, r->of.k, r->by, &r->variation));
+    QDOT_TRY(qdot_variation_make(r->of.scene, &r->request, r->of.k, r->by, !r->once, &r->variation));
     if (r->once)
         QDOT_TRY(open_parameters(r, u));
     else
@@ -316,12 +318,13 @@ rewind_course(qdot_course *c)
 static qdot_status
 run(qdot_response *r, double t0, double t1)
 {
-    const qdot_ode_options options = {.tol = r->run_request.tol};
+    const qdot_ode_options options = {.tol = r->run_request.tol, .past = r->steps};
 
     rewind_course(&r->course);
     qdot_progress_begin(t0, t1, "run with slopes");
     QDOT_TRY(qdot_course_run(&r->course, r->run.plan->method, &options, t0, t1,
                              r->once ? r->y : r->run.start));
+    r->steps += (double)r->course.tr.result.stats.steps;
     if (r->course.reason[0] != '\0')
         return qdot_fail(QDOT_EFAILED, "the run ended: %.300s", r->course.reason);
     return QDOT_OK;

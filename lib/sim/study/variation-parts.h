@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     qdot_scene *of, *scene;          /* borrowed; owned */
     const qdot_run_request *request; /* borrowed */
-    size_t n, m, k;                  /* coordinates, constraints, directions */
+    size_t n, m, k;                  /* coordinates, constraints held, directions */
     const qdot_variation_by *by;     /* [k] borrowed */
     qdot_expr *y;                    /* [k x n] */
     qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */

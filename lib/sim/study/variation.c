@@ -414,7 +414,7 @@ make(elimination *e, qdot_expr *b)
 
 qdot_status
 qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k,
-                    const qdot_variation_by *by, qdot_variation *v)
+                    const qdot_variation_by *by, bool held, qdot_variation *v)
 {
     const size_t n = scene->coordinates.n, m = scene->constraints.n;
     elimination e = {.v = v, .pool = scene->pool, .n = n, .m = m};
@@ -423,7 +423,7 @@ qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k
     qdot_status status = QDOT_ENOMEM;
 
     *v = (qdot_variation){
-        .of = scene, .request = request, .n = n, .m = m, .k = k, .by = by};
+        .of = scene, .request = request, .n = n, .m = held ? m : 0, .k = k, .by = by};
     v->y = qdot_calloc(k * n + 1, sizeof *v->y);
     v->a = qdot_calloc(n + m + 1, sizeof *v->a);
     v->start = qdot_calloc(2 * (k + 1) * n + 1, sizeof *v->start);
