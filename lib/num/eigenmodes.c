@@ -45,7 +45,7 @@ release(solver *s)
 static double complex
 of_gsl(gsl_complex z)
 {
-    return CMPLX(GSL_REAL(z), GSL_IMAG(z));
+    return GSL_REAL(z) + I * GSL_IMAG(z);
 }
 
 static qdot_status
