@@ -330,6 +330,7 @@ library_sources = \
 	lib/num/chebyshev.c \
 	lib/num/cholesky.c \
 	lib/num/collocation.c \
+	lib/num/eigenmodes.c \
 	lib/num/eigenvalues.c \
 	lib/num/hermite.c \
 	lib/num/kinds.c \
@@ -497,6 +498,7 @@ library_sources = \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
+	lib/sim/error/oscillations.c \
 	lib/sim/error/partner.c \
 	lib/sim/error/singular-places.c \
 	lib/sim/error/standstill.c \
@@ -879,6 +881,7 @@ library_headers = \
 	lib/num/chebyshev.h \
 	lib/num/cholesky.h \
 	lib/num/collocation.h \
+	lib/num/eigenmodes.h \
 	lib/num/eigenvalues.h \
 	lib/num/hermite.h \
 	lib/num/kinds.h \
@@ -1029,6 +1032,7 @@ library_headers = \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
+	lib/sim/error/oscillations.h \
 	lib/sim/error/partner.h \
 	lib/sim/error/singular-places.h \
 	lib/sim/error/standstill.h \
@@ -1236,6 +1240,7 @@ unit_tests = \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
 	tests/num/test_collocation \
+	tests/num/test_eigenmodes \
 	tests/num/test_eigenvalues \
 	tests/num/test_hermite \
 	tests/num/test_ldlt \
@@ -1404,6 +1409,7 @@ script_tests = \
 	tests/script/fall.sh \
 	tests/script/far-away.lag \
 	tests/script/far-sides.lag \
+	tests/script/fast-oscillations.sh \
 	tests/script/figures.sh \
 	tests/script/find-orbit.sh \
 	tests/script/find.sh \
@@ -2459,6 +2465,7 @@ test_files = \
 	tests/script/fall.out \
 	tests/script/far-away.out \
 	tests/script/far-sides.out \
+	tests/script/fast-oscillations.out \
 	tests/script/figures.out \
 	tests/script/find-orbit.out \
 	tests/script/find.out \

@@ -8,6 +8,7 @@
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/error/companion.h"
+#include "sim/error/oscillations.h"
 
 /* Radians on either side. */
 static const double least_turn = 0.5;
@@ -35,6 +36,7 @@ struct qdot_distance {
     double *unit; /* [n] 1/span; 0: it does not count */
     double *work; /* [4m] */
     double *aside; /* [3m] */
+    qdot_oscillations *over; /* what the run has gone over; NULL: nothing */
 };
 
 void
@@ -50,6 +52,7 @@ qdot_distance_free(qdot_distance *d)
     qdot_free(d->unit);
     qdot_free(d->work);
     qdot_free(d->aside);
+    qdot_oscillations_free(d->over);
     qdot_free(d);
 }
 
@@ -101,6 +104,8 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
         /* those of a run in two doubles share the rounding of a state that is read */
         d->others[k].moved = run->leading ? (int)k + 1 : 0;
     }
+    if (status == QDOT_OK && d->own.n_courses == 1)
+        status = qdot_oscillations_new(&run->course, &d->over);
     if (status == QDOT_OK)
         find_units(d);
     else
@@ -288,6 +293,10 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
         status = look_around(d, piece, k, own);
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
         out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
+    if (status == QDOT_OK && d->over)
+        status = qdot_reader_at(&d->own, piece, t, own);
+    if (status == QDOT_OK && d->over)
+        status = qdot_oscillations_add(d->over, &d->own, t, own, out);
     qdot_free(own);
     return status;
 }

@@ -19,6 +19,8 @@
  * other: it is 32 times all that is nearer. At most QDOT_DISTANCE_POINTS; a window cut short by the end of the
  * piece is not used if the other is whole.
  *
+ * Added is what oscillations that a stiff method has gone over may make of g (oscillations.h).
+ *
  * Tests  tests/script/inner-times.sh
  */
 #ifndef QDOT_SIM_DISTANCE_H
