@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "ode/scale.h"
-#include "sim/model/constraints.h"
 
 typedef struct {
     const qdot_plan *plan;
@@ -24,14 +23,10 @@ on(const set *z, qdot_expr e)
 static bool
 holds(const set *z, size_t i)
 {
-    const qdot_constraints *c = z->plan->constraints;
     const size_t n = z->plan->n;
 
     for (size_t j = 0; j < n; j++)
         if (!z->still[j] && on(z, z->plan->M[i * n + j]) != QDOT_ZERO)
-            return false;
-    for (size_t k = 0; c && k < c->n_slopes; k++)
-        if (c->slopes[k].column == i && on(z, c->A[k]) != QDOT_ZERO)
             return false;
     return on(z, z->plan->f[i]) == QDOT_ZERO;
 }
@@ -108,7 +103,7 @@ qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system, double t0,
 
     for (size_t i = 0; i < 2 * n; i++)
         units[i] = qdot_ode_scale(system->scales, i);
-    if (!plan->M || !plan->f || plan->massless)
+    if (!plan->M || !plan->f || plan->constraints || plan->massless)
         return QDOT_OK;
     z.still = qdot_calloc(n, sizeof *z.still);
     z.of = qdot_malloc(4 * n * sizeof *z.of);

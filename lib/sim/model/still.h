@@ -3,14 +3,12 @@
  * A coordinate that starts at 0 and at rest stays there if its equation holds nothing else than itself:
  * of the set Z of these, for i in Z,
  *
- *     f_i = 0,  M_ij = 0 (j not in Z),  A_ci = 0 of each constraint c
- *
- * wherever q_k = q_k' = 0 for k in Z,
+ *     f_i = 0,  M_ij = 0 (j not in Z)    wherever q_k = q_k' = 0 for k in Z,
  *
  * as a bead on the axis of a turning hoop, or a body in a plane of symmetry. There 0 is exact, not
  * rounded, so the companions (ode/companion.h) are not moved in it, however unstable it is. Only where M
  * then depends on no coordinate: else the motion may meet a place where M is singular, which those moved
- * aside show.
+ * aside show; and not under constraints.
  *
  * Tests  tests/script/stays.lag
  */
