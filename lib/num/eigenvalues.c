@@ -10,6 +10,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
+#include <complex.h> /* behind GSL's, whose numbers stay its own */
+
 #include "base/memory.h"
 
 typedef struct {
@@ -19,6 +21,7 @@ typedef struct {
     gsl_vector_complex *lambda, *mu; /* of A, of its transpose */
     gsl_permutation *order;
     gsl_eigen_nonsymmv_workspace *work;
+    double complex *planes; /* [4n] */
 } solver;
 
 static bool
@@ -34,7 +37,8 @@ allocate(solver *s)
     s->mu = gsl_vector_complex_alloc(n);
     s->order = gsl_permutation_alloc(n);
     s->work = gsl_eigen_nonsymmv_alloc(n);
-    return s->A && s->V && s->LU && s->W && s->lambda && s->mu && s->order && s->work;
+    s->planes = qdot_calloc(4 * n + 1, sizeof *s->planes);
+    return s->planes && s->A && s->V && s->LU && s->W && s->lambda && s->mu && s->order && s->work;
 }
 
 static void
@@ -49,11 +53,12 @@ release(solver *s)
     gsl_permutation_free(s->order);
     if (s->work != NULL)
         gsl_eigen_nonsymmv_free(s->work);
+    qdot_free(s->planes);
 }
 
-/* What E, and the rounding of A, make of the k-th. */
+/* What E, and the rounding of A, make of w_k A v_m. */
 static double
-error_of(const solver *s, const double *A, const double *E, size_t k)
+error_between(const solver *s, const double *A, const double *E, size_t k, size_t m)
 {
     const size_t n = s->n;
     double sum = 0, size = 0;
@@ -64,14 +69,13 @@ error_of(const solver *s, const double *A, const double *E, size_t k)
         for (size_t j = 0; j < n; j++)
             sum += gsl_complex_abs(gsl_matrix_complex_get(s->W, k, i)) *
                    (E[i * n + j] + 4 * DBL_EPSILON * size) *
-                   gsl_complex_abs(gsl_matrix_complex_get(s->V, j, k));
+                   gsl_complex_abs(gsl_matrix_complex_get(s->V, j, m));
     return sum;
 }
 
-/* Errors by left vectors that are found by themselves, where these are less: V^-1 is lost to all where two other eigenvalues
- * are one with one vector. */
+/* Left vectors that are found by themselves: V^-1 is lost to all where two other eigenvalues are one with one vector. */
 static void
-bound_by_left(solver *s, const double *A, const double *E, double *error)
+find_left(solver *s, const double *A)
 {
     const size_t n = s->n;
     gsl_matrix_complex *const U = s->LU;
@@ -99,37 +103,104 @@ bound_by_left(solver *s, const double *A, const double *E, double *error)
             continue;
         for (size_t i = 0; i < n; i++)
             gsl_matrix_complex_set(s->W, k, i, gsl_complex_div(gsl_matrix_complex_get(U, i, at), along));
-        error[k] = fmin(error[k], error_of(s, A, E, k));
     }
 }
 
-/* |w| |v| of the k-th, 1 where its vectors are one. */
+/* Entry i of the vector v_k, of the row w_k. */
+static double complex
+right(const solver *s, size_t k, size_t i)
+{
+    const gsl_complex x = gsl_matrix_complex_get(s->V, i, k);
+
+    return CMPLX(GSL_REAL(x), GSL_IMAG(x));
+}
+
+static double complex
+left(const solver *s, size_t k, size_t i)
+{
+    const gsl_complex x = gsl_matrix_complex_get(s->W, k, i);
+
+    return CMPLX(GSL_REAL(x), GSL_IMAG(x));
+}
+
+/* Orthonormal q_0, q_1, columns of Q, in the plane of v_k and v_j, and L, the rows dual to them in the plane of w_k and
+ * w_j. Whether both are planes. */
+static bool
+find_planes(const solver *s, size_t k, size_t j, double complex *Q, double complex *L)
+{
+    const size_t n = s->n;
+    double complex along = 0, G[4] = {0}, det;
+    double size = 0;
+
+    for (size_t i = 0; i < n; i++) { /* GSL's vectors have length 1 */
+        Q[2 * i] = right(s, k, i);
+        along += conj(Q[2 * i]) * right(s, j, i);
+    }
+    for (size_t i = 0; i < n; i++) {
+        Q[2 * i + 1] = right(s, j, i) - along * Q[2 * i];
+        size = hypot(size, cabs(Q[2 * i + 1]));
+    }
+    for (size_t i = 0; i < n && size > 0; i++)
+        Q[2 * i + 1] /= size;
+    for (size_t i = 0; i < n; i++)
+        for (int m = 0; m < 2; m++) {
+            G[m] += left(s, k, i) * Q[2 * i + m];
+            G[2 + m] += left(s, j, i) * Q[2 * i + m];
+        }
+    det = G[0] * G[3] - G[1] * G[2];
+    for (size_t i = 0; i < n; i++) {
+        L[i] = (G[3] * left(s, k, i) - G[1] * left(s, j, i)) / det;
+        L[n + i] = (G[0] * left(s, j, i) - G[2] * left(s, k, i)) / det;
+    }
+    return size > 0 && isfinite(cabs(det)) && cabs(det) > 0;
+}
+
+/* What E makes of the k-th by its plane with the j-th. */
 static double
-condition(const solver *s, size_t k)
+error_in_plane(const solver *s, const double *A, const double *E, const double complex *Q, const double complex *L)
 {
-    double left = 0, right = 0;
+    const size_t n = s->n;
+    double e[4] = {0}, size = 0;
+    double complex coupling = 0;
 
-    for (size_t i = 0; i < s->n; i++) {
-        left = hypot(left, gsl_complex_abs(gsl_matrix_complex_get(s->W, k, i)));
-        right = hypot(right, gsl_complex_abs(gsl_matrix_complex_get(s->V, i, k)));
-    }
-    return left * right;
+    for (size_t i = 0; i < n * n; i++)
+        size = fmax(size, fabs(A[i]));
+    for (size_t i = 0; i < n; i++)
+        for (size_t m = 0; m < n; m++) {
+            coupling += conj(Q[2 * i]) * A[i * n + m] * Q[2 * m + 1];
+            for (int a = 0; a < 4; a++)
+                e[a] += cabs(L[a / 2 * n + i]) * (E[i * n + m] + 4 * DBL_EPSILON * size) * cabs(Q[2 * m + a % 2]);
+        }
+    return fmax(e[0], e[3]) + 2 * sqrt(e[2] * (cabs(coupling) + e[1]));
 }
 
-/* The errors of those that are near to another, by nearly one vector. */
-static void
-take_roots(const solver *s, double *error)
+static double
+apart(const solver *s, size_t j, size_t k)
 {
-    for (size_t k = 0; k < s->n; k++) {
-        const double first = error[k];
-        double nearest = INFINITY;
+    return gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j), gsl_vector_complex_get(s->lambda, k)));
+}
 
-        for (size_t j = 0; j < s->n; j++)
-            if (j != k)
-                nearest = fmin(nearest, gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j),
-                                                                        gsl_vector_complex_get(s->lambda, k))));
-        if (4 * sqrt(first * nearest) >= nearest)
-            error[k] = fmax(2 * sqrt(first * nearest), first / condition(s, k));
+/* The errors by these left vectors, where they are less. */
+static void
+bound(const solver *s, const double *A, const double *E, double *error)
+{
+    double complex *const Q = s->planes, *const L = s->planes + 2 * s->n;
+
+    for (size_t k = 0; k < s->n; k++) {
+        const double first = error_between(s, A, E, k, k);
+        double sum = first;
+
+        for (size_t j = 0; j < s->n; j++) {
+            double both;
+
+            if (j == k || !(apart(s, j, k) <= 16 * first))
+                continue;
+            both = error_between(s, A, E, k, j) * error_between(s, A, E, j, k);
+            sum += 4 * sqrt(both) < apart(s, j, k) ? 4 * both / apart(s, j, k) : sqrt(both);
+            if (find_planes(s, k, j, Q, L))
+                error[k] = fmin(error[k], error_in_plane(s, A, E, Q, L));
+        }
+        error[k] = fmin(error[k], sum);
     }
 }
 
@@ -212,10 +283,14 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
     for (size_t k = 0; k < n; k++) {
         re[k] = GSL_REAL(gsl_vector_complex_get(s->lambda, k));
         im[k] = GSL_IMAG(gsl_vector_complex_get(s->lambda, k));
-        error[k] = known ? error_of(s, A, E, k) : NAN;
+        error[k] = NAN;
     }
-    bound_by_left(s, A, E, error);
-    take_roots(s, error);
+    if (known)
+        bound(s, A, E, error);
+    else
+        gsl_matrix_complex_set_all(s->W, gsl_complex_rect(NAN, NAN));
+    find_left(s, A);
+    bound(s, A, E, error);
     qdot_eigenvalues_arrange(n, re, im, error);
     return QDOT_OK;
 }

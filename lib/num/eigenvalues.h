@@ -2,12 +2,13 @@
  *
  *     d lambda = |w E v| / |w v|     for the right and left vectors v, w of lambda, |dA| <= E
  *
- * Where two lie together, by nearly one vector, d^2 times 4 is known to e |lambda_1 - lambda_2|, e of this first
- * order, and d to the root: with 4 times as much, as |dA| may be more than E,
+ * and, with e_kj = |w_k| E |v_j|, for each that is not far from it sqrt(e_kj e_jk), less where it is farther off. Where
+ * two lie together by nearly one vector this is far too much. In the plane of both vectors, orthonormal q_1 = v_k and
+ * q_2 with the dual l_1, l_2, A is [lambda_k c; 0 lambda_j], so
  *
- *     error = 2 sqrt(e |lambda_1 - lambda_2|)    where that is at least half of their distance,
+ *     error = max(e_11, e_22) + 2 sqrt(e_21 (|c| + e_12)),     e_ij = |l_i| E |q_j|,   c = q_1 A q_2
  *
- * and not less than what E makes of an eigenvalue whose vectors are one.
+ * (2 as |dA| may be more than E). The lesser is taken.
  *
  * Those of a product A_(K-1) ... A_0, each with errors, are the K-th powers of those of the matrix of K x K blocks with A_k
  * in row k + 1, column k (row 0 for the last): each comes K times. A product loses those that are less than its largest

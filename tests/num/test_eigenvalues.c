@@ -64,6 +64,34 @@ a_pair_with_one_vector_is_known_to_the_root(void **state)
         }
 }
 
+/* [1 a; 0 1] as it is: [1 a; d 1] has 1 +- sqrt(a d). */
+static void
+a_pair_that_is_exactly_one_is_known_to_the_root_too(void **state)
+{
+    (void)state;
+    for (double a = 1; a <= 100; a *= 100) {
+        const double A[4] = {1, a, 0, 1}, E[4] = {1e-10, a * 1e-10, 1e-10 / a, 1e-10};
+        double re[2], im[2], error[2];
+
+        assert_int_equal(qdot_eigenvalues(2, A, E, re, im, error), QDOT_OK);
+        for (int k = 0; k < 2; k++)
+            assert_true(error[k] >= 1e-5 && error[k] < 4e-5);
+    }
+}
+
+/* [1 0 a; 0 1 a; 0 0 2]: two vectors of 1, both nearly normal to theirs: errors of the last row count a times. */
+static void
+one_with_two_vectors_has_their_condition(void **state)
+{
+    const double A[9] = {1, 0, 100, 0, 1, 100, 0, 0, 2}, E[9] = {0, 0, 0, 0, 0, 0, 1e-10, 1e-10, 0};
+    double re[3], im[3], error[3];
+
+    (void)state;
+    assert_int_equal(qdot_eigenvalues(3, A, E, re, im, error), QDOT_OK);
+    for (int k = 0; k < 3; k++)
+        assert_true(error[k] >= 1.9e-8 && error[k] < 1e-7);
+}
+
 /* One that comes twice with two vectors is as exact as the entries. */
 static void
 one_with_two_vectors_is_as_exact_as_its_entries(void **state)
@@ -180,6 +208,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_and_reals_in_order),
         cmocka_unit_test(a_pair_with_one_vector_is_known_to_the_root),
+        cmocka_unit_test(a_pair_that_is_exactly_one_is_known_to_the_root_too),
+        cmocka_unit_test(one_with_two_vectors_has_their_condition),
         cmocka_unit_test(one_with_two_vectors_is_as_exact_as_its_entries),
         cmocka_unit_test(order_holds_against_rounding),
         cmocka_unit_test(errors_hold_what_entries_may_do),

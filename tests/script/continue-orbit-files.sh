@@ -81,3 +81,18 @@ set F = 2.5
 find x = 1.2, x' = 2.4 such that returns after 2*pi
 continue orbit in F = 2.3..2.6543258
 END
+
+# driven by a limit cycle: orbits of four turns, too, end where they become one of two, as one branch
+qdot -q - <<'END' 2>&1 | sed -n 's/^period doubling  \(1\.[0-9]\{9\}\).* \(branch.*\)/\1 \2/p'
+coord u, x
+param F
+particle a mass 1 at (u, 0)
+particle b mass 1 at (x, 1)
+potential x^4/4 - x^2/2 + u^2/2
+force ((1 - u^2)*u'/4, 0) on a
+force (-x'/4 + F*u, 0) on b
+set F = 1.35
+start u = 2
+find u = 2, x = 1.2, x' = 2.3, T = 6.3 such that returns after T
+continue orbit in F = 1.34..1.735
+END

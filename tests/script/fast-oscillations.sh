@@ -15,4 +15,4 @@ value(far.y'' - exact.y'', 7.1)
 value(far.y' - exact.y', 7.1)
 END
     awk '{ off = $1 < 0 ? -$1 : $1
-           print (off <= 3*$2 ? "within" : off " beyond"), (off > 1e-5 && $2 > 100*off ? $2 " overstated" : "what is stated") }'
+           print (off <= $2 ? "within" : off " beyond"), (off > 1e-5 && $2 > 100*off ? $2 " overstated" : "what is stated") }'

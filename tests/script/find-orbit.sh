@@ -118,7 +118,7 @@ END
 
 # Newton's method stops on the way to the larger of a driven oscillator's orbits, to which the guess comes by itself (SciPy, from
 # rest over 60 periods: 0.902702, 0.529732)
-qdot -q - <<'END' 2>&1 | sed 's/\(0\.[0-9]\{10\}\).*/\1/; s/after [0-9]* *$/after some/'
+qdot -q - <<'END' 2>&1 | sed 's/\(0\.[0-9]\{10\}\).*/\1/; s/after [0-9]* returns$/after some returns/'
 coord x
 lagrangian x'^2/2 - x^2/2 - x^4/4
 force -x'/10 + 3/10*cos(1.2*t) on x

@@ -568,7 +568,7 @@ search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
             r->answer = again.answer;
             r->rank = again.rank;
             status = qdot_answer_notice(
-                h->f->c->session, "no return near the guess was found: this is the one that its motion comes to after %zu",
+                h->f->c->session, "no return near the guess was found: this is the one that its motion comes to after %zu returns",
                 returns);
         }
     }

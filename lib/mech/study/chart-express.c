@@ -255,8 +255,9 @@ put_branches(qdot_pool *pool, qdot_expr node, void *user)
     return factor == QDOT_ONE ? node : qdot_mul(pool, node, factor);
 }
 
-qdot_expr
-qdot_chart_put(const qdot_chart *c, qdot_expr e)
+/* In new coordinates and roots, before products are looked at. */
+static qdot_expr
+replaced(const qdot_chart *c, qdot_expr e)
 {
     rewriting r = {.c = c, .pool = c->pool};
     qdot_status status;
@@ -333,6 +334,13 @@ put_squares(qdot_pool *pool, qdot_expr node, void *user)
             node = exchanged(pool, node, qdot_pow_int(pool, s->symbol, 2), QDOT_ONE, half);
     }
     return node;
+}
+
+qdot_expr
+qdot_chart_put(const qdot_chart *c, qdot_expr e)
+{
+    e = replaced(c, e);
+    return e == QDOT_NIL ? e : qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
 }
 
 /* The angle of m less so many quarter turns. */
@@ -413,8 +421,6 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     bool some = false;
 
     e = qdot_chart_put(c, e);
-    if (e != QDOT_NIL)
-        e = qdot_walk_replace(c->pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
     /* v holds sinh u, that an angle, that a distance */
     for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
         e = put_values(c, e, quarters, &some);
@@ -504,13 +510,12 @@ qdot_chart_regular(const qdot_chart *c, qdot_expr e)
     e = qdot_chart_put(c, e);
     if (e == QDOT_NIL || holds_bare(c, e)) /* no simplification would help */
         return QDOT_NIL;
-    for (int tries = 0; tries < 4; tries++) {
-        e = qdot_walk_replace(pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
-        if (e == QDOT_NIL)
-            return QDOT_NIL;
+    for (int tries = 0; tries < 4 && e != QDOT_NIL; tries++) {
         if (!is_singular(c, pool, e))
             return e;
         e = tries < 2 ? qdot_expand(pool, e) : qdot_mech_tidy(c->of, e);
+        if (e != QDOT_NIL)
+            e = qdot_walk_replace(pool, e, QDOT_PROD, put_squares, (void *)(uintptr_t)c);
     }
     return QDOT_NIL;
 }

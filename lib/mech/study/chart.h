@@ -170,7 +170,8 @@ qdot_expr qdot_chart_distance(const qdot_scene *s, const qdot_chart_group *g);
  * of its distance at the start. Errors: the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_chart_add(qdot_chart *chart, const qdot_chart_group *g, int sign);
 
-/* Inside: in new coordinates and roots, angles outside of sin and cos as their symbols. */
+/* Inside: in new coordinates and roots, products of two roots by what they are, angles outside of sin and cos as
+ * their symbols. */
 qdot_expr qdot_chart_put(const qdot_chart *chart, qdot_expr e);
 /* Inside: de/dt, e in new coordinates and roots. */
 qdot_expr qdot_chart_rate(const qdot_chart *chart, qdot_expr e);

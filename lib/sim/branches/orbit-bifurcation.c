@@ -18,6 +18,8 @@ static const double rounding = 4e-15;
 static const double on_circle = 1e-6, off_axis = 1e-3;
 /* How far, of a length of 1, a crossing may be off at least. */
 static const double least_off = 5e-14;
+/* An orbit whose state after half of it is nearer to the first, of a length of 1, has half the period. */
+static const double half = 1e-9;
 enum { STEPS = 60, HALVINGS = 36, PLACES = 6, SHIFTS = 4, NARROWINGS = 6 };
 
 typedef struct {
@@ -83,8 +85,10 @@ test(search *f)
         return f->point.t[f->x->path.n];
     if (f->kind == QDOT_PITCHFORK)
         return f->point.det;
-    if (f->kind == QDOT_HALVING)
-        return qdot_path_halves(&f->x->path, f->a->y, f->point.y);
+    if (f->kind == QDOT_HALVING) /* on the other curve it is 0 throughout */
+        return qdot_path_halves(&f->x->path, f->point.y, f->point.y) > half * half
+                   ? qdot_path_halves(&f->x->path, f->a->y, f->point.y)
+                   : NAN;
     if (!qdot_orbit_path_monodromy(f->x, f->point.y) ||
         qdot_eigenvalues_of_product(f->x->K, z, f->x->B, f->none, f->re, f->im, f->off) != QDOT_OK)
         return NAN;

@@ -94,7 +94,7 @@ note(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
     qdot_occurrence o = {w->index, root->t, way_of(x, root),
-                         root->within, root->bend, root->way == 0 ? root->blur : 0};
+                         root->within, root->bend, root->way == 0 || root->stays ? root->blur : 0};
 
     return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
 }

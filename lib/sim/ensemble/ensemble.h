@@ -30,9 +30,9 @@ typedef struct {
     double error; /* of the end state, over max(1, |value|); NaN: unknown or not requested */
 } qdot_ensemble_result;
 
-/* The error of a number x of a member, theirs [companions] those of its companions. An only companion was meant to be one: under a hundredth of the tolerance it errs by a
- * three hundredth of the run, so its distance is not counted more than once, as that of a single run is whose
- * second one was given up. */
+/* The error of a number x of a member, theirs [companions] those of its companions. An only companion was
+ * meant to be one: under a hundredth of the tolerance it errs by a three hundredth of the run, so its distance
+ * is not counted more than once, as that of a single run is whose second one was given up. */
 static inline double
 qdot_ensemble_error_of(double x, size_t companions, const double *theirs)
 {

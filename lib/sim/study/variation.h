@@ -26,8 +26,8 @@
 
 /* The scene for `request`, borrowed like `by` [k]; its start keeps the constraints, and q_named, v_named say which
  * values of it follow from them. held: its runs are projected onto the constraints; else they keep these as exactly
- * as q'' does, which is enough where a state on them is begun at again and again. Clear it in any case. Errors: QDOT_ENOTBUILT: what is not
- * carried (equations that jump, parameters set by events, ...), QDOT_ESINGULAR. */
+ * as q'' does, which is enough where a state on them is begun at again and again. Clear it in any case.
+ * Errors: QDOT_ENOTBUILT: what is not carried (equations that jump, parameters set by events, ...), QDOT_ESINGULAR. */
 QDOT_MUST_CHECK qdot_status qdot_variation_make(qdot_scene *scene,
                                                 const qdot_run_request *request, size_t k,
                                                 const qdot_variation_by *by, bool held,

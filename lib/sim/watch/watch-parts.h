@@ -18,6 +18,9 @@
 
 enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
 
+/* A function of not more than so many times its noise is 0 but for rounding. */
+#define QDOT_WATCH_ROUNDINGS 16
+
 /* The signs up to which a step has been searched. */
 struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on

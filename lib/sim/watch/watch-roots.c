@@ -43,7 +43,7 @@ vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double size = qdot_chebyshev_size(p->n, p->c);
 
-    return size == 0 || size <= (p->from_zero ? 1e5 : 16) * w->noise[i];
+    return size == 0 || size <= (p->from_zero ? 1e5 : QDOT_WATCH_ROUNDINGS) * w->noise[i];
 }
 
 /* Of a function that vanishes on the part: whether it is 0, not just so flat at a root that rounding is all
@@ -217,9 +217,28 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     return is_pole(w, p, ends, root, &root->pole);
 }
 
+/* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the
+ * step: *by. Where g is flat it is 0 at a time known to that. */
+static qdot_status
+time_to_zero(qdot_watch *w, size_t i, double t, double least, double *by)
+{
+    const double whole = t - w->t;
+    double part = DBL_EPSILON;
+
+    for (; part < 1; part *= 2) {
+        QDOT_TRY(qdot_watch_value_at(w, t - part * whole, w->g));
+        if (fabs(w->g[i]) > 4 * least)
+            break;
+    }
+    *by = part * fabs(whole);
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
 {
+    double blur = 0;
+
     for (;;) {
         const double middle = from + 0.5 * (to - from);
 
@@ -228,11 +247,14 @@ qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
         QDOT_TRY(qdot_watch_value_at(w, middle, w->g));
         *(fabs(w->g[i]) <= least ? &to : &from) = middle;
     }
+    if (least > 0)
+        QDOT_TRY(time_to_zero(w, i, to, least, &blur));
     QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
                                             .t = to,
                                             .way = -w->now.sign[i],
                                             .residual = least,
                                             .exact = least == 0,
+                                            .blur = blur,
                                             .stays = true}));
     w->now.sign[i] = 0;
     return QDOT_OK;
@@ -462,9 +484,10 @@ flat_width(const qdot_watch_part *p, const double *d, double x)
 static qdot_status
 be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    const double noise = w->noise[i] > 0 ? 16 * w->noise[i] : 0,
+    const double noise = w->noise[i] > 0 ? QDOT_WATCH_ROUNDINGS * w->noise[i] : 0,
                  start = p->from_zero ? fabs(w->now.g0[i]) : 0;
-    const bool leaves = fabs(p->at_end) > fmax(noise, start);
+    const bool leaves = fabs(p->at_end) > fmax(noise, start)
+                        && fabs(p->at_end - qdot_chebyshev_at(p->n, p->c, 1)) > noise;
 
     if (w->now.sign[i] != 0 && (leaves || stays_zero(w, p)))
         QDOT_TRY(qdot_watch_stay(w, i, p->a,

@@ -152,10 +152,36 @@ seek_least(walk *x, double *t, double g)
                                              .blur = DBL_EPSILON * fabs(t[1])});
 }
 
-static walk
-begin(qdot_watch *w, const qdot_watch_part *p, size_t i)
+/* What so many roundings of the state in w->z, to either side, change g_i by. */
+static qdot_status
+change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 {
-    return (walk){w, p, i, w->noise[i] > 0 ? w->noise[i] : 0, p->a, NAN, p->a, &w->now.sign[i]};
+    double up, down;
+
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, roundings * DBL_EPSILON, 0, i, &up));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, -roundings * DBL_EPSILON, 0, i, &down));
+    *by = fmax(up, down);
+    return QDOT_OK;
+}
+
+static qdot_status
+begin(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, walk *x)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    double noise, more, t;
+    int k = 0;
+
+    *x = (walk){w, p, i, w->noise[i] > 0 ? w->noise[i] : 0, p->a, NAN, p->a, &w->now.sign[i]};
+    for (int j = 1; j < nodes; j++)
+        k = fabs(g[j]) > fabs(g[k]) ? j : k;
+    t = qdot_watch_time(p, qdot_chebyshev_node(nodes, k));
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(change(w, t, i, 1, &noise));
+    QDOT_TRY(change(w, t, i, 1024, &more));
+    /* a function that stays 0 has no noise there; one that jumps changes as much by one rounding as by more */
+    if (fabs(g[k]) <= QDOT_WATCH_ROUNDINGS * noise && more > 256 * noise)
+        x->least = fmax(x->least, fabs(g[k]));
+    return QDOT_OK;
 }
 
 qdot_status
@@ -163,10 +189,11 @@ qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i, int nod
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
     const int sign = w->now.sign[i];
-    walk x = begin(w, p, i);
+    walk x;
     int k = 0;
     double t[3];
 
+    QDOT_TRY(begin(w, p, i, nodes, &x));
     for (int j = 1; j < nodes; j++)
         k = sign * g[j] < sign * g[k] ? j : k;
     for (int j = -1; j <= 1; j++)
@@ -183,11 +210,12 @@ qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int no
     const int before = w->now.sign[i];
     const bool off = !w->now.on[i] && before != 0;
     const size_t roots = w->roots.n;
-    walk x = begin(w, p, i);
+    walk x;
 
+    QDOT_TRY(begin(w, p, i, nodes, &x));
     if (w->now.on[i]) {
         x.zero = p->a;
-        x.least = fmax(x.least, fabs(w->now.g0[i]));
+        x.least = fmax(QDOT_WATCH_ROUNDINGS * x.least, fabs(w->now.g0[i]));
     }
     for (int j = nodes - 1; j >= 0; j--)
         QDOT_TRY(go(&x, qdot_watch_time(p, qdot_chebyshev_node(nodes, j)), g[j]));
