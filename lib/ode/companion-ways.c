@@ -173,7 +173,7 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
 static double
 aside(double tol, double size, size_t i, size_t number)
 {
-    const double by = QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
+    const double by = QDOT_COMPANION_FAR * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
 
     return goes_up(i, number) ? by : -by;
 }
@@ -184,8 +184,8 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number)
     const bool up = goes_up(i, number);
 
     if (y == 0)
-        return up ? unit * scale : -unit * scale;
-    return nextafter(y, up ? INFINITY : -INFINITY);
+        return (up ? unit : -unit) * QDOT_COMPANION_FAR * scale;
+    return y + QDOT_COMPANION_FAR * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
 void

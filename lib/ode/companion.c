@@ -17,7 +17,7 @@ static const double derived = 4;
 
 /* A companion's own error, as a part of its distance from the run, where the companions agree; where they do not,
  * and the run is far from both. */
-static const double most_share = 0.25, unlike_share = 2;
+static const double most_share = 0.25, unlike_share = 4;
 
 /* Of the work: what reading states before the end may take, the run's and both companions', which cost
  * about so many times a step of the run. */
@@ -289,12 +289,17 @@ qdot_companion_apart(double x, size_t count, const double *theirs)
 }
 
 double
+qdot_companion_own(const double *theirs)
+{
+    return fabs(theirs[1] - theirs[0]) / QDOT_COMPANION_FAR;
+}
+
+double
 qdot_companion_bound_of(double x, size_t count, const double *theirs)
 {
     const double apart = qdot_companion_apart(x, count, theirs);
 
-    return qdot_companion_bound(apart, count == 2 ? fabs(theirs[1] - theirs[0])
-                                                  : QDOT_COMPANION_ALONE * apart);
+    return qdot_companion_bound(apart, count == 2 ? qdot_companion_own(theirs) : QDOT_COMPANION_ALONE * apart);
 }
 
 /* Error bound of the run's state y, relative to these scales, from the companions' states at time k

@@ -172,9 +172,10 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK && *conserved) {
-        bool jumps;
+        bool jumps = false;
 
-        status = qdot_jumps(pool, qdot_mech_energy(s), QDOT_HAS_TIME, &jumps);
+        if (!qdot_lagrangian_has(s, QDOT_T, &jumps) || jumps)
+            status = qdot_jumps(pool, qdot_mech_energy(s), QDOT_HAS_TIME, &jumps);
         *conserved = !jumps;
     }
     qdot_free(relations);

@@ -87,8 +87,8 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
         return QDOT_ENOMEM;
     d->run = run;
     d->share = !run->has_twin ? QDOT_COMPANION_ALONE
-                              : fmin(1, fmax(least_share,
-                                             4 * run->companion.tr.tol / run->report.tol));
+                              : fmin(1, fmax(least_share, 4 * run->companion.tr.tol / run->report.tol))
+                                    / QDOT_COMPANION_FAR;
     d->m = m;
     d->at = qdot_calloc(tr->count * m + 1, sizeof *d->at);
     d->known = qdot_calloc(tr->count + 1, sizeof *d->known);
@@ -139,7 +139,7 @@ compare(qdot_distance *d, size_t piece, double t, const double *values, double *
         const double both[] = {first[j], first[(d->n_others - 1) * d->m + j]};
 
         out[j] = there ? qdot_companion_apart(values[j], d->n_others, both) : NAN;
-        own[j] = there ? fmax(fabs(both[1] - both[0]), d->share * out[j]) : 0;
+        own[j] = there ? fmax(qdot_companion_own(both), d->share * out[j]) : 0;
     }
     return QDOT_OK;
 }

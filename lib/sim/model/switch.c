@@ -8,6 +8,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
+#include "mech/dynamics/energy.h"
 #include "mech/dynamics/quantity.h"
 #include "sim/model/layer.h"
 #include "sim/model/substitute.h"
@@ -152,18 +153,17 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
     return found;
 }
 
-/* Make s->level from T, each declared potential and a stated Lagrangian, if they switch. */
+/* Make s->level from T, each declared potential and a stated Lagrangian, if they switch: M, or with the time. */
 static qdot_status
-find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request)
+find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request, qdot_expr mass)
 {
     qdot_pool *pool = s->pool;
     qdot_status status = QDOT_OK;
-    qdot_expr sum = QDOT_ZERO;
+    qdot_expr sum = scene->lagrangian;
+    bool moved = false; /* T holds terms of first degree */
 
-    if (scene->lagrangian == QDOT_NIL)
+    if (sum == QDOT_NIL && (switches(s, mass, &status) || !qdot_lagrangian_has(scene, QDOT_T, &moved) || moved))
         sum = qdot_mech_kinetic(scene);
-    else
-        sum = scene->lagrangian;
     if (!switches(s, sum, &status))
         sum = QDOT_ZERO;
     for (size_t i = 0; i < scene->potentials.n; i++)
@@ -315,7 +315,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
         QDOT_TRY(qdot_pool_check(pool));
         QDOT_TRY(collect(s, f));
     }
-    QDOT_TRY(find_level(s, scene, request));
+    QDOT_TRY(find_level(s, scene, request, e[0]));
     return s->level == QDOT_NIL ? QDOT_OK : collect(s, s->level);
 }
 

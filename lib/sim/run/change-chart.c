@@ -18,7 +18,7 @@ enum { parts = 8 };
 
 /* Rounding held the steps so far above their tolerance, or the error is so large, that other
  * coordinates may do better. */
-static const double poor = 100, poor_error = 1000;
+static const double poor = 100, poor_error = 1000, least_poor = 1e-9;
 
 /* --- which groups ---------------------------------------------------------------------------- */
 
@@ -269,13 +269,14 @@ change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
     return status;
 }
 
-/* Whether other coordinates may be worth while. */
+/* Whether other coordinates may be worth while: too of a run that was made under a tighter tolerance than asked for
+ * (tighter-run.h), and errs by 10^-6 nevertheless. */
 static bool
 is_poor(const qdot_run *run, double tol)
 {
     return run->report.status == QDOT_RUN_FAILED || isnan(run->report.error) ||
            run->course.tr.result.stats.raised > poor * tol ||
-           run->report.error > poor_error * tol;
+           run->report.error > poor_error * fmin(tol, fmax(run->report.tol, least_poor));
 }
 
 /* Whether a run that arrived has passed through a place where the chart's reading turns: (theta, phi)
