@@ -169,11 +169,17 @@ qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i)
     return y[i] == 0 && beside > unit * scale ? fmin(scale, beside) : scale;
 }
 
+static double
+doubles_away(size_t number)
+{
+    return number == 0 ? 1 : QDOT_COMPANION_FAR;
+}
+
 /* The distance from component i, of that size (scale.h), at which companion `number` of a run in two doubles starts. */
 static double
 aside(double tol, double size, size_t i, size_t number)
 {
-    const double by = QDOT_COMPANION_FAR * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
+    const double by = doubles_away(number) * QDOT_COMPANION_AIMS * qdot_step_aim(tol, true) * size;
 
     return goes_up(i, number) ? by : -by;
 }
@@ -184,8 +190,8 @@ qdot_companion_moved(double y, double scale, size_t i, size_t number)
     const bool up = goes_up(i, number);
 
     if (y == 0)
-        return (up ? unit : -unit) * QDOT_COMPANION_FAR * scale;
-    return y + QDOT_COMPANION_FAR * (nextafter(y, up ? INFINITY : -INFINITY) - y);
+        return (up ? unit : -unit) * doubles_away(number) * scale;
+    return y + doubles_away(number) * (nextafter(y, up ? INFINITY : -INFINITY) - y);
 }
 
 void

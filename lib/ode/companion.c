@@ -17,7 +17,7 @@ static const double derived = 4;
 
 /* A companion's own error, as a part of its distance from the run, where the companions agree; where they do not,
  * and the run is far from both. */
-static const double most_share = 0.25, unlike_share = 4;
+static const double most_share = 0.25, unlike_share = 3;
 
 /* Of the work: what reading states before the end may take, the run's and both companions', which cost
  * about so many times a step of the run. */
@@ -285,13 +285,14 @@ qdot_companion_bound(double apart, double own)
 double
 qdot_companion_apart(double x, size_t count, const double *theirs)
 {
-    return fabs(count == 2 ? (theirs[0] - x) / 2 + (theirs[1] - x) / 2 : theirs[0] - x);
+    return fabs(count == 2 ? (QDOT_COMPANION_FAR * (theirs[0] - x) + (theirs[1] - x)) / (QDOT_COMPANION_FAR + 1)
+                           : theirs[0] - x);
 }
 
 double
 qdot_companion_own(const double *theirs)
 {
-    return fabs(theirs[1] - theirs[0]) / QDOT_COMPANION_FAR;
+    return fabs(theirs[1] - theirs[0]) * QDOT_COMPANION_SHARE;
 }
 
 double

@@ -13,13 +13,14 @@
  *       coefficients
  *       are computed and not rounded once for all, takes tol/100 down to 1e-16, and three
  *       orders more than that asks for,
- *     from the second doubles beside y0, +-2^-52 s_i for a zero, signs mixed,
+ *     from the double beside y0, the second of them from the next but one on the other side, +2^-53 s_i and -2^-52 s_i
+ *     for a zero, signs mixed,
  *
  * to y*. The tighter tolerance shows the error of the method, the moved start the
  * rounding of the inputs (its zeros too) and, as all roundings of the second run differ,
  * that of the run itself.
  *
- *     apart_i = |y_i - (y*_1,i + y*_2,i)/2|,   own_i = |y*_1,i - y*_2,i|/2
+ *     apart_i = |y_i - (2 y*_1,i + y*_2,i)/3|,   own_i = 2/3 |y*_1,i - y*_2,i|
  *     error   = max(floor, max_i bound(apart_i, own_i))     (qdot_companion_bound)
  *     floor   = 2^-52 min(sqrt(steps), 32)
  *
@@ -30,15 +31,16 @@
  * not enough: if all is rounding, the difference of two random walks may be small by chance; near
  * an instability it is a single number; and if the tolerance dominates, a method may be so much
  * more accurate than requested that a companion errs as much as the run. They start on opposite
- * sides: their distance shows the amplification of the scene, of which their middle is free. QDOT_COMPANION_FAR
- * doubles are not lost where a root halves them (the time of a fall); one is.
+ * sides: their distance shows the amplification of the scene, of which their middle, by these weights,
+ * is free. One double would be lost where a root halves it (the time of a fall); two of the first companion
+ * make it dearer than a run beside a stiff force that they excite.
  *
  * A run whose first orders are sums of two doubles (leading.h) has exact inputs and errs by far
  * less than a rounding a step. Its companions are of the same kind and start
  *
- *     QDOT_COMPANION_FAR QDOT_COMPANION_AIMS eps max(s_i, |y_i|)
+ *     QDOT_COMPANION_AIMS eps max(s_i, |y_i|)
  *
- * away, where eps is the error that its steps aim at; the floor is 2^-53,
+ * away, and twice that, where eps is the error that its steps aim at; the floor is 2^-53,
  * by which its end is rounded, four times that if velocities follow from momenta.
  *
  * Ways. All that is spent on the error of a run is at most QDOT_COMPANION_MOST times what the run had
@@ -100,17 +102,17 @@ typedef struct {
 typedef struct qdot_companion qdot_companion;
 
 /* The error stated for a number, from its distance `apart` from the middle of those of the companions
- * and half the distance of these, `own`,
+ * and QDOT_COMPANION_SHARE of the distance of these, `own`,
  *
- *     bound = 5/4 apart + 4 min(apart, own) + own.
+ *     bound = 5/4 apart + 3 min(apart, own) + own.
  *
  * If the method's error dominates, companions are off by a small part of `apart`, and agree. If all is
  * the rounding of the three runs, errors with one normal distribution in one unstable direction, it is below
- * the run's in 4 cases of 100, and below half of it in 0.9; its median is 4.5 times that. If rounding is little
+ * the run's in 3.5 cases of 100, and below half of it in 0.8; its median is 4.5 times that. If rounding is little
  * beside what moving the start by one double makes, it is 2 of these. */
 double qdot_companion_bound(double apart, double own);
 /* Where there is one companion, `own` counts as so many times `apart`: the bound is 13/4 of that. */
-#define QDOT_COMPANION_ALONE 0.4
+#define QDOT_COMPANION_ALONE 0.5
 
 /* The distance of a value x of the run from the middle of theirs [count] of the companions, 1 or 2. */
 double qdot_companion_apart(double x, size_t count, const double *theirs);
@@ -244,9 +246,10 @@ double qdot_companion_tolerance(const qdot_ode_system *system,
  * starts at 1; where both are 0 nothing is known of the size that it will have. */
 double qdot_companion_unit(const double *scales, size_t n, const double *y, size_t i);
 
-/* The start of companion 0 or 1 in component i: so many doubles to the side of y; for a zero multiples of 2^-53 of
- * `scale`. */
+/* The start of companion 0 or 1 in component i: the double beside y; for 1 so many away, on the other side; for a zero
+ * multiples of 2^-53 of `scale`. */
 #define QDOT_COMPANION_FAR 2
+#define QDOT_COMPANION_SHARE (2.0 / (QDOT_COMPANION_FAR + 1))
 double qdot_companion_moved(double y, double scale, size_t i, size_t number);
 
 /* The start [n] of companion `number` beside that of its run, y [n]: moved by that; or, for a run whose first orders are

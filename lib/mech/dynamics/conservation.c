@@ -11,6 +11,7 @@
  */
 #include "expr/calculus.h"
 #include "mech/dynamics/energy.h"
+#include "mech/dynamics/potential.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/virtual-work.h"
 #include "mech/scene/access.h"
@@ -175,7 +176,10 @@ qdot_mech_energy_conserved(qdot_scene *s, bool *conserved)
         bool jumps = false;
 
         if (!qdot_lagrangian_has(s, QDOT_T, &jumps) || jumps)
-            status = qdot_jumps(pool, qdot_mech_energy(s), QDOT_HAS_TIME, &jumps);
+            status = qdot_jumps(pool,
+                                qdot_mech_stated(s) ? s->lagrangian
+                                                    : qdot_sub(pool, qdot_mech_numeric_kinetic(s), qdot_potential_raw(s)),
+                                QDOT_HAS_TIME, &jumps);
         *conserved = !jumps;
     }
     qdot_free(relations);

@@ -131,6 +131,15 @@ or_squares(qdot_scene *s, qdot_expr T, qdot_expr others)
 }
 
 qdot_expr
+qdot_mech_numeric_kinetic(qdot_scene *s)
+{
+    if (!qdot_mass_get(s))
+        return QDOT_NIL;
+    return qdot_add(s->pool, quadratic_part(s),
+                    qdot_add(s->pool, linear_part(s), qdot_derived_get(s)->c));
+}
+
+qdot_expr
 qdot_mech_kinetic(qdot_scene *s)
 {
     qdot_derived *d = qdot_derived_get(s);
@@ -287,10 +296,9 @@ qdot_lagrangian_slope(qdot_scene *s, qdot_expr x)
 
     if (qdot_mech_stated(s))
         return qdot_diff(pool, s->lagrangian, x);
-    if (!qdot_mass_get(s))
+    T = qdot_mech_numeric_kinetic(s);
+    if (T == QDOT_NIL)
         return QDOT_NIL;
-    T = qdot_add(pool, quadratic_part(s),
-                 qdot_add(pool, linear_part(s), qdot_derived_get(s)->c));
     return qdot_sub(pool, qdot_diff(pool, T, x), qdot_diff(pool, qdot_potential_raw(s), x));
 }
 

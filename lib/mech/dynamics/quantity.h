@@ -111,6 +111,7 @@ QDOT_MUST_CHECK qdot_status qdot_mech_dof(qdot_scene *s, qdot_dof *dof);
  * M(q, t) q'' = f(q, q', t): M as MAT, f as VEC (LIST when n = 1); n coordinates in declared
  * order. M is built from grouped Jacobians (scene/cache.h), work N^2 for a chain. Without the
  * multipliers of constraints. */
+qdot_expr qdot_mech_numeric_kinetic(qdot_scene *s); /* T */
 qdot_expr qdot_mech_numeric_mass(qdot_scene *s);
 qdot_expr qdot_mech_numeric_forcing(qdot_scene *s);
 /* h with that M. Simplified only if M cannot be used: with a stated Lagrangian, masses or

@@ -88,7 +88,7 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
     d->run = run;
     d->share = !run->has_twin ? QDOT_COMPANION_ALONE
                               : fmin(1, fmax(least_share, 4 * run->companion.tr.tol / run->report.tol))
-                                    / QDOT_COMPANION_FAR;
+                                    * QDOT_COMPANION_SHARE;
     d->m = m;
     d->at = qdot_calloc(tr->count * m + 1, sizeof *d->at);
     d->known = qdot_calloc(tr->count + 1, sizeof *d->known);

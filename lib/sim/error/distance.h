@@ -2,8 +2,8 @@
  *
  * With g along the run y and its companions y*_1, y*_2 (ode/companion.h),
  *
- *     d(t) = |g(y(t)) - (g(y*_1(t)) + g(y*_2(t)))/2|
- *     c(t) = max(|g(y*_1(t)) - g(y*_2(t))|, share d(t))/2,   share = 4 tol* / tol in [1/32, 1]
+ *     d(t) = |g(y(t)) - (2 g(y*_1(t)) + g(y*_2(t)))/3|
+ *     c(t) = 2/3 max(|g(y*_1(t)) - g(y*_2(t))|, share d(t)),   share = 4 tol* / tol in [1/32, 1]
  *
  * are the distance from the middle of the companions and an estimate of their own error. Both pass through zero
  * as g oscillates; so at one time they may be small by chance, and

@@ -163,7 +163,7 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
     bool moved = false; /* T holds terms of first degree */
 
     if (sum == QDOT_NIL && (switches(s, mass, &status) || !qdot_lagrangian_has(scene, QDOT_T, &moved) || moved))
-        sum = qdot_mech_kinetic(scene);
+        sum = qdot_mech_numeric_kinetic(scene);
     if (!switches(s, sum, &status))
         sum = QDOT_ZERO;
     for (size_t i = 0; i < scene->potentials.n; i++)
