@@ -648,6 +648,10 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
         status = make_in_scales(scene, &states.request, out);
     if (!asked->digits)
         status = qdot_run_change_chart(scene, &states.request, &by, status, out);
+    if (status == QDOT_ENOMEM) { /* of a run that was to be made once more */
+        qdot_run_free(*out);
+        *out = NULL;
+    }
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;
