@@ -142,12 +142,9 @@ qdot_code_power(qdot_code *code, qdot_value a, long n)
         a = qdot_code_op(code, QDOT_OP_DIV, qdot_code_constant(code, QDOT_ONE), a, 0);
         n = -n;
     }
-    if (n > QDOT_CODE_MOST_POWER) {
-        const qdot_value half = qdot_code_power(code, a, n / 2);
-        const qdot_value even = qdot_code_op(code, QDOT_OP_MUL, half, half, 0);
-
-        return n % 2 ? qdot_code_op(code, QDOT_OP_MUL, even, a, 0) : even;
-    }
+    if (n > QDOT_CODE_MOST_POWER)
+        return qdot_code_op(code, QDOT_OP_POW, a,
+                            qdot_code_constant(code, qdot_expr_int(code->pool, n)), 0);
     todo[depth++].power = (int)n;
     while (depth > 0) {
         int k = todo[--depth].power;

@@ -13,7 +13,7 @@
 #include "tape/instruction.h"
 #include "tape/keymap.h"
 
-/* Higher powers are squares of such (and pow() has no series about 0). */
+/* Higher powers use pow(). */
 #define QDOT_CODE_MOST_POWER 64
 
 typedef uint32_t qdot_value; /* a value of the code: an index */
