@@ -1434,7 +1434,6 @@ script_tests = \
 	tests/script/help-search.lag \
 	tests/script/help.lag \
 	tests/script/hidden-forces.lag \
-	tests/script/high-power.lag \
 	tests/script/history.lag \
 	tests/script/horizon.sh \
 	tests/script/identities.sh \
@@ -2490,7 +2489,6 @@ test_files = \
 	tests/script/help-search.out \
 	tests/script/help.out \
 	tests/script/hidden-forces.out \
-	tests/script/high-power.out \
 	tests/script/history.out \
 	tests/script/horizon.out \
 	tests/script/identities-angles.inc \
