@@ -112,7 +112,7 @@ right(const solver *s, size_t k, size_t i)
 {
     const gsl_complex x = gsl_matrix_complex_get(s->V, i, k);
 
-    return CMPLX(GSL_REAL(x), GSL_IMAG(x));
+    return GSL_REAL(x) + I * GSL_IMAG(x);
 }
 
 static double complex
@@ -120,7 +120,7 @@ left(const solver *s, size_t k, size_t i)
 {
     const gsl_complex x = gsl_matrix_complex_get(s->W, k, i);
 
-    return CMPLX(GSL_REAL(x), GSL_IMAG(x));
+    return GSL_REAL(x) + I * GSL_IMAG(x);
 }
 
 /* Orthonormal q_0, q_1, columns of Q, in the plane of v_k and v_j, and L, the rows dual to them in the plane of w_k and
