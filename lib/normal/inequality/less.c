@@ -502,19 +502,43 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
 
 /* --- |u| and sign u where conditions say which sign u has --------------------------- */
 
-/* What takes the place of a node with a sign; nil: nothing. */
-static qdot_expr
-known(qdot_pool *pool, qdot_expr node, void *user)
+/* The facts without the conditions that contain `node`: asked about what such a condition says, they would ask
+ * about the node again, without end. Conditions are copied to `left` [facts->n_conditions]. */
+static qdot_facts
+facts_without(const qdot_pool *pool, const qdot_facts *facts, qdot_expr node, qdot_expr *left)
 {
+    qdot_facts rest = *facts;
+
+    rest.n_conditions = 0;
+    rest.conditions = left;
+    for (size_t i = 0; i < facts->n_conditions; i++)
+        if (!qdot_expr_contains(pool, facts->conditions[i], node))
+            left[rest.n_conditions++] = facts->conditions[i];
+    return rest;
+}
+
+/* u or -u for |u|, 1 or -1 for sign u, where the facts decide the sign of u; nil: they do not. */
+static qdot_expr
+known_sign_node(qdot_pool *pool, qdot_expr node, void *user)
+{
+    const qdot_facts *facts = user;
     uint32_t op = qdot_expr_node(pool, node)->op;
     qdot_decision above, below;
-    qdot_expr u;
+    qdot_facts rest;
+    qdot_expr u, *left;
+    bool asked;
 
     if (qdot_expr_kind(pool, node) != QDOT_FUN || (op != QDOT_ABS && op != QDOT_SIGN))
         return QDOT_NIL;
+    left = qdot_malloc(facts->n_conditions * sizeof *left);
+    if (left == NULL)
+        return qdot_pool_fail(pool);
+    rest = facts_without(pool, facts, node, left);
     u = qdot_expr_arg(pool, node, 0);
-    if (qdot_decide_less(pool, QDOT_ZERO, u, true, user, &above) != QDOT_OK ||
-        qdot_decide_less(pool, u, QDOT_ZERO, true, user, &below) != QDOT_OK)
+    asked = qdot_decide_less(pool, QDOT_ZERO, u, op == QDOT_SIGN, &rest, &above) == QDOT_OK &&
+            qdot_decide_less(pool, u, QDOT_ZERO, op == QDOT_SIGN, &rest, &below) == QDOT_OK;
+    qdot_free(left);
+    if (!asked)
         return qdot_pool_fail(pool);
     if (above.verdict == QDOT_PROVED)
         return op == QDOT_ABS ? u : QDOT_ONE;
@@ -528,5 +552,5 @@ qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0)
         return e;
-    return qdot_walk_map(pool, e, known, (void *)(uintptr_t)facts);
+    return qdot_walk_map(pool, e, known_sign_node, (void *)(uintptr_t)facts);
 }
