@@ -240,8 +240,10 @@ library_sources = \
 	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-branches.c \
+	lib/mech/study/equilibrium-corners.c \
 	lib/mech/study/equilibrium-curve.c \
 	lib/mech/study/equilibrium-equations.c \
+	lib/mech/study/equilibrium-members.c \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-twice.c \
 	lib/mech/study/equilibrium.c \
@@ -315,15 +317,19 @@ library_sources = \
 	lib/normal/simplify/rationalize.c \
 	lib/normal/simplify/simplify.c \
 	lib/normal/solve/antiderivative.c \
+	lib/normal/solve/conditions.c \
 	lib/normal/solve/cramer.c \
 	lib/normal/solve/isolate.c \
 	lib/normal/solve/linear.c \
 	lib/normal/solve/null-space.c \
 	lib/normal/solve/proportion.c \
+	lib/normal/solve/solutions.c \
+	lib/normal/solve/solve-cases.c \
 	lib/normal/solve/solve-factors.c \
-	lib/normal/solve/solve-signs.c \
+	lib/normal/solve/solve-inverse.c \
 	lib/normal/solve/solve-sort.c \
 	lib/normal/solve/solve.c \
+	lib/normal/solve/solver.c \
 	lib/num/articulated.c \
 	lib/num/batch.c \
 	lib/num/bordered.c \
@@ -863,12 +869,15 @@ library_headers = \
 	lib/normal/simplify/rationalize.h \
 	lib/normal/simplify/simplify.h \
 	lib/normal/solve/antiderivative.h \
+	lib/normal/solve/conditions.h \
 	lib/normal/solve/cramer.h \
 	lib/normal/solve/isolate.h \
 	lib/normal/solve/linear.h \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
+	lib/normal/solve/solutions.h \
 	lib/normal/solve/solve.h \
+	lib/normal/solve/solver.h \
 	lib/num/arb.h \
 	lib/num/articulated-plane.def \
 	lib/num/articulated.def \

@@ -401,17 +401,25 @@ qdot_symbol_show(qdot_pool *pool, qdot_expr x)
     s->hidden = false;
 }
 
+static bool
+has_symbol(const qdot_pool *pool, qdot_class class, const char *name)
+{
+    uint32_t hash;
+
+    return known_symbol(pool, &(qdot_symbol){.class = class, .name = name}, &hash) != QDOT_NIL;
+}
+
+bool
+qdot_symbol_is_declared(const qdot_pool *pool, const char *name)
+{
+    return has_symbol(pool, QDOT_PARAM, name) || has_symbol(pool, QDOT_COORD, name) ||
+           has_symbol(pool, QDOT_MULTIPLIER, name);
+}
+
 bool
 qdot_symbol_is_known(const qdot_pool *pool, const char *name)
 {
-    static const qdot_class classes[] = {QDOT_PARAM, QDOT_COORD, QDOT_FORMAL, QDOT_MULTIPLIER};
-    uint32_t hash;
-
-    for (size_t i = 0; i < sizeof classes / sizeof *classes; i++)
-        if (known_symbol(pool, &(qdot_symbol){.class = classes[i], .name = name}, &hash) !=
-            QDOT_NIL)
-            return true;
-    return false;
+    return qdot_symbol_is_declared(pool, name) || has_symbol(pool, QDOT_FORMAL, name);
 }
 
 /* A symbol that belongs to a coordinate: its name by a pattern round the coordinate's. */

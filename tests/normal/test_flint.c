@@ -171,16 +171,13 @@ static qdot_status
 solve_one(qdot_pool *pool, size_t i)
 {
     qdot_expr e = equation_of[i / KINDS];
-    qdot_root *roots;
-    size_t n;
-    bool complete;
+    qdot_solutions found;
     qdot_status status;
 
     switch (i % KINDS) {
     case 0:
-        status = qdot_solve(pool, e, unknown, NULL, &roots, &n, &complete);
-        if (status == QDOT_OK)
-            qdot_free(roots);
+        status = qdot_solve_inside(pool, e, unknown, NULL, &found);
+        qdot_solutions_clear(&found);
         return status;
     case 1: (void)qdot_solve_factors(pool, e); break;
     case 2: (void)qdot_solve_product(pool, e); break;

@@ -68,13 +68,15 @@ roots_satisfy_their_equation(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         qdot_expr f = text_read(pool, rows[i].f), x = text_read(pool, rows[i].x);
         qdot_text all = {0};
-        qdot_root *roots;
-        bool complete;
+        qdot_solutions found;
+        const qdot_root *roots;
         size_t n;
 
-        assert_int_equal(qdot_solve(pool, f, x, NULL, &roots, &n, &complete), QDOT_OK);
-        if (!complete)
+        assert_int_equal(qdot_solve_inside(pool, f, x, NULL, &found), QDOT_OK);
+        if (!found.complete)
             fail_msg("%s: not complete", rows[i].f);
+        roots = found.root.at;
+        n = found.root.n;
         for (size_t k = 0; k < n; k++) {
             qdot_expr at = qdot_subs(pool, f, 1, &x, &roots[k].value);
             qdot_decision d;
@@ -92,7 +94,7 @@ roots_satisfy_their_equation(void **state)
         if (rows[i].roots == NULL && n < 2)
             fail_msg("%s: only %s", rows[i].f, qdot_text_str(&all));
         qdot_text_clear(&all);
-        qdot_free(roots);
+        qdot_solutions_clear(&found);
     }
 }
 
@@ -103,29 +105,126 @@ what_is_beyond_it_is_said(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
-        qdot_root *roots;
-        bool complete;
-        size_t n;
+        qdot_solutions found;
 
-        assert_int_equal(qdot_solve(pool, text_read(pool, beyond[i]),
-                                    text_read(pool, "x"), NULL, &roots, &n, &complete),
-                         QDOT_OK);
-        assert_false(complete);
-        qdot_free(roots);
+        assert_int_equal(
+            qdot_solve(pool, text_read(pool, beyond[i]), text_read(pool, "x"), NULL, &found),
+            QDOT_OK);
+        assert_false(found.complete);
+        qdot_solutions_clear(&found);
     }
 }
 
 static void
 an_identity_is_no_equation(void **state)
 {
-    qdot_root *roots;
-    bool complete;
-    size_t n;
+    qdot_solutions found;
 
     (void)state;
     assert_int_equal(qdot_solve(pool, text_read(pool, "(x + 1)^2 - x^2 - 2*x - 1"),
-                                text_read(pool, "x"), NULL, &roots, &n, &complete),
+                                text_read(pool, "x"), NULL, &found),
                      QDOT_EDOMAIN);
+    qdot_solutions_clear(&found);
+}
+
+/* --- sets of roots ---------------------------------------------------------------------- */
+
+/* A symbol of its own with a domain: lo < it < hi, nil: no end. */
+static qdot_expr
+coordinate(const char *name, qdot_expr lo, qdot_expr hi)
+{
+    qdot_expr x = qdot_symbol_get(pool, QDOT_COORD, name);
+
+    qdot_symbol_domain(pool, x, lo, true, hi, true);
+    return x;
+}
+
+/* The roots in order, `; ` between them, each with its conditions behind `|`. */
+static const char *
+listed(qdot_expr f, qdot_expr x)
+{
+    static qdot_text all;
+    qdot_solutions found;
+
+    qdot_text_clear(&all);
+    assert_int_equal(qdot_solve_inside(pool, f, x, NULL, &found), QDOT_OK);
+    for (size_t k = 0; k < found.root.n; k++) {
+        qdot_text_format(&all, "%s%s", k > 0 ? "; " : "", shown(found.root.at[k].value));
+        if (found.root.at[k].condition != QDOT_NIL)
+            qdot_text_format(&all, " |%s", shown(found.root.at[k].condition));
+    }
+    if (!found.complete)
+        qdot_text_add(&all, " ...");
+    qdot_solutions_clear(&found);
+    return qdot_text_str(&all);
+}
+
+/* An angle beyond one turn, ends that are no fractions, a period that is no turn, a root that is a parameter. */
+static void
+roots_lie_in_the_declared_domain(void **state)
+{
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
+              five = qdot_expr_int(pool, 5), a = text_read(pool, "a"),
+              u = coordinate("u", QDOT_ZERO, turn), v = coordinate("v", QDOT_ZERO, five),
+              w = coordinate("w", QDOT_ZERO, QDOT_ONE),
+              z = coordinate("z", qdot_expr_int(pool, 10), QDOT_NIL),
+              q = qdot_symbol_get(pool, QDOT_COORD, "q");
+    qdot_expr sine = qdot_fun1(pool, QDOT_SIN, u), half = QDOT_HALF;
+
+    (void)state;
+    assert_string_equal(listed(qdot_add(pool, sine, half), u), "7/6*pi; 11/6*pi");
+    assert_string_equal(listed(qdot_sub(pool, u, qdot_expr_int(pool, 7)), u), "");
+    assert_string_equal(listed(qdot_sub(pool, u, qdot_expr_int(pool, 6)), u), "6");
+    assert_string_equal(
+        listed(qdot_fun1(pool, QDOT_COS, qdot_mul(pool, QDOT_PI, v)), v),
+        "1/2; 3/2; 5/2; 7/2; 9/2");
+    assert_string_equal(listed(qdot_sub(pool, w, qdot_fun1(pool, QDOT_ATAN, a)), w),
+                        "atan(a) |[a < tan(1)]"); /* a > 0 in text.h */
+    assert_string_equal(listed(qdot_sub(pool, qdot_fun1(pool, QDOT_SIN, z), half), z),
+                        "25/6*pi; 29/6*pi");
+    assert_string_equal(listed(qdot_fun1(pool, QDOT_COS, qdot_mul(pool, half, q)), q),
+                        "4*pi*n - pi; 4*pi*n + pi");
+}
+
+static void
+roots_are_real_or_say_when(void **state)
+{
+    static const char *const row[][2] = {
+        {"x^3 - k", "abs(k)^(1/3)*sign(k)"},
+        {"x^(2/3) - k", "k^(3/2) |[k > 0]"},
+        {"exp(x) - k*exp(-x)", "1/2*log(k) |[k > 0]"},
+        {"abs(x) - k", "k |[k >= 0]; -k |[k >= 0]"},
+        {"abs(x) - x", "x |[x >= 0]"},
+        {"abs(x - 1) + abs(x + 1) - 2", "x |[x <= 1, x >= -1]"},
+        {"sign(x) - 1", "x |[x > 0]"},
+        {"log(x) + log(x - k)", NULL},
+        {"max(x, 1) - 1", "x |[x <= 1]"},
+        {"sinh(x) + 2*cosh(x) - 2", "-log(3); 0"},
+        {"sqrt(x + 1) + x", "1/2*(1 - sqrt(5))"},
+        {"tanh(x) - 2", ""},
+        {"atan(x) - 2", ""},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        if (row[i][1] != NULL)
+            assert_string_equal(listed(text_read(pool, row[i][0]), text_read(pool, "x")),
+                                row[i][1]);
+}
+
+/* A divisor that holds another unknown: where it is 0 the roots are others. */
+static void
+divisors_are_listed(void **state)
+{
+    qdot_solutions found;
+
+    (void)state;
+    assert_int_equal(qdot_solve(pool, text_read(pool, "x*y + sin(phi)"), text_read(pool, "x"),
+                                NULL, &found),
+                     QDOT_OK);
+    assert_int_equal(found.divisor.n, 1);
+    assert_string_equal(shown(found.divisor.at[0]), "y");
+    qdot_solutions_clear(&found);
 }
 
 static void
@@ -250,6 +349,10 @@ main(void)
         cmocka_unit_test_setup_teardown(what_is_beyond_it_is_said, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(an_identity_is_no_equation, open_pool,
                                         close_pool),
+        cmocka_unit_test_setup_teardown(roots_lie_in_the_declared_domain, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(roots_are_real_or_say_when, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(divisors_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(products_are_irreducible, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(conditions_are_short, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(what_is_known_is_left_out, open_pool, close_pool),

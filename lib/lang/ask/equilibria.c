@@ -14,16 +14,18 @@
 
 /* --- equilibria ------------------------------------------------------------------------- */
 
-/* a > |b| for a > b and a + b > 0, a positive; else nil. */
+/* a > |b| for a > b and a + b > 0, a positive (>= for both >=); else nil. */
 static qdot_expr
 as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
 {
     qdot_expr sum, b;
+    qdot_rel_op op;
 
     if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_kind(pool, other) != QDOT_REL ||
-        qdot_expr_node(pool, one)->op != QDOT_LT ||
-        qdot_expr_node(pool, other)->op != QDOT_LT)
+        qdot_expr_node(pool, one)->op == QDOT_EQ ||
+        qdot_expr_node(pool, other)->op != qdot_expr_node(pool, one)->op)
         return QDOT_NIL;
+    op = qdot_expr_node(pool, one)->op;
     one = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
     other = qdot_sub(pool, qdot_expr_arg(pool, other, 1), qdot_expr_arg(pool, other, 0));
     sum = qdot_expand(pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, one, other)));
@@ -32,7 +34,17 @@ as_magnitude(qdot_pool *pool, qdot_expr one, qdot_expr other)
         (qdot_expr_node(pool, sum)->sign & QDOT_POS) != QDOT_POS ||
         (qdot_expr_node(pool, b)->sign & (QDOT_GE0 | QDOT_LE0)) != 0)
         return QDOT_NIL;
-    return qdot_rel(pool, QDOT_LT, qdot_fun1(pool, QDOT_ABS, b), sum);
+    return qdot_rel(pool, op, qdot_fun1(pool, QDOT_ABS, b), sum);
+}
+
+static const char *
+greater(qdot_style style, bool or_equal)
+{
+    if (style == QDOT_MATHML)
+        return or_equal ? "<mo>&#8805;</mo>" : "<mo>&gt;</mo>";
+    if (!or_equal)
+        return " > ";
+    return style == QDOT_LATEX ? " \\ge " : style == QDOT_UNICODE ? " ≥ " : " >= ";
 }
 
 /* `a > b and c > d`; a relation reads with > as people say it, and `g < 0`. */
@@ -53,14 +65,14 @@ print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
         }
         qdot_text_add(out, first ? "" : " and ");
         if (qdot_expr_kind(pool, one) != QDOT_REL ||
-            qdot_expr_node(pool, one)->op != QDOT_LT ||
+            qdot_expr_node(pool, one)->op == QDOT_EQ ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
             QDOT_TRY(qdot_formula(session, one, out));
             continue;
         }
         qdot_formula_bracket(session, true, out);
         QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 1), session->style, out));
-        qdot_text_add(out, session->style == QDOT_MATHML ? "<mo>&gt;</mo>" : " > ");
+        qdot_text_add(out, greater(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
         QDOT_TRY(qdot_print(pool, qdot_expr_arg(pool, one, 0), session->style, out));
         qdot_formula_bracket(session, false, out);
     }
@@ -131,7 +143,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         qdot_text_add(&text, ", ");
     }
     if (n == 0 && !session->json)
-        qdot_text_add(&text, "everywhere, ");
+        qdot_text_add(&text, "everywhere, "); /* or wherever it exists */
     if (status == QDOT_OK)
         status = print_stability(session, e, &text);
     return qdot_sheet_end(session, &sheet, name, status, &text);
@@ -143,6 +155,9 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
 {
     qdot_text text = {0};
 
+    if (all->recurs)
+        QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
+                                             "domain each recurs after every whole turn"));
     if (all->complete && all->n > 0)
         return QDOT_OK;
     if (all->complete) {

@@ -240,6 +240,48 @@ qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_exp
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
 }
 
+/* `x = V exists when C and D`, of a root that has conditions. */
+static qdot_status
+notice_conditions(qdot_session *s, qdot_expr x, const qdot_root *root)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
+    qdot_text text = {0};
+    qdot_status status;
+
+    if (n == 0)
+        return QDOT_OK;
+    status = qdot_print(pool, qdot_rel(pool, QDOT_EQ, x, root->value), QDOT_PLAIN, &text);
+    qdot_text_add(&text, " exists");
+    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i == 0 ? " when " : " and ");
+        status = qdot_print(pool, qdot_expr_arg(pool, root->condition, i), QDOT_PLAIN, &text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* A root as a value: a number, or the relations that say which x are roots. */
+static qdot_status
+root_value(qdot_session *s, qdot_expr x, const qdot_root *root, qdot_expr *value)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
+
+    *value = root->value;
+    if (root->value != x)
+        return notice_conditions(s, x, root);
+    if (n == 0)
+        return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
+    *value = n == 1 ? qdot_expr_arg(pool, root->condition, 0)
+                    : qdot_logic(pool, QDOT_AND, n, qdot_expr_args(pool, root->condition));
+    return qdot_pool_check(pool);
+}
+
 /* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
 qdot_status
 qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
@@ -249,10 +291,9 @@ qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
                       ? qdot_sub(s->pool, qdot_expr_arg(s->pool, args[0], 0),
                                  qdot_expr_arg(s->pool, args[0], 1))
                       : args[0];
-    qdot_root *roots = NULL;
-    qdot_expr *values;
-    size_t count = 0;
-    bool complete;
+    qdot_solutions found = {0};
+    qdot_expr *values = NULL;
+    qdot_status status;
 
     (void)n;
     if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
@@ -260,21 +301,27 @@ qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
     if (!qdot_expr_is_scalar(s->pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(s->pool, args[0]));
-    QDOT_TRY(qdot_solve(s->pool, f, args[1], &facts, &roots, &count, &complete));
-    if (!complete) {
-        qdot_free(roots);
-        qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
-                  count > 0 ? " for every x" : "");
-        return qdot_hint("linear, quadratic, factorable and trigonometric equations can");
+    status = qdot_solve_inside(s->pool, f, args[1], &facts, &found);
+    if (status == QDOT_OK && !found.complete) {
+        (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
+                        found.root.n > 0 ? " for every x" : "");
+        status = qdot_hint("linear, quadratic, factorable and trigonometric equations can");
     }
-    values = qdot_malloc((count + 1) * sizeof *values);
-    for (size_t i = 0; values != NULL && i < count; i++)
-        values[i] = roots[i].value;
-    *value = values == NULL ? qdot_pool_fail(s->pool)
-                            : qdot_list(s->pool, (uint32_t)count, values);
+    if (status == QDOT_OK &&
+        (values = qdot_malloc((found.root.n + 1) * sizeof *values)) == NULL)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++)
+        status = root_value(s, args[1], &found.root.at[i], &values[i]);
+    if (status == QDOT_OK && found.recurs)
+        status = qdot_answer_notice_once(
+            s, "these are the solutions of one turn: within the domain of %s each recurs after "
+               "every whole turn",
+            qdot_expr_symbol(s->pool, args[1])->name);
+    if (status == QDOT_OK)
+        *value = qdot_list(s->pool, (uint32_t)found.root.n, values);
     qdot_free(values);
-    qdot_free(roots);
-    return qdot_value_kind_check(s->pool, *value);
+    qdot_solutions_clear(&found);
+    return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
 }
 
 /* Every root of det(M - x 1), as often as it is one. */
@@ -284,29 +331,27 @@ roots_of(qdot_session *s, qdot_expr det, qdot_expr x, uint32_t n, qdot_expr *val
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s->scene);
     qdot_expr *values = qdot_malloc((n + 1) * sizeof *values);
-    qdot_root *roots = NULL;
+    qdot_solutions roots = {0};
     uint32_t found = 0;
-    size_t count = 0;
-    bool complete = false;
     qdot_status status = QDOT_ENOMEM;
 
     if (values != NULL)
-        status = qdot_solve(pool, det, x, &facts, &roots, &count, &complete);
-    for (size_t i = 0; i < count && status == QDOT_OK; i++)
+        status = qdot_solve(pool, det, x, &facts, &roots);
+    for (size_t i = 0; i < roots.root.n && status == QDOT_OK; i++)
         for (qdot_expr p = det; found < n; p = qdot_diff(pool, p, x)) {
             if (p == QDOT_NIL ||
-                !qdot_is_zero(pool, qdot_subs(pool, p, 1, &x, &roots[i].value), &facts))
+                !qdot_is_zero(pool, qdot_subs(pool, p, 1, &x, &roots.root.at[i].value), &facts))
                 break;
-            values[found++] = roots[i].value;
+            values[found++] = roots.root.at[i].value;
         }
-    if (status == QDOT_OK && !complete)
+    if (status == QDOT_OK && !roots.complete)
         status = qdot_fail(QDOT_EFAILED, "the characteristic polynomial cannot be solved "
                                          "exactly");
     else if (status == QDOT_OK && found < n)
         status = qdot_fail(QDOT_EDOMAIN, "only %u of %u eigenvalues are real", found, n);
     if (status == QDOT_OK)
         status = qdot_value_kind_give(s->pool, qdot_list(pool, n, values), value);
-    qdot_free(roots);
+    qdot_solutions_clear(&roots);
     qdot_free(values);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
+#include "normal/solve/solve.h"
 
 static qdot_expr
 bind(void *session, qdot_expr e)
@@ -132,6 +133,7 @@ none_to_swing_about(const qdot_equilibria *all)
 qdot_status
 qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
 {
+    qdot_expr n = qdot_solve_integer(session->pool), zero = QDOT_ZERO;
     qdot_equilibria all;
     size_t at = 0;
 
@@ -148,6 +150,7 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
         qdot_equilibria_clear(&all);
         QDOT_TRY(status);
     }
+    equations = qdot_subs(session->pool, equations, 1, &n, &zero); /* of a family: one member */
     QDOT_TRY(qdot_modes_about(session->scene, equations, is_numeric(session, equations),
                               bind, session, modes));
     return modes->unordered

@@ -1,17 +1,14 @@
 /* equilibrium-branches.c -- the equations at rest, solved one unknown at a time, factor by
- * factor. */
-#include <math.h>
-
+ * factor; where a step divides, the divisor's zeros are a branch of their own. */
 #include "base/interrupt.h"
-#include "mech/dynamics/generic.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
-#include "normal/simplify/positive.h"
+#include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_SOLUTIONS = 1024 };
+enum { MOST_MEMBERS = 64 };
 
 /* --- lists ----------------------------------------------------------------------- */
 
@@ -30,6 +27,23 @@ qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *m
     list = qdot_list(pool, (uint32_t)(old + n), all);
     qdot_free(all);
     return list;
+}
+
+qdot_expr
+qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
+{
+    uint32_t n = qdot_expr_count(r->pool, values);
+    qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
+
+    if (from == NULL)
+        return qdot_pool_fail(r->pool);
+    for (uint32_t i = 0; i < n; i++) {
+        from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
+        from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
+    }
+    e = qdot_subs(r->pool, e, n, from, from + n);
+    qdot_free(from);
+    return e;
 }
 
 static size_t
@@ -81,13 +95,14 @@ easiest(const qdot_rest *r, qdot_expr factor, size_t *which)
 /* The branch with u = value put in everywhere. */
 static qdot_status
 with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
-           const qdot_root *root)
+           qdot_expr value, qdot_expr conditions)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, root->value);
-    qdot_rest_branch next = {qdot_subs(pool, equations, 1, &u, &root->value),
-                             qdot_subs(pool, b->known, 1, &u, &root->value),
-                             qdot_subs(pool, b->conditions, 1, &u, &root->value)};
+    qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, value);
+    qdot_rest_branch next = {.equations = qdot_subs(pool, equations, 1, &u, &value),
+                             .known = qdot_subs(pool, b->known, 1, &u, &value),
+                             .conditions = qdot_conditions_all(pool, b->conditions, conditions),
+                             .whole = b->whole};
     uint32_t n = qdot_expr_count(pool, b->known);
     qdot_expr *known;
 
@@ -96,6 +111,11 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
 
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     }
+    if (next.conditions != QDOT_NIL && next.conditions != QDOT_FALSE)
+        next.conditions = qdot_conditions_at(pool, next.conditions, 1, &u, &value, &r->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (next.conditions == QDOT_FALSE)
+        return QDOT_OK;
     /* unknowns stand on the left of `known`, so they stay */
     known = qdot_malloc((n + 1) * sizeof *known);
     if (known == NULL)
@@ -105,210 +125,147 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
     known[n] = equation;
     next.known = qdot_list(pool, n + 1, known);
     qdot_free(known);
-    for (uint32_t i = 0;
-         root->condition != QDOT_NIL && i < qdot_expr_count(pool, root->condition); i++) {
-        qdot_expr one = qdot_expr_arg(pool, root->condition, i);
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_vec_push(&r->todo, next);
+}
 
-        next.conditions = qdot_rest_appended(pool, next.conditions, 1, &one);
+/* One branch for each member of a family of u within the period of all equations in u. */
+static qdot_status
+with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
+            const qdot_root *root)
+{
+    qdot_pool *pool = r->pool;
+    qdot_window window = qdot_solve_tighten(pool, u, root->members,
+                                            qdot_solve_window(pool, u, false), &r->facts);
+    qdot_expr period, ratio;
+    long members = 0;
+    qdot_status status = qdot_rest_period(r, u, &period);
+
+    if (status == QDOT_OK && period != QDOT_NIL) {
+        ratio = qdot_simplify(pool, qdot_div(pool, period, root->period), &r->facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (!qdot_expr_to_int(pool, ratio, &members) || members > MOST_MEMBERS)
+            members = 0;
+    }
+    for (long k = members; k-- > 0 && status == QDOT_OK;)
+        status = with_value(r, b, equations, u,
+                            qdot_add(pool, root->value,
+                                     qdot_mul(pool, qdot_expr_int(pool, k), root->period)),
+                            qdot_conditions_all(pool, root->condition, root->members));
+    if (status != QDOT_OK || members > 0)
+        return status;
+    if (window.lo != QDOT_NIL && window.hi != QDOT_NIL) {
+        qdot_solutions inside = {.complete = true};
+
+        status = qdot_solve_members(pool, u, root, &window, &r->facts, &inside);
+        r->complete = r->complete && inside.complete;
+        for (size_t i = inside.root.n; i-- > 0 && status == QDOT_OK;)
+            status = with_value(r, b, equations, u, inside.root.at[i].value,
+                                inside.root.at[i].condition);
+        qdot_solutions_clear(&inside);
+        return status;
+    }
+    r->complete = false; /* other equations differ from member to member, without end */
+    return with_value(r, b, equations, u, root->value,
+                      qdot_conditions_all(pool, root->condition, root->members));
+}
+
+/* A branch in which all of a divisor (an expression, or a LIST of them) is 0. */
+static qdot_status
+with_divisor_zero(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr factor,
+                  qdot_expr divisor)
+{
+    qdot_pool *pool = r->pool;
+    bool many = qdot_expr_kind(pool, divisor) == QDOT_LIST;
+    uint32_t n = many ? qdot_expr_count(pool, divisor) : 0;
+    qdot_rest_branch next = *b;
+
+    next.first = many ? qdot_expr_arg(pool, divisor, 0) : divisor;
+    next.equations = qdot_rest_appended(pool, equations, 1, &factor);
+    for (uint32_t i = 1; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, divisor, i);
+
+        next.equations = qdot_rest_appended(pool, next.equations, 1, &one);
     }
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&r->todo, next);
 }
 
-/* factor = 0 for its easiest unknown; where it is a u + b with unknowns in a, also a = b = 0. */
+static qdot_status
+with_root(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr u,
+          const qdot_root *root)
+{
+    qdot_rest_branch free;
+
+    if (root->period != QDOT_NIL)
+        return with_family(r, b, others, u, root);
+    if (root->value != u)
+        return with_value(r, b, others, u, root->value, root->condition);
+    free = *b; /* every u under a condition */
+    free.equations = others;
+    free.first = QDOT_NIL;
+    free.conditions = qdot_conditions_all(r->pool, b->conditions, root->condition);
+    return free.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&r->todo, free);
+}
+
+/* Each family of constants by its first member in the declared domain, and ascending. */
+static qdot_status
+order_families(qdot_rest *r, qdot_expr u, qdot_solutions *found)
+{
+    qdot_window window = qdot_solve_window(r->pool, u, true);
+    bool any = false;
+
+    for (size_t i = 0; i < found->root.n && !window.turn; i++) {
+        qdot_root *root = &found->root.at[i];
+        qdot_solutions members = {.complete = true};
+
+        if (root->period == QDOT_NIL || !qdot_is_constant(r->pool, root->value) ||
+            !qdot_is_constant(r->pool, root->period))
+            continue;
+        QDOT_TRY(qdot_solve_members(r->pool, u, root, &window, &r->facts, &members));
+        if (members.root.n > 0)
+            root->value = members.root.at[0].value;
+        qdot_solutions_clear(&members);
+        any = true;
+    }
+    return any ? qdot_solve_sort(r->pool, found->root.n, found->root.at) : QDOT_OK;
+}
+
+/* factor = 0 for its easiest unknown. */
 static qdot_status
 split(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr factor)
 {
-    qdot_pool *pool = r->pool;
-    qdot_root *roots = NULL;
-    size_t n = 0, which = 0;
-    bool complete = true;
-    int how = easiest(r, factor, &which);
-    qdot_expr u = r->unknowns.at[which], zero = QDOT_ZERO;
+    qdot_solutions found;
+    size_t which = 0;
+    qdot_expr u;
     qdot_status status;
 
-    if (how == 9) /* a factor without unknowns: generic parameters, not 0 */
+    if (easiest(r, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
         return QDOT_OK;
-    status = qdot_solve(pool, factor, u, &r->facts, &roots, &n, &complete);
-    r->complete = r->complete && complete;
-    for (size_t i = n; i-- > 0 && status == QDOT_OK;)
-        status = with_value(r, b, others, u, &roots[i]);
-    qdot_free(roots);
-    if (status == QDOT_OK && how == 2) {
-        qdot_expr both[2] = {qdot_diff(pool, factor, u),
-                             qdot_subs(pool, factor, 1, &u, &zero)};
-        qdot_rest_branch next = *b;
-
-        next.equations = qdot_rest_appended(pool, others, 2, both);
-        status = qdot_pool_check(pool);
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&r->todo, next);
-    }
+    u = r->unknowns.at[which];
+    status = qdot_solve(r->pool, factor, u, &r->facts, &found);
+    r->complete = r->complete && found.complete;
+    if (status == QDOT_OK)
+        status = order_families(r, u, &found);
+    for (size_t i = found.root.n; i-- > 0 && status == QDOT_OK;)
+        status = with_root(r, b, others, u, &found.root.at[i]);
+    for (size_t i = 0; i < found.divisor.n && status == QDOT_OK; i++)
+        status = with_divisor_zero(r, b, others, factor, found.divisor.at[i]);
+    qdot_solutions_clear(&found);
     return status;
 }
 
-qdot_expr
-qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr left = QDOT_NIL;
+/* --- the next equation ----------------------------------------------------------------- */
 
-    for (uint32_t i = 0; i < qdot_expr_count(pool, conditions); i++) {
-        qdot_expr one = qdot_expr_arg(pool, conditions, i);
-        bool there = false;
-
-        if (one == QDOT_TRUE)
-            continue;
-        if (one == QDOT_FALSE)
-            return QDOT_FALSE;
-        one = qdot_positive(pool, qdot_positive_of(pool, one), &r->facts, 0, NULL);
-        if (one == QDOT_FALSE || one == QDOT_NIL)
-            return one;
-        for (uint32_t k = 0; left != QDOT_NIL && k < qdot_expr_count(pool, left); k++)
-            there |= qdot_expr_arg(pool, left, k) == one;
-        if (one != QDOT_TRUE && !there)
-            left = qdot_rest_appended(pool, left, 1, &one);
-    }
-    return left;
-}
-
-bool
-qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
-              shifted = qdot_add(pool, u, turn);
-
-    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
-    for (uint32_t i = 0; shifted != QDOT_NIL && i < qdot_expr_count(pool, equations); i++)
-        if (!qdot_is_zero(pool,
-                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
-                                   qdot_expr_arg(pool, equations, i)),
-                          &r->facts))
-            return false;
-    return shifted != QDOT_NIL;
-}
-
-/* An angle beyond -pi < q <= pi that came of others: turned back where the equations allow it. */
-static qdot_expr
-turned(const qdot_rest *r, qdot_expr u, qdot_expr value, qdot_expr equations)
-{
-    qdot_pool *pool = r->pool;
-    const qdot_symbol *x = qdot_expr_symbol(pool, u);
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
-    double v;
-
-    if (x->class != QDOT_COORD || x->lo != QDOT_NIL || x->hi != QDOT_NIL ||
-        qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_FUN ||
-        !qdot_expr_contains(pool, value, QDOT_PI) ||
-        qdot_generic_evaluate(pool, 1, &value, NULL, &v) != QDOT_OK ||
-        !isfinite(v) || !qdot_rest_is_angle(r, u, equations))
-        return value;
-    for (; v > M_PI + 1e-9; v -= 2 * M_PI)
-        value = qdot_sub(pool, value, turn);
-    for (; v <= -M_PI + 1e-9; v += 2 * M_PI)
-        value = qdot_add(pool, value, turn);
-    return value;
-}
-
-/* The conditions of a branch, and that each value lies within the domain of its coordinate: a
- * rational one of the parameters, an angle does. */
-static qdot_expr
-with_domains(const qdot_rest *r, const qdot_rest_branch *b)
-{
-    qdot_pool *pool = r->pool;
-    qdot_expr all = b->conditions;
-
-    for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
-        qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 0),
-                  value = qdot_expr_arg(pool, qdot_expr_arg(pool, b->known, k), 1);
-        const qdot_symbol *x = qdot_expr_symbol(pool, u);
-        qdot_expr side[2] = {QDOT_NIL, QDOT_NIL};
-
-        if (x->class != QDOT_COORD ||
-            (qdot_mech_holds(r->s, value) & ~(uint32_t)QDOT_HAS_PARAM) != 0)
-            continue;
-        if (x->lo != QDOT_NIL)
-            side[0] = qdot_rel(pool, x->lo_open ? QDOT_LT : QDOT_LE, x->lo, value);
-        if (x->hi != QDOT_NIL)
-            side[1] = qdot_rel(pool, x->hi_open ? QDOT_LT : QDOT_LE, value, x->hi);
-        for (int i = 0; i < 2; i++)
-            if (side[i] != QDOT_NIL)
-                all = qdot_rest_appended(pool, all, 1, &side[i]);
-    }
-    return all;
-}
-
-qdot_expr
-qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
-{
-    uint32_t n = qdot_expr_count(r->pool, values);
-    qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
-
-    if (from == NULL)
-        return qdot_pool_fail(r->pool);
-    for (uint32_t i = 0; i < n; i++) {
-        from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
-        from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
-    }
-    e = qdot_subs(r->pool, e, n, from, from + n);
-    qdot_free(from);
-    return e;
-}
-
-/* Whether the equations have values there: that a numerator vanishes is not enough. */
+/* Whether e, without unknowns and not proved to be 0, is another number than 0: else nothing is known. */
 static qdot_status
-are_defined(const qdot_rest *r, qdot_expr equations, qdot_expr values, bool *yes)
+is_never_zero(qdot_rest *r, qdot_expr e)
 {
-    qdot_status status;
+    qdot_decision d;
 
-    (void)qdot_rest_put(r, equations, values);
-    status = qdot_pool_check(r->pool);
-    *yes = status == QDOT_OK;
-    return status == QDOT_EDOMAIN ? QDOT_OK : status;
-}
-
-/* The known values in the order of the unknowns. */
-static qdot_status
-emit(qdot_rest *r, const qdot_rest_branch *b)
-{
-    qdot_pool *pool = r->pool;
-    qdot_equilibrium e = {.exists = QDOT_NIL};
-    qdot_expr *list;
-    bool yes = true;
-    size_t n = 0;
-
-    e.exists = qdot_rest_conditions_left(r, with_domains(r, b));
-    QDOT_TRY(qdot_pool_check(pool));
-    if (e.exists == QDOT_FALSE)
-        return QDOT_OK;
-    list = qdot_malloc((r->unknowns.n + 1) * sizeof *list);
-    if (list == NULL)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < r->unknowns.n; i++)
-        for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
-            qdot_expr one = qdot_expr_arg(pool, b->known, k),
-                      u = qdot_expr_arg(pool, one, 0);
-
-            if (u != r->unknowns.at[i])
-                continue;
-            list[n++] = qdot_rel(
-                pool, QDOT_EQ, u,
-                turned(r, u, qdot_simplify(pool, qdot_expr_arg(pool, one, 1), &r->facts),
-                       r->equations));
-        }
-    e.equations = qdot_list(pool, (uint32_t)n, list);
-    qdot_free(list);
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(are_defined(r, r->equations, e.equations, &yes));
-    for (size_t i = 0; yes && i < r->found.n; i++)
-        yes = r->found.at[i].equations != e.equations;
-    if (!yes)
-        return QDOT_OK;
-    if (r->found.n >= MOST_SOLUTIONS)
-        return qdot_fail(QDOT_ELIMIT, "the scene has more than %d equilibria",
-                         MOST_SOLUTIONS);
-    return qdot_vec_push(&r->found, e);
+    QDOT_TRY(qdot_decide_equal(r->pool, e, QDOT_ZERO, &r->facts, &d));
+    r->complete = r->complete && d.verdict == QDOT_REFUTED;
+    return QDOT_OK;
 }
 
 /* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
@@ -322,11 +279,10 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
     qdot_expr *left = qdot_calloc(n + 1, sizeof *left), chosen = QDOT_NIL;
     int least = 10;
     size_t which;
+    qdot_status status = left == NULL ? QDOT_ENOMEM : QDOT_OK;
 
     *dead = false;
-    if (left == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n && !*dead; i++) {
+    for (uint32_t i = 0; i < n && !*dead && status == QDOT_OK; i++) {
         qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts),
                   list;
         int hardest = 0;
@@ -337,6 +293,8 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
         if (list == QDOT_NIL)
             break;
         *dead = holds_unknowns(r, e) == 0;
+        if (*dead)
+            status = is_never_zero(r, e);
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
             int one = easiest(r, qdot_expr_arg(pool, list, k), &which);
 
@@ -355,21 +313,41 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
         left[best] = left[count - 1];
     *others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
     qdot_free(left);
-    return qdot_pool_check(pool);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+/* A divisor that is to be 0 before anything else: its factors; nil: it is 0 already. */
+static qdot_status
+choose_divisor(qdot_rest *r, qdot_expr divisor, qdot_expr *factors, bool *dead)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr e = qdot_simplify(pool, divisor, &r->facts);
+
+    *factors = QDOT_NIL;
+    *dead = false;
+    if (e == QDOT_NIL || e == QDOT_ZERO || qdot_is_zero(pool, e, &r->facts))
+        return qdot_pool_check(pool);
+    *factors = qdot_solve_factors(pool, e);
+    *dead = holds_unknowns(r, e) == 0;
+    QDOT_TRY(qdot_pool_check(pool));
+    return *dead ? is_never_zero(r, e) : QDOT_OK;
 }
 
 static qdot_status
 step(qdot_rest *r, const qdot_rest_branch *b)
 {
-    qdot_expr factors, others;
-    bool dead;
+    qdot_expr factors = QDOT_NIL, others = b->equations;
+    bool dead = false;
 
     QDOT_TRY(qdot_interrupt_check());
-    QDOT_TRY(choose(r, b->equations, &factors, &others, &dead));
+    if (b->first != QDOT_NIL)
+        QDOT_TRY(choose_divisor(r, b->first, &factors, &dead));
+    if (factors == QDOT_NIL && !dead)
+        QDOT_TRY(choose(r, b->equations, &factors, &others, &dead));
     if (dead)
         return QDOT_OK;
     if (factors == QDOT_NIL)
-        return emit(r, b);
+        return qdot_rest_emit(r, b);
     for (uint32_t k = qdot_expr_count(r->pool, factors); k-- > 0;)
         QDOT_TRY(split(r, b, others, qdot_expr_arg(r->pool, factors, k)));
     return QDOT_OK;

@@ -34,17 +34,21 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
 
     if (e == NULL)
         return QDOT_ENOMEM;
+    for (size_t i = 0; i < m; i++)
+        e[i] = i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
+                     : s->constraints.at[i - n].f;
+    status = qdot_pool_check(r->pool);
+    if (status == QDOT_OK)
+        status = qdot_rest_sides(r, n, e);
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
-        qdot_expr one =
-            i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
-                  : s->constraints.at[i - n].f;
-
-        one = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, one), &r->facts);
+        e[i] = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, e[i]), &r->facts);
         status = qdot_pool_check(r->pool);
-        if (status == QDOT_OK && one != QDOT_ZERO &&
-            !qdot_is_zero(r->pool, one, &r->facts))
-            e[count++] = one;
     }
+    if (status == QDOT_OK)
+        r->forces = qdot_list(r->pool, (uint32_t)n, e);
+    for (size_t i = 0; i < m && status == QDOT_OK; i++)
+        if (e[i] != QDOT_ZERO && !qdot_is_zero(r->pool, e[i], &r->facts))
+            e[count++] = e[i];
     *list = qdot_list(r->pool, (uint32_t)count, e);
     qdot_free(e);
     return status == QDOT_OK ? qdot_pool_check(r->pool) : status;

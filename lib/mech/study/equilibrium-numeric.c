@@ -396,7 +396,7 @@ qdot_status
 qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
     problem p = {.pool = rest->pool,
-                 .n = rest->unknowns.n,
+                 .n = rest->searched,
                  .coordinates = rest->coordinates,
                  .u = rest->unknowns.at};
     gsl_error_handler_t *before = gsl_set_error_handler_off();

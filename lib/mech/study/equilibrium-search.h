@@ -9,9 +9,11 @@
 #include "mech/study/rest.h"
 #include "normal/field/facts.h"
 
-/* A branch of the search: equations still to solve, solutions and conditions so far; LISTs. */
+/* A branch of the search: equations still to solve, LISTs of the values known so far and of conditions (as
+ * normal/solve/conditions.h has them), what is to be 0 before anything else: a divisor (nil: none), and the
+ * equations from which the branch began (nil: those at rest). */
 typedef struct {
-    qdot_expr equations, known, conditions;
+    qdot_expr equations, known, conditions, first, whole;
 } qdot_rest_branch;
 
 typedef struct {
@@ -19,12 +21,19 @@ typedef struct {
     qdot_pool *pool;
     qdot_facts facts;
     qdot_expr equations; /* all of them, a LIST */
+    qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
+    qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
+    qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
     qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
     size_t coordinates;           /* of them */
+    size_t searched;              /* of them: with multipliers, without the signs of jumps */
+    qdot_vec(qdot_expr) period;   /* of each coordinate in the equations: QDOT_NIL until asked for,
+                                   * QDOT_FALSE where there is none */
     qdot_vec(qdot_rest_branch) todo;
     qdot_vec(qdot_equilibrium) found;
     uint64_t work; /* rest of the budget of exact solution, in operations */
     bool complete;
+    bool recurs; /* an angle with one declared end: places of one turn */
 } qdot_rest;
 
 /* The equations at rest and their unknowns; ended in any case. Then all places of rest, to r->found, not
@@ -38,15 +47,19 @@ void qdot_rest_end(qdot_rest *r);
 qdot_expr qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n,
                              const qdot_expr *more);
 
-/* Conditions with the known values: QDOT_FALSE if one fails; else those that are not always true.
- *  */
-qdot_expr qdot_rest_conditions_left(const qdot_rest *r, qdot_expr conditions);
-
 /* e with the values of equations u = value put in, all at once. */
 qdot_expr qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values);
 
-/* Whether a full turn of u changes no equation. */
+/* Whether a full turn of u changes no equation. (equilibrium-members.c) */
 bool qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations);
+
+/* The least shift of the coordinate u after which all equations are what they were; nil: none is known.
+ * (equilibrium-members.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_period(qdot_rest *r, qdot_expr u, qdot_expr *period);
+
+/* Append the place of a branch without equations to r->found: all its members inside the declared domains, with
+ * the conditions under which they exist. (equilibrium-members.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_emit(qdot_rest *r, const qdot_rest_branch *b);
 
 /* Solve all branches that are left to do, to r->found; r->complete: these are all.
  * (equilibrium-branches.c) */
@@ -55,6 +68,12 @@ QDOT_MUST_CHECK qdot_status qdot_rest_solve(qdot_rest *r);
 /* The equations at rest, simplified, those that hold identically left out: a LIST.
  * (equilibrium-equations.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
+/* In the n forces G a symbol in -1 ... 1 for each sign of a velocity, where it holds: to r->friction.
+ * (equilibrium-corners.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
+/* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
+
 /* The equations without t that hold at a place at which those hold at all times. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
                                                    qdot_expr *list);

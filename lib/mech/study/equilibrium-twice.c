@@ -4,6 +4,7 @@
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
 
 /* Whether d is a whole number of turns. */
 static bool
@@ -18,6 +19,28 @@ is_turns(const qdot_rest *r, qdot_expr d)
         return false;
     c = qdot_expr_rational(r->pool, qdot_expr_arg(r->pool, d, 0));
     return fmpz_is_one(fmpq_denref(c)) && fmpz_is_even(fmpq_numref(c));
+}
+
+/* Whether the coordinate has a declared end: its members are then listed one by one. */
+static bool
+has_domain(const qdot_rest *r, qdot_expr u)
+{
+    const qdot_symbol *x = qdot_expr_symbol(r->pool, u);
+
+    return x->lo != QDOT_NIL || x->hi != QDOT_NIL;
+}
+
+/* Whether the conditions are proved to hold at the place `one`, where that exists. */
+static bool
+hold_at(const qdot_rest *r, qdot_expr conditions, const qdot_equilibrium *one)
+{
+    qdot_expr room[QDOT_CONDITIONS_MOST], there = qdot_rest_put(r, conditions, one->equations);
+    qdot_facts facts = qdot_facts_and(r->pool, &r->facts, one->exists, room);
+
+    if (there == QDOT_NIL && qdot_pool_check(r->pool) == QDOT_EDOMAIN)
+        return false;
+    return qdot_conditions_at(r->pool, there, 0, NULL, NULL, &facts) == QDOT_NIL &&
+           !qdot_pool_failed(r->pool);
 }
 
 /* Whether the place `one` lies in the family `all` (or is it, full turns away), where that exists. */
@@ -43,12 +66,10 @@ lies_in(const qdot_rest *r, const qdot_equilibrium *one, const qdot_equilibrium 
         inside = d != QDOT_NIL && there != u &&
                  (d == QDOT_ZERO ||
                   (qdot_mech_holds(r->s, d) != 0 && qdot_is_zero(pool, d, &r->facts)) ||
-                  (is_turns(r, d) && qdot_rest_is_angle(r, u, equations)));
+                  (!has_domain(r, u) && is_turns(r, d) && qdot_rest_is_angle(r, u, equations)));
     }
     if (inside && all->exists != QDOT_NIL && all->exists != one->exists)
-        inside = qdot_rest_conditions_left(
-                     r, qdot_rest_put(r, all->exists, one->equations)) == QDOT_NIL &&
-                 !qdot_pool_failed(pool);
+        inside = hold_at(r, all->exists, one);
     return inside;
 }
 

@@ -7,6 +7,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/stability.h"
+#include "normal/solve/solve.h"
 
 /* What exact solution may take before it gives way to numbers: scenes of books take some
  * units, a chain of four links between two supports would take minutes. */
@@ -30,6 +31,9 @@ find_unknowns(qdot_rest *r)
     for (size_t k = 0; k < s->constraints.n; k++)
         if (qdot_expr_contains(r->pool, r->equations, s->constraints.at[k].multiplier))
             QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
+    r->searched = r->unknowns.n;
+    for (uint32_t k = 0; r->friction != QDOT_NIL && k < qdot_expr_count(r->pool, r->friction); k++)
+        QDOT_TRY(qdot_vec_push(&r->unknowns, qdot_expr_arg(r->pool, r->friction, k)));
     return QDOT_OK;
 }
 
@@ -37,9 +41,11 @@ static qdot_status
 begin_branch(qdot_rest *r, qdot_expr equations)
 {
     qdot_expr none = qdot_list(r->pool, 0, NULL);
-    qdot_rest_branch first = {equations, none, none};
+    qdot_rest_branch first = {
+        .equations = equations, .known = none, .conditions = r->sliding};
 
     QDOT_TRY(qdot_pool_check(r->pool));
+    QDOT_TRY(qdot_rest_corners(r, equations));
     return qdot_vec_push(&r->todo, first);
 }
 
@@ -76,8 +82,6 @@ keep_lasting(qdot_rest *r)
                               .conditions = before[i].exists};
         size_t had = r->found.n, kept = had;
 
-        if (b.conditions == QDOT_NIL)
-            b.conditions = qdot_list(r->pool, 0, NULL);
         b.equations = qdot_rest_put(r, r->equations, b.known);
         status = qdot_pool_check(r->pool);
         if (status == QDOT_EDOMAIN)
@@ -109,7 +113,7 @@ unset(const qdot_rest *r, qdot_expr e)
         qdot_expr x = qdot_expr_arg(r->pool, atoms, i);
         bool is_unknown = qdot_expr_is_class(r->pool, x, QDOT_CONST);
 
-        for (size_t k = 0; k < r->unknowns.n; k++)
+        for (size_t k = 0; k < r->searched; k++)
             is_unknown |= r->unknowns.at[k] == x;
         if (is_unknown)
             continue;
@@ -120,7 +124,7 @@ unset(const qdot_rest *r, qdot_expr e)
     return NULL;
 }
 
-/* Whether the place x [unknowns] is one of those known exactly. */
+/* Whether the place x [searched] is one of those known exactly. */
 static bool
 is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
 {
@@ -138,7 +142,7 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
             same = e != QDOT_NIL &&
                    qdot_generic_evaluate(
                        r->pool, 1, &e,
-                       &(qdot_generic_point){r->unknowns.n, r->unknowns.at, x, 1},
+                       &(qdot_generic_point){r->searched, r->unknowns.at, x, 1},
                        &off) == QDOT_OK &&
                    fabs(off) < 1e-7;
         }
@@ -151,7 +155,7 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
 static qdot_status
 add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user)
 {
-    size_t n = r->unknowns.n;
+    size_t n = r->searched;
     qdot_expr *list = qdot_malloc((n + 1) * sizeof *list);
     qdot_status status = list == NULL ? QDOT_ENOMEM : QDOT_OK;
 
@@ -176,13 +180,17 @@ static qdot_status
 search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_pool *pool = r->pool;
-    size_t n = r->unknowns.n;
+    const size_t n = r->searched;
     qdot_expr bound = bind == NULL ? r->equations : bind(user, r->equations), *e;
     qdot_places places;
     const char *name;
     qdot_status status;
 
     QDOT_TRY(qdot_pool_check(pool));
+    if (r->friction != QDOT_NIL)
+        return qdot_fail(QDOT_EFAILED, "the equilibria cannot be solved for exactly; under dry "
+                                       "friction they are regions, which are not searched for in "
+                                       "numbers");
     name = unset(r, bound);
     if (name != NULL) {
         qdot_fail(QDOT_EUNSET,
@@ -214,6 +222,29 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 
 /* --- all of them ------------------------------------------------------------------------- */
 
+/* One place of a family: the integer that counts its members is 0. All members are alike, for a family has the
+ * period of the equations of motion. */
+static qdot_status
+judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr n = qdot_solve_integer(pool), zero = QDOT_ZERO, left = QDOT_NIL;
+    qdot_equilibrium one = *e;
+
+    if (!qdot_expr_contains(pool, e->equations, n))
+        return qdot_judge_place(judge, e);
+    one.equations = qdot_subs(pool, e->equations, 1, &n, &zero);
+    for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(pool, e->exists); i++)
+        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, e->exists, i), n))
+            left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, e->exists, i));
+    one.exists = left;
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_judge_place(judge, &one));
+    e->stability = one.stability;
+    e->stable_when = one.stable_when;
+    return QDOT_OK;
+}
+
 /* Stability; `first`: up to the first that is not unstable. */
 static qdot_status
 judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
@@ -222,7 +253,7 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
     qdot_status status = qdot_judge_new(r->s, r->equations, bind, user, &judge);
 
     for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
-        status = qdot_judge_place(judge, &r->found.at[i]);
+        status = judge_member(r, judge, &r->found.at[i]);
         if (first && r->found.at[i].stability != QDOT_UNSTABLE)
             r->found.n = i + 1;
     }
@@ -248,6 +279,7 @@ qdot_rest_end(qdot_rest *r)
 {
     qdot_free(r->todo.at);
     qdot_free(r->unknowns.at);
+    qdot_free(r->period.at);
     qdot_free(r->found.at);
 }
 
@@ -282,6 +314,7 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
     out->at = r.found.at;
     out->n = r.found.n;
     out->complete = r.complete;
+    out->recurs = r.recurs && r.found.n > 0;
     r.found.at = NULL;
     qdot_rest_end(&r);
     if (status != QDOT_OK)

@@ -319,10 +319,9 @@ static qdot_status
 exact(job *j, bool *done)
 {
     qdot_pool *pool = j->pool;
-    size_t n = j->m.n, count = 0;
+    size_t n = j->m.n;
     qdot_expr W = qdot_symbol_get(pool, QDOT_FORMAL, "omega^2"), *A, e;
-    qdot_root *roots = NULL;
-    bool complete = false;
+    qdot_solutions roots;
     qdot_status status;
 
     *done = false;
@@ -336,14 +335,15 @@ exact(job *j, bool *done)
     e = n == 1 ? A[0] : qdot_det(pool, qdot_matrix(pool, (uint32_t)n, (uint32_t)n, A));
     qdot_free(A);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_solve(pool, e, W, &j->facts, &roots, &count, &complete));
-    if (n == 2 && count == 2 && complete)
-        of_two(j, roots);
-    status = qdot_pool_check(pool);
-    for (size_t k = 0; k < count && complete && status == QDOT_OK; k++)
-        status = modes_of(j, roots[k].value);
-    qdot_free(roots);
-    *done = complete && j->frequency.n == n;
+    status = qdot_solve(pool, e, W, &j->facts, &roots);
+    if (status == QDOT_OK && n == 2 && roots.root.n == 2 && roots.complete)
+        of_two(j, roots.root.at);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    for (size_t k = 0; k < roots.root.n && roots.complete && status == QDOT_OK; k++)
+        status = modes_of(j, roots.root.at[k].value);
+    *done = roots.complete && j->frequency.n == n;
+    qdot_solutions_clear(&roots);
     if (status == QDOT_OK && *done)
         status = sort(j);
     return status;

@@ -24,6 +24,7 @@ typedef struct {
     qdot_equilibrium *at; /* [n], owned */
     size_t n;
     bool complete;        /* these are all, for generic parameters */
+    bool recurs;          /* an angle with one declared end: of one turn, the others are whole turns away */
     size_t starts;        /* of a numerical search; 0: there was none */
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */

@@ -139,6 +139,10 @@ sign_of(job *j, qdot_expr e)
         return 1;
     if ((sign & QDOT_NEG) == QDOT_NEG)
         return -1;
+    if ((sign & QDOT_GE0) != 0) /* where it is not 0, as with an even power */
+        return 1;
+    if ((sign & QDOT_LE0) != 0)
+        return -1;
     if (j->n_known > 0 && is_of_known(j, e))
         return 1;
     if ((qdot_expr_node(j->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
@@ -184,9 +188,8 @@ take(job *j, const fmpz_mpoly_t p)
     return status;
 }
 
-/* 0 < e with what has a minus sign on the other side. */
-static qdot_expr
-without_minus(qdot_pool *pool, qdot_expr e)
+qdot_expr
+qdot_positive_without_minus(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr left = QDOT_ZERO, right = QDOT_ZERO;
     uint32_t n = qdot_expr_count(pool, e);
@@ -219,11 +222,11 @@ conclude(job *j)
         return j->sign > 0 ? QDOT_TRUE : QDOT_FALSE;
     if (j->rest.n == 1) {
         rest = j->rest.at[0];
-        return without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
+        return qdot_positive_without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
     }
     rest = qdot_shortest_within(pool, qdot_product(pool, j->rest.n, j->rest.at), j->facts,
                                 PRODUCT_WORK, &spent);
-    return without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
+    return qdot_positive_without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
 }
 
 struct asking {
@@ -291,10 +294,10 @@ qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
         return QDOT_NIL;
     status = qdot_flint_run(pool, reduce_condition, &x);
     if (status == QDOT_ELIMIT)
-        return without_minus(pool, e);
+        return qdot_positive_without_minus(pool, e);
     if (status != QDOT_OK || x.status != QDOT_OK)
         return qdot_pool_fail(pool);
-    return x.result != QDOT_NIL ? x.result : without_minus(pool, e);
+    return x.result != QDOT_NIL ? x.result : qdot_positive_without_minus(pool, e);
 }
 
 qdot_expr

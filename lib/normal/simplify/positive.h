@@ -17,6 +17,9 @@
 qdot_expr qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
                         const qdot_expr *known);
 
+/* 0 < e, terms with a minus sign on the other side. */
+qdot_expr qdot_positive_without_minus(qdot_pool *pool, qdot_expr e);
+
 /* e - b for a relation b < e or b <= e: what it says is positive. */
 qdot_expr qdot_positive_of(qdot_pool *pool, qdot_expr relation);
 

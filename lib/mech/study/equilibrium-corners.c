@@ -1,0 +1,192 @@
+/* equilibrium-corners.c -- rests where a force jumps: at the corner of a potential, and under dry friction.
+ *
+ * Where u = 0, sign u may take any value s of -1 <= s <= 1 that makes the forces vanish (Filippov's convex
+ * combination of the forces on both sides), provided that the jump pushes back:
+ *
+ *     G(q, s) = 0,   u(q) = 0,   sum_i dG_i/ds du/dq_i < 0,
+ *
+ * G the generalized forces at rest. Under friction u holds velocities, which are 0 at rest: s is an unknown
+ * like a multiplier, and du/dq_i' takes the place of du/dq_i.
+ *
+ * Source  Filippov, Differential Equations with Discontinuous Righthand Sides, 2.4.
+ */
+#include <stdio.h>
+
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
+#include "mech/study/linear-motion.h"
+#include "normal/solve/conditions.h"
+
+enum { MOST_CORNERS = 4 };
+
+/* The k-th unknown s of a jump, in -1 <= s <= 1. */
+static qdot_expr
+side_symbol(qdot_pool *pool, size_t k)
+{
+    char name[24];
+    qdot_expr side;
+
+    snprintf(name, sizeof name, "(side %zu)", k + 1);
+    side = qdot_symbol_get(pool, QDOT_FORMAL, name);
+    qdot_symbol_domain(pool, side, QDOT_MINUS_ONE, false, QDOT_ONE, false);
+    return side;
+}
+
+/* The next argument u of a sign in e after `skip` [n]: one that holds velocities and is 0 at rest, or (moving
+ * false) one of coordinates alone; nil: there is none. */
+static qdot_expr
+next_jump(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_expr *skip)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr nowhere = qdot_list(pool, 0, NULL), found = QDOT_NIL;
+    qdot_walk w;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++) {
+        uint32_t holds;
+        qdot_expr u;
+
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN ||
+            qdot_expr_node(pool, w.at[i])->op != QDOT_SIGN)
+            continue;
+        u = qdot_expr_arg(pool, w.at[i], 0);
+        holds = qdot_mech_holds(r->s, u);
+        if (qdot_expr_place(n, skip, u) < n || ((holds & QDOT_HAS_VELOCITY) != 0) != moving ||
+            (!moving && (holds & QDOT_HAS_COORD) == 0))
+            continue;
+        if (!moving || qdot_rest_value(r->s, nowhere, u) == QDOT_ZERO)
+            found = u;
+    }
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* sum_i -dG_i/ds du/dx_i over the coordinates (order 0) or velocities (1): positive where the jump pushes back;
+ * equations [n]: G with s in place of sign u. */
+static qdot_expr
+push_back(const qdot_rest *r, size_t n, const qdot_expr *G, qdot_expr side, qdot_expr u,
+          uint32_t order)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (size_t i = 0; i < r->s->coordinates.n && i < n; i++) {
+        qdot_expr slope = qdot_diff(pool, u, qdot_mech_jet(r->s, i, order));
+
+        sum = qdot_sub(pool, sum, qdot_mul(pool, qdot_diff(pool, G[i], side), slope));
+    }
+    return sum;
+}
+
+/* --- friction ---------------------------------------------------------------------------- */
+
+qdot_status
+qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr seen[MOST_CORNERS], nowhere = qdot_list(pool, 0, NULL);
+    size_t count = 0;
+
+    for (size_t i = 0; i < n; i++)
+        for (;;) {
+            qdot_expr u = next_jump(r, G[i], true, count, seen), from, side, when, room[1];
+            qdot_expr *with;
+
+            if (u == QDOT_NIL)
+                break;
+            if (count == MOST_CORNERS) {
+                r->complete = false;
+                break;
+            }
+            with = qdot_malloc(n * sizeof *with);
+            if (with == NULL)
+                return QDOT_ENOMEM;
+            seen[count] = u;
+            side = side_symbol(pool, count++);
+            from = qdot_fun1(pool, QDOT_SIGN, u);
+            for (size_t k = 0; k < n; k++)
+                with[k] = qdot_subs(pool, G[k], 1, &from, &side);
+            when = qdot_rest_value(r->s, nowhere, push_back(r, n, with, side, u, 1));
+            when = qdot_condition(pool, when, true, &r->facts);
+            if (when != QDOT_FALSE && when != QDOT_NIL) { /* else it drives: it is 0 at rest */
+                room[0] = side;
+                for (size_t k = 0; k < n; k++)
+                    G[k] = with[k];
+                r->friction = qdot_rest_appended(pool, r->friction, 1, room);
+                r->sliding = qdot_conditions_and(pool, r->sliding, when);
+            }
+            qdot_free(with);
+            QDOT_TRY(qdot_pool_check(pool));
+        }
+    return QDOT_OK;
+}
+
+/* --- corners ------------------------------------------------------------------------------ */
+
+/* The branch in which the jumps of the bits of `which` are at 0. */
+static qdot_status
+corner_branch(qdot_rest *r, qdot_expr equations, const qdot_expr *u, size_t n, unsigned which)
+{
+    qdot_pool *pool = r->pool;
+    uint32_t count = qdot_expr_count(pool, r->forces);
+    qdot_rest_branch b = {.equations = equations, .known = qdot_list(pool, 0, NULL),
+                          .conditions = r->sliding};
+    qdot_expr *G = qdot_malloc((count + 1) * sizeof *G), forces = r->forces;
+    qdot_status status = QDOT_OK;
+
+    if (G == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < n; k++) {
+        qdot_expr from = qdot_fun1(pool, QDOT_SIGN, u[k]),
+                  side = side_symbol(pool, MOST_CORNERS + k);
+
+        if ((which >> k & 1) == 0)
+            continue;
+        b.equations = qdot_subs(pool, b.equations, 1, &from, &side);
+        forces = qdot_subs(pool, forces, 1, &from, &side);
+    }
+    status = qdot_pool_check(pool);
+    for (uint32_t i = 0; i < count && status == QDOT_OK; i++)
+        G[i] = qdot_expr_arg(pool, forces, i);
+    for (size_t k = 0; k < n && status == QDOT_OK; k++) {
+        qdot_expr back;
+
+        if ((which >> k & 1) == 0)
+            continue;
+        back = push_back(r, count, G, side_symbol(pool, MOST_CORNERS + k), u[k], 0);
+        b.equations = qdot_rest_appended(pool, b.equations, 1, &u[k]);
+        if (b.conditions != QDOT_FALSE && back != QDOT_NIL)
+            b.conditions = qdot_conditions_and(pool, b.conditions,
+                                               qdot_rel(pool, QDOT_LT, QDOT_ZERO, back));
+        status = qdot_pool_check(pool);
+    }
+    qdot_free(G);
+    b.whole = b.equations;
+    if (status == QDOT_OK && b.conditions != QDOT_FALSE)
+        status = qdot_vec_push(&r->todo, b);
+    return status;
+}
+
+qdot_status
+qdot_rest_corners(qdot_rest *r, qdot_expr equations)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr u[MOST_CORNERS + 1];
+    size_t n = 0;
+
+    while (n <= MOST_CORNERS && (u[n] = next_jump(r, equations, false, n, u)) != QDOT_NIL)
+        n++;
+    QDOT_TRY(qdot_pool_check(pool));
+    if (n > MOST_CORNERS) {
+        r->complete = false;
+        return QDOT_OK;
+    }
+    for (size_t k = 0; k < n; k++)
+        QDOT_TRY(qdot_vec_push(&r->unknowns, side_symbol(pool, MOST_CORNERS + k)));
+    for (unsigned which = 1; which < 1u << n; which++)
+        QDOT_TRY(corner_branch(r, equations, u, n, which));
+    return QDOT_OK;
+}

@@ -1,0 +1,383 @@
+/* conditions.c -- relations under which a solution exists. */
+#include "normal/solve/conditions.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/inequality/contradiction.h"
+#include "normal/inequality/less.h"
+#include "normal/refute/ball.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/positive.h"
+
+/* --- one relation --------------------------------------------------------------------- */
+
+/* The relation `strict`, 0 < rest, with <= in place of < where it is weak. */
+static qdot_expr
+weaken(qdot_pool *pool, qdot_expr strict)
+{
+    return qdot_expr_kind(pool, strict) == QDOT_REL
+               ? qdot_rel(pool, QDOT_LE, qdot_expr_arg(pool, strict, 0),
+                          qdot_expr_arg(pool, strict, 1))
+               : strict;
+}
+
+static bool
+is_proved(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict, const qdot_facts *facts)
+{
+    qdot_decision d;
+
+    if (qdot_decide_less(pool, left, right, strict, facts, &d) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return false;
+    }
+    return d.verdict == QDOT_PROVED;
+}
+
+bool
+qdot_is_generic(const qdot_pool *pool, qdot_expr e)
+{
+    const uint32_t generic =
+        QDOT_HAS_PARAM | QDOT_HAS_MOMENTUM | QDOT_HAS_FUN | QDOT_HAS_UFUN;
+
+    return (qdot_expr_node(pool, e)->holds & ~generic) == 0;
+}
+
+/* -1 < x for 0 < x + 1. */
+static qdot_expr
+number_apart(qdot_pool *pool, qdot_expr relation)
+{
+    qdot_expr right, c;
+
+    if (qdot_expr_kind(pool, relation) != QDOT_REL ||
+        qdot_expr_arg(pool, relation, 0) != QDOT_ZERO)
+        return relation;
+    right = qdot_expr_arg(pool, relation, 1);
+    c = qdot_expr_kind(pool, right) == QDOT_SUM ? qdot_expr_arg(pool, right, 0) : QDOT_ZERO;
+    if (c == QDOT_ZERO)
+        return relation;
+    return qdot_rel(pool, QDOT_LT, qdot_neg(pool, c), qdot_sub(pool, right, c));
+}
+
+/* The increasing function whose inverse is h (acos: a decreasing one); QDOT_FUNCTION_KINDS: h is none of them. */
+static qdot_fun_id
+inverse_of(qdot_fun_id h)
+{
+    switch (h) {
+    case QDOT_ATAN: return QDOT_TAN;
+    case QDOT_ASIN: return QDOT_SIN;
+    case QDOT_ACOS: return QDOT_COS;
+    case QDOT_LOG: return QDOT_EXP;
+    case QDOT_EXP: return QDOT_LOG;
+    case QDOT_SINH: return QDOT_ASINH;
+    case QDOT_ASINH: return QDOT_SINH;
+    case QDOT_TANH: return QDOT_ATANH;
+    case QDOT_ATANH: return QDOT_TANH;
+    default: return QDOT_FUNCTION_KINDS;
+    }
+}
+
+/* Whether h(at) is the number, and not another branch: to be seen in doubles. */
+static bool
+is_value(qdot_pool *pool, qdot_fun_id h, qdot_expr at, qdot_expr number)
+{
+    double a, b;
+
+    return qdot_ball_double(pool, qdot_fun1(pool, h, at), NULL, NULL, &a) &&
+           qdot_ball_double(pool, number, NULL, NULL, &b) &&
+           fabs(a - b) <= 1e-9 * fmax(1, fabs(b));
+}
+
+/* A relation between c h(u) and a number, h monotone, as one of u: atan(u) < 1 is u < tan(1). Where the number is no
+ * value of h it stays as it is. */
+static qdot_expr
+unfold(qdot_pool *pool, qdot_expr relation)
+{
+    for (int i = 0; i < 2 && qdot_expr_kind(pool, relation) == QDOT_REL; i++) {
+        qdot_expr side = qdot_expr_arg(pool, relation, (uint32_t)i),
+                  number = qdot_expr_arg(pool, relation, (uint32_t)(1 - i)), u, at;
+        qdot_rel_op op = qdot_expr_node(pool, relation)->op;
+        qdot_fun_id h, inverse;
+        bool swap = i == 1;
+
+        if (qdot_expr_kind(pool, side) == QDOT_PROD && qdot_expr_count(pool, side) == 3 &&
+            qdot_expr_arg(pool, side, 2) == QDOT_ONE) {
+            qdot_expr c = qdot_expr_arg(pool, side, 0);
+
+            swap ^= qdot_expr_is_negative(pool, c);
+            number = qdot_div(pool, number, c);
+            side = qdot_expr_arg(pool, side, 1);
+        }
+        if (qdot_expr_kind(pool, side) != QDOT_FUN || qdot_expr_count(pool, side) != 1 ||
+            number == QDOT_NIL || !qdot_is_constant(pool, number))
+            continue;
+        h = qdot_expr_node(pool, side)->op;
+        inverse = inverse_of(h);
+        if (inverse == QDOT_FUNCTION_KINDS)
+            continue;
+        at = qdot_fun1(pool, inverse, number);
+        if (at == QDOT_NIL && qdot_pool_check(pool) != QDOT_EDOMAIN)
+            return qdot_pool_fail(pool);
+        if (at == QDOT_NIL || !is_value(pool, h, at, number))
+            continue;
+        u = qdot_expr_arg(pool, side, 0);
+        swap ^= h == QDOT_ACOS;
+        relation = swap ? qdot_rel(pool, op, at, u) : qdot_rel(pool, op, u, at);
+        i = -1; /* once more: log(atan(u)) */
+    }
+    return relation;
+}
+
+qdot_expr
+qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+{
+    uint8_t sign;
+
+    if (gap == QDOT_NIL)
+        return QDOT_NIL;
+    sign = qdot_expr_node(pool, gap)->sign;
+    if (strict ? (sign & QDOT_POS) == QDOT_POS : (sign & QDOT_GE0) != 0)
+        return QDOT_TRUE;
+    if (strict ? (sign & QDOT_LE0) != 0 : (sign & QDOT_NEG) == QDOT_NEG)
+        return QDOT_FALSE;
+    if (qdot_is_constant(pool, gap)) {
+        qdot_constant_sign known;
+
+        if (qdot_constant_decide(pool, gap, &known) != QDOT_OK)
+            return qdot_pool_fail(pool);
+        if (known != QDOT_CONSTANT_UNKNOWN)
+            return known == QDOT_CONSTANT_POSITIVE || (known == QDOT_CONSTANT_ZERO && !strict)
+                       ? QDOT_TRUE
+                       : QDOT_FALSE;
+        if (qdot_is_zero(pool, gap, facts))
+            return strict ? QDOT_FALSE : QDOT_TRUE;
+    }
+    if (is_proved(pool, QDOT_ZERO, gap, strict && !qdot_is_generic(pool, gap), facts))
+        return QDOT_TRUE;
+    if (is_proved(pool, gap, QDOT_ZERO, !strict, facts) || qdot_pool_failed(pool))
+        return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
+    /* a factor that may be 0 at some place is not left out */
+    gap = qdot_is_generic(pool, gap) ? qdot_positive(pool, gap, facts, 0, NULL)
+                                : number_apart(pool, qdot_positive_without_minus(pool, gap));
+    return gap == QDOT_NIL ? QDOT_NIL : unfold(pool, strict ? gap : weaken(pool, gap));
+}
+
+/* --- sets ----------------------------------------------------------------------------- */
+
+qdot_expr
+qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+{
+    uint32_t n = set == QDOT_NIL ? 0 : qdot_expr_count(pool, set);
+    qdot_expr *all, result;
+
+    if (set == QDOT_FALSE || relation == QDOT_FALSE)
+        return QDOT_FALSE;
+    if (relation == QDOT_TRUE || relation == QDOT_NIL)
+        return set;
+    all = qdot_malloc((n + 1) * sizeof *all);
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++) {
+        all[i] = qdot_expr_arg(pool, set, i);
+        if (all[i] == relation) {
+            qdot_free(all);
+            return set;
+        }
+    }
+    all[n] = relation;
+    result = qdot_list(pool, n + 1, all);
+    qdot_free(all);
+    return result;
+}
+
+qdot_expr
+qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other)
+{
+    if (other == QDOT_FALSE)
+        return QDOT_FALSE;
+    for (uint32_t i = 0; other != QDOT_NIL && i < qdot_expr_count(pool, other); i++)
+        set = qdot_conditions_and(pool, set, qdot_expr_arg(pool, other, i));
+    return set;
+}
+
+bool
+qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other)
+{
+    qdot_expr a, b, sum;
+
+    if (*set == other || *set == QDOT_NIL)
+        return true;
+    if (other == QDOT_NIL) {
+        *set = QDOT_NIL;
+        return true;
+    }
+    if (qdot_expr_count(pool, *set) != 1 || qdot_expr_count(pool, other) != 1)
+        return false;
+    a = qdot_expr_arg(pool, *set, 0);
+    b = qdot_expr_arg(pool, other, 0);
+    sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
+    if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
+        return false;
+    if (qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
+        !qdot_is_generic(pool, a))
+        return false; /* a = 0 would be lost */
+    *set = QDOT_NIL;
+    return true;
+}
+
+qdot_expr
+qdot_conditions_generic(qdot_pool *pool, qdot_expr set)
+{
+    uint32_t n = set == QDOT_NIL || set == QDOT_FALSE ? 0 : qdot_expr_count(pool, set);
+    qdot_expr all = n == 0 ? set : QDOT_NIL;
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i);
+
+        if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op == QDOT_LE &&
+            qdot_is_generic(pool, one))
+            one = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0),
+                           qdot_expr_arg(pool, one, 1));
+        all = qdot_conditions_and(pool, all, one);
+    }
+    return all;
+}
+
+qdot_facts
+qdot_facts_and(const qdot_pool *pool, const qdot_facts *facts, qdot_expr set, qdot_expr *room)
+{
+    qdot_facts all = facts == NULL ? (qdot_facts){0} : *facts;
+    uint32_t more = set == QDOT_NIL || set == QDOT_FALSE ? 0 : qdot_expr_count(pool, set);
+    size_t n = 0;
+
+    for (size_t i = 0; i < all.n_conditions && n < QDOT_CONDITIONS_MOST; i++)
+        room[n++] = all.conditions[i];
+    for (uint32_t i = 0; i < more && n < QDOT_CONDITIONS_MOST; i++)
+        room[n++] = qdot_expr_arg(pool, set, i);
+    all.n_conditions = n;
+    all.conditions = room;
+    return all;
+}
+
+/* One relation with values put in: decided under the facts. */
+static qdot_expr
+relation_at(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *from,
+            const qdot_expr *to, const qdot_facts *facts)
+{
+    qdot_expr there = qdot_subs(pool, relation, n, from, to);
+
+    if (there == QDOT_NIL)
+        return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_FALSE : qdot_pool_fail(pool);
+    if (qdot_expr_kind(pool, there) != QDOT_REL)
+        return there;
+    return qdot_condition(pool,
+                          qdot_sub(pool, qdot_expr_arg(pool, there, 1),
+                                   qdot_expr_arg(pool, there, 0)),
+                          qdot_expr_node(pool, there)->op == QDOT_LT, facts);
+}
+
+qdot_expr
+qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *from,
+                   const qdot_expr *to, const qdot_facts *facts)
+{
+    qdot_expr left = QDOT_NIL, room[QDOT_CONDITIONS_MOST];
+    uint32_t m = set == QDOT_NIL || set == QDOT_FALSE ? 0 : qdot_expr_count(pool, set);
+
+    if (set == QDOT_FALSE)
+        return QDOT_FALSE;
+    for (uint32_t i = 0; i < m && left != QDOT_FALSE; i++) {
+        qdot_facts known = qdot_facts_and(pool, facts, left, room);
+
+        left = qdot_conditions_and(
+            pool, left,
+            relation_at(pool, qdot_expr_arg(pool, set, i), n, from, to, &known));
+        if (qdot_pool_failed(pool))
+            return QDOT_NIL;
+    }
+    if (left != QDOT_NIL && left != QDOT_FALSE && qdot_expr_count(pool, left) > 1) {
+        qdot_facts all = qdot_facts_and(pool, facts, left, room);
+        bool found;
+
+        if (qdot_contradiction(pool, &all, &found) != QDOT_OK)
+            return qdot_pool_fail(pool);
+        if (found)
+            return QDOT_FALSE;
+    }
+    return left;
+}
+
+/* --- where a function is defined ------------------------------------------------------ */
+
+/* The set and lo <= u <= hi, or lo < u < hi; nil: no such end. */
+static qdot_expr
+within(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
+{
+    qdot_rel_op op = open ? QDOT_LT : QDOT_LE;
+
+    if (lo != QDOT_NIL)
+        set = qdot_conditions_and(pool, set, qdot_rel(pool, op, lo, u));
+    if (hi != QDOT_NIL)
+        set = qdot_conditions_and(pool, set, qdot_rel(pool, op, u, hi));
+    return set;
+}
+
+static qdot_expr
+of_node(qdot_pool *pool, qdot_expr set, qdot_expr node)
+{
+    qdot_expr u = qdot_expr_count(pool, node) == 0 ? QDOT_NIL : qdot_expr_arg(pool, node, 0);
+
+    switch (qdot_expr_node(pool, node)->op) {
+    case QDOT_LOG:
+        return within(pool, set, u, QDOT_ZERO, QDOT_NIL, true);
+    case QDOT_ASIN:
+    case QDOT_ACOS:
+        return within(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, false);
+    case QDOT_ATANH:
+        return within(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, true);
+    case QDOT_ACOSH:
+        return within(pool, set, u, QDOT_ONE, QDOT_NIL, false);
+    default:
+        return set;
+    }
+}
+
+/* The bases of the powers in a product with exponents that are no integers. */
+static qdot_expr
+of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
+{
+    for (uint32_t i = 1; i < qdot_expr_count(pool, product); i += 2) {
+        qdot_expr base = qdot_expr_arg(pool, product, i),
+                  exponent = qdot_expr_arg(pool, product, i + 1);
+        const fmpq *q = qdot_expr_rational(pool, exponent);
+
+        if ((x != QDOT_NIL && !qdot_expr_contains(pool, base, x)) ||
+            (q != NULL && fmpz_is_one(fmpq_denref(q))))
+            continue;
+        set = within(pool, set, base, QDOT_ZERO, QDOT_NIL, q == NULL || fmpq_sgn(q) < 0);
+    }
+    return set;
+}
+
+qdot_expr
+qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
+{
+    qdot_expr set = QDOT_NIL;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++) {
+        qdot_expr node = w.at[i];
+
+        if (x != QDOT_NIL && !qdot_expr_contains(pool, node, x))
+            continue;
+        if (qdot_expr_kind(pool, node) == QDOT_FUN)
+            set = of_node(pool, set, node);
+        else if (qdot_expr_kind(pool, node) == QDOT_PROD)
+            set = of_powers(pool, set, node, x);
+    }
+    qdot_walk_end(&w);
+    return set;
+}

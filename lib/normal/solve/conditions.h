@@ -1,0 +1,46 @@
+/* conditions.h -- conditions under which a solution exists: relations, each decided as far as possible.
+ *
+ * A set of conditions is a LIST of relations a < b and a <= b that must all hold; nil where there is none,
+ * QDOT_FALSE where they cannot hold. A relation is decided from the declared domains and the facts, by proof
+ * (normal/inequality): one that always holds is left out, one that never holds makes the set QDOT_FALSE.
+ *
+ * Tests  tests/normal/test_conditions.c
+ */
+#ifndef QDOT_NORMAL_CONDITIONS_H
+#define QDOT_NORMAL_CONDITIONS_H
+
+#include "normal/field/facts.h"
+
+/* Whether only parameters, momenta and functions of them occur in e: what is generic. */
+bool qdot_is_generic(const qdot_pool *pool, qdot_expr e);
+
+/* 0 < gap, or 0 <= gap if not strict: QDOT_TRUE, QDOT_FALSE if that is proved; else a relation, in its shortest
+ * form. Parameters are generic: where 0 <= gap is proved of them, 0 < gap counts as true. Nil on failure. */
+qdot_expr qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts);
+
+/* The set and one more relation; the set and another set. */
+qdot_expr qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation);
+qdot_expr qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other);
+
+/* Two sets under either of which something holds, as one, *set; false: they are no one set. */
+bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other);
+
+/* The set with a < b for a <= b between parameters, which are generic. */
+qdot_expr qdot_conditions_generic(qdot_pool *pool, qdot_expr set);
+
+/* The set with values put in for the symbols from [n], decided anew; a relation that is not defined there does
+ * not hold. Relations that contradict each other: QDOT_FALSE. On failure nil, and the pool has failed. */
+qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *from,
+                             const qdot_expr *to, const qdot_facts *facts);
+
+/* The conditions under which every part of f that holds x (nil: every part) is defined: of bases of roots, logarithms
+ * and inverse functions. Denominators and poles are not among them. */
+qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
+
+/* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than
+ * that are left out. */
+enum { QDOT_CONDITIONS_MOST = 24 };
+qdot_facts qdot_facts_and(const qdot_pool *pool, const qdot_facts *facts, qdot_expr set,
+                          qdot_expr *room);
+
+#endif

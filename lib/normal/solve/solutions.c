@@ -1,0 +1,305 @@
+/* solutions.c -- the roots inside a domain: members of periodic families one by one, and conditions. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/solutions.h"
+
+/* More members than these are given as a family; a family whose ends depend on parameters is followed so many
+ * periods to either side. */
+enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12 };
+
+static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_open = true};
+
+/* --- windows --------------------------------------------------------------------------- */
+
+qdot_window
+qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(pool, x);
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+    qdot_window w = window_whole;
+
+    if (symbol != NULL)
+        w = (qdot_window){symbol->lo, symbol->hi, symbol->lo_open, symbol->hi_open, false,
+                          false};
+    if (!angle || (w.lo != QDOT_NIL && w.hi != QDOT_NIL))
+        return w;
+    if (w.lo != QDOT_NIL)
+        return (qdot_window){w.lo, qdot_add(pool, w.lo, turn), w.lo_open, !w.lo_open, false, true};
+    if (w.hi != QDOT_NIL)
+        return (qdot_window){qdot_sub(pool, w.hi, turn), w.hi, !w.hi_open, w.hi_open, false, true};
+    return (qdot_window){qdot_neg(pool, QDOT_PI), QDOT_PI, true, false, true, false};
+}
+
+/* Whether the end a is nearer than b (nil: none): above it for a lower end. */
+static bool
+is_tighter(qdot_pool *pool, qdot_expr a, qdot_expr b, bool lower, const qdot_facts *facts)
+{
+    qdot_expr gap = b == QDOT_NIL ? QDOT_NIL : lower ? qdot_sub(pool, a, b) : qdot_sub(pool, b, a);
+
+    return b == QDOT_NIL || qdot_condition(pool, gap, true, facts) == QDOT_TRUE;
+}
+
+qdot_window
+qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_window w,
+                   const qdot_facts *facts)
+{
+    uint32_t n = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, conditions, i), gap, slope, end;
+        bool open = qdot_expr_node(pool, one)->op == QDOT_LT;
+        const fmpq *c;
+
+        gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
+        slope = qdot_diff(pool, gap, x);
+        c = slope == QDOT_NIL ? NULL : qdot_expr_rational(pool, slope);
+        if (c == NULL || fmpq_is_zero(c))
+            continue;
+        end = qdot_simplify(pool, qdot_sub(pool, x, qdot_div(pool, gap, slope)), facts);
+        c = qdot_expr_rational(pool, slope);
+        if (end == QDOT_NIL || !qdot_is_constant(pool, end))
+            continue;
+        if (fmpq_sgn(c) > 0 && is_tighter(pool, end, w.lo, true, facts)) {
+            w.lo = end;
+            w.lo_open = open;
+            w.turn = w.recurs = false;
+        } else if (fmpq_sgn(c) < 0 && is_tighter(pool, end, w.hi, false, facts)) {
+            w.hi = end;
+            w.hi_open = open;
+            w.turn = w.recurs = false;
+        }
+    }
+    return w;
+}
+
+bool
+qdot_is_period(qdot_pool *pool, size_t n, const qdot_expr *f, qdot_expr x, qdot_expr period,
+               const qdot_facts *facts)
+{
+    qdot_expr shifted = qdot_add(pool, x, period);
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr there;
+
+        if (!qdot_expr_contains(pool, f[i], x))
+            continue;
+        there = qdot_subs(pool, f[i], 1, &x, &shifted);
+        if (there == QDOT_NIL && qdot_pool_check(pool) != QDOT_EDOMAIN)
+            (void)qdot_pool_fail(pool);
+        if (there == QDOT_NIL || !qdot_is_zero(pool, qdot_sub(pool, there, f[i]), facts))
+            return false;
+    }
+    return true;
+}
+
+qdot_expr
+qdot_solve_integer(qdot_pool *pool)
+{
+    char name[16] = "n";
+
+    for (int k = 1; qdot_symbol_is_declared(pool, name); k++)
+        snprintf(name, sizeof name, "n%d", k);
+    return qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
+/* The members of a root inside a window, to out. */
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr x;
+    const qdot_root *root;
+    const qdot_window *window;
+    const qdot_facts *facts;
+    qdot_solutions *out;
+} members;
+
+/* --- one value ------------------------------------------------------------------------- */
+
+/* The conditions and that `value` lies in the window. */
+static qdot_expr
+inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
+       const qdot_facts *facts)
+{
+    qdot_expr room[QDOT_CONDITIONS_MOST], relations = QDOT_NIL;
+
+    if (w->lo != QDOT_NIL)
+        relations = qdot_conditions_and(
+            pool, relations, qdot_rel(pool, w->lo_open ? QDOT_LT : QDOT_LE, w->lo, value));
+    if (w->hi != QDOT_NIL)
+        relations = qdot_conditions_and(
+            pool, relations, qdot_rel(pool, w->hi_open ? QDOT_LT : QDOT_LE, value, w->hi));
+    if (relations == QDOT_NIL || relations == QDOT_FALSE || set == QDOT_FALSE)
+        return relations == QDOT_FALSE ? QDOT_FALSE : set;
+    /* the value's own conditions decide more: decided together, contradictions found */
+    if (set != QDOT_NIL) {
+        qdot_facts all = qdot_facts_and(pool, facts, set, room);
+
+        relations = qdot_conditions_at(pool, relations, 0, NULL, NULL, &all);
+        return relations == QDOT_NIL
+                   ? set
+                   : qdot_conditions_at(pool, qdot_conditions_all(pool, set, relations), 0, NULL,
+                                        NULL, facts);
+    }
+    return qdot_conditions_at(pool, relations, 0, NULL, NULL, facts);
+}
+
+static qdot_status
+append(const members *m, qdot_expr value, const qdot_window *w)
+{
+    qdot_root one = {qdot_simplify(m->pool, value, m->facts), QDOT_NIL, QDOT_NIL, QDOT_NIL};
+
+    QDOT_TRY(qdot_pool_check(m->pool));
+    one.condition = inside(m->pool, m->root->condition, one.value, w, m->facts);
+    if (one.condition != QDOT_FALSE && m->root->members != QDOT_NIL)
+        one.condition = qdot_conditions_all(
+            m->pool, one.condition,
+            qdot_conditions_at(m->pool, m->root->members, 1, &m->x, &one.value, m->facts));
+    QDOT_TRY(qdot_pool_check(m->pool));
+    return one.condition == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&m->out->root, one);
+}
+
+/* --- families -------------------------------------------------------------------------- */
+
+/* e as a double, if it is a constant. */
+static bool
+as_number(qdot_pool *pool, qdot_expr e, double *v)
+{
+    return e != QDOT_NIL && qdot_is_constant(pool, e) &&
+           qdot_ball_double(pool, e, NULL, NULL, v) && isfinite(*v);
+}
+
+/* (end - base)/period as a number, if it is one. */
+static bool
+periods_to(const members *m, qdot_expr end, double *v)
+{
+    qdot_expr e;
+
+    if (end == QDOT_NIL)
+        return false;
+    e = qdot_div(m->pool, qdot_sub(m->pool, end, m->root->value), m->root->period);
+    return as_number(m->pool, qdot_simplify(m->pool, e, m->facts), v);
+}
+
+static qdot_expr
+member(const members *m, long k)
+{
+    return qdot_add(m->pool, m->root->value,
+                    qdot_mul(m->pool, qdot_expr_int(m->pool, k), m->root->period));
+}
+
+/* Members between first and last periods; those near an end are decided, the others lie inside. */
+static qdot_status
+append_members(const members *m, double first, double last)
+{
+    for (long k = (long)ceil(first - 1e-6); k <= (long)floor(last + 1e-6); k++) {
+        bool is_near = (double)k - first < 1e-6 || last - (double)k < 1e-6;
+
+        QDOT_TRY(append(m, member(m, k), is_near ? m->window : &window_whole));
+    }
+    return QDOT_OK;
+}
+
+/* Members from `first` on in one direction, until one is proved to lie beyond the end. */
+static qdot_status
+append_outward(const members *m, long first, long direction)
+{
+    const qdot_window *w = m->window;
+    qdot_expr end = direction > 0 ? w->hi : w->lo;
+
+    for (long k = first; labs(k) <= MOST_PERIODS; k += direction) {
+        qdot_expr value = member(m, k), gap, within;
+
+        gap = direction > 0 ? qdot_sub(m->pool, end, value) : qdot_sub(m->pool, value, end);
+        within = qdot_condition(m->pool, gap, direction > 0 ? w->hi_open : w->lo_open, m->facts);
+        QDOT_TRY(qdot_pool_check(m->pool));
+        if (within == QDOT_FALSE)
+            return QDOT_OK;
+        QDOT_TRY(append(m, value, w));
+    }
+    m->out->complete = false;
+    return QDOT_OK;
+}
+
+/* As many members as make a turn, whichever turn they lie in. */
+static qdot_status
+append_turn(const members *m)
+{
+    qdot_expr turn = qdot_mul(m->pool, qdot_expr_int(m->pool, 2), QDOT_PI);
+    double n;
+
+    turn = qdot_simplify(m->pool, qdot_div(m->pool, turn, m->root->period), m->facts);
+    if (!as_number(m->pool, turn, &n))
+        n = 1;
+    for (long k = 0; k < lround(n); k++) /* 0, -1, 1, -2 ... */
+        QDOT_TRY(append(m, member(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
+    return QDOT_OK;
+}
+
+/* The family itself, value + n period, with what n must fulfil. */
+static qdot_status
+append_family(const members *m)
+{
+    qdot_pool *pool = m->pool;
+    const qdot_window *w = m->window;
+    qdot_expr n = qdot_solve_integer(pool), value = m->root->value;
+    qdot_root from = *m->root;
+    qdot_window rest = *w;
+    members all = *m;
+    double at;
+
+    if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at)) {
+        /* counted from the first member on */
+        qdot_expr first = member(m, (long)ceil(at - 1e-6));
+
+        if (qdot_condition(pool, qdot_sub(pool, first, w->lo), w->lo_open, m->facts) == QDOT_FALSE)
+            first = qdot_add(pool, first, m->root->period);
+        value = qdot_simplify(pool, first, m->facts);
+        from.condition =
+            qdot_conditions_and(pool, m->root->condition, qdot_rel(pool, QDOT_LE, QDOT_ZERO, n));
+        rest.lo = QDOT_NIL;
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    all.root = &from;
+    return append(&all, qdot_add(pool, value, qdot_mul(pool, n, m->root->period)), &rest);
+}
+
+qdot_status
+qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qdot_window *window,
+                   const qdot_facts *facts, qdot_solutions *out)
+{
+    const qdot_window w = qdot_solve_tighten(pool, x, root->members, *window, facts);
+    const members m = {pool, x, root, &w, facts, out};
+    double first, last;
+
+    out->recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
+    if (root->period == QDOT_NIL)
+        return append(&m, root->value, root->value == x ? &window_whole : &w);
+    if (w.lo == QDOT_NIL || w.hi == QDOT_NIL)
+        return append_family(&m);
+    if (periods_to(&m, w.lo, &first) && periods_to(&m, w.hi, &last))
+        return fabs(last - first) <= MOST_MEMBERS
+                   ? append_members(&m, fmin(first, last), fmax(first, last))
+                   : append_family(&m);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (!qdot_is_constant(pool, root->period))
+        return append_family(&m);
+    if (w.turn)
+        return append_turn(&m);
+    QDOT_TRY(append_outward(&m, 0, 1));
+    return append_outward(&m, -1, -1);
+}
+
+void
+qdot_solutions_clear(qdot_solutions *s)
+{
+    qdot_free(s->root.at);
+    qdot_free(s->divisor.at);
+    *s = (qdot_solutions){0};
+}

@@ -1,0 +1,58 @@
+/* solutions.h -- a set of roots: with conditions, in periodic families, inside a domain.
+ *
+ * Tests  tests/normal/test_solve.c
+ */
+#ifndef QDOT_NORMAL_SOLUTIONS_H
+#define QDOT_NORMAL_SOLUTIONS_H
+
+#include "base/memory.h"
+#include "normal/solve/conditions.h"
+
+typedef struct {
+    qdot_expr value;     /* x itself: every x under the condition */
+    qdot_expr condition; /* a LIST of relations under which it is one; nil: always */
+    qdot_expr period;    /* value + n period is a root for every integer n; nil: one root */
+    qdot_expr members;   /* of a family: conditions in x that each member must fulfil; nil: none */
+} qdot_root;
+
+typedef struct {
+    qdot_vec(qdot_root) root;
+    bool complete; /* these are all, where no divisor is 0 */
+    bool recurs;   /* of an angle with one declared end: those of one turn, the others are whole turns away */
+    qdot_vec(qdot_expr) divisor; /* without x: what was divided by; of a LIST not all are 0 */
+} qdot_solutions;
+
+void qdot_solutions_clear(qdot_solutions *s);
+
+/* --- inside a domain ---- */
+
+/* Where x may be; nil: no end. */
+typedef struct {
+    qdot_expr lo, hi;
+    bool lo_open, hi_open;
+    bool turn;   /* one turn of an angle without declared ends: any other turn would do */
+    bool recurs; /* one turn of an angle with one declared end */
+} qdot_window;
+
+/* The declared domain of x. An angle (f changes nothing in a full turn of x) without two declared ends gets one
+ * turn of its domain, -pi < x <= pi if it has none. */
+qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
+
+/* Whether a shift of x by `period` changes none of f [n], by proof. */
+bool qdot_is_period(qdot_pool *pool, size_t n, const qdot_expr *f, qdot_expr x, qdot_expr period,
+                    const qdot_facts *facts);
+
+/* The window and what conditions in x that are linear in it say of its ends, where these are constants. */
+qdot_window qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions,
+                               qdot_window window, const qdot_facts *facts);
+
+/* Append to out what of the root lies in the window: the members of a family one by one where that is a finite
+ * list, else the family itself, value + n period with the symbol n of an integer. x: for roots that are all x. */
+QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root,
+                                               const qdot_window *window,
+                                               const qdot_facts *facts, qdot_solutions *out);
+
+/* The symbol of an integer: `n`, or n1, n2 ... where that is a declared name. */
+qdot_expr qdot_solve_integer(qdot_pool *pool);
+
+#endif

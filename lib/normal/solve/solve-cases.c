@@ -1,0 +1,153 @@
+/* solve-cases.c -- equations with |u(x)|, sign u(x), max, min and if(...): solved case by case. */
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+#include "normal/solve/solver.h"
+
+qdot_expr
+qdot_solver_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_walk w;
+
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++) {
+        uint32_t op = qdot_expr_node(pool, w.at[i])->op;
+
+        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
+            (op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_MAX || op == QDOT_MIN ||
+             op == QDOT_IF) &&
+            qdot_expr_contains(pool, w.at[i], x))
+            found = w.at[i];
+    }
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* e with `to` in place of the node `choice`, where the relation holds. */
+static qdot_status
+one_case(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr to, qdot_expr relation,
+         qdot_expr when)
+{
+    qdot_expr there = qdot_subs(s->pool, e, 1, &choice, &to);
+
+    return qdot_solver_equation(s, there, qdot_conditions_and(s->pool, when, relation));
+}
+
+/* Roots of u, at which sign u jumps: those at which e itself is proved to be 0. */
+static qdot_status
+at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
+{
+    qdot_solutions found = {.complete = true};
+    qdot_solver inner = {.pool = s->pool, .f = u, .x = s->x, .facts = s->facts, .out = &found,
+                         .depth = s->depth};
+    qdot_status status = qdot_solver_equation(&inner, u, QDOT_NIL);
+
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
+        qdot_root *root = &found.root.at[i];
+        qdot_expr at = qdot_subs(s->pool, e, 1, &s->x, &root->value);
+
+        if (at == QDOT_NIL) {
+            status = qdot_pool_check(s->pool);
+            status = status == QDOT_EDOMAIN ? QDOT_OK : status;
+        } else if (qdot_is_zero(s->pool, at, s->facts)) {
+            status = qdot_solver_add(s, root->value, root->period,
+                                     qdot_conditions_all(s->pool, when, root->condition));
+        }
+    }
+    s->out->complete = s->out->complete && found.complete;
+    qdot_solutions_clear(&found);
+    return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
+}
+
+static qdot_status
+is_defined_with(qdot_pool *pool, qdot_expr e, qdot_expr from, qdot_expr to, bool *yes)
+{
+    qdot_status status;
+
+    (void)qdot_subs(pool, e, 1, &from, &to);
+    status = qdot_pool_check(pool);
+    *yes = status == QDOT_OK;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* |u| or sign u, in e: u on either side of 0; the ends belong to both where nothing jumps. */
+static qdot_status
+by_sign(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr from[2] = {qdot_fun1(pool, QDOT_ABS, u), qdot_fun1(pool, QDOT_SIGN, u)};
+    bool jumps = qdot_expr_contains(pool, e, from[1]), defined;
+    qdot_rel_op op;
+
+    QDOT_TRY(is_defined_with(pool, e, from[0], QDOT_ZERO, &defined));
+    op = jumps || !defined ? QDOT_LT : QDOT_LE;
+
+    for (long sign = 1; sign >= -1; sign -= 2) {
+        qdot_expr side = qdot_expr_int(pool, sign), to[2] = {qdot_mul(pool, side, u), side},
+                  there = qdot_subs(pool, e, 2, from, to);
+
+        QDOT_TRY(qdot_solver_equation(
+            s, there,
+            qdot_conditions_and(pool, when, qdot_rel(pool, op, QDOT_ZERO, to[0]))));
+    }
+    return jumps ? at_the_jump(s, e, u, when) : QDOT_OK;
+}
+
+/* The largest (least) of the arguments: each, where it is. */
+static qdot_status
+by_largest(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    bool largest = qdot_expr_node(pool, choice)->op == QDOT_MAX;
+    uint32_t n = qdot_expr_count(pool, choice);
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr it = qdot_expr_arg(pool, choice, i), there = when;
+
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr other = qdot_expr_arg(pool, choice, k);
+
+            if (k != i)
+                there = qdot_conditions_and(pool, there,
+                                            largest ? qdot_rel(pool, QDOT_LE, other, it)
+                                                    : qdot_rel(pool, QDOT_LE, it, other));
+        }
+        QDOT_TRY(one_case(s, e, choice, it, QDOT_TRUE, there));
+    }
+    return QDOT_OK;
+}
+
+/* if(a < b, ...): either side. */
+static qdot_status
+by_condition(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr c = qdot_expr_arg(pool, choice, 0), left, right;
+    bool strict;
+
+    if (qdot_expr_kind(pool, c) != QDOT_REL || qdot_expr_node(pool, c)->op == QDOT_EQ) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    strict = qdot_expr_node(pool, c)->op == QDOT_LT;
+    left = qdot_expr_arg(pool, c, 0);
+    right = qdot_expr_arg(pool, c, 1);
+    QDOT_TRY(one_case(s, e, choice, qdot_expr_arg(pool, choice, 1), c, when));
+    return one_case(s, e, choice, qdot_expr_arg(pool, choice, 2),
+                    qdot_rel(pool, strict ? QDOT_LE : QDOT_LT, right, left), when);
+}
+
+qdot_status
+qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr when)
+{
+    switch (qdot_expr_node(s->pool, choice)->op) {
+    case QDOT_MAX:
+    case QDOT_MIN: return by_largest(s, e, choice, when);
+    case QDOT_IF: return by_condition(s, e, choice, when);
+    default: return by_sign(s, e, qdot_expr_arg(s->pool, choice, 0), when);
+    }
+}

@@ -1,0 +1,156 @@
+/* solve-inverse.c -- elementary functions inverted: g(u(x)) = v becomes u(x) = w. */
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/solve/solver.h"
+
+/* --- angles ---------------------------------------------------------------------------- */
+
+/* x with u(x) = w + 2 pi k for every integer k: u is linear in x. */
+static qdot_status
+turns_of(qdot_solver *s, qdot_expr u, qdot_expr w, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr c = qdot_solver_tidy(s, qdot_diff(pool, u, s->x)), zero = QDOT_ZERO, base, period;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (c == QDOT_ZERO || qdot_expr_contains(pool, c, s->x)) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    QDOT_TRY(qdot_solver_divide(s, c));
+    base = qdot_div(pool, qdot_sub(pool, w, qdot_subs(pool, u, 1, &s->x, &zero)), c);
+    period = qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), c);
+    if (period != QDOT_NIL && qdot_expr_is_negative(pool, period))
+        period = qdot_neg(pool, period);
+    return qdot_solver_add(s, base, period, when);
+}
+
+qdot_status
+qdot_solver_turns(qdot_solver *s, qdot_expr u, size_t n, const qdot_expr *w, qdot_expr when)
+{
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(turns_of(s, u, w[i], when));
+    return QDOT_OK;
+}
+
+/* sin u = v or cos u = v. */
+static qdot_status
+circular(qdot_solver *s, bool sine, qdot_expr u, qdot_expr v, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr angle = qdot_fun1(pool, sine ? QDOT_ASIN : QDOT_ACOS, v);
+
+    if (angle == QDOT_NIL) { /* a number beyond 1 */
+        qdot_status status = qdot_pool_check(pool);
+
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    }
+    if (v == QDOT_ONE || v == QDOT_MINUS_ONE)
+        return turns_of(s, u, angle, when);
+    when = qdot_conditions_and(pool, when,
+                               qdot_solver_positive(s, qdot_sub(pool, QDOT_ONE, v)));
+    when = qdot_conditions_and(pool, when,
+                               qdot_solver_positive(s, qdot_add(pool, QDOT_ONE, v)));
+    if (when == QDOT_FALSE)
+        return qdot_pool_check(pool);
+    return qdot_solver_turns(
+        s, u, 2,
+        (qdot_expr[]){angle, sine ? qdot_sub(pool, QDOT_PI, angle) : qdot_neg(pool, angle)},
+        when);
+}
+
+/* With R = sqrt(a^2 + b^2): R cos(u - atan2(a, b)) = -d. */
+qdot_status
+qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a, qdot_expr b, qdot_expr d,
+                  qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr R, shift, v;
+
+    if (d == QDOT_ZERO) {
+        qdot_expr w = qdot_fun1(pool, QDOT_ATAN,
+                                qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, b, a))));
+
+        QDOT_TRY(qdot_solver_divide(s, a));
+        return qdot_solver_turns(s, u, 2, (qdot_expr[]){w, qdot_add(pool, w, QDOT_PI)}, when);
+    }
+    QDOT_TRY(qdot_solver_divide(s, qdot_list(pool, 2, (qdot_expr[]){a, b})));
+    R = qdot_add(pool, qdot_mul(pool, a, a), qdot_mul(pool, b, b));
+    when = qdot_conditions_and(
+        pool, when,
+        qdot_solver_positive(s, qdot_solver_tidy(s, qdot_sub(pool, R, qdot_mul(pool, d, d)))));
+    if (when == QDOT_FALSE)
+        return qdot_pool_check(pool);
+    v = qdot_solver_tidy(s, qdot_div(pool, qdot_neg(pool, d), qdot_sqrt(pool, R)));
+    shift = qdot_fun(pool, QDOT_ATAN2, 2, (qdot_expr[]){a, b});
+    v = qdot_fun1(pool, QDOT_ACOS, v);
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_solver_turns(
+        s, u, 2, (qdot_expr[]){qdot_add(pool, shift, v), qdot_sub(pool, shift, v)}, when);
+}
+
+/* --- the others ------------------------------------------------------------------------ */
+
+/* The conditions and lo < v < hi, or lo <= v <= hi; nil: no such end. */
+static qdot_expr
+in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi, bool open)
+{
+    qdot_pool *pool = s->pool;
+
+    if (lo != QDOT_NIL)
+        when = qdot_conditions_and(
+            pool, when, qdot_condition(pool, qdot_sub(pool, v, lo), open, s->facts));
+    if (hi != QDOT_NIL)
+        when = qdot_conditions_and(
+            pool, when, qdot_condition(pool, qdot_sub(pool, hi, v), open, s->facts));
+    return when;
+}
+
+/* The conditions under which v is a value of the function h. */
+static qdot_expr
+in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr quarter = qdot_mul(pool, QDOT_HALF, QDOT_PI), back = qdot_neg(pool, quarter);
+
+    switch (h) {
+    case QDOT_EXP: return in_range(s, when, v, QDOT_ZERO, QDOT_NIL, true);
+    case QDOT_COSH: return in_range(s, when, v, QDOT_ONE, QDOT_NIL, false);
+    case QDOT_TANH: return in_range(s, when, v, QDOT_MINUS_ONE, QDOT_ONE, true);
+    case QDOT_ASIN: return in_range(s, when, v, back, quarter, false);
+    case QDOT_ACOS: return in_range(s, when, v, QDOT_ZERO, QDOT_PI, false);
+    case QDOT_ATAN: return in_range(s, when, v, back, quarter, true);
+    case QDOT_ACOSH: return in_range(s, when, v, QDOT_ZERO, QDOT_NIL, false);
+    default: return when;
+    }
+}
+
+qdot_status
+qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
+{
+    static const struct {
+        qdot_fun_id h, inverse;
+    } pairs[] = {{QDOT_EXP, QDOT_LOG},     {QDOT_LOG, QDOT_EXP},   {QDOT_SINH, QDOT_ASINH},
+                 {QDOT_COSH, QDOT_ACOSH},  {QDOT_TANH, QDOT_ATANH}, {QDOT_ASIN, QDOT_SIN},
+                 {QDOT_ACOS, QDOT_COS},    {QDOT_ATAN, QDOT_TAN},  {QDOT_ASINH, QDOT_SINH},
+                 {QDOT_ACOSH, QDOT_COSH},  {QDOT_ATANH, QDOT_TANH}};
+    qdot_pool *pool = s->pool;
+    qdot_fun_id h = qdot_expr_node(pool, g)->op;
+    qdot_expr u = qdot_expr_arg(pool, g, 0), w;
+
+    if (h == QDOT_SIN || h == QDOT_COS)
+        return circular(s, h == QDOT_SIN, u, v, when);
+    when = in_range_of(s, h, when, v);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (when == QDOT_FALSE)
+        return QDOT_OK;
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        if (pairs[i].h != h)
+            continue;
+        w = qdot_fun1(pool, pairs[i].inverse, v);
+        QDOT_TRY(qdot_solver_equation(s, qdot_sub(pool, u, w), when));
+        return h == QDOT_COSH ? qdot_solver_equation(s, qdot_add(pool, u, w), when) : QDOT_OK;
+    }
+    s->out->complete = false;
+    return QDOT_OK;
+}

@@ -1,0 +1,559 @@
+/* solver.c -- factors an equation; each factor by what functions of x it holds. */
+#include "normal/solve/solver.h"
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/field/flint.h"
+#include "normal/field/prepare.h"
+#include "normal/inequality/less.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/sample.h"
+#include "normal/simplify/simplify.h"
+
+enum { WORK = 2000000, MOST_DEPTH = 8, POINTS = 30 };
+
+qdot_expr
+qdot_solver_tidy(const qdot_solver *s, qdot_expr e)
+{
+    return qdot_simplify(s->pool, e, s->facts);
+}
+
+qdot_expr
+qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
+{
+    return gap == QDOT_NIL
+               ? QDOT_NIL
+               : qdot_condition(s->pool, gap, qdot_is_generic(s->pool, gap), s->facts);
+}
+
+qdot_status
+qdot_solver_divide(qdot_solver *s, qdot_expr d)
+{
+    if (d == QDOT_NIL)
+        return qdot_pool_check(s->pool);
+    if (qdot_is_generic(s->pool, d) || (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0)
+        return QDOT_OK;
+    for (size_t i = 0; i < s->out->divisor.n; i++)
+        if (s->out->divisor.at[i] == d)
+            return QDOT_OK;
+    return qdot_vec_push(&s->out->divisor, d);
+}
+
+/* --- is it one? -------------------------------------------------------------------- */
+
+/* Whether e is 0 at some points of the parameters' domains, as far as can be seen. */
+static qdot_status
+vanishes_somewhere(const qdot_solver *s, qdot_expr e, const qdot_facts *facts, bool *yes)
+{
+    qdot_sample sample;
+
+    *yes = false;
+    QDOT_TRY(qdot_sample_begin(&sample, s->pool, 1, &e, facts));
+    for (int k = 0; sample.possible && k < POINTS && !*yes; k++) {
+        arb_srcptr v;
+
+        qdot_sample_point(&sample, k);
+        *yes = qdot_sample_eval(&sample, 96) &&
+               (v = qdot_ball_get(&sample.ball, e)) != NULL && arb_contains_zero(v);
+    }
+    qdot_sample_end(&sample);
+    return qdot_pool_check(s->pool);
+}
+
+/* Whether f is 0 and defined at x = value: refuted ones are not. Where it is 0 for some
+ * parameters only, no condition says for which: then these are not all. */
+static qdot_status
+is_root(qdot_solver *s, qdot_expr value, const qdot_facts *facts, bool *yes)
+{
+    qdot_expr at = qdot_subs(s->pool, s->f, 1, &s->x, &value);
+    qdot_decision d;
+    bool sometimes;
+
+    *yes = false;
+    if (at == QDOT_NIL) { /* not defined there */
+        qdot_status status = qdot_pool_check(s->pool);
+
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    }
+    QDOT_TRY(qdot_decide_equal(s->pool, at, QDOT_ZERO, facts, &d));
+    *yes = d.verdict != QDOT_REFUTED;
+    if (*yes)
+        return QDOT_OK;
+    QDOT_TRY(vanishes_somewhere(s, at, facts, &sometimes));
+    s->out->complete = s->out->complete && !sometimes;
+    return QDOT_OK;
+}
+
+bool
+qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr value)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr periods = qdot_solver_tidy(
+        s, qdot_div(pool, qdot_sub(pool, value, family->value), family->period));
+    const fmpq *number = periods == QDOT_NIL ? NULL : qdot_expr_rational(pool, periods);
+
+    return number != NULL && fmpz_is_one(fmpq_denref(number));
+}
+
+/* Whether two values are the same root; of families with one period, whole periods apart. */
+static bool
+is_same(const qdot_solver *s, const qdot_root *a, qdot_expr value, qdot_expr period)
+{
+    qdot_expr apart;
+
+    if (a->period != period)
+        return false;
+    if (a->value == value || period != QDOT_NIL)
+        return a->value == value || qdot_solver_is_member(s, a, value);
+    apart = qdot_sub(s->pool, a->value, value);
+    return apart != QDOT_NIL && qdot_is_zero(s->pool, apart, s->facts);
+}
+
+/* The conditions that are the same for all members of a family; *each gets the others, in x. */
+static qdot_expr
+of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr *each)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t n = when == QDOT_NIL ? 0 : qdot_expr_count(pool, when);
+    qdot_expr all = QDOT_NIL;
+
+    *each = QDOT_NIL;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, when, i),
+                  gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
+
+        if (qdot_is_period(pool, 1, &gap, s->x, period, s->facts))
+            all = qdot_conditions_and(pool, all, one);
+        else
+            *each = qdot_conditions_and(pool, *each, one);
+    }
+    return all;
+}
+
+qdot_status
+qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr when)
+{
+    qdot_root root = {qdot_solver_tidy(s, value), QDOT_NIL, period, QDOT_NIL};
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    qdot_status status = qdot_pool_check(s->pool);
+    qdot_facts facts;
+    bool yes;
+
+    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* the value is defined nowhere */
+        return QDOT_OK;
+    QDOT_TRY(status);
+    if (period != QDOT_NIL)
+        when = of_all_members(s, when, period, &root.members);
+    root.condition = qdot_conditions_at(s->pool, when, 1, &s->x, &root.value, s->facts);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (root.condition == QDOT_FALSE)
+        return QDOT_OK;
+    for (size_t i = 0; i < s->out->root.n; i++)
+        if (s->out->root.at[i].members == root.members &&
+            is_same(s, &s->out->root.at[i], root.value, period) &&
+            qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition))
+            return qdot_pool_check(s->pool);
+    if (root.members != QDOT_NIL) /* the value itself may be none */
+        return qdot_vec_push(&s->out->root, root);
+    facts = qdot_facts_and(s->pool, s->facts, root.condition, room);
+    QDOT_TRY(is_root(s, root.value, &facts, &yes));
+    return yes ? qdot_vec_push(&s->out->root, root) : QDOT_OK;
+}
+
+/* --- polynomials in one thing ------------------------------------------------------ */
+
+typedef struct {
+    qdot_expr value, when;
+} argument; /* a value of a function of x */
+
+typedef qdot_vec(argument) arguments;
+
+/* y with y^k = v: v^(1/k), its negative where k is even. */
+static qdot_status
+extract(qdot_solver *s, qdot_expr v, long k, qdot_expr when, arguments *out)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr y, exponent = qdot_expr_ratio(pool, 1, k);
+    uint8_t sign;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (v == QDOT_ZERO || k == 1)
+        return qdot_vec_push(out, ((argument){v, when}));
+    if (k % 2 == 0) {
+        when = qdot_conditions_and(pool, when, qdot_solver_positive(s, v));
+        if (when == QDOT_FALSE)
+            return QDOT_OK;
+    }
+    sign = qdot_expr_node(pool, v)->sign;
+    if (k % 2 == 0 || (sign & QDOT_GE0) != 0)
+        y = qdot_pow(pool, v, exponent);
+    else if ((sign & QDOT_LE0) != 0)
+        y = qdot_neg(pool, qdot_pow(pool, qdot_neg(pool, v), exponent));
+    else
+        y = qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, v),
+                     qdot_pow(pool, qdot_fun1(pool, QDOT_ABS, v), exponent));
+    QDOT_TRY(qdot_pool_check(pool));
+    if (k % 2 == 0)
+        QDOT_TRY(qdot_vec_push(out, ((argument){qdot_neg(pool, y), when})));
+    return qdot_vec_push(out, ((argument){y, when}));
+}
+
+/* The largest k for which sum c_i y^i, c [degree + 1], is a polynomial in y^k; 0: a constant. */
+static long
+common_step(const qdot_expr *c, long degree)
+{
+    long step = 0;
+
+    for (long k = 1; k <= degree; k++)
+        for (long rest = k; c[k] != QDOT_ZERO && rest > 0;) {
+            long swap = step % rest;
+
+            if (step == 0) {
+                step = rest;
+                break;
+            }
+            step = rest;
+            rest = swap;
+        }
+    return step;
+}
+
+/* Real y with sum c_k y^k = 0, c [degree + 1]. */
+static qdot_status
+polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, arguments *out)
+{
+    qdot_pool *pool = s->pool;
+    long step = common_step(c, degree);
+    qdot_expr a, b, discriminant, root, two_a;
+
+    if (step == 0)
+        return QDOT_OK;
+    if (degree / step > 2) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    a = c[degree];
+    QDOT_TRY(qdot_solver_divide(s, a));
+    if (degree == step)
+        return extract(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
+                       when, out);
+    b = c[step];
+    discriminant = qdot_solver_tidy(
+        s,
+        qdot_sub(pool, qdot_mul(pool, b, b),
+                 qdot_product(pool, 3, (qdot_expr[]){qdot_expr_int(pool, 4), a, c[0]})));
+    QDOT_TRY(qdot_pool_check(pool));
+    if (discriminant != QDOT_ZERO)
+        when = qdot_conditions_and(pool, when, qdot_solver_positive(s, discriminant));
+    if (when == QDOT_FALSE)
+        return QDOT_OK;
+    root = qdot_sqrt(pool, discriminant);
+    two_a = qdot_mul(pool, qdot_expr_int(pool, 2), a);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        qdot_expr y = sign < 0 ? qdot_add(pool, b, root) : qdot_sub(pool, b, root);
+
+        y = qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, y, two_a)));
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(extract(s, y, step, when, out));
+        if (discriminant == QDOT_ZERO)
+            break;
+    }
+    return QDOT_OK;
+}
+
+/* --- one factor -------------------------------------------------------------------- */
+
+/* The generators of x in one factor, and the factor by their powers. */
+typedef struct {
+    slong var[3];
+    size_t n;
+    long degree[3];
+    qdot_groups groups;
+} shape;
+
+static qdot_status
+shape_of(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, shape *out)
+{
+    bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
+    qdot_status status;
+
+    *out = (shape){0};
+    if (by == NULL)
+        return QDOT_ENOMEM;
+    for (slong v = 0; v < f->n; v++) {
+        if (fmpz_mpoly_degree_si(p, v, f->ctx) == 0 ||
+            !qdot_expr_contains(s->pool, f->gen[v].expr, s->x))
+            continue;
+        by[v] = true;
+        if (out->n < 3) {
+            out->var[out->n] = v;
+            out->degree[out->n] = fmpz_mpoly_degree_si(p, v, f->ctx);
+        }
+        out->n++;
+    }
+    status = qdot_factor_group(f, &out->groups, p, by);
+    qdot_free(by);
+    return status;
+}
+
+/* Coefficient of var0^i (and var1^j). */
+static qdot_expr
+coefficient(qdot_field *f, const shape *sh, ulong i, ulong j)
+{
+    for (slong k = 0; k < sh->groups.n; k++) {
+        const ulong *key = sh->groups.key + k * f->n;
+
+        if (key[sh->var[0]] == i && (sh->n < 2 || key[sh->var[1]] == j))
+            return qdot_field_expr(f, sh->groups.poly + k);
+    }
+    return QDOT_ZERO;
+}
+
+/* The sum over powers of var0 at var1^j, as an expression. */
+static qdot_expr
+slice(qdot_field *f, const shape *sh, ulong j)
+{
+    qdot_pool *pool = f->pool;
+    qdot_expr sum = QDOT_ZERO;
+
+    for (long i = 0; i <= sh->degree[0]; i++)
+        sum = qdot_add(pool, sum,
+                       qdot_mul(pool, coefficient(f, sh, (ulong)i, j),
+                                qdot_pow_int(pool, f->gen[sh->var[0]].expr, i)));
+    return sum;
+}
+
+static void
+exchange(shape *sh)
+{
+    slong var = sh->var[0];
+    long degree = sh->degree[0];
+
+    sh->var[0] = sh->var[1];
+    sh->degree[0] = sh->degree[1];
+    sh->var[1] = var;
+    sh->degree[1] = degree;
+}
+
+/* sin u and cos u of one angle. */
+static qdot_status
+sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr u = f->gen[sh->var[0]].of, A, B, c;
+
+    if (f->gen[sh->var[0]].kind == QDOT_GEN_SIN) /* var0 the cosine */
+        exchange(sh);
+    if (sh->degree[0] == 1 && sh->degree[1] == 1 && coefficient(f, sh, 1, 1) == QDOT_ZERO)
+        return qdot_solver_mixed(s, u, coefficient(f, sh, 0, 1), coefficient(f, sh, 1, 0),
+                                 coefficient(f, sh, 0, 0), when);
+    if (sh->degree[1] != 1) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    A = slice(f, sh, 0);
+    B = slice(f, sh, 1);
+    c = f->gen[sh->var[0]].expr;
+    /* sin u = -A/B: of the two angles with this cosine the one whose sine has that sign */
+    when = qdot_conditions_and(
+        pool, when,
+        qdot_rel(pool, QDOT_LE, QDOT_ZERO,
+                 qdot_neg(pool, qdot_product(pool, 3,
+                                             (qdot_expr[]){A, B, qdot_fun1(pool, QDOT_SIN, u)}))));
+    A = qdot_sub(pool, qdot_mul(pool, A, A),
+                 qdot_mul(pool, qdot_mul(pool, B, B),
+                          qdot_sub(pool, QDOT_ONE, qdot_mul(pool, c, c))));
+    return qdot_solver_equation(s, A, when);
+}
+
+/* sinh u and cosh u: a polynomial in E = exp u > 0. */
+static qdot_status
+hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr u = f->gen[sh->var[0]].of, E = qdot_symbol_get(pool, QDOT_FORMAL, "(exp u)"), e,
+              from[2], to[2];
+    qdot_solutions found = {.complete = true};
+    qdot_solver inner = {.pool = pool, .x = E, .facts = s->facts, .out = &found,
+                         .depth = s->depth};
+    qdot_status status;
+
+    qdot_symbol_domain(pool, E, QDOT_ZERO, true, QDOT_NIL, false);
+    for (int i = 0; i < 2; i++) {
+        qdot_expr one = qdot_div(pool, QDOT_ONE, E);
+
+        from[i] = f->gen[sh->var[i]].expr;
+        to[i] = f->gen[sh->var[i]].kind == QDOT_GEN_COSH ? qdot_add(pool, E, one)
+                                                         : qdot_sub(pool, E, one);
+        to[i] = qdot_mul(pool, QDOT_HALF, to[i]);
+    }
+    e = qdot_subs(pool, qdot_field_expr(f, p), 2, from, to);
+    inner.f = e;
+    status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_solver_equation(&inner, e, QDOT_NIL);
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++)
+        status = qdot_solver_equation(
+            s, qdot_sub(pool, u, qdot_fun1(pool, QDOT_LOG, found.root.at[i].value)),
+            qdot_conditions_and(
+                pool, qdot_conditions_all(pool, when, found.root.at[i].condition),
+                qdot_condition(pool, found.root.at[i].value, true, s->facts)));
+    for (size_t i = 0; i < found.divisor.n && status == QDOT_OK; i++)
+        status = qdot_solver_divide(s, found.divisor.at[i]);
+    s->out->complete = s->out->complete && found.complete;
+    qdot_solutions_clear(&found);
+    return status;
+}
+
+/* A + B r = 0 with r^q = b: A^q = (-B)^q b, where r = -A/B is not negative. */
+static qdot_status
+root_and_rest(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    size_t at = f->gen[sh->var[0]].kind == QDOT_GEN_ROOT ? 1 : 0;
+    const qdot_gen *root;
+    qdot_expr A, B;
+
+    if (at == 1) /* var1 the root */
+        exchange(sh);
+    root = &f->gen[sh->var[1]];
+    if (root->kind != QDOT_GEN_ROOT || sh->degree[1] != 1) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    A = slice(f, sh, 0);
+    B = qdot_neg(pool, slice(f, sh, 1));
+    when = qdot_conditions_and(pool, when,
+                               qdot_rel(pool, QDOT_LE, QDOT_ZERO, qdot_mul(pool, A, B)));
+    A = qdot_sub(pool, qdot_pow_int(pool, A, root->order),
+                 qdot_mul(pool, qdot_pow_int(pool, B, root->order), root->of));
+    return qdot_solver_equation(s, A, when);
+}
+
+/* g(x) = v for a generator g. */
+static qdot_status
+generator_is(qdot_solver *s, const qdot_gen *gen, qdot_expr v, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+
+    if (gen->expr == s->x)
+        return qdot_solver_add(s, v, QDOT_NIL, when);
+    if (gen->kind == QDOT_GEN_ROOT) {
+        when = qdot_conditions_and(pool, when, qdot_condition(pool, v, false, s->facts));
+        return qdot_solver_equation(
+            s, qdot_sub(pool, gen->of, qdot_pow_int(pool, v, gen->order)), when);
+    }
+    if (qdot_expr_kind(pool, gen->expr) == QDOT_FUN && qdot_expr_count(pool, gen->expr) == 1)
+        return qdot_solver_invert(s, gen->expr, v, when);
+    s->out->complete = false;
+    return QDOT_OK;
+}
+
+/* One generator g: values of g, then g(x) = value. */
+static qdot_status
+one_generator(qdot_solver *s, qdot_field *f, const shape *sh, qdot_expr when)
+{
+    const qdot_gen gen = f->gen[sh->var[0]];
+    qdot_expr *c = qdot_calloc((size_t)sh->degree[0] + 1, sizeof *c);
+    arguments values = {0};
+    qdot_status status = c == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (long k = 0; k <= sh->degree[0] && status == QDOT_OK; k++)
+        c[k] = coefficient(f, sh, (ulong)k, 0);
+    if (status == QDOT_OK)
+        status = polynomial(s, c, sh->degree[0], when, &values);
+    for (size_t i = 0; i < values.n && status == QDOT_OK; i++)
+        if (values.at[i].when != QDOT_FALSE)
+            status = generator_is(s, &gen, values.at[i].value, values.at[i].when);
+    qdot_free(c);
+    qdot_free(values.at);
+    return status;
+}
+
+/* Whether two generators are sine and cosine of one argument, circular or hyperbolic. */
+static bool
+is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind cosine)
+{
+    const qdot_gen *a = &f->gen[sh->var[0]], *b = &f->gen[sh->var[1]];
+
+    return a->kind != QDOT_GEN_ROOT && b->kind != QDOT_GEN_ROOT &&
+           a->pair == (uint32_t)sh->var[1] && (a->kind == sine || a->kind == cosine);
+}
+
+static qdot_status
+one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
+{
+    qdot_status status;
+    shape sh;
+
+    QDOT_TRY(qdot_interrupt_check());
+    status = shape_of(s, f, p, &sh);
+    if (status != QDOT_OK || sh.n == 0)
+        ;
+    else if (sh.n == 1)
+        status = one_generator(s, f, &sh, when);
+    else if (sh.n > 2)
+        s->out->complete = false;
+    else if (is_pair(f, &sh, QDOT_GEN_SIN, QDOT_GEN_COS))
+        status = sine_and_cosine(s, f, &sh, when);
+    else if (is_pair(f, &sh, QDOT_GEN_SINH, QDOT_GEN_COSH))
+        status = hyperbolic(s, f, p, &sh, when);
+    else
+        status = root_and_rest(s, f, &sh, when);
+    qdot_factor_ungroup(f, &sh.groups);
+    return status;
+}
+
+/* Every factor of e's numerator; where e is 0 identically, every x is a root. */
+static qdot_status
+by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
+{
+    qdot_expr prepared = qdot_prepare(s->pool, e);
+    qdot_factors factors;
+    qdot_status status = qdot_pool_check(s->pool);
+    qdot_field f;
+
+    QDOT_TRY(status);
+    qdot_field_begin(&f, s->pool, 1, &prepared, WORK);
+    if (qdot_field_goes(&f)) {
+        qdot_ratio r;
+
+        qdot_field_cancelled(&f, &r, prepared);
+        if (qdot_field_goes(&f) && fmpz_mpoly_is_zero(r.n, f.ctx)) {
+            status = qdot_solver_add(s, s->x, QDOT_NIL, when);
+        } else if (qdot_field_goes(&f)) {
+            status = qdot_factor(&f, &factors, r.n);
+            for (slong i = 0; i < factors.n && status == QDOT_OK; i++)
+                status = one_factor(s, &f, factors.poly + i, when);
+            qdot_factor_clear(&f, &factors);
+        }
+        qdot_ratio_clear(&f, &r);
+    }
+    if (f.state == QDOT_FIELD_FAILED && status == QDOT_OK)
+        status = f.status;
+    if (!qdot_field_goes(&f))
+        s->out->complete = false;
+    qdot_field_end(&f);
+    return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
+}
+
+qdot_status
+qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
+{
+    qdot_expr choice;
+    qdot_status status = qdot_pool_check(s->pool);
+
+    if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* a value that is defined nowhere */
+        return QDOT_OK;
+    QDOT_TRY(status);
+    if (s->depth >= MOST_DEPTH) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    s->depth++;
+    choice = qdot_solver_choice(s->pool, e, s->x);
+    status = choice == QDOT_NIL ? by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);
+    s->depth--;
+    return status;
+}

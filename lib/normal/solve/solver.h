@@ -1,0 +1,49 @@
+/* solver.h -- the state of one qdot_solve, for the files of normal/solve/. */
+#ifndef QDOT_NORMAL_SOLVER_H
+#define QDOT_NORMAL_SOLVER_H
+
+#include "normal/field/factor.h"
+#include "normal/solve/solutions.h"
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr f, x;
+    const qdot_facts *facts;
+    qdot_solutions *out;
+    int depth; /* of functions inverted */
+    qdot_status status;
+} qdot_solver;
+
+/* In all of these `when` is a set of conditions; those that hold x are decided at each root. */
+
+/* Every x with e = 0, e an expression in x (solver.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when);
+/* The root `value`, with a period or nil, if it is one (solver.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period,
+                                            qdot_expr when);
+/* Whether a value is a whole number of periods away from those of a family (solver.c). */
+bool qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_expr value);
+/* Note that d, without x, was divided by (solver.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_divide(qdot_solver *s, qdot_expr d);
+/* e simplified (solver.c). */
+qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
+/* 0 < gap as a condition (solver.c): 0 <= gap where unknowns other than parameters occur. */
+qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
+
+/* g(x) = v for an elementary function g of one argument (solve-inverse.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v,
+                                               qdot_expr when);
+/* x with u(x) = w[i] + 2 pi k (solve-inverse.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_turns(qdot_solver *s, qdot_expr u, size_t n,
+                                              const qdot_expr *w, qdot_expr when);
+/* a sin u + b cos u + d = 0 (solve-inverse.c). */
+QDOT_MUST_CHECK qdot_status qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a,
+                                              qdot_expr b, qdot_expr d, qdot_expr when);
+
+/* The innermost |u|, sign u, max, min or if(...) in e that holds x; nil: none; and e = 0 case by case
+ * (solve-cases.c). */
+qdot_expr qdot_solver_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
+QDOT_MUST_CHECK qdot_status qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice,
+                                              qdot_expr when);
+
+#endif
