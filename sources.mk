@@ -310,6 +310,7 @@ library_sources = \
 	lib/normal/prove/zero.c \
 	lib/normal/refute/ball.c \
 	lib/normal/refute/constant.c \
+	lib/normal/refute/enclosure.c \
 	lib/normal/refute/sample-edge.c \
 	lib/normal/refute/sample-solve.c \
 	lib/normal/refute/sample.c \
@@ -330,6 +331,12 @@ library_sources = \
 	lib/normal/solve/solve-sort.c \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
+	lib/normal/solve/zeros-box.c \
+	lib/normal/solve/zeros-exact.c \
+	lib/normal/solve/zeros-multiple.c \
+	lib/normal/solve/zeros-places.c \
+	lib/normal/solve/zeros-systems.c \
+	lib/normal/solve/zeros.c \
 	lib/num/articulated.c \
 	lib/num/batch.c \
 	lib/num/bordered.c \
@@ -339,6 +346,7 @@ library_sources = \
 	lib/num/eigenmodes.c \
 	lib/num/eigenvalues.c \
 	lib/num/hermite.c \
+	lib/num/interval.c \
 	lib/num/kinds.c \
 	lib/num/ldlt.c \
 	lib/num/least-move.c \
@@ -864,6 +872,7 @@ library_headers = \
 	lib/normal/prove/zero.h \
 	lib/normal/refute/ball.h \
 	lib/normal/refute/constant.h \
+	lib/normal/refute/enclosure.h \
 	lib/normal/refute/sample.h \
 	lib/normal/simplify/positive.h \
 	lib/normal/simplify/rationalize.h \
@@ -878,6 +887,9 @@ library_headers = \
 	lib/normal/solve/solutions.h \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
+	lib/normal/solve/zeros-parts.h \
+	lib/normal/solve/zeros-task.h \
+	lib/normal/solve/zeros.h \
 	lib/num/arb.h \
 	lib/num/articulated-plane.def \
 	lib/num/articulated.def \
@@ -893,6 +905,7 @@ library_headers = \
 	lib/num/eigenmodes.h \
 	lib/num/eigenvalues.h \
 	lib/num/hermite.h \
+	lib/num/interval.h \
 	lib/num/kinds.h \
 	lib/num/ldlt.h \
 	lib/num/least-move.h \
@@ -1244,6 +1257,7 @@ unit_tests = \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
 	tests/normal/test_verdicts \
+	tests/normal/test_zeros \
 	tests/num/test_articulated \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
@@ -1533,6 +1547,7 @@ script_tests = \
 	tests/script/several.sh \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
+	tests/script/solution-sets.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \

@@ -17,11 +17,8 @@
 #ifndef QDOT_TAPE_INTERVAL_H
 #define QDOT_TAPE_INTERVAL_H
 
+#include "num/interval.h"
 #include "tape/tape.h"
-
-typedef struct {
-    double lo, hi;
-} qdot_interval;
 
 /* Intervals of work space needed. */
 size_t qdot_interval_work(const qdot_tape *tape);

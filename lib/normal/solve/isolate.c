@@ -31,7 +31,7 @@ qdot_isolate_begin(qdot_isolate *s, qdot_pool *pool, size_t n, const qdot_expr *
 
     *s = (qdot_isolate){.pool = pool, .n = n, .x = x};
     s->f = qdot_calloc(n + n * n + 1, sizeof *s->f);
-    s->C = qdot_calloc(2 * n * n + 1, sizeof *s->C);
+    s->C = qdot_calloc(2 * n * n + n + 1, sizeof *s->C);
     s->at = qdot_malloc((3 * n + 1) * sizeof *s->at);
     status = s->f == NULL || s->C == NULL || s->at == NULL ? QDOT_ENOMEM : QDOT_OK;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
@@ -49,6 +49,7 @@ qdot_isolate_begin(qdot_isolate *s, qdot_pool *pool, size_t n, const qdot_expr *
         return status;
     }
     s->work = s->C + n * n;
+    s->unique = s->work + n * n;
     s->y = s->at + n;
     s->z = s->y + n;
     for (size_t i = 0; i < 3 * n; i++)
@@ -222,6 +223,7 @@ qdot_isolate_prove(qdot_isolate *s, double *x0, double *radius)
         for (size_t i = 0; i < n; i++) {
             mag_t most;
 
+            s->unique[i] = r[i];
             mag_init(most);
             arb_get_mag(most, s->z + i);
             radius[i] = mag_get_d(most) * 1.0000001;

@@ -26,6 +26,7 @@ typedef struct {
     arb_ptr at;         /* [n] present values of x */
     arb_ptr y, z;       /* [n] work */
     double *C, *work;   /* [n * n] */
+    double *unique;     /* [n] after a proof: the zero is the only one within so far of x0 */
 } qdot_isolate;
 
 /* For f [n] that contain only the symbols x [n] and pi. Errors:

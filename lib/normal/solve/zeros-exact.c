@@ -1,0 +1,117 @@
+/* zeros-exact.c -- exact numbers that a zero may be, and exact tests of them. */
+#include <math.h>
+
+#include "expr/calculus.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
+#include "normal/solve/zeros-parts.h"
+
+enum { BITS = 128, FRACTION = 100000, PART = 120 };
+
+/* The fraction of the least denominator in lo ... hi; false: none below `most`. */
+static bool
+simplest(double lo, double hi, long most, long *p, long *q)
+{
+    long a = 0, b = 1, c = 1,
+         d = 0; /* a/b < x < c/d in the tree of fractions of x >= 0 */
+    bool minus = hi < 0;
+
+    *p = 0, *q = 1;
+    if (!(lo <= hi) || fabs(lo) > 1e9 || fabs(hi) > 1e9)
+        return false;
+    if (lo <= 0 && hi >= 0)
+        return true;
+    if (minus) {
+        double was = lo;
+
+        lo = -hi;
+        hi = -was;
+    }
+    a = (long)floor(lo);
+    c = a + 1, d = 1;
+    if (a >= lo)
+        c = a;
+    if (c <= hi) { /* an integer */
+        *p = minus ? -c : c;
+        return true;
+    }
+    while (b + d <= most) {
+        double middle = (double)(a + c) / (double)(b + d);
+
+        if (middle < lo) {
+            long n = (long)fmin((double)most, ((double)b * lo - (double)a) /
+                                                  ((double)c - (double)d * lo));
+
+            n = n < 1 ? 1 : n;
+            a += n * c, b += n * d;
+        } else if (middle > hi) {
+            long n = (long)fmin((double)most, ((double)c - (double)d * hi) /
+                                                  ((double)b * hi - (double)a));
+
+            n = n < 1 ? 1 : n;
+            c += n * a, d += n * b;
+        } else {
+            *p = minus ? -(a + c) : a + c;
+            *q = b + d;
+            return true;
+        }
+    }
+    return false;
+}
+
+qdot_expr
+qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k)
+{
+    double unit = k == 0 ? 1 : M_PI;
+    long p, q;
+
+    if (k > 1 || !simplest(X.lo / unit, X.hi / unit, k == 0 ? FRACTION : PART, &p, &q) ||
+        (k == 1 && p == 0))
+        return QDOT_NIL;
+    return qdot_mul(pool, qdot_expr_ratio(pool, p, q), k == 0 ? QDOT_ONE : QDOT_PI);
+}
+
+qdot_status
+qdot_zeros_vanish(qdot_pool *pool, size_t m, const qdot_expr *f, size_t n,
+                  const qdot_expr *x, const qdot_expr *value, bool *yes)
+{
+    *yes = true;
+    for (size_t i = 0; i < m && *yes; i++) {
+        qdot_expr at = qdot_subs(pool, f[i], n, x, value);
+        qdot_status status = qdot_pool_check(pool);
+
+        if (status == QDOT_EDOMAIN) /* not defined there */
+            *yes = false;
+        else
+            QDOT_TRY(status);
+        if (*yes && at != QDOT_ZERO)
+            *yes = qdot_is_zero(pool, at, NULL);
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    return QDOT_OK;
+}
+
+qdot_interval
+qdot_zeros_constant(qdot_pool *pool, qdot_expr e)
+{
+    qdot_interval bounds = qdot_interval_whole;
+    qdot_ball ball;
+    arb_srcptr v;
+
+    if (qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK)
+        return bounds;
+    qdot_ball_eval(&ball, BITS, NULL, NULL);
+    v = qdot_ball_get(&ball, e);
+    if (v != NULL) {
+        arf_t end;
+
+        arf_init(end);
+        arb_get_lbound_arf(end, v, BITS);
+        bounds.lo = arf_get_d(end, ARF_RND_FLOOR);
+        arb_get_ubound_arf(end, v, BITS);
+        bounds.hi = arf_get_d(end, ARF_RND_CEIL);
+        arf_clear(end);
+    }
+    qdot_ball_end(&ball);
+    return bounds;
+}

@@ -1,0 +1,267 @@
+/* zeros-multiple.c -- one unknown: places where no simple zero can be proved in doubles.
+ *
+ * If f, f' .. f^(k-1) vanish at c, exactly, and f^(k) does not vanish on an interval about c, then c is the
+ * only zero in there, of multiplicity k. Else balls with more bits tell close zeros apart. */
+#include <math.h>
+
+#include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "normal/refute/ball.h"
+#include "normal/solve/zeros-parts.h"
+
+enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000 };
+
+/* --- exact candidates ------------------------------------------------------------------------------- */
+
+/* Whether f rises or falls on either side of c, perhaps with a kink there. */
+static bool
+is_monotone_aside(qdot_zeros_system *s, qdot_interval c, qdot_interval X)
+{
+    const qdot_interval sides[] = {{X.lo, c.lo}, {c.hi, X.hi}};
+    bool yes = c.lo == c.hi;
+
+    for (int k = 0; k < 2 && yes; k++) {
+        const qdot_enclosure_value *v;
+
+        qdot_enclosure_eval(s->bounds, &sides[k], true);
+        s->evaluations++;
+        v = qdot_enclosure_get(s->bounds, 0);
+        yes = v->state == QDOT_ENCLOSURE_WHOLE &&
+              (v->slope[0].lo > 0 || v->slope[0].hi < 0);
+    }
+    return yes;
+}
+
+/* Whether c is proved the only zero within X; *k its multiplicity. */
+static qdot_status
+is_only_zero(qdot_zeros_system *s, qdot_expr c, qdot_interval X, int *k)
+{
+    qdot_expr f = s->f[0];
+    bool vanishes;
+
+    for (*k = 0; *k <= MULTIPLICITY; ++*k) {
+        qdot_enclosure *bounds;
+        const qdot_enclosure_value *v;
+        bool nonzero;
+
+        QDOT_TRY(qdot_enclosure_new(s->pool, 1, &f, 1, s->x, &bounds));
+        qdot_enclosure_eval(bounds, &X, false);
+        v = qdot_enclosure_get(bounds, 0);
+        nonzero = v->state == QDOT_ENCLOSURE_WHOLE && (v->y.lo > 0 || v->y.hi < 0);
+        qdot_enclosure_free(bounds);
+        s->evaluations++;
+        if (nonzero)
+            return QDOT_OK;
+        QDOT_TRY(qdot_zeros_vanish(s->pool, 1, &f, 1, s->x, &c, &vanishes));
+        if (!vanishes)
+            break;
+        f = qdot_diff(s->pool, f, s->x[0]);
+        QDOT_TRY(qdot_pool_check(s->pool));
+    }
+    *k = 0;
+    return QDOT_OK;
+}
+
+/* The place in doubt, X, as one exact zero. */
+static qdot_status
+decide_exactly(qdot_zeros_system *s, qdot_expr ends, qdot_interval X, bool *decided)
+{
+    double more = X.hi - X.lo + 1e-9 * fmax(fabs(X.lo), 1e-3);
+    qdot_interval wide = {X.lo - more, X.hi + more};
+    uint32_t n = qdot_expr_count(s->pool, ends);
+
+    *decided = false;
+    for (uint32_t i = 0; i < n + 2 && !*decided; i++) {
+        qdot_expr c = i < n ? qdot_expr_arg(s->pool, ends, i)
+                            : qdot_zeros_candidate(s->pool, X, (int)(i - n));
+        qdot_zero_place place = {.simple = false};
+        qdot_interval at;
+        int k;
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        if (c == QDOT_NIL)
+            continue;
+        at = qdot_zeros_constant(s->pool, c);
+        if (!(at.lo >= wide.lo && at.hi <= wide.hi))
+            continue;
+        QDOT_TRY(is_only_zero(s, c, wide, &k));
+        if (k == 0) {
+            bool only = false;
+
+            QDOT_TRY(qdot_zeros_vanish(s->pool, 1, s->f, 1, s->x, &c, &only));
+            if (!only || !is_monotone_aside(s, at, wide))
+                continue;
+        }
+        place.at[0] = at.lo / 2 + at.hi / 2;
+        place.radius[0] = fmax(at.hi - place.at[0], place.at[0] - at.lo);
+        place.alone[0] = wide;
+        place.simple = k == 1;
+        QDOT_TRY(qdot_vec_push(&s->found, place));
+        *decided = true;
+    }
+    return QDOT_OK;
+}
+
+/* --- more bits -------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    qdot_zeros_system *s;
+    qdot_expr e[2]; /* f, f' */
+    qdot_ball ball;
+    arb_t at;
+    int steps;
+} fine;
+
+static bool
+value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+{
+    fine *d = user;
+
+    (void)prec;
+    if (atom != d->s->x[0])
+        return false;
+    arb_set(value, d->at);
+    return true;
+}
+
+/* The sign of e[i] over lo .. hi (a point where they are equal); 0: not known. */
+static int
+sign_over(fine *d, int i, const arf_t lo, const arf_t hi)
+{
+    arb_srcptr v;
+
+    d->steps++;
+    d->s->evaluations += 4;
+    arb_set_interval_arf(d->at, lo, hi, BITS);
+    qdot_ball_eval(&d->ball, BITS, value_of, d);
+    v = qdot_ball_get(&d->ball, d->e[i]);
+    return v == NULL ? 0 : arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0;
+}
+
+/* The zero between lo and hi, where f rises or falls, to a double. */
+static qdot_status
+push_zero(fine *d, arf_t lo, arf_t hi, int below)
+{
+    qdot_zero_place place = {.simple = true};
+    arf_t m;
+
+    arf_init(m);
+    place.alone[0] =
+        (qdot_interval){arf_get_d(lo, ARF_RND_CEIL), arf_get_d(hi, ARF_RND_FLOOR)};
+    for (int k = 0;
+         k < DEPTH && arf_get_d(lo, ARF_RND_NEAR) != arf_get_d(hi, ARF_RND_NEAR); k++) {
+        int sign;
+
+        arf_add(m, lo, hi, BITS, ARF_RND_NEAR);
+        arf_mul_2exp_si(m, m, -1);
+        sign = sign_over(d, 0, m, m);
+        if (sign == 0)
+            break;
+        arf_set(sign == below ? lo : hi, m);
+    }
+    place.at[0] = arf_get_d(lo, ARF_RND_NEAR);
+    arf_sub_si(m, hi, 0, BITS, ARF_RND_CEIL);
+    place.radius[0] = fmax(arf_get_d(hi, ARF_RND_CEIL) - place.at[0],
+                           place.at[0] - arf_get_d(lo, ARF_RND_FLOOR));
+    arf_clear(m);
+    if (!(place.alone[0].lo <= place.at[0] - place.radius[0] &&
+          place.alone[0].hi >= place.at[0] + place.radius[0]))
+        place.alone[0] =
+            (qdot_interval){place.at[0] - place.radius[0], place.at[0] + place.radius[0]};
+    return qdot_vec_push(&d->s->found, place);
+}
+
+/* Zeros in lo .. hi; what cannot be decided is pushed back as a doubt. */
+static qdot_status
+refine(fine *d, const arf_t lo, const arf_t hi, int depth)
+{
+    int a = sign_over(d, 0, lo, lo), b = sign_over(d, 0, hi, hi);
+    qdot_status status = QDOT_OK;
+
+    if (sign_over(d, 0, lo, hi) != 0)
+        return QDOT_OK;
+    if (d->steps > STEPS || depth > DEPTH || a == 0 || b == 0) {
+        qdot_zero_box left = {
+            .at = {{arf_get_d(lo, ARF_RND_FLOOR), arf_get_d(hi, ARF_RND_CEIL)}}};
+
+        return qdot_vec_push(&d->s->doubt, left);
+    }
+    if (sign_over(d, 1, lo, hi) != 0) { /* it rises or falls */
+        arf_t x, y;
+
+        if (a == b)
+            return QDOT_OK;
+        arf_init(x);
+        arf_init(y);
+        arf_set(x, lo);
+        arf_set(y, hi);
+        status = push_zero(d, x, y, a);
+        arf_clear(x);
+        arf_clear(y);
+    } else {
+        arf_t m;
+
+        arf_init(m); /* not halved: zeros like to be in the middle */
+        arf_sub(m, hi, lo, BITS, ARF_RND_NEAR);
+        arf_mul_si(m, m, 31, BITS, ARF_RND_NEAR);
+        arf_mul_2exp_si(m, m, -6);
+        arf_add(m, m, lo, BITS, ARF_RND_NEAR);
+        status = refine(d, lo, m, depth + 1);
+        if (status == QDOT_OK)
+            status = refine(d, m, hi, depth + 1);
+        arf_clear(m);
+    }
+    return status;
+}
+
+static qdot_status
+decide_by_bits(qdot_zeros_system *s, qdot_interval X)
+{
+    fine d = {.s = s, .e = {s->f[0], qdot_diff(s->pool, s->f[0], s->x[0])}};
+    double more = 0.1 * (X.hi - X.lo) + 1e-13 * fmax(fabs(X.lo), 1e-3);
+    qdot_status status;
+    bool jumps;
+    arf_t lo, hi;
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    QDOT_TRY(qdot_jumps(s->pool, s->f[0], UINT32_MAX, &jumps));
+    if (jumps)
+        return qdot_vec_push(&s->doubt, (qdot_zero_box){.at = {X}});
+    QDOT_TRY(qdot_ball_begin(&d.ball, s->pool, 2, d.e));
+    arb_init(d.at);
+    arf_init(lo);
+    arf_init(hi);
+    arf_set_d(lo, X.lo - more);
+    arf_set_d(hi, X.hi + more);
+    status = refine(&d, lo, hi, 0);
+    arf_clear(lo);
+    arf_clear(hi);
+    arb_clear(d.at);
+    qdot_ball_end(&d.ball);
+    return status;
+}
+
+qdot_status
+qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
+{
+    size_t n = s->doubt.n;
+    qdot_zero_box *before = s->doubt.at;
+    qdot_status status = QDOT_OK;
+
+    s->doubt.at = NULL;
+    s->doubt.n = s->doubt.capacity = 0;
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_interval X = before[i].at[0];
+        bool decided;
+
+        status = qdot_interrupt_check();
+        if (status == QDOT_OK)
+            status = decide_exactly(s, ends, X, &decided);
+        if (status == QDOT_OK && !decided && isfinite(X.lo) && isfinite(X.hi))
+            status = decide_by_bits(s, X);
+        else if (status == QDOT_OK && !decided)
+            status = qdot_vec_push(&s->doubt, before[i]);
+    }
+    qdot_free(before);
+    return status;
+}

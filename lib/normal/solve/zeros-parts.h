@@ -1,0 +1,115 @@
+/* zeros-parts.h -- the search for zeros in one box. Internal to zeros*.c. */
+#ifndef QDOT_NORMAL_ZEROS_PARTS_H
+#define QDOT_NORMAL_ZEROS_PARTS_H
+
+#include "base/memory.h"
+#include "normal/refute/enclosure.h"
+#include "normal/solve/isolate.h"
+#include "normal/solve/zeros.h"
+
+enum { QDOT_ZEROS_DOUBTS = 4000 }; /* boxes not decided; more: the search ends */
+
+/* A zero proved in one system. */
+typedef struct {
+    double at[QDOT_ZEROS_MOST_UNKNOWNS], radius[QDOT_ZEROS_MOST_UNKNOWNS];
+    qdot_interval
+        alone[QDOT_ZEROS_MOST_UNKNOWNS]; /* the only zero of its system in there */
+    bool simple;
+} qdot_zero_place;
+
+typedef struct {
+    qdot_interval at[QDOT_ZEROS_MOST_UNKNOWNS];
+} qdot_zero_box;
+
+/* A system of equations f = 0 with all that is found of it. */
+typedef struct {
+    qdot_pool *pool;
+    size_t n;
+    const qdot_expr *f, *x; /* [n] borrowed */
+    qdot_enclosure *bounds; /* of f */
+    qdot_enclosure
+        *also; /* of `others` more expressions that vanish at each zero; NULL: none */
+    size_t others;
+    double least; /* a box is not halved where all its widths are smaller */
+    qdot_isolate isolate;
+    uint64_t evaluations, budget;
+    qdot_vec(qdot_zero_box) todo, small, doubt; /* small: of todo, for later */
+    bool late;                                  /* these are being searched */
+    qdot_vec(qdot_zero_place) found;
+    bool exhausted;
+} qdot_zeros_system;
+
+QDOT_MUST_CHECK qdot_status qdot_zeros_system_begin(qdot_zeros_system *s, qdot_pool *pool,
+                                                    size_t n, const qdot_expr *f,
+                                                    const qdot_expr *x);
+void qdot_zeros_system_end(qdot_zeros_system *s); /* in any case */
+
+/* Search the boxes of s->todo; to s->found and s->doubt. (zeros-box.c) */
+QDOT_MUST_CHECK qdot_status qdot_zeros_search(qdot_zeros_system *s);
+
+/* Newton's steps from x0 [n] to a zero and its proof; false where that fails. */
+bool qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place);
+
+/* Whether the slopes of the latest evaluation, [n] by [n], are regular all over its box. */
+bool qdot_zeros_is_regular(const qdot_enclosure *bounds, size_t n);
+
+/* Boxes of s->doubt that touch each other become one. */
+void qdot_zeros_join(qdot_zeros_system *s);
+
+/* One unknown: decide boxes of s->doubt by derivatives at exact candidates, then with more bits.
+ * ends: LIST of exact candidates. (zeros-multiple.c) */
+QDOT_MUST_CHECK qdot_status qdot_zeros_decide_doubts(qdot_zeros_system *s,
+                                                     qdot_expr ends);
+
+/* --- exact candidates (zeros-exact.c) ---- */
+/* The k-th exact number that may be meant by a value within X: the simplest fraction, the simplest part
+ * of pi; nil: there is none. */
+qdot_expr qdot_zeros_candidate(qdot_pool *pool, qdot_interval X, int k);
+/* Whether f [m] all vanish at x = value [n], proved. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_vanish(qdot_pool *pool, size_t m,
+                                              const qdot_expr *f, size_t n,
+                                              const qdot_expr *x, const qdot_expr *value,
+                                              bool *yes);
+/* Bounds of a constant; the whole line if it has no value. */
+qdot_interval qdot_zeros_constant(qdot_pool *pool, qdot_expr e);
+
+/* --- systems (zeros-systems.c) ---- */
+/* The factors of f's numerator that may vanish, a LIST; f itself where writing it as a product gives nothing. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n,
+                                               const qdot_expr *x, qdot_expr *list);
+
+/* One of the charts that cover what lies beyond |x| = R; or what lies near a point. */
+typedef struct {
+    size_t n;
+    int8_t sign
+        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_j = sign/s: of the one that is largest in its group; 0: none */
+    int8_t inverse
+        [QDOT_ZEROS_MOST_UNKNOWNS]; /* x_i = y_i/s, s that of unknown inverse[i]; -1: x_i itself */
+    bool near; /* instead: x_j = centre_j + sign s, x_i = centre_i + s y_i */
+    qdot_expr centre[QDOT_ZEROS_MOST_UNKNOWNS];
+    qdot_expr y[QDOT_ZEROS_MOST_UNKNOWNS]; /* the chart's unknowns */
+    qdot_zero_box box;
+} qdot_zeros_chart;
+
+/* The k-th chart; k = 0: the box within R itself. lo, hi [n]: bounds of the ranges. *out->n = 0: there is no k-th. */
+void qdot_zeros_chart_at(qdot_pool *pool, size_t n, const qdot_expr *x,
+                         const qdot_zeros_range *range, const qdot_interval *bounds,
+                         size_t k, qdot_zeros_chart *out);
+/* The k-th chart, k < 2 n, of what lies within `reach` of the point. */
+void qdot_zeros_chart_near(qdot_pool *pool, size_t n, const qdot_expr *centre,
+                           double reach, size_t k, qdot_zeros_chart *out);
+/* to [n] = f [n] in the chart's unknowns. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_chart_put(qdot_pool *pool, const qdot_expr *x,
+                                                 const qdot_zeros_chart *chart,
+                                                 const qdot_expr *f, qdot_expr *to);
+/* Clear such f [n] of s and of what never vanishes; *empty: one of them never does. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_chart_clear(qdot_pool *pool,
+                                                   const qdot_zeros_chart *chart,
+                                                   qdot_expr *f, bool *empty);
+/* x of a place of the chart. */
+void qdot_zeros_chart_place(const qdot_zeros_chart *chart, const double *y, double *x);
+/* Whether f waves or jumps however far an unbounded unknown is: perhaps without end. */
+bool qdot_zeros_is_wild(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_expr *x,
+                        const qdot_zeros_range *range);
+
+#endif

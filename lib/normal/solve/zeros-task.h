@@ -1,0 +1,43 @@
+/* zeros-task.h -- what the search for all zeros knows of its question. Internal to zeros*.c. */
+#ifndef QDOT_NORMAL_ZEROS_TASK_H
+#define QDOT_NORMAL_ZEROS_TASK_H
+
+#include "normal/solve/zeros-parts.h"
+
+enum { QDOT_ZEROS_SYSTEMS = 64 };
+
+/* A zero with the system that it was found in. */
+typedef struct {
+    qdot_zero_place place;
+    size_t system;
+} qdot_zeros_member;
+
+typedef struct {
+    qdot_pool *pool;
+    size_t n;
+    const qdot_expr *F, *x;
+    const qdot_zeros_range *range;
+    qdot_interval bounds[QDOT_ZEROS_MOST_UNKNOWNS]; /* of the ranges, outward */
+    qdot_interval lo[QDOT_ZEROS_MOST_UNKNOWNS],
+        hi[QDOT_ZEROS_MOST_UNKNOWNS];                          /* bounds of their ends */
+    qdot_expr ends[QDOT_ZEROS_MOST_UNKNOWNS];                  /* LISTs of exact ends */
+    qdot_expr f[QDOT_ZEROS_SYSTEMS][QDOT_ZEROS_MOST_UNKNOWNS]; /* the systems */
+    size_t systems;
+    qdot_vec(qdot_zeros_member) found;
+    qdot_vec(qdot_zero_box) doubt;
+    uint64_t budget, spent, evaluations;
+    bool exhausted, beyond;
+} qdot_zeros_task;
+
+/* (zeros-places.c) */
+/* Exact values within the place at which f [n] vanish: value [n]; *found. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_exact_place(const qdot_zeros_task *t,
+                                                   const qdot_expr *f,
+                                                   const qdot_zero_place *p,
+                                                   qdot_expr *value, bool *found);
+/* A zero p of the system: into the list, unless it is outside, known, or F is not defined there. `again`: it
+ * may have been found before in the same system. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_add(qdot_zeros_task *t, size_t system,
+                                           qdot_zero_place p, bool again);
+
+#endif

@@ -1,0 +1,403 @@
+/* zeros.c -- all zeros in a box: systems, charts, ends; what is found put together. */
+#include "normal/solve/zeros.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "normal/solve/zeros-task.h"
+
+enum {
+    MOST = QDOT_ZEROS_MOST_UNKNOWNS,
+
+    NEARBY = 4000,
+    PLACES = 20
+};
+
+/* Evaluations for n unknowns, where nothing else is said; of more nodes than SHORT each counts more. */
+static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000};
+enum { SHORT = 50 };
+
+/* --- ranges ----------------------------------------------------------------------------------------- */
+
+static qdot_status
+read_ranges(qdot_zeros_task *t)
+{
+    for (size_t j = 0; j < t->n; j++) {
+        const qdot_zeros_range *r = &t->range[j];
+        qdot_expr both[2];
+        uint32_t count = 0;
+
+        t->lo[j] = qdot_interval_point(-INFINITY);
+        t->hi[j] = qdot_interval_point(INFINITY);
+        if (!r->turn && r->lo != QDOT_NIL)
+            t->lo[j] = qdot_zeros_constant(t->pool, both[count++] = r->lo);
+        if (!r->turn && r->hi != QDOT_NIL)
+            t->hi[j] = qdot_zeros_constant(t->pool, both[count++] = r->hi);
+        t->ends[j] = qdot_list(t->pool, count, both);
+        t->bounds[j] = (qdot_interval){t->lo[j].lo, t->hi[j].hi};
+        if (r->turn)
+            t->bounds[j] = (qdot_interval){-nextafter(M_PI, 4), nextafter(M_PI, 4)};
+        if (!(t->bounds[j].lo <= t->bounds[j].hi))
+            t->bounds[j].hi = t->bounds[j].lo; /* empty, or one point */
+    }
+    return qdot_pool_check(t->pool);
+}
+
+/* --- systems ---------------------------------------------------------------------------------------- */
+
+/* Every choice of one factor of each equation. */
+static qdot_status
+split(qdot_zeros_task *t)
+{
+    qdot_expr lists[MOST];
+    size_t all = 1;
+
+    for (size_t i = 0; i < t->n; i++) {
+        QDOT_TRY(qdot_zeros_factors(t->pool, t->F[i], t->n, t->x, &lists[i]));
+        all *= qdot_expr_count(t->pool, lists[i]);
+        if (all > QDOT_ZEROS_SYSTEMS) { /* too many: equations as they stand */
+            all /= qdot_expr_count(t->pool, lists[i]);
+            lists[i] = qdot_list(t->pool, 1, &t->F[i]);
+        }
+    }
+    QDOT_TRY(qdot_pool_check(t->pool));
+    for (size_t k = 0; k < all; k++) {
+        size_t at = k;
+
+        for (size_t i = 0; i < t->n; i++) {
+            size_t m = qdot_expr_count(t->pool, lists[i]);
+
+            t->f[t->systems][i] = qdot_expr_arg(t->pool, lists[i], (uint32_t)(at % m));
+            at /= m;
+        }
+        t->systems++;
+    }
+    return QDOT_OK;
+}
+
+/* --- the search -------------------------------------------------------------------------------------------- */
+
+static qdot_status
+search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
+{
+    size_t nodes = qdot_enclosure_size(s->bounds);
+    uint64_t weight = nodes > SHORT ? nodes / SHORT : 1;
+    qdot_status status;
+
+    s->budget = t->budget > t->spent ? t->budget - t->spent : 0;
+    if (s->budget > most)
+        s->budget = most;
+    s->budget /= weight;
+    QDOT_TRY(qdot_vec_push(&s->todo, *box));
+    status = qdot_zeros_search(s);
+    t->evaluations += s->evaluations;
+    t->spent += s->evaluations * weight;
+    s->evaluations = 0;
+    return status;
+}
+
+/* Whether f [n] have no zero in the chart, proved. */
+static qdot_status
+is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_expr *of,
+               bool *empty)
+{
+    qdot_expr f[MOST];
+    qdot_zeros_system s;
+    qdot_status status = qdot_zeros_chart_put(t->pool, t->x, chart, of, f);
+
+    *empty = false;
+    if (status == QDOT_OK)
+        status = qdot_zeros_chart_clear(t->pool, chart, f, empty);
+    if (status == QDOT_EDOMAIN)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    if (*empty)
+        return QDOT_OK;
+    QDOT_TRY(qdot_zeros_system_begin(&s, t->pool, t->n, f, chart->y));
+    s.least = 1e-14;
+    status = search(t, &s, &chart->box, NEARBY);
+    *empty = s.found.n == 0 && s.doubt.n == 0 && !s.exhausted;
+    qdot_zeros_system_end(&s);
+    return status;
+}
+
+/* A place in doubt, in several unknowns: an exact point of it at which f [n] vanish, or F is not defined, and
+ * around which there is no zero. */
+static qdot_status
+decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
+             bool *decided, qdot_zero_place *place)
+{
+    qdot_expr centre[MOST];
+    double reach = 0;
+
+    *decided = false;
+    *place = (qdot_zero_place){.simple = false};
+    for (size_t j = 0; j < t->n; j++) {
+        place->at[j] = box->at[j].lo / 2 + box->at[j].hi / 2;
+        place->radius[j] =
+            box->at[j].hi / 2 - box->at[j].lo / 2 + 1e-14 * fabs(place->at[j]);
+        if (!(place->radius[j] < 1e-3))
+            return QDOT_OK;
+    }
+    QDOT_TRY(qdot_zeros_exact_place(t, f, place, centre, decided));
+    for (size_t j = 0; j < t->n && *decided; j++) {
+        qdot_interval c = qdot_zeros_constant(t->pool, centre[j]);
+
+        reach = fmax(reach, fmax(box->at[j].hi - c.lo, c.hi - box->at[j].lo));
+        place->at[j] = c.lo / 2 + c.hi / 2;
+        place->radius[j] = c.hi - c.lo;
+    }
+    for (size_t k = 0; k < 2 * t->n && *decided; k++) {
+        qdot_zeros_chart chart;
+
+        qdot_zeros_chart_near(t->pool, t->n, centre, 2 * reach, k, &chart);
+        QDOT_TRY(is_empty_chart(t, &chart, f, decided));
+    }
+    for (size_t j = 0; j < t->n; j++)
+        place->alone[j] = (qdot_interval){place->at[j] - reach, place->at[j] + reach};
+    return QDOT_OK;
+}
+
+/* The zeros of one system within R. */
+static qdot_status
+search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+            const qdot_zero_box *box)
+{
+    bool plain = true;
+
+    for (size_t i = 0; i < t->n; i++)
+        plain &= t->f[k][i] == t->F[i];
+    if (!plain) {
+        QDOT_TRY(qdot_enclosure_new(t->pool, t->n, t->F, t->n, t->x, &core->also));
+        core->others = t->n;
+    }
+    QDOT_TRY(search(t, core, box, UINT64_MAX));
+    t->exhausted |= core->exhausted;
+    qdot_zeros_join(core);
+    if (t->n == 1) {
+        QDOT_TRY(qdot_zeros_decide_doubts(core, t->ends[0]));
+        qdot_zeros_join(core);
+    }
+    for (size_t i = 0; i < core->found.n; i++)
+        QDOT_TRY(qdot_zeros_add(t, k, core->found.at[i], false));
+    for (size_t i = 0; i < core->doubt.n; i++) {
+        qdot_zero_place place;
+        bool decided = false;
+
+        if (t->n > 1 && core->doubt.n <= PLACES)
+            QDOT_TRY(decide_doubt(t, t->f[k], &core->doubt.at[i], &decided, &place));
+        if (decided)
+            QDOT_TRY(qdot_zeros_add(t, k, place, false));
+        else
+            QDOT_TRY(qdot_vec_push(&t->doubt, core->doubt.at[i]));
+    }
+    return QDOT_OK;
+}
+
+/* The zeros of one system in a chart beyond R. */
+static qdot_status
+search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+             const qdot_zeros_chart *chart, bool wild, bool *beyond)
+{
+    qdot_expr f[MOST], F[MOST];
+    qdot_zeros_system s;
+    qdot_status status;
+    bool empty;
+
+    status = qdot_zeros_chart_put(t->pool, t->x, chart, t->f[k], f);
+    if (status == QDOT_OK)
+        status = qdot_zeros_chart_put(t->pool, t->x, chart, t->F, F);
+    if (status == QDOT_OK)
+        status = qdot_zeros_chart_clear(t->pool, chart, f, &empty);
+    if (status == QDOT_EDOMAIN) {
+        *beyond = true;
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
+    if (empty)
+        return QDOT_OK;
+    QDOT_TRY(qdot_zeros_system_begin(&s, t->pool, t->n, f, chart->y));
+    s.least = wild ? 1e-4 : 1e-14;
+    s.others = t->n;
+    status = qdot_enclosure_new(t->pool, t->n, F, t->n, chart->y, &s.also);
+    if (status == QDOT_OK)
+        status = search(t, &s, &chart->box, t->budget / (wild ? 40 : 4));
+    *beyond |= s.doubt.n > 0 || s.exhausted;
+    for (size_t i = 0; i < s.found.n && status == QDOT_OK; i++) {
+        double at[MOST];
+        qdot_zero_place place;
+
+        qdot_zeros_chart_place(chart, s.found.at[i].at, at);
+        if (qdot_zeros_prove(core, at, &place))
+            status = qdot_zeros_add(t, k, place, true);
+        else
+            *beyond = true;
+    }
+    qdot_zeros_system_end(&s);
+    return status;
+}
+
+/* The charts beyond R, unknowns in groups as they are given or each by itself. */
+static qdot_status
+search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+              const qdot_zeros_range *range, bool *beyond)
+{
+    bool wild = qdot_zeros_is_wild(t->pool, t->n, t->f[k], t->x, range);
+
+    *beyond = false;
+    for (size_t c = 1;; c++) {
+        qdot_zeros_chart chart;
+
+        qdot_zeros_chart_at(t->pool, t->n, t->x, range, t->bounds, c, &chart);
+        if (chart.n == 0)
+            return QDOT_OK;
+        QDOT_TRY(search_chart(t, k, core, &chart, wild, beyond));
+        if (*beyond && !wild)
+            return QDOT_OK;
+    }
+}
+
+static qdot_status
+search_system(qdot_zeros_task *t, size_t k)
+{
+    qdot_zeros_range apart[MOST];
+    qdot_zeros_chart chart;
+    qdot_zeros_system core;
+    qdot_status status;
+    bool beyond = false;
+
+    QDOT_TRY(qdot_zeros_system_begin(&core, t->pool, t->n, t->f[k], t->x));
+    qdot_zeros_chart_at(t->pool, t->n, t->x, t->range, t->bounds, 0, &chart);
+    status = search_core(t, k, &core, &chart.box);
+    if (status == QDOT_OK)
+        status = search_beyond(t, k, &core, t->range, &beyond);
+    if (status == QDOT_OK && beyond &&
+        t->n > 1) { /* zeros at infinity of one form may be none of the other */
+        for (size_t j = 0; j < t->n; j++) {
+            apart[j] = t->range[j];
+            apart[j].group = (unsigned)j;
+        }
+        status = search_beyond(t, k, &core, apart, &beyond);
+    }
+    t->beyond |= beyond;
+    qdot_zeros_system_end(&core);
+    return status;
+}
+
+/* --- the answer -------------------------------------------------------------------------------------------- */
+
+static int
+by_place(const void *a, const void *b)
+{
+    const qdot_zeros_member *x = a, *y = b;
+
+    for (size_t j = 0; j < MOST; j++)
+        if (fabs(x->place.at[j] - y->place.at[j]) >
+            x->place.radius[j] + y->place.radius[j])
+            return x->place.at[j] < y->place.at[j] ? -1 : 1;
+    return 0;
+}
+
+/* Which of the zeros are simple zeros of F itself. */
+static qdot_status
+find_simple(qdot_zeros_task *t)
+{
+    qdot_enclosure *bounds;
+
+    QDOT_TRY(qdot_enclosure_new(t->pool, t->n, t->F, t->n, t->x, &bounds));
+    for (size_t k = 0; k < t->found.n; k++) {
+        qdot_zero_place *p = &t->found.at[k].place;
+        qdot_interval X[MOST];
+        bool plain = true;
+
+        for (size_t i = 0; i < t->n; i++)
+            plain &= t->f[t->found.at[k].system][i] == t->F[i];
+        if (plain || !p->simple)
+            continue;
+        for (size_t j = 0; j < t->n; j++)
+            X[j] = (qdot_interval){p->at[j] - p->radius[j], p->at[j] + p->radius[j]};
+        qdot_enclosure_eval(bounds, X, true);
+        for (size_t i = 0; i < t->n; i++)
+            p->simple &= qdot_enclosure_get(bounds, i)->state == QDOT_ENCLOSURE_WHOLE;
+        p->simple = p->simple && qdot_zeros_is_regular(bounds, t->n);
+    }
+    qdot_enclosure_free(bounds);
+    return QDOT_OK;
+}
+
+static qdot_status
+give(qdot_zeros_task *t, qdot_zeros *out)
+{
+    size_t n = t->n, count = t->found.n, doubts = t->doubt.n;
+
+    *out = (qdot_zeros){.n = n,
+                        .count = count,
+                        .doubts = doubts,
+                        .beyond = t->beyond,
+                        .exhausted = t->exhausted,
+                        .complete = !t->beyond && !t->exhausted && doubts == 0,
+                        .evaluations = t->evaluations};
+    out->at = qdot_calloc(2 * n * (count + doubts) + 1, sizeof *out->at);
+    out->simple = qdot_calloc(count + 1, sizeof *out->simple);
+    if (out->at == NULL || out->simple == NULL)
+        return QDOT_ENOMEM;
+    out->radius = out->at + n * count;
+    out->doubt = out->radius + n * count;
+    out->reach = out->doubt + n * doubts;
+    if (count > 1)
+        qsort(t->found.at, count, sizeof *t->found.at, by_place);
+    for (size_t k = 0; k < count; k++) {
+        const qdot_zero_place *p = &t->found.at[k].place;
+
+        out->simple[k] = p->simple;
+        for (size_t j = 0; j < n; j++) {
+            bool nothing = fabs(p->at[j]) <= p->radius[j] && p->radius[j] < 1e-14;
+
+            out->at[k * n + j] = nothing ? 0 : p->at[j]; /* 0 as far as is known */
+            out->radius[k * n + j] = p->radius[j] + (nothing ? fabs(p->at[j]) : 0);
+        }
+    }
+    for (size_t k = 0; k < doubts; k++)
+        for (size_t j = 0; j < n; j++) {
+            const qdot_interval *X = &t->doubt.at[k].at[j];
+
+            out->doubt[k * n + j] = X->lo / 2 + X->hi / 2;
+            out->reach[k * n + j] = X->hi / 2 - X->lo / 2;
+        }
+    return QDOT_OK;
+}
+
+void
+qdot_zeros_clear(qdot_zeros *z)
+{
+    qdot_free(z->at);
+    qdot_free(z->simple);
+    *z = (qdot_zeros){0};
+}
+
+qdot_status
+qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *x,
+                const qdot_zeros_range *range, uint64_t budget, qdot_zeros *out)
+{
+    qdot_zeros_task t = {.pool = pool, .n = n, .F = F, .x = x, .range = range};
+    qdot_status status;
+
+    *out = (qdot_zeros){0};
+    if (n == 0 || n > MOST)
+        return qdot_fail(QDOT_ETYPE, "zeros are searched in 1 to %d unknowns", MOST);
+    t.budget = budget == 0 ? usual[n] : budget;
+    status = read_ranges(&t);
+    if (status == QDOT_OK)
+        status = split(&t);
+    for (size_t k = 0; k < t.systems && status == QDOT_OK; k++)
+        status = search_system(&t, k);
+    if (status == QDOT_OK)
+        status = find_simple(&t);
+    if (status == QDOT_OK)
+        status = give(&t, out);
+    qdot_free(t.found.at);
+    qdot_free(t.doubt.at);
+    if (status != QDOT_OK)
+        qdot_zeros_clear(out);
+    return status;
+}

@@ -1,0 +1,66 @@
+/* zeros.h -- all real zeros of n equations in n unknowns within a box, in numbers and proved.
+ *
+ *     F_i(x_1 .. x_n) = 0,   lo_j < x_j < hi_j
+ *
+ * Boxes are halved until each is excluded or holds one zero. A box is excluded if the bounds of an F_i
+ * do not hold 0: those of its value, or of F_i(m) + F_i'(X) (X - m) about the middle m; or if
+ * Krawczyk's K(X) (normal/solve/isolate.h) misses it. It holds at most one if |1 - C F'(X)| < 1, and one if
+ * isolate.h proves the zero to which Newton's steps lead. Before that, the equations are written as products:
+ * each combination of factors is a system of its own, so multiple zeros become simple and
+ * denominators do not count.
+ *
+ * Unbounded unknowns: outside |x| <= R the charts x_j = +-1/s, x_i = y_i/s, |y_i| <= 1, 0 < s <= 1/R are
+ * searched like boxes, with the equations multiplied by the power of s that clears them. So polynomials, and whatever
+ * else has bounds at s -> 0, have no zero out there that is missed. Unknowns that grow apart (coordinates
+ * and multipliers) are in groups with an s each.
+ *
+ * Whether a zero lies at an end, and whether F is defined at a zero of its numerator, is decided exactly, by
+ * candidates: ends, rational numbers, parts of pi. One unknown: they also serve where no proof of a simple zero is
+ * possible; if the k-th derivative does not vanish nearby and the lower ones do at the candidate, it is
+ * the only zero. Then more bits are tried.
+ *
+ * Where neither is possible - a multiple zero, a kink, a whole curve of zeros - a place stays in doubt.
+ *
+ * Source  Neumaier, Interval Methods for Systems of Equations (1990), 5.1-5.2; Hansen & Walster, Global Optimization
+ *         Using Interval Analysis (2004), 11; Krawczyk, Computing 4 (1969) 187.
+ * Tests   tests/normal/test_zeros.c
+ */
+#ifndef QDOT_NORMAL_ZEROS_H
+#define QDOT_NORMAL_ZEROS_H
+
+#include "expr/expr.h"
+
+enum { QDOT_ZEROS_MOST_UNKNOWNS = 4 };
+
+/* Where an unknown is searched. */
+typedef struct {
+    qdot_expr lo, hi;      /* constants; nil: unbounded */
+    bool lo_open, hi_open; /* the end does not belong to it */
+    bool turn;             /* F repeats after 2 pi (proved): -pi < x <= pi */
+    unsigned group;        /* unbounded unknowns of one group grow together */
+} qdot_zeros_range;
+
+typedef struct {
+    size_t n; /* unknowns */
+    double *at,
+        *radius; /* [count * n] proved zeros, ascending by the first unknown, then the next */
+    bool *simple; /* [count] F' is regular there; else multiple, or not known */
+    size_t count;
+    double *doubt, *reach; /* [doubts * n] middle and half width of places not decided */
+    size_t doubts;
+    bool beyond;    /* far away, where x is unbounded, zeros are not excluded */
+    bool complete;  /* proved: there are no others in the box */
+    bool exhausted; /* the budget was spent */
+    uint64_t evaluations;
+} qdot_zeros;
+
+/* The zeros of F [n] that contain only the symbols x [n] and pi. budget: in evaluations of F, those of
+ * long F count more; 0: a usual one for n. *out is cleared by the caller. Errors: QDOT_ENOMEM, QDOT_EINTR, QDOT_ETYPE (something else in F, n too
+ * large), QDOT_EDOMAIN (an F_i is 0 identically). */
+QDOT_MUST_CHECK qdot_status qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F,
+                                            const qdot_expr *x,
+                                            const qdot_zeros_range *range,
+                                            uint64_t budget, qdot_zeros *out);
+void qdot_zeros_clear(qdot_zeros *z);
+
+#endif

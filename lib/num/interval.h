@@ -1,0 +1,48 @@
+/* interval.h -- intervals of the extended real line: bounds of elementary operations.
+ *
+ *     a in A, b in B, a op b defined   =>   a op b in A op B
+ *
+ * Bounds are moved outward by the rounding of the operation, that of the library's functions by
+ * 4 DBL_EPSILON. A bound is infinite if there is none, never NaN.
+ *
+ * Source  Moore, Kearfott & Cloud, Introduction to Interval Analysis (2009), chapters 2 and 5.
+ * Tests   tests/tape/test_interval.c, tests/normal/test_zeros.c
+ */
+#ifndef QDOT_NUM_INTERVAL_H
+#define QDOT_NUM_INTERVAL_H
+
+#include <stdbool.h>
+
+typedef struct {
+    double lo, hi;
+} qdot_interval;
+
+extern const qdot_interval qdot_interval_whole; /* the whole line */
+
+qdot_interval qdot_interval_point(double x);
+bool qdot_interval_is_point(qdot_interval a);
+/* The least interval that holds both. */
+qdot_interval qdot_interval_around(qdot_interval a, qdot_interval b);
+/* The part of a in least ... most: elsewhere the function is undefined. */
+qdot_interval qdot_interval_within(qdot_interval a, double least, double most);
+/* lo ... hi rounded outward. A lower bound that overflows becomes the largest double: the exact value is
+ * finite. */
+qdot_interval qdot_interval_outward(double lo, double hi);
+
+qdot_interval qdot_interval_negative(qdot_interval a);
+qdot_interval qdot_interval_size(qdot_interval a); /* |a| */
+qdot_interval qdot_interval_sum(qdot_interval a, qdot_interval b);
+/* same: both are one value, so that the product is its square. */
+qdot_interval qdot_interval_product(qdot_interval a, qdot_interval b, bool same);
+qdot_interval qdot_interval_quotient(qdot_interval a, qdot_interval b);
+qdot_interval qdot_interval_power(qdot_interval a, qdot_interval b);
+/* x - y floor(x/y) */
+qdot_interval qdot_interval_remainder(qdot_interval a, qdot_interval b);
+qdot_interval qdot_interval_angle(qdot_interval y, qdot_interval x); /* atan2 */
+/* Of a function that rises, or falls, over all of a. */
+qdot_interval qdot_interval_rising(double (*f)(double), qdot_interval a);
+qdot_interval qdot_interval_falling(double (*f)(double), qdot_interval a);
+/* Of sin (top pi/2) or cos (top 0): highest at top + 2 pi k, lowest halfway between. */
+qdot_interval qdot_interval_wave(double (*f)(double), qdot_interval a, double top);
+
+#endif
