@@ -245,6 +245,7 @@ library_sources = \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-members.c \
 	lib/mech/study/equilibrium-numeric.c \
+	lib/mech/study/equilibrium-proved.c \
 	lib/mech/study/equilibrium-twice.c \
 	lib/mech/study/equilibrium.c \
 	lib/mech/study/geometry.c \

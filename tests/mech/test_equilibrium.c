@@ -236,9 +236,30 @@ a_fading_force_is_no_rest_body(kit *k)
     assert_true(r.at[0].numeric);
     assert_int_equal(r.at[0].stability, QDOT_UNSTABLE);
     assert_int_equal(r.unproved, 0);
+    assert_true(r.complete && r.starts == 0); /* by exclusion, also far away */
     qdot_equilibria_clear(&r);
 }
 TEST(a_fading_force_is_no_rest)
+
+/* Exclusion: every place of a turn; a domain; a multiplier. What waves for ever is searched from starts. */
+static void
+few_unknowns_are_searched_whole_body(kit *k)
+{
+    qdot_equilibria r;
+
+    coords(k, "x y");
+    must(qdot_scene_lagrangian(
+        k->scene,
+        E(k, "(x'^2 + y'^2)/2 - cos(x) - cos(2*y - x)/3 - sin(y + 1)*cos(x)/2")));
+    find(k, &r, 8);
+    assert_true(r.complete && r.starts == 0);
+    qdot_equilibria_clear(&r);
+    must(qdot_scene_lagrangian(k->scene, E(k, "(x'^2 + y'^2)/2 - cos(x/3)*cosh(y) - sin(x/5)")));
+    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r), QDOT_OK);
+    assert_true(!r.complete && r.starts > 0);
+    qdot_equilibria_clear(&r);
+}
+TEST(few_unknowns_are_searched_whole)
 
 /* w^2 = (2 -+ sqrt 2) g/l, amplitudes 1 : +-sqrt 2. */
 static void
@@ -331,6 +352,7 @@ main(void)
         cmocka_unit_test(rest_lasts_for_all_times),
         cmocka_unit_test(multipliers_change_at_rest),
         cmocka_unit_test(a_fading_force_is_no_rest),
+        cmocka_unit_test(few_unknowns_are_searched_whole),
         cmocka_unit_test(modes_of_the_double_pendulum),
         cmocka_unit_test(modes_in_numbers),
         cmocka_unit_test(free_motion_is_a_mode),

@@ -1,5 +1,6 @@
-/* equilibrium-numeric.c -- places of rest in numbers: Levenberg's and Marquardt's steps from many
- * starts, each place proved (normal/solve/isolate.h).
+/* equilibrium-numeric.c -- places of rest in numbers: by exclusion (equilibrium-proved.c), and where that does
+ * not prove them all, by Levenberg's and Marquardt's steps from many starts, each place proved
+ * (normal/solve/isolate.h).
  *
  * Starts lie within the declared domains, a full turn of an angle, and else within +-RANGE of several sizes.
  * Multipliers begin with the values that leave least of the equations there; so what is
@@ -14,7 +15,7 @@
 #include "mech/study/equilibrium-search.h"
 #include "normal/solve/isolate.h"
 
-enum { STARTS = 240, STEPS = 60, MOST = 100, NEWTON = 6 };
+enum { STARTS = 240, STEPS = 60, MOST = QDOT_PLACES_MOST, NEWTON = 6 };
 
 /* How far starts go, by turns. */
 static const double ranges[] = {1.5, 4, 1.5, 12, 1.5, 4, 40, 100};
@@ -392,8 +393,8 @@ qdot_places_clear(qdot_places *places)
     *places = (qdot_places){0};
 }
 
-qdot_status
-qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
+static qdot_status
+search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
     problem p = {.pool = rest->pool,
                  .n = rest->searched,
@@ -403,10 +404,7 @@ qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     qdot_isolate isolate;
     qdot_status status = problem_begin(&p, r);
 
-    *out = (qdot_places){.reach = ranges[RANGES - 1]};
-    out->at = qdot_calloc((MOST + 1) * p.n + 1, sizeof *out->at);
-    if (out->at == NULL)
-        status = QDOT_ENOMEM;
+    out->reach = ranges[RANGES - 1];
     if (status == QDOT_OK)
         status = find_angles(&p);
     if (status == QDOT_OK)
@@ -417,6 +415,21 @@ qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     }
     problem_end(&p);
     gsl_set_error_handler(before);
+    return status;
+}
+
+qdot_status
+qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
+{
+    qdot_status status;
+
+    *out = (qdot_places){0};
+    out->at = qdot_calloc((MOST + 1) * rest->unknowns.n + 1, sizeof *out->at);
+    status = out->at == NULL ? QDOT_ENOMEM : qdot_rest_exclude(rest, r, out);
+    if (status == QDOT_OK && out->complete)
+        rest->complete = true;
+    else if (status == QDOT_OK)
+        status = search_from_starts(rest, r, out);
     if (status != QDOT_OK)
         qdot_places_clear(out);
     return status;

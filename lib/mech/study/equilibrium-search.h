@@ -83,17 +83,24 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
 
 /* --- numbers (equilibrium-numeric.c) ---- */
+enum { QDOT_PLACES_MOST = 100 };
+
 /* at [n * unknowns], owned: each proved. */
 typedef struct {
     double *at;
     size_t n, starts;
+    bool complete;   /* proved: these are all; then there were no starts */
     double reach;    /* starts lay within +-reach where no domain is declared */
     size_t unproved; /* starts that ended at an unproved zero within rounding */
 } qdot_places;
 
-/* Zeros of r [unknowns] in the unknowns, every other symbol bound. */
+/* Zeros of r [unknowns] in the unknowns, every other symbol bound; rest->complete if these are
+ * all. */
 QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r,
                                              qdot_places *out);
+/* Those that exclusion finds, added to *out; out->complete. (equilibrium-proved.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r,
+                                              qdot_places *out);
 void qdot_places_clear(qdot_places *places);
 
 #endif

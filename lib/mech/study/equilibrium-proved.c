@@ -1,0 +1,65 @@
+/* equilibrium-proved.c -- all places of rest in numbers, by exclusion: of few unknowns.
+ *
+ * Coordinates are searched in their declared domains, a turn of an angle, else everywhere; multipliers
+ * everywhere (normal/solve/zeros.h). */
+#include "mech/study/equilibrium-search.h"
+#include "normal/solve/zeros.h"
+
+enum { MOST = 4 };
+
+/* What may be spent on n unknowns before the search from many starts. */
+static const uint64_t budgets[MOST + 1] = {0, 20000, 60000, 120000, 80000};
+
+static bool
+is_constant(const qdot_pool *pool, qdot_expr e)
+{
+    return e == QDOT_NIL ||
+           (qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0;
+}
+
+/* Where the k-th unknown is searched; false: its domain is not known in numbers. */
+static bool
+range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
+{
+    const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->unknowns.at[k]);
+
+    *range = (qdot_zeros_range){.group = k >= rest->coordinates};
+    if (k >= rest->coordinates)
+        return true;
+    range->lo = q->lo;
+    range->hi = q->hi;
+    range->lo_open = q->lo_open;
+    range->hi_open = q->hi_open;
+    range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&
+                  qdot_rest_is_angle(rest, rest->unknowns.at[k], equations);
+    return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
+}
+
+qdot_status
+qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
+{
+    size_t n = rest->unknowns.n;
+    qdot_expr equations = qdot_list(rest->pool, (uint32_t)n, r);
+    qdot_zeros_range range[MOST];
+    qdot_zeros zeros;
+    qdot_status status;
+
+    QDOT_TRY(qdot_pool_check(rest->pool));
+    if (n == 0 || n > MOST)
+        return QDOT_OK;
+    for (size_t k = 0; k < n; k++)
+        if (!range_of(rest, k, equations, &range[k]))
+            return QDOT_OK;
+    QDOT_TRY(qdot_pool_check(rest->pool));
+    status =
+        qdot_zeros_find(rest->pool, n, r, rest->unknowns.at, range, budgets[n], &zeros);
+    if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* beyond it */
+        return QDOT_OK;
+    QDOT_TRY(status);
+    out->complete = zeros.complete && zeros.count <= QDOT_PLACES_MOST;
+    for (size_t i = 0; i < zeros.count && i < QDOT_PLACES_MOST; i++, out->n++)
+        for (size_t k = 0; k < n; k++)
+            out->at[i * n + k] = zeros.at[i * n + k];
+    qdot_zeros_clear(&zeros);
+    return QDOT_OK;
+}
