@@ -105,6 +105,7 @@ library_sources = \
 	lib/lang/functions/quantity.c \
 	lib/lang/functions/series.c \
 	lib/lang/functions/short-names.c \
+	lib/lang/functions/solve-numbers.c \
 	lib/lang/functions/switch.c \
 	lib/lang/language/call.c \
 	lib/lang/language/closed-sum.c \
@@ -335,6 +336,7 @@ library_sources = \
 	lib/normal/solve/zeros-box.c \
 	lib/normal/solve/zeros-exact.c \
 	lib/normal/solve/zeros-multiple.c \
+	lib/normal/solve/zeros-near.c \
 	lib/normal/solve/zeros-places.c \
 	lib/normal/solve/zeros-systems.c \
 	lib/normal/solve/zeros.c \
@@ -721,6 +723,7 @@ library_headers = \
 	lib/lang/functions/quantity.h \
 	lib/lang/functions/series.h \
 	lib/lang/functions/short-names.h \
+	lib/lang/functions/solve-numbers.h \
 	lib/lang/functions/switch.h \
 	lib/lang/language/closed-sum.h \
 	lib/lang/language/condition.h \
@@ -1549,6 +1552,7 @@ script_tests = \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
+	tests/script/solve-numbers.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
@@ -1809,6 +1813,9 @@ script_tests = \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-for-sum.lag \
+	tests/bad/solve-no-value.lag \
+	tests/bad/solve-range.lag \
+	tests/bad/solve-reach.lag \
 	tests/bad/start-abs.lag \
 	tests/bad/start-anywhere.lag \
 	tests/bad/start-contradictory.lag \
@@ -2222,6 +2229,9 @@ test_files = \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-for-sum.out \
+	tests/bad/solve-no-value.out \
+	tests/bad/solve-range.out \
+	tests/bad/solve-reach.out \
 	tests/bad/start-abs.out \
 	tests/bad/start-anywhere.out \
 	tests/bad/start-contradictory.out \
@@ -2621,6 +2631,7 @@ test_files = \
 	tests/script/signs.out \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
+	tests/script/solve-numbers.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \

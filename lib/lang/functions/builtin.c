@@ -13,6 +13,7 @@
 #include "lang/functions/equilibria.h"
 #include "lang/functions/numeric.h"
 #include "lang/functions/series.h"
+#include "lang/functions/solve-numbers.h"
 #include "lang/session/along.h"
 #include "lang/session/labels.h"
 #include "lang/session/member.h"
@@ -422,9 +423,11 @@ static const qdot_builtin rows[] = {
         "simplify(sin(t)^2 + cos(t)^2)"),
     ALGEBRA(1, 1, factor, "factor(e)", "e as a product of irreducible factors",
             "factor(t^2 - 1)"),
-    ALGEBRA(2, 2, solve, "solve(a = b, x)",
-            "every real x, a list; angles between -pi and pi; parameters are generic",
-            "solve(t^2 = 4, t)"),
+    {"solve", 2, 2, qdot_solve_call,
+     "solve(a = b, x), solve(a = b, x, lo..hi), solve(a = b, x = guess)",
+     "every real x, a list; angles between -pi and pi; parameters are generic; with a range or "
+     "a guess in numbers",
+     "solve(t^2 = 4, t)", QDOT_BUILTIN_RANGE, NULL},
     ALGEBRA(3, -1, series, QDOT_SERIES,
             "Taylor series about x = a, y = b: terms up to total degree n",
             "series(cos(t), t = 0, 4)"),

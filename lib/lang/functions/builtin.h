@@ -20,7 +20,8 @@ enum {
     QDOT_BUILTIN_LABEL = 2,   /* the first argument is a label: its carrier symbol */
     QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, value(a.theta, 20) */
     QDOT_BUILTIN_FORM = 8,    /* special syntax: sum, if */
-    QDOT_BUILTIN_SHORT = 16   /* anything else of this name takes precedence */
+    QDOT_BUILTIN_SHORT = 16,  /* anything else of this name takes precedence */
+    QDOT_BUILTIN_RANGE = 32   /* a range a..b may stand last: its ends are two more arguments */
 };
 const qdot_builtin *qdot_builtin_find(const char *name);
 const qdot_builtin *qdot_builtin_at(size_t i); /* NULL past the end */

@@ -67,6 +67,17 @@ call_builtin(qdot_session *s, const qdot_builtin *row, uint32_t n, const qdot_ex
     return QDOT_OK;
 }
 
+qdot_status
+qdot_resolve_over_range(qdot_session *session, const char *name, uint32_t n,
+                        const qdot_expr *args, qdot_expr *value)
+{
+    const qdot_builtin *row = qdot_builtin_find(name);
+
+    QDOT_TRY(refuse_members(session, row, n, args));
+    QDOT_TRY(row->call(session, n, args, value));
+    return qdot_value_kind_check(session->pool, *value);
+}
+
 static qdot_status
 call_function(qdot_session *s, const qdot_name *entry, const qdot_call *call,
               qdot_expr *value, qdot_expr *over)

@@ -133,12 +133,17 @@ takes_run(const qdot_machine *m, const qdot_postfix *code)
 static qdot_status
 range(qdot_machine *m, const qdot_postfix *code)
 {
-    const char *run = common_run(m, code->n);
+    const bool along = qdot_range_is_word(code->token->text);
+    const char *run = along ? common_run(m, code->n) : NULL;
     qdot_expr value;
 
     QDOT_TRY(qdot_machine_take(m, code->n));
-    QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
-                              m->args.at, m->args.at + code->n - 2, &value));
+    if (along)
+        QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
+                                  m->args.at, m->args.at + code->n - 2, &value));
+    else
+        QDOT_TRY(qdot_resolve_over_range(m->session, code->token->text, code->n, m->args.at,
+                                         &value));
     return qdot_machine_push(m, value);
 }
 

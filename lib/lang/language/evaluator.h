@@ -104,6 +104,10 @@ typedef struct {
 /* *over: as above. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_call(qdot_cursor *c, const qdot_call *call,
                                               qdot_expr *value, qdot_expr *over);
+/* solve(A = B, x, a..b): a function of no run over a range, whose ends stand last. */
+QDOT_MUST_CHECK qdot_status qdot_resolve_over_range(qdot_session *session, const char *name,
+                                                    uint32_t n, const qdot_expr *args,
+                                                    qdot_expr *value);
 /* *label: of the particle or body that name or name[index ...] is, itself or as the argument
  * of a function; NULL: it is none. Borrowed from the scene. */
 QDOT_MUST_CHECK qdot_status qdot_resolve_label(qdot_session *session, const char *name,

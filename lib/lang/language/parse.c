@@ -554,7 +554,15 @@ close_bracket(parser *p)
     }
 }
 
-/* `a..b` among arguments: numbers over a range of a run. */
+static bool
+takes_range(const char *word)
+{
+    const qdot_builtin *row = qdot_builtin_find(word);
+
+    return qdot_range_is_word(word) || (row != NULL && (row->flags & QDOT_BUILTIN_RANGE));
+}
+
+/* `a..b` among arguments: numbers over a range, of a run for some. */
 static qdot_status
 argument_range(parser *p)
 {
@@ -563,7 +571,7 @@ argument_range(parser *p)
     QDOT_TRY(reduce_all(p));
     w = top(p);
     if (w->kind != IN_CALL || w->ranged || w->count == 0 || w->indices > 0 ||
-        w->primes > 0 || !qdot_range_is_word(w->token->text) ||
+        w->primes > 0 || !takes_range(w->token->text) ||
         qdot_resolve_is_function(p->c->session, w->token->text))
         return qdot_cursor_expected(p->c, w->kind == IN_CALL ? "`,` or `)`" : "`)`");
     w->ranged = true;

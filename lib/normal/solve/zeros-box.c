@@ -561,6 +561,29 @@ is_late(qdot_zeros_system *s, const qdot_interval *X)
     return s->n > 1 && !s->late && is_small(s->n, X);
 }
 
+/* The next box: of one unknown the one that waits longest, so that zeros which gather at a point do not keep
+ * the search there. */
+static bool
+next_box(qdot_zeros_system *s, qdot_zero_box *box)
+{
+    if (s->n == 1) {
+        if (s->next == s->todo.n)
+            return false;
+        *box = s->todo.at[s->next++];
+        return true;
+    }
+    if (s->todo.n == 0) {
+        if (s->late || s->small.n == 0)
+            return false;
+        qdot_free(s->todo.at);
+        memcpy(&s->todo, &s->small, sizeof s->todo);
+        memset(&s->small, 0, sizeof s->small);
+        s->late = true;
+    }
+    *box = s->todo.at[--s->todo.n];
+    return true;
+}
+
 qdot_status
 qdot_zeros_search(qdot_zeros_system *s)
 {
@@ -569,15 +592,8 @@ qdot_zeros_search(qdot_zeros_system *s)
         verdict how;
         image f;
 
-        if (s->todo.n == 0 && (s->late || s->small.n == 0))
+        if (!next_box(s, &box))
             return QDOT_OK;
-        if (s->todo.n == 0) {
-            qdot_free(s->todo.at);
-            memcpy(&s->todo, &s->small, sizeof s->todo);
-            memset(&s->small, 0, sizeof s->small);
-            s->late = true;
-        }
-        box = s->todo.at[--s->todo.n];
         if (step % INTERRUPT == 0)
             QDOT_TRY(qdot_interrupt_check());
         if (s->evaluations > s->budget || s->doubt.n >= QDOT_ZEROS_DOUBTS) {

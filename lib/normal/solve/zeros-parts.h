@@ -35,6 +35,7 @@ typedef struct {
     uint64_t evaluations, budget;
     qdot_vec(qdot_zero_box) todo, small, doubt; /* small: of todo, for later */
     bool late;                                  /* these are being searched */
+    size_t next;                                /* one unknown: the next of todo */
     qdot_vec(qdot_zero_place) found;
     bool exhausted;
 } qdot_zeros_system;

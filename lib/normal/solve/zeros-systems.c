@@ -55,8 +55,9 @@ bare(const qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *x)
 static bool
 is_multiple(qdot_pool *pool, qdot_expr f, qdot_expr g, size_t n, const qdot_expr *x)
 {
-    static const double places[2][MOST] = {{0.3717, 0.6113, 0.4591, 0.2339},
-                                           {0.8291, 0.2477, 0.7853, 0.5119}};
+    static const double places[2][MOST] = {
+        {0.3717, 0.6113, 0.4591, 0.2339, 0.1723, 0.9127},
+        {0.8291, 0.2477, 0.7853, 0.5119, 0.6421, 0.3389}};
     const qdot_expr both[] = {f, g};
     qdot_enclosure *s;
     double ratio[2];

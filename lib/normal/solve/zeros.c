@@ -14,7 +14,8 @@ enum {
 };
 
 /* Evaluations for n unknowns, where nothing else is said; of more nodes than SHORT each counts more. */
-static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000};
+static const uint64_t usual[MOST + 1] = {0,      20000,  80000, 160000,
+                                         160000, 160000, 160000};
 enum { SHORT = 50 };
 
 /* --- ranges ----------------------------------------------------------------------------------------- */

@@ -30,7 +30,7 @@
 
 #include "expr/expr.h"
 
-enum { QDOT_ZEROS_MOST_UNKNOWNS = 4 };
+enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };
 
 /* Where an unknown is searched. */
 typedef struct {
@@ -62,5 +62,11 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_find(qdot_pool *pool, size_t n, const qdo
                                             const qdot_zeros_range *range,
                                             uint64_t budget, qdot_zeros *out);
 void qdot_zeros_clear(qdot_zeros *z);
+
+/* The zero that Newton's steps reach from guess [n]: out->count is 1, or 0 where none is proved there. Never
+ * complete. Of one unknown also a multiple one. */
+QDOT_MUST_CHECK qdot_status qdot_zeros_near(qdot_pool *pool, size_t n, const qdot_expr *F,
+                                            const qdot_expr *x, const double *guess,
+                                            qdot_zeros *out);
 
 #endif
