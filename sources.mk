@@ -331,6 +331,7 @@ library_sources = \
 	lib/normal/solve/solve-factors.c \
 	lib/normal/solve/solve-inverse.c \
 	lib/normal/solve/solve-sort.c \
+	lib/normal/solve/solve-system.c \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
 	lib/normal/solve/zeros-box.c \
@@ -889,6 +890,7 @@ library_headers = \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
 	lib/normal/solve/solutions.h \
+	lib/normal/solve/solve-system.h \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
 	lib/normal/solve/zeros-parts.h \
@@ -1553,6 +1555,7 @@ script_tests = \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
 	tests/script/solve-numbers.lag \
+	tests/script/solve-system.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
@@ -1812,10 +1815,14 @@ script_tests = \
 	tests/bad/singular-euler.lag \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
+	tests/bad/solve-curve.lag \
 	tests/bad/solve-for-sum.lag \
 	tests/bad/solve-no-value.lag \
 	tests/bad/solve-range.lag \
 	tests/bad/solve-reach.lag \
+	tests/bad/solve-system-beyond.lag \
+	tests/bad/solve-system-count.lag \
+	tests/bad/solve-system-turns.lag \
 	tests/bad/start-abs.lag \
 	tests/bad/start-anywhere.lag \
 	tests/bad/start-contradictory.lag \
@@ -2228,10 +2235,14 @@ test_files = \
 	tests/bad/singular-euler.out \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
+	tests/bad/solve-curve.out \
 	tests/bad/solve-for-sum.out \
 	tests/bad/solve-no-value.out \
 	tests/bad/solve-range.out \
 	tests/bad/solve-reach.out \
+	tests/bad/solve-system-beyond.out \
+	tests/bad/solve-system-count.out \
+	tests/bad/solve-system-turns.out \
 	tests/bad/start-abs.out \
 	tests/bad/start-anywhere.out \
 	tests/bad/start-contradictory.out \
@@ -2632,6 +2643,7 @@ test_files = \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solve-numbers.out \
+	tests/script/solve-system.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \

@@ -425,8 +425,8 @@ static const qdot_builtin rows[] = {
             "factor(t^2 - 1)"),
     {"solve", 2, 2, qdot_solve_call,
      "solve(a = b, x), solve(a = b, x, lo..hi), solve(a = b, x = guess)",
-     "every real x, a list; angles between -pi and pi; parameters are generic; with a range or "
-     "a guess in numbers",
+     "every real x, a list; angles between -pi and pi; parameters are generic; of lists of "
+     "equations and unknowns; with a range or a guess in numbers",
      "solve(t^2 = 4, t)", QDOT_BUILTIN_RANGE, NULL},
     ALGEBRA(3, -1, series, QDOT_SERIES,
             "Taylor series about x = a, y = b: terms up to total degree n",

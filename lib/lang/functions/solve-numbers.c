@@ -14,6 +14,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
+#include "normal/solve/solve-system.h"
 #include "normal/solve/zeros.h"
 #include "num/lu.h"
 #include "tape/constant.h"
@@ -388,6 +389,46 @@ solve_system(question *q, qdot_expr equations, qdot_expr unknowns, qdot_expr *va
     return solve_near(q, guesses, true, value);
 }
 
+/* solve([A = B, C = D], [x, y]): exactly; a list of lists of equations. */
+static qdot_status
+solve_exactly(qdot_session *session, qdot_expr equations, qdot_expr unknowns,
+              qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, unknowns);
+    qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_expr f[MOST], u[MOST];
+    bool complete;
+
+    if (n == 0 || n > MOST || qdot_expr_kind(pool, equations) != QDOT_LIST ||
+        qdot_expr_count(pool, equations) != n) {
+        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns, up to %d",
+                        MOST);
+        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x, y])");
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr e = qdot_expr_arg(pool, equations, i);
+
+        u[i] = qdot_expr_arg(pool, unknowns, i);
+        if (qdot_expr_kind(pool, u[i]) != QDOT_SYM || u[i] <= QDOT_FALSE)
+            return qdot_fail(QDOT_ETYPE, "solve takes symbols as unknowns, not %s",
+                             qdot_value_kind_words(pool, u[i]));
+        f[i] = qdot_value_kind_is_equation(pool, e)
+                   ? qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))
+                   : e;
+        QDOT_TRY(qdot_value_kind_check(pool, f[i]));
+        if (!qdot_expr_is_scalar(pool, f[i]))
+            return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
+                             qdot_value_kind_words(pool, e));
+    }
+    QDOT_TRY(qdot_solve_system(pool, n, f, u, &facts, value, &complete));
+    if (complete)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
+                    qdot_expr_count(pool, *value) > 0 ? " for all their solutions" : "");
+    return qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
+}
+
 qdot_status
 qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
                 qdot_expr *value)
@@ -403,6 +444,8 @@ qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
     }
     if (n == 2 && is_list_of_equations(pool, args[1]))
         return solve_system(&q, args[0], args[1], value);
+    if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)
+        return solve_exactly(session, args[0], args[1], value);
     if (n == 2 && !qdot_value_kind_is_equation(pool, args[1]))
         return qdot_algebra_solve(session, n, args, value);
     QDOT_TRY(add_unknown(&q, n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0)));

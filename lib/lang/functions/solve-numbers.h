@@ -1,6 +1,7 @@
 /* solve-numbers.h -- solve(...): exactly, in numbers over a range, in numbers from a guess.
  *
  *     solve(A = B, x)                             every value, exact (functions/algebra.h)
+ *     solve([A = B, C = D], [x, y])               exactly, in several unknowns (normal/solve/solve-system.h)
  *     solve(A = B, x, a..b)                       every zero in a..b, in numbers
  *     solve(A = B, x = guess)                     the one that Newton's steps reach
  *     solve([A = B, C = D], [x = 1, y = 2])       the same in several unknowns
