@@ -14,9 +14,11 @@ enum {
 };
 
 /* Evaluations for n unknowns, where nothing else is said; of more nodes than SHORT each counts more. */
-static const uint64_t usual[MOST + 1] = {0,      20000,  80000, 160000,
-                                         160000, 160000, 160000};
-enum { SHORT = 50 };
+static const uint64_t usual[MOST + 1] = {0, 20000, 80000, 160000, 160000, 160000, 160000};
+enum {
+    SHORT = 50,
+    FACTORING = 200
+}; /* what an equation in a chart costs before it is evaluated */
 
 /* --- ranges ----------------------------------------------------------------------------------------- */
 
@@ -252,6 +254,11 @@ search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         qdot_zeros_chart_at(t->pool, t->n, t->x, range, t->bounds, c, &chart);
         if (chart.n == 0)
             return QDOT_OK;
+        t->spent += FACTORING * t->n;
+        if (t->spent > t->budget) {
+            *beyond = true;
+            return QDOT_OK;
+        }
         QDOT_TRY(search_chart(t, k, core, &chart, wild, beyond));
         if (*beyond && !wild)
             return QDOT_OK;
