@@ -54,6 +54,7 @@ typedef struct {
     double h_first;     /* > 0: the size to try first */
     double first_share; /* > 0: of the first size that is found, by methods that find one */
     uint64_t max_steps; /* tried; default 50 million */
+    uint64_t max_evaluations; /* of f, by methods that choose their steps by differences; default: any */
     qdot_ode_meter *meter; /* to which each step adds its work, and which may end the run (meter.h);
                               borrowed */
     double stiff_work; /* by explicit methods: the run ends if stability bounds its steps and so much

@@ -314,6 +314,10 @@ advance(run *r, bool *stop)
     if (r->result->stats.steps + r->result->stats.rejected >= r->max_steps)
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                          (unsigned long long)r->max_steps);
+    if (r->options->max_evaluations &&
+        r->s->evaluations + r->looked >= r->options->max_evaluations)
+        return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", r->t,
+                         (unsigned long long)r->options->max_evaluations);
     if (!last && h < floor_of_step(r))
         return too_small(r);
     status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);

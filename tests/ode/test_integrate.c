@@ -352,7 +352,8 @@ senseless_arguments_are_refused(void **state)
 {
     double y[2] = {2, 0}, bad[2] = {2, NAN};
     qdot_ode_system plain = {.n = 2, .rhs = pendulum_rhs};
-    qdot_ode_options zero = {.tol = 1e-17}, steps = {.max_steps = 10}, nan = {.tol = NAN};
+    qdot_ode_options zero = {.tol = 1e-17}, steps = {.max_steps = 10},
+                     evaluations = {.max_evaluations = 1000}, nan = {.tol = NAN};
     qdot_ode_result r;
     const qdot_ode_system *s = &pendulum.system;
     const qdot_ode_method *m = method("rk8pd");
@@ -368,6 +369,10 @@ senseless_arguments_are_refused(void **state)
     assert_non_null(strstr(r.reason, "Jacobian"));
     assert_int_equal(qdot_ode_integrate(s, m, &steps, 0, 1000, y, &r), QDOT_ELIMIT);
     assert_int_equal(r.stats.steps + r.stats.rejected, 10);
+    assert_true(r.t > 0 && true_error(&pendulum, r.t, y) < 1e-9);
+    y[0] = 2, y[1] = 0;
+    assert_int_equal(qdot_ode_integrate(s, m, &evaluations, 0, 1000, y, &r), QDOT_ELIMIT);
+    assert_true(r.stats.evaluations >= 1000 && r.stats.evaluations < 1100);
     assert_true(r.t > 0 && true_error(&pendulum, r.t, y) < 1e-9);
 }
 

@@ -129,6 +129,46 @@ errors_are_those_of_runs(void **state)
     end(&f);
 }
 
+/* Before a step is accepted, equations that can hide a force within it - a quotient, a root, an
+ * exponential, tanh - are looked at there: a row takes the steps of a run, and its errors are as small. */
+static void
+equations_that_can_hide_forces_are_looked_at(void **state)
+{
+    (void)state;
+    for (int form = 0; form < 4; form++) {
+        fixture f;
+        qdot_workprecision w = {0};
+        qdot_expr x, square;
+
+        oscillator(&f, false);
+        x = qdot_symbol_get(f.pool, QDOT_COORD, "x");
+        square = times(&f, x, x);
+        must(qdot_scene_potential(
+            f.scene, form == 0   ? qdot_fun1(f.pool, QDOT_EXP, qdot_neg(f.pool, square))
+                     : form == 1 ? qdot_div(f.pool, QDOT_ONE, qdot_add(f.pool, QDOT_ONE, square))
+                     : form == 2 ? qdot_sqrt(f.pool, qdot_add(f.pool, QDOT_ONE, square))
+                                 : qdot_fun1(f.pool, QDOT_TANH, x)));
+        must(qdot_workprecision_measure(f.scene, &f.request, &w));
+        assert_int_equal(w.n, 13 * qdot_ode_method_count());
+        for (size_t k = 2; k < w.n; k += 13) { /* tol 1e-5 */
+            const qdot_run_report *report;
+            qdot_run *r;
+
+            assert_string_equal(w.rows[k].status, "done");
+            assert_true(w.rows[k].err < 0.1);
+            f.request.method = w.rows[k].method;
+            f.request.tol = w.rows[k].tol;
+            r = run(&f);
+            report = qdot_run_get_report(r);
+            assert_int_equal(report->steps, w.rows[k].steps);
+            assert_int_equal(report->rejected, w.rows[k].rejected);
+            qdot_run_free(r);
+        }
+        qdot_workprecision_clear(&w);
+        end(&f);
+    }
+}
+
 static void
 without_conservation_there_is_no_energy_error(void **state)
 {
@@ -221,6 +261,7 @@ main(void)
         cmocka_unit_test(every_method_climbs_the_ladder),
         cmocka_unit_test(rows_are_planned_as_runs_are),
         cmocka_unit_test(errors_are_those_of_runs),
+        cmocka_unit_test(equations_that_can_hide_forces_are_looked_at),
         cmocka_unit_test(without_conservation_there_is_no_energy_error),
         cmocka_unit_test(hopeless_runs_are_rows_that_say_so),
         cmocka_unit_test(looks_for_events_are_counted),

@@ -33,9 +33,8 @@ typedef struct {
     qdot_method_run run;
     qdot_course course; /* of a run that may be divided into pieces */
     double t_end;
-    qdot_ode_system inner, system; /* the system counts evaluations of the inner one */
-    qdot_ode_series series;
-    uint64_t evaluations, most_evaluations;
+    qdot_ode_system system;
+    uint64_t most_evaluations;
     double drift;           /* of the energy along a run */
     qdot_constrained *held; /* NULL: no constraints */
     double residual;        /* the largest met */
@@ -127,47 +126,6 @@ error_against(const reference *r, const double *scales, const double *y, double 
 
 /* --- a method ------------------------------------------------------------------------ */
 
-static qdot_status
-too_many(const worker *w, double t)
-{
-    return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", t,
-                     (unsigned long long)w->most_evaluations);
-}
-
-static qdot_status
-counted_rhs(double t, const double *y, double *dydt, void *user)
-{
-    worker *w = user;
-
-    if (++w->evaluations > w->most_evaluations)
-        return too_many(w, t);
-    return w->inner.rhs(t, y, dydt, w->inner.user);
-}
-
-static qdot_status
-counted_jacobian(double t, const double *y, double *dfdy, double *dfdt, void *user)
-{
-    worker *w = user;
-
-    return w->inner.jacobian(t, y, dfdy, dfdt, w->inner.user);
-}
-
-static qdot_status
-project(double t, double *y, double *carry, double *moved, void *user)
-{
-    worker *w = user;
-
-    return w->inner.project(t, y, carry, moved, w->inner.user);
-}
-
-static double
-margin(double t, const double *y, void *user)
-{
-    worker *w = user;
-
-    return w->inner.margin(t, y, w->inner.user);
-}
-
 static void
 follow_energy(worker *w, double t, const double *y)
 {
@@ -216,12 +174,7 @@ worker_init(worker *w, qdot_scene *scene, const qdot_run_request *request,
     QDOT_TRY(qdot_method_run_init(&w->run, scene, request, method, tol));
     QDOT_TRY(qdot_method_run_find_energy(&w->run, scene));
     w->held = w->run.held;
-    w->inner = w->system = qdot_bind_system(w->run.bind);
-    w->system.rhs = counted_rhs;
-    w->system.jacobian = w->inner.jacobian ? counted_jacobian : NULL;
-    w->system.project = w->inner.project ? project : NULL;
-    w->system.margin = w->inner.margin ? margin : NULL;
-    w->system.user = w;
+    w->system = qdot_bind_system(w->run.bind);
     n = (double)(w->run.plan->n + w->run.plan->m);
     operations = (double)qdot_plan_operations(w->run.plan, NULL) + n * n * n / 3 + 100;
     if (w->run.plan->method->series) /* an expansion is worth a few hundred evaluations */
@@ -294,14 +247,15 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 static qdot_status
 go(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
-    qdot_ode_options options = {
-        .tol = tol, .carry = w->run.low, .t1_low = w->run.t1_low};
+    qdot_ode_options options = {.tol = tol,
+                                .max_evaluations = w->most_evaluations,
+                                .carry = w->run.low,
+                                .t1_low = w->run.t1_low};
 
     qdot_progress_begin(w->run.t0, w->run.t1, "%s, tol %.0e", w->run.plan->method->name, tol);
     if (w->run.pieces)
         return go_in_pieces(w, tol, watched, result);
-    memcpy(w->run.y, w->run.start, w->inner.n * sizeof *w->run.y);
-    w->evaluations = 0;
+    memcpy(w->run.y, w->run.start, w->system.n * sizeof *w->run.y);
     w->t_end = w->run.t1;
     if (watched && (w->run.energy || w->held)) {
         w->drift = w->residual = 0;
@@ -310,7 +264,7 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
     }
     if (w->run.plan->method->series || w->run.plan->method->geometric) /* told beforehand */
         options.max_steps = w->most_evaluations;
-    return qdot_ode_integrate(watched ? &w->system : &w->inner, w->run.plan->method, &options,
+    return qdot_ode_integrate(&w->system, w->run.plan->method, &options,
                               w->run.t0, w->run.t1, w->run.y, result);
 }
 
