@@ -1417,6 +1417,7 @@ script_tests = \
 	tests/script/double-energy.lag \
 	tests/script/doubts.sh \
 	tests/script/end-errors.sh \
+	tests/script/equal-arguments.lag \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
 	tests/script/errors-known.sh \
@@ -2489,6 +2490,7 @@ test_files = \
 	tests/script/end-errors.awk \
 	tests/script/end-errors.inc \
 	tests/script/end-errors.out \
+	tests/script/equal-arguments.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
 	tests/script/errors-known.out \

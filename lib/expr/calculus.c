@@ -99,6 +99,43 @@ derive_ufun(derivation *d, qdot_expr e)
     }
 }
 
+/* if(condition, yes, no); a factor where the other one is 0. */
+static qdot_expr
+choice(qdot_pool *pool, qdot_expr condition, qdot_expr yes, qdot_expr no)
+{
+    if (yes != QDOT_ZERO && no != QDOT_ZERO)
+        return qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){condition, yes, no});
+    return qdot_mul(pool,
+                    qdot_fun(pool, QDOT_IF, 3,
+                             (qdot_expr[]){condition, yes != QDOT_ZERO ? QDOT_ONE : QDOT_ZERO,
+                                           no != QDOT_ZERO ? QDOT_ONE : QDOT_ZERO}),
+                    yes != QDOT_ZERO ? yes : no);
+}
+
+/* d max(a, b, ...) = a' where a > max(b, ...), else d max(b, ...): of arguments that are equal, perhaps
+ * on an interval, the last one counts, as in the operations of a tape (tape/operation.def). */
+static void
+derive_extreme(derivation *d, qdot_expr e, const qdot_expr *args)
+{
+    qdot_pool *pool = d->pool;
+    const qdot_fun_id id = NODE(pool, e)->op;
+    const uint32_t n = NODE(pool, e)->n;
+    qdot_expr slope = derived(d, args[n - 1]), rest = args[n - 1];
+
+    for (uint32_t k = n - 1; k-- > 0;) {
+        const qdot_expr inner = derived(d, args[k]);
+
+        if (inner != QDOT_ZERO || slope != QDOT_ZERO)
+            slope = choice(pool,
+                           id == QDOT_MAX ? qdot_rel(pool, QDOT_LT, rest, args[k])
+                                          : qdot_rel(pool, QDOT_LT, args[k], rest),
+                           inner, slope);
+        rest = qdot_fun(pool, id, n - k, args + k);
+    }
+    if (slope != QDOT_ZERO)
+        add_term(d, slope);
+}
+
 static void
 derive_function(derivation *d, qdot_expr e)
 {
@@ -112,7 +149,9 @@ derive_function(derivation *d, qdot_expr e)
     }
     for (uint32_t i = 0; i < node.n; i++)
         args[i] = ARGS(pool, e)[i];
-    if (node.op == QDOT_IF) {
+    if (node.op == QDOT_MIN || node.op == QDOT_MAX) {
+        derive_extreme(d, e, args);
+    } else if (node.op == QDOT_IF) {
         qdot_expr yes = derived(d, args[1]), no = derived(d, args[2]);
 
         if (yes != QDOT_ZERO || no != QDOT_ZERO)

@@ -576,28 +576,6 @@ inverse_root(qdot_pool *pool, qdot_expr x)
     return qdot_pow(pool, x, qdot_expr_ratio(pool, -1, 2));
 }
 
-/* d max(a1 ... an)/d ai: 1 where ai is the one chosen. */
-static qdot_expr
-derivative_of_extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args,
-                      uint32_t i)
-{
-    qdot_expr others[64], rest;
-    uint32_t k = 0;
-
-    if (n > 64)
-        return qdot_pool_refuse(
-            pool, QDOT_ELIMIT,
-            "min and max of more than 64 arguments have no derivative here");
-    for (uint32_t j = 0; j < n; j++)
-        if (j != i)
-            others[k++] = args[j];
-    rest = qdot_fun(pool, id, k, others);
-    return qdot_fun(pool, QDOT_IF, 3,
-                    (qdot_expr[]){id == QDOT_MIN ? qdot_rel(pool, QDOT_LT, args[i], rest)
-                                                 : qdot_rel(pool, QDOT_LT, rest, args[i]),
-                                  QDOT_ONE, QDOT_ZERO});
-}
-
 qdot_expr
 qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args,
                     uint32_t i)
@@ -640,8 +618,6 @@ qdot_fun_derivative(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr
         return i == 0 ? QDOT_ONE
                       : qdot_neg(pool,
                                  qdot_fun1(pool, QDOT_FLOOR, qdot_div(pool, a[0], a[1])));
-    case QDOT_MIN:
-    case QDOT_MAX: return derivative_of_extreme(pool, id, n, args, i);
     case QDOT_IF:
         if (i == 0)
             return QDOT_ZERO;

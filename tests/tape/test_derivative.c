@@ -206,6 +206,47 @@ random_slopes_agree_with_symbolic_derivatives(void **state)
     assert_true(slopes > WANTED);
 }
 
+/* Where arguments of max and min are equal, on intervals or at one place, tapes and symbols have the slope
+ * of the same one, along all inputs. */
+static void
+slopes_where_arguments_are_equal_agree(void **state)
+{
+    enum { LEAVES = 2, NODES = 4, WANTED = 600 };
+
+    (void)state;
+    for (int round = 0; round < WANTED; round++) {
+        qdot_pool *pool = qdot_pool_new();
+        qdot_expr have[LEAVES + NODES], slope[LEAVES];
+        double at[LEAVES], out, J[LEAVES], want[LEAVES];
+        qdot_tape *tape, *symbolic;
+
+        for (int i = 0; i < LEAVES; i++) {
+            have[i] = coordinate(pool, "x", i);
+            at[i] = (double)roll(3) - 1;
+        }
+        for (unsigned i = LEAVES; i < LEAVES + NODES; i++) {
+            const qdot_expr x = have[roll(i)], y = have[roll(i)];
+            const qdot_expr of[] = {x, y, roll(2) ? qdot_fun1(pool, QDOT_ABS, x) : QDOT_ZERO};
+
+            have[i] = qdot_fun(pool, roll(2) ? QDOT_MAX : QDOT_MIN, 2 + roll(2), of);
+            if (roll(3) == 0)
+                have[i] = qdot_mul(pool, qdot_expr_int(pool, 2), have[i]);
+        }
+        for (int j = 0; j < LEAVES; j++)
+            slope[j] = qdot_diff(pool, have[LEAVES + NODES - 1], have[j]);
+        assert_int_equal(qdot_tape_new(pool, LEAVES, have, 1, have + LEAVES + NODES - 1, &tape), QDOT_OK);
+        assert_int_equal(qdot_tape_new(pool, LEAVES, have, LEAVES, slope, &symbolic), QDOT_OK);
+        derive(tape, at, 0, LEAVES, &out, J);
+        evaluate(symbolic, at, want);
+        for (int j = 0; j < LEAVES; j++)
+            if (J[j] != want[j])
+                fail_msg("expression %d: the slope along x[%d] is %g, not %g", round, j, J[j], want[j]);
+        qdot_tape_free(tape);
+        qdot_tape_free(symbolic);
+        qdot_pool_free(pool);
+    }
+}
+
 int
 main(void)
 {
@@ -213,6 +254,7 @@ main(void)
         cmocka_unit_test(every_operation_agrees_with_differences),
         cmocka_unit_test(whole_tapes_agree_with_symbolic_derivatives),
         cmocka_unit_test(random_slopes_agree_with_symbolic_derivatives),
+        cmocka_unit_test(slopes_where_arguments_are_equal_agree),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
