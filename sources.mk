@@ -185,6 +185,7 @@ library_sources = \
 	lib/lang/unknowns/continue.c \
 	lib/lang/unknowns/find-orbit.c \
 	lib/lang/unknowns/find-read.c \
+	lib/lang/unknowns/find-size.c \
 	lib/lang/unknowns/find.c \
 	lib/lang/unknowns/fit-answer.c \
 	lib/lang/unknowns/fit-data.c \
@@ -364,7 +365,10 @@ library_sources = \
 	lib/num/sparse.c \
 	lib/num/structure.c \
 	lib/num/two.c \
-	lib/num/zero.c \
+	lib/num/zero-between.c \
+	lib/num/zero-family.c \
+	lib/num/zero-search.c \
+	lib/num/zero-step.c \
 	lib/ode/alternate.c \
 	lib/ode/apart.c \
 	lib/ode/batch.c \
@@ -929,6 +933,7 @@ library_headers = \
 	lib/num/sum.h \
 	lib/num/two.def \
 	lib/num/two.h \
+	lib/num/zero-parts.h \
 	lib/num/zero.h \
 	lib/ode/alternate.h \
 	lib/ode/apart.h \
@@ -1441,6 +1446,7 @@ script_tests = \
 	tests/script/far-sides.lag \
 	tests/script/fast-oscillations.sh \
 	tests/script/figures.sh \
+	tests/script/find-no-solution.sh \
 	tests/script/find-orbit.sh \
 	tests/script/find.sh \
 	tests/script/fit.sh \
@@ -2514,6 +2520,7 @@ test_files = \
 	tests/script/far-sides.out \
 	tests/script/fast-oscillations.out \
 	tests/script/figures.out \
+	tests/script/find-no-solution.out \
 	tests/script/find-orbit.out \
 	tests/script/find.out \
 	tests/script/fit.out \

@@ -5,14 +5,19 @@
  * Where unknowns are more than independent equations, this is the least step (a solution near the guess, one of a
  * family); where equations are more, that of least squares, and F must vanish. mu = 0.01 |F|^2 |J|^2 keeps
  * steps short while J is nearly singular and F is not yet small, and leaves the convergence quadratic. From a guess in
- * units of its own, mu is larger while J is nearly singular and the step longer than 0.1 units at first, and than 4
- * times the longest whole step before later on: near a family, J nearly lets u go along it any far. A step
+ * units of its own, mu is larger while a singular value of J is small beside the largest seen, and the step longer than
+ * 0.1 units at first, and than 4 times the longest whole step before later on: near a family, or an extremum of F, J
+ * nearly lets u go any far. A step
  * is halved until it makes |F| smaller, or the step that would follow with the same J.
  * A search in vain is begun again from places around the guess; so is one that finds a zero which is not wanted.
  *
  * One unknown of one equation between bounds with a change of sign between them: Newton and bisection.
  *
- * The error of an unknown is the last step for mu = 0, and what the errors of F make of it, |J^+| |dF|.
+ * The error of an unknown is r times the last step w for mu = 0 and what the errors of F make of it, |J^+| |dF|. At a
+ * zero of multiplicity r, as far as F can be told from 0, the steps lead 1/r of the way: 1/r = du.dw/du.du of the last two.
+ *
+ * Directions of u in which J says nothing are those of a family if from places beside the zero steps lead to other zeros
+ * beside it; else the zero is an isolated one of higher order.
  *
  * Source  Fan, Yuan, Computing 74 (2005) 23 (mu); Deuflhard, Newton Methods (2004), 3.3 (the step that would follow); Press et al., Numerical Recipes, 9.4 (rtsafe).
  * Tests   tests/num/test_zero.c
@@ -34,7 +39,10 @@ typedef struct {
     void *user;
     const double *low, *high; /* [n] bounds of u; NULL, or infinite: none */
     const double *unit;       /* [n] of u, at a guess near a zero; NULL: |u| at the guess, 1 where that is 0 */
+    /* Written by `at`, may be NULL: errors of J [m x n]; sizes of what F [m] are differences of. */
+    const double *slope_error, *size;
     bool once;                /* a search in vain is not begun again */
+    bool verify;              /* look whether what J leaves open is a family */
     /* Whether a zero, u and rank of it, is what was looked for: else the search goes on from other places. NULL: each is. */
     qdot_status (*wanted)(const double *u, size_t rank, bool *is, void *user);
 } qdot_zero_problem;
@@ -53,7 +61,9 @@ typedef struct {
     qdot_zero_answer answer;
     double *u, *error;   /* [n] in: the guess; out: the best; owned by the caller */
     double *f, *f_error; /* [m] there */
-    size_t rank;         /* of J at the end */
+    size_t rank;         /* how many directions of u F fixes: that of J at the end, and more at a zero of higher
+                            order */
+    bool vague_rank;     /* `verify` could not tell whether the rest is a family */
     size_t steps;        /* evaluations of J */
 } qdot_zero_result;
 

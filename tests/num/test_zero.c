@@ -3,6 +3,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <math.h>
+#include <string.h>
 #include <cmocka.h>
 
 #include "num/zero.h"
@@ -255,6 +256,97 @@ what_is_no_zero_is_told(void **state)
     assert_int_equal(between((one){sin, 8, 9, 1}, 0, 1, u).answer, QDOT_ZERO_NOWHERE);
 }
 
+/* Polynomials, their slopes, and errors as those of a run. */
+typedef struct {
+    enum { NEAR_MISS, FIFTH_ORDER, POINT, DOUBLE_LINE, NOTHING } kind;
+    double slope_error[2], size[1];
+} shape;
+
+static qdot_status
+shape_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    shape *x = user;
+    const double a = u[0] - 1.1, b = u[1] - 2.3, line = a + 2 * b;
+    double J[2] = {0, 0};
+
+    *error = 1e-15;
+    x->size[0] = 1;
+    x->slope_error[0] = x->slope_error[1] = 1e-13;
+    switch (x->kind) {
+    case NEAR_MISS: *f = a * a + 1e-5; J[0] = 2 * a; break;
+    case FIFTH_ORDER: *f = a * a * a * a * a; J[0] = 5 * a * a * a * a; break;
+    case POINT: *f = a * a + 3 * b * b; J[0] = 2 * a; J[1] = 6 * b; break;
+    case DOUBLE_LINE: *f = line * line; J[0] = 2 * line; J[1] = 4 * line; break;
+    default: *f = 3e-16; J[0] = 2e-14; J[1] = -1e-15;
+    }
+    if (slope != NULL)
+        memcpy(slope, J, sizeof J);
+    return QDOT_OK;
+}
+
+static qdot_zero_result
+search_shape(int kind, double u0, double u1, double *room)
+{
+    shape x = {.kind = kind};
+    const qdot_zero_problem p = {.n = 2, .m = 1, .at = shape_at, .user = &x, .slope_error = x.slope_error,
+                                 .size = x.size, .verify = true};
+    qdot_zero_result r = {.u = room, .error = room + 2, .f = room + 4, .f_error = room + 5};
+
+    room[0] = u0;
+    room[1] = u1;
+    assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+    return r;
+}
+
+static void
+a_least_value_is_no_zero(void **state)
+{
+    double room[6];
+    const qdot_zero_result r = search_shape(NEAR_MISS, 0.3, 1, room);
+
+    (void)state;
+    assert_int_equal(r.answer, QDOT_ZERO_NONE);
+    assert_true(fabs(r.u[0] - 1.1) < 1e-3);
+}
+
+static void
+errors_grow_with_the_order(void **state)
+{
+    double room[6];
+    const qdot_zero_result r = search_shape(FIFTH_ORDER, 0.4, 1, room);
+
+    (void)state;
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 1);
+    assert_true(fabs(r.u[0] - 1.1) <= r.error[0] && r.error[0] < 0.02);
+}
+
+/* What J leaves open is looked at: a point, from beside it and from itself; a line; the whole plane. */
+static void
+points_are_told_from_families(void **state)
+{
+    double room[6];
+    qdot_zero_result r = search_shape(POINT, 1.7, 2.8, room);
+
+    (void)state;
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 2);
+    assert_true(hypot(r.u[0] - 1.1, r.u[1] - 2.3) <= r.error[0] + r.error[1] && r.error[0] < 1e-5);
+    r = search_shape(POINT, 1.1, 2.3, room);
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 2);
+    assert_true(r.error[0] > 1e-9 && r.error[0] < 1e-5);
+    r = search_shape(DOUBLE_LINE, 0.5, 1.7, room);
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 1);
+    assert_false(r.vague_rank);
+    assert_true(fabs(r.u[0] - 1.1 + 2 * (r.u[1] - 2.3)) <= r.error[0] + 2 * r.error[1]);
+    r = search_shape(NOTHING, 0.4, 1.7, room);
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_int_equal(r.rank, 0);
+    assert_true(r.u[0] == 0.4 && r.u[1] == 1.7 && r.error[0] < 1e-15);
+}
+
 int
 main(void)
 {
@@ -266,6 +358,9 @@ main(void)
         cmocka_unit_test(a_family_gives_the_near_solution),
         cmocka_unit_test(bounds_lead_to_a_zero),
         cmocka_unit_test(what_is_no_zero_is_told),
+        cmocka_unit_test(a_least_value_is_no_zero),
+        cmocka_unit_test(errors_grow_with_the_order),
+        cmocka_unit_test(points_are_told_from_families),
     };
 
     return cmocka_run_group_tests_name("zero", tests, NULL, NULL);

@@ -47,4 +47,18 @@ QDOT_MUST_CHECK qdot_status qdot_find_shoot(const qdot_find *f, qdot_shooting_re
 QDOT_MUST_CHECK qdot_status qdot_find_residuals(const qdot_find *f, qdot_expr from,
                                                 qdot_expr *e);
 
+/* Sizes [qdot_find_count] of what is subtracted in e, of the run: of a condition the sum of its terms, of a return how
+ * large a coordinate or velocity becomes. */
+QDOT_MUST_CHECK qdot_status qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *size);
+
+/* What the runs of a search have cost, from {0}. */
+typedef struct {
+    double first, length, spent; /* work and length of the first one; of all */
+} qdot_find_budget;
+
+/* QDOT_EFAILED: a run of that length is too much. */
+QDOT_MUST_CHECK qdot_status qdot_find_spend(qdot_find_budget *b, double length);
+/* As many runs were made as that one. */
+void qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs);
+
 #endif

@@ -31,7 +31,10 @@ typedef struct {
     qdot_expr *e;       /* [m] what must vanish, of that trial */
     bool bounded;       /* without slopes there is still bisection */
     size_t rank;        /* how many unknowns the segments fix */
+    double *slope_error, *size; /* [m x n], [m] of what must vanish */
+    bool sized;         /* the latter are known */
     double length;      /* of the run at the guess */
+    qdot_find_budget budget;
     double reach;       /* of an orbit's guess (sim/study/floquet.h) */
     qdot_error failure; /* of the latest trial that could not be had */
 } hunt;
@@ -142,7 +145,18 @@ find_limits(hunt *h)
     return status;
 }
 
-/* Constraints that no open value fulfils move all: the run is none of these unknowns then. */
+static qdot_status
+find_length(const hunt *h, double *length)
+{
+    double from, to;
+
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.from, &from, NULL));
+    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
+    *length = fabs(to - from);
+    return QDOT_OK;
+}
+
+/* If no free initial value can satisfy the constraints, all of them move: the run is not that of the unknowns. */
 static qdot_status
 check_start(const hunt *h)
 {
@@ -167,14 +181,23 @@ check_start(const hunt *h)
 static qdot_status
 open_at(hunt *h, const double *u)
 {
+    double length;
+
     if (h->trial.open && memcmp(h->at, u, h->trial.n * sizeof *u) == 0)
         return QDOT_OK;
     qdot_trial_close(&h->trial);
     QDOT_TRY(take_values(h, u));
     QDOT_TRY(find_limits(h));
+    QDOT_TRY(find_length(h, &length));
+    QDOT_TRY(qdot_find_spend(&h->budget, length));
     QDOT_TRY(qdot_trial_open(&h->trial, h->values));
+    qdot_find_spent(&h->budget, h->trial.run, 1);
     QDOT_TRY(check_start(h));
-    return qdot_find_residuals(h->f, h->trial.from, h->e);
+    QDOT_TRY(qdot_find_residuals(h->f, h->trial.from, h->e));
+    if (!h->sized)
+        QDOT_TRY(qdot_find_sizes(h->f, h->trial.run, h->e, h->size));
+    h->sized = true;
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -186,7 +209,8 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
     if (status == QDOT_OK)
         status = qdot_trial_numbers(&h->trial, h->m, h->e, f, error);
     if (status == QDOT_OK && slope != NULL) {
-        status = qdot_trial_slopes(&h->trial, h->m, h->e, slope, NULL);
+        status = qdot_trial_slopes(&h->trial, h->m, h->e, slope, h->slope_error);
+        qdot_find_spent(&h->budget, h->trial.run, 1 + h->trial.n);
         if (h->bounded && status != QDOT_OK && qdot_grave(status) == QDOT_OK) {
             slope[0] = NAN;
             status = QDOT_OK;
@@ -341,6 +365,10 @@ tell_family(const hunt *h, const qdot_zero_result *r)
 {
     if (r->rank >= h->trial.n)
         return QDOT_OK;
+    if (r->vague_rank)
+        return qdot_answer_notice(h->f->c->session,
+                                  "perhaps one of a family: to first order the conditions fix %zu of %zu unknowns",
+                                  r->rank, h->trial.n);
     return qdot_answer_notice(h->f->c->session,
                               "one of a family: the conditions fix %zu of %zu unknowns",
                               r->rank, h->trial.n);
@@ -399,17 +427,6 @@ keep_run(const qdot_find *f, qdot_expr from, qdot_expr to)
     qdot_text_clear(&text);
     qdot_request_free(&request);
     return status;
-}
-
-static qdot_status
-find_length(const hunt *h, double *length)
-{
-    double from, to;
-
-    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.from, &from, NULL));
-    QDOT_TRY(qdot_session_number(h->trial.session, h->trial.to, &to, NULL));
-    *length = fabs(to - from);
-    return QDOT_OK;
 }
 
 /* A run without length returns whatever its start is. */
@@ -588,7 +605,9 @@ search(hunt *h, qdot_zero_result *r)
                                  .at = evaluate,
                                  .user = h,
                                  .low = f->low.at,
-                                 .high = f->high.at};
+                                 .high = f->high.at,
+                                 .slope_error = h->slope_error,
+                                 .size = h->size};
 
     memcpy(r->u, f->guess.at, p.n * sizeof *r->u);
     for (size_t i = 0; i < p.n; i++)
@@ -596,6 +615,7 @@ search(hunt *h, qdot_zero_result *r)
     QDOT_TRY(take_values(h, r->u));
     QDOT_TRY(find_limits(h)); /* whether there are any, before the first run */
     QDOT_TRY(find_length(h, &h->length));
+    p.verify = true;
     if (f->returns) {
         qdot_shooting_result shot = {.u = r->u, .error = h->before};
         bool rests;
@@ -606,6 +626,7 @@ search(hunt *h, qdot_zero_result *r)
             QDOT_TRY(qdot_find_shoot(f, &shot));
         h->rank = shot.rank;
         p.unit = shot.found ? h->unit : NULL;
+        p.verify = !shot.found;
         p.once = shot.found; /* an orbit that no run can follow round is not looked for elsewhere */
     }
     QDOT_TRY(qdot_zero_find(&p, r));
@@ -630,7 +651,7 @@ carry_out(qdot_find *f)
                         .n = n,
                         .unknowns = f->unknowns.at,
                         .options = &f->run}};
-    double *room = qdot_calloc(5 * n + 2 * m + 2 * f->c->session->scene->coordinates.n + 1, sizeof *room);
+    double *room = qdot_calloc(5 * n + 3 * m + m * n + 2 * f->c->session->scene->coordinates.n + 1, sizeof *room);
     qdot_zero_result r = {
         .u = room, .error = room + n, .f = room + 5 * n, .f_error = room + 5 * n + m};
     qdot_status status = QDOT_ENOMEM;
@@ -638,7 +659,9 @@ carry_out(qdot_find *f)
     h.at = room + 2 * n;
     h.unit = room + 3 * n;
     h.before = room + 4 * n;
-    h.start = room + 5 * n + 2 * m;
+    h.size = room + 5 * n + 2 * m;
+    h.slope_error = h.size + m;
+    h.start = h.slope_error + m * n;
     h.values = qdot_calloc(n + m + 1, sizeof *h.values);
     if (room != NULL && h.values != NULL) {
         h.e = h.values + n;

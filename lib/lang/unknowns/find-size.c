@@ -1,0 +1,91 @@
+/* find-size.c -- what the conditions of `find` are differences of, and what its runs may cost. */
+#include <math.h>
+
+#include "lang/session/bind.h"
+#include "lang/unknowns/find-parts.h"
+
+/* The largest of |e| along the run, at some times. */
+static qdot_status
+size_along(qdot_run *run, qdot_expr e, double *size)
+{
+    enum { TIMES = 17 };
+    const qdot_run_report *report = qdot_run_get_report(run);
+    double t[TIMES], value[TIMES];
+
+    for (int k = 0; k < TIMES; k++)
+        t[k] = k == TIMES - 1 ? report->t1 : report->t0 + (report->t1 - report->t0) * k / (TIMES - 1);
+    QDOT_TRY(qdot_run_values(run, 1, &e, TIMES, t, value, NULL));
+    *size = 0;
+    for (int k = 0; k < TIMES; k++)
+        *size = fmax(*size, fabs(value[k]));
+    return QDOT_OK;
+}
+
+/* The sum of the sizes of its terms. */
+static qdot_status
+size_of_terms(qdot_session *session, qdot_expr e, double *size)
+{
+    const bool sum = qdot_expr_kind(session->pool, e) == QDOT_SUM;
+    const uint32_t n = sum ? qdot_expr_count(session->pool, e) : 1;
+
+    *size = 0;
+    for (uint32_t k = sum ? 1 : 0; k < n; k += 2) { /* the constant of a sum comes first, then terms with factors */
+        double one, factor = 1;
+
+        QDOT_TRY(qdot_session_number(session, sum ? qdot_expr_arg(session->pool, e, k) : e, &one, NULL));
+        if (sum)
+            QDOT_TRY(qdot_session_number(session, qdot_expr_arg(session->pool, e, k + 1), &factor, NULL));
+        *size += fabs(one * factor);
+    }
+    if (sum) {
+        double constant;
+
+        QDOT_TRY(qdot_session_number(session, qdot_expr_arg(session->pool, e, 0), &constant, NULL));
+        *size += fabs(constant);
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *size)
+{
+    qdot_session *session = f->c->session;
+    const size_t n = session->scene->coordinates.n;
+
+    for (size_t k = 0; k < f->conditions.n; k++) {
+        if (!f->conditions.at[k].returns) {
+            QDOT_TRY(size_of_terms(session, *e++, size++));
+            continue;
+        }
+        for (size_t i = 0; i < 2 * n; i++, e++)
+            QDOT_TRY(size_along(
+                run, qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n), size++));
+    }
+    return QDOT_OK;
+}
+
+/* A search may cost so many times its first run, and at least this (ode/meter.h). */
+static const double most_runs = 1500, least_budget = 4e9;
+
+qdot_status
+qdot_find_spend(qdot_find_budget *b, double length)
+{
+    const double next = b->first * fmax(1, length / b->length);
+
+    if (b->first == 0 || b->spent + next <= fmax(most_runs * b->first, least_budget))
+        return QDOT_OK;
+    return qdot_fail(QDOT_EFAILED, "the runs of this search have cost too much, or would by one of length %.3g", length);
+}
+
+void
+qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs)
+{
+    const qdot_run_report *report = qdot_run_get_report(run);
+    const double work = report->work + report->estimate_work;
+
+    if (b->first == 0) {
+        b->first = work;
+        b->length = fabs(report->t1 - report->t0);
+    }
+    b->spent += (double)runs * work;
+}

@@ -1,0 +1,176 @@
+/* zero-family.c -- whether a zero is one of a family, in directions of which J says nothing. */
+#include "num/zero-parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* A zero of a higher order than that, or where singular values of J are so small beside those on the way, is no
+ * regular one. */
+static const double of_first_order = 1.2, vanished = 1e-3;
+
+/* How far beside a zero others are looked for, in units of the unknowns; the first alone beside one of a higher order,
+ * of which F is small near by. */
+static const double beside[] = {0.05, 5e-3, 5e-4};
+
+/* Down to there it is looked how near F can be told from 0. */
+static const double nearest = 1e-8;
+
+enum { CORRECTIONS = 6 };
+
+typedef enum {
+    OTHER, /* a zero was found that is at least half as far away */
+    BACK,  /* corrections lead back */
+    LOST   /* they lead nowhere */
+} beside_answer;
+
+typedef struct {
+    qdot_zero_search *s;
+    size_t rank;        /* of J at the zero */
+    bool first_order;
+    double *u, *error;  /* [n] the zero */
+    double *ways, *way; /* [n x n] directions as columns, the last n - rank of them open; [n] one of them */
+    double *f;          /* [2m] F there, and its errors */
+} family;
+
+/* From h units beside the zero along `way`, with so many corrections. J at the zero is lost. */
+static qdot_status
+look_beside(const family *x, double h, int corrections, beside_answer *answer)
+{
+    qdot_zero_search *s = x->s;
+    const size_t n = s->p->n;
+    double *u = s->r->u, along = 0;
+    bool zero = false;
+
+    *answer = LOST;
+    for (size_t j = 0; j < n; j++)
+        u[j] = qdot_zero_within(s->p, j, x->u[j] + h * x->way[j] * s->unit[j]);
+    for (int k = 0; k <= corrections && !zero; k++) {
+        QDOT_TRY(qdot_zero_evaluate(s));
+        if (isnan(s->r->f[0]))
+            return QDOT_OK;
+        zero = qdot_zero_is_within_errors(s, s->r->f, s->r->f_error);
+        if (zero || k == corrections || !qdot_zero_find_step(s))
+            break;
+        s->r->rank = x->rank > 0 && x->rank < s->r->rank ? x->rank : s->r->rank;
+        s->mu = 0;
+        (void)qdot_zero_take_step(s, s->r->f, s->step);
+        for (size_t j = 0; j < n; j++)
+            u[j] = qdot_zero_within(s->p, j, u[j] + s->step[j]);
+    }
+    for (size_t j = 0; j < n; j++)
+        along += (u[j] - x->u[j]) / s->unit[j] * x->way[j];
+    if (fabs(along) < h / 2)
+        *answer = BACK;
+    else if (zero)
+        *answer = OTHER;
+    return QDOT_OK;
+}
+
+/* How near to the zero, in units along `way`, F can be told from 0. */
+static qdot_status
+find_open(const family *x, double *open)
+{
+    beside_answer answer = BACK;
+
+    for (*open = beside[0]; *open > nearest; *open /= 10) {
+        QDOT_TRY(look_beside(x, *open / 10, 0, &answer));
+        if (answer == OTHER)
+            break;
+    }
+    return QDOT_OK;
+}
+
+/* The k-th direction: OTHER if it is one of a family; else *open. */
+static qdot_status
+look_along(const family *x, size_t k, beside_answer *answer, double *open)
+{
+    const size_t n = x->s->p->n, most = x->first_order ? sizeof beside / sizeof *beside : 1;
+    double one;
+
+    *answer = LOST;
+    *open = 0;
+    for (int side = 1; side >= -1; side -= 2) {
+        for (size_t j = 0; j < n; j++)
+            x->way[j] = side * x->ways[j * n + k];
+        for (size_t i = 0; i < most; i++) {
+            beside_answer this;
+
+            QDOT_TRY(look_beside(x, beside[i], CORRECTIONS, &this));
+            if (this == OTHER)
+                *answer = OTHER;
+            if (this == OTHER)
+                return QDOT_OK;
+            if (this == BACK)
+                *answer = BACK;
+        }
+        QDOT_TRY(find_open(x, &one));
+        *open = fmax(*open, one);
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+look_along_all(const family *x)
+{
+    qdot_zero_search *s = x->s;
+    const size_t n = s->p->n;
+    size_t isolated = 0;
+
+    for (size_t k = x->rank; k < n; k++) {
+        beside_answer answer;
+        double open;
+
+        QDOT_TRY(look_along(x, k, &answer, &open));
+        isolated += answer == BACK;
+        s->r->vague_rank = s->r->vague_rank || answer == LOST;
+        for (size_t j = 0; j < n && answer == BACK; j++)
+            x->error[j] = fmax(x->error[j], open * fabs(x->ways[j * n + k]) * s->unit[j]);
+    }
+    s->r->rank = x->rank + isolated;
+    return QDOT_OK;
+}
+
+static void
+keep_zero(const family *x, bool back)
+{
+    const size_t n = x->s->p->n, m = x->s->p->m;
+    double *const there[] = {x->u, x->error, x->f, x->f + m};
+    double *const here[] = {x->s->r->u, x->s->r->error, x->s->r->f, x->s->r->f_error};
+
+    for (int i = 0; i < 4; i++)
+        memcpy(back ? here[i] : there[i], back ? there[i] : here[i], (i < 2 ? n : m) * sizeof **here);
+}
+
+qdot_status
+qdot_zero_verify_family(qdot_zero_search *s)
+{
+    const size_t n = s->p->n, m = s->p->m;
+    family x = {.s = s};
+    qdot_status status;
+
+    if (s->r->answer != QDOT_ZERO_FOUND || !s->p->verify || s->r->rank == n)
+        return QDOT_OK;
+    x.u = qdot_calloc(n * n + 3 * n + 2 * m, sizeof *x.u);
+    if (x.u == NULL)
+        return QDOT_ENOMEM;
+    x.error = x.u + n;
+    x.way = x.error + n;
+    x.f = x.way + n;
+    x.ways = x.f + 2 * m;
+    keep_zero(&x, false);
+    status = qdot_zero_evaluate(s); /* J may be that of another place */
+    (void)qdot_zero_find_step(s);
+    x.rank = s->r->rank;
+    x.first_order = s->order < of_first_order &&
+                    (x.rank == 0 || gsl_vector_get(s->singular, x.rank - 1) > vanished * s->strongest);
+    for (size_t j = 0; j < n; j++)
+        for (size_t k = 0; k < n; k++)
+            x.ways[j * n + k] = gsl_matrix_get(s->V, j, k);
+    if (status == QDOT_OK)
+        status = look_along_all(&x);
+    keep_zero(&x, true);
+    qdot_free(x.u);
+    return status;
+}

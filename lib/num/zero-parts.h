@@ -1,0 +1,65 @@
+/* zero-parts.h -- a search for a zero, between the parts of it: steps, searches, bounds, families. */
+#ifndef QDOT_NUM_ZERO_PARTS_H
+#define QDOT_NUM_ZERO_PARTS_H
+
+#include <gsl/gsl_linalg.h>
+
+#include "num/zero.h"
+
+typedef struct {
+    const qdot_zero_problem *p;
+    qdot_zero_result *r;
+    double *slope;             /* [m x n] J at r->u */
+    double *u, *f, *error;     /* [n], [m], [m] where a step leads */
+    double *trial;             /* [n] */
+    double *unit, *unit_f;     /* [n], [m] of unknowns and functions */
+    double *small;             /* [m] below this a function may count as 0 */
+    double mu, length;         /* of the step, in units of the unknowns */
+    double strongest;          /* the largest singular value of the search */
+    double order;              /* of the zero, by the last steps */
+    double *last_u, *last;     /* [n] where the order was taken last, and `whole` there, */
+    bool has_last;             /* if it was */
+    double reach;              /* the step is no longer than that where J is nearly singular */
+    double *step, *whole;      /* [n] the step, and what it were by mu = 0, of any length */
+    double *from_error;        /* [n] what errors of F make of it */
+    gsl_matrix *U, *V;
+    gsl_vector *singular, *work;
+} qdot_zero_search;
+
+/* --- zero-step.c --- */
+
+/* F, its errors and J at r->u. */
+QDOT_MUST_CHECK qdot_status qdot_zero_evaluate(qdot_zero_search *s);
+/* u, or the bound of the j-th unknown that it is beyond. */
+double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
+/* |f| in units of the functions. */
+double qdot_zero_norm(const qdot_zero_search *s, const double *f);
+/* Units of unknowns and functions, by J at r->u. */
+void qdot_zero_choose_units(qdot_zero_search *s);
+/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
+double qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step);
+/* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
+bool qdot_zero_find_step(qdot_zero_search *s);
+/* Whether f [m] is 0 within its errors [m] and rounding. */
+bool qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const double *error);
+/* Whether the step says nothing more than the errors of F and rounding. */
+bool qdot_zero_step_is_nothing(const qdot_zero_search *s);
+/* Whether F is 0 within its errors and rounding of u, which are small beside what F was at the guess, or beside what
+ * it is made of: where the last bit of u moves F by as much as the guess was off, nothing is found. */
+bool qdot_zero_is_zero(const qdot_zero_search *s);
+/* The order of the zero that the steps lead to, by this place and the last one. */
+void qdot_zero_estimate_order(qdot_zero_search *s);
+/* Errors of the unknowns; a zero whose place they leave open is vague. */
+void qdot_zero_state_errors(qdot_zero_search *s);
+
+/* --- zero-search.c, zero-between.c, zero-family.c --- */
+
+/* Newton's method from the guess; in vain, from places around it. */
+QDOT_MUST_CHECK qdot_status qdot_zero_descend(qdot_zero_search *s);
+/* One unknown of one function between bounds. */
+QDOT_MUST_CHECK qdot_status qdot_zero_find_between(qdot_zero_search *s);
+/* Of a zero that J leaves open in some directions: are these directions of a family? Those of an isolated zero are
+ * added to the rank. */
+QDOT_MUST_CHECK qdot_status qdot_zero_verify_family(qdot_zero_search *s);
+
+#endif
