@@ -343,6 +343,7 @@ library_sources = \
 	lib/normal/solve/zeros-systems.c \
 	lib/normal/solve/zeros.c \
 	lib/num/articulated.c \
+	lib/num/balance.c \
 	lib/num/batch.c \
 	lib/num/bordered.c \
 	lib/num/chebyshev.c \
@@ -625,6 +626,7 @@ library_sources = \
 	lib/sim/study/race.c \
 	lib/sim/study/response.c \
 	lib/sim/study/shooting.c \
+	lib/sim/study/sizes.c \
 	lib/sim/study/tangents.c \
 	lib/sim/study/variation-parts.c \
 	lib/sim/study/variation-scene.c \
@@ -904,6 +906,7 @@ library_headers = \
 	lib/num/articulated-plane.def \
 	lib/num/articulated.def \
 	lib/num/articulated.h \
+	lib/num/balance.h \
 	lib/num/batch-kinds.def \
 	lib/num/batch-vector.def \
 	lib/num/batch.def \
@@ -1157,6 +1160,7 @@ library_headers = \
 	lib/sim/study/race.h \
 	lib/sim/study/response.h \
 	lib/sim/study/shooting.h \
+	lib/sim/study/sizes.h \
 	lib/sim/study/tangents.h \
 	lib/sim/study/variation-parts.h \
 	lib/sim/study/variation-scene.h \
@@ -1270,6 +1274,7 @@ unit_tests = \
 	tests/normal/test_verdicts \
 	tests/normal/test_zeros \
 	tests/num/test_articulated \
+	tests/num/test_balance \
 	tests/num/test_batch \
 	tests/num/test_chebyshev \
 	tests/num/test_cholesky \
@@ -1589,6 +1594,7 @@ script_tests = \
 	tests/script/to-file.sh \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
+	tests/script/units.sh \
 	tests/script/values.lag \
 	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
@@ -2679,6 +2685,7 @@ test_files = \
 	tests/script/to-file.out \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
+	tests/script/units.out \
 	tests/script/values.out \
 	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \

@@ -72,10 +72,10 @@ of_an_oscillator(void **state)
     f.q0[0] = QDOT_ONE;
     f.request.t1 = qdot_expr_int(f.pool, 3);
     const qdot_variation_by by[] = {
-        {"m", f.symbols[0], with_free(&f, by_m, 0), none},
-        {"k", f.symbols[1], with_free(&f, by_k, 1), none},
-        {"x", QDOT_NIL, NULL, place},
-        {"x'", QDOT_NIL, NULL, speed},
+        {"m", f.symbols[0], with_free(&f, by_m, 0), none, 0},
+        {"k", f.symbols[1], with_free(&f, by_k, 1), none, 0},
+        {"x", QDOT_NIL, NULL, place, 0},
+        {"x'", QDOT_NIL, NULL, speed, 0},
     };
 
     must(qdot_variation_make(f.scene, &f.request, 4, by, true, &v));
@@ -127,9 +127,9 @@ through_a_bounce(void **state)
     f.q0[0] = QDOT_ONE;
     f.request.t1 = number(&f, "0.6");
     const qdot_variation_by by[] = {
-        {"e", f.symbols[0], with_free(&f, by_e, 0), none},
-        {"g", f.symbols[1], with_free(&f, by_g, 1), none},
-        {"y", QDOT_NIL, NULL, place},
+        {"e", f.symbols[0], with_free(&f, by_e, 0), none, 0},
+        {"g", f.symbols[1], with_free(&f, by_g, 1), none, 0},
+        {"y", QDOT_NIL, NULL, place, 0},
     };
 
     must(qdot_variation_make(f.scene, &f.request, 3, by, true, &v));
@@ -177,8 +177,8 @@ along_a_circle(void **state)
     f.request.q_named = open;
     f.request.v_named = open;
     f.request.t1 = number(&f, "0.7");
-    const qdot_variation_by by[] = {{"L", f.symbols[0], with_free(&f, by_L, 0), none},
-                                    {"x'", QDOT_NIL, NULL, speed}};
+    const qdot_variation_by by[] = {{"L", f.symbols[0], with_free(&f, by_L, 0), none, 0},
+                                    {"x'", QDOT_NIL, NULL, speed, 0}};
 
     must(qdot_variation_make(f.scene, &f.request, 2, by, true, &v));
     r = run_of(&v);
@@ -191,7 +191,7 @@ along_a_circle(void **state)
 
     /* a start that names all cannot change alone */
     f.request.q_named = whole;
-    const qdot_variation_by by_y[] = {{"y", QDOT_NIL, NULL, place}};
+    const qdot_variation_by by_y[] = {{"y", QDOT_NIL, NULL, place, 0}};
 
     assert_int_equal(qdot_variation_make(f.scene, &f.request, 1, by_y, true, &v), QDOT_EINVAL);
     qdot_variation_clear(&v);
@@ -202,7 +202,7 @@ static void
 jumps_are_refused(void **state)
 {
     const qdot_expr place[] = {QDOT_ONE, QDOT_ZERO};
-    const qdot_variation_by by = {"x", QDOT_NIL, NULL, place};
+    const qdot_variation_by by = {"x", QDOT_NIL, NULL, place, 0};
     qdot_variation v;
     qdot_expr x;
     fixture f;

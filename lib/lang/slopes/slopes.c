@@ -13,6 +13,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
+#include "sim/study/sizes.h"
 
 /* A run with slopes goes beyond the last time that it is needed at by so much of the whole, since errors at
  * its end may be unknown; its end is that of the run within so much of the values. */
@@ -204,6 +205,37 @@ find_directions(qdot_slopes *s)
     return qdot_pool_check(pool);
 }
 
+/* Scales of the states by the run, where these are far apart, and of the directions. */
+static qdot_status
+find_scales(qdot_slopes *s)
+{
+    qdot_session *session = s->session;
+    const size_t n = session->scene->coordinates.n;
+    qdot_expr *jets = qdot_calloc(2 * n + 1, sizeof *jets);
+    qdot_status status;
+
+    s->scales = qdot_calloc(2 * n + 1, sizeof *s->scales);
+    status = jets != NULL && s->scales != NULL ? QDOT_OK : QDOT_ENOMEM;
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
+        jets[i] = qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
+    if (status == QDOT_OK)
+        status = qdot_sizes_along(s->run, 2 * n, jets, s->scales);
+    if (status == QDOT_OK && qdot_sizes_are_apart(2 * n, s->scales))
+        s->request.scales = s->scales;
+    for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++) {
+        const size_t i = qdot_expr_place(2 * n, jets, s->names.at[k].symbol),
+                     own = qdot_expr_place(s->conditions->symbols.n, s->conditions->symbols.at, s->names.at[k].symbol);
+
+        if (i < 2 * n && s->request.scales != NULL)
+            s->by[k].scale = s->scales[i];
+        else if (i == 2 * n && own < s->conditions->symbols.n)
+            status = qdot_session_number(session, s->conditions->values.at[own], &s->by[k].scale, NULL);
+        s->by[k].scale = fabs(s->by[k].scale);
+    }
+    qdot_free(jets);
+    return status;
+}
+
 /* The start as constraints left it. */
 static qdot_status
 find_start(qdot_slopes *s, const char *name)
@@ -370,6 +402,7 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     QDOT_TRY(shorten(s, e, first));
     QDOT_TRY(find_directions(s));
     QDOT_TRY(find_start(s, name));
+    QDOT_TRY(find_scales(s));
     QDOT_TRY(qdot_variation_make(s->session->scene, &s->request, s->names.n, s->by, true,
                                  &s->variation));
     request = qdot_variation_request(&s->variation);
@@ -402,5 +435,6 @@ qdot_slopes_free(qdot_slopes *s)
     qdot_free(s->values);
     qdot_free(s->start);
     qdot_free(s->settled);
+    qdot_free(s->scales);
     *s = (qdot_slopes){0};
 }

@@ -36,6 +36,7 @@ typedef struct {
     qdot_variation_by *by;     /* [names] */
     qdot_expr *values, *start; /* [names x values], [names x 2n] */
     qdot_expr *settled;        /* [2n] the run's start, on its constraints */
+    double *scales;            /* [2n] of the request, where the run shows that 1 is none; else NULL */
     qdot_variation variation;
 } qdot_slopes;
 

@@ -3,23 +3,7 @@
 
 #include "lang/session/bind.h"
 #include "lang/unknowns/find-parts.h"
-
-/* The largest of |e| along the run, at some times. */
-static qdot_status
-size_along(qdot_run *run, qdot_expr e, double *size)
-{
-    enum { TIMES = 17 };
-    const qdot_run_report *report = qdot_run_get_report(run);
-    double t[TIMES], value[TIMES];
-
-    for (int k = 0; k < TIMES; k++)
-        t[k] = k == TIMES - 1 ? report->t1 : report->t0 + (report->t1 - report->t0) * k / (TIMES - 1);
-    QDOT_TRY(qdot_run_values(run, 1, &e, TIMES, t, value, NULL));
-    *size = 0;
-    for (int k = 0; k < TIMES; k++)
-        *size = fmax(*size, fabs(value[k]));
-    return QDOT_OK;
-}
+#include "sim/study/sizes.h"
 
 /* The sum of the sizes of its terms. */
 static qdot_status
@@ -57,9 +41,11 @@ qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *s
             QDOT_TRY(size_of_terms(session, *e++, size++));
             continue;
         }
-        for (size_t i = 0; i < 2 * n; i++, e++)
-            QDOT_TRY(size_along(
-                run, qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n), size++));
+        for (size_t i = 0; i < 2 * n; i++, e++) {
+            const qdot_expr jet = qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n);
+
+            QDOT_TRY(qdot_sizes_along(run, 1, &jet, size++));
+        }
     }
     return QDOT_OK;
 }

@@ -348,7 +348,7 @@ make_flows(qdot_orbit_path *x)
     x->K = of->segments;
     if (x->K > 0)
         return QDOT_OK;
-    return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, &x->K);
+    return qdot_flow_segments_of_orbit(&x->flow[0], of->z, &of->p, x->t0, of->T, NULL, &x->K);
 }
 
 /* The states between segments, one after the other from the start. */

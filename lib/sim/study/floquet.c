@@ -6,9 +6,11 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "num/balance.h"
 #include "num/eigenvalues.h"
 #include "ode/scale.h"
 #include "sim/study/shooting.h"
+#include "sim/study/sizes.h"
 
 /* A run that is so near to its start at its end is followed all round by the states between segments; how far the start of an
  * orbit may be from that of the run, relative to max(1, |z|). */
@@ -31,11 +33,13 @@ typedef struct {
     qdot_scene *scene;
     qdot_run *run;
     const qdot_run_request *request;
+    qdot_run_request scaled; /* the same with the sizes of the states as scales */
     size_t n, K, c;   /* coordinates; segments; multipliers */
     double t0, T;
     double *states;   /* [most K x 2n] at the beginnings of the segments */
     double *ends;     /* [most K x 2n x 2n] slopes at their ends by these */
     double *B, *E;    /* [most K x 2n x 2n] of them, [K x c x c] */
+    double *size;     /* [2n] of the states */
     qdot_flow flow;
     const qdot_variation *v; /* of the flow */
 } orbit;
@@ -297,6 +301,30 @@ judge(qdot_floquet *x)
         x->verdict = QDOT_FLOQUET_STABLE;
 }
 
+/* Those of the product of B in units in which its factors are alike. */
+static qdot_status
+find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floquet *x)
+{
+    const size_t kk = k * k;
+    double *sum = qdot_calloc(kk + k + 2 * K * kk + 1, sizeof *sum), *unit = sum + kk, *own = unit + k;
+    qdot_status status;
+
+    if (sum == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < K * kk; i++)
+        sum[i % kk] += fabs(B[i]);
+    qdot_balance(k, sum, unit);
+    for (size_t i = 0; i < K * kk; i++) {
+        const double by = unit[i % k] / unit[i % kk / k];
+
+        own[i] = B[i] * by;
+        own[K * kk + i] = E[i] * by;
+    }
+    status = qdot_eigenvalues_of_product(K, k, own, own + K * kk, x->re, x->im, x->error);
+    qdot_free(sum);
+    return status;
+}
+
 qdot_status
 qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t trivial, bool asymptotic,
                 qdot_floquet *x)
@@ -308,7 +336,7 @@ qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t tri
         return QDOT_ENOMEM;
     x->im = x->re + k;
     x->error = x->im + k;
-    QDOT_TRY(qdot_eigenvalues_of_product(K, k, B, E, x->re, x->im, x->error));
+    QDOT_TRY(find_eigenvalues(K, k, B, E, x));
     state_trivial(x, trivial);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     judge(x);
@@ -348,6 +376,20 @@ find_multipliers(orbit *o, qdot_floquet *x)
 
 /* --- the orbit ----------------------------------------------------------------------------------- */
 
+/* Runs go by the sizes of the states where these are far from each other, or from 1. */
+static qdot_status
+scale_flow(orbit *o)
+{
+    if (!qdot_sizes_are_apart(2 * o->n, o->size) || o->request->scales != NULL)
+        return QDOT_OK;
+    o->scaled = *o->request;
+    o->scaled.scales = o->size;
+    o->request = &o->scaled;
+    qdot_flow_end(&o->flow);
+    QDOT_TRY(qdot_flow_begin(&o->flow, o->scene, o->request, 0, NULL, QDOT_NIL, qdot_flow_tolerance[0], o->T));
+    return qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, o->size, &o->K);
+}
+
 /* The start and the period from the run, the segments that its motions near by need. */
 static qdot_status
 begin(orbit *o)
@@ -357,19 +399,21 @@ begin(orbit *o)
 
     o->t0 = report->t0;
     o->T = report->t1 - report->t0;
-    o->states = qdot_calloc(most * z * (1 + 3 * z) + 1, sizeof *o->states);
+    o->states = qdot_calloc(most * z * (1 + 3 * z) + z + 1, sizeof *o->states);
     if (o->states == NULL)
         return QDOT_ENOMEM;
     o->ends = o->states + most * z;
     o->B = o->ends + most * z * z;
     o->E = o->B + most * z * z;
+    o->size = o->E + most * z * z;
     for (size_t i = 0; i < z; i++) {
         const qdot_expr e = jet(o->scene, i);
 
         QDOT_TRY(qdot_run_values(o->run, 1, &e, 1, &report->t0, &o->states[i], NULL));
     }
     QDOT_TRY(qdot_flow_begin(&o->flow, o->scene, o->request, 0, NULL, QDOT_NIL, qdot_flow_tolerance[0], o->T));
-    QDOT_TRY(qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, &o->K));
+    QDOT_TRY(qdot_flow_segments_of_orbit(&o->flow, o->states, NULL, o->t0, o->T, o->size, &o->K));
+    QDOT_TRY(scale_flow(o));
     o->v = qdot_response_variation(o->flow.response);
     return QDOT_OK;
 }
@@ -403,7 +447,7 @@ close_up(orbit *o, double off)
     if (status == QDOT_OK)
         status = qdot_shooting_find(&of, &r);
     for (size_t i = 0; i < z && status == QDOT_OK; i++)
-        moved = fmax(moved, fabs(at[i] - o->ends[i]) / fmax(1, fabs(at[i])));
+        moved = fmax(moved, fabs(at[i] - o->ends[i]) / fmax(fmin(1, o->size[i]), fabs(at[i])));
     if (status == QDOT_OK && !(r.found && moved < near_start))
         status = qdot_fail(QDOT_EFAILED, "the run ends %.2g off its start, and no orbit was found so near to it", off);
     if (status == QDOT_OK && k > z)

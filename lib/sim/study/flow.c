@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "num/balance.h"
 
 /* Below, a motion has not grown: one segment does. How much it may grow in one, of a guess that is far off, of an orbit. */
 static const double tame = 30, growth_of_guess = 2, growth_of_orbit = 1e3;
@@ -52,7 +53,6 @@ qdot_flow_begin(qdot_flow *x, qdot_scene *scene, const qdot_run_request *request
     x->request.q0 = x->unknowns;
     x->request.v0 = x->unknowns + n;
     x->request.q_named = x->request.v_named = NULL;
-    x->request.scales = NULL;
     x->request.tol = tol;
     x->request.t1 = qdot_add(scene->pool, request->t0, qdot_expr_of_double(scene->pool, length));
     of = (qdot_response_of){.scene = scene,
@@ -96,10 +96,32 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
     return qdot_response_read(x->response, count > 0 ? count : 2, times, x->value, x->by);
 }
 
+/* Units of the states in which their slopes over the last motion are alike; the largest of the coordinates is 1. */
+static qdot_status
+find_units(const qdot_flow *x, double *unit)
+{
+    const size_t z = x->z, width = z + x->p;
+    double *most = qdot_calloc(z * z, sizeof *most), largest = 0;
+
+    if (most == NULL)
+        return QDOT_ENOMEM;
+    for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
+        for (size_t i = 0; i < z; i++)
+            for (size_t j = 0; j < z; j++)
+                most[i * z + j] = fmax(most[i * z + j], fabs(x->by[(at * x->m + i) * width + j]));
+    qdot_balance(z, most, unit);
+    for (size_t i = 0; i < x->n; i++)
+        largest = fmax(largest, unit[i]);
+    for (size_t i = 0; i < z; i++)
+        unit[i] /= largest;
+    qdot_free(most);
+    return QDOT_OK;
+}
+
 /* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
- * or 1. size [z] */
+ * or its unit, if it is given. size [z] */
 static void
-find_sizes(const qdot_flow *x, const double *state, size_t last, double *size)
+find_sizes(const qdot_flow *x, const double *state, size_t last, const double *unit, double *size)
 {
     double most[2] = {0, 0};
 
@@ -111,7 +133,7 @@ find_sizes(const qdot_flow *x, const double *state, size_t last, double *size)
     }
     for (size_t i = 0; i < x->z; i++)
         if (!(size[i] > 1e-3 * most[i / x->n]))
-            size[i] = most[i / x->n] > 0 ? most[i / x->n] : 1;
+            size[i] = most[i / x->n] > 0 ? most[i / x->n] : unit != NULL ? unit[i] : 1;
 }
 
 double
@@ -147,7 +169,7 @@ qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *par
     if (status != QDOT_OK)
         return qdot_grave(status);
     for (; at < QDOT_FLOW_LOOKS && most < tame; at++) {
-        find_sizes(x, state, at, size);
+        find_sizes(x, state, at, NULL, size);
         most = qdot_flow_growth(x, at, size);
     }
     *segments = most < tame ? 1 : segments_for(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
@@ -156,21 +178,27 @@ qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *par
 
 qdot_status
 qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *parameters, double t0, double T,
-                            size_t *segments)
+                            double *sizes, size_t *segments)
 {
-    const qdot_status status = qdot_flow_go(x, state, parameters, t0, t0 + T, QDOT_FLOW_LOOKS);
-    double *size = qdot_malloc(x->z * sizeof *size), most = 0;
+    qdot_status status = qdot_flow_go(x, state, parameters, t0, t0 + T, QDOT_FLOW_LOOKS);
+    double *unit = qdot_malloc(2 * x->z * sizeof *unit), *size = unit + x->z, most = 0;
 
     *segments = QDOT_FLOW_MOST_SEGMENTS;
-    if (size == NULL)
+    if (unit == NULL)
         return QDOT_ENOMEM;
+    for (size_t i = 0; i < x->z; i++)
+        size[i] = 1;
+    if (status == QDOT_OK)
+        status = find_units(x, unit);
     if (status == QDOT_OK) {
-        find_sizes(x, state, QDOT_FLOW_LOOKS - 1, size);
+        find_sizes(x, state, QDOT_FLOW_LOOKS - 1, unit, size);
         for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
             most = fmax(most, qdot_flow_growth(x, at, size));
         *segments = most < tame ? 1 : segments_for(most, growth_of_orbit, 1);
     }
-    qdot_free(size);
+    if (sizes != NULL)
+        memcpy(sizes, size, x->z * sizeof *sizes);
+    qdot_free(unit);
     return qdot_grave(status);
 }
 

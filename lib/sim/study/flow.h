@@ -43,11 +43,12 @@ QDOT_MUST_CHECK qdot_status qdot_flow_go(qdot_flow *x, const double *state, cons
 double qdot_flow_growth(const qdot_flow *x, size_t look, const double *size);
 /* Segments that are needed over T from a state, 1 where slopes stay tame. Of the guess of an orbit, if all grows on as fast
  * as until it was no longer tame: its run may have left for places where nothing does; *size [z] as far as slopes are. Of an
- * orbit, by the largest growth along it, as few as runs can bear. That a run fails is none: it has grown to no end. */
+ * orbit, by the largest growth along it, as few as runs can bear; *size [z] (NULL: not wanted) how far states go, or where none
+ * of a kind moves, units in which slopes are alike. That a run fails is none: it has grown to no end. */
 QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *parameters,
                                                         double t0, double T, double *size, size_t *segments);
 QDOT_MUST_CHECK qdot_status qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *parameters,
-                                                        double t0, double T, size_t *segments);
+                                                        double t0, double T, double *size, size_t *segments);
 
 /* A closed orbit in K segments, z_k at t0 + k T/K. */
 typedef struct {

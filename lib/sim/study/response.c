@@ -169,6 +169,18 @@ put_start(qdot_response *r, const double *u)
 
 /* --- the scene for all u ---------------------------------------------------------------------- */
 
+/* The scale of unknown k, where it is a coordinate or a velocity of which the request says one; else 0. */
+static double
+scale_of(const qdot_response *r, size_t k)
+{
+    const qdot_scene *scene = r->of.scene;
+
+    for (size_t i = 0; i < 2 * r->n && r->of.request->scales; i++)
+        if (r->of.unknowns[k] == qdot_symbol_jet(r->pool, scene->coordinates.at[i % r->n], i >= r->n))
+            return r->of.request->scales[i];
+    return 0;
+}
+
 /* Directions: each parameter is free in all values. */
 static void
 free_all(qdot_response *r)
@@ -181,6 +193,7 @@ free_all(qdot_response *r)
             (qdot_variation_by){.name = r->of.names[k],
                                 .parameter = parameter ? r->of.unknowns[k] : QDOT_NIL,
                                 .values = parameter ? r->of.request->values : NULL,
+                                .scale = scale_of(r, k),
                                 .start = r->tangents.tape == NULL ? r->slopes + k * 2 * r->n : NULL};
         i += parameter;
     }
@@ -238,7 +251,8 @@ put_numbers(qdot_response *r, const double *u)
         put_values(r, k, own);
         r->by[k] = (qdot_variation_by){.name = r->of.names[k],
                                        .parameter = QDOT_NIL,
-                                       .start = r->slopes + k * 2 * n};
+                                       .start = r->slopes + k * 2 * n,
+                                       .scale = scale_of(r, k)};
         for (size_t i = 0; i < 2 * n; i++)
             r->slopes[k * 2 * n + i] =
                 qdot_expr_of_double(r->pool, r->starts[(1 + k) * 2 * n + i]);

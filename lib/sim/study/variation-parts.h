@@ -12,6 +12,7 @@ typedef struct {
         *values; /* [n_values] of the request with that parameter free; NULL: as there */
     const qdot_expr *
         start; /* [2n] dq/ds, dq'/ds at the start: exact constants; NULL: any, of size 1e-6 */
+    double scale; /* of s, where it is known; else 0 */
 } qdot_variation_by;
 
 typedef struct {
@@ -23,6 +24,7 @@ typedef struct {
     qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */
     qdot_expr *start;                /* [2 (k + 1) n] q, y, q', y' at the start */
     bool *named;                     /* [2 (k + 1) n] of these, which the start names */
+    double *scales;                  /* [2 (k + 1) n] of these, as in a request; NULL: none is known */
 } qdot_variation;
 
 /* q, q', q'' of coordinate i of the scene given, and of its slope in direction k: order 0, 1, 2. */

@@ -4,11 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "expr/calculus.h"
 #include "tape/constant.h"
 
 /* A value of a start that is off by more has been moved. */
 static const double moved = 1e-9;
+
+/* Scales above are 1. */
+static const double well_below = 1e-2;
 
 /* A coordinate that moves with q'' = acceleration; *T: 1/2 q'^2 is added. */
 static qdot_status
@@ -260,6 +264,32 @@ put_start(const qdot_variation *v)
         }
 }
 
+/* Those of the request, and of slopes dz_i/ds that of z_i over that of s, where it is well below 1. */
+static qdot_status
+put_scales(qdot_variation *v)
+{
+    const double *said = v->request->scales;
+    const size_t n = v->n, all = (v->k + 1) * n;
+    bool any = said != NULL;
+
+    for (size_t k = 0; k < v->k; k++)
+        any = any || v->by[k].scale > 0;
+    if (!any)
+        return QDOT_OK;
+    v->scales = qdot_calloc(2 * all + 1, sizeof *v->scales);
+    if (v->scales == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k <= v->k; k++)
+        for (size_t i = 0; i < 2 * n; i++) {
+            const double of = said != NULL ? said[i] : 0, by = k > 0 ? v->by[k - 1].scale : 0;
+
+            const double slope = (of > 0 ? of : 1) / (by > 0 ? by : 1);
+
+            v->scales[(i < n ? 0 : all) + k * n + i % n] = k == 0 ? of : slope < well_below ? slope : 0;
+        }
+    return QDOT_OK;
+}
+
 qdot_run_request
 qdot_variation_request(const qdot_variation *v)
 {
@@ -271,7 +301,7 @@ qdot_variation_request(const qdot_variation *v)
     r.v_named = v->named + (v->k + 1) * v->n;
     r.exactly = false;
     r.no_drifts = true;
-    r.scales = NULL;
+    r.scales = v->scales;
     r.n_values = 0;
     r.symbols = r.values = NULL;
     r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto"; /* others may not fit */
@@ -325,6 +355,7 @@ qdot_variation_write(qdot_variation *v, const qdot_expr *b)
 
     QDOT_TRY(check_open(v));
     put_start(v);
+    QDOT_TRY(put_scales(v));
     v->scene = qdot_scene_new(v->of->pool);
     if (!v->scene)
         return QDOT_ENOMEM;

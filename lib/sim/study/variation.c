@@ -17,6 +17,7 @@ qdot_variation_clear(qdot_variation *v)
     qdot_free(v->a);
     qdot_free(v->start);
     qdot_free(v->named);
+    qdot_free(v->scales);
     *v = (qdot_variation){0};
 }
 
