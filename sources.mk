@@ -1543,6 +1543,7 @@ script_tests = \
 	tests/script/race.sh \
 	tests/script/radau-constraints.lag \
 	tests/script/radau.lag \
+	tests/script/radicand.lag \
 	tests/script/range-limits.sh \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
@@ -2634,6 +2635,7 @@ test_files = \
 	tests/script/race.out \
 	tests/script/radau-constraints.out \
 	tests/script/radau.out \
+	tests/script/radicand.out \
 	tests/script/range-limits.out \
 	tests/script/ranges.out \
 	tests/script/reactions.out \

@@ -332,7 +332,23 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     return s.best;
 }
 
-/* A sum of four terms and more, of symbols and their products: a square may be in it. */
+/* Whether a power of a sum stands in the terms of a sum. */
+static bool
+holds_powers(const qdot_pool *pool, qdot_expr e)
+{
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
+        const qdot_expr term = qdot_expr_arg(pool, e, i);
+
+        for (uint32_t k = 1;
+             qdot_expr_kind(pool, term) == QDOT_PROD && k < qdot_expr_count(pool, term); k += 2)
+            if (qdot_expr_kind(pool, qdot_expr_arg(pool, term, k)) == QDOT_SUM &&
+                qdot_expr_arg(pool, term, k + 1) != QDOT_ONE)
+                return true;
+    }
+    return false;
+}
+
+/* A sum of three terms and more: a square may be in it. */
 static bool
 is_long(const qdot_pool *pool, qdot_expr e)
 {
@@ -362,6 +378,23 @@ outer_once(qdot_pool *pool, qdot_expr e, struct request *request)
     return simplest;
 }
 
+/* An argument or base in its shortest form. Squares of sums, which show a distance, are given up for half as many
+ * operations only. */
+static qdot_expr
+inner_one(qdot_pool *pool, qdot_expr e, struct request *request)
+{
+    bool squares = qdot_expr_kind(pool, e) == QDOT_SUM && holds_powers(pool, e);
+    qdot_expr best;
+
+    if (!is_long(pool, e) && !squares)
+        return e;
+    best = outer_once(pool, e, request);
+    return is_long(pool, e) || best == QDOT_NIL ||
+                   2 * qdot_expr_size(pool, best) <= qdot_expr_size(pool, e)
+               ? best
+               : e;
+}
+
 /* Long arguments of functions and long bases of roots, inner ones first. */
 static qdot_expr
 inner(qdot_pool *pool, qdot_expr e, struct request *request)
@@ -386,8 +419,8 @@ inner(qdot_pool *pool, qdot_expr e, struct request *request)
                            is_root(pool, qdot_expr_arg(pool, w.at[i], k + 1)));
 
             args[k] = (qdot_expr)qdot_walk_get(&w, old);
-            if (inside && is_long(pool, args[k]))
-                args[k] = outer_once(pool, args[k], request);
+            if (inside)
+                args[k] = inner_one(pool, args[k], request);
             changed |= args[k] != old;
         }
         result = changed ? qdot_rebuild(pool, w.at[i], args) : w.at[i];
