@@ -71,6 +71,7 @@ library_sources = \
 	lib/lang/declare/constraints.c \
 	lib/lang/declare/declare-function.c \
 	lib/lang/declare/declare.c \
+	lib/lang/declare/export-massless.c \
 	lib/lang/declare/export-scene.c \
 	lib/lang/declare/export-value.c \
 	lib/lang/declare/objects.c \
@@ -706,6 +707,7 @@ library_headers = \
 	lib/lang/declare/assumed.h \
 	lib/lang/declare/constraints.h \
 	lib/lang/declare/declare.h \
+	lib/lang/declare/export-massless.h \
 	lib/lang/declare/export-scene.h \
 	lib/lang/declare/scene-file.h \
 	lib/lang/figures/animated.h \
@@ -1493,6 +1495,8 @@ script_tests = \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
+	tests/script/massless-slopes.sh \
+	tests/script/massless-studies.lag \
 	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1737,8 +1741,10 @@ script_tests = \
 	tests/bad/massless-conserved.lag \
 	tests/bad/massless-corner.lag \
 	tests/bad/massless-digits.lag \
+	tests/bad/massless-export.lag \
 	tests/bad/massless-odd.lag \
 	tests/bad/massless-others.lag \
+	tests/bad/massless-slopes-event.lag \
 	tests/bad/material-particle.lag \
 	tests/bad/material-word.lag \
 	tests/bad/mathematica.lag \
@@ -2157,8 +2163,10 @@ test_files = \
 	tests/bad/massless-conserved.out \
 	tests/bad/massless-corner.out \
 	tests/bad/massless-digits.out \
+	tests/bad/massless-export.out \
 	tests/bad/massless-odd.out \
 	tests/bad/massless-others.out \
+	tests/bad/massless-slopes-event.out \
 	tests/bad/material-particle.out \
 	tests/bad/material-word.out \
 	tests/bad/mathematica.out \
@@ -2583,6 +2591,8 @@ test_files = \
 	tests/script/longtime.out \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
+	tests/script/massless-slopes.out \
+	tests/script/massless-studies.out \
 	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \

@@ -7,6 +7,7 @@
 #include "expr/calculus.h"
 #include "expr/print.h"
 #include "expr/walk.h"
+#include "lang/declare/export-massless.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "lang/session/runs.h"
@@ -40,6 +41,7 @@ typedef struct {
     qdot_vec(char *) texts; /* of the surfaces, of the ends of domains */
     names q, lambda, values;
     qdot_vec(double) start;
+    bool massless; /* some coordinate has no mass: a velocity of the start may follow from its equation */
     qdot_vec(qdot_export_event) event;
     qdot_vec(size_t) targets; /* of all events */
 } description;
@@ -179,21 +181,30 @@ accelerated(const description *d, size_t k)
     return f;
 }
 
+/* M, f; coordinates without mass have rows of their own (export-massless.h). */
+static qdot_status
+motion(description *d)
+{
+    const size_t n = d->x.n;
+    qdot_expr *rows = qdot_calloc(n * n + n + 1, sizeof *rows);
+    qdot_status status = rows != NULL ? qdot_export_massless(d->scene, rows, rows + n * n, &d->massless) : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n * n + n && status == QDOT_OK; i++)
+        status = push_frozen(d, &d->equations, rows[i]);
+    qdot_free(rows);
+    return status;
+}
+
 /* M, f, then A and gamma, row by row. */
 static qdot_status
 equations(description *d)
 {
     const size_t n = d->x.n, m = d->x.m;
     qdot_pool *pool = d->session->pool;
-    qdot_expr M = qdot_mech_numeric_mass(d->scene), f = qdot_mech_numeric_forcing(d->scene);
     expressions at_rest = {0};
     qdot_status status;
 
-    QDOT_TRY(qdot_pool_check(pool));
-    for (size_t i = 0; i < n * n; i++)
-        QDOT_TRY(push_frozen(d, &d->equations, qdot_expr_arg(pool, M, (uint32_t)i)));
-    for (size_t i = 0; i < n; i++)
-        QDOT_TRY(push_frozen(d, &d->equations, qdot_expr_arg(pool, f, (uint32_t)i)));
+    QDOT_TRY(motion(d));
     for (size_t k = 0; k < m; k++) {
         qdot_expr linear = accelerated(d, k);
 
@@ -504,6 +515,10 @@ starts(description *d)
 
         if (is_of_scene(d, qdot_run_get_report(run)))
             return start_of_run(d, run);
+    }
+    if (d->massless) {
+        (void)qdot_fail(QDOT_EINVAL, "the start of a coordinate without mass follows from its equation: it is taken from a run");
+        return qdot_hint("run 0..10 before");
     }
     d->x.t1 = 10;
     d->x.tol = LEAST_TOL;

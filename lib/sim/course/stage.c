@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "expr/walk.h"
+#include "sim/model/massless.h"
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
 #include "sim/model/puck.h"
@@ -70,6 +71,11 @@ find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_e
         if (qdot_expr_contains(p->pool, f, p->inputs[k]))
             e->positions = e->velocities = true;
     }
+    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++) /* their equations are kept too */
+        if (p->massless[i] && qdot_expr_contains(p->pool, p->f[i], p->inputs[k])) {
+            e->velocities = true;
+            e->positions = e->positions || qdot_massless_kind(p, i) == QDOT_HOLONOMIC;
+        }
     return QDOT_OK;
 }
 

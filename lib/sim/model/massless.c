@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 #include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
+#include "sim/model/substitute.h"
 
 static bool
 has_mass(const qdot_plan *p, size_t i)
@@ -78,4 +80,54 @@ qdot_massless_find(const qdot_scene *scene, qdot_plan *p)
         if (p->massless[i])
             QDOT_TRY(check(p, i));
     return QDOT_OK;
+}
+
+/* Whether e, with values, holds such a jet of a coordinate among these [n]. */
+static bool
+holds_any(qdot_scene *scene, qdot_expr e, const bool *massless, uint32_t order)
+{
+    for (size_t i = 0; i < scene->coordinates.n; i++)
+        if (massless[i]
+            && qdot_expr_contains(scene->pool, e, qdot_symbol_jet(scene->pool, scene->coordinates.at[i], order)))
+            return true;
+    return false;
+}
+
+static bool
+constraints_hold(const qdot_scene *scene, size_t i)
+{
+    for (size_t c = 0; c < scene->constraints.n; c++)
+        for (uint32_t order = 0; order < 3; order++)
+            if (qdot_expr_contains(scene->pool, scene->constraints.at[c].f,
+                                   qdot_symbol_jet(scene->pool, scene->coordinates.at[i], order)))
+                return true;
+    return false;
+}
+
+qdot_status
+qdot_massless_count(qdot_scene *scene, const qdot_run_request *request, size_t *determined)
+{
+    const size_t n = scene->coordinates.n;
+    qdot_pool *pool = scene->pool;
+    const qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
+    bool *massless = qdot_calloc(n + 1, sizeof *massless);
+
+    *determined = 0;
+    if (massless == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
+        massless[i] = !constraints_hold(scene, i);
+        for (size_t j = 0; j < n && massless[i]; j++)
+            massless[i] = qdot_substitute(pool, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), request->n_values,
+                                          request->symbols, request->values) == QDOT_ZERO;
+    }
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++)
+        if (massless[i]) {
+            const qdot_expr own = qdot_substitute(pool, qdot_expr_arg(pool, f, (uint32_t)i), request->n_values,
+                                                  request->symbols, request->values);
+
+            *determined += own != QDOT_NIL && holds_any(scene, own, massless, 1) ? 1 : 2;
+        }
+    qdot_free(massless);
+    return qdot_pool_check(pool);
 }

@@ -19,10 +19,16 @@
 
 #include "mech/scene/scene.h"
 #include "sim/model/equations.h"
+#include "sim/model/request.h"
 
 /* Find them, into p->massless and p->n_massless, once M and f are there. QDOT_ESINGULAR: an equation
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
+
+/* How many of the values q, q' [2n] of a start these equations determine with the values of the request: one each, or
+ * two where they hold no velocity of such coordinates. Before there is a plan; derives M and f. */
+QDOT_MUST_CHECK qdot_status qdot_massless_count(qdot_scene *scene, const qdot_run_request *request,
+                                                size_t *determined);
 
 /* Of which kind the equation of coordinate i is, as a constraint. */
 qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);

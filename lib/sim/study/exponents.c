@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "ode/integrate.h"
 #include "sim/course/course.h"
+#include "sim/model/massless.h"
 #include "sim/study/method-run.h"
 #include "sim/study/variation.h"
 
@@ -339,11 +340,11 @@ pursue(pursuit *p)
     return conclude(p);
 }
 
-/* How many directions there are on the constraints. */
+/* How many directions there are on the constraints, and the equations of coordinates without mass. */
 static size_t
-count_directions(const qdot_scene *s)
+count_directions(const qdot_scene *s, size_t determined)
 {
-    size_t n = 2 * s->coordinates.n;
+    size_t n = 2 * s->coordinates.n - determined;
 
     for (size_t c = 0; c < s->constraints.n; c++)
         n -= s->constraints.at[c].kind == QDOT_HOLONOMIC  ? 2
@@ -355,16 +356,19 @@ count_directions(const qdot_scene *s)
 qdot_status
 qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_exponents *x)
 {
-    const size_t n = scene->coordinates.n, k = x->spectrum ? count_directions(scene) : 1;
+    const size_t n = scene->coordinates.n;
     qdot_run_request request = *asked;
     qdot_variation v = {0};
+    size_t determined;
+    QDOT_TRY(qdot_massless_count(scene, asked, &determined));
+    const size_t k = x->spectrum ? count_directions(scene, determined) : 1;
     qdot_variation_by *by = qdot_calloc(k + 1, sizeof *by);
     char(*names)[24] = qdot_calloc(k + 1, sizeof *names);
     qdot_expr *start = qdot_calloc(2 * n + 1, sizeof *start);
     qdot_status status = by && names && start ? QDOT_OK : QDOT_ENOMEM;
 
     request.digits = 0;
-    if (status == QDOT_OK && scene->constraints.n > 0) {
+    if (status == QDOT_OK && scene->constraints.n + determined > 0) {
         status = qdot_method_run_settled(scene, &request, start);
         request.q0 = start;
         request.v0 = start + n;

@@ -9,6 +9,7 @@
 #include "expr/calculus.h"
 #include "sim/course/course.h"
 #include "sim/course/reader.h"
+#include "sim/model/massless.h"
 #include "sim/model/parameter-states.h"
 #include "sim/model/substitute.h"
 #include "sim/study/method-run.h"
@@ -439,6 +440,7 @@ qdot_status
 qdot_response_new(const qdot_response_of *of, qdot_response **out)
 {
     qdot_response *r = qdot_calloc(1, sizeof *r);
+    size_t determined;
     qdot_status status;
 
     *out = r;
@@ -447,8 +449,12 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
     r->of = *of;
     r->pool = of->scene->pool;
     r->n = of->scene->coordinates.n;
-    r->once = of->scene->constraints.n == 0 || of->whole;
-    status = make_room(r);
+    status = qdot_massless_count(of->scene, of->request, &determined);
+    r->once = of->scene->constraints.n + determined == 0 || of->whole;
+    if (status == QDOT_OK && of->whole && determined > 0)
+        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: orbits of scenes with a coordinate without mass");
+    if (status == QDOT_OK)
+        status = make_room(r);
     for (size_t k = 0; k < of->k && status == QDOT_OK; k++)
         if (!qdot_expr_is_class(r->pool, of->unknowns[k], QDOT_COORD)) {
             r->parameters[r->n_parameters] = of->unknowns[k];

@@ -19,6 +19,10 @@ typedef struct {
     qdot_scene *of, *scene;          /* borrowed; owned */
     const qdot_run_request *request; /* borrowed */
     size_t n, m, k;                  /* coordinates, constraints held, directions */
+    size_t w;                        /* equations of coordinates without mass that are held (sim/model/massless.h) */
+    qdot_expr *G;                    /* [n] of them, 0 = G, without numbers */
+    size_t *massless;                /* [n] of which coordinates they are */
+    bool *of_positions;              /* [n] whether such an equation holds no velocity of these */
     const qdot_variation_by *by;     /* [k] borrowed */
     qdot_expr *y;                    /* [k x n] */
     qdot_expr *a, *lambda;           /* [n], [m] from q, q', t */

@@ -38,8 +38,8 @@ add_constraints(const qdot_variation *v)
 {
     const qdot_scene *s = v->of;
 
-    for (size_t c = 0; c < v->m; c++) {
-        const qdot_expr f = s->constraints.at[c].f;
+    for (size_t c = 0; c < v->m + v->w; c++) {
+        const qdot_expr f = c < v->m ? s->constraints.at[c].f : v->G[c - v->m];
 
         QDOT_TRY(qdot_scene_constraint(v->scene, NULL, qdot_variation_with_numbers(v, f),
                                        QDOT_ZERO));
@@ -262,6 +262,14 @@ put_start(const qdot_variation *v)
             v->named[k * n + i] = k == 0 || !r->q_named || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
+    for (size_t j = 0; j < 2 * all && v->w > 0; j++) /* equations of massless ones determine these alone */
+        v->named[j] = true;
+    for (size_t k = 0; k <= v->k; k++)
+        for (size_t c = 0; c < v->w; c++) {
+            v->named[all + k * n + v->massless[c]] = false;
+            if (v->of_positions[c] && k > 0)
+                v->named[k * n + v->massless[c]] = false;
+        }
 }
 
 /* Those of the request, and of slopes dz_i/ds that of z_i over that of s, where it is well below 1. */
@@ -313,7 +321,7 @@ qdot_variation_check_state(const qdot_variation *v, const double *y)
 {
     const size_t all = (v->k + 1) * v->n;
 
-    for (size_t j = v->n; j < 2 * all && v->m > 0; j++) {
+    for (size_t j = v->n; j < 2 * all && v->m + v->w > 0; j++) {
         const size_t i = j % all;
         double wanted;
 
@@ -337,7 +345,7 @@ qdot_variation_check_start(const qdot_variation *v, qdot_run *run)
 
     for (size_t j = 0; j < 2 * all && z; j++)
         z[j] = qdot_symbol_jet(v->of->pool, v->scene->coordinates.at[j % all], j >= all);
-    if (status == QDOT_OK && v->m > 0)
+    if (status == QDOT_OK && v->m + v->w > 0)
         status = qdot_run_values(run, 2 * all, z, 1, &t0, y, NULL);
     if (status == QDOT_OK)
         status = qdot_variation_check_state(v, y);

@@ -18,6 +18,9 @@ qdot_variation_clear(qdot_variation *v)
     qdot_free(v->start);
     qdot_free(v->named);
     qdot_free(v->scales);
+    qdot_free(v->G);
+    qdot_free(v->massless);
+    qdot_free(v->of_positions);
     *v = (qdot_variation){0};
 }
 
@@ -113,16 +116,22 @@ check_equations(const qdot_variation *v, qdot_expr whole, const qdot_expr *value
 
 /* --- the elimination -------------------------------------------------------------------- */
 
-/* M = L D L^T, B = M^-1 A^T, S = A B = L D L^T; entries held. */
+/* M = L D L^T, B = M^-1 A^T, S = A B = L D L^T; entries held. Coordinates without mass, whose rows and columns of M are 0,
+ * stand in it with mass 1 and have their q'' from the rates of their equations, behind those of the constraints in F and
+ * A: W x_w = z_w - A x, with W the part of A by themselves. */
 typedef struct {
     qdot_variation *v;
     qdot_pool *pool;
     size_t n, m;
+    bool held;            /* equations of constraints and of massless coordinates stand in the scene */
     qdot_expr whole;      /* M and f as derived */
     qdot_expr *M, *f;     /* [n x n], [n] with numbers */
-    qdot_expr *F, *A;     /* [m] second rates of constraints, [m x n] */
+    size_t w;             /* coordinates without mass; their indices are in v */
+    qdot_expr *F, *A;     /* [m + w] second rates of constraints, [(m + w) x n] */
+    qdot_expr *rate;      /* [w] those of massless ones without numbers */
+    qdot_expr *W;         /* [w x w] L U */
     qdot_expr *L, *B, *S; /* [n x n], [m x n], [m x m] */
-    qdot_expr *x, *z;     /* [n], [m] work space */
+    qdot_expr *x, *z;     /* [n], [m + w] work space */
 } elimination;
 
 static qdot_status
@@ -164,15 +173,54 @@ solve(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
     }
 }
 
+static bool
+is_massless(const elimination *e, size_t i)
+{
+    for (size_t c = 0; c < e->w; c++)
+        if (e->v->massless[c] == i)
+            return true;
+    return false;
+}
+
+/* The massless ones of x [n] from the others and z [m + w]. */
+static void
+solve_massless(const elimination *e, qdot_expr *x, qdot_expr *z)
+{
+    qdot_pool *pool = e->pool;
+    const size_t w = e->w, m = e->m;
+
+    for (size_t c = 0; c < w; c++) {
+        qdot_expr *own = z + m + c;
+
+        for (size_t i = 0; i < e->n; i++)
+            if (!is_massless(e, i))
+                *own = qdot_sub(pool, *own, qdot_mul(pool, e->A[(m + c) * e->n + i], x[i]));
+        for (size_t k = 0; k < c; k++)
+            *own = qdot_sub(pool, *own, qdot_mul(pool, e->W[c * w + k], z[m + k]));
+        *own = qdot_hold(pool, *own);
+    }
+    for (size_t c = w; c-- > 0;) {
+        for (size_t k = c + 1; k < w; k++)
+            z[m + c] = qdot_sub(pool, z[m + c], qdot_mul(pool, e->W[c * w + k], z[m + k]));
+        z[m + c] = qdot_hold(pool, qdot_quotient(pool, z[m + c], e->W[c * w + c]));
+    }
+    for (size_t c = 0; c < w; c++)
+        x[e->v->massless[c]] = z[m + c];
+}
+
 /* M x - A^T z = r, A x = g: x [n] from r, z [m] from g, in their places. */
 static void
 solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
 {
     qdot_pool *pool = e->pool;
 
+    for (size_t c = 0; c < e->w; c++)
+        x[e->v->massless[c]] = QDOT_ZERO;
     solve(pool, e->n, e->L, x);
-    if (e->m == 0)
+    if (e->m == 0) {
+        solve_massless(e, x, z);
         return;
+    }
     for (size_t c = 0; c < e->m; c++) {
         for (size_t i = 0; i < e->n; i++)
             z[c] = qdot_sub(pool, z[c], qdot_mul(pool, e->A[c * e->n + i], x[i]));
@@ -184,6 +232,116 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
             x[i] = qdot_add(pool, x[i], qdot_mul(pool, e->B[c * e->n + i], z[c]));
         x[i] = qdot_hold(pool, x[i]);
     }
+    solve_massless(e, x, z);
+}
+
+/* --- coordinates without mass ------------------------------------------------------------- */
+
+/* Whether constraints of the scene hold coordinate i. */
+static bool
+is_held(const elimination *e, size_t i)
+{
+    const qdot_scene *s = e->v->of;
+
+    for (size_t c = 0; c < s->constraints.n; c++)
+        for (uint32_t order = 0; order < 3; order++)
+            if (qdot_expr_contains(e->pool, s->constraints.at[c].f, qdot_variation_jet(e->v, i, order)))
+                return true;
+    return false;
+}
+
+/* Whether g holds such a jet of a massless coordinate. */
+static bool
+holds_jet(const elimination *e, qdot_expr g, uint32_t order)
+{
+    for (size_t c = 0; c < e->w; c++)
+        if (qdot_expr_contains(e->pool, g, qdot_variation_jet(e->v, e->v->massless[c], order)))
+            return true;
+    return false;
+}
+
+/* W = L U, without exchanges; *pivot: the coordinate whose equation determines nothing. */
+static qdot_status
+factor_massless(elimination *e, size_t *pivot)
+{
+    qdot_pool *pool = e->pool;
+    const size_t w = e->w;
+
+    for (size_t c = 0; c < w; c++)
+        for (size_t k = 0; k < w; k++)
+            e->W[c * w + k] = qdot_hold(pool, e->A[(e->m + c) * e->n + e->v->massless[k]]);
+    for (size_t k = 0; k < w; k++) {
+        *pivot = e->v->massless[k];
+        if (e->W[k * w + k] == QDOT_ZERO)
+            return QDOT_ESINGULAR;
+        for (size_t i = k + 1; i < w; i++) {
+            e->W[i * w + k] = qdot_hold(pool, qdot_quotient(pool, e->W[i * w + k], e->W[k * w + k]));
+            for (size_t j = k + 1; j < w; j++)
+                e->W[i * w + j] = qdot_hold(
+                    pool, qdot_sub(pool, e->W[i * w + j], qdot_mul(pool, e->W[i * w + k], e->W[k * w + j])));
+        }
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Find them; mass 1 in L. */
+static void
+find_massless(elimination *e)
+{
+    const size_t n = e->n;
+
+    for (size_t i = 0; i < n; i++) {
+        bool mass = is_held(e, i);
+
+        for (size_t j = 0; j < n; j++)
+            mass = mass || e->M[i * n + j] != QDOT_ZERO;
+        if (mass)
+            continue;
+        e->v->massless[e->w] = i;
+        e->v->G[e->w++] = qdot_expr_arg(e->pool, qdot_expr_arg(e->pool, e->whole, 1), (uint32_t)i);
+        e->L[i * n + i] = QDOT_ONE;
+    }
+}
+
+/* After a jump their velocities follow from their equations; beside constraints it is not told what a start solves for. */
+static qdot_status
+refuse_without_mass(const elimination *e)
+{
+    const qdot_scene *s = e->v->of;
+
+    if (e->w > 0 && e->m > 0)
+        return qdot_fail(QDOT_ENOTBUILT,
+                         "not built yet: slopes of a scene with constraints and a coordinate without mass, %.100s",
+                         qdot_expr_symbol(e->pool, qdot_variation_jet(e->v, e->v->massless[0], 0))->name);
+
+    for (size_t i = 0; i < s->events.n && e->w > 0; i++)
+        if (s->events.at[i].targets.n > 0)
+            return qdot_fail(QDOT_ENOTBUILT,
+                             "not built yet: slopes through the event %.100s of a scene with a coordinate without mass",
+                             s->events.at[i].name);
+    return QDOT_OK;
+}
+
+/* The rates of their equations that hold q''. */
+static qdot_status
+prepare_massless(elimination *e, size_t *pivot)
+{
+    qdot_variation *v = e->v;
+
+    for (size_t c = 0; c < e->w; c++) {
+        const qdot_expr G = qdot_variation_with_numbers(v, v->G[c]);
+
+        v->of_positions[c] = G != QDOT_NIL && !holds_jet(e, G, 1);
+        e->rate[c] = qdot_ddt(e->pool, v->G[c]);
+        if (v->of_positions[c])
+            e->rate[c] = qdot_ddt(e->pool, e->rate[c]);
+        e->F[e->m + c] = qdot_variation_with_numbers(v, e->rate[c]);
+        for (size_t i = 0; i < e->n; i++)
+            e->A[(e->m + c) * e->n + i] =
+                qdot_diff(e->pool, e->F[e->m + c], qdot_variation_jet(v, i, 2));
+        QDOT_TRY(qdot_pool_check(e->pool));
+    }
+    return factor_massless(e, pivot);
 }
 
 /* F of constraint c: differentiated until it holds q''. */
@@ -236,7 +394,11 @@ prepare(elimination *e)
     for (size_t i = 0; i < n; i++)
         e->f[i] = qdot_variation_with_numbers(v, qdot_expr_arg(pool, f, (uint32_t)i));
     QDOT_TRY(qdot_pool_check(pool));
+    find_massless(e);
+    QDOT_TRY(refuse_without_mass(e));
     status = factor(pool, n, e->L, &pivot);
+    if (status == QDOT_OK)
+        status = prepare_massless(e, &pivot);
     if (status == QDOT_ESINGULAR)
         return say_singular(e, pivot, false);
     for (size_t c = 0; c < m && status == QDOT_OK; c++) {
@@ -268,7 +430,7 @@ solve_motion(const elimination *e)
     qdot_variation *v = e->v;
 
     memcpy(v->a, e->f, e->n * sizeof *v->a);
-    for (size_t c = 0; c < e->m; c++) {
+    for (size_t c = 0; c < e->m + e->w; c++) {
         qdot_expr rest = e->F[c];
 
         for (size_t i = 0; i < e->n; i++) {
@@ -276,9 +438,10 @@ solve_motion(const elimination *e)
 
             rest = rest == QDOT_NIL ? rest : qdot_subs(e->pool, rest, 1, &from, &to);
         }
-        v->lambda[c] = qdot_neg(e->pool, rest);
+        e->z[c] = qdot_neg(e->pool, rest);
     }
-    solve_both(e, v->a, v->lambda);
+    solve_both(e, v->a, e->z);
+    memcpy(v->lambda, e->z, e->m * sizeof *v->lambda);
     return qdot_pool_check(e->pool);
 }
 
@@ -304,7 +467,7 @@ slope_by(const elimination *e, qdot_expr z)
                 qdot_mul(pool, qdot_diff(pool, e->A[c * n + i], z), v->lambda[c]));
         e->x[i] = qdot_hold(pool, e->x[i]);
     }
-    for (size_t c = 0; c < e->m; c++)
+    for (size_t c = 0; c < e->m + e->w; c++)
         e->z[c] = qdot_hold(pool, qdot_neg(pool, qdot_variation_with_motion(
                                                      v, qdot_diff(pool, e->F[c], z))));
 }
@@ -331,6 +494,9 @@ add_parameter(const elimination *e, size_t k, qdot_expr *x, qdot_expr *z)
                              v, qdot_expr_arg(pool, M, (uint32_t)(i * n + j)), k),
                          v->a[j]));
     }
+    for (size_t c = 0; c < e->w; c++)
+        z[e->m + c] = qdot_sub(pool, z[e->m + c],
+                               qdot_variation_with_motion(v, qdot_variation_by_parameter(v, e->rate[c], k)));
     for (size_t c = 0; c < e->m; c++) {
         const qdot_expr F = second_rate(e, c);
 
@@ -353,7 +519,7 @@ solve_slopes(const elimination *e, qdot_expr *b)
 {
     const qdot_variation *v = e->v;
     qdot_pool *pool = e->pool;
-    const size_t n = e->n, m = e->m;
+    const size_t n = e->n, m = e->m + e->w;
     qdot_expr *mu = qdot_calloc(v->k * m + 1, sizeof *mu);
 
     if (!mu)
@@ -410,6 +576,7 @@ make(elimination *e, qdot_expr *b)
     QDOT_TRY(prepare(e));
     QDOT_TRY(solve_motion(e));
     QDOT_TRY(solve_slopes(e, b));
+    e->v->w = e->held ? e->w : 0;
     return qdot_variation_write(e->v, b);
 }
 
@@ -418,9 +585,8 @@ qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k
                     const qdot_variation_by *by, bool held, qdot_variation *v)
 {
     const size_t n = scene->coordinates.n, m = scene->constraints.n;
-    elimination e = {.v = v, .pool = scene->pool, .n = n, .m = m};
-    qdot_expr *work = qdot_calloc(
-        2 * n * n + 3 * n + 2 * m * n + m * m + 2 * m + k * n + 1, sizeof *work);
+    elimination e = {.v = v, .pool = scene->pool, .n = n, .m = m, .held = held};
+    qdot_expr *work = qdot_calloc(4 * n * n + 6 * n + 2 * m * n + m * m + 2 * m + k * n + 1, sizeof *work);
     qdot_status status = QDOT_ENOMEM;
 
     *v = (qdot_variation){
@@ -429,18 +595,23 @@ qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k
     v->a = qdot_calloc(n + m + 1, sizeof *v->a);
     v->start = qdot_calloc(2 * (k + 1) * n + 1, sizeof *v->start);
     v->named = qdot_calloc(2 * (k + 1) * n + 1, sizeof *v->named);
-    if (work && v->y && v->a && v->start && v->named) {
+    v->G = qdot_calloc(n + 1, sizeof *v->G);
+    v->massless = qdot_calloc(n + 1, sizeof *v->massless);
+    v->of_positions = qdot_calloc(n + 1, sizeof *v->of_positions);
+    if (work && v->y && v->a && v->start && v->named && v->G && v->massless && v->of_positions) {
         v->lambda = v->a + n;
         e.M = work;
         e.L = e.M + n * n;
         e.f = e.L + n * n;
         e.x = e.f + n;
         e.F = e.x + n;
-        e.z = e.F + m;
-        e.A = e.z + m;
-        e.B = e.A + m * n;
+        e.z = e.F + m + n;
+        e.A = e.z + m + n;
+        e.B = e.A + (m + n) * n;
         e.S = e.B + m * n;
-        status = make(&e, e.S + m * m);
+        e.rate = e.S + m * m;
+        e.W = e.rate + n;
+        status = make(&e, e.W + n * n);
     }
     qdot_free(work);
     return status;

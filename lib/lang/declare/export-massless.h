@@ -1,0 +1,21 @@
+/* export-massless.h -- the equations of motion of a scene for other programs, also of coordinates without mass.
+ *
+ * Row i of M q'' = f is 0 = f_i(q, q', t) where no mass moves with coordinate i and no constraint holds it. Other programs
+ * get the rate of f_i that holds q'', linear in these (sim/model/massless.h):
+ *
+ *     M_ij = dF/dq''_j,   f_i = -F at q'' = 0,   F = df_i/dt, or d^2 f_i/dt^2 where f_i holds no velocity of such coordinates
+ *
+ * which is right from a start where f_i = 0 (and its rate) is.
+ *
+ * Tests  tests/meta/exports.test
+ */
+#ifndef QDOT_LANG_EXPORT_MASSLESS_H
+#define QDOT_LANG_EXPORT_MASSLESS_H
+
+#include "mech/scene/scene.h"
+
+/* M [n x n], f [n]; *any: there are such coordinates. QDOT_ENOTBUILT: an event sets values, which then would have to be
+ * followed by their velocities. */
+QDOT_MUST_CHECK qdot_status qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any);
+
+#endif
