@@ -1495,6 +1495,7 @@ script_tests = \
 	tests/script/longtime.sh \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
+	tests/script/mass-in-time.lag \
 	tests/script/massless-slopes.sh \
 	tests/script/massless-studies.lag \
 	tests/script/massless.lag \
@@ -2591,6 +2592,7 @@ test_files = \
 	tests/script/longtime.out \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
+	tests/script/mass-in-time.out \
 	tests/script/massless-slopes.out \
 	tests/script/massless-studies.out \
 	tests/script/massless.out \

@@ -182,3 +182,14 @@ qdot_warnings_start(qdot_session *session)
                      ? "no `start` was said: what the constraints leave open begins at 0"
                      : "no `start` was said: all coordinates and velocities begin at 0");
 }
+
+qdot_status
+qdot_warnings_mass(qdot_session *session, const char *name, qdot_expr mass)
+{
+    if (!(qdot_expr_node(session->pool, mass)->holds & QDOT_HAS_TIME))
+        return QDOT_OK;
+    return qdot_answer_notice(session,
+                              "the mass of %.80s changes with time: the equations say d(m v)/dt = F, as if mass came "
+                              "and went at rest, without thrust; mass that moves at u beside %.80s needs the force "
+                              "m'*(v + u) as well", name, name);
+}

@@ -22,4 +22,7 @@ QDOT_MUST_CHECK qdot_status qdot_warnings_place(qdot_cursor *c, qdot_expr place,
 /* A run without any `start`. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_start(qdot_session *session);
 
+/* A particle or body of that name whose mass holds the time: what its equations assume, as a notice. */
+QDOT_MUST_CHECK qdot_status qdot_warnings_mass(qdot_session *session, const char *name, qdot_expr mass);
+
 #endif

@@ -90,7 +90,8 @@ qdot_object_particle(qdot_cursor *c)
         return missing(c, start, "a particle", "at", hint);
     c->error_at =
         qdot_scene_has_label(c->session->scene, name) ? start->start : place->start;
-    return qdot_scene_particle(c->session->scene, name, mass, position);
+    QDOT_TRY(qdot_scene_particle(c->session->scene, name, mass, position));
+    return qdot_warnings_mass(c->session, name, mass);
 }
 
 typedef struct {
@@ -174,13 +175,14 @@ qdot_object_body(qdot_cursor *c)
     if (b.angle != QDOT_NIL && b.rotation != QDOT_NIL)
         return qdot_fail(QDOT_EINVAL,
                          "a body has an `angle` (plane) or a rotation (space), not both");
-    return qdot_scene_body(c->session->scene, name,
-                           &(qdot_body){.mass = b.mass,
-                                        .inertia = b.inertia,
-                                        .position = b.position,
-                                        .angle = b.angle,
-                                        .rotation = b.rotation},
-                           b.about);
+    QDOT_TRY(qdot_scene_body(c->session->scene, name,
+                             &(qdot_body){.mass = b.mass,
+                                          .inertia = b.inertia,
+                                          .position = b.position,
+                                          .angle = b.angle,
+                                          .rotation = b.rotation},
+                             b.about));
+    return qdot_warnings_mass(c->session, name, b.mass);
 }
 
 /* --- fields and energies ------------------------------------------------------------ */
