@@ -151,6 +151,43 @@ means_have_errors(void **state)
     assert_true(covered >= 180);
 }
 
+/* A motion that sticks: growth 1 for times that are drawn, then 0 for longer ones with a heavy tail. */
+static void
+means_of_sticky_motion_have_errors(void **state)
+{
+    enum { TRIALS = 400, N = 90 };
+    uint64_t random = 5;
+    size_t covered = 0, seen = 0;
+
+    (void)state;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        double x[N], mean, error, left = 0, part = 0;
+        bool sticks = trial % 2;
+
+        for (int i = 0; i < 20 * N; i++) {
+            if (left <= 0) {
+                random = random * 6364136223846793005u + 1442695040888963407u;
+                const double u = (double)((random >> 33) + 1) / 0x1p31;
+
+                sticks = !sticks;
+                left = 20 * (sticks ? 5 * pow(u, -1 / 1.5) : -5 * log(u)); /* means 15, 5 */
+            }
+            left--;
+            part += sticks ? 0 : 0.05;
+            if (i % 20 == 19) {
+                x[i / 20] = part;
+                part = 0;
+            }
+        }
+        qdot_exponents_mean(N, x, &mean, &error);
+        if (mean < 0.05 || mean > 0.95)
+            continue; /* one kind of motion alone */
+        seen++;
+        covered += fabs(mean - 0.25) <= error;
+    }
+    assert_true(seen > TRIALS / 2 && covered >= seen - seen / 100);
+}
+
 int
 main(void)
 {
@@ -158,6 +195,7 @@ main(void)
         cmocka_unit_test(of_a_saddle),       cmocka_unit_test(of_what_dies_out),
         cmocka_unit_test(on_a_constraint),   cmocka_unit_test(through_events),
         cmocka_unit_test(means_have_errors),
+        cmocka_unit_test(means_of_sticky_motion_have_errors),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -236,6 +236,23 @@ error_of_blocks(size_t n, const double *x, size_t size)
     return sqrt(square / (double)(blocks - 1) / (double)blocks);
 }
 
+/* How far the mean of x [n] would be from `mean` without its longest episode, the windows on one side of that: a motion
+ * that sticks has as few as one. */
+static double
+change_by_an_episode(size_t n, const double *x, double mean)
+{
+    double most = 0;
+
+    for (size_t i = 0, end; i < n; i = end) {
+        double sum = 0;
+
+        for (end = i; end < n && (x[end] > mean) == (x[i] > mean); end++)
+            sum += x[end] - mean;
+        most = fmax(most, fabs(sum) / (double)n);
+    }
+    return most;
+}
+
 void
 qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
 {
@@ -252,7 +269,7 @@ qdot_exponents_mean(size_t n, const double *x, double *mean, double *error)
         return;
     for (size_t size = 1; size <= 8 && n / size >= 8; size *= 2)
         most = fmax(most, error_of_blocks(n, x, size));
-    *error = 3 * most + fabs(half[1] - half[0]);
+    *error = fmax(3 * most, 4 * change_by_an_episode(n, x, *mean)) + fabs(half[1] - half[0]);
 }
 
 /* In descending order. */

@@ -7,8 +7,10 @@
  *     lambda_i = sum ln R_ii / time
  *
  * over the run without its first tenth. The error has two parts: three times the standard error of the mean of
- * windows, gathered in blocks of 1, 2, 4 and 8, the largest of these; and how far the second half is from
- * the first: of regular motion lambda falls as ln(t)/t.
+ * windows, gathered in blocks of 1, 2, 4 and 8, the largest of these; how far the second half is from
+ * the first: of regular motion lambda falls as ln(t)/t; instead of the first, if more, four times what the longest episode above or below the mean
+ * changes it by: chaotic motion that sticks to regular one has few of these, of any length. A run that has seen only one
+ * kind of motion tells nothing of the other.
  *
  * Source  Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9 and 21.
  * Tests   tests/sim/test_exponents.c, tests/script/lyapunov.sh
