@@ -210,6 +210,8 @@ library_sources = \
 	lib/mech/dynamics/energy.c \
 	lib/mech/dynamics/freedom.c \
 	lib/mech/dynamics/generic.c \
+	lib/mech/dynamics/integrable.c \
+	lib/mech/dynamics/integrated.c \
 	lib/mech/dynamics/kinematics.c \
 	lib/mech/dynamics/lagrange.c \
 	lib/mech/dynamics/mass-matrix.c \
@@ -253,7 +255,6 @@ library_sources = \
 	lib/mech/study/equilibrium.c \
 	lib/mech/study/geometry.c \
 	lib/mech/study/hamilton.c \
-	lib/mech/study/integrable.c \
 	lib/mech/study/linear-motion.c \
 	lib/mech/study/lyapunov.c \
 	lib/mech/study/metric.c \
@@ -809,6 +810,8 @@ library_headers = \
 	lib/mech/dynamics/energy.h \
 	lib/mech/dynamics/freedom.h \
 	lib/mech/dynamics/generic.h \
+	lib/mech/dynamics/integrable.h \
+	lib/mech/dynamics/integrated.h \
 	lib/mech/dynamics/kinematics.h \
 	lib/mech/dynamics/lagrange.h \
 	lib/mech/dynamics/mass-matrix.h \
@@ -833,7 +836,6 @@ library_headers = \
 	lib/mech/study/equilibrium.h \
 	lib/mech/study/geometry.h \
 	lib/mech/study/hamilton.h \
-	lib/mech/study/integrable.h \
 	lib/mech/study/linear-motion.h \
 	lib/mech/study/lyapunov.h \
 	lib/mech/study/minimal.h \
@@ -1261,6 +1263,7 @@ unit_tests = \
 	tests/mech/test_equilibrium \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
+	tests/mech/test_integrated \
 	tests/mech/test_noether \
 	tests/mech/test_numeric \
 	tests/mech/test_rods \
@@ -1425,6 +1428,7 @@ script_tests = \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
+	tests/script/disguised.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/double-energy.lag \
 	tests/script/doubts.sh \
@@ -2506,6 +2510,7 @@ test_files = \
 	tests/script/digits.csv \
 	tests/script/digits.out \
 	tests/script/digits.txt \
+	tests/script/disguised.out \
 	tests/script/dof-redundant.out \
 	tests/script/double-energy.out \
 	tests/script/doubts.out \

@@ -13,7 +13,7 @@
 #include "lang/commands/statement.h"
 #include "lang/language/hints.h"
 #include "lang/language/read.h"
-#include "mech/study/integrable.h"
+#include "mech/dynamics/integrable.h"
 #include "mech/study/reactions.h"
 
 /* "blade", "roll[2]" */

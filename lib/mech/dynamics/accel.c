@@ -4,10 +4,12 @@
  *     [ A   0   ] [ lambda ] = [ -gamma ],   A q'' + gamma = 0
  *
  * the constraints, differentiated as often as their kind asks. Constraints that repeat others
- * are left out (mech/dynamics/freedom.c): q'' does not depend on how they share the reaction.
+ * are left out (mech/dynamics/freedom.c): q'' does not depend on how they share the reaction. Rows
+ * of velocity constraints in disguise are those of their integrals (mech/dynamics/integrated.h).
  */
 #include "expr/calculus.h"
 #include "mech/dynamics/freedom.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/lagrange.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"
@@ -23,12 +25,12 @@ fill_constraint(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
     const qdot_constraint *c = &s->constraints.at[k];
-    qdot_expr f = c->f;
+    qdot_expr mu, F = qdot_integrated_of(s, k, &mu), f = F == QDOT_NIL ? c->f : F;
 
-    for (int order = c->kind; order < QDOT_ACCELERATION; order++)
+    for (int order = F == QDOT_NIL ? c->kind : QDOT_HOLONOMIC; order < QDOT_ACCELERATION; order++)
         f = qdot_ddt(pool, f);
     for (size_t i = 0; i < n; i++) {
-        qdot_expr slope = qdot_constraint_slope(s, k, i);
+        qdot_expr slope = qdot_integrated_slope(s, k, i);
 
         slope = qdot_mech_tidy(s, slope);
         A[row * size + i] = slope;
@@ -73,6 +75,17 @@ solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
     return status;
 }
 
+/* lambda of constraint k, of that of its row. */
+static qdot_expr
+declared_multiplier(qdot_scene *s, size_t k, qdot_expr lambda)
+{
+    qdot_expr mu;
+
+    if (qdot_integrated_of(s, k, &mu) == QDOT_NIL || mu == QDOT_ONE)
+        return lambda;
+    return qdot_mech_tidy(s, qdot_mul(s->pool, mu, lambda));
+}
+
 static bool
 accels_get(qdot_scene *s)
 {
@@ -99,7 +112,8 @@ accels_get(qdot_scene *s)
         done = !qdot_pool_failed(s->pool) &&
                qdot_derived_array(s, &d->lambda, s->constraints.n);
         for (size_t k = n; done && k < size && size - n == s->constraints.n; k++)
-            d->lambda[which[k - n]] = work[size * size + size + k];
+            d->lambda[which[k - n]] =
+                declared_multiplier(s, which[k - n], work[size * size + size + k]);
         if (!done) {
             qdot_free(d->accel);
             d->accel = NULL;

@@ -38,6 +38,9 @@ derived_clear(qdot_derived *d)
     qdot_free(d->equation);
     qdot_free(d->accel);
     qdot_free(d->lambda);
+    qdot_free(d->integral);
+    qdot_free(d->factor);
+    qdot_free(d->integral_known);
     qdot_free(d->independent);
     qdot_free(d->patterns.at);
     qdot_free(d->cyclic);

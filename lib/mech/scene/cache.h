@@ -78,6 +78,11 @@ struct qdot_derived {
     qdot_expr *accel;                                     /* [n], all at once */
     qdot_expr *lambda; /* [constraints], with accel; nil where they are not unique */
     qdot_expr numeric_mass, numeric_forcing, numeric_energy;
+    /* [constraints] of velocity constraints that are holonomic in disguise: F and mu, mu f = dF/dt
+     * (mech/dynamics/integrated.h); nil for others */
+    qdot_expr *integral, *factor;
+    bool *integral_known;
+    bool holonomic_known, holonomic; /* qdot_mech_is_holonomic */
     bool *independent; /* [constraints] */
     bool *hidden;      /* [constraints] leaves a condition (qdot_dof.is_hidden) */
     bool unmet;        /* no point was found where all constraints hold */

@@ -3,9 +3,9 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-#include "mech/scene/constraint.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
 
@@ -106,7 +106,7 @@ tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
         size_t j = 0;
 
         for (size_t i = 0; i < n; i++)
-            row[i] = at(p, qdot_constraint_slope(s, k, i));
+            row[i] = at(p, qdot_integrated_slope(s, k, i));
         status = qdot_pool_check(pool);
         for (size_t r = 0; r < rank && status == QDOT_OK; r++) {
             qdot_expr by = row[pivot[r]];
@@ -121,6 +121,7 @@ tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
             j++;
         if (status != QDOT_OK || j == n)
             continue;
+        out->pivot[rank] = row[j];
         for (size_t i = n; i-- > 0;)
             if (i != j)
                 row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
@@ -234,6 +235,7 @@ qdot_linear_motion_clear(qdot_linear_motion *m)
 {
     qdot_free(m->M);
     qdot_free(m->which);
+    qdot_free(m->pivot);
     *m = (qdot_linear_motion){0};
 }
 
@@ -266,8 +268,10 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
     qdot_status status = X == NULL ? QDOT_ENOMEM : QDOT_OK;
     place p = {0};
 
-    *out = (qdot_linear_motion){.which = qdot_calloc(n + 1, sizeof *out->which)};
-    if (out->which == NULL)
+    *out = (qdot_linear_motion){
+        .which = qdot_calloc(n + 1, sizeof *out->which),
+        .pivot = qdot_calloc(s->constraints.n + 1, sizeof *out->pivot)};
+    if (out->which == NULL || out->pivot == NULL)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = place_begin(&p, s, equations, exists);

@@ -1,6 +1,7 @@
 /* linear-motion.h -- the motion about an equilibrium, to first order. Internal to mech/.
  *
- * With q = q0 + x, x = N y in the tangent space of the holonomic constraints,
+ * With q = q0 + x, x = N y in the tangent space of the constraints, which are holonomic or that in
+ * disguise (qdot_mech_is_holonomic: then H is symmetric there whichever multiple of dF/dt they are),
  *
  *     M y'' + Gamma y' + H y = 0,   H = d(left - right)/dq at rest, multipliers held.
  */
@@ -17,6 +18,7 @@ typedef struct {
     qdot_expr *N;             /* [coordinates * n] */
     size_t *which;            /* [n] the coordinate that equals y_a */
     size_t rank;              /* of the constraints' Jacobian at the equilibrium */
+    qdot_expr *pivot;         /* [rank] what its elimination divided by: N holds where none is 0 */
     bool exact;               /* the equations are linear: nothing is neglected */
     bool damped;              /* Gamma is defined; else it is set to 0 (|v| v at v = 0) */
 } qdot_linear_motion;

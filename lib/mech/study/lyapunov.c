@@ -5,6 +5,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/energy.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/virtual-work.h"
 #include "mech/scene/access.h"
 #include "normal/inequality/less.h"
@@ -40,14 +41,17 @@ never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
     return QDOT_OK;
 }
 
-/* Nothing of the scene changes with time by itself, and constraints bind coordinates alone. */
+/* Nothing of the scene changes with time by itself, and constraints bind coordinates alone, be it
+ * in disguise. */
 static qdot_status
 is_still(qdot_scene *s, bool *yes)
 {
-    *yes = qdot_lagrangian_is_still(s, QDOT_T);
+    bool holonomic;
+
+    QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
+    *yes = holonomic && qdot_lagrangian_is_still(s, QDOT_T);
     for (size_t k = 0; k < s->constraints.n; k++)
-        *yes = *yes && s->constraints.at[k].kind == QDOT_HOLONOMIC &&
-               (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) == 0;
+        *yes = *yes && (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) == 0;
     return qdot_pool_check(s->pool);
 }
 

@@ -10,6 +10,7 @@
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/mass-matrix.h"
 #include "mech/study/linear-motion.h"
 #include "normal/inequality/less.h"
@@ -483,13 +484,13 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
              .facts = qdot_scene_facts(s),
              .bind = bind,
              .user = user};
-    bool done = false;
+    bool done = false, holonomic;
     qdot_status status;
 
     *out = (qdot_modes){0};
-    for (size_t k = 0; k < s->constraints.n; k++)
-        if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
-            return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
+    QDOT_TRY(qdot_mech_is_holonomic(s, &holonomic));
+    if (!holonomic)
+        return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
     QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
     status = check_motion(&j);
     if (status == QDOT_OK && !numbers)

@@ -9,6 +9,7 @@
 #include "mech/study/linear-motion.h"
 #include "mech/study/lyapunov.h"
 #include "mech/study/stability.h"
+#include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
@@ -20,6 +21,9 @@ typedef struct {
     qdot_facts facts;
     qdot_vec(qdot_expr) known; /* scalars that are positive */
     qdot_vec(qdot_expr) when;  /* RELs */
+    /* Of a family of places, what was taken to be positive and holds its coordinates: a parameter is
+     * generic, a coordinate runs through every value. */
+    qdot_vec(qdot_expr) claims;
     qdot_linear_motion m;
     qdot_expr *M, *Gamma, *H;  /* of those y whose place is told, [n * n] */
     size_t n;
@@ -28,12 +32,20 @@ typedef struct {
 
 /* --- definite or not ---------------------------------------------------------------------- */
 
+static qdot_status
+claim(judgement *j, qdot_expr e)
+{
+    return qdot_mech_holds(j->s, e) & QDOT_HAS_COORD ? qdot_vec_push(&j->claims, e) : QDOT_OK;
+}
+
 /* Ask e > 0: true, false, or a condition that is noted. */
 static qdot_status
 ask(judgement *j, qdot_expr e, qdot_expr *answer)
 {
     *answer = qdot_positive(j->s->pool, e, &j->facts, j->known.n, j->known.at);
     QDOT_TRY(qdot_pool_check(j->s->pool));
+    if (*answer != QDOT_FALSE)
+        QDOT_TRY(claim(j, e));
     if (*answer == QDOT_TRUE || *answer == QDOT_FALSE)
         return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&j->when, *answer));
@@ -42,20 +54,28 @@ ask(judgement *j, qdot_expr e, qdot_expr *answer)
 
 /* How many conditions were noted so far; and back to that. */
 typedef struct {
-    size_t when, known;
+    size_t when, known, claims;
 } mark;
 
 static mark
 mark_of(const judgement *j)
 {
-    return (mark){j->when.n, j->known.n};
+    return (mark){j->when.n, j->known.n, j->claims.n};
+}
+
+/* Forget the conditions since then: what was refuted needs none. */
+static void
+drop_conditions(judgement *j, mark m)
+{
+    j->when.n = m.when;
+    j->known.n = m.known;
 }
 
 static void
 back_to(judgement *j, mark m)
 {
-    j->when.n = m.when;
-    j->known.n = m.known;
+    drop_conditions(j, m);
+    j->claims.n = m.claims;
 }
 
 /* Leading minors of A [n*n], simplified. */
@@ -95,7 +115,7 @@ definiteness(judgement *j, size_t n, const qdot_expr *A, definite *how)
         QDOT_TRY(qdot_pool_check(pool));
         if (sign == QDOT_TRUE) {
             *how = NEGATIVE_SOMEWHERE;
-            return QDOT_OK;
+            return claim(j, qdot_neg(pool, A[i * n + i]));
         }
     }
     for (size_t k = 1; k <= n; k++) {
@@ -106,9 +126,10 @@ definiteness(judgement *j, size_t n, const qdot_expr *A, definite *how)
         zero = qdot_is_zero(pool, e, &j->facts);
         QDOT_TRY(ask(j, e, &answer));
         if (answer == QDOT_FALSE) {
-            if (!zero && j->when.n == before)
-                *how = NEGATIVE_SOMEWHERE;
-            return QDOT_OK;
+            if (zero || j->when.n > before)
+                return QDOT_OK;
+            *how = NEGATIVE_SOMEWHERE;
+            return claim(j, qdot_neg(pool, e));
         }
     }
     *how = j->when.n > before ? CONDITIONAL : POSITIVE;
@@ -197,7 +218,7 @@ all_positive(judgement *j, size_t n, qdot_expr *e, definite *how)
         QDOT_TRY(qdot_pool_check(pool));
         *how = NEGATIVE_SOMEWHERE;
         if (below == QDOT_TRUE)
-            return QDOT_OK;
+            return claim(j, qdot_neg(pool, e[k]));
     }
     *how = UNKNOWN;
     for (size_t k = 0; k < n; k++) {
@@ -381,12 +402,13 @@ by_falling(judgement *j, qdot_equilibrium *e)
         !is_symmetric(j, j->n, j->H, 1))
         return QDOT_OK;
     QDOT_TRY(definiteness(j, j->n, j->H, &how));
-    back_to(j, before);
-    if (how != NEGATIVE_SOMEWHERE)
-        return QDOT_OK;
-    QDOT_TRY(is_proved_definite(j, j->m.n, j->m.M, &mass));
-    if (mass)
+    drop_conditions(j, before);
+    if (how == NEGATIVE_SOMEWHERE)
+        QDOT_TRY(is_proved_definite(j, j->m.n, j->m.M, &mass));
+    if (how == NEGATIVE_SOMEWHERE && mass)
         e->stability = QDOT_UNSTABLE;
+    else
+        back_to(j, before);
     return QDOT_OK;
 }
 
@@ -418,10 +440,12 @@ by_roots(judgement *j, qdot_equilibrium *e)
         if (how == NEGATIVE_SOMEWHERE)
             how = UNKNOWN;
     }
-    if (how == NEGATIVE_SOMEWHERE)
+    if (how == NEGATIVE_SOMEWHERE) {
         e->stability = QDOT_UNSTABLE;
-    else
-        e->stability = conclude(how, QDOT_STABLE);
+        drop_conditions(j, before);
+        return QDOT_OK;
+    }
+    e->stability = conclude(how, QDOT_STABLE);
     if (e->stability != QDOT_STABLE)
         back_to(j, before);
     return QDOT_OK;
@@ -448,7 +472,7 @@ to_first_order(judgement *j, qdot_equilibrium *e)
         back_to(j, before);
         QDOT_TRY(gyroscopic(j, &how));
         if (how == NEGATIVE_SOMEWHERE) {
-            back_to(j, before);
+            drop_conditions(j, before);
             e->stability = QDOT_UNSTABLE;
             return QDOT_OK;
         }
@@ -491,6 +515,55 @@ kink_at(const judgement *j, qdot_expr equations, bool *yes)
     return status;
 }
 
+/* --- families -------------------------------------------------------------------------- */
+
+/* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
+static qdot_status
+is_sure(judgement *j, qdot_expr e, bool above, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_facts facts = j->facts;
+    qdot_expr *all = qdot_malloc((facts.n_conditions + j->when.n + 1) * sizeof *all);
+    qdot_status status = QDOT_OK;
+
+    *yes = false;
+    if (all == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < facts.n_conditions; i++)
+        all[i] = facts.conditions[i];
+    for (size_t i = 0; i < j->when.n; i++)
+        all[facts.n_conditions + i] = j->when.at[i];
+    facts.conditions = all;
+    facts.n_conditions += j->when.n;
+    for (int side = above ? 1 : 0; side < 2 && !*yes && status == QDOT_OK; side++) {
+        qdot_decision d;
+
+        status = qdot_decide_less(pool, side ? QDOT_ZERO : e, side ? e : QDOT_ZERO, true, &facts, &d);
+        *yes = status == QDOT_OK && d.verdict == QDOT_PROVED;
+    }
+    qdot_free(all);
+    return status;
+}
+
+
+/* Whether what the verdict rests on holds all along a family: else it is left open. */
+static qdot_status
+confirm_family(judgement *j, qdot_equilibrium *e)
+{
+    bool yes = true;
+
+    if (e->stability == QDOT_STABILITY_UNDECIDED)
+        return QDOT_OK;
+    for (size_t i = 0; i < j->claims.n && yes; i++)
+        QDOT_TRY(is_sure(j, j->claims.at[i], true, &yes));
+    for (size_t r = 0; r < j->m.rank && yes; r++)
+        if (qdot_mech_holds(j->s, j->m.pivot[r]) & QDOT_HAS_COORD)
+            QDOT_TRY(is_sure(j, j->m.pivot[r], false, &yes));
+    if (!yes)
+        e->stability = QDOT_STABILITY_UNDECIDED;
+    return QDOT_OK;
+}
+
 /* --- one place -------------------------------------------------------------------------- */
 
 /* The blocks of those y whose place is told: all but coordinates that stand in no equation at
@@ -507,8 +580,7 @@ take_blocks(judgement *j)
         return QDOT_ENOMEM;
     }
     for (size_t a = 0; a < m; a++) {
-        told[a] = qdot_expr_contains(j->s->pool, j->judge->at_rest,
-                                     j->s->coordinates.at[j->m.which[a]]);
+        told[a] = qdot_stability_is_told(j->judge, j->m.which[a]);
         j->n += told[a];
     }
     j->Gamma = j->M + j->n * j->n;
@@ -597,6 +669,7 @@ exact_place(judgement *j, qdot_equilibrium *e)
     if (e->stability == QDOT_STABILITY_UNDECIDED && s->coordinates.n == 1 &&
         s->constraints.n == 0 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(by_sides(j, e));
+    QDOT_TRY(confirm_family(j, e));
     QDOT_TRY(drop_implied(j, known));
     if ((e->stability == QDOT_STABLE || e->stability == QDOT_STABLE_TO_FIRST_ORDER) &&
         j->when.n > 0)
@@ -618,5 +691,6 @@ qdot_stability_judge_exact(qdot_judge *judge, qdot_equilibrium *e)
     qdot_free(own);
     qdot_free(j.known.at);
     qdot_free(j.when.at);
+    qdot_free(j.claims.at);
     return status;
 }

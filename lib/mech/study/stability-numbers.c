@@ -11,9 +11,9 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
-#include "mech/scene/constraint.h"
 #include "mech/study/stability.h"
 
 /* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest
@@ -64,8 +64,8 @@ qdot_stability_numbers_new(const qdot_judge *judge, qdot_stability_numbers **out
                 x->e[(2 - order) * n * n + i * n + j] =
                     qdot_diff(pool, left, qdot_mech_jet(s, j, order));
         for (size_t k = 0; k < c; k++)
-            x->e[3 * n * n + k * n + i] = qdot_constraint_slope(s, k, i);
-        x->told[i] = qdot_expr_contains(pool, judge->at_rest, s->coordinates.at[i]);
+            x->e[3 * n * n + k * n + i] = qdot_integrated_slope(s, k, i);
+        x->told[i] = qdot_stability_is_told(judge, i);
         status = qdot_pool_check(pool);
     }
     for (size_t i = 0; i < count && judge->bind != NULL && status == QDOT_OK; i++) {

@@ -3,8 +3,10 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
+#include "mech/scene/constraint.h"
 
 static bool
 velocities_have_kinks(qdot_scene *s)
@@ -23,6 +25,18 @@ velocities_have_kinks(qdot_scene *s)
         qdot_walk_end(&w);
     }
     return found;
+}
+
+bool
+qdot_stability_is_told(const qdot_judge *judge, size_t i)
+{
+    qdot_scene *s = judge->s;
+    bool told = qdot_expr_contains(s->pool, judge->at_rest, s->coordinates.at[i]);
+
+    for (size_t k = 0; k < s->constraints.n && !told; k++)
+        told = s->constraints.at[k].kind == QDOT_VELOCITY &&
+               qdot_constraint_slope(s, k, i) != QDOT_ZERO;
+    return told;
 }
 
 qdot_status
@@ -54,16 +68,15 @@ qdot_judge_new(qdot_scene *s, qdot_expr at_rest, qdot_binder bind, void *user,
         return QDOT_ENOMEM;
     *judge = (qdot_judge){
         .s = s, .bind = bind, .user = user, .at_rest = at_rest, .holonomic = true};
-    for (size_t k = 0; k < s->constraints.n; k++) {
-        judge->holonomic = judge->holonomic && s->constraints.at[k].kind == QDOT_HOLONOMIC;
+    for (size_t k = 0; k < s->constraints.n; k++)
         judge->timed = judge->timed ||
                        (qdot_mech_holds(s, s->constraints.at[k].f) & QDOT_HAS_TIME) != 0;
-    }
-    for (size_t i = 0; i < s->coordinates.n && judge->holonomic; i++)
+    status = qdot_mech_is_holonomic(s, &judge->holonomic);
+    for (size_t i = 0; i < s->coordinates.n && judge->holonomic && status == QDOT_OK; i++)
         judge->timed = judge->timed ||
                        (qdot_mech_holds(s, qdot_mech_equation(s, s->coordinates.at[i])) &
                         QDOT_HAS_TIME) != 0;
-    if (judge->holonomic) {
+    if (judge->holonomic && status == QDOT_OK) {
         judge->velocity_kink = velocities_have_kinks(s);
         status = qdot_energy_law_of(s, &judge->law);
     }

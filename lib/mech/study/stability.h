@@ -12,7 +12,7 @@ typedef struct {
     qdot_binder bind;
     void *user;
     qdot_energy_law law;
-    bool holonomic;     /* every constraint is */
+    bool holonomic;     /* every constraint is, or is so in disguise (qdot_mech_is_holonomic) */
     bool timed;         /* the equations depend on t */
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
@@ -35,6 +35,10 @@ qdot_stability_has_kink(uint32_t op)
     return op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_FLOOR || op == QDOT_MOD ||
            op == QDOT_MIN || op == QDOT_MAX || op == QDOT_IF;
 }
+
+/* Whether coordinate i stands in an equation at rest or is bound by a velocity constraint: along
+ * others a family of rests is alike. */
+bool qdot_stability_is_told(const qdot_judge *judge, size_t i);
 
 /* A place known exactly, holonomic constraints (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_exact(qdot_judge *judge,

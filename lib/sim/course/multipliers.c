@@ -42,6 +42,8 @@ find_multipliers(qdot_constrained *held, const qdot_trajectory *tr, size_t m,
     }
     status = qdot_constrained_solve(held, tr->t[tr->count - 1], y, a, b->lambda);
     qdot_free(a);
+    if (status == QDOT_OK)
+        status = qdot_constrained_rescale(held, tr->t[tr->count - 1], y, b->lambda);
     for (size_t k = 0; k < m && status != QDOT_OK; k++)
         b->lambda[k] = NAN;
     if (status == QDOT_ESINGULAR || status == QDOT_EDOMAIN || status == QDOT_EINTR) {
@@ -102,7 +104,8 @@ look(qdot_constrained *held, double t, double *y, size_t i, double h, double *a,
     double kept = y[i];
 
     y[i] += h;
-    if (qdot_constrained_solve(held, t, y, a, out) != QDOT_OK) {
+    if (qdot_constrained_solve(held, t, y, a, out) != QDOT_OK ||
+        qdot_constrained_rescale(held, t, y, out) != QDOT_OK) {
         out[0] = NAN;
         qdot_fail_again(&before);
     }
@@ -149,7 +152,7 @@ qdot_multipliers_report(const qdot_multipliers *b, const qdot_plan *p, qdot_run_
     if (!p->constraints)
         return;
     r->m = p->m;
-    r->multipliers = p->inputs + 3 * p->n + 1;
+    r->multipliers = p->multipliers;
     r->lambda = b->lambda;
     r->lambda_error = b->error;
     r->constraint_drift = isnan(b->position) ? b->velocity : b->position;

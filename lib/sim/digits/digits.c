@@ -106,7 +106,7 @@ keep_end(qdot_run *run)
     QDOT_TRY(qdot_pool_check(p->pool));
     if (m == 0 || !run->multipliers.error)
         return QDOT_OK;
-    status = qdot_precise_pair_values(run->precise, m, p->inputs + 3 * p->n + 1, QDOT_NIL,
+    status = qdot_precise_pair_values(run->precise, m, p->multipliers, QDOT_NIL,
                                       run->exact + n, run->multipliers.error);
     for (size_t k = 0; k < m; k++)
         if (!isfinite(run->multipliers.lambda[k])) /* no direction in doubles: no digits */

@@ -56,6 +56,8 @@ qdot_plan_free(qdot_plan *p)
     qdot_structure_clear(&p->structure);
     qdot_free(p->names);
     qdot_free(p->inputs);
+    qdot_free(p->multipliers);
+    qdot_free(p->scaled);
     qdot_free(p->M);
     qdot_free(p->f);
     qdot_free(p->massless);

@@ -359,6 +359,27 @@ qdot_constrained_measure(qdot_constrained *h, double t, const double *y)
     return r;
 }
 
+qdot_status
+qdot_constrained_rescale(const qdot_constrained *h, double t, const double *y, double *lambda)
+{
+    const qdot_tape *scale = h->c->scale;
+    const size_t n = 2 * h->plan->n, m = h->plan->m;
+    double *in;
+
+    if (!scale)
+        return QDOT_OK;
+    in = qdot_calloc(n + 1 + m + qdot_tape_work(scale), sizeof *in);
+    if (!in)
+        return QDOT_ENOMEM;
+    memcpy(in, y, n * sizeof *in);
+    in[n] = t;
+    qdot_tape_eval(scale, in, in + n + 1, in + n + 1 + m);
+    for (size_t k = 0; k < m; k++)
+        lambda[k] *= in[n + 1 + k];
+    qdot_free(in);
+    return QDOT_OK;
+}
+
 size_t
 qdot_constrained_rows(const qdot_constrained *h)
 {

@@ -157,6 +157,9 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_fail_dependent(const qdot_constrain
 QDOT_MUST_CHECK qdot_status qdot_constrained_without_direction(const qdot_constraints *c,
                                                                size_t row);
 
+/* lambda [m] of the rows at t, y = (q, q') [2n] made those of the scene's constraints. */
+QDOT_MUST_CHECK qdot_status qdot_constrained_rescale(const qdot_constrained *constrained, double t,
+                                                     const double *y, double *lambda);
 size_t qdot_constrained_rows(const qdot_constrained *constrained); /* m */
 const qdot_constraints *qdot_constrained_of(const qdot_constrained *constrained);
 /* Independent rows; QDOT_SADDLE_UNKNOWN before the first factorisation. */

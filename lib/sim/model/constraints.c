@@ -5,6 +5,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "sim/model/massless.h"
 #include "sim/model/rates.h"
 #include "sim/model/switch.h"
@@ -15,7 +16,7 @@ typedef qdot_vec(qdot_expr) expressions;
 typedef struct {
     const qdot_plan *plan;
     qdot_constraints *c;
-    expressions positions, velocities, slopes, gamma, masses, metric;
+    expressions positions, velocities, slopes, gamma, masses, metric, scale;
 } builder;
 
 void
@@ -32,6 +33,7 @@ qdot_constraints_free(qdot_constraints *c)
     qdot_free(c->A);
     qdot_free(c->gamma);
     qdot_tape_free(c->positions);
+    qdot_tape_free(c->scale);
     qdot_tape_free(c->velocities);
     qdot_tape_free(c->metric);
     qdot_tape_free(c->equations);
@@ -133,7 +135,7 @@ add_derivatives(builder *b, size_t k)
 }
 
 static qdot_status
-read_rows(builder *b, const qdot_scene *scene)
+read_rows(builder *b, qdot_scene *scene)
 {
     const qdot_plan *p = b->plan;
     qdot_constraints *c = b->c;
@@ -144,13 +146,14 @@ read_rows(builder *b, const qdot_scene *scene)
     for (size_t k = 0; k < scene->constraints.n; k++) {
         const qdot_constraint *from = scene->constraints.at + k;
         qdot_constraints_row *row = c->rows + k;
+        qdot_expr mu;
 
         c->m++;
         row->name = qdot_strdup(from->name);
         row->kind = from->kind;
         row->multiplier = from->multiplier;
         c->count[row->kind]++;
-        row->f = qdot_plan_substitute(p, from->f);
+        row->f = qdot_plan_substitute(p, qdot_integrated_rate(scene, k, &mu));
         if (!row->name)
             return QDOT_ENOMEM;
         QDOT_TRY(qdot_pool_check(p->pool));
@@ -158,6 +161,7 @@ read_rows(builder *b, const qdot_scene *scene)
             QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &row->f, &row->f));
         QDOT_TRY(add_slopes(b, k));
         QDOT_TRY(add_derivatives(b, k));
+        QDOT_TRY(qdot_vec_push(&b->scale, qdot_plan_substitute(p, mu)));
     }
     return QDOT_OK;
 }
@@ -322,7 +326,7 @@ keep_expressions(builder *b)
 }
 
 static qdot_status
-build(builder *b, const qdot_scene *scene)
+build(builder *b, qdot_scene *scene)
 {
     QDOT_TRY(read_rows(b, scene));
     QDOT_TRY(read_massless(b));
@@ -330,13 +334,15 @@ build(builder *b, const qdot_scene *scene)
     QDOT_TRY(read_masses(b));
     QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
     QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
+    if (b->plan->rescaled)
+        QDOT_TRY(lower(b->plan, &b->scale, &b->c->scale));
     QDOT_TRY(lower_index_1(b));
     QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
     return lower_series(b);
 }
 
 qdot_status
-qdot_constraints_new(const qdot_scene *scene, const qdot_plan *plan,
+qdot_constraints_new(qdot_scene *scene, const qdot_plan *plan,
                      qdot_constraints **constraints)
 {
     builder b = {.plan = plan};
@@ -352,6 +358,7 @@ qdot_constraints_new(const qdot_scene *scene, const qdot_plan *plan,
     qdot_free(b.slopes.at);
     qdot_free(b.gamma.at);
     qdot_free(b.masses.at);
+    qdot_free(b.scale.at);
     qdot_free(b.metric.at);
     if (status != QDOT_OK) {
         qdot_constraints_free(b.c);

@@ -49,6 +49,7 @@ struct qdot_constraints {
     qdot_tape *velocities; /* df/dt of the holonomic and f of the velocity rows, in the
                               order of all rows without those on accelerations */
     qdot_tape *metric;     /* M [n_masses], 2^-60 for massless coordinates; A [n_slopes] */
+    qdot_tape *scale;      /* mu [m]: lambda of the scene is mu times that of a row; NULL: all 1 */
     qdot_tape *equations;  /* f [n], M [n_masses], A [n_slopes], gamma [m]; moved to plan->tape,
                               then NULL */
 
@@ -62,7 +63,7 @@ struct qdot_constraints {
 /* For a scene whose plan has its values, M, f and massless coordinates; *constraints is NULL where
  * there are neither constraints nor those.
  * Errors: those of lowering. */
-QDOT_MUST_CHECK qdot_status qdot_constraints_new(const qdot_scene *scene,
+QDOT_MUST_CHECK qdot_status qdot_constraints_new(qdot_scene *scene,
                                                  const qdot_plan *plan,
                                                  qdot_constraints **constraints);
 void qdot_constraints_free(qdot_constraints *c);

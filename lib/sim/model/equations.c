@@ -1,6 +1,7 @@
 /* equations.c -- the blocks of M, and the tape of both sides by them. */
 #include "sim/model/equations.h"
 
+#include "expr/calculus.h"
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
 #include "tape/constant.h"
@@ -22,7 +23,10 @@ qdot_plan_needs_jacobian(const qdot_plan *p)
 qdot_expr
 qdot_plan_substitute(const qdot_plan *p, qdot_expr e)
 {
-    return qdot_substitute(p->pool, e, p->n_values, p->symbols, p->values);
+    e = qdot_substitute(p->pool, e, p->n_values, p->symbols, p->values);
+    if (p->rescaled && e != QDOT_NIL && (qdot_expr_node(p->pool, e)->holds & QDOT_HAS_MULTIPLIER))
+        e = qdot_subs(p->pool, e, p->m, p->multipliers, p->scaled);
+    return e;
 }
 
 qdot_status

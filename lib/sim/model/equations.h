@@ -60,6 +60,10 @@ struct qdot_plan {
     qdot_expr *inputs; /* [3n + 1 + m + n_sides] q, q', t, q'', lambda of m constraints, the symbols of
                           the sides (sim/model/switch.h), of which only what is read along a run
                           may hold some */
+    /* [m] the scene's lambda of each constraint, and what it is of those among the inputs: mu times
+     * it where a run keeps mu f in place of f (mech/dynamics/integrated.h). */
+    qdot_expr *multipliers, *scaled;
+    bool rescaled;     /* one of these differs */
     char **names;      /* [n] of the coordinates; owned */
     qdot_expr *M;      /* [n x n] M, f and tape are NULL if only the tree is used */
     qdot_expr *f;      /* [n]                                   (sim/plan/tree-alone.h) */
@@ -170,7 +174,7 @@ size_t qdot_plan_inputs(const qdot_plan *plan);
 QDOT_MUST_CHECK qdot_status qdot_plan_number(const qdot_plan *plan, qdot_expr e,
                                              double *value, int *side, double *low);
 
-/* e with parameter values substituted. Nil: the pool keeps the failure. */
+/* e with parameter values substituted, multipliers by those among the inputs. Nil: the pool keeps the failure. */
 qdot_expr qdot_plan_substitute(const qdot_plan *plan, qdot_expr e);
 
 #endif

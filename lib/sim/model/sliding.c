@@ -6,6 +6,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "normal/solve/linear.h"
 #include "sim/model/puck.h"
 #include "sim/model/switch.h"
@@ -32,7 +33,7 @@ typedef struct {
 /* The system while it is filled: q'', then multipliers, then shares. */
 typedef struct {
     qdot_plan *p;
-    const qdot_scene *scene;
+    qdot_scene *scene;
     size_t n, m, k, size;
     unknown *of; /* [k] */
     qdot_expr *A, *b, *x;
@@ -150,7 +151,7 @@ fill_constraints(sliding *s)
     for (size_t c = 0; c < s->m; c++) {
         const qdot_constraint *from = s->scene->constraints.at + c;
         const size_t r = s->n + c;
-        qdot_expr f = qdot_plan_substitute(p, from->f);
+        qdot_expr mu, f = qdot_plan_substitute(p, qdot_integrated_rate(s->scene, c, &mu));
 
         QDOT_TRY(qdot_pool_check(p->pool));
         QDOT_TRY(qdot_switches_freeze(p->mode, p->side, p->share, 1, &f, &f));
@@ -311,7 +312,7 @@ add_unknown(sliding *s, size_t surface)
 }
 
 qdot_status
-qdot_sliding_freeze(qdot_plan *p, const qdot_scene *scene)
+qdot_sliding_freeze(qdot_plan *p, qdot_scene *scene)
 {
     const qdot_switches *mode = p->mode;
     const size_t surfaces = mode->surfaces.n, n = p->n, most = surfaces + mode->n_puck_symbols;

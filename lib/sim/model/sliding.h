@@ -35,7 +35,7 @@ bool qdot_sliding_is(const qdot_switches *switches, const long *side);
  * held stays where it is without rounding. QDOT_EFAILED: the motion cannot slide there, with the
  * reason: a mass or a constraint switches there, f is not linear in the shares, or no force of the
  * switch acts on u. QDOT_ELIMIT: the elimination is too long. */
-QDOT_MUST_CHECK qdot_status qdot_sliding_freeze(qdot_plan *p, const qdot_scene *scene);
+QDOT_MUST_CHECK qdot_status qdot_sliding_freeze(qdot_plan *p, qdot_scene *scene);
 
 /* An expression that is read along a run, with parameter values: what switches on a surface along which
  * the run slid (p->read_side) is a mean over both sides by the symbol of the side, whose value is the

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/spelling.h"
+#include "mech/dynamics/integrated.h"
 #include "ode/leading.h"
 #include "sim/form/motion-of-constraints.h"
 #include "sim/model/constraints.h"
@@ -80,8 +81,29 @@ copy_values(qdot_plan *p, const qdot_run_request *request)
     return QDOT_OK;
 }
 
+/* lambda of a constraint of which a run keeps mu f: lambda' among the inputs, lambda = mu lambda'. */
 static qdot_status
-name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
+name_multiplier(qdot_plan *p, qdot_scene *scene, size_t k)
+{
+    const qdot_expr lambda = scene->constraints.at[k].multiplier;
+    qdot_text name = {0};
+    qdot_expr mu, own;
+
+    p->multipliers[k] = p->scaled[k] = lambda;
+    if (qdot_integrated_rate(scene, k, &mu) == QDOT_NIL || mu == QDOT_ONE)
+        return qdot_pool_check(p->pool);
+    qdot_text_format(&name, "%s'", qdot_expr_symbol(p->pool, lambda)->name);
+    QDOT_TRY(qdot_text_status(&name));
+    own = qdot_symbol_get(p->pool, QDOT_MULTIPLIER, qdot_text_str(&name));
+    qdot_text_clear(&name);
+    p->scaled[k] = qdot_mul(p->pool, qdot_plan_substitute(p, mu), own);
+    p->inputs[3 * p->n + 1 + k] = own;
+    p->rescaled = true;
+    return qdot_pool_check(p->pool);
+}
+
+static qdot_status
+name_coordinates(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     size_t n = p->n, m = scene->constraints.n;
 
@@ -90,7 +112,9 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
     p->n_sides = p->mode ? own + p->mode->n_puck_symbols : 0;
     p->inputs = qdot_calloc(3 * n + 1 + m + p->n_sides, sizeof *p->inputs);
     p->names = qdot_calloc(n, sizeof *p->names);
-    if (!p->inputs || !p->names)
+    p->multipliers = qdot_calloc(m + 1, sizeof *p->multipliers);
+    p->scaled = qdot_calloc(m + 1, sizeof *p->scaled);
+    if (!p->inputs || !p->names || !p->multipliers || !p->scaled)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < n; i++) {
         qdot_expr q = qdot_parameter_states_coordinate(scene, request, i);
@@ -103,8 +127,10 @@ name_coordinates(qdot_plan *p, const qdot_scene *scene, const qdot_run_request *
             return QDOT_ENOMEM;
     }
     p->inputs[2 * n] = QDOT_T;
-    for (size_t k = 0; k < m; k++)
+    for (size_t k = 0; k < m; k++) {
         p->inputs[3 * n + 1 + k] = scene->constraints.at[k].multiplier;
+        QDOT_TRY(name_multiplier(p, scene, k));
+    }
     for (size_t i = 0; i < own; i++)
         p->inputs[3 * n + 1 + m + i] = p->mode->surfaces.at[i].side;
     for (size_t i = 0; p->mode && i < p->mode->pucks.n; i++) {

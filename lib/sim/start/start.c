@@ -6,6 +6,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "num/row-space.h"
 #include "sim/model/constraints.h"
 #include "sim/start/nearest.h"
@@ -40,8 +41,11 @@ row_at(const level *l, size_t k)
 {
     const qdot_constraint *of_scene = l->scene->constraints.at + k;
 
+    qdot_expr mu;
+
     return k < l->scene->constraints.n
-               ? (qdot_constraints_row){of_scene->name, of_scene->kind, of_scene->f,
+               ? (qdot_constraints_row){of_scene->name, of_scene->kind,
+                                        qdot_integrated_rate(l->scene, k, &mu),
                                         of_scene->multiplier}
                : l->plan->constraints->rows[k];
 }
@@ -525,7 +529,7 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
 static qdot_status
 slopes(const level *l, const double *y, double *A)
 {
-    const qdot_scene *scene = l->scene;
+    qdot_scene *scene = l->scene;
     qdot_pool *pool = l->plan->pool;
     size_t n = l->n, c = scene->constraints.n;
     qdot_expr *entries = qdot_calloc(c * n + 1, sizeof *entries), t = QDOT_T;
@@ -533,14 +537,14 @@ slopes(const level *l, const double *y, double *A)
 
     for (size_t k = 0; k < c * n && status == QDOT_OK; k++) {
         const qdot_constraint *one = &scene->constraints.at[k / n];
-        qdot_expr e;
+        qdot_expr e, mu;
 
         if (!is_moving(l, k % n)) {
             entries[k] = QDOT_ZERO;
             continue;
         }
         e = qdot_diff(
-            pool, one->f,
+            pool, qdot_integrated_rate(scene, k / n, &mu),
             qdot_symbol_jet(pool, scene->coordinates.at[k % n], (uint32_t)one->kind));
         e = e == QDOT_NIL ? e : qdot_plan_substitute(l->plan, e);
         entries[k] = e == QDOT_NIL ? e : qdot_subs(pool, e, 1, &t, &l->request->t0);

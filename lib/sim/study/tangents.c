@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "mech/dynamics/integrated.h"
 #include "sim/model/substitute.h"
 
 /* Singular values below so much of the largest count as 0. */
@@ -25,12 +26,14 @@ write_conditions(qdot_scene *s, const qdot_run_request *r, qdot_expr *F)
 
     for (size_t c = 0; c < s->constraints.n; c++) {
         const qdot_constraint *of = &s->constraints.at[c];
+        qdot_expr f, mu;
 
         if (of->kind == QDOT_ACCELERATION)
             continue;
-        F[row++] = qdot_substitute(s->pool, of->f, r->n_values, r->symbols, r->values);
+        f = qdot_integrated_rate(s, c, &mu);
+        F[row++] = qdot_substitute(s->pool, f, r->n_values, r->symbols, r->values);
         if (of->kind == QDOT_HOLONOMIC)
-            F[row++] = qdot_substitute(s->pool, qdot_ddt(s->pool, of->f), r->n_values, r->symbols, r->values);
+            F[row++] = qdot_substitute(s->pool, qdot_ddt(s->pool, f), r->n_values, r->symbols, r->values);
     }
 }
 

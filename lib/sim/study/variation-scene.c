@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "mech/dynamics/integrated.h"
 #include "tape/constant.h"
 
 /* A value of a start that is off by more has been moved. */
@@ -36,10 +37,11 @@ add_acceleration(qdot_scene *to, qdot_expr q, qdot_expr acceleration)
 static qdot_status
 add_constraints(const qdot_variation *v)
 {
-    const qdot_scene *s = v->of;
+    qdot_scene *s = v->of;
 
     for (size_t c = 0; c < v->m + v->w; c++) {
-        const qdot_expr f = c < v->m ? s->constraints.at[c].f : v->G[c - v->m];
+        qdot_expr mu;
+        const qdot_expr f = c < v->m ? qdot_integrated_rate(s, c, &mu) : v->G[c - v->m];
 
         QDOT_TRY(qdot_scene_constraint(v->scene, NULL, qdot_variation_with_numbers(v, f),
                                        QDOT_ZERO));
@@ -218,11 +220,11 @@ check_conditions(const qdot_variation *v)
     for (size_t c = 0; c < v->m; c++)
         for (size_t k = 0; k < v->k; k++) {
             const qdot_constraint *of = &v->of->constraints.at[c];
-            qdot_expr e;
+            qdot_expr e, mu;
 
             if (of->kind == QDOT_ACCELERATION || !v->by[k].start)
                 continue;
-            e = qdot_variation_of(v, of->f, k);
+            e = qdot_variation_of(v, qdot_integrated_rate(v->of, c, &mu), k);
             QDOT_TRY(check_condition(v, e, k));
             if (of->kind == QDOT_HOLONOMIC)
                 QDOT_TRY(check_condition(v, qdot_ddt(v->of->pool, e), k));

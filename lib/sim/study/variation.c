@@ -6,6 +6,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "sim/model/quotient.h"
 #include "sim/model/substitute.h"
 
@@ -349,7 +350,7 @@ static qdot_expr
 second_rate(const elimination *e, size_t c)
 {
     const qdot_constraint *of = &e->v->of->constraints.at[c];
-    qdot_expr f = of->f;
+    qdot_expr mu, f = qdot_integrated_rate(e->v->of, c, &mu);
 
     for (int order = of->kind; order < QDOT_ACCELERATION; order++)
         f = qdot_ddt(e->pool, f);

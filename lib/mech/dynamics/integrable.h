@@ -41,4 +41,9 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_mech_integrable(qdot_scene *s, size_t k, bool alone,
                                                  qdot_integrability *result);
 
+/* Whether the velocity constraints of the scene, all together, are holonomic ones whose surfaces
+ * do not move: each is linear in the velocities and vanishes without them, holds no t, and dw = 0
+ * on the common null space of all. False also where that is not proved. */
+QDOT_MUST_CHECK qdot_status qdot_mech_integrable_all(qdot_scene *s, bool *yes);
+
 #endif

@@ -1,6 +1,6 @@
 /* integrable.c -- evaluates dw on the directions that the constraints leave; finds integrating
  * factors. */
-#include "mech/study/integrable.h"
+#include "mech/dynamics/integrable.h"
 
 #include <string.h>
 
@@ -464,6 +464,74 @@ qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *re
                            c->name);
     if (status == QDOT_OK)
         status = decide(&f, row, alone, result);
+    forms_clear(&f);
+    return status;
+}
+
+/* Every velocity constraint of the scene is among the forms and stands still. */
+static qdot_status
+all_still(const forms *f, bool *yes)
+{
+    const qdot_scene *s = f->s;
+    size_t row = 0;
+
+    *yes = true;
+    for (size_t k = 0; k < s->constraints.n && *yes; k++) {
+        const qdot_constraint *c = &s->constraints.at[k];
+        bool jump;
+
+        if (c->kind == QDOT_HOLONOMIC)
+            continue;
+        while (row < f->m && f->of[row] < k)
+            row++;
+        *yes = row < f->m && f->of[row] == k && f->a[row * f->n + f->n - 1] == QDOT_ZERO &&
+               (qdot_mech_holds(s, c->f) & QDOT_HAS_TIME) == 0;
+        if (!*yes)
+            break;
+        QDOT_TRY(qdot_jumps(f->pool, c->f, UINT32_MAX, &jump));
+        *yes = !jump;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+decide_all(forms *f, bool *yes)
+{
+    QDOT_TRY(all_still(f, yes));
+    if (!*yes)
+        return QDOT_OK;
+    for (size_t j = 0; j < f->m; j++)
+        f->in[j] = true;
+    QDOT_TRY(reduce(f));
+    for (size_t j = 0; j < f->m && *yes; j++) {
+        qdot_integrability one = {0};
+
+        if (f->s->constraints.at[f->of[j]].kind == QDOT_HOLONOMIC)
+            continue;
+        QDOT_TRY(vanishes(f, j, &one));
+        *yes = one.decision.verdict == QDOT_PROVED;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_mech_integrable_all(qdot_scene *s, bool *yes)
+{
+    qdot_status status = QDOT_OK;
+    bool some = false;
+    forms f;
+
+    *yes = true;
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (size_t k = 0; k < s->constraints.n && *yes; k++) {
+        *yes = s->constraints.at[k].kind != QDOT_ACCELERATION;
+        some = some || s->constraints.at[k].kind == QDOT_VELOCITY;
+    }
+    if (!*yes || !some)
+        return QDOT_OK;
+    status = forms_init(&f, s);
+    if (status == QDOT_OK)
+        status = decide_all(&f, yes);
     forms_clear(&f);
     return status;
 }
