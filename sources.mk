@@ -265,6 +265,8 @@ library_sources = \
 	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-numbers.c \
+	lib/mech/study/stability-roots.c \
+	lib/mech/study/stability-signs.c \
 	lib/mech/study/stability.c \
 	lib/mech/study/terms.c \
 	lib/normal/field/factor.c \
@@ -294,6 +296,7 @@ library_sources = \
 	lib/normal/form/trig-form.c \
 	lib/normal/inequality/cells.c \
 	lib/normal/inequality/contradiction.c \
+	lib/normal/inequality/half-plane.c \
 	lib/normal/inequality/inequality.c \
 	lib/normal/inequality/less.c \
 	lib/normal/inequality/question.c \
@@ -844,6 +847,7 @@ library_headers = \
 	lib/mech/study/reactions.h \
 	lib/mech/study/rest.h \
 	lib/mech/study/rods.h \
+	lib/mech/study/stability-parts.h \
 	lib/mech/study/stability.h \
 	lib/mech/study/terms.h \
 	lib/normal/field/factor.h \
@@ -869,6 +873,7 @@ library_headers = \
 	lib/normal/form/simple.h \
 	lib/normal/inequality/cells.h \
 	lib/normal/inequality/contradiction.h \
+	lib/normal/inequality/half-plane.h \
 	lib/normal/inequality/inequality.h \
 	lib/normal/inequality/less.h \
 	lib/normal/inequality/question.h \
@@ -1273,6 +1278,7 @@ unit_tests = \
 	tests/normal/test_antiderivative \
 	tests/normal/test_decide \
 	tests/normal/test_flint \
+	tests/normal/test_half-plane \
 	tests/normal/test_less \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
@@ -1466,6 +1472,7 @@ script_tests = \
 	tests/script/flat-stops.sh \
 	tests/script/flexing.lag \
 	tests/script/floquet.sh \
+	tests/script/follower-force.lag \
 	tests/script/force-material.lag \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
@@ -2550,6 +2557,7 @@ test_files = \
 	tests/script/flat-stops.out \
 	tests/script/flexing.out \
 	tests/script/floquet.out \
+	tests/script/follower-force.out \
 	tests/script/force-material.out \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \

@@ -6,14 +6,18 @@
 
 #if __FLINT_RELEASE >= 30000
 #include <flint/acb.h>
+#include <flint/acb_poly.h>
 #include <flint/arb.h>
 #include <flint/arb_fmpz_poly.h>
 #include <flint/arb_hypgeom.h>
+#include <flint/arb_mat.h>
 #else
 #include <acb.h>
+#include <acb_poly.h>
 #include <arb.h>
 #include <arb_fmpz_poly.h>
 #include <arb_hypgeom.h>
+#include <arb_mat.h>
 #endif
 
 #endif

@@ -52,6 +52,12 @@ JUDGED(a_flat_bottom_driven, {"x", "x'^2/2 - x^4", "x'^3", "x", QDOT_STABILITY_U
 JUDGED(an_indefinite_mass, {"x y", "x'^2/2 - y'^2/2 - x^2/2 - y^2", NULL, NULL, QDOT_STABILITY_UNDECIDED})
 /* y/2 on x alone: a force without a potential */
 JUDGED(a_circulating_force, {"x y", "(x'^2 + y'^2)/2 - x^2/2 - y^2/2", "y/2", "x", QDOT_STABILITY_UNDECIDED})
+/* 2 x'' = -2 x + 3 y, y'' = -3 x - y: their roots leave the axis */
+JUDGED(a_flutter, {"x y", "(2*x'^2 + y'^2)/2 - x^2 - y^2/2 + 3*x*y", "-6*x", "y", QDOT_UNSTABLE})
+JUDGED(a_circulating_force_that_does_not_matter, {"x y", "(x'^2 + y'^2)/2 - x^2/2 - 2*y^2 - y^4", "y/2", "x", QDOT_STABLE_TO_FIRST_ORDER})
+JUDGED(a_trap, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + 3*(x*y' - y*x')/2 - z^2 + x^2/2 + y^2/2", NULL, NULL, QDOT_STABLE})
+JUDGED(a_trap_too_weak, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + (x*y' - y*x')/2 - z^2 + x^2/2 + y^2/2", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(three_damped_by_one, {"x y z", "(x'^2 + y'^2 + z'^2)/2 - x^2 - y^2 - z^2 - x*y - y*z/2", "-x' + z/9", "x", QDOT_STABLE})
 
 int
 main(void)
@@ -64,7 +70,9 @@ main(void)
         cmocka_unit_test(a_ridge),              cmocka_unit_test(a_kink_at_the_bottom),
         cmocka_unit_test(a_kink_on_top),        cmocka_unit_test(a_flat_bottom),
         cmocka_unit_test(a_flat_bottom_driven), cmocka_unit_test(an_indefinite_mass),
-        cmocka_unit_test(a_circulating_force),
+        cmocka_unit_test(a_circulating_force),  cmocka_unit_test(a_flutter),
+        cmocka_unit_test(a_circulating_force_that_does_not_matter), cmocka_unit_test(a_trap),
+        cmocka_unit_test(a_trap_too_weak),      cmocka_unit_test(three_damped_by_one),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

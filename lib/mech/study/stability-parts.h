@@ -1,0 +1,72 @@
+/* stability-parts.h -- one place judged: what is known there, what must hold for a verdict. Internal to
+ * the files of stability. */
+#ifndef QDOT_MECH_STABILITY_PARTS_H
+#define QDOT_MECH_STABILITY_PARTS_H
+
+#include "mech/study/linear-motion.h"
+#include "mech/study/stability.h"
+
+typedef struct {
+    qdot_judge *judge;
+    qdot_scene *s;
+    qdot_facts facts;
+    qdot_vec(qdot_expr) known; /* scalars that are positive */
+    qdot_vec(qdot_expr) when;  /* RELs */
+    /* Of a family of places, what was taken to be positive and holds its coordinates: a parameter is
+     * generic, a coordinate runs through every value. */
+    qdot_vec(qdot_expr) claims;
+    qdot_linear_motion m;
+    qdot_expr *M, *Gamma, *H;  /* of those y whose place is told, [n * n] */
+    size_t n;
+    bool regular;              /* the constraints have the rank there that they have elsewhere */
+} qdot_judgement;
+
+/* --- signs and conditions (stability-signs.c) ---- */
+
+typedef enum {
+    QDOT_DEFINITE_POSITIVE,
+    QDOT_DEFINITE_CONDITIONAL, /* under conditions that were noted */
+    QDOT_NEGATIVE_SOMEWHERE,
+    QDOT_DEFINITE_UNKNOWN
+} qdot_definite;
+
+/* How many conditions and claims were noted so far. */
+typedef struct {
+    size_t when, known, claims;
+} qdot_judgement_point;
+
+qdot_judgement_point qdot_judgement_mark(const qdot_judgement *j);
+/* Forget what was noted since then; or conditions alone: what was refuted needs none. */
+void qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m);
+void qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m);
+
+/* Ask e > 0: true, false, or a condition that is noted. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer);
+/* Ask that all e [n] are positive, one after another. NEGATIVE_SOMEWHERE where one is proved below 0
+ * whatever the parameters. e is simplified. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e,
+                                                        qdot_definite *how);
+/* Whether A [n * n], symmetric, is positive definite; conditions are noted. A negative minor behind
+ * positive ones, or a negative diagonal entry: NEGATIVE_SOMEWHERE. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_definiteness(qdot_judgement *j, size_t n,
+                                                        const qdot_expr *A, qdot_definite *how);
+/* Whether it is without further conditions. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_is_definite(qdot_judgement *j, size_t n,
+                                                       const qdot_expr *A, bool *yes);
+/* A^T = A, or with sign -1 A^T = -A. */
+bool qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int sign);
+/* Whether the symmetric part of Gamma is proved not negative: none, or diagonal of known signs. */
+bool qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma);
+/* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above,
+                                                   bool *yes);
+/* Leave out conditions that follow of others. known [n]: scalars that are positive without any. */
+QDOT_MUST_CHECK qdot_status qdot_judgement_drop_implied(qdot_judgement *j, size_t n);
+
+/* --- the linear motion (stability-roots.c) ----
+ * By the roots s of det(M s^2 + Gamma s + H), block by block of coordinates that are coupled:
+ * unstable, asymptotically stable, or bounded: stable where nothing is neglected, else to first order.
+ * Sets e->stability, notes conditions. Lyapunov; Gantmacher II, ch. XV; Kelvin and Chetaev. */
+QDOT_MUST_CHECK qdot_status qdot_stability_by_roots(qdot_judgement *j, qdot_equilibrium *e);
+
+#endif

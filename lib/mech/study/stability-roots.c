@@ -1,0 +1,300 @@
+/* stability-roots.c -- whether the linear motion about a place grows, decays or stays bounded. */
+#include "mech/scene/access.h"
+#include "mech/study/stability-parts.h"
+#include "normal/inequality/half-plane.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
+
+/* Coordinates y coupled by M, Gamma or H, [n * n] each. */
+typedef struct {
+    size_t n;
+    qdot_expr *M, *Gamma, *H;
+} block;
+
+typedef enum { GROWS, DECAYS, BOUNDED, OPEN } motion;
+
+/* --- polynomials of Hurwitz ------------------------------------------------------------------ */
+
+static qdot_expr
+det2(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr d)
+{
+    return qdot_sub(pool, qdot_mul(pool, a, d), qdot_mul(pool, b, c));
+}
+
+/* Whether all roots s of det(M s^2 + Gamma s + H), n = 1 or 2, have negative real parts: by the
+ * coefficients and, of degree 4, a1 a2 a3 - a0 a3^2 - a1^2 a4; whose being negative proves a root
+ * with a positive one. */
+static qdot_status
+hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
+{
+    qdot_pool *pool = j->s->pool;
+    const qdot_expr *M = b->M, *G = b->Gamma, *H = b->H;
+    qdot_expr a[6];
+
+    if (b->n == 1) {
+        a[0] = qdot_mul(pool, M[0], G[0]);
+        a[1] = qdot_mul(pool, M[0], H[0]);
+        return qdot_judgement_all_positive(j, 2, a, how);
+    }
+    a[0] = det2(pool, M[0], M[1], M[2], M[3]);
+    a[1] = qdot_add(pool, det2(pool, M[0], M[1], G[2], G[3]), det2(pool, G[0], G[1], M[2], M[3]));
+    a[2] = qdot_sum(pool, 3,
+                    (qdot_expr[]){det2(pool, M[0], M[1], H[2], H[3]),
+                                  det2(pool, H[0], H[1], M[2], M[3]),
+                                  det2(pool, G[0], G[1], G[2], G[3])});
+    a[3] = qdot_add(pool, det2(pool, G[0], G[1], H[2], H[3]), det2(pool, H[0], H[1], G[2], G[3]));
+    a[4] = det2(pool, H[0], H[1], H[2], H[3]);
+    a[5] = qdot_sub(
+        pool,
+        qdot_sub(pool, qdot_product(pool, 3, (qdot_expr[]){a[1], a[2], a[3]}),
+                 qdot_product(pool, 3, (qdot_expr[]){a[0], a[3], a[3]})),
+        qdot_product(pool, 3, (qdot_expr[]){a[1], a[1], a[4]}));
+    return qdot_judgement_all_positive(j, 6, a, how);
+}
+
+/* Gamma antisymmetric, n = 2: det = a W^2 + b W + c of W = s^2, if nothing goes with s. All W negative
+ * and different: bounded; else a root with a positive real part. */
+static qdot_status
+undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
+{
+    qdot_pool *pool = j->s->pool;
+    const qdot_expr *M = x->M, *G = x->Gamma, *H = x->H;
+    qdot_expr odd, a, b, c;
+
+    *how = QDOT_DEFINITE_UNKNOWN;
+    odd = qdot_add(pool, det2(pool, G[0], G[1], H[2], H[3]), det2(pool, H[0], H[1], G[2], G[3]));
+    if (odd == QDOT_NIL || !qdot_is_zero(pool, odd, &j->facts))
+        return qdot_pool_check(pool);
+    a = det2(pool, M[0], M[1], M[2], M[3]);
+    b = qdot_sum(pool, 3,
+                 (qdot_expr[]){det2(pool, M[0], M[1], H[2], H[3]),
+                               det2(pool, H[0], H[1], M[2], M[3]),
+                               det2(pool, G[0], G[1], G[2], G[3])});
+    c = det2(pool, H[0], H[1], H[2], H[3]);
+    return qdot_judgement_all_positive(
+        j, 3,
+        (qdot_expr[]){c, b,
+                      qdot_sub(pool, qdot_mul(pool, b, b),
+                               qdot_product(pool, 3,
+                                            (qdot_expr[]){qdot_expr_int(pool, 4), a, c}))},
+        how);
+}
+
+/* Gamma + Gamma^T, owned by the caller. */
+static qdot_status
+twice_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma, qdot_expr **out)
+{
+    qdot_pool *pool = j->s->pool;
+
+    *out = qdot_calloc(n * n + 1, sizeof **out);
+    if (*out == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < n * n; i++)
+        (*out)[i] = qdot_simplify(
+            pool, qdot_add(pool, Gamma[i], Gamma[i % n * n + i / n]), &j->facts);
+    return qdot_pool_check(pool);
+}
+
+/* Complete damping, H symmetric: decays where H is positive definite (Kelvin). */
+static qdot_status
+completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
+{
+    qdot_expr *D;
+    qdot_status status = twice_damping(j, x->n, x->Gamma, &D);
+
+    if (status == QDOT_OK)
+        status = qdot_judgement_definiteness(j, x->n, D, how);
+    qdot_free(D);
+    QDOT_TRY(status);
+    if (*how == QDOT_DEFINITE_POSITIVE || *how == QDOT_DEFINITE_CONDITIONAL)
+        QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, how));
+    if (*how == QDOT_NEGATIVE_SOMEWHERE)
+        *how = QDOT_DEFINITE_UNKNOWN;
+    return QDOT_OK;
+}
+
+/* --- one block ---------------------------------------------------------------------------- */
+
+static bool
+is_constant(const qdot_judgement *j, const block *x)
+{
+    bool yes = true;
+
+    for (size_t i = 0; i < x->n * x->n && yes; i++)
+        yes = qdot_is_constant(j->s->pool, x->M[i]) && qdot_is_constant(j->s->pool, x->Gamma[i]) &&
+              qdot_is_constant(j->s->pool, x->H[i]);
+    return yes;
+}
+
+static qdot_status
+constant_block(qdot_judgement *j, const block *x, motion *what)
+{
+    bool even = qdot_judgement_is_symmetric(j, x->n, x->M, 1) &&
+                qdot_judgement_is_symmetric(j, x->n, x->H, 1) &&
+                qdot_judgement_is_symmetric(j, x->n, x->Gamma, -1);
+    qdot_half_plane p;
+
+    QDOT_TRY(qdot_half_plane_of(j->s->pool, x->n, x->M, x->Gamma, x->H, even, &p));
+    *what = p.grows ? GROWS : p.decays ? DECAYS : p.bounded ? BOUNDED : OPEN;
+    return QDOT_OK;
+}
+
+/* *what becomes what `how` means; where that is nothing, what was noted since `before` is forgotten. */
+static void
+settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
+       motion *what)
+{
+    if (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL) {
+        *what = otherwise;
+    } else if (how == QDOT_NEGATIVE_SOMEWHERE) {
+        *what = GROWS;
+        qdot_judgement_drop_conditions(j, before);
+    } else {
+        qdot_judgement_back_to(j, before);
+    }
+}
+
+static qdot_status
+symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
+{
+    const qdot_judgement_point before = qdot_judgement_mark(j);
+    bool undamped = qdot_judgement_is_symmetric(j, x->n, x->Gamma, -1),
+         potential = qdot_judgement_is_symmetric(j, x->n, x->H, 1);
+    qdot_definite how = QDOT_DEFINITE_UNKNOWN;
+
+    if (!undamped && x->n <= 2)
+        QDOT_TRY(hurwitz(j, x, &how));
+    else if (!undamped && potential)
+        QDOT_TRY(completely_damped(j, x, &how));
+    settle(j, before, how, DECAYS, what);
+    if (*what != OPEN || !mass)
+        return QDOT_OK;
+    how = QDOT_DEFINITE_UNKNOWN;
+    if (potential && qdot_judgement_is_damping(j, x->n, x->Gamma))
+        QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
+    if (how == QDOT_NEGATIVE_SOMEWHERE && !qdot_judgement_is_symmetric(j, x->n, x->Gamma, 1))
+        how = QDOT_DEFINITE_UNKNOWN; /* gyroscopic terms may hold it */
+    settle(j, before, how, BOUNDED, what);
+    if (*what != OPEN || !undamped || x->n != 2)
+        return QDOT_OK;
+    QDOT_TRY(undamped_pair(j, x, &how));
+    settle(j, before, how, BOUNDED, what);
+    return QDOT_OK;
+}
+
+static qdot_status
+block_motion(qdot_judgement *j, const block *x, motion *what)
+{
+    bool mass;
+
+    *what = OPEN;
+    QDOT_TRY(qdot_judgement_is_definite(j, x->n, x->M, &mass));
+    if (!mass && x->n != 1)
+        return QDOT_OK;
+    if (mass && is_constant(j, x))
+        QDOT_TRY(constant_block(j, x, what));
+    return *what == OPEN ? symbolic_block(j, x, mass, what) : QDOT_OK;
+}
+
+/* --- all blocks --------------------------------------------------------------------------- */
+
+/* of [n]: the number of the block of each y; how many there are. */
+static size_t
+number_blocks(const qdot_linear_motion *m, size_t *of)
+{
+    size_t count = 0;
+    bool changed = true;
+
+    for (size_t a = 0; a < m->n; a++)
+        of[a] = a;
+    while (changed) {
+        changed = false;
+        for (size_t i = 0; i < m->n * m->n; i++) {
+            size_t a = i / m->n, b = i % m->n;
+            bool coupled = m->M[i] != QDOT_ZERO || m->Gamma[i] != QDOT_ZERO || m->H[i] != QDOT_ZERO;
+
+            if (!coupled || of[a] == of[b])
+                continue;
+            changed = true;
+            of[a] = of[b] = of[a] < of[b] ? of[a] : of[b];
+        }
+    }
+    for (size_t a = 0; a < m->n; a++)
+        of[a] = of[a] == a ? count++ : of[of[a]];
+    return count;
+}
+
+/* Block k; its matrices stand one behind another from x->M on. */
+static void
+pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
+{
+    const qdot_expr *from[3] = {m->M, m->Gamma, m->H};
+    qdot_expr *to = x->M;
+
+    x->n = 0;
+    for (size_t a = 0; a < m->n; a++)
+        x->n += of[a] == k;
+    for (int which = 0; which < 3; which++)
+        for (size_t i = 0; i < m->n * m->n; i++)
+            if (of[i / m->n] == k && of[i % m->n] == k)
+                *to++ = from[which][i];
+    x->Gamma = x->M + x->n * x->n;
+    x->H = x->Gamma + x->n * x->n;
+}
+
+/* GROWS if one block does; else the least of what all do. */
+static qdot_status
+whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
+{
+    const qdot_judgement_point before = qdot_judgement_mark(j);
+    size_t count = number_blocks(&j->m, of);
+    motion worst = DECAYS;
+
+    for (size_t k = 0; k < count; k++) {
+        const qdot_judgement_point here = qdot_judgement_mark(j);
+        motion one;
+
+        pick_block(&j->m, of, k, x);
+        QDOT_TRY(block_motion(j, x, &one));
+        if (one == GROWS) { /* what other blocks need is of no account */
+            for (size_t i = here.claims; i < j->claims.n; i++)
+                j->claims.at[before.claims + i - here.claims] = j->claims.at[i];
+            j->claims.n -= here.claims - before.claims;
+            qdot_judgement_drop_conditions(j, before);
+            *all = GROWS;
+            return QDOT_OK;
+        }
+        worst = one > worst ? one : worst;
+    }
+    if (worst == OPEN)
+        qdot_judgement_back_to(j, before);
+    *all = worst;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_stability_by_roots(qdot_judgement *j, qdot_equilibrium *e)
+{
+    const qdot_judgement_point before = qdot_judgement_mark(j);
+    const size_t n = j->m.n;
+    size_t *of = qdot_calloc(n + 1, sizeof *of);
+    block x = {.M = qdot_calloc(3 * n * n + 1, sizeof *x.M)};
+    motion all = OPEN;
+    qdot_status status = of == NULL || x.M == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    if (status == QDOT_OK && j->regular)
+        status = whole_motion(j, of, &x, &all);
+    qdot_free(of);
+    qdot_free(x.M);
+    QDOT_TRY(status);
+    if (all == GROWS)
+        e->stability = QDOT_UNSTABLE;
+    else if (j->n < n) /* a family of rests: a motion along it neither grows nor decays */
+        qdot_judgement_back_to(j, before);
+    else if (all == DECAYS || (all == BOUNDED && j->m.exact))
+        e->stability = QDOT_STABLE;
+    else if (all == BOUNDED)
+        e->stability = QDOT_STABLE_TO_FIRST_ORDER;
+    return QDOT_OK;
+}

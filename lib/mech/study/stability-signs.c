@@ -1,0 +1,255 @@
+/* stability-signs.c -- what must be positive for a verdict: proved, or noted as a condition. */
+#include "expr/tensor.h"
+#include "mech/scene/access.h"
+#include "mech/study/stability-parts.h"
+#include "normal/inequality/less.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/simplify.h"
+
+/* --- definite or not ---------------------------------------------------------------------- */
+
+static qdot_status
+claim(qdot_judgement *j, qdot_expr e)
+{
+    return qdot_mech_holds(j->s, e) & QDOT_HAS_COORD ? qdot_vec_push(&j->claims, e) : QDOT_OK;
+}
+
+/* Ask e > 0: true, false, or a condition that is noted. */
+qdot_status
+qdot_judgement_ask(qdot_judgement *j, qdot_expr e, qdot_expr *answer)
+{
+    *answer = qdot_positive(j->s->pool, e, &j->facts, j->known.n, j->known.at);
+    QDOT_TRY(qdot_pool_check(j->s->pool));
+    if (*answer != QDOT_FALSE)
+        QDOT_TRY(claim(j, e));
+    if (*answer == QDOT_TRUE || *answer == QDOT_FALSE)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&j->when, *answer));
+    return qdot_vec_push(&j->known, qdot_positive_of(j->s->pool, *answer));
+}
+
+qdot_judgement_point
+qdot_judgement_mark(const qdot_judgement *j)
+{
+    return (qdot_judgement_point){j->when.n, j->known.n, j->claims.n};
+}
+
+/* Forget the conditions since then: what was refuted needs none. */
+void
+qdot_judgement_drop_conditions(qdot_judgement *j, qdot_judgement_point m)
+{
+    j->when.n = m.when;
+    j->known.n = m.known;
+}
+
+void
+qdot_judgement_back_to(qdot_judgement *j, qdot_judgement_point m)
+{
+    qdot_judgement_drop_conditions(j, m);
+    j->claims.n = m.claims;
+}
+
+/* Leading minors of A [n*n], simplified. */
+static qdot_expr
+minor_of(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_expr *part, e;
+
+    if (k == 1)
+        return A[0];
+    part = qdot_calloc(k * k, sizeof *part);
+    if (part == NULL)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < k * k; i++)
+        part[i] = A[i / k * n + i % k];
+    e = qdot_det(pool, qdot_matrix(pool, (uint32_t)k, (uint32_t)k, part));
+    qdot_free(part);
+    return qdot_simplify(pool, e, &j->facts);
+}
+
+/* Positive definite? A negative minor behind positive ones, or a negative diagonal entry: negative
+ * somewhere. Conditions are noted. */
+qdot_status
+qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdot_definite *how)
+{
+    qdot_pool *pool = j->s->pool;
+    size_t before = j->when.n;
+
+    *how = QDOT_DEFINITE_UNKNOWN;
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr sign = qdot_positive(pool, qdot_neg(pool, A[i * n + i]), &j->facts,
+                                       j->known.n, j->known.at);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        if (sign == QDOT_TRUE) {
+            *how = QDOT_NEGATIVE_SOMEWHERE;
+            return claim(j, qdot_neg(pool, A[i * n + i]));
+        }
+    }
+    for (size_t k = 1; k <= n; k++) {
+        qdot_expr e = minor_of(j, n, A, k), answer;
+        bool zero;
+
+        QDOT_TRY(qdot_pool_check(pool));
+        zero = qdot_is_zero(pool, e, &j->facts);
+        QDOT_TRY(qdot_judgement_ask(j, e, &answer));
+        if (answer == QDOT_FALSE) {
+            if (zero || j->when.n > before)
+                return QDOT_OK;
+            *how = QDOT_NEGATIVE_SOMEWHERE;
+            return claim(j, qdot_neg(pool, e));
+        }
+    }
+    *how = j->when.n > before ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
+    return QDOT_OK;
+}
+
+/* Whether A is positive definite without further conditions. */
+qdot_status
+qdot_judgement_is_definite(qdot_judgement *j, size_t n, const qdot_expr *A, bool *yes)
+{
+    qdot_judgement_point before = qdot_judgement_mark(j);
+    qdot_definite how;
+
+    QDOT_TRY(qdot_judgement_definiteness(j, n, A, &how));
+    qdot_judgement_back_to(j, before);
+    *yes = how == QDOT_DEFINITE_POSITIVE;
+    return QDOT_OK;
+}
+
+bool
+qdot_judgement_is_symmetric(qdot_judgement *j, size_t n, const qdot_expr *A, int sign)
+{
+    qdot_pool *pool = j->s->pool;
+
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = i; k < n; k++) {
+            qdot_expr other = A[k * n + i];
+
+            other = sign > 0 ? qdot_sub(pool, A[i * n + k], other)
+                             : qdot_add(pool, A[i * n + k], other);
+            if (!qdot_is_zero(pool, other, &j->facts))
+                return false;
+        }
+    return true;
+}
+
+/* Whether the symmetric part of Gamma is proved not negative: none, or diagonal of known signs. */
+bool
+qdot_judgement_is_damping(qdot_judgement *j, size_t n, const qdot_expr *Gamma)
+{
+    qdot_pool *pool = j->s->pool;
+    bool fine = true;
+
+    for (size_t i = 0; i < n && fine; i++)
+        for (size_t k = 0; k < n && fine; k++) {
+            qdot_expr e = qdot_add(pool, Gamma[i * n + k], Gamma[k * n + i]);
+
+            fine = e != QDOT_NIL &&
+                   (i == k ? (qdot_expr_node(pool, e)->sign & QDOT_GE0) != 0
+                           : qdot_is_zero(pool, e, &j->facts));
+        }
+    return fine;
+}
+
+/* Ask that all are positive, one after another. *how: QDOT_DEFINITE_POSITIVE, QDOT_DEFINITE_CONDITIONAL; QDOT_NEGATIVE_SOMEWHERE
+ * where one is proved below 0 whatever the parameters; else QDOT_DEFINITE_UNKNOWN. */
+qdot_status
+qdot_judgement_all_positive(qdot_judgement *j, size_t n, qdot_expr *e, qdot_definite *how)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_judgement_point before = qdot_judgement_mark(j);
+
+    for (size_t k = 0; k < n; k++) {
+        qdot_expr below;
+
+        e[k] = qdot_simplify(pool, e[k], &j->facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        below = qdot_positive(pool, qdot_neg(pool, e[k]), &j->facts, j->known.n, j->known.at);
+        QDOT_TRY(qdot_pool_check(pool));
+        *how = QDOT_NEGATIVE_SOMEWHERE;
+        if (below == QDOT_TRUE)
+            return claim(j, qdot_neg(pool, e[k]));
+    }
+    *how = QDOT_DEFINITE_UNKNOWN;
+    for (size_t k = 0; k < n; k++) {
+        qdot_expr answer;
+
+        QDOT_TRY(qdot_judgement_ask(j, e[k], &answer));
+        if (answer == QDOT_FALSE)
+            return QDOT_OK;
+    }
+    *how = j->when.n > before.when ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
+    return QDOT_OK;
+}
+
+/* Whether e != 0, with `above` e > 0, is proved wherever the facts and the noted conditions hold. */
+qdot_status
+qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_facts facts = j->facts;
+    qdot_expr *all = qdot_malloc((facts.n_conditions + j->when.n + 1) * sizeof *all);
+    qdot_status status = QDOT_OK;
+
+    *yes = false;
+    if (all == NULL)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < facts.n_conditions; i++)
+        all[i] = facts.conditions[i];
+    for (size_t i = 0; i < j->when.n; i++)
+        all[facts.n_conditions + i] = j->when.at[i];
+    facts.conditions = all;
+    facts.n_conditions += j->when.n;
+    for (int side = above ? 1 : 0; side < 2 && !*yes && status == QDOT_OK; side++) {
+        qdot_decision d;
+
+        status = qdot_decide_less(pool, side ? QDOT_ZERO : e, side ? e : QDOT_ZERO, true, &facts, &d);
+        *yes = status == QDOT_OK && d.verdict == QDOT_PROVED;
+    }
+    qdot_free(all);
+    return status;
+}
+
+
+/* Whether condition i follows of one other: a > 0 of b > 0 where a - b is positive, by the scalars
+ * [n] that are positive without conditions; or of all others. */
+static qdot_status
+follows(qdot_judgement *j, size_t i, size_t n, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    const qdot_expr own = j->when.at[i], e = qdot_positive_of(pool, own);
+
+    *yes = false;
+    for (size_t k = 0; k < j->when.n && !*yes; k++) {
+        qdot_expr more = qdot_sub(pool, e, qdot_positive_of(pool, j->when.at[k]));
+
+        *yes = k != i && qdot_positive(pool, more, &j->facts, n, j->known.at) == QDOT_TRUE;
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    if (*yes || j->when.n < 2)
+        return QDOT_OK;
+    j->when.at[i] = j->when.at[--j->when.n];
+    QDOT_TRY(qdot_judgement_is_sure(j, e, true, yes));
+    j->when.at[j->when.n++] = j->when.at[i];
+    j->when.at[i] = own;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_judgement_drop_implied(qdot_judgement *j, size_t n)
+{
+    for (size_t i = j->when.n; i-- > 0;) {
+        bool yes;
+
+        QDOT_TRY(follows(j, i, n, &yes));
+        if (!yes)
+            continue;
+        for (size_t m = i + 1; m < j->when.n; m++)
+            j->when.at[m - 1] = j->when.at[m];
+        j->when.n--;
+    }
+    return QDOT_OK;
+}
