@@ -478,6 +478,7 @@ library_sources = \
 	lib/sim/branches/bifurcation.c \
 	lib/sim/branches/branch.c \
 	lib/sim/branches/continuation.c \
+	lib/sim/branches/dips.c \
 	lib/sim/branches/newton.c \
 	lib/sim/branches/orbit-bifurcation.c \
 	lib/sim/branches/orbit-continuation.c \
@@ -1038,6 +1039,7 @@ library_headers = \
 	lib/sim/branches/bifurcation.h \
 	lib/sim/branches/branch.h \
 	lib/sim/branches/continuation.h \
+	lib/sim/branches/dips.h \
 	lib/sim/branches/newton.h \
 	lib/sim/branches/orbit-bifurcation.h \
 	lib/sim/branches/orbit-continuation.h \
@@ -1348,6 +1350,7 @@ unit_tests = \
 	tests/sim/test_constraints \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \
+	tests/sim/test_dips \
 	tests/sim/test_ensemble-constraints \
 	tests/sim/test_ensemble-doubts \
 	tests/sim/test_ensemble-path \
@@ -1418,6 +1421,7 @@ script_tests = \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/continue-files.sh \
+	tests/script/continue-near.lag \
 	tests/script/continue-orbit-files.sh \
 	tests/script/continue-orbit.lag \
 	tests/script/continue.lag \
@@ -2499,6 +2503,7 @@ test_files = \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/continue-files.out \
+	tests/script/continue-near.out \
 	tests/script/continue-orbit-files.out \
 	tests/script/continue-orbit.out \
 	tests/script/continue.out \

@@ -68,13 +68,13 @@ directions(const qdot_path *x, const double *c, const double *v, double root, do
 
 bool
 qdot_bifurcation_cross(const qdot_path *x, const double *c, double *v, const double *t,
-                       double upright, qdot_bifurcation_kind *kind, double *other)
+                       double upright, double least, qdot_bifurcation_kind *kind, double *other)
 {
     const size_t m = x->n + 1;
     const double root = c[1] * c[1] - c[0] * c[2], unit = 1 / sqrt(x->weight[m - 1]);
     double *const one = v + 2 * m, *const two = v + 3 * m;
 
-    if (!(root > 1e-12 * (c[0] * c[0] + c[1] * c[1] + c[2] * c[2])))
+    if (!(root > least * (c[0] * c[0] + c[1] * c[1] + c[2] * c[2])))
         return false;
     directions(x, c, v, sqrt(root), one, two);
     *kind = fmin(fabs(one[m - 1]), fabs(two[m - 1])) < upright * unit ? QDOT_PITCHFORK

@@ -44,6 +44,9 @@ typedef struct {
 typedef struct {
     const qdot_path_point *a;
     double from, to;
+    bool changes; /* what it is told by has clearly different signs there */
+    bool stays;   /* clearly the same */
+    bool jumps;   /* it jumps from one to the other: the points lie on two curves */
 } qdot_bifurcation_bracket;
 
 typedef enum {
@@ -65,8 +68,8 @@ QDOT_MUST_CHECK qdot_status qdot_null_vectors(size_t rows, size_t columns, const
                                               size_t count, double *out);
 /* Which crossing it is, from c11, c12, c22 and v1, v2, and the direction of the curve that does not go along t;
  * parts along p below `upright` of a unit direction are none. v [4 (n + 1)]: v1, v2, room. False: it is no crossing
- * of two curves. */
+ * of two curves: c12^2 - c11 c22 is at most `least` of the sum of squares. */
 bool qdot_bifurcation_cross(const qdot_path *x, const double *c, double *v, const double *t,
-                            double upright, qdot_bifurcation_kind *kind, double *other);
+                            double upright, double least, qdot_bifurcation_kind *kind, double *other);
 
 #endif

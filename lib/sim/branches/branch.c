@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "sim/branches/dips.h"
 
 /* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
 static const double first_step = 2e-3, far_away = 100;
@@ -17,8 +18,12 @@ static const double longer = 1.02;
 static const double turned = 0.5, grown = 1;
 /* Bifurcations of one kind within this distance are one. */
 static const double together = 1e-6;
-/* Of a unit direction: below, it has no part along p. */
-static const double upright = 1e-9;
+/* Steps at which two curves that do not cross are told apart. */
+static const double nearest = 1e-8;
+/* How far beyond a step signs are looked at where rounding hides them within it. */
+static const double beyond = 0.05;
+/* Of the largest determinant so far: below, it may be of either sign. */
+static const double doubtful = 1e-13;
 /* Halvings of the way to what is not located otherwise. */
 enum { MOST_POINTS = 20000, UNKNOWN = 20 };
 
@@ -64,7 +69,7 @@ qdot_branch_clear(qdot_branch *branch)
 static bool
 is_upright(const qdot_path *x, const qdot_path_point *a)
 {
-    return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < upright;
+    return fabs(a->t[x->n]) * sqrt(x->weight[x->n]) < x->upright;
 }
 
 /* Whether b lies on a's side of a bifurcation of that kind. */
@@ -81,6 +86,73 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
     return kind == QDOT_HOPF ? a->growing == b->growing : (a->det < 0) == (b->det < 0);
 }
 
+/* The value that changes its sign; 0: it is not of that kind, or there is no point at s from a. here: room. */
+static double
+value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
+         qdot_path_point *here)
+{
+    int steps;
+
+    if (!qdot_path_go(x, a, s, here, &steps) || qdot_path_product(x, a->t, here->t) < straight)
+        return 0;
+    return kind == QDOT_FOLD ? here->t[x->n] * sqrt(x->weight[x->n]) : here->det;
+}
+
+/* To the errors, how far ahead of a the determinant would vanish if it went on as behind a, up to its
+ * fourth power. */
+static void
+add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path_point *here,
+                qdot_bifurcation *out)
+{
+    const double back = 10 * length, before = value_at(x, QDOT_PITCHFORK, a, -back, here),
+                 way = 4 * back * fabs(a->det / (a->det - before));
+
+    for (size_t i = 0; i <= x->n; i++)
+        out->error[i] += (before != 0 && way < 1 ? way : 1) / sqrt(x->weight[i]);
+}
+
+/* Where it may lie, as far as signs are beyond rounding: widen in->from and in->to, also beyond the step
+ * of `length`; errors by the places there. */
+static void
+widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
+      qdot_bifurcation *out)
+{
+    const double level = out->kind == QDOT_FOLD ? 100 * x->upright : doubtful * x->most_det,
+                 middle = (in->from + in->to) / 2;
+    const double start = in->to - in->from;
+    double sign[2] = {0, 0}, first[2] = {0, 0};
+
+    for (size_t i = 0; i <= x->n; i++)
+        out->error[i] = 1e-12 / sqrt(x->weight[i]);
+    for (int side = 0; side < 2; side++) {
+        double d = fmax((in->to - in->from) / 2, 1e-10), s = middle;
+
+        for (; sign[side] == 0; d *= 2) {
+            const double f = value_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
+
+            first[side] = first[side] == 0 ? f : first[side];
+            if (fabs(f) > level)
+                sign[side] = f;
+            else if (s < -beyond || s > length + beyond)
+                break;
+        }
+        if (side)
+            in->to = s;
+        else
+            in->from = s;
+        for (size_t i = 0; i <= x->n; i++)
+            out->error[i] = fmax(out->error[i], sign[side] != 0 ? fabs(here->y[i] - out->y[i])
+                                                                : beyond / sqrt(x->weight[i]));
+    }
+    in->changes = sign[0] * sign[1] < 0;
+    in->stays = sign[0] * sign[1] > 0;
+    in->jumps = out->kind == QDOT_PITCHFORK &&
+                (start > 1e-6 * length ||
+                 fmin(fabs(first[0]), fabs(first[1])) > 1e-3 * fabs(in->a->det));
+    if (in->jumps)
+        add_way_to_zero(x, in->a, length, here, out);
+}
+
 /* Halve the way from a to in->to; out->y in the middle of what is left, out->error how long that is. */
 static qdot_status
 enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcation *out)
@@ -88,7 +160,8 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     const qdot_path_point *a = in->a;
     const double unit = 1 / sqrt(x->weight[x->n]);
     qdot_path_point middle;
-    double from = 0, s = in->to;
+    const double length = in->to;
+    double from = 0, s = length;
     qdot_status status = qdot_path_point_begin(x, &middle);
     int steps;
 
@@ -113,8 +186,23 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
         out->error[i] = (s - from + 1e-8) * (i < x->n ? 1 / sqrt(x->weight[i]) : unit);
     for (size_t i = x->n + 1; i < x->width; i++)
         out->error[i] = NAN;
+    if (status == QDOT_OK && x->dips && (out->kind == QDOT_FOLD || out->kind == QDOT_PITCHFORK))
+        widen(x, in, length, &middle, out);
     qdot_path_point_end(&middle);
     return status;
+}
+
+/* How far apart two bifurcations of a kind may be found that are one: those that are not located better
+ * than by their errors, by these. */
+static double
+apart(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
+{
+    double sum = together;
+
+    if (a->kind == QDOT_NOT_SIMPLE)
+        sum += sqrt(qdot_path_product(x, a->error, a->error)) +
+               sqrt(qdot_path_product(x, b->error, b->error));
+    return sum;
 }
 
 /* The index of the same bifurcation; their number: it is new. */
@@ -125,7 +213,8 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
 
     while (i < s->all->bifurcations.n &&
            (s->all->bifurcations.at[i].kind != b->kind ||
-            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) > together))
+            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) >
+                apart(s->x, &s->all->bifurcations.at[i], b)))
         i++;
     return i;
 }
@@ -206,6 +295,7 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
     qdot_bifurcation_bracket in = {.a = a, .to = length};
     double *guess = qdot_calloc(w, sizeof *guess), *other = qdot_calloc(x->n + 1, sizeof *other);
     qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
+    bool nothing = false, other_curve; /* the points ahead are of one that does not cross this one */
     qdot_status status = b.y && guess && other ? QDOT_OK : QDOT_ENOMEM;
 
     b.error = b.y + w;
@@ -228,11 +318,16 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
                                                 : QDOT_END_STOPPED;
     if (status == QDOT_OK && s->over == QDOT_END_REST)
         status = qdot_branch_add(x, branch, b.y, a->stability, 0);
-    s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && answer == QDOT_BIFURCATION_APART &&
-               length > together;
-    if (status == QDOT_OK && !s->leapt && s->over != QDOT_END_REST) {
+    other_curve = kind == QDOT_PITCHFORK && in.jumps && answer == QDOT_BIFURCATION_NONE;
+    s->leapt = status == QDOT_OK && kind == QDOT_PITCHFORK && length > nearest &&
+               (answer == QDOT_BIFURCATION_APART || other_curve);
+    if (other_curve && !s->leapt)
+        s->over = QDOT_END_LOST;
+    if (kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && in.stays)
+        nothing = true; /* rounding turned the tangent of a curve that is upright there and goes on */
+    if (status == QDOT_OK && !nothing && !s->leapt && s->over != QDOT_END_REST) {
         if (answer != QDOT_BIFURCATION_FOUND) {
-            b.kind = kind == QDOT_HALVING ? kind : QDOT_NOT_SIMPLE;
+            b.kind = kind == QDOT_HALVING || (kind == QDOT_FOLD && in.changes) ? kind : QDOT_NOT_SIMPLE;
             b.frequency = 0;
             memcpy(b.y, guess, w * sizeof *guess);
         }
@@ -294,6 +389,8 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
         return QDOT_OK;
     if (a->flip * b->flip < 0)
         return locate(s, a, length, QDOT_DOUBLING, NULL, branch);
+    if (known && s->x->dips && (a->growing - b->growing) % 2 != 0)
+        return QDOT_OK; /* a real root passes 0: of a fold or crossing near by, by rounding told here */
     if (known && labs(a->growing - b->growing) >= s->x->least_jump)
         return locate(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
@@ -414,10 +511,58 @@ look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double
     return status == QDOT_EINTR ? QDOT_OK : status;
 }
 
+/* A place at which the determinant vanishes without a change of its sign: several curves meet. */
+static qdot_status
+mark_zero(qdot_branch_search *s, const qdot_dips *d, size_t place, double apart, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    const size_t w = x->width;
+    const qdot_path_point *here = &d->at[place];
+    qdot_bifurcation b = {.kind = QDOT_NOT_SIMPLE, .y = qdot_calloc(2 * w, sizeof *b.y)};
+    size_t mark = 0;
+    qdot_status status = b.y ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status != QDOT_OK)
+        return status;
+    b.error = b.y + w;
+    memcpy(b.y, here->y, w * sizeof *b.y);
+    for (size_t i = 0; i < w; i++)
+        b.error[i] = i <= x->n ? apart / sqrt(x->weight[i]) : NAN;
+    turn_back(x, b.y);
+    status = keep(s, &b, NULL, &mark);
+    if (status == QDOT_OK && d->count[place] > 0)
+        branch->mark[d->count[place] - 1] = mark;
+    return status;
+}
+
+/* Look whether something dips to 0 between the latest points; *again: a, `gone` and the branch are
+ * those of an earlier point, from which the way is gone by shorter steps. */
+static qdot_status
+look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, double length,
+              qdot_path_point *a, double *gone, qdot_branch *branch, bool *again)
+{
+    size_t place;
+
+    *again = false;
+    switch (qdot_dips_look(s->x, d, b, *gone + length, &place)) {
+    case QDOT_DIPS_AGAIN:
+        *again = true;
+        qdot_path_point_copy(s->x, &d->at[0], a);
+        *gone = d->gone[0];
+        branch->n = d->count[0];
+        d->n = 1;
+        return QDOT_OK;
+    case QDOT_DIPS_ZERO:
+        return mark_zero(s, d, place, *gone + length - d->gone[0], branch);
+    default:
+        return QDOT_OK;
+    }
+}
+
 /* a, then b: room. */
 static qdot_status
 follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
-       qdot_branch *branch)
+       qdot_dips *d, qdot_branch *branch)
 {
     qdot_path *x = s->x;
     double step = first_step, length, gone = 0, far = 0;
@@ -425,8 +570,12 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
     bool last = false;
 
     branch->end[1] = QDOT_END_STOPPED;
+    qdot_dips_add(x, d, a, 0, branch->n);
     while (!last && branch->n < most) {
-        go_on(x, a, x->longest * fmax(1, far), &step, b, &length, &branch->end[1], &last);
+        const size_t before = branch->n;
+        bool again = false;
+
+        go_on(x, a, fmin(x->longest * fmax(1, far), d->careful), &step, b, &length, &branch->end[1], &last);
         if (x->failure == QDOT_EINTR) {
             s->all->interrupted = true;
             branch->end[1] = QDOT_END_STOPPED;
@@ -455,12 +604,22 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
             last = s->leapt = false;
             continue;
         }
+        if (branch->n > before)
+            qdot_dips_forget(d);
+        else if (x->dips)
+            QDOT_TRY(look_for_dips(s, d, b, length, a, &gone, branch, &again));
+        if (again) {
+            step = d->careful;
+            last = false;
+            continue;
+        }
         if (gone > 3 * length && is_closed(x, start, a, b)) {
             branch->end[1] = QDOT_END_CLOSED;
             return qdot_branch_add(x, branch, b->y, start->stability, 0);
         }
         QDOT_TRY(qdot_branch_add(x, branch, b->y, b->stability, 0));
         gone += length;
+        qdot_dips_add(x, d, b, gone, branch->n);
         far = way(x, start->y, b->y);
         if (b->rests || (!last && far > far_away)) {
             branch->end[1] = b->rests ? QDOT_END_REST : QDOT_END_FAR;
@@ -477,14 +636,18 @@ qdot_status
 qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_branch *branch)
 {
     qdot_path_point a = {0}, b = {0};
+    qdot_dips dips = {0};
     qdot_status status = qdot_path_point_begin(s->x, &a);
 
     if (status == QDOT_OK)
         status = qdot_path_point_begin(s->x, &b);
+    if (status == QDOT_OK)
+        status = qdot_dips_begin(s->x, &dips);
     if (status == QDOT_OK) {
         qdot_path_point_copy(s->x, start, &a);
-        status = follow(s, start, &a, &b, branch);
+        status = follow(s, start, &a, &b, &dips, branch);
     }
+    qdot_dips_end(&dips);
     qdot_path_point_end(&a);
     qdot_path_point_end(&b);
     return status;

@@ -76,12 +76,14 @@ prove(qdot_newton *s, double *x, double *error)
 
     for (size_t i = 0; i < s->n; i++)
         error[i] = 2 * fabs(s->step[i]) + 2e-16 * fabs(x[i]);
-    if (s->n > MOST_PROVED)
+    s->regular = s->n > MOST_PROVED;
+    if (s->regular)
         return QDOT_OK;
     QDOT_TRY(qdot_isolate_begin(&isolate, s->pool, s->n, s->f, s->x));
     for (size_t i = 0; i < s->n; i++)
         s->f_value[i] = x[i];
-    if (qdot_isolate_prove(&isolate, s->f_value, s->step))
+    s->regular = qdot_isolate_prove(&isolate, s->f_value, s->step);
+    if (s->regular)
         for (size_t i = 0; i < s->n; i++) {
             x[i] = s->f_value[i];
             error[i] = s->step[i];

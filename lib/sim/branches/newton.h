@@ -21,6 +21,7 @@ typedef struct {
     qdot_tape *tape;
     double *f_value, *J, *step, *work; /* [n], [n * n], [n] */
     qdot_lu_row *rows;
+    bool regular; /* the latest zero is proved to be one, or has too many unknowns for that */
 } qdot_newton;
 
 /* Room for n equations; then x and f are filled, then they are lowered. From {0}; ended in any

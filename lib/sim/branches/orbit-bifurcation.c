@@ -440,7 +440,7 @@ classify(search *f, const double *y, qdot_bifurcation_kind *kind, double *other,
 
     if (status == QDOT_OK) {
         *found = find_form(x, y, v, psi, psi + m, c) &&
-                 qdot_bifurcation_cross(x, c, v, f->a->t, upright, kind, other);
+                 qdot_bifurcation_cross(x, c, v, f->a->t, upright, 1e-12, kind, other);
         status = x->failure;
         if (*found)
             point_up(x, other);

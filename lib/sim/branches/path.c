@@ -21,6 +21,7 @@ qdot_path_begin(qdot_path *x, size_t n)
                      .gauge = 1,
                      .shortest = 1e-10,
                      .longest = 1e-2,
+                     .upright = 1e-9,
                      .least_jump = 1,
                      .halvings = 40};
     x->weight = qdot_calloc(m + n + n * m + m * m + m, sizeof *x->weight);
@@ -204,6 +205,7 @@ qdot_path_tangent(qdot_path *x, const double *along, qdot_path_point *a)
     if (!factor(x, x->b))
         return false;
     a->det = determinant(x) / x->gauge;
+    x->most_det = fmax(x->most_det, fabs(a->det));
     for (size_t i = 0; i <= n; i++)
         x->b[i] = i == n;
     qdot_lu_solve(n + 1, x->A, x->rows, x->b);

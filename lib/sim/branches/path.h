@@ -41,8 +41,11 @@ struct qdot_path {
     double least, most;      /* of p */
     double *weight;          /* [n + 1] */
     double exact;            /* corrections of Newton's below are rounding */
+    double most_det;         /* the largest determinant so far */
     double gauge;            /* what the determinant is divided by, as `at` found it */
     double shortest, longest; /* steps along the curve */
+    double upright;          /* of a unit direction: below, its part along p is rounding */
+    bool dips;               /* test functions are accurate: their dips tell of pairs (dips.h) */
     int least_jump;          /* of `growing`, which says that an oscillation begins */
     int halvings;            /* of the way to a bifurcation, before it is located */
     size_t half;             /* of orbits of twice a period: where the state after half of it stands in y; 0: it is none */

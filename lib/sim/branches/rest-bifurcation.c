@@ -10,9 +10,6 @@
 
 /* Of a direction of unit length: below, it has no part along p. Below, of the entries of Gamma: no damping. */
 static const double upright = 1e-6, undamped = 1e-9;
-/* Of the curvature: with more left of F two curves come near each other, and do not cross. */
-static const double apart = 1e-12;
-
 /* --- systems ------------------------------------------------------------------------------ */
 
 /* The k-th unknown of a kind that is none of the scene. */
@@ -257,9 +254,9 @@ classify(qdot_rest_bifurcations *b, const double *z, double beta_error, const do
     c[0] = form(m, H, s->n, v, v);
     c[1] = form(m, H, s->n, v, v + m);
     c[2] = form(m, H, s->n, v + m, v + m);
-    if (fabs(z[2 * n + 1]) > 2 * beta_error + apart * sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]))
+    if (fabs(z[2 * n + 1]) > 2 * beta_error)
         *answer = QDOT_BIFURCATION_APART;
-    else if (!qdot_bifurcation_cross(x, c, v, t, upright, &out->kind, other))
+    else if (!qdot_bifurcation_cross(x, c, v, t, upright, 1e-22, &out->kind, other))
         *answer = QDOT_BIFURCATION_NONE;
     return QDOT_OK;
 }
@@ -403,7 +400,7 @@ find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out,
     QDOT_TRY(guess_crossing(x, z + n + 1));
     z[2 * n + 1] = 0;
     QDOT_TRY(qdot_newton_solve(&b->crossing, z, error, &found));
-    if (!found)
+    if (!found || !b->crossing.regular)
         return QDOT_OK;
     v = qdot_calloc(4 * (n + 1), sizeof *v);
     *answer = QDOT_BIFURCATION_FOUND;
@@ -429,6 +426,7 @@ find(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *
             QDOT_TRY(make_fold(b));
         QDOT_TRY(guess_fold(x, z + x->n + 1));
         QDOT_TRY(qdot_newton_solve(&b->fold, z, error, &found));
+        found = found && b->fold.regular;
     }
     *answer = found ? QDOT_BIFURCATION_FOUND : QDOT_BIFURCATION_NONE;
     return QDOT_OK;

@@ -8,7 +8,7 @@
 
 /* Parts of the range of p at which equilibria are looked for: its ends, and some that are no special
  * values. */
-static const double parts[] = {0, 1, 0.4871, 0.2363, 0.7639};
+static const double parts[] = {0, 1, 0.4871, 0.2363, 0.7639, 0.0013, 0.9989};
 enum { PARTS = sizeof parts / sizeof *parts };
 
 /* Places at some values of p: at [count * (n + 1)], owned by the caller. */

@@ -45,6 +45,8 @@ qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least,
     x->path.most = most;
     x->path.at = evaluate;
     x->path.judge = judge;
+    x->path.upright = 1e-14;
+    x->path.dips = true;
     QDOT_TRY(qdot_tape_new(c->pool, c->n + 1, c->unknown, c->n, c->F, &x->tape));
     x->work = qdot_malloc(qdot_derivative_work(x->tape) * sizeof *x->work);
     return x->work ? QDOT_OK : QDOT_ENOMEM;

@@ -1,0 +1,47 @@
+/* dips.h -- whether a test function comes near 0 between points of a curve without changing its sign.
+ *
+ * Two bifurcations between neighbouring points leave no trace in signs: the determinant (two crossings,
+ * three curves through one point) or the tangent's part along p (two folds) only dips. Of four
+ * neighbours z, a, b, c with one sign a dip is
+ *
+ *     min(|f_a|, |f_b|) < 1/2 min(|f_z|, |f_c|);
+ *
+ * the way from z on is then gone again by shorter steps, until signs change, the dip is smooth in
+ * the steps, or all that is left of f is rounding.
+ *
+ * Tests  tests/sim/test_continuation.c
+ */
+#ifndef QDOT_SIM_DIPS_H
+#define QDOT_SIM_DIPS_H
+
+#include "sim/branches/path.h"
+
+enum { QDOT_DIPS_KEPT = 3 };
+
+typedef struct {
+    size_t n;                              /* points kept, the oldest first */
+    qdot_path_point at[QDOT_DIPS_KEPT];
+    double gone[QDOT_DIPS_KEPT];           /* the way along the curve up to each */
+    size_t count[QDOT_DIPS_KEPT];          /* points of the branch up to each */
+    double most[2];                        /* the largest |f| so far */
+    double careful, until, calm;           /* the longest step up to there; no dip is looked for up to there */
+} qdot_dips;
+
+typedef enum {
+    QDOT_DIPS_NONE,
+    QDOT_DIPS_AGAIN, /* go on from at[0] once more, steps at most `careful` */
+    QDOT_DIPS_ZERO   /* f vanishes to rounding beside at[*place] */
+} qdot_dips_answer;
+
+QDOT_MUST_CHECK qdot_status qdot_dips_begin(const qdot_path *x, qdot_dips *d);
+void qdot_dips_end(qdot_dips *d);
+/* Forget the points, where a bifurcation lies between them and what follows. */
+void qdot_dips_forget(qdot_dips *d);
+/* b follows, at `gone`, the branch has `count` points with it. */
+void qdot_dips_add(const qdot_path *x, qdot_dips *d, const qdot_path_point *b, double gone,
+                   size_t count);
+/* Before b is added. ZERO is said of the determinant alone. */
+qdot_dips_answer qdot_dips_look(const qdot_path *x, qdot_dips *d, const qdot_path_point *b,
+                                double gone, size_t *place);
+
+#endif
