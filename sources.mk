@@ -1576,6 +1576,7 @@ script_tests = \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
 	tests/script/run.sh \
+	tests/script/save-sides.sh \
 	tests/script/saved-run.sh \
 	tests/script/scale-found.lag \
 	tests/script/scale.lag \
@@ -2678,6 +2679,7 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \
 	tests/script/run.out \
+	tests/script/save-sides.out \
 	tests/script/saved-run.out \
 	tests/script/scale-found.out \
 	tests/script/scale.out \

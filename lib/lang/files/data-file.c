@@ -109,8 +109,10 @@ write_facts(qdot_session *session, qdot_run *run, type type, qdot_data *data, co
         status = add_parameters(session, run, &parameters);
     data->n_facts = known.n;
     data->facts = known.at;
-    data->n_parameters = parameters.n;
-    data->parameters = parameters.at;
+    if (run != NULL) { /* else the caller's */
+        data->n_parameters = parameters.n;
+        data->parameters = parameters.at;
+    }
     if (status == QDOT_OK)
         status = type == JSON   ? qdot_data_json(data, path)
                  : type == HTML ? qdot_data_html(data, TEXT_DIGITS, path)

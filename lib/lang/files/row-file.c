@@ -30,8 +30,14 @@ write_file(qdot_session *session, const qdot_row_table *t, const char *path)
     if (status == QDOT_OK && !bare) {
         qdot_data data = {.columns = x.n + 1, .rows = x.rows, .column = x.columns,
                           .texts = (char *const *const *)x.texts};
+        qdot_data_fact *parameters = qdot_row_columns_parameters(t);
 
-        status = qdot_data_file_write_texts(session, NULL, &data, path);
+        status = parameters != NULL ? QDOT_OK : QDOT_ENOMEM;
+        data.n_parameters = t->n_parameters;
+        data.parameters = parameters;
+        if (status == QDOT_OK)
+            status = qdot_data_file_write_texts(session, NULL, &data, path);
+        qdot_free(parameters);
     }
     qdot_row_columns_free(&x);
     return status;

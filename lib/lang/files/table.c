@@ -370,6 +370,20 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
     return status;
 }
 
+/* Both sides of events: the earlier of two rows of one time has the state before it. */
+static qdot_status
+fill_before_events(qdot_run *run, const qdot_operands *list, grid *g)
+{
+    for (size_t k = 0; k < g->rows; k++) {
+        if (!qdot_run_is_before_event(run, k))
+            continue;
+        for (size_t i = 0; i < list->n; i++) /* one column each */
+            QDOT_TRY(qdot_run_point_values(run, 1, list->at[i].columns.at, k,
+                                           g->values + (i + 1) * g->rows + k));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_table_save(qdot_cursor *c)
 {
@@ -408,6 +422,8 @@ qdot_table_save(qdot_cursor *c)
     }
     if (status == QDOT_OK)
         status = fill_grid(&g, &list, rows, times);
+    if (status == QDOT_OK)
+        status = fill_before_events(named->run, &list, &g);
     if (status == QDOT_OK)
         status = write_grid(c->session, &g, named->run, path);
     free_grid(&g);

@@ -74,3 +74,13 @@ qdot_row_columns_fill(const qdot_row_table *t, const bool *done, qdot_row_column
     }
     return QDOT_OK;
 }
+
+qdot_data_fact *
+qdot_row_columns_parameters(const qdot_row_table *t)
+{
+    qdot_data_fact *all = qdot_calloc(t->n_parameters + 1, sizeof *all);
+
+    for (size_t i = 0; i < t->n_parameters && all != NULL; i++)
+        all[i] = (qdot_data_fact){t->parameters[i], NULL, t->parameter_values[i]};
+    return all;
+}

@@ -33,4 +33,8 @@ QDOT_MUST_CHECK qdot_status qdot_row_columns_fill(const qdot_row_table *t, const
                                                   qdot_row_columns *x);
 void qdot_row_columns_free(qdot_row_columns *x);
 
+/* The parameters noted with the table, [t->n_parameters] as facts of a file; owned by the caller, names
+ * borrowed. NULL: no memory. */
+qdot_data_fact *qdot_row_columns_parameters(const qdot_row_table *t);
+
 #endif

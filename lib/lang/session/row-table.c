@@ -82,6 +82,10 @@ qdot_row_table_release(qdot_row_table *t)
         qdot_free(t->labels[i]);
     for (size_t i = 0; t->reasons != NULL && i < t->rows; i++)
         qdot_free(t->reasons[i]);
+    for (size_t i = 0; i < t->n_parameters; i++)
+        qdot_free(t->parameters[i]);
+    qdot_free(t->parameters);
+    qdot_free(t->parameter_values);
     qdot_function_body_release(t->members);
     qdot_row_table_release(t->marks);
     qdot_free(t->name);

@@ -20,6 +20,9 @@ typedef struct qdot_row_table {
     bool measured;           /* rows are measured ones: drawn as points over the first column */
     qdot_function_body *members; /* of a sweep: what it ran over, and its run, up to the colon */
     char **labels;           /* [n] */
+    size_t n_parameters;     /* those that had one value in all rows: */
+    char **parameters;       /* [n_parameters] their names */
+    double *parameter_values; /* [n_parameters] */
     size_t rows, room;
     double *values, *errors; /* [rows x n]; NaN: there is no number; its error is unknown */
     char **reasons;          /* [rows] why a row failed; NULL: it did not */

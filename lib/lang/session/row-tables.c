@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "lang/session/bind.h"
+
 /* The index of that name; the number of tables: there is none. */
 static size_t
 index_of(const qdot_session *session, const char *name)
@@ -49,4 +51,69 @@ qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size)
     do
         snprintf(name, size, "sweep%zu", ++k);
     while (qdot_row_tables_find(session, name) != NULL);
+}
+
+static qdot_status
+note_parameter(qdot_row_table *t, const char *name, double value)
+{
+    const size_t n = t->n_parameters + 1;
+    char **names = qdot_realloc(t->parameters, n * sizeof *names);
+    double *values;
+
+    t->parameters = names ? names : t->parameters;
+    values = qdot_realloc(t->parameter_values, n * sizeof *values);
+    t->parameter_values = values ? values : t->parameter_values;
+    if (!names || !values)
+        return QDOT_ENOMEM;
+    names[n - 1] = qdot_strdup(name);
+    if (names[n - 1] == NULL)
+        return QDOT_ENOMEM;
+    values[n - 1] = value;
+    t->n_parameters = n;
+    return QDOT_OK;
+}
+
+/* The symbols stand for themselves, so that values made of them are seen to be. */
+static void
+let_open(qdot_session *session, size_t n, const qdot_expr *open)
+{
+    for (size_t i = 0; i < session->set_symbols.n; i++)
+        for (size_t k = 0; k < n; k++)
+            if (session->set_symbols.at[i] == open[k])
+                session->set_values.at[i] = open[k];
+}
+
+qdot_status
+qdot_row_tables_note_parameters(qdot_session *session, qdot_row_table *table, size_t n,
+                                const qdot_expr *open)
+{
+    const uint32_t varies = ~(uint32_t)QDOT_HAS_FUN;
+    const qdot_name *name;
+    qdot_kept_values kept;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_session_keep_values(session, &kept));
+    let_open(session, n, open);
+    for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL && status == QDOT_OK; i++) {
+        qdot_expr value;
+        double x;
+
+        if (name->kind != QDOT_NAME_PARAM)
+            continue;
+        value = qdot_session_bind(session, name->value);
+        status = qdot_pool_check(session->pool);
+        if (qdot_grave(status) == QDOT_OK && status != QDOT_OK) { /* it has no value */
+            status = QDOT_OK;
+            continue;
+        }
+        if (status != QDOT_OK || (qdot_expr_node(session->pool, value)->holds & varies) != 0)
+            continue;
+        status = qdot_session_number(session, value, &x, NULL);
+        if (status == QDOT_OK)
+            status = note_parameter(table, name->name, x);
+        else
+            status = qdot_grave(status);
+    }
+    qdot_session_restore_values(session, &kept);
+    return status;
 }

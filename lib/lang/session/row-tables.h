@@ -14,4 +14,9 @@ qdot_row_table *qdot_row_tables_find(const qdot_session *session, const char *na
 /* sweep1, sweep2, ...: the first that is free. */
 void qdot_row_tables_next_name(const qdot_session *session, char *name, size_t size);
 
+/* Note the parameters with the values that are in force, but those that `open` [n], symbols, change. */
+QDOT_MUST_CHECK qdot_status qdot_row_tables_note_parameters(qdot_session *session,
+                                                            qdot_row_table *table, size_t n,
+                                                            const qdot_expr *open);
+
 #endif

@@ -215,15 +215,39 @@ tell_starts(qdot_cursor *c, const qdot_members *m)
     return status;
 }
 
+/* The parameters that are the same in all rows, with the values of the runs. */
+static qdot_status
+note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *table)
+{
+    const size_t n = m->axes.at.n;
+    double *swept = qdot_calloc(n + 1, sizeof *swept);
+    qdot_expr *open = qdot_calloc(n + 1, sizeof *open);
+    qdot_kept_values kept;
+    qdot_status status = swept && open ? qdot_session_keep_values(session, &kept) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        for (size_t i = 0; i < n; i++)
+            open[i] = m->axes.at.at[i].symbol;
+        status = qdot_members_set(session, m, 0, swept);
+        if (status == QDOT_OK)
+            status = qdot_row_tables_note_parameters(session, table, n, open);
+        else
+            status = qdot_grave(status); /* its row says why */
+        qdot_session_restore_values(session, &kept);
+    }
+    qdot_free(swept);
+    qdot_free(open);
+    return status;
+}
+
 static qdot_status
 carry_out(qdot_cursor *c, qdot_sweep *s)
 {
     const double begun = qdot_wall_now();
-    qdot_status status = qdot_sweep_make_rows(s);
     qdot_row_table *table = s->table;
 
-    if (status != QDOT_OK)
-        return status;
+    QDOT_TRY(note_parameters(c->session, &s->members, table));
+    QDOT_TRY(qdot_sweep_make_rows(s));
     s->table = NULL; /* the session's from now on */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
     QDOT_TRY(tell(c->session, s, table, qdot_wall_now() - begun));

@@ -9,6 +9,7 @@
 #include "lang/commands/value-check.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/row-tables.h"
 #include "lang/slopes/slopes.h"
 #include "lang/unknowns/continue-parts.h"
 #include "sim/branches/rest-continuation.h"
@@ -138,6 +139,9 @@ qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const
         qdot_interrupt_clear(); /* heard: what is known so far is told */
     if (status == QDOT_OK && b->found->branches.n > 0)
         status = qdot_branches_keep(session, b, w->name, w->marks);
+    if (status == QDOT_OK && b->found->branches.n > 0 && w->parameter != QDOT_NIL)
+        status = qdot_row_tables_note_parameters(
+            session, qdot_row_tables_find(session, w->name), 1, &w->parameter);
     if (status == QDOT_OK && b->found->branches.n > 0)
         status = qdot_branches_answer(session, b);
     if (status == QDOT_OK && b->found->interrupted)

@@ -195,6 +195,49 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
     return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
 }
 
+bool
+qdot_run_is_before_event(const qdot_run *run, size_t k)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+
+    return k + 1 < tr->count && tr->t[k] == tr->t[k + 1];
+}
+
+static qdot_status
+read_point(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *values)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    qdot_reading of;
+    qdot_reader r = {0};
+    qdot_status status;
+
+    QDOT_TRY(qdot_reader_lower(run->plan, m, exprs, &of));
+    status = qdot_reader_init(&r, &of, &run->course);
+    if (status == QDOT_OK)
+        status = qdot_reader_at(&r, qdot_trajectory_piece_of(tr, k), tr->t[k], values);
+    for (size_t j = 0; j < m && status == QDOT_OK; j++)
+        if (!isfinite(values[j]))
+            status = undefined(run, exprs[j], tr->t[k]);
+    qdot_reader_clear(&r);
+    qdot_tape_free(of.tape);
+    return status;
+}
+
+qdot_status
+qdot_run_point_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *values)
+{
+    qdot_in_chart in = {0};
+    qdot_status status;
+
+    if (run->chart == NULL)
+        return read_point(run, m, exprs, k, values);
+    status = qdot_in_chart_express(&in, run, m, exprs, run->course.tr.t[k]);
+    if (status == QDOT_OK)
+        status = read_point(run, m, in.exprs, k, values);
+    qdot_in_chart_clear(&in);
+    return status;
+}
+
 qdot_status
 qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr time,
                       qdot_expr *values, double *errors)

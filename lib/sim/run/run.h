@@ -52,6 +52,13 @@ QDOT_MUST_CHECK qdot_status qdot_run_values_beyond(qdot_run *run, size_t m,
                                                    const qdot_exact_times *times, double *values,
                                                    double *errors);
 
+/* As qdot_run_values at point k of qdot_run_times as the run came to it: where an event follows at the
+ * same time, values [m] before that. Not of runs with `digits`. */
+QDOT_MUST_CHECK qdot_status qdot_run_point_values(qdot_run *run, size_t m, const qdot_expr *exprs,
+                                                  size_t k, double *values);
+/* Whether point k + 1 has the same time: an event lies between. */
+bool qdot_run_is_before_event(const qdot_run *run, size_t k);
+
 /* As qdot_run_values for a run with `digits`, at one time, an exact constant: values [m]
  * rationals, errors [m] (may be NULL) absolute, NaN unknown. */
 QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs,
