@@ -28,3 +28,11 @@ printf '%srun 0..-100\n' "$double" | qdot -q --json - | between horizon -27 -23.
 printf '%srun 0..27 digits 6\n' "$double" | qdot -q --json - >far
 between error 0 1e-6 <far
 between horizon 0 0 <far
+# what an event changes is conserved between events only, and not told as what holds
+qdot -q - <<END | grep '^  beyond it'
+coord a, b
+lagrangian a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)
+event kick: a = 0 rising then a' = 0.9999*a'
+start a = 2, b = 2.5
+run 0..150
+END

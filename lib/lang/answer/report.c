@@ -297,7 +297,7 @@ beyond_text(qdot_session *session, const qdot_run_report *r, qdot_text *line)
     for (size_t i = 0; i < r->n_drifts; i++) {
         const qdot_drift *d = &r->drifts[i];
 
-        if (!d->kept && !(d->drift < drifts_little))
+        if (d->changed || (!d->kept && !(d->drift < drifts_little)))
             continue;
         qdot_text_add(line, some ? ", " : "what is conserved holds (");
         if (strcmp(d->name, "energy") == 0)

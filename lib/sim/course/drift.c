@@ -69,13 +69,16 @@ evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double 
     qdot_lanes_eval(tape, in, c, work);
 }
 
+/* What an event changes by more, relative to max(1, |c|), it does not conserve. */
+static const double of_event = 1e-10;
+
 static qdot_status
 follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
 {
     size_t n = tr->n;
     double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
     double *work = qdot_malloc(QDOT_LANES * (qdot_tape_work(tape) + 1) * sizeof *work);
-    double c[QDOT_LANES], start = 0;
+    double c[QDOT_LANES], start = 0, last = 0;
     qdot_status status = in && work ? QDOT_OK : QDOT_ENOMEM;
     size_t piece = 0;
 
@@ -92,8 +95,12 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
             drift->start = start = change;
         /* what an event changes is no drift */
         for (; piece < tr->pieces.n && tr->pieces.at[piece].first <= k; piece++)
-            if (tr->pieces.at[piece].jumped)
+            if (tr->pieces.at[piece].jumped) {
+                drift->changed = drift->changed ||
+                                 !(fabs(change - last) <= of_event * fmax(1, fabs(last)));
                 start = change;
+            }
+        last = change;
         if (piece > 0 && is_switch(tr, piece - 1, k))
             continue;
         change = fabs(change - start);

@@ -139,7 +139,7 @@ qdot_run_say_scales(qdot_run *run, const double *scales, bool hold)
 {
     const size_t n = run->plan->n - run->plan->n_states;
     qdot_text *line = qdot_run_next_notice(run);
-    size_t named = 0;
+    size_t named = 0, first = 0;
 
     qdot_text_add(line, "scales found: ");
     if (n > 1 && are_alike(scales, n) && are_alike(scales + n, n)) {
@@ -156,11 +156,15 @@ qdot_run_say_scales(qdot_run *run, const double *scales, bool hold)
         if (named > MOST_NAMES)
             qdot_text_format(line, " and %zu more", named - MOST_NAMES);
     }
-    qdot_text_format(
-        line,
-        hold ? "; tol and errors are relative to max(scale, |value|)"
-             : ", too costly to be run once more: tol and errors are relative to "
-               "max(1, |value|); `scale %s = %g` sets another",
-        run->plan->names[0], scales[0]);
+    while (first < 2 * n && !(scales[first] > 0))
+        first++;
+    if (hold)
+        qdot_text_add(line, "; tol and errors are relative to max(scale, |value|)");
+    else
+        qdot_text_add(line, ", too costly to be run once more: tol and errors are relative to "
+                            "max(1, |value|)");
+    if (!hold && first < 2 * n)
+        qdot_text_format(line, "; `scale %s%s = %g` sets another", run->plan->names[first % n],
+                         first < n ? "" : "'", scales[first]);
     return qdot_text_status(&run->notice);
 }
