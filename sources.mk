@@ -1253,6 +1253,7 @@ unit_tests = \
 	tests/lang/test_evaluate \
 	tests/lang/test_highlight \
 	tests/lang/test_hints \
+	tests/lang/test_interrupts \
 	tests/lang/test_lex \
 	tests/lang/test_names \
 	tests/lang/test_notation \

@@ -15,4 +15,7 @@ void qdot_interrupt_clear(void);
 /* QDOT_EINTR, recorded as a failure, while the flag is set. */
 qdot_status qdot_interrupt_check(void);
 
+/* For tests: simulate Ctrl-C at the n-th check from now (n = 0: the next); n < 0: not. */
+void qdot_interrupt_set_at(long n);
+
 #endif

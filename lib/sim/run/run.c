@@ -460,7 +460,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
                                      run->stage.scales != NULL, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
-    if (status == QDOT_EINTR) {
+    if (status == QDOT_EINTR && run->course.tr.count > 0) { /* there is something to tell of */
         *interrupted = true;
         status = QDOT_OK;
     }
