@@ -639,6 +639,7 @@ library_sources = \
 	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
 	lib/sim/watch/watch-exclusion.c \
+	lib/sim/watch/watch-resolution.c \
 	lib/sim/watch/watch-roots.c \
 	lib/sim/watch/watch-rough.c \
 	lib/sim/watch/watch-values.c \
@@ -1456,6 +1457,7 @@ script_tests = \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-spans.lag \
 	tests/script/event-stays.lag \
 	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
@@ -2543,6 +2545,7 @@ test_files = \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
 	tests/script/event-roots.out \
+	tests/script/event-spans.out \
 	tests/script/event-stays.out \
 	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \

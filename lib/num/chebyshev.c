@@ -11,6 +11,9 @@ enum { most = QDOT_CHEBYSHEV_MOST, quarters = 4 * most };
 /* Halvings: an interval of this depth is 2^-44 of the whole. */
 enum { deepest = 45 };
 
+/* The pieces that the halvings about a root make, at most; n coefficients have fewer than n roots. */
+enum { pieces_of_root = 2 * deepest };
+
 /* The fit is good if the last coefficients are below this fraction of the largest. */
 static const double unfitted = 0x1p-36;
 
@@ -293,8 +296,10 @@ int
 qdot_chebyshev_crossings(int n, const double *c, double *roots)
 {
     piece stack[deepest + 2], left, right;
-    int depth = 0, found = 0;
+    int depth = 0, found = 0, left_to_do = pieces_of_root * (n + 1);
 
+    if (!isfinite(qdot_chebyshev_spread(n, c)) || !isfinite(c[0]))
+        return -1;
     stack[0] = (piece){.lo = -1, .hi = 1, .n = shorten(n, c)};
     memcpy(stack[0].c, c, (size_t)n * sizeof *c);
     stack[0].at_lo = qdot_chebyshev_at(stack[0].n, c, -1);
@@ -302,6 +307,8 @@ qdot_chebyshev_crossings(int n, const double *c, double *roots)
     for (depth = 1; depth > 0;) {
         const piece *p = &stack[--depth];
 
+        if (left_to_do-- == 0)
+            return -1;
         if (qdot_chebyshev_sign(p->n, p->c) != 0)
             continue;
         if (is_monotone(p) || p->hi - p->lo < 0x1p-43) {

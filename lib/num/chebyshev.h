@@ -65,7 +65,8 @@ int qdot_chebyshev_sign(int n, const double *c);
 double qdot_chebyshev_root(int n, const double *c, double lo, double hi);
 
 /* The x at which p changes its sign, ascending, into roots [n]; returns their number. Of several
- * within 2^-44 of one another an odd number counts as one, an even number as none. */
+ * within 2^-44 of one another an odd number counts as one, an even number as none. -1: they were not found,
+ * since a coefficient is not finite, or so small a part of the others that halving ends in rounding. */
 int qdot_chebyshev_crossings(int n, const double *c, double *roots);
 
 #endif

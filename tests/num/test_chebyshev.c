@@ -156,6 +156,23 @@ an_ellipse_bounds_what_lies_around(void **state)
     assert_true(qdot_chebyshev_ellipse(16, c, 4e-16, 14) < 1e5);
 }
 
+/* Coefficients that are no numbers have no roots, and take no time; nor do those of overflowing values. */
+static void
+what_is_not_finite_is_not_searched(void **state)
+{
+    double c[QDOT_CHEBYSHEV_MOST] = {1, 2, 3}, roots[QDOT_CHEBYSHEV_MOST];
+    const double odd[] = {NAN, INFINITY, 1e308};
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        c[1] = c[2] = odd[k];
+        assert_int_equal(qdot_chebyshev_crossings(64, c, roots), -1);
+    }
+    c[1] = c[2] = 3;
+    c[0] = NAN;
+    assert_int_equal(qdot_chebyshev_crossings(64, c, roots), -1);
+}
+
 int
 main(void)
 {
@@ -163,6 +180,7 @@ main(void)
         cmocka_unit_test(fits_a_function_its_slope_and_its_integral),
         cmocka_unit_test(every_root_is_found_once),
         cmocka_unit_test(a_root_without_change_of_sign_is_none),
+        cmocka_unit_test(what_is_not_finite_is_not_searched),
         cmocka_unit_test(the_bound_shows_a_sign),
         cmocka_unit_test(an_ellipse_bounds_what_lies_around),
     };

@@ -79,6 +79,7 @@ find_extrema(const double *c, double middle, int sign, qdot_passage *p)
 
     qdot_chebyshev_derivative(NODES, c, slope);
     n = qdot_chebyshev_crossings(NODES - 1, slope, roots);
+    n = n > 0 ? n : 0; /* values that are not finite have no extrema */
     p->most = -INFINITY;
     p->least = INFINITY;
     for (int i = 0; i < n + 2; i++) {

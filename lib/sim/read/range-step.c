@@ -206,6 +206,12 @@ take_part(scan *s, const part *p, bool good, bool sure)
     double x, d[MOST_NODES], at[MOST_NODES], low = INFINITY, high = -INFINITY;
     int n = 0;
 
+    if (good && !is_level(s, p)) {
+        qdot_chebyshev_derivative(p->n, p->c, d);
+        if (qdot_chebyshev_size(p->n - 1, d) > 0)
+            n = qdot_chebyshev_crossings(p->n - 1, d, at);
+        good = n >= 0;
+    }
     for (int end = 0; end < 2; end++) {
         double t = end == 0 ? p->a : p->b;
 
@@ -229,9 +235,6 @@ take_part(scan *s, const part *p, bool good, bool sure)
             qdot_range_meet(s, p->values[j]);
         s->rough = fmax(s->rough, qdot_chebyshev_spread(p->n, p->c));
     } else if (good) {
-        qdot_chebyshev_derivative(p->n, p->c, d);
-        if (qdot_chebyshev_size(p->n - 1, d) > 0)
-            n = qdot_chebyshev_crossings(p->n - 1, d, at);
         for (int k = 0; k < n; k++) {
             QDOT_TRY(qdot_range_at(s, qdot_range_time(p, at[k]), &x));
             low = fmin(low, x);

@@ -2,7 +2,8 @@
  *
  * For watch.c only, which goes over a step part by part: values of the functions
  * (watch-values.c), proofs that a part holds no further roots (watch-exclusion.c), the
- * polynomial of one function on one part with its roots (watch-roots.c), and roots on a part of a few
+ * polynomial of one function on one part with its roots (watch-roots.c), whether its rounding hides
+ * some (watch-resolution.c), and roots on a part of a few
  * thousand doubles in which no polynomial represents the function (watch-rough.c).
  *
  * Tests  as watch.h
@@ -20,6 +21,9 @@ enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
 
 /* A function of not more than so many times its noise is 0 but for rounding. */
 #define QDOT_WATCH_ROUNDINGS 16
+
+/* Extrema that were not sought yet. */
+#define QDOT_WATCH_UNKNOWN (-2)
 
 /* The signs up to which a step has been searched. */
 struct qdot_watch_state {
@@ -42,7 +46,7 @@ struct qdot_watch {
     double *bound;      /* [m] */
     double *in;         /* of the tape */
     double *work, *g;   /* [m] g */
-    double *moved;      /* [m] scratch of noise */
+    double *moved, *raw; /* [m] scratch of noise and of values */
     double *z;          /* [2n] likewise */
     double *noise;      /* [m] of g in this part; NaN: not computed */
     double *first_noise; /* [m] of g at the start of the step; likewise */
@@ -54,6 +58,8 @@ struct qdot_watch {
     bool all_bounds;     /* every g is a coordinate less its bound */
     double *final;      /* [m] g at the end of the step */
     double length;      /* of the step */
+    double shortest;    /* a part of this length is not divided */
+    double cut;         /* QDOT_PART_START_FAR: the fraction of the part that is cut off at its start */
     double reached;     /* of the step, where its search ended */
     size_t looked_at;   /* parts of all steps */
     double reach;       /* of the last part of a step that a root ended; 0: none did */
@@ -71,6 +77,10 @@ struct qdot_watch {
     bool *live;      /* [m] g may have a root in this step */
     int nodes;       /* number that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
+    double *fitted;  /* [m x QDOT_WATCH_NODES] polynomials through these at .. */
+    int *n_fitted;   /* [m] .. so many nodes of the part; 0: not yet */
+    double *extrema; /* [m x QDOT_WATCH_NODES] x of the polynomial's extrema on the part */
+    int *n_extrema;  /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as qdot_chebyshev_crossings */
     double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts not yet searched */
     qdot_vec(qdot_root) roots;
 };
@@ -90,7 +100,8 @@ typedef enum {
     QDOT_PART_MORE_NODES,
     QDOT_PART_HALVED,
     QDOT_PART_PARTED, /* cut beside the middle, where g may be singular */
-    QDOT_PART_START_CUT /* a short part at its start is cut off */
+    QDOT_PART_START_CUT, /* a short part at its start is cut off */
+    QDOT_PART_START_FAR  /* likewise, as long as w->cut says */
 } qdot_watch_verdict;
 
 static inline int
@@ -111,7 +122,7 @@ qdot_watch_push(qdot_watch *w, qdot_root root)
 QDOT_MUST_CHECK qdot_status qdot_watch_lower(qdot_watch *w, const qdot_expr *g,
                                              bool shaken);
 
-/* g [m] at the state in w->in, 1e300 for infinity. QDOT_EDOMAIN if one is not a number. */
+/* g [m] at the state in w->in, at most 2^900 in size and, but for an exact 0, at least DBL_MIN. QDOT_EDOMAIN if one is not a number. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g);
 
 /* g [m] at t within the step; w->in is the state there. */
@@ -123,6 +134,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
                                              double by, double least, size_t i,
                                              double *noise);
 
+/* What rounding of the state y [2n], of t, of the terms and of the operations of g_i may make of it. */
+QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
+                                                double *noise);
+
 /* --- no roots between the nodes (watch-exclusion.c) ---------------------------------- */
 
 /* For polynomials that fit all values at `nodes`: whether they miss no root between these. */
@@ -133,6 +148,17 @@ qdot_watch_verdict qdot_watch_judge(qdot_watch *w, const qdot_watch_part *p, int
 void qdot_watch_bound(qdot_watch *w, const qdot_ode_expanded *step);
 bool qdot_watch_excludes(const qdot_watch *w, size_t i);
 
+/* --- what rounding of the polynomial hides (watch-resolution.c) ----------------------- */
+
+/* After the fit of function i at `nodes`, which is good: whether rounding of the polynomial hides a sign of the
+ * function, whose values tell it. */
+QDOT_MUST_CHECK qdot_status qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i,
+                                               int nodes, qdot_watch_verdict *v);
+
+/* After a fit of function i: the x of the extrema of its polynomial, borrowed; their number. None where it
+ * has no root. */
+int qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const double **x);
+
 /* --- roots (watch-roots.c) ----------------------------------------------------------- */
 
 /* The time at x in -1 ... 1 of a part. */
@@ -140,6 +166,9 @@ double qdot_watch_time(const qdot_watch_part *p, double x);
 
 /* Function i on the part as a polynomial p->c, from w->samples at `nodes` nodes. */
 qdot_watch_verdict qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes);
+
+/* After a fit: whether function i is only rounding on the part. */
+bool qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i);
 
 /* After a fit: the size below which function i cannot be told from rounding. */
 double qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i);

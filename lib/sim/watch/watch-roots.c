@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* Negligible relative to the largest coefficient: for a fit, and for a function divided by the
  * time since it was 0. */
@@ -37,9 +38,8 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
-/* Whether the function is only rounding on the part. */
-static bool
-vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+bool
+qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     double size = qdot_chebyshev_size(p->n, p->c);
 
@@ -59,7 +59,7 @@ qdot_watch_least(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double part = (w->now.on[i] ? 1e-11 : resolved) + 8 * blur(p);
 
-    return fmax(part * w->size[i],
+    return fmax(fmax(part * w->size[i], 16 * DBL_MIN),
                 isnan(w->noise[i]) ? 0 : (w->now.on[i] ? noise_of_slope : 8) * w->noise[i]);
 }
 
@@ -76,30 +76,43 @@ note_sizes(qdot_watch *w, const qdot_watch_part *p, size_t i)
     w->clear[i] = fabs(p->c[0]) - qdot_chebyshev_spread(p->n, p->c);
 }
 
-qdot_watch_verdict
-qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+/* c [p->n] of function i, or of its quotient with the time since it was 0. */
+static void
+fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
-    double values[QDOT_WATCH_NODES], size;
+    double values[QDOT_WATCH_NODES];
 
-    p->n = nodes;
-    p->from_zero = w->now.on[i];
-    for (int j = 0; j < nodes; j++) {
+    for (int j = 0; j < p->n; j++) {
         values[j] = g[j];
         if (p->from_zero) {
-            double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j));
+            double t = qdot_watch_time(p, qdot_chebyshev_node(p->n, j));
 
             values[j] = (g[j] - w->now.g0[i]) * ((p->b - p->a) / (t - p->a));
         }
     }
-    qdot_chebyshev_fit(nodes, values, p->c);
+    qdot_chebyshev_fit(p->n, values, c);
+}
+
+qdot_watch_verdict
+qdot_watch_fit(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+{
+    double *fitted = w->fitted + i * QDOT_WATCH_NODES, size;
+
+    p->n = nodes;
+    p->from_zero = w->now.on[i];
+    if (w->n_fitted[i] != nodes) {
+        fit_values(w, p, i, fitted);
+        w->n_fitted[i] = nodes;
+    }
+    memcpy(p->c, fitted, (size_t)nodes * sizeof *fitted);
     size = qdot_chebyshev_size(nodes, p->c);
     note_sizes(w, p, i);
-    if (!vanishes(w, p, i) &&
+    if (!qdot_watch_vanishes(w, p, i) &&
         qdot_chebyshev_tail(nodes, p->c) >
             qdot_watch_least(w, p, i))
         return QDOT_PART_MORE_NODES;
-    if (p->from_zero && !vanishes(w, p, i) &&
+    if (p->from_zero && !qdot_watch_vanishes(w, p, i) &&
         fabs(qdot_chebyshev_at(nodes, p->c, -1)) <= least_slope(p) * size)
         return QDOT_PART_START_CUT;
     return QDOT_PART_GOOD;
@@ -277,6 +290,10 @@ is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, 
         return QDOT_OK;
     QDOT_TRY(qdot_watch_value_at(w, t, w->g));
     if (!p->from_zero && fabs(w->g[i] - v) > least_of_size * size) { /* beside a jump or a pole */
+        *touch = false;
+        return QDOT_OK;
+    }
+    if (w->g[i] != 0 && fabs(w->g[i]) <= DBL_MIN) { /* a sign is all that is known of it */
         *touch = false;
         return QDOT_OK;
     }
@@ -505,22 +522,24 @@ be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
+    const double *extrema;
     double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
     double sure = p->a; /* g has `sign` there, by the states */
-    int n = 0, sign = w->now.sign[i];
+    int n, sign = w->now.sign[i];
     bool grazes;
 
     if (w->fresh[i] && p->from_zero && is_flat(p))
         w->slow[i] = true;
-    if (vanishes(w, p, i))
+    if (qdot_watch_vanishes(w, p, i))
         return be_zero(w, p, i);
     if (p->from_zero) {
         sign = leaves_to(w, p, i);
         QDOT_TRY(pass_start(w, p, i, sign));
     }
-    if (qdot_chebyshev_sign(p->n, p->c) == 0) {
+    n = qdot_watch_extrema(w, p, i, &extrema);
+    if (n > 0) {
         qdot_chebyshev_derivative(p->n, p->c, d);
-        n = qdot_chebyshev_crossings(p->n - 1, d, x);
+        memcpy(x, extrema, (size_t)n * sizeof *x);
     }
     x[n++] = 1;
     grazes = grazes_at_end(p);

@@ -1,12 +1,14 @@
 /* watch-values.c -- the watched functions: their tapes, values and rounding errors. */
 #include "sim/watch/watch-parts.h"
 
+#include <fenv.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "sim/bind/bind.h"
 #include "sim/model/term-magnitude.h"
+#include "tape/rounding.h"
 #include "tape/shake.h"
 
 /* --- their tapes --------------------------------------------------------------------- */
@@ -45,10 +47,57 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     return status;
 }
 
-/* The value at a pole: its square root can be told from it, and it can be added up. */
-static const double pole = 1e300;
+/* The largest |g|, also at a pole: it can be added up, multiplied by the square of a number of nodes, divided
+ * by the distance of nodes. */
+static const double most = 0x1p900;
 
 /* --- values -------------------------------------------------------------------------- */
+
+/* Below this an interval about 0 is one that underflows. */
+static const double nothing = 0x1p-900;
+
+/* Whether g_i, which is 0 at the state in w->in, is a number too small for a double: an operation underflows, and
+ * within rounding of the state g_i is nothing but such numbers. */
+static bool
+underflows(qdot_watch *w, size_t i)
+{
+#ifdef FE_UNDERFLOW
+    const size_t inputs = qdot_tape_inputs(w->tape);
+    const qdot_interval *box = w->bounds.box + i;
+
+    if (fetestexcept(FE_UNDERFLOW) == 0)
+        return false;
+    feclearexcept(FE_UNDERFLOW); /* it may be of anything since it was cleared */
+    qdot_tape_eval(w->tape, w->in, w->raw, w->work);
+    if (fetestexcept(FE_UNDERFLOW) == 0)
+        return false;
+    for (size_t k = 0; k < inputs; k++) {
+        const double by = fmax(DBL_EPSILON * fabs(w->in[k]), DBL_MIN); /* of points the result is one, too */
+
+        w->bounds.span[k] = (qdot_interval){w->in[k] - by, w->in[k] + by};
+    }
+    qdot_interval_eval(w->tape, w->bounds.span, w->bounds.box, w->bounds.span_work);
+    return box->lo > -nothing && box->hi < nothing && box->lo < box->hi;
+#else
+    (void)w;
+    (void)i;
+    return false;
+#endif
+}
+
+/* A function is not a number at the state in w->in. */
+static qdot_status
+refuse_value(qdot_watch *w, double t)
+{
+#ifdef FE_OVERFLOW
+    feclearexcept(FE_OVERFLOW);
+    qdot_tape_eval(w->tape, w->in, w->raw, w->work);
+    if (fetestexcept(FE_OVERFLOW) != 0)
+        return qdot_fail(QDOT_EDOMAIN,
+                         "an event is undefined at t = %.15g, where a part of it overflows", t);
+#endif
+    return qdot_fail(QDOT_EDOMAIN, "an event is undefined at t = %.15g", t);
+}
 
 qdot_status
 qdot_watch_value(qdot_watch *w, double t, double *g)
@@ -60,9 +109,11 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
     qdot_tape_eval(w->tape, w->in, g, w->work);
     for (size_t i = 0; i < w->m; i++)
         if (isnan(g[i]))
-            return qdot_fail(QDOT_EDOMAIN, "an event is undefined at t = %.15g", t);
-        else if (isinf(g[i]))
-            g[i] = copysign(pole, g[i]);
+            return refuse_value(w, t);
+        else if (fabs(g[i]) > most)
+            g[i] = copysign(most, g[i]);
+        else if (fabs(g[i]) < DBL_MIN && (g[i] != 0 || underflows(w, i)))
+            g[i] = copysign(DBL_MIN, g[i]); /* also of a 0: it keeps its sign */
     return QDOT_OK;
 }
 
@@ -99,5 +150,22 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
         QDOT_TRY(status);
         *noise += fabs(w->moved[i] - g);
     }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *noise)
+{
+    double up, down;
+
+    QDOT_TRY(qdot_watch_noise(w, t, y, 4 * DBL_EPSILON, 0, i, &up)); /* they differ beside a kink */
+    QDOT_TRY(qdot_watch_noise(w, t, y, -4 * DBL_EPSILON, 0, i, &down));
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* q'' too */
+    qdot_tape_eval(w->sizes, w->in, w->raw, w->work);
+    *noise = fmax(up, down) + 4 * DBL_EPSILON * fmin(w->raw[i], most);
+    qdot_rounding_bounds(w->tape, w->in, NULL, w->raw, w->work);
+    if (4 * w->raw[i] > *noise && w->raw[i] < most)
+        *noise = 4 * w->raw[i];
     return QDOT_OK;
 }

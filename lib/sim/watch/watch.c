@@ -8,7 +8,7 @@
 #include "base/interrupt.h"
 #include "sim/watch/watch-parts.h"
 
-enum { LEAST = 16, DEEPEST = 60, MOST_PARTS = 4000 };
+enum { LEAST = 16, DEEPEST = 100, MOST_PARTS = 4000 };
 
 /* A step of a series is left where so many have been looked at: it can end there. */
 enum { ENOUGH_PARTS = 500 };
@@ -45,30 +45,43 @@ judge(qdot_watch *w, qdot_watch_part *p, int nodes)
     return worst;
 }
 
+/* The fraction of a step, or of the part at its start, that is not divided. */
+static const double least_of_length = 0x1p-44;
+
 /* A part this short is taken as it is. */
 static bool
 is_short(const qdot_watch *w, const qdot_watch_part *p)
 {
     double t = fmax(fabs(p->a), fabs(p->b));
 
-    return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, 0x1p-44 * w->length);
+    return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, w->shortest);
+}
+
+/* The largest |g_i| at the nodes that were sampled first. */
+static double
+seen_size(const qdot_watch *w, size_t i)
+{
+    double largest = 0;
+
+    for (int j = 0; j < LEAST; j++)
+        largest = fmax(largest, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
+    return largest;
 }
 
 /* The rounding of all g at time t and the state in w->z, where that is less than noise [m], or this is
- * NaN. */
+ * NaN. Beside rounding of the state there is that of the series, no more than that of g at the end of the step or at
+ * the nodes of the part. */
 static qdot_status
 lessen_noise(qdot_watch *w, double t, double *noise)
 {
-    memcpy(w->in, w->z, 2 * w->n * sizeof *w->in);
-    QDOT_TRY(qdot_watch_value(w, t, w->g)); /* q'' too */
-    qdot_tape_eval(w->sizes, w->in, w->g, w->work);
     for (size_t i = 0; i < w->m; i++) {
         double here;
 
         if (!w->live[i])
             continue;
-        QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, &here));
-        noise[i] = fmin(noise[i], here + 4 * DBL_EPSILON * (w->g[i] + fabs(w->final[i])));
+        QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &here));
+        noise[i] = fmin(noise[i],
+                        here + 4 * DBL_EPSILON * fmin(fabs(w->final[i]), seen_size(w, i)));
     }
     return QDOT_OK;
 }
@@ -109,15 +122,21 @@ is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int node
     return (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
 }
 
-/* The roots of function i on a part that is divided no further. */
+/* The roots of function i on a part that is divided no further, `good` or too short for that. */
 static qdot_status
-roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
+roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
 {
     const size_t before = w->roots.n;
     const int sign = w->now.sign[i];
-    const bool rough = qdot_watch_fit(w, p, i, nodes) == QDOT_PART_MORE_NODES,
-               off = !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
+    bool rough = qdot_watch_fit(w, p, i, nodes) == QDOT_PART_MORE_NODES;
+    const bool off = !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
 
+    if (!good && !rough) {
+        qdot_watch_verdict v;
+
+        QDOT_TRY(qdot_watch_resolve(w, p, i, nodes, &v));
+        rough = v != QDOT_PART_GOOD;
+    }
     if (rough || is_partly_zero(w, p, i, nodes))
         return qdot_watch_rough_roots(w, p, i, nodes);
     QDOT_TRY(qdot_watch_roots(w, p, i));
@@ -126,14 +145,33 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes)
     return qdot_watch_seek_least(w, p, i, nodes);
 }
 
+/* Whether all polynomials of the part show what their functions do. */
+static qdot_status
+resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot_watch_verdict *v)
+{
+    *v = QDOT_PART_GOOD;
+    for (size_t i = 0; i < w->m && *v == QDOT_PART_GOOD; i++) {
+        if (!w->live[i])
+            continue;
+        p->at_end = at_end[i];
+        (void)qdot_watch_fit(w, p, i, nodes); /* it was good */
+        QDOT_TRY(qdot_watch_resolve(w, p, i, nodes, v));
+    }
+    return QDOT_OK;
+}
+
 static qdot_status
 look_at_part(qdot_watch *w, qdot_watch_part *p,
              const double *at_end, qdot_watch_verdict *v)
 {
     int nodes = w->nodes;
+    bool good;
 
-    for (size_t i = 0; i < w->m; i++)
+    for (size_t i = 0; i < w->m; i++) {
         w->noise[i] = NAN;
+        w->n_extrema[i] = QDOT_WATCH_UNKNOWN;
+        w->n_fitted[i] = 0;
+    }
     for (;; nodes *= 2) {
         QDOT_TRY(sample(w, p, nodes));
         *v = judge(w, p, nodes);
@@ -151,9 +189,12 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
             *v = qdot_watch_judge(w, p, nodes);
         }
     }
+    if (*v == QDOT_PART_GOOD)
+        QDOT_TRY(resolve(w, p, at_end, nodes, v));
     if (*v != QDOT_PART_GOOD && !is_short(w, p))
         return QDOT_OK;
-    if (*v != QDOT_PART_GOOD) /* a zero left so slowly that only rounding is seen yet; or it is rough */
+    good = *v == QDOT_PART_GOOD;
+    if (!good) /* a zero left so slowly that only rounding is seen yet; or it is rough */
         QDOT_TRY(find_noise(w, p));
     *v = QDOT_PART_GOOD;
     w->nodes = nodes > LEAST ? nodes : LEAST;
@@ -161,7 +202,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
         if (!w->live[i])
             continue;
         p->at_end = at_end[i];
-        QDOT_TRY(roots_of(w, p, i, nodes));
+        QDOT_TRY(roots_of(w, p, i, nodes, good));
     }
     return QDOT_OK;
 }
@@ -243,9 +284,12 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
             continue;
         }
         middle =
-            p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT ? 0.0625
-                                 : v == QDOT_PART_PARTED  ? QDOT_POLYNOMIAL_BOUNDS_BESIDE
-                                                          : 0.5);
+            p.a + (p.b - p.a) * (v == QDOT_PART_START_CUT   ? 0.0625
+                                 : v == QDOT_PART_START_FAR ? w->cut
+                                 : v == QDOT_PART_PARTED    ? QDOT_POLYNOMIAL_BOUNDS_BESIDE
+                                                            : 0.5);
+        if (v == QDOT_PART_START_FAR && p.a == w->t)
+            w->shortest = fmin(w->shortest, least_of_length * fabs(middle - p.a));
         if (series && parts >= ENOUGH_PARTS && from != w->t) {
             w->reached = from;
             *whole = false;
@@ -372,6 +416,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, w->final));
     w->length = fabs(t - w->t);
+    w->shortest = least_of_length * w->length;
     w->reached = t;
     if (w->all_bounds)
         w->bound_at_step = false;
@@ -557,10 +602,10 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + work + 9 * m +
-                                 QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 2 * work + 10 * m +
+                                 3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
-    int *signs = qdot_calloc(3 * m + 1, sizeof *signs);
+    int *signs = qdot_calloc(5 * m + 1, sizeof *signs);
     bool *flags = qdot_calloc(6 * m + 1, sizeof *flags);
 
     w->in = at;
@@ -575,9 +620,10 @@ make_room(qdot_watch *w)
     w->y = w->in + inputs;
     w->z = w->y + 2 * n;
     w->work = w->z + 2 * n;
-    w->g = w->work + work;
+    w->g = w->work + 2 * work; /* qdot_rounding_bounds needs as much */
     w->moved = w->g + m;
-    w->noise = w->moved + m;
+    w->raw = w->moved + m;
+    w->noise = w->raw + m;
     w->first_noise = w->noise + m;
     w->size = w->first_noise + m;
     w->clear = w->size + m;
@@ -585,9 +631,13 @@ make_room(qdot_watch *w)
     w->start.g0 = w->final + m;
     w->now.g0 = w->start.g0 + m;
     w->samples = w->now.g0 + m;
-    w->ends = w->samples + QDOT_WATCH_NODES * m;
+    w->extrema = w->samples + QDOT_WATCH_NODES * m;
+    w->fitted = w->extrema + QDOT_WATCH_NODES * m;
+    w->ends = w->fitted + QDOT_WATCH_NODES * m;
     w->start.sign = signs + m;
     w->now.sign = signs + 2 * m;
+    w->n_extrema = signs + 3 * m;
+    w->n_fitted = signs + 4 * m;
     w->fresh = flags + m;
     w->start.on = flags + 2 * m;
     w->now.on = flags + 3 * m;

@@ -15,6 +15,10 @@
  * looked for, so that rounding of g just after t_k makes no root. Whether the zero at t_k itself
  * counts depends on the sign before it: a motion that starts on it has none.
  *
+ * A part is also halved where rounding of its polynomial hides a sign that the values show
+ * (watch-resolution.c): a step of any length is searched as far as t resolves it. Values beyond 2^900 count as
+ * that, those that underflow as the least normal number of their sign.
+ *
  * An extremum within rounding of 0, or within the tolerance of the run, is a root without
  * change of sign.
  *
@@ -22,7 +26,7 @@
  * represents it: there, in a part of a few thousand doubles of t, its values alone are looked at
  * (watch-rough.c).
  *
- * Tests  tests/script/events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
+ * Tests  tests/script/event-spans.lag, events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H

@@ -1,0 +1,108 @@
+/* watch-resolution.c -- whether rounding of a part's polynomial hides what the function itself shows.
+ *
+ * A polynomial in Chebyshev's basis has one absolute error on all of its part, a small fraction of the
+ * largest value there. Where a function is less than that, at an end of the part, at a node, at an extremum,
+ * its polynomial has no sign; where it is more than its own rounding, it has one. Then the part is divided:
+ * on a shorter one the function is not so small a part of itself.
+ */
+#include "sim/watch/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* The error of a polynomial, as a fraction of its largest coefficient. */
+static const double error_of_size = 0x1p-46;
+
+int
+qdot_watch_extrema(qdot_watch *w, const qdot_watch_part *p, size_t i, const double **x)
+{
+    double d[QDOT_WATCH_NODES], *to = w->extrema + i * QDOT_WATCH_NODES;
+
+    *x = to;
+    if (w->n_extrema[i] != QDOT_WATCH_UNKNOWN)
+        return w->n_extrema[i] > 0 ? w->n_extrema[i] : 0;
+    w->n_extrema[i] = 0;
+    if (qdot_chebyshev_sign(p->n, p->c) == 0) {
+        qdot_chebyshev_derivative(p->n, p->c, d);
+        w->n_extrema[i] = qdot_chebyshev_crossings(p->n - 1, d, to);
+    }
+    return w->n_extrema[i] > 0 ? w->n_extrema[i] : 0;
+}
+
+/* The size below which the polynomial says nothing. */
+static double
+least_told(const qdot_watch_part *p)
+{
+    return fmax(error_of_size * qdot_chebyshev_size(p->n, p->c), qdot_chebyshev_tail(p->n, p->c));
+}
+
+/* Whether g_i, which is said to be so large at t, is more than rounding. */
+static qdot_status
+is_told(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool *is)
+{
+    double noise;
+
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &noise));
+    noise += p->from_zero ? fabs(w->now.g0[i]) : 0;
+    *is = size > QDOT_WATCH_ROUNDINGS * noise;
+    return QDOT_OK;
+}
+
+/* The doubles of t that the shortest part has. */
+static const double shortest = 0x1p20 * DBL_EPSILON;
+
+/* The fraction to be cut off at the start of the part, where the function is such a fraction of its size. The
+ * next one is at least 16 times as long: however long the step, a few hundred parts come to its end. */
+static double
+start_cut(const qdot_watch *w, const qdot_watch_part *p, double fraction)
+{
+    const double length = fabs(p->b - p->a), cut = fmax(0x1p20 * sqrt(fraction), 0x1p-500),
+                 least = fmax(15 * fabs(p->a - w->t), shortest * fabs(p->a)) / length;
+
+    return fmin(fmax(cut, least), 0.5);
+}
+
+qdot_status
+qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
+                   qdot_watch_verdict *v)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES, *x, least = least_told(p),
+                 start = p->from_zero ? w->now.g0[i] : 0;
+    bool told = false;
+    int n;
+
+    *v = QDOT_PART_GOOD;
+    if (qdot_watch_vanishes(w, p, i))
+        return QDOT_OK;
+    n = qdot_watch_extrema(w, p, i, &x);
+    if (!p->from_zero && fabs(w->now.g0[i]) <= least) {
+        QDOT_TRY(is_told(w, p, i, p->a, fabs(w->now.g0[i]), &told));
+        if (told) {
+            w->cut = start_cut(w, p, fabs(w->now.g0[i]) / qdot_chebyshev_size(p->n, p->c));
+            *v = QDOT_PART_START_FAR;
+            return QDOT_OK;
+        }
+    }
+    if (fabs(p->at_end - start) <= least)
+        QDOT_TRY(is_told(w, p, i, p->b, fabs(p->at_end - start), &told));
+    for (int j = 0; j < nodes && !told; j++) {
+        const double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j)),
+                     value = fabs(g[j] - start);
+
+        if ((p->from_zero ? value * ((p->b - p->a) / (t - p->a)) : value) <= least)
+            QDOT_TRY(is_told(w, p, i, t, value, &told));
+    }
+    for (int e = 0; e < n && !told; e++) {
+        const double t = qdot_watch_time(p, x[e]);
+
+        if (fabs(qdot_chebyshev_at(p->n, p->c, x[e])) > least)
+            continue;
+        QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+        QDOT_TRY(is_told(w, p, i, t, fabs(w->g[i] - start), &told));
+    }
+    if (told || w->n_extrema[i] == -1)
+        *v = QDOT_PART_HALVED;
+    return QDOT_OK;
+}
