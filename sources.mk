@@ -5,6 +5,7 @@ library_sources = \
 	lib/api/motion.c \
 	lib/api/system.c \
 	lib/api/values.c \
+	lib/base/file-lock.c \
 	lib/base/interrupt.c \
 	lib/base/items.c \
 	lib/base/mates.c \
@@ -662,6 +663,7 @@ library_headers = \
 	lib/api/motion.h \
 	lib/api/system.h \
 	lib/base/clock.h \
+	lib/base/file-lock.h \
 	lib/base/interrupt.h \
 	lib/base/items.h \
 	lib/base/memory.h \
@@ -1230,6 +1232,7 @@ program_sources = \
 
 unit_tests = \
 	tests/api/test_api \
+	tests/base/test_file-lock \
 	tests/base/test_items \
 	tests/base/test_memory \
 	tests/base/test_progress \
@@ -1345,6 +1348,7 @@ unit_tests = \
 	tests/show/test_layout \
 	tests/show/test_page-curves \
 	tests/show/test_page \
+	tests/show/test_sink \
 	tests/show/test_table \
 	tests/show/test_trace \
 	tests/sim/test_bordered \
@@ -1504,6 +1508,7 @@ script_tests = \
 	tests/script/json-run.sh \
 	tests/script/json.lag \
 	tests/script/jumps.sh \
+	tests/script/kept-files.sh \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
 	tests/script/long-run.lag \
@@ -2606,6 +2611,7 @@ test_files = \
 	tests/script/json-run.out \
 	tests/script/json.out \
 	tests/script/jumps.out \
+	tests/script/kept-files.out \
 	tests/script/labels.out \
 	tests/script/leading.out \
 	tests/script/long-run.out \

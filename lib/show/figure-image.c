@@ -91,30 +91,68 @@ base_of(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
+/* How the files begin that `keep` leaves: others of these names are not written over. */
+static const char mark[] = "# left by qdot's keep\n";
+
+/* The name as that of a file in its folder: gnuplot reads `|program`, `<program`, `-`, `+` otherwise. */
+static void
+add_file_name(qdot_text *out, const char *name)
+{
+    qdot_text_format(out, "%s%s", strchr("|<>-+ ", name[0]) != NULL ? "./" : "", name);
+}
+
+/* That NAME.gp and NAME.dat are not the user's. */
+static qdot_status
+check_siblings(const char *path)
+{
+    static const char *const endings[] = {".gp", ".dat"};
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < sizeof endings / sizeof *endings && status == QDOT_OK; i++) {
+        qdot_text name = {0};
+
+        add_sibling(&name, path, endings[i]);
+        status = qdot_text_status(&name);
+        if (status == QDOT_OK && !qdot_sink_is_free(name.at, mark)) {
+            qdot_fail(QDOT_EIO, "`%.200s` is there, and was not written by `keep`", name.at);
+            status = qdot_hint("give the figure another name, or move that file away");
+        }
+        qdot_text_clear(&name);
+    }
+    return status;
+}
+
 /* NAME.gp and NAME.dat beside NAME.svg; `gnuplot NAME.gp` in their folder draws it. */
 static qdot_status
 leave_script(const qdot_figure_drawing *like, const char *path)
 {
-    qdot_text script = {0}, data = {0}, script_path = {0}, data_path = {0};
+    qdot_text script = {0}, data = {0}, script_path = {0}, data_path = {0}, image_name = {0},
+              data_name = {0};
     qdot_figure_drawing d = *like;
     qdot_status status;
 
     add_sibling(&script_path, path, ".gp");
     add_sibling(&data_path, path, ".dat");
     status = qdot_text_status(&data_path);
+    add_file_name(&image_name, base_of(path));
+    add_file_name(&data_name, base_of(data_path.at != NULL ? data_path.at : ""));
+    qdot_text_add(&data, mark);
+    qdot_text_add(&script, mark);
     if (status == QDOT_OK)
         status = qdot_figure_add_data(d.figure, &data);
     if (status == QDOT_OK) {
         d.script = &script;
-        d.data = base_of(data_path.at);
+        d.data = qdot_text_str(&data_name);
         add_terminal(&d);
         qdot_text_add(&script, "set output ");
-        qdot_figure_add_quoted(&script, base_of(path));
+        qdot_figure_add_quoted(&script, qdot_text_str(&image_name));
         qdot_text_char(&script, '\n');
         status = qdot_figure_add_script(&d);
     }
     if (status == QDOT_OK)
         status = qdot_text_status(&script_path);
+    if (status == QDOT_OK && (image_name.failed || data_name.failed))
+        status = QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_sink_write(data_path.at, data.at, data.n);
     if (status == QDOT_OK)
@@ -123,6 +161,8 @@ leave_script(const qdot_figure_drawing *like, const char *path)
     qdot_text_clear(&data);
     qdot_text_clear(&script_path);
     qdot_text_clear(&data_path);
+    qdot_text_clear(&image_name);
+    qdot_text_clear(&data_name);
     return status;
 }
 
@@ -145,6 +185,8 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
             return qdot_hint("end its name in .svg, .png or .pdf");
         }
     }
+    if (path != NULL && figure->keep)
+        QDOT_TRY(check_siblings(path));
     QDOT_TRY(qdot_figure_size(figure, &d.width, &d.height, &d.points));
     add_terminal(&d);
     status = qdot_figure_add_script(&d);

@@ -1,10 +1,16 @@
-/* sink.c -- writing a file and hearing of every failure. */
+/* sink.c -- writing a file beside its place and hearing of every failure. */
 #include "show/sink.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/memory.h"
 #include "base/ranks.h"
+#include "base/text.h"
 
 static qdot_status
 lost(const qdot_sink *sink, int reason)
@@ -14,17 +20,104 @@ lost(const qdot_sink *sink, int reason)
     return qdot_fail(QDOT_EIO, "cannot write `%s`: %s", sink->path, strerror(reason));
 }
 
+/* The file that the path names, behind links; *old: what it is now, .st_mode 0: nothing yet. *direct: it is
+ * written itself. */
+static qdot_status
+find_place(qdot_sink *sink, struct stat *old, bool *direct)
+{
+    char *real;
+
+    *old = (struct stat){0};
+    *direct = strncmp(sink->path, "/dev/", 5) == 0 || strncmp(sink->path, "/proc/", 6) == 0;
+    if (*direct)
+        return QDOT_OK;
+    if (stat(sink->path, old) != 0) {
+        if (errno != ENOENT)
+            return lost(sink, errno);
+        *old = (struct stat){0};
+        *direct = lstat(sink->path, &(struct stat){0}) == 0; /* a link to a file to be */
+    } else if (S_ISDIR(old->st_mode)) {
+        return lost(sink, EISDIR);
+    } else if (!S_ISREG(old->st_mode)) {
+        *direct = true;
+    } else if (access(sink->path, W_OK) != 0) {
+        return lost(sink, errno);
+    }
+    if (*direct)
+        return QDOT_OK;
+    real = old->st_mode != 0 ? realpath(sink->path, NULL) : NULL;
+    if (old->st_mode != 0 && real == NULL)
+        return lost(sink, errno);
+    sink->place = qdot_strdup(real != NULL ? real : sink->path);
+    free(real);
+    return sink->place != NULL ? QDOT_OK : QDOT_ENOMEM;
+}
+
+/* A new file in the folder of the place, with a name of its own. */
+static qdot_status
+create_beside(qdot_sink *sink, const struct stat *old)
+{
+    const char *slash = strrchr(sink->place, '/');
+    const int folder = slash != NULL ? (int)(slash + 1 - sink->place) : 0;
+    int fd = -1;
+
+    for (int k = 0; fd < 0; k++) {
+        qdot_text name = {0};
+
+        qdot_text_format(&name, "%.*s.qdot-%ld-%d.part", folder, sink->place, (long)getpid(), k);
+        qdot_free(sink->beside);
+        sink->beside = NULL;
+        if (qdot_text_status(&name) != QDOT_OK) {
+            qdot_text_clear(&name);
+            return QDOT_ENOMEM;
+        }
+        sink->beside = name.at;
+        fd = open(sink->beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST)
+            return lost(sink, errno);
+    }
+    if (old->st_mode != 0)
+        (void)!fchmod(fd, old->st_mode & 07777);
+    sink->file = fdopen(fd, "wb");
+    if (sink->file != NULL)
+        return QDOT_OK;
+    (void)close(fd);
+    return lost(sink, errno);
+}
+
+static void
+forget(qdot_sink *sink)
+{
+    qdot_free(sink->beside);
+    qdot_free(sink->place);
+    sink->beside = sink->place = NULL;
+}
+
 qdot_status
 qdot_sink_open(qdot_sink *sink, const char *path)
 {
+    qdot_status status;
+    struct stat old;
+    bool direct;
+
     *sink = (qdot_sink){.path = path};
     if (path[0] == '\0')
         return qdot_fail(QDOT_EINVAL, "a file needs a name");
-    if (qdot_rank() > 0) /* rank 0 writes */
-        sink->file = fopen("/dev/null", "wbe");
-    else
-        sink->file = strcmp(path, "-") == 0 ? stdout : fopen(path, "wbe");
-    return sink->file != NULL ? QDOT_OK : lost(sink, errno);
+    if (qdot_rank() > 0 || strcmp(path, "-") == 0) { /* rank 0 writes */
+        sink->file = qdot_rank() > 0 ? fopen("/dev/null", "wbe") : stdout;
+        return sink->file != NULL ? QDOT_OK : lost(sink, errno);
+    }
+    status = find_place(sink, &old, &direct);
+    if (status == QDOT_OK && direct) {
+        sink->file = fopen(path, "wbe");
+        if (sink->file == NULL)
+            status = lost(sink, errno);
+    } else if (status == QDOT_OK) {
+        status = create_beside(sink, &old);
+    }
+    if (status != QDOT_OK)
+        qdot_sink_abandon(sink);
+    return status;
 }
 
 qdot_status
@@ -37,6 +130,7 @@ qdot_status
 qdot_sink_close(qdot_sink *sink)
 {
     FILE *file = sink->file;
+    qdot_status status;
     int reason = 0;
 
     sink->file = NULL;
@@ -45,15 +139,24 @@ qdot_sink_close(qdot_sink *sink)
         reason = errno != 0 ? errno : EIO;
     if (file != stdout && fclose(file) != 0 && reason == 0)
         reason = errno;
-    return reason == 0 ? QDOT_OK : lost(sink, reason);
+    if (reason == 0 && sink->place != NULL && rename(sink->beside, sink->place) != 0)
+        reason = errno;
+    status = reason == 0 ? QDOT_OK : lost(sink, reason);
+    if (reason != 0 && sink->beside != NULL)
+        (void)unlink(sink->beside);
+    forget(sink);
+    return status;
 }
 
 void
 qdot_sink_abandon(qdot_sink *sink)
 {
     if (sink->file != NULL && sink->file != stdout)
-        fclose(sink->file);
+        (void)fclose(sink->file);
+    if (sink->file != NULL && sink->beside != NULL)
+        (void)unlink(sink->beside);
     sink->file = NULL;
+    forget(sink);
 }
 
 qdot_status
@@ -68,4 +171,20 @@ qdot_sink_write(const char *path, const char *bytes, size_t length)
         return qdot_sink_close(&sink);
     qdot_sink_abandon(&sink);
     return status;
+}
+
+bool
+qdot_sink_is_free(const char *path, const char *mark)
+{
+    const size_t length = strlen(mark);
+    char head[64];
+    FILE *file = fopen(path, "rbe");
+    bool ours;
+
+    if (file == NULL)
+        return errno == ENOENT;
+    ours = length <= sizeof head && fread(head, 1, length, file) == length
+           && memcmp(head, mark, length) == 0;
+    (void)fclose(file);
+    return ours;
 }

@@ -1,4 +1,12 @@
-/* sink.h -- a file being written, with no failure overlooked. */
+/* sink.h -- a file being written: whole or not at all, with no failure overlooked.
+ *
+ * What is written goes to a file of its own beside PATH, which takes the place of PATH when it is closed with
+ * all of it written: a full disk, Ctrl-C or a crash leave the file that was there. A link is followed and the
+ * permissions of the file that was there are kept. What is no regular file (a pipe, a device) is written as
+ * it is.
+ *
+ * Tests  tests/show/test_sink.c
+ */
 #ifndef QDOT_SHOW_SINK_H
 #define QDOT_SHOW_SINK_H
 
@@ -9,24 +17,30 @@
 typedef struct {
     FILE *file;
     const char *path; /* borrowed; "-" is standard output */
+    char *beside;     /* what is written, to become .. */
+    char *place;      /* .. this file; NULL: it is written itself */
 } qdot_sink;
 
-/* Create or empty the file. QDOT_EIO with the system's reason; QDOT_EINVAL for an
- * empty path. */
+/* Begin. QDOT_EIO with the system's reason; QDOT_EINVAL for an empty path; QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_sink_open(qdot_sink *sink, const char *path);
 
 /* Append `length` bytes. On QDOT_EIO the sink is still to be closed. */
 QDOT_MUST_CHECK qdot_status qdot_sink_put(qdot_sink *sink, const char *bytes,
                                           size_t length);
 
-/* Write out what is buffered and close; QDOT_EIO if anything was lost (a full disk). */
+/* Write out what is buffered, close, and put the file into its place; QDOT_EIO if anything was lost (a full
+ * disk): then what was there before stays. */
 QDOT_MUST_CHECK qdot_status qdot_sink_close(qdot_sink *sink);
 
-/* Close after another failure, which stays the last error. */
+/* Close after another failure, which stays the last error; what was there before stays. */
 void qdot_sink_abandon(qdot_sink *sink);
 
 /* A whole file of `length` bytes: opened, put, closed. Errors as theirs. */
 QDOT_MUST_CHECK qdot_status qdot_sink_write(const char *path, const char *bytes,
                                             size_t length);
+
+/* Whether a file that no statement named may be written: there is none, or it begins with `mark`, as all that are
+ * written so do. */
+bool qdot_sink_is_free(const char *path, const char *mark);
 
 #endif

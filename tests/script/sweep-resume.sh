@@ -26,3 +26,17 @@ head -c 3000 rows.h5 >short.h5
 qdot -q scene.lag -e "$sweep resume \"short.h5\"" 2>&1
 qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "rows.csv"' 2>&1
 qdot -q scene.lag -e 'sweep th1 = 0..1 count 2 run 0..1 : th2 resume "/nowhere/rows.h5"' 2>&1 | head -1
+echo '# a byte that is not the one written'
+python3 -c '
+data = bytearray(open("rows.h5", "rb").read())
+data[len(data) // 2] ^= 1
+open("odd.h5", "wb").write(data)' 2>/dev/null || { dd if=rows.h5 of=odd.h5 2>/dev/null; printf 'x' | dd of=odd.h5 bs=1 seek=$(($(wc -c <rows.h5) / 2)) conv=notrunc 2>/dev/null; }
+qdot -q scene.lag -e "$sweep resume \"odd.h5\"" 2>&1
+echo '# two at a time'
+long='sweep th1 = -3..3 count 4000 run 0..30 tol 1e-12 : th2'
+qdot -q scene.lag -e "$long threads 1 resume \"two.h5\"" >/dev/null 2>&1 &
+until [ -f two.h5 ]; do sleep 0.05; done
+qdot -q scene.lag -e "$long resume \"two.h5\"" 2>&1
+kill -KILL $!
+wait $! 2>/dev/null
+ls two.h5*

@@ -2,8 +2,8 @@
 #include "lang/sweeps/sweep-file.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -12,31 +12,79 @@
 
 static const char fact[] = "sweep";
 
+/* --- its checksum --------------------------------------------------------------------- */
+
+/* FNV-1a, 64 bits (Fowler, Noll & Vo). */
+static const uint64_t sum_of_nothing = 14695981039346656037u;
+
+static void
+add_bytes(uint64_t *sum, const void *bytes, size_t n)
+{
+    const unsigned char *at = bytes;
+
+    for (size_t i = 0; i < n; i++)
+        *sum = (*sum ^ at[i]) * 1099511628211u;
+}
+
+static void
+add_number(uint64_t *sum, double x)
+{
+    uint64_t bits;
+
+    x = isnan(x) ? NAN : x; /* of many representations */
+    memcpy(&bits, &x, sizeof bits);
+    for (int k = 0; k < 64; k += 8) {
+        const unsigned char byte = (unsigned char)(bits >> k);
+
+        add_bytes(sum, &byte, 1);
+    }
+}
+
+/* What the sweep said, and the checksum of it and of the rows. */
+static qdot_status
+sign(const char *said, uint64_t sum, qdot_text *out)
+{
+    add_bytes(&sum, said, strlen(said));
+    qdot_text_format(out, "%s\nchecksum %016" PRIx64, said, sum);
+    return qdot_text_status(out);
+}
+
 /* --- written -------------------------------------------------------------------------- */
+
+static uint64_t
+sum_columns(const qdot_row_columns *x)
+{
+    uint64_t sum = sum_of_nothing;
+
+    for (size_t i = 0; i < x->rows; i++) {
+        for (size_t j = 0; j < x->n; j++)
+            add_number(&sum, x->columns[j].at[i]);
+        add_bytes(&sum, x->texts[x->n][i], strlen(x->texts[x->n][i]) + 1);
+    }
+    return sum;
+}
 
 qdot_status
 qdot_sweep_file_keep(const qdot_row_table *t, const bool *done, const char *said,
                      const char *path)
 {
-    const qdot_data_fact facts[] = {{"program", PACKAGE_STRING, 0}, {fact, said, 0}};
-    qdot_text beside = {0};
+    qdot_text signed_text = {0};
     qdot_row_columns x = {0};
     qdot_status status = qdot_row_columns_fill(t, done, &x);
 
-    qdot_text_format(&beside, "%s.part", path);
     if (status == QDOT_OK)
-        status = qdot_text_status(&beside);
+        status = sign(said, sum_columns(&x), &signed_text);
     if (status == QDOT_OK) {
+        const qdot_data_fact facts[] = {{"program", PACKAGE_STRING, 0},
+                                        {fact, qdot_text_str(&signed_text), 0}};
         const qdot_data data = {.title = t->name, .columns = x.n + 1, .rows = x.rows,
                                 .column = x.columns, .texts = (char *const *const *)x.texts,
                                 .n_facts = 2, .facts = facts};
 
-        status = qdot_data_hdf5(&data, beside.at);
+        status = qdot_data_hdf5(&data, path);
     }
-    if (status == QDOT_OK && rename(beside.at, path) != 0)
-        status = qdot_fail(QDOT_EIO, "%.200s cannot be written: %s", path, strerror(errno));
     qdot_row_columns_free(&x);
-    qdot_text_clear(&beside);
+    qdot_text_clear(&signed_text);
     return status;
 }
 
@@ -73,18 +121,47 @@ take_rows(const qdot_data_columns *from, const char *path, qdot_row_table *t, bo
     return QDOT_OK;
 }
 
+static uint64_t
+sum_read(const qdot_data_columns *from)
+{
+    const size_t n = from->at.n - 1;
+    const qdot_data_read_column *reasons = &from->at.at[n];
+    uint64_t sum = sum_of_nothing;
+
+    for (size_t i = 0; i < from->rows; i++) {
+        const char *reason = reasons->bytes + i * reasons->size;
+
+        for (size_t j = 0; j < n; j++)
+            add_number(&sum, qdot_data_read_number(&from->at.at[j], i));
+        add_bytes(&sum, reason, strlen(reason) + 1);
+    }
+    return sum;
+}
+
+/* That the file is of this sweep, with its rows as they were written. */
 static qdot_status
 check(const qdot_data_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {
-    const size_t n = 1 + qdot_row_columns_count(t) + 1; /* rows, numbers, reasons */
-    bool good = from->at.n == n && strcmp(qdot_text_str(&from->text), said) == 0;
+    const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said); /* rows, numbers, reasons */
+    const char *text = qdot_text_str(&from->text);
+    bool good = from->at.n == n && strncmp(text, said, length) == 0
+                && (text[length] == '\0' || text[length] == '\n');
+    qdot_text signed_text = {0};
+    qdot_status status;
 
     for (size_t i = 0; i < n && good; i++)
         good = (from->at.at[i].size > 0) == (i + 1 == n);
-    if (good)
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_EINVAL, "%.200s holds the rows of another sweep, or of another scene", path);
-    return qdot_hint("give another name, or remove the file");
+    if (!good) {
+        (void)qdot_fail(QDOT_EINVAL, "%.200s holds the rows of another sweep, or of another scene", path);
+        return qdot_hint("give another name, or remove the file");
+    }
+    status = sign(said, sum_read(from), &signed_text);
+    if (status == QDOT_OK && strcmp(text, signed_text.at) != 0) {
+        (void)qdot_fail(QDOT_EINVAL, "%.200s is damaged: its rows are not those that were written", path);
+        status = qdot_hint("remove the file; its rows are made anew");
+    }
+    qdot_text_clear(&signed_text);
+    return status;
 }
 
 qdot_status

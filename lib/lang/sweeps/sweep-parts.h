@@ -3,6 +3,7 @@
 #ifndef QDOT_LANG_SWEEP_PARTS_H
 #define QDOT_LANG_SWEEP_PARTS_H
 
+#include "base/file-lock.h"
 #include "lang/sweeps/columns.h"
 #include "lang/sweeps/members.h"
 #include "lang/session/row-tables.h"
@@ -15,6 +16,7 @@ typedef struct {
     long threads;     /* processes at work at once; 0: as many as there are processors */
     const char *path; /* of the file that keeps the rows; NULL: none */
     const qdot_token *path_at;
+    qdot_file_lock lock; /* of it */
     qdot_text said;   /* what it is known by in that file */
     qdot_row_table *table;
     bool *done;       /* [members] */

@@ -273,6 +273,7 @@ begin_rows(qdot_sweep *s)
     if (s->path == NULL || qdot_rank() > 0)
         return QDOT_OK;
     s->c->error_at = s->path_at->start;
+    QDOT_TRY(qdot_file_lock_acquire(s->path, &s->lock));
     QDOT_TRY(qdot_sweep_file_take(s->path, qdot_text_str(&s->said), s->table, s->done));
     for (size_t k = 0; k < members; k++) {
         s->failed += s->done[k] && s->table->reasons[k] != NULL;

@@ -266,6 +266,7 @@ carry_out(qdot_cursor *c, qdot_sweep *s)
 static void
 sweep_free(qdot_sweep *s)
 {
+    qdot_file_lock_release(&s->lock);
     qdot_row_table_release(s->table);
     qdot_members_free(&s->members);
     qdot_columns_free(&s->columns);

@@ -1,0 +1,76 @@
+/* file-lock.c -- a record lock of POSIX on a file beside the other. */
+#include "base/file-lock.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+
+static qdot_status
+refuse(const char *path, int reason)
+{
+    if (reason == EACCES || reason == EAGAIN) {
+        qdot_fail(QDOT_EIO, "another process works with `%.200s`", path);
+        return qdot_hint("wait for it, or give another name");
+    }
+    return qdot_fail(QDOT_EIO, "cannot lock `%.200s`: %s", path, strerror(reason));
+}
+
+/* Lock the file of that descriptor; *gone: it has been removed since it was opened. errno on failure. */
+static int
+lock_whole(const char *path, int fd, bool *gone)
+{
+    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    struct stat held, now;
+
+    if (fcntl(fd, F_SETLK, &all) != 0 || fstat(fd, &held) != 0)
+        return errno;
+    *gone = stat(path, &now) != 0 || now.st_ino != held.st_ino || now.st_dev != held.st_dev;
+    if (held.st_size > 0) /* it is not ours */
+        return EEXIST;
+    return 0;
+}
+
+qdot_status
+qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
+{
+    qdot_text name = {0};
+    int failed = 0;
+    bool gone = true;
+
+    *lock = (qdot_file_lock){.fd = -1};
+    qdot_text_format(&name, "%s.lock", path);
+    if (qdot_text_status(&name) != QDOT_OK) {
+        qdot_text_clear(&name);
+        return QDOT_ENOMEM;
+    }
+    while (gone && failed == 0) {
+        const int fd = open(name.at, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+
+        gone = false;
+        failed = fd < 0 ? (errno == EACCES ? EPERM : errno) : lock_whole(name.at, fd, &gone);
+        if (failed == 0 && !gone)
+            *lock = (qdot_file_lock){name.at, fd};
+        else if (fd >= 0)
+            (void)close(fd);
+    }
+    if (lock->path != NULL)
+        return QDOT_OK;
+    qdot_text_clear(&name);
+    return refuse(path, failed);
+}
+
+void
+qdot_file_lock_release(qdot_file_lock *lock)
+{
+    if (lock->path == NULL)
+        return;
+    (void)unlink(lock->path); /* while it is held */
+    (void)close(lock->fd);
+    qdot_free(lock->path);
+    *lock = (qdot_file_lock){0};
+}
