@@ -1327,6 +1327,7 @@ unit_tests = \
 	tests/ode/test_taylor \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
+	tests/reliability/test_failures \
 	tests/series/test_lanes-code \
 	tests/series/test_lanes-motion \
 	tests/series/test_lanes \
@@ -2049,7 +2050,9 @@ meta_tests = \
 	tests/meta/ranks.test \
 	tests/meta/sources.test \
 	tests/meta/symbols.test \
-	tests/meta/words.test
+	tests/meta/words.test \
+	tests/reliability/hashes.test \
+	tests/reliability/interrupts.test
 
 test_files = \
 	tests/bad/acceleration-position.out \
@@ -2748,7 +2751,9 @@ test_files = \
 	tests/fuzz/fuzz-roundtrip.c \
 	tests/fuzz/packages \
 	tests/fuzz/run \
-	tests/fuzz/words.dict
+	tests/fuzz/words.dict \
+	tests/reliability/coverage \
+	tests/reliability/interrupts.py
 
 other_files = \
 	bench/chain-equations.lag \
@@ -2810,6 +2815,7 @@ other_files = \
 	bench/symbolic/sympy-peer.py \
 	doc/design.md \
 	doc/double-pendulum.png \
+	doc/measurements.md \
 	doc/methods.md \
 	examples/embed.c \
 	examples/embed.py \

@@ -59,6 +59,7 @@ create_beside(qdot_sink *sink, const struct stat *old)
 {
     const char *slash = strrchr(sink->place, '/');
     const int folder = slash != NULL ? (int)(slash + 1 - sink->place) : 0;
+    qdot_status status;
     int fd = -1;
 
     for (int k = 0; fd < 0; k++) {
@@ -81,8 +82,10 @@ create_beside(qdot_sink *sink, const struct stat *old)
     sink->file = fdopen(fd, "wb");
     if (sink->file != NULL)
         return QDOT_OK;
+    status = lost(sink, errno);
     (void)close(fd);
-    return lost(sink, errno);
+    (void)unlink(sink->beside);
+    return status;
 }
 
 static void

@@ -12,7 +12,7 @@ cp good.lag before.lag
     ulimit -f 0
     trap '' XFSZ
     qdot -q scene.lag -e 'start x = 2' -e 'save session to "good.lag"' 2>&1
-) | grep error
+) | grep error:
 cmp good.lag before.lag && echo 'it is as it was'
 ls -A | grep '[.]part$'
 echo '# data of the user'
