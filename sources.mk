@@ -59,11 +59,15 @@ library_sources = \
 	lib/lang/ask/components.c \
 	lib/lang/ask/derive.c \
 	lib/lang/ask/equilibria.c \
+	lib/lang/commands/definition-check.c \
+	lib/lang/commands/definition-statement.c \
+	lib/lang/commands/loop-index.c \
 	lib/lang/commands/loop.c \
 	lib/lang/commands/operands.c \
 	lib/lang/commands/pairs.c \
 	lib/lang/commands/scale.c \
 	lib/lang/commands/set.c \
+	lib/lang/commands/statement-form.c \
 	lib/lang/commands/statement.c \
 	lib/lang/commands/usage.c \
 	lib/lang/commands/value-check.c \
@@ -141,10 +145,12 @@ library_sources = \
 	lib/lang/session/conditions.c \
 	lib/lang/session/event-time.c \
 	lib/lang/session/function-body.c \
+	lib/lang/session/held.c \
 	lib/lang/session/labels.c \
 	lib/lang/session/measured.c \
 	lib/lang/session/member.c \
 	lib/lang/session/mixture.c \
+	lib/lang/session/momenta.c \
 	lib/lang/session/names.c \
 	lib/lang/session/range.c \
 	lib/lang/session/row-columns.c \
@@ -703,10 +709,14 @@ library_headers = \
 	lib/lang/answer/write.h \
 	lib/lang/ask/ask.h \
 	lib/lang/ask/components.h \
+	lib/lang/commands/definition-check.h \
+	lib/lang/commands/definition-parts.h \
+	lib/lang/commands/loop-index.h \
 	lib/lang/commands/loop.h \
 	lib/lang/commands/operands.h \
 	lib/lang/commands/pairs.h \
 	lib/lang/commands/set.h \
+	lib/lang/commands/statement-form.h \
 	lib/lang/commands/statement.def \
 	lib/lang/commands/statement.h \
 	lib/lang/commands/usage.h \
@@ -768,10 +778,12 @@ library_headers = \
 	lib/lang/session/conditions.h \
 	lib/lang/session/event-time.h \
 	lib/lang/session/function-body.h \
+	lib/lang/session/held.h \
 	lib/lang/session/labels.h \
 	lib/lang/session/measured.h \
 	lib/lang/session/member.h \
 	lib/lang/session/mixture.h \
+	lib/lang/session/momenta.h \
 	lib/lang/session/names.h \
 	lib/lang/session/range.h \
 	lib/lang/session/row-columns.h \
@@ -1451,6 +1463,7 @@ script_tests = \
 	tests/script/doubts.sh \
 	tests/script/end-errors.sh \
 	tests/script/equal-arguments.lag \
+	tests/script/equations.lag \
 	tests/script/equilibria.lag \
 	tests/script/error-function.lag \
 	tests/script/errors-known.sh \
@@ -1517,6 +1530,7 @@ script_tests = \
 	tests/script/long-time-methods.lag \
 	tests/script/long-time-momenta.lag \
 	tests/script/longtime.sh \
+	tests/script/loops-over-declared.lag \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
 	tests/script/mass-in-time.lag \
@@ -1543,6 +1557,7 @@ script_tests = \
 	tests/script/mechanism-top.lag \
 	tests/script/modes-order.lag \
 	tests/script/modes.lag \
+	tests/script/momenta-in-names.lag \
 	tests/script/moving.lag \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
@@ -1672,6 +1687,7 @@ script_tests = \
 	tests/bad/curvature-none.lag \
 	tests/bad/define-coordinate.lag \
 	tests/bad/defined-by-itself.lag \
+	tests/bad/definition-hides.sh \
 	tests/bad/digits-constraint.lag \
 	tests/bad/digits-cusp.lag \
 	tests/bad/digits-domain.lag \
@@ -1751,8 +1767,12 @@ script_tests = \
 	tests/bad/later.sh \
 	tests/bad/log-zero.lag \
 	tests/bad/lone-point.lag \
+	tests/bad/loop-derivative.lag \
 	tests/bad/loop-half.lag \
+	tests/bad/loop-index-nowhere.lag \
 	tests/bad/loop-limit.lag \
+	tests/bad/loop-outside-domain.lag \
+	tests/bad/loop-parameter-nowhere.lag \
 	tests/bad/loop-too-long.lag \
 	tests/bad/lyapunov-domain.lag \
 	tests/bad/lyapunov-ending.lag \
@@ -2096,6 +2116,7 @@ test_files = \
 	tests/bad/curvature-none.out \
 	tests/bad/define-coordinate.out \
 	tests/bad/defined-by-itself.out \
+	tests/bad/definition-hides.out \
 	tests/bad/digits-constraint.out \
 	tests/bad/digits-cusp.out \
 	tests/bad/digits-domain.out \
@@ -2175,8 +2196,12 @@ test_files = \
 	tests/bad/later.out \
 	tests/bad/log-zero.out \
 	tests/bad/lone-point.out \
+	tests/bad/loop-derivative.out \
 	tests/bad/loop-half.out \
+	tests/bad/loop-index-nowhere.out \
 	tests/bad/loop-limit.out \
+	tests/bad/loop-outside-domain.out \
+	tests/bad/loop-parameter-nowhere.out \
 	tests/bad/loop-too-long.out \
 	tests/bad/lyapunov-domain.out \
 	tests/bad/lyapunov-ending.out \
@@ -2542,6 +2567,7 @@ test_files = \
 	tests/script/end-errors.inc \
 	tests/script/end-errors.out \
 	tests/script/equal-arguments.out \
+	tests/script/equations.out \
 	tests/script/equilibria.out \
 	tests/script/error-function.out \
 	tests/script/errors-known.out \
@@ -2622,6 +2648,7 @@ test_files = \
 	tests/script/long-time-methods.out \
 	tests/script/long-time-momenta.out \
 	tests/script/longtime.out \
+	tests/script/loops-over-declared.out \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
 	tests/script/mass-in-time.out \
@@ -2648,6 +2675,7 @@ test_files = \
 	tests/script/mechanism-top.out \
 	tests/script/modes-order.out \
 	tests/script/modes.out \
+	tests/script/momenta-in-names.out \
 	tests/script/moving.out \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \

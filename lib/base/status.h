@@ -54,7 +54,7 @@ qdot_grave(qdot_status status)
 typedef struct {
     qdot_status status;
     char message[512];
-    char hint[256]; /* "" where there is none */
+    char hint[1024]; /* "" where there is none */
 } qdot_error;
 
 /* Record a failure with its message (printf) and no hint; returns `status`. */

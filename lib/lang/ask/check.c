@@ -14,7 +14,9 @@
 #include "lang/functions/equilibria.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/held.h"
 #include "lang/session/measured.h"
+#include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/inequality/contradiction.h"
@@ -370,6 +372,36 @@ all_known(qdot_session *session, const qdot_assumed *f, const question *q)
                         q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
 }
 
+/* Momenta on one side and velocities on the other, or in what is assumed: all in velocities. */
+static qdot_status
+meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
+{
+    const qdot_expr sides[] = {q->left, q->right};
+    qdot_vec(qdot_expr) list = {0};
+    qdot_status status = QDOT_OK;
+
+    if (!((qdot_expr_node(session->pool, q->left)->holds |
+           qdot_expr_node(session->pool, q->right)->holds) & QDOT_HAS_MOMENTUM))
+        return QDOT_OK;
+    for (size_t i = 0; i < 2 && status == QDOT_OK; i++)
+        status = qdot_vec_push(&list, sides[i]);
+    for (size_t i = 0; i < f->relations.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&list, f->relations.at[i]);
+    for (size_t i = 0; i < f->conditions.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&list, f->conditions.at[i]);
+    for (size_t i = 0; i < f->from.n && status == QDOT_OK; i++)
+        if (!f->motion || !(qdot_expr_node(session->pool, f->from.at[i])->holds &
+                            (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)))
+            status = qdot_vec_push(&list, qdot_rel(session->pool, QDOT_EQ, f->from.at[i], f->to.at[i]));
+    if (status == QDOT_OK && qdot_momenta_meet(session, (uint32_t)list.n, list.at)) {
+        q->left = qdot_momenta_to_velocities(session, q->left);
+        q->right = qdot_momenta_to_velocities(session, q->right);
+        status = qdot_assumed_in_velocities(session, f);
+    }
+    qdot_free(list.at);
+    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
+}
+
 static qdot_status
 answer(qdot_cursor *c, question *q, qdot_assumed *f)
 {
@@ -381,6 +413,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
     bool measured;
 
     unwrap(pool, &q->left, &q->right);
+    QDOT_TRY(meet_velocities(session, q, f));
     measured =
         qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
     if (measured && q->how == EQUAL && !q->within) {
@@ -461,6 +494,8 @@ answer_conserved(qdot_cursor *c, question *q, qdot_assumed *f)
     bool done, jumps;
     qdot_status status;
 
+    q->left = qdot_momenta_to_velocities(session, q->left);
+    QDOT_TRY(qdot_pool_check(session->pool));
     QDOT_TRY(qdot_jumps(session->pool, q->left, QDOT_HAS_TIME, &jumps));
     if (!jumps) {
         QDOT_TRY(answer_by_rate(session, q, f, &done));
@@ -493,6 +528,12 @@ qdot_check(qdot_cursor *c)
 
     if (status == QDOT_OK)
         status = read_question(c, &q, &f);
+    if (status == QDOT_OK && q.conserved && qdot_held_coordinate(c->session)) {
+        c->error_at = start->start;
+        status = qdot_fail(QDOT_EINVAL, "what is conserved is so along the motion: no coordinate is held");
+    }
+    if (status == QDOT_OK && c->session->held.n > 0)
+        status = qdot_assumed_hold(c->session, &f);
     if (status == QDOT_OK && q.integrable) {
         status = qdot_constraints_check_integrable(c, q.not);
     } else if (status == QDOT_OK) {

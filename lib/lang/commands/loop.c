@@ -4,16 +4,43 @@
 #include "base/interrupt.h"
 #include "lang/language/read.h"
 #include "lang/session/bind.h"
+#include "lang/session/held.h"
+
+/* What a value of an index may not hold to be that of a parameter or coordinate. */
+static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
+                               QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER |
+                               QDOT_HAS_DIFFERENTIAL | QDOT_HAS_DELTA;
 
 /* Bind what index i stands at. */
 static qdot_status
 bind(qdot_loop *loop, qdot_loop_index *index)
 {
-    qdot_expr value = index->listed ? index->values.at[index->next]
-                                    : qdot_expr_int(loop->session->pool, index->at);
+    qdot_session *session = loop->session;
+    const qdot_name *known = qdot_names_find(session->names, index->name);
+    const qdot_expr value = index->listed ? index->values.at[index->next]
+                                          : qdot_expr_int(session->pool, index->at);
 
-    QDOT_TRY(qdot_pool_check(loop->session->pool));
-    return qdot_names_push(loop->session->names, index->name, value);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    index->held = known != NULL &&
+                  (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD) &&
+                  qdot_expr_is_scalar(session->pool, value) &&
+                  !(qdot_expr_node(session->pool, value)->holds & moving);
+    if (index->held)
+        QDOT_TRY(qdot_held_begin(session, known->value, value));
+    if (qdot_names_push(session->names, index->name, value) == QDOT_OK)
+        return QDOT_OK;
+    if (index->held)
+        qdot_held_end(session);
+    return qdot_last_error()->status;
+}
+
+static void
+unbind(qdot_loop *loop, qdot_loop_index *index)
+{
+    qdot_names_pop(loop->session->names);
+    if (index->held)
+        qdot_held_end(loop->session);
+    index->held = false;
 }
 
 static void
@@ -82,7 +109,7 @@ advance(qdot_loop *loop, bool *more)
     while (loop->indices.n > 0) {
         qdot_loop_index *index = &loop->indices.at[loop->indices.n - 1];
 
-        qdot_names_pop(loop->session->names);
+        unbind(loop, index);
         if (index->listed ? index->next + 1 < index->values.n : index->at < index->last) {
             qdot_status status;
 
@@ -125,7 +152,7 @@ descend(qdot_loop *loop, qdot_cursor *c, bool *more)
             status = qdot_vec_push(&loop->indices, index);
             if (status == QDOT_OK)
                 continue;
-            qdot_names_pop(loop->session->names);
+            unbind(loop, &index);
         }
         drop_index(&index);
         QDOT_TRY(status);
@@ -178,7 +205,7 @@ void
 qdot_loop_end(qdot_loop *loop)
 {
     while (loop->indices.n > 0) {
-        qdot_names_pop(loop->session->names);
+        unbind(loop, &loop->indices.at[loop->indices.n - 1]);
         drop_index(&loop->indices.at[--loop->indices.n]);
     }
     qdot_free(loop->indices.at);

@@ -11,6 +11,7 @@ typedef struct {
     long at, last;
     qdot_vec(qdot_expr) values;
     size_t next;
+    bool held; /* a declared parameter or coordinate, which has the value for the pass */
 } qdot_loop_index;
 
 typedef struct {

@@ -22,6 +22,12 @@ qdot_statement_declares(const qdot_statement *row)
     return strcmp(row->group, DECLARE) == 0;
 }
 
+bool
+qdot_statement_asks(const qdot_statement *row)
+{
+    return strcmp(row->group, ASK) == 0;
+}
+
 const qdot_statement *
 qdot_statement_at(size_t i)
 {

@@ -25,6 +25,8 @@ const qdot_statement *qdot_statement_find(const char *word);
 const qdot_statement *qdot_statement_at(size_t i);
 /* Whether it declares a scene. */
 bool qdot_statement_declares(const qdot_statement *row);
+/* Whether it asks of the scene or of an expression, not of a run. */
+bool qdot_statement_asks(const qdot_statement *row);
 
 /* The handlers. Adding a statement is adding its row and its handler. */
 #define ROW(word, group, usage, summary, example, handler, alone)                        \

@@ -12,28 +12,19 @@ static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACC
 
 /* --- definitions ---------------------------------------------------------------------- */
 
-/* Names that a definition is given in place of a statement. */
+/* Values of the language that a definition is given in place of a statement. */
 static const struct {
     const char *name;
     const char *statement; /* its word; NULL: none takes this value, which follows from masses */
-    const char *behind;    /* what stands behind the expression */
-    bool any;              /* whatever the value is; else one that holds coordinates or velocities */
 } names[] = {
-    {"V", "potential", "", false},
-    {"potential_energy", "potential", "", false},
-    {"potential", "potential", "", true},
-    {"L", "lagrangian", "", false},
-    {"lagrange_function", "lagrangian", "", false},
-    {"lagrangian", "lagrangian", "", true},
-    {"gravity", "gravity", "", true},
-    {"dissipation", "dissipation", "", true},
-    {"force", "force", " on NAME", true},
-    {"torque", "torque", " on NAME", true},
-    {"T", NULL, "", false},
-    {"kinetic", NULL, "", false},
-    {"H", NULL, "", false},
-    {"hamiltonian", NULL, "", false},
-    {"energy", NULL, "", false},
+    {"V", "potential"},
+    {"potential_energy", "potential"},
+    {"L", "lagrangian"},
+    {"lagrange_function", "lagrangian"},
+    {"T", NULL},
+    {"kinetic", NULL},
+    {"H", NULL},
+    {"energy", NULL},
 };
 
 /* Whether the scene has masses or a Lagrangian: its equations follow from what is declared. */
@@ -59,7 +50,7 @@ add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, s
         return;
     }
     if ((strcmp(word, "lagrangian") == 0 && is_furnished(s)) ||
-        (stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0))) {
+        (stated && strcmp(word, "potential") == 0)) {
         qdot_text_add(text, ": these follow from what is declared");
         return;
     }
@@ -70,7 +61,7 @@ add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, s
         qdot_token_text(c->session, start, equals, text);
     else
         qdot_token_text(c->session, equals + 1, c->at, text);
-    qdot_text_format(text, "%s` does", names[row].behind);
+    qdot_text_add(text, "` does");
 }
 
 static qdot_status
@@ -109,8 +100,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i].name, entry->name) == 0 &&
             (function || entry->kind == QDOT_NAME_VALUE) &&
-            (function || names[i].any ||
-             (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
+            (function || (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
             (names[i].statement != NULL || !is_furnished(session->scene)))
             return tell(c, start, entry, i, words);
     if (hidden == NULL && (qdot_builtin_find(entry->name) == NULL ||

@@ -6,6 +6,8 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "lang/language/read.h"
+#include "lang/session/held.h"
+#include "lang/session/momenta.h"
 
 void
 qdot_assumed_free(qdot_assumed *f)
@@ -159,6 +161,44 @@ qdot_assumed_motion(qdot_session *session, qdot_assumed *f)
             QDOT_TRY(qdot_vec_push(&f->relations, equation));
     }
     return QDOT_OK;
+}
+
+qdot_status
+qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f)
+{
+    qdot_pool *pool = session->pool;
+    size_t kept = 0;
+
+    for (size_t i = 0; i < f->from.n; i++) {
+        qdot_expr to = qdot_momenta_to_velocities(session, f->to.at[i]);
+
+        if (qdot_expr_is_class(pool, f->from.at[i], QDOT_MOMENTUM)) {
+            qdot_expr p = qdot_momenta_to_velocities(session, f->from.at[i]);
+
+            QDOT_TRY(qdot_vec_push(&f->relations, qdot_sub(pool, p, to)));
+        } else {
+            f->from.at[kept] = f->from.at[i];
+            f->to.at[kept++] = to;
+        }
+    }
+    f->from.n = f->to.n = kept;
+    for (size_t i = 0; i < f->relations.n; i++)
+        f->relations.at[i] = qdot_momenta_to_velocities(session, f->relations.at[i]);
+    for (size_t i = 0; i < f->conditions.n; i++)
+        f->conditions.at[i] = qdot_momenta_to_velocities(session, f->conditions.at[i]);
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_assumed_hold(qdot_session *session, qdot_assumed *f)
+{
+    for (size_t i = 0; i < f->relations.n; i++)
+        f->relations.at[i] = qdot_held_apply(session, f->relations.at[i]);
+    for (size_t i = 0; i < f->conditions.n; i++)
+        f->conditions.at[i] = qdot_held_apply(session, f->conditions.at[i]);
+    for (size_t i = 0; i < f->to.n; i++)
+        f->to.at[i] = qdot_held_apply(session, f->to.at[i]);
+    return qdot_pool_check(session->pool);
 }
 
 qdot_status

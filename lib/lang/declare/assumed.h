@@ -22,6 +22,10 @@ QDOT_MUST_CHECK qdot_status qdot_assumed_motion(qdot_session *session, qdot_assu
 /* Constraint i and its time derivatives, with or without the one that holds accelerations. */
 QDOT_MUST_CHECK qdot_status qdot_assumed_constraint(qdot_session *session, qdot_assumed *f,
                                                     size_t i, bool accelerations);
+/* Every momentum in them as dL/dq'; one that was replaced becomes a relation. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_in_velocities(qdot_session *session, qdot_assumed *f);
+/* Put in what loops hold at a value. */
+QDOT_MUST_CHECK qdot_status qdot_assumed_hold(qdot_session *session, qdot_assumed *f);
 /* e with the replacements made. */
 qdot_expr qdot_assumed_replace(qdot_session *session, const qdot_assumed *f, qdot_expr e);
 

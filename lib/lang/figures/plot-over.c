@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "lang/commands/loop-index.h"
 #include "lang/commands/loop.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/language/read.h"
@@ -65,22 +66,18 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* The parameters of these names replaced by the values of the loop's indices. */
-static qdot_expr
-replace_indices(qdot_session *session, const qdot_loop *loop, qdot_expr e,
-                qdot_text *label)
+/* ", l = 1": the values of the loop's indices. */
+static qdot_status
+add_indices(qdot_session *session, const qdot_loop *loop, qdot_text *label)
 {
     for (size_t i = 0; loop != NULL && i < loop->indices.n; i++) {
         const char *name = loop->indices.at[i].name;
-        qdot_expr param = qdot_symbol_get(session->pool, QDOT_PARAM, name);
-        qdot_expr value = qdot_names_find(session->names, name)->value;
 
-        e = qdot_subs(session->pool, e, 1, &param, &value);
         qdot_text_format(label, ", %s = ", name);
-        if (qdot_print(session->pool, value, QDOT_PLAIN, label) != QDOT_OK)
-            return qdot_pool_fail(session->pool);
+        QDOT_TRY(qdot_print(session->pool, qdot_names_find(session->names, name)->value,
+                            QDOT_PLAIN, label));
     }
-    return e;
+    return QDOT_OK;
 }
 
 /* One expression as a curve; behind it stands what is to be read next. */
@@ -98,8 +95,7 @@ curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_p
     c->error_at = start->start;
     qdot_token_text_written(session, start, c->at, &axis);
     qdot_text_add(&label, qdot_text_str(&axis));
-    e = replace_indices(session, loop, e, &label);
-    status = qdot_pool_check(session->pool);
+    status = add_indices(session, loop, &label);
     if (status == QDOT_OK)
         status = qdot_text_status(&axis);
     if (status == QDOT_OK)
@@ -186,6 +182,12 @@ loop_over(qdot_cursor *c, const variable *v, qdot_plot_panel *p)
 
     clause.at = v->clause;
     behind->kind = QDOT_TOKEN_END;
+    status = qdot_loop_index_check(&clause, v->operands, v->clause - 1, false);
+    if (status != QDOT_OK) {
+        behind->kind = kind;
+        c->error_at = clause.error_at;
+        return status;
+    }
     status = qdot_loop_begin(&loop, &clause, &more);
     if (status != QDOT_OK)
         c->error_at = loop.error_at;

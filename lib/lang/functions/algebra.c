@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
+#include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
@@ -77,6 +78,8 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
                   "a velocity or t");
         if (qdot_expr_kind(s->pool, args[1]) == QDOT_UFUN)
             return qdot_hint("as in diff(x(s), s)");
+        if (qdot_expr_kind(s->pool, args[1]) == QDOT_NUM && s->loops > 0)
+            return qdot_hint("an index has its value: subs(diff(e, l), l = k) for k = [1, 2]");
         return QDOT_ETYPE;
     }
     if (n == 3)
@@ -86,6 +89,7 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
                          times);
     if (args[1] == QDOT_T && times > 0)
         QDOT_TRY(tell_partial(s, e));
+    e = qdot_momenta_for(s, e, args[1]);
     for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
         e = qdot_diff(s->pool, e, args[1]);
     return e == args[0] ? qdot_value_kind_give(s->pool, e, value)
@@ -96,7 +100,8 @@ qdot_status
 qdot_algebra_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
-    return qdot_algebra_give_short(s, qdot_ddt(s->pool, args[0]), value);
+    return qdot_algebra_give_short(
+        s, qdot_ddt(s->pool, qdot_momenta_to_velocities(s, args[0])), value);
 }
 
 /* --- sides of equations, forms ------------------------------------------------------- */
@@ -182,6 +187,10 @@ qdot_algebra_simplify(qdot_session *s, uint32_t n, const qdot_expr *args,
     return qdot_value_kind_give(s->pool, qdot_simplify(s->pool, args[0], &facts), value);
 }
 
+/* Symbols of which an expression of momenta or of velocities holds one kind. */
+static const uint32_t of_motion =
+    QDOT_HAS_MOMENTUM | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
+
 /* --- subs --------------------------------------------------------------------------- */
 
 qdot_status
@@ -221,12 +230,16 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
 {
     qdot_replacements r = {0};
     qdot_status status = QDOT_OK;
+    qdot_expr e = args[0];
 
     for (uint32_t i = 1; i < n && status == QDOT_OK; i++)
         status = qdot_algebra_gather(s, "subs", QDOT_ALGEBRA_SUBS, args[i], &r);
+    for (size_t i = 0; i < r.from.n; i++)
+        if (qdot_expr_node(s->pool, r.from.at[i])->holds & of_motion)
+            e = qdot_momenta_for(s, e, r.from.at[i]);
     if (status == QDOT_OK)
         status = qdot_value_kind_give(
-            s->pool, qdot_subs(s->pool, args[0], r.from.n, r.from.at, r.to.at), value);
+            s->pool, qdot_subs(s->pool, e, r.from.n, r.from.at, r.to.at), value);
     qdot_algebra_drop(&r);
     return status;
 }
@@ -298,6 +311,9 @@ qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr
     (void)n;
     if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
         return qdot_fail(QDOT_ETYPE, "solve(a = b, x) takes a symbol for x");
+    if (f != QDOT_NIL)
+        f = qdot_momenta_for(s, f, args[1]);
+    QDOT_TRY(qdot_value_kind_check(s->pool, f));
     if (!qdot_expr_is_scalar(s->pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(s->pool, args[0]));

@@ -7,7 +7,9 @@
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
 #include "lang/session/bind.h"
+#include "lang/session/held.h"
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 
 static qdot_status
@@ -20,6 +22,13 @@ read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
     if (status == QDOT_OK)
         status = qdot_evaluate(c, &program, value, over, run);
     qdot_free(program.list.at);
+    if (status == QDOT_OK && c->session->declares) { /* a scene is declared in velocities */
+        *value = qdot_momenta_to_velocities(c->session, *value);
+        status = qdot_value_kind_check(c->session->pool, *value);
+    } else if (status == QDOT_OK && c->session->held.n > 0) {
+        *value = qdot_held_apply(c->session, *value);
+        status = qdot_value_kind_check(c->session->pool, *value);
+    }
     return status;
 }
 

@@ -15,6 +15,7 @@
 #include "lang/language/evaluator.h"
 #include "lang/language/hints.h"
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "lang/source/letters.h"
 
@@ -66,8 +67,10 @@ qdot_resolve_no_prime(const char *name, const char *why)
 static qdot_status
 ddt_times(qdot_session *s, unsigned primes, qdot_expr *value)
 {
-    if (primes > 0)
+    if (primes > 0) {
         QDOT_TRY(qdot_member_refuse(s, *value));
+        *value = qdot_momenta_to_velocities(s, *value);
+    }
     for (; primes > 0; primes--) {
         *value = qdot_ddt(s->pool, *value);
         QDOT_TRY(qdot_value_kind_check(s->pool, *value));
@@ -319,6 +322,20 @@ small(qdot_cursor *c, const qdot_token *token, unsigned primes, bool *found, qdo
     return status;
 }
 
+/* Whether the name is a coordinate that a loop holds at a value: in what is asked it is the coordinate,
+ * and the value is put in at the end. */
+static bool
+is_held(const qdot_session *s, const char *name)
+{
+    for (size_t i = 0; i < s->held.n && !s->declares; i++) {
+        const qdot_symbol *symbol = qdot_expr_symbol(s->pool, s->held.at[i].symbol);
+
+        if (symbol->class == QDOT_COORD && strcmp(symbol->name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 qdot_status
 qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
                   qdot_expr *value, qdot_expr *over)
@@ -330,6 +347,8 @@ qdot_resolve_name(qdot_cursor *c, const qdot_token *token, unsigned primes,
     bool found;
 
     *over = QDOT_NIL;
+    if (entry != NULL && entry->kind == QDOT_NAME_INDEX && is_held(s, name))
+        entry = qdot_names_declared(s->names, name);
     if (entry != NULL) {
         if (entry->kind == QDOT_NAME_VALUE) {
             QDOT_TRY(small(c, token, primes, &found, value));
@@ -408,18 +427,59 @@ is_canonical(const qdot_session *s, const qdot_token *t)
     return e != QDOT_NIL && (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM);
 }
 
-/* Whether something canonical stands in the statement of `token`: then p[q] beside it is
- * the independent momentum. */
+/* Whether p at `token` is the variable of a call, diff(T, p[x]) or subs(T, p[x] = 0), in the statement that
+ * begins at `first`. */
+static bool
+is_variable(const qdot_token *first, const qdot_token *token)
+{
+    static const char *const calls[] = {"diff", "subs", "solve", "series", "collect", "limit", "integral"};
+    const qdot_token *k = token;
+    long depth = 0;
+
+    if (!qdot_token_is_word(token, "p") || !qdot_token_is(token + 1, "[") || token == first ||
+        !qdot_token_is(token - 1, ","))
+        return false;
+    while (k > first && depth <= 0) { /* the bracket that is open at the token */
+        k--;
+        depth += qdot_token_bracket(k);
+    }
+    for (size_t i = 0; k > first && i < sizeof calls / sizeof *calls; i++)
+        if (qdot_token_is_word(k - 1, calls[i]))
+            return true;
+    return false;
+}
+
+/* Whether the statement is NAME = ..., NAME[...] = ..., NAME(...) = ... */
+static bool
+is_definition(const qdot_token *name)
+{
+    const qdot_token *next = name + 1;
+    long depth = 0;
+
+    if (name->kind != QDOT_TOKEN_NAME || next->kind != QDOT_TOKEN_OPERATOR)
+        return false;
+    if (qdot_token_bracket(next) == 1 && next->glued)
+        do {
+            depth += qdot_token_bracket(next);
+            next++;
+        } while (depth > 0 && next->kind != QDOT_TOKEN_END);
+    return qdot_token_is(next, "=");
+}
+
+/* Whether the statement of `token` is written in momenta: then p[q] is the independent symbol. A
+ * definition keeps it; so does what stands beside something canonical. */
 static bool
 beside_momenta(const qdot_cursor *c, const qdot_token *token)
 {
-    const qdot_token *first = c->source->tokens.at;
+    const qdot_token *first = c->source->tokens.at, *begin;
     const qdot_token *last = first + c->source->tokens.n - 1;
 
-    while (token > first && token[-1].kind != QDOT_TOKEN_END)
+    while (token > first && token[-1].kind != QDOT_TOKEN_END && !qdot_token_is(token - 1, "{"))
         token--;
-    for (; token <= last && token->kind != QDOT_TOKEN_END; token++)
-        if (is_canonical(c->session, token))
+    if (is_definition(token))
+        return true;
+    for (begin = token; token <= last && token->kind != QDOT_TOKEN_END; token++)
+        if (is_canonical(c->session, token) || is_variable(begin, token))
             return true;
     return false;
 }

@@ -28,6 +28,15 @@ is_spaced(const qdot_token *token)
     return false;
 }
 
+/* Whether a loop holds a coordinate of that name at a value. */
+static bool
+is_coordinate(const qdot_session *session, const char *name)
+{
+    const qdot_name *known = qdot_names_declared(session->names, name);
+
+    return known != NULL && known->kind == QDOT_NAME_COORD;
+}
+
 /* The value of a loop's index in place of its name; false: the name is none. */
 static bool
 add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
@@ -38,7 +47,7 @@ add_index(qdot_session *session, const qdot_token *token, qdot_text *out)
     qdot_text value = {0};
     bool printed, whole;
 
-    if (name == NULL || name->kind != QDOT_NAME_INDEX)
+    if (name == NULL || name->kind != QDOT_NAME_INDEX || is_coordinate(session, token->text))
         return false;
     printed = qdot_print(session->pool, name->value, QDOT_PLAIN, &value) == QDOT_OK;
     whole = strspn(qdot_text_str(&value), "0123456789") == value.n;

@@ -8,6 +8,7 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/held.h"
 
 /* NAME = VALUE of a parameter or of a coordinate or velocity. */
 static qdot_status
@@ -100,6 +101,24 @@ add_text(const qdot_cursor *c, const qdot_token *from, const qdot_token *to,
     qdot_token_text(c->session, from, to, &o->text);
 }
 
+/* What loops hold is said as `with l = 1`. */
+static qdot_status
+add_held(qdot_cursor *c, qdot_run_options *o)
+{
+    qdot_session *session = c->session;
+
+    QDOT_TRY(qdot_held_check(session));
+    for (size_t i = 0; i < session->held.n; i++) {
+        const qdot_held *held = &session->held.at[i];
+
+        QDOT_TRY(qdot_pairs_push(&o->with, c->at, held->symbol, held->value));
+        qdot_text_format(&o->text, "%s%s = ", i > 0 || o->with.symbols.n > 1 ? ", " : " with ",
+                         qdot_expr_symbol(session->pool, held->symbol)->name);
+        QDOT_TRY(qdot_print(session->pool, held->value, QDOT_PLAIN, &o->text));
+    }
+    return session->held.n > 0 ? qdot_value_check(c, &o->with) : QDOT_OK;
+}
+
 qdot_status
 qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options *o)
 {
@@ -129,6 +148,7 @@ qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options 
         }
     }
     add_text(c, start, c->at, o);
+    QDOT_TRY(add_held(c, o));
     if (o->tol_given && o->digits > 0) {
         c->error_at = c->at->start;
         qdot_fail(QDOT_EINVAL, "`digits` sets the tolerance itself: no `tol` beside it");

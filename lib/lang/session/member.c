@@ -5,6 +5,7 @@
  * itself; what is along no run named is along the latest.
  */
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 
 #include <string.h>
 
@@ -70,6 +71,9 @@ qdot_member_of(qdot_session *session, const char *run, qdot_expr e)
 {
     naming n = {session, run};
 
+    e = qdot_momenta_to_velocities(session, e);
+    if (e == QDOT_NIL)
+        return QDOT_NIL;
     return qdot_expr_is_scalar(session->pool, e)
                ? make(session, run, e)
                : qdot_value_map(session->pool, e, name_one, &n);

@@ -133,6 +133,14 @@ qdot_names_find(const qdot_names *names, const char *name)
     return e != NULL ? &e->name : NULL;
 }
 
+const qdot_name *
+qdot_names_declared(const qdot_names *names, const char *name)
+{
+    const entry *e = find_declared(names, name);
+
+    return e != NULL ? &e->name : NULL;
+}
+
 bool
 qdot_names_is_family(const qdot_names *names, const char *name)
 {

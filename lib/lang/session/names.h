@@ -39,6 +39,8 @@ void qdot_names_free(qdot_names *names);
 
 /* The innermost meaning; NULL if there is none. Valid until the next change. */
 const qdot_name *qdot_names_find(const qdot_names *names, const char *name);
+/* The declared meaning, whatever is bound; NULL if there is none. */
+const qdot_name *qdot_names_declared(const qdot_names *names, const char *name);
 /* Whether any NAME[...] is declared. */
 bool qdot_names_is_family(const qdot_names *names, const char *name);
 /* Declare. A VALUE or FUNCTION replaces a VALUE or FUNCTION; the very same PARAM again is

@@ -7,6 +7,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/labels.h"
 #include "lang/session/measured.h"
+#include "lang/session/momenta.h"
 #include "tape/constant.h"
 #include "tape/tape.h"
 
@@ -103,7 +104,7 @@ qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns
     qdot_pool *pool = session->pool;
     qdot_kind kind = qdot_expr_kind(pool, e);
 
-    e = qdot_measured_as_rationals(session, e);
+    e = qdot_momenta_to_velocities(session, qdot_measured_as_rationals(session, e));
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_expr_is_scalar(pool, e))
         return qdot_vec_push(columns, e);

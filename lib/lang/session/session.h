@@ -37,7 +37,7 @@ typedef struct {
     qdot_expr symbol;
     double value, error; /* error NaN: unknown */
     int digits;          /* > 0: of a run with `digits`, whose number is */
-    qdot_expr exact;     /* ... this rational */
+    qdot_expr exact;     /* ... this rational; digits 0: nil, or the value that `set` has of it */
     bool plain;          /* without requested digits: a number with --json, not a string */
     qdot_origin origin;
 } qdot_measured;
@@ -64,6 +64,12 @@ typedef struct {
     bool spoiled;      /* a function that may take its argument apart (subs) was called */
     unsigned branches; /* open branches of ifs: subexpressions there need not be defined */
 } qdot_passed;
+
+/* A parameter or coordinate with a value for the present pass of a loop (lang/session/held). */
+typedef struct {
+    qdot_expr symbol, value;
+    qdot_expr before; /* its value of `set` or `start`; nil: none */
+} qdot_held;
 
 /* What is written to a terminal that shows colours. */
 typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
@@ -107,6 +113,7 @@ typedef struct qdot_session {
     qdot_vec(char *) told; /* notices that are given once */
     unsigned calls;        /* depth of nested function calls */
     bool placed;           /* the present error already names its place in a body */
+    qdot_vec(qdot_held) held; /* by the loops under way, innermost last */
     size_t loops;          /* open loops: what they refer to must outlive them */
     qdot_vec(struct qdot_partial_sum) partial_sums; /* of the outermost (language/partial-sum) */
     struct qdot_undo *undo; /* NULL: no statement yet */

@@ -5,6 +5,7 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/momenta.h"
 #include "lang/session/range.h"
 #include "lang/session/runs.h"
 
@@ -73,6 +74,8 @@ measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double
                             | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
     qdot_measured m;
 
+    e = qdot_momenta_to_velocities(session, e);
+    QDOT_TRY(qdot_pool_check(session->pool));
     if (!(qdot_expr_node(session->pool, e)->holds & moving))
         return qdot_session_number(session, e, value, error);
     QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,

@@ -12,6 +12,7 @@
 #include "lang/sweeps/members.h"
 #include "lang/runs/run.h"
 #include "lang/session/measured.h"
+#include "lang/session/momenta.h"
 #include "lang/session/row-tables.h"
 #include "lang/session/runs.h"
 #include "sim/read/section.h"
@@ -55,7 +56,8 @@ read_surface(qdot_cursor *c, poincare *p)
         c->error_at = start->start;
         return qdot_fail(QDOT_ETYPE, "a section is where two numbers become equal");
     }
-    p->g = qdot_measured_as_rationals(c->session, qdot_sub(pool, left, right));
+    p->g = qdot_momenta_to_velocities(
+        c->session, qdot_measured_as_rationals(c->session, qdot_sub(pool, left, right)));
     QDOT_TRY(qdot_pool_check(pool));
     if (qdot_cursor_accept_word(c, "rising"))
         p->way = 1;
@@ -207,7 +209,8 @@ find_points(qdot_cursor *c, poincare *p, qdot_run *run, const double *swept)
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         status = qdot_columns_read(c, &p->columns, i, &exprs[i]);
         if (status == QDOT_OK)
-            exprs[i] = qdot_measured_as_rationals(c->session, exprs[i]);
+            exprs[i] = qdot_momenta_to_velocities(
+                c->session, qdot_measured_as_rationals(c->session, exprs[i]));
     }
     if (status == QDOT_OK)
         status = qdot_pool_check(c->session->pool);

@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 
 static void
 fit_free(qdot_fit *f)
@@ -93,7 +94,7 @@ read_expression(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of multipliers");
     if (x->e == QDOT_T)
         return qdot_fail(QDOT_EINVAL, "the time is the first column alone");
-    x->e = qdot_measured_as_rationals(session, x->e);
+    x->e = qdot_momenta_to_velocities(session, qdot_measured_as_rationals(session, x->e));
     f->m++;
     return qdot_pool_check(session->pool);
 }

@@ -13,11 +13,15 @@
 #include "base/progress.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
+#include "lang/commands/definition-check.h"
+#include "lang/commands/loop-index.h"
 #include "lang/commands/loop.h"
+#include "lang/commands/statement-form.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/foreign.h"
+#include "lang/session/held.h"
 #include "lang/session/undo.h"
 #include "lang/source/source.h"
 
@@ -40,84 +44,6 @@ typedef struct {
 } engine;
 
 /* --- what a statement is ------------------------------------------------------------ */
-
-/* The token behind the bracket that opens at `open`. */
-static const qdot_token *
-behind_bracket(const qdot_token *open)
-{
-    long depth = 0;
-
-    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
-        const int step = qdot_token_bracket(k);
-
-        depth += step;
-        if (step != 0 && depth == 0)
-            return k + 1;
-    }
-    return open; /* a statement cut by a `for` inside: not a bracket that closes */
-}
-
-/* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an
- * operand unless it is written close to it. */
-static bool
-is_definition(const qdot_token *name, bool word)
-{
-    const qdot_token *next = name + 1;
-
-    if (qdot_token_is(next, "="))
-        return true;
-    if (!(qdot_token_is(next, "[") || qdot_token_is(next, "(")) || (word && !next->glued))
-        return false;
-    if (qdot_token_is(next, "(")) {
-        const qdot_token *k = next + 1;
-
-        while (k->kind == QDOT_TOKEN_NAME && qdot_token_is(k + 1, ","))
-            k += 2;
-        return k->kind == QDOT_TOKEN_NAME && qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=");
-    }
-    next = behind_bracket(next);
-    return qdot_token_is(next, "=");
-}
-
-/* Whether the token begins the operand of a statement: a name, a number, or a bracket that is
- * not written close to the statement's word. */
-static bool
-begins_operand(const qdot_token *token)
-{
-    static const char *const words[] = {"and", "or", "to", "when", "within", "for", "at"};
-
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (qdot_token_is_word(token, words[i]))
-            return false;
-    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER ||
-           (qdot_token_is(token, "(") && !token->glued);
-}
-
-/* Whether the statement's word is meant as a name here: `run*2`, a user's own `scene`. */
-static bool
-is_used_as_name(const qdot_session *session, const qdot_token *name,
-                const qdot_statement *row)
-{
-    static const char *const binary[] = {"*", "/",  "^",  "'", "==", "<",
-                                         ">", "<=", ">=", "=", "!=", "."};
-    const qdot_token *next = name + 1;
-    bool declared = qdot_names_find(session->names, name->text) != NULL ||
-                    qdot_names_is_family(session->names, name->text);
-
-    /* `hamiltonian` is a value; with an operand behind it, a statement */
-    if (!row->alone && qdot_quantity_find(row->word) != NULL)
-        return declared || !begins_operand(next);
-    if (row->alone)
-        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") &&
-                !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
-               declared;
-    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
-        if (qdot_token_is(next, binary[i]))
-            return true;
-    return declared &&
-           (next->kind == QDOT_TOKEN_END || qdot_token_is(next, "+") || qdot_token_is(next, "-") ||
-            ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
-}
 
 /* The statement whose word is nearest in spelling; NULL if none is near. */
 static const qdot_statement *
@@ -177,12 +103,13 @@ carry_out_row(qdot_cursor *c, const qdot_statement *row)
 static qdot_status
 dispatch(qdot_cursor *c)
 {
-    const qdot_statement *row =
-        c->at->kind == QDOT_TOKEN_NAME ? qdot_statement_find(c->at->text) : NULL;
+    const qdot_form form = qdot_statement_form(c->session, c->at);
 
-    if (c->at->kind == QDOT_TOKEN_NAME && is_definition(c->at, row != NULL)) {
+    if (form == QDOT_FORM_DEFINITION) {
         QDOT_TRY(qdot_declare_definition(c));
-    } else if (row != NULL && !is_used_as_name(c->session, c->at, row)) {
+    } else if (form == QDOT_FORM_WORD) {
+        const qdot_statement *row = qdot_statement_find(c->at->text);
+
         if (row->run == NULL) {
             c->error_at = c->at->start;
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: %s", row->word);
@@ -191,6 +118,8 @@ dispatch(qdot_cursor *c)
         QDOT_TRY(carry_out_row(c, row));
     } else if (is_unknown_word(c->session, c->at)) {
         return unknown_word(c);
+    } else if (form == QDOT_FORM_COMPARISON) {
+        QDOT_TRY(qdot_check(c));
     } else {
         QDOT_TRY(qdot_ask_expression(c));
     }
@@ -198,16 +127,50 @@ dispatch(qdot_cursor *c)
     return qdot_cursor_expect_end(c);
 }
 
+/* Whether the statement asks of the scene: then parameters that a loop holds are put into it. Runs
+ * have them as values of their own. */
+static bool
+asks(const qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row;
+
+    if (qdot_statement_form(session, first) != QDOT_FORM_WORD)
+        return true;
+    row = qdot_statement_find(first->text);
+    return qdot_statement_asks(row) || strcmp(row->word, "print") == 0 ||
+           strcmp(row->word, "export") == 0;
+}
+
+/* One pass of a loop that may hold parameters and coordinates. */
+static qdot_status
+dispatch_held(qdot_cursor *c)
+{
+    qdot_session *session = c->session;
+    qdot_held_scene kept = {0};
+    qdot_status status = QDOT_OK;
+
+    if (session->held.n == 0 || !asks(session, c->at))
+        return dispatch(c);
+    status = qdot_held_check(session);
+    if (status == QDOT_OK)
+        status = qdot_held_scene_begin(session, &kept);
+    if (status == QDOT_OK)
+        status = dispatch(c);
+    qdot_held_scene_end(session, &kept);
+    return status;
+}
+
 /* The `to FILE` that ends the statement, where its own handler does not read it. */
 static const qdot_token *
 find_to(const qdot_session *session, const qdot_token *first)
 {
+    const qdot_form form = qdot_statement_form(session, first);
     const qdot_statement *row =
         first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
 
-    if (first->kind == QDOT_TOKEN_NAME && is_definition(first, row != NULL))
+    if (form == QDOT_FORM_DEFINITION)
         return NULL;
-    if (row != NULL && is_used_as_name(session, first, row) && !qdot_token_is_word(first + 1, "to"))
+    if (form != QDOT_FORM_WORD && !qdot_token_is_word(first + 1, "to"))
         row = NULL;
     return qdot_redirect_find(row, first);
 }
@@ -222,7 +185,7 @@ dispatch_to(engine *x, qdot_cursor *c, size_t to)
     c->error_at = x->tokens[to + 1].start;
     QDOT_TRY(qdot_redirect_begin(&redirect, x->session, x->tokens[to + 1].text));
     x->tokens[to].kind = QDOT_TOKEN_END;
-    status = dispatch(c);
+    status = dispatch_held(c);
     x->tokens[to].kind = QDOT_TOKEN_NAME;
     if (status == QDOT_OK)
         c->error_at = x->tokens[to + 1].start;
@@ -256,7 +219,7 @@ statement(engine *x, size_t i)
 
     (void)qdot_pool_unfinished_taken(x->session->pool); /* of a statement that failed */
     if (status == QDOT_OK)
-        status = to == NULL ? dispatch(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
+        status = to == NULL ? dispatch_held(&c) : dispatch_to(x, &c, (size_t)(to - x->tokens));
     qdot_progress_clear();
     if (status == QDOT_OK)
         status = qdot_sheet_flush(x->session);
@@ -344,6 +307,11 @@ repeat(engine *x, size_t i, size_t word)
     qdot_status status;
     bool more;
 
+    status = qdot_loop_index_check(&c, &x->tokens[i], &x->tokens[word], false);
+    if (status != QDOT_OK) {
+        x->error_at = c.error_at;
+        return status;
+    }
     status = qdot_loop_begin(&loop, &c, &more);
     while (status == QDOT_OK && more) {
         x->tokens[word].kind = QDOT_TOKEN_END;
@@ -401,7 +369,7 @@ row_with_example(const engine *x, size_t i, size_t end)
         strncmp(error->message, "expected ", 9) != 0 || strchr(error->message, '"') != NULL ||
         strstr(error->message, "or the end of the statement") != NULL ||
         (broken_off ? end - i > FEW : x->error_at > first[few - 1].start) ||
-        is_used_as_name(x->session, first, row))
+        qdot_statement_is_name(x->session, first, row))
         return NULL;
     return broken_off || strncmp(error->message, "expected an expression", 22) != 0 ? row : NULL;
 }
@@ -419,7 +387,9 @@ lead(engine *x, size_t i, size_t end, qdot_status status)
         is_bare_or_declares(qdot_last_error()->hint)) { /* `runn 0..10` */
         const qdot_statement *near = nearest_statement(x->session, x->tokens[i].text);
 
-        if (near != NULL)
+        if (near != NULL && strcmp(near->word, x->tokens[i].text) == 0)
+            (void)qdot_hint("as in %s", near->example);
+        else if (near != NULL)
             (void)qdot_hint("did you mean `%s`?", near->word);
     }
     (void)qdot_foreign_hint(&c, x->tokens + i, x->tokens + end);
@@ -451,10 +421,16 @@ simple(engine *x, size_t i, size_t *next)
     size_t end = statement_end(x, i);
     clock_t since = clock();
     bool timed = x->session->timing && x->frames.n == 0;
+    qdot_cursor c = {.session = x->session, .source = x->source, .at = &x->tokens[i]};
     qdot_status status;
 
     *next = find_end(x, end);
     x->session->placed = false;
+    status = qdot_definition_check(&c, &x->tokens[*next]);
+    if (status != QDOT_OK) {
+        x->error_at = c.error_at;
+        return status;
+    }
     status = x->tokens[end].kind == QDOT_TOKEN_END ? statement(x, i) : repeat(x, i, end);
     if (status != QDOT_OK)
         return lead(x, i, *next, status);
@@ -507,6 +483,11 @@ enter(engine *x, size_t i, size_t *next)
         return QDOT_ESYNTAX;
     }
     f.resume = find_end(x, f.close + 1);
+    status = qdot_loop_index_check(&c, &x->tokens[f.body], &x->tokens[f.close], true);
+    if (status != QDOT_OK) {
+        x->error_at = c.error_at;
+        return status;
+    }
     status = qdot_loop_begin(&f.loop, &c, &more);
     if (status != QDOT_OK) {
         x->error_at = f.loop.error_at;

@@ -3,6 +3,7 @@
  * A function may be declared, and used, before the coordinate that is its argument.
  */
 #include "expr/calculus.h"
+#include "expr/walk.h"
 #include "mech/scene/scene.h"
 
 typedef struct {
@@ -24,11 +25,9 @@ map(const mapping *m, qdot_expr *e)
             map(&m, &s->list.at[i_] field);                                              \
     } while (0)
 
-qdot_status
-qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *user)
+static void
+map_all(qdot_scene *s, mapping m)
 {
-    const mapping m = {f, user};
-
     MAP(particles, .mass);
     MAP(particles, .position);
     MAP(bodies, .mass);
@@ -57,8 +56,38 @@ qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *use
     MAP(conditions, );
     MAP(relations, );
     map(&m, &s->lagrangian);
+}
+
+qdot_status
+qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *user)
+{
+    map_all(s, (mapping){f, user});
     s->version++;
     return qdot_pool_check(s->pool);
+}
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr symbol;
+    bool found;
+} search;
+
+static qdot_expr
+find_symbol(qdot_expr e, void *user)
+{
+    search *x = user;
+
+    x->found |= qdot_expr_contains(x->pool, e, x->symbol);
+    return e;
+}
+
+bool
+qdot_scene_contains(qdot_scene *s, qdot_expr symbol)
+{
+    search x = {s->pool, symbol, false};
+
+    map_all(s, (mapping){find_symbol, &x});
+    return x.found;
 }
 
 typedef struct {

@@ -83,6 +83,8 @@ qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot
 
 /* Replace a symbol by another expression in all declarations but events. */
 QDOT_MUST_CHECK qdot_status qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to);
+/* Whether a symbol stands in any of them. */
+bool qdot_scene_contains(qdot_scene *s, qdot_expr symbol);
 /* Replace every expression e of them by f(e); nil: the pool keeps the failure. */
 QDOT_MUST_CHECK qdot_status qdot_scene_map(qdot_scene *s,
                                            qdot_expr (*f)(qdot_expr e, void *user), void *user);

@@ -183,27 +183,55 @@ transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
     return result;
 }
 
-/* e with every velocity replaced by what it is in momenta. */
-static qdot_expr
-in_momenta(qdot_scene *s, qdot_expr e)
+qdot_expr
+qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
 {
     legendre l;
 
-    if (e == QDOT_NIL)
-        return QDOT_NIL;
-    if (qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION) {
-        qdot_mech_fail(s, QDOT_ETYPE,
-                       "a Poisson bracket is of functions of coordinates, momenta and "
-                       "velocities: here stands an acceleration");
-        return QDOT_NIL;
-    }
-    if (!(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
+    if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
         return e;
     e = begin(&l, s, (uint32_t)s->coordinates.n, s->coordinates.at)
             ? qdot_subs(s->pool, e, l.n, l.qdot, l.solved)
             : QDOT_NIL;
     qdot_free(l.q);
     return e;
+}
+
+qdot_expr
+qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e)
+{
+    qdot_vec(qdot_expr) from = {0}, to = {0};
+    qdot_status status = QDOT_OK;
+
+    if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_MOMENTUM))
+        return e;
+    for (size_t i = 0; i < s->coordinates.n && status == QDOT_OK; i++) {
+        const qdot_expr q = s->coordinates.at[i],
+                        p = qdot_symbol_of(s->pool, QDOT_MOMENTUM, q);
+
+        if (p == QDOT_NIL || !qdot_expr_contains(s->pool, e, p))
+            continue;
+        status = qdot_vec_push(&from, p);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&to, qdot_mech_momentum(s, q));
+    }
+    e = status == QDOT_OK ? qdot_subs(s->pool, e, from.n, from.at, to.at)
+                          : qdot_pool_fail(s->pool);
+    qdot_free(from.at);
+    qdot_free(to.at);
+    return e;
+}
+
+/* One side of Poisson's bracket, in momenta. */
+static qdot_expr
+bracket_side(qdot_scene *s, qdot_expr e)
+{
+    if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_ACCELERATION))
+        return qdot_hamilton_in_momenta(s, e);
+    qdot_mech_fail(s, QDOT_ETYPE,
+                   "a Poisson bracket is of functions of coordinates, momenta and "
+                   "velocities: here stands an acceleration");
+    return QDOT_NIL;
 }
 
 qdot_expr
@@ -217,8 +245,8 @@ qdot_hamilton_poisson(qdot_scene *s, qdot_expr f, qdot_expr g)
         qdot_mech_fail(s, QDOT_EINVAL, "the scene has no coordinate");
         return QDOT_NIL;
     }
-    f = in_momenta(s, f);
-    g = in_momenta(s, g);
+    f = bracket_side(s, f);
+    g = bracket_side(s, g);
     if (f == QDOT_NIL || g == QDOT_NIL)
         return QDOT_NIL;
     for (size_t i = 0; i < s->coordinates.n; i++) {

@@ -19,6 +19,10 @@ qdot_expr qdot_hamilton_hamiltonian(qdot_scene *s);
 /* Over the coordinates q [n], each once; n = 0: over the cyclic ones. */
 qdot_expr qdot_hamilton_routhian(qdot_scene *s, uint32_t n, const qdot_expr *q);
 
+/* e with every velocity as what it is in momenta; with every momentum as dL/dq'. */
+qdot_expr qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e);
+qdot_expr qdot_hamilton_in_velocities(qdot_scene *s, qdot_expr e);
+
 /* Poisson's bracket sum (df/dq dg/dp - df/dp dg/dq) over all coordinates, f and g scalars; velocities
  * in them are replaced by momenta first. With constraints it is not Dirac's bracket.
  *

@@ -1,0 +1,532 @@
+/* definition-check.c -- what an equation sign may not be written to, with the line that was meant. */
+#include "lang/commands/definition-check.h"
+
+#include <string.h>
+
+#include "expr/tensor.h"
+#include "lang/commands/definition-parts.h"
+#include "lang/commands/statement-form.h"
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+#include "lang/functions/short-names.h"
+#include "lang/language/token-text.h"
+
+typedef qdot_assignment assignment;
+
+/* --- the right side --------------------------------------------------------------------- */
+
+static uint32_t
+held_by(const qdot_session *s, const qdot_token *k)
+{
+    const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION |
+                            QDOT_HAS_TIME | QDOT_HAS_MOMENTUM | QDOT_HAS_MULTIPLIER;
+    const qdot_name *known = qdot_names_find(s->names, k->text);
+    const size_t length = strlen(k->text);
+
+    if (known != NULL)
+        return known->kind == QDOT_NAME_INDEX || known->value == QDOT_NIL
+                   ? 0
+                   : qdot_expr_node(s->pool, known->value)->holds & motion;
+    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
+        if (strncmp(known->name, k->text, length) == 0 && known->name[length] == '[')
+            return known->value == QDOT_NIL ? 0
+                                            : qdot_expr_node(s->pool, known->value)->holds & motion;
+    if (strcmp(k->text, "t") == 0)
+        return QDOT_HAS_TIME;
+    return qdot_quantity_find(k->text) != NULL || qdot_scene_has_label(s->scene, k->text)
+               ? QDOT_HAS_COORD
+               : 0;
+}
+
+static void
+read_right(assignment *a)
+{
+    const qdot_token *from = a->equals + 1;
+    long depth = 0;
+
+    for (a->behind = from; a->behind < a->end; a->behind++) {
+        depth += qdot_token_bracket(a->behind);
+        if (depth == 0 && a->behind > from &&
+            (qdot_token_is_word(a->behind, "for") ||
+             (qdot_token_is_word(a->behind, "to") && a->behind[1].kind == QDOT_TOKEN_STRING)))
+            break;
+        a->chained |= depth == 0 && qdot_token_is(a->behind, "=");
+    }
+    for (const qdot_token *k = from; k < a->behind; k++) {
+        if (k->kind == QDOT_TOKEN_NAME)
+            a->moves |= held_by(a->session, k) != 0;
+        a->primed |= qdot_token_is(k, "'");
+        a->accelerations |= qdot_token_is(k, "'") && qdot_token_is(k + 1, "'");
+    }
+    qdot_token_text_written(a->session, from, a->behind, &a->right);
+    if (qdot_token_is_word(a->behind, "for")) {
+        qdot_text_add(&a->loop, " ");
+        qdot_token_text_written(a->session, a->behind, a->end, &a->loop);
+    }
+}
+
+/* --- names ------------------------------------------------------------------------------ */
+
+/* The declared name, or a member of the family, that the token spells. */
+static const qdot_name *
+declared(const qdot_session *s, const qdot_token *name)
+{
+    const qdot_name *known = qdot_names_find(s->names, name->text);
+    const size_t length = strlen(name->text);
+
+    if (known != NULL || !qdot_token_is(name + 1, "["))
+        return known;
+    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
+        if (strncmp(known->name, name->text, length) == 0 && known->name[length] == '[')
+            return known;
+    return NULL;
+}
+
+static bool
+is_run(const qdot_session *s, const char *name)
+{
+    for (size_t i = 0; i < s->runs.n; i++)
+        if (strcmp(s->runs.at[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* dNAME, deltaNAME of a coordinate NAME. */
+static bool
+is_differential(const qdot_session *s, const char *name)
+{
+    static const char *const prefixes[] = {"d", "delta"};
+
+    for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
+        const size_t n = strlen(prefixes[i]);
+        const qdot_name *q =
+            strncmp(name, prefixes[i], n) == 0 ? qdot_names_find(s->names, name + n) : NULL;
+
+        if (q != NULL && q->kind == QDOT_NAME_COORD)
+            return true;
+    }
+    return false;
+}
+
+/* "force1": the name with the first number that makes it free. */
+static void
+add_free_name(const qdot_session *s, const char *name, qdot_text *out)
+{
+    const size_t length = strlen(name);
+    const char *parted = length > 0 && strchr("0123456789", name[length - 1]) ? "_" : "";
+    qdot_text text = {0};
+
+    for (unsigned i = 1; i < 1000; i++) {
+        qdot_text_truncate(&text, 0);
+        qdot_text_format(&text, "%s%s%u", name, parted, i);
+        if (qdot_names_find(s->names, qdot_text_str(&text)) == NULL &&
+            !qdot_names_is_family(s->names, qdot_text_str(&text)) &&
+            !qdot_scene_has_label(s->scene, qdot_text_str(&text)) &&
+            !is_run(s, qdot_text_str(&text)) && !is_differential(s, qdot_text_str(&text)))
+            break;
+    }
+    qdot_text_add(out, qdot_text_str(&text));
+    qdot_text_clear(&text);
+}
+
+/* --- lines ------------------------------------------------------------------------------ */
+
+/* NAME1 = RIGHT, with indices and arguments as they were. */
+static void
+write_renamed(assignment *a)
+{
+    add_free_name(a->session, a->name->text, &a->line);
+    qdot_token_text_written(a->session, a->name + 1, a->equals, &a->line);
+    qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
+}
+
+/* LEFT in one line with RIGHT */
+static void
+write_equation(assignment *a, const char *word)
+{
+    qdot_text_format(&a->line, "%s ", word);
+    qdot_token_text_written(a->session, a->name, a->equals, &a->line);
+    qdot_text_format(&a->line, " = %s", qdot_text_str(&a->right));
+}
+
+/* `check LEFT == RIGHT`; an equation on the right in brackets. Of an equation of motion, beside what is
+ * none, the residual. */
+static void
+write_check(assignment *a)
+{
+    bool equation = a->chained || strcmp(a->name->text, "eom") != 0;
+
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) /* (x'' = -x) */
+        equation |= qdot_token_is(k, "=");
+    qdot_text_add(&a->line, equation ? "check " : "check residual(");
+    qdot_token_text_written(a->session, a->name, a->equals, &a->line);
+    qdot_text_format(&a->line, !equation ? ") == %s" : a->chained ? " == (%s)" : " == %s",
+                     qdot_text_str(&a->right));
+}
+
+/* The error, at the name; in the message %s is what it is called, then the coordinate in dNAME, deltaNAME. */
+static qdot_status
+tell(assignment *a, const char *message, const char *name)
+{
+    a->c->error_at = a->name->start;
+    QDOT_TRY(qdot_text_status(&a->line));
+    (void)qdot_fail(QDOT_ENAME, message, name, name + (strncmp(name, "delta", 5) == 0 ? 5 : 1));
+    return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
+}
+
+/* --- coordinates ------------------------------------------------------------------------ */
+
+static bool
+is_furnished(const qdot_scene *s)
+{
+    return s->particles.n + s->bodies.n > 0 || s->lagrangian != QDOT_NIL;
+}
+
+/* q'' = E: compared with the equation of motion; where nothing moves yet, the scene that has it. */
+static qdot_status
+tell_acceleration(assignment *a)
+{
+    const qdot_token *prime = a->equals - 2;
+    qdot_text q = {0};
+    qdot_status status;
+
+    qdot_token_text_written(a->session, a->name, prime, &q);
+    if (is_furnished(a->session->scene) || a->accelerations || a->loop.n > 0) {
+        qdot_text_format(&a->line, "check eom[%s] == (%s'' = %s)", qdot_text_str(&q),
+                         qdot_text_str(&q), qdot_text_str(&a->right));
+        status = tell(a, "equations of motion follow from the scene: `%.100s''` is not assigned",
+                      qdot_text_str(&q));
+    } else {
+        qdot_text_format(&a->line, "lagrangian %s'^2/2; force %s on %s", qdot_text_str(&q),
+                         qdot_text_str(&a->right), qdot_text_str(&q));
+        status = tell(a, "equations of motion follow from a scene, which has nothing yet that moves: "
+                         "`%.100s''` is not assigned", qdot_text_str(&q));
+    }
+    qdot_text_clear(&q);
+    return status;
+}
+
+/* q = E, q' = E: a start; where E moves, a constraint. */
+static qdot_status
+tell_coordinate(assignment *a, size_t primes)
+{
+    const qdot_name *known = declared(a->session, a->name);
+
+    if (a->chained) { /* a = b = c, as a value */
+        qdot_text_add(&a->line, "(");
+        qdot_token_text_written(a->session, a->name, a->behind, &a->line);
+        qdot_text_char(&a->line, ')');
+        return tell(a, "`%.200s` is a coordinate: an equation as a value stands in brackets",
+                    known->name);
+    }
+    if (primes == 2)
+        return tell_acceleration(a);
+    if (qdot_token_is(a->name + 1, "(")) /* theta(t) = 2*t */
+        qdot_text_format(&a->line, "%s %s = %s", a->moves ? "constraint" : "start", known->name,
+                         qdot_text_str(&a->right));
+    else
+        write_equation(a, a->moves ? "constraint" : "start");
+    if (a->moves)
+        return tell(a, "`%.200s` is a coordinate: what it is tied to is a constraint",
+                    known->name);
+    if (primes > 0 || known->file == NULL)
+        return tell(a, "`%.200s` is a coordinate: its motion follows from a start", known->name);
+    a->c->error_at = a->name->start;
+    QDOT_TRY(qdot_text_status(&a->line));
+    (void)qdot_fail(QDOT_ENAME, "`%.200s` was declared as a coordinate at %s:%u", known->name,
+                    known->file, known->line);
+    return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
+}
+
+/* NAME' =, NAME[...]'' =: the number of primes and the equation sign behind; NULL: it is none. */
+static const qdot_token *
+find_primed(const qdot_token *name, size_t *primes)
+{
+    const qdot_token *k = name + 1;
+
+    if (qdot_token_is(k, "[") && k->glued)
+        k = qdot_statement_behind_bracket(k);
+    for (*primes = 0; qdot_token_is(k, "'") && k->glued; k++)
+        ++*primes;
+    return qdot_token_is(k, "=") && *primes < 3 ? k : NULL;
+}
+
+/* --- words of statements ---------------------------------------------------------------- */
+
+static qdot_status
+tell_word(assignment *a, const qdot_statement *row)
+{
+    if (!qdot_definition_statement(a, row))
+        write_renamed(a);
+    return tell(a, "`%s` is a word of the language: it is no name to define", row->word);
+}
+
+/* --- reserved words, labels ------------------------------------------------------------- */
+
+/* lambda = 3 is a parameter of that name, which hides nothing. */
+static qdot_status
+tell_reserved(assignment *a, const char *why)
+{
+    const char *name = a->name->text;
+    bool family = strcmp(name, "lambda") == 0 || strcmp(name, "delta") == 0;
+
+    if (family && !a->moves && a->loop.n == 0 && qdot_definition_components(a) == 1)
+        write_equation(a, "param");
+    else
+        write_renamed(a);
+    return tell(a, why, name);
+}
+
+/* `bob = (1, 2)` of a particle at (x, y): where it starts. False: it is placed otherwise. */
+static bool
+write_placed(assignment *a, qdot_expr at)
+{
+    const qdot_pool *pool = a->session->pool;
+    const bool one = qdot_expr_is_scalar(pool, at);
+    const uint32_t n = one ? 1 : qdot_expr_count(pool, at);
+    const qdot_token *k = a->equals + 1 + !one, *from;
+
+    if (a->moves || qdot_definition_components(a) != n)
+        return false;
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_expr_is_class(pool, one ? at : qdot_expr_arg(pool, at, i), QDOT_COORD))
+            return false;
+    for (uint32_t i = 0; i < n; i++, k++) {
+        long depth = 0;
+
+        for (from = k; k < a->behind - !one; k++) {
+            if (depth == 0 && qdot_token_is(k, ","))
+                break;
+            depth += qdot_token_bracket(k);
+        }
+        qdot_text_format(&a->line, "%s%s = ", i > 0 ? ", " : "start ",
+                         qdot_expr_symbol(pool, one ? at : qdot_expr_arg(pool, at, i))->name);
+        qdot_token_text_written(a->session, from, k, &a->line);
+    }
+    return true;
+}
+
+static qdot_status
+tell_label(assignment *a, const char *label)
+{
+    const qdot_scene *s = a->session->scene;
+    const qdot_particle *particle = qdot_scene_find_particle(s, label);
+    const qdot_body *body = qdot_scene_find_body(s, label);
+
+    if ((particle != NULL && write_placed(a, particle->position)) ||
+        (body != NULL && write_placed(a, body->position)))
+        return tell(a, "`%.200s` is placed by the coordinates of its position", label);
+    write_renamed(a);
+    return tell(a,
+                particle != NULL ? "`%.200s` is a particle of the scene"
+                : body != NULL   ? "`%.200s` is a body of the scene"
+                : is_run(a->session, label)
+                    ? "`%.200s` is a run"
+                    : "`%.200s` is a label of the scene",
+                label);
+}
+
+/* The label that a member of a family, or the whole, spells; NULL: there is none. */
+static const char *
+label_of(const assignment *a)
+{
+    const qdot_session *s = a->session;
+    const char *name = a->name->text;
+    const size_t length = strlen(name);
+
+    if (a->name + 1 == a->equals)
+        return qdot_scene_has_label(s->scene, name) || is_run(s, name) ? name : NULL;
+    if (!qdot_token_is(a->name + 1, "["))
+        return NULL;
+    for (size_t i = 0; i < s->scene->particles.n; i++)
+        if (strncmp(s->scene->particles.at[i].name, name, length) == 0 &&
+            s->scene->particles.at[i].name[length] == '[')
+            return name;
+    for (size_t i = 0; i < s->scene->bodies.n; i++)
+        if (strncmp(s->scene->bodies.at[i].name, name, length) == 0 &&
+            s->scene->bodies.at[i].name[length] == '[')
+            return name;
+    return NULL;
+}
+
+/* --- values of the language with an index ------------------------------------------------- */
+
+/* eom[theta] = ..., p[x] = 3, conserved[1] = ...: members of a value of the language. */
+static bool
+is_member_of_value(const assignment *a)
+{
+    static const char *const lists[] = {"conserved", "ds2", "speed2"};
+    const qdot_quantity *row = qdot_quantity_find(a->name->text);
+
+    if (row == NULL || !qdot_token_is(a->name + 1, "["))
+        return false;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (strcmp(row->name, lists[i]) == 0)
+            return true;
+    return row->most > 0 || row->over_coordinates;
+}
+
+static qdot_status
+tell_member(assignment *a)
+{
+    const qdot_name *q = qdot_definition_coordinate(a->session);
+
+    if (strcmp(a->name->text, "p") == 0 && !a->moves) {
+        write_equation(a, "set"); /* a number for the momentum in H or R */
+    } else {
+        if (!is_furnished(a->session->scene) && q != NULL) /* something that moves first */
+            qdot_text_format(&a->line, "lagrangian %s'^2/2; ", q->name);
+        write_check(a);
+    }
+    return tell(a, "`%s[ ]` is a value of the language: it follows from the scene", a->name->text);
+}
+
+/* --- the statement ------------------------------------------------------------------------ */
+
+/* Why a word that is a name in no place cannot be defined; NULL: it can. */
+static const char *
+why_reserved(const qdot_session *s, const char *name)
+{
+    static const char *const words[][2] = {
+        {"pi", "`%s` is reserved: it is the number 3.14159..."},
+        {"t", "`%s` is reserved: it is the time"},
+        {"dt", "`%s` is reserved: it is the differential of the time"},
+        {"and", "`%s` is reserved: it joins conditions"},
+        {"or", "`%s` is reserved: it joins conditions"},
+        {"not", "`%s` is reserved: it turns a condition round"},
+        {"true", "`%s` is reserved: it is what holds"},
+        {"false", "`%s` is reserved: it is what does not hold"},
+        {"lambda", "`%s` is reserved: lambda[NAME] is the multiplier of a constraint"},
+        {"delta", "`%s` is reserved: delta[NAME] is the virtual displacement of a coordinate"}};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i][0], name) == 0)
+            return words[i][1];
+    if (!is_differential(s, name))
+        return NULL;
+    return strncmp(name, "delta", 5) == 0 && qdot_names_find(s->names, name + 5) != NULL
+               ? "`%s` is reserved: it is the virtual displacement of the coordinate `%s`"
+               : "`%s` is reserved: it is the differential of the coordinate `%s`";
+}
+
+/* x = symbols('x'): a form of another system, for which there are hints of its own. */
+static bool
+is_foreign(const assignment *a)
+{
+    const qdot_token *right = a->equals + 1;
+
+    for (const qdot_token *k = right; k < a->behind; k++)
+        if (qdot_token_is(k, ":") || qdot_token_is(k, "..")) /* x = 0:0.1:1 */
+            return true;
+    return right->kind == QDOT_TOKEN_NAME && !qdot_cursor_knows(a->session, right->text) &&
+           (qdot_token_is(right + 1, "(") || qdot_token_is(right + 1, "."));
+}
+
+/* m = 3 of a parameter is its value; m = x, m(t) = t are no values. */
+static qdot_status
+tell_parameter(assignment *a, const qdot_name *known)
+{
+    if (a->moves || a->chained)
+        write_renamed(a);
+    else if (qdot_token_is(a->name + 1, "("))
+        qdot_text_format(&a->line, "set %s = %s", known->name, qdot_text_str(&a->right));
+    else
+        write_equation(a, "set");
+    a->c->error_at = a->name->start;
+    QDOT_TRY(qdot_text_status(&a->line));
+    (void)(known->file != NULL
+               ? qdot_fail(QDOT_ENAME, "`%.200s` was declared as a parameter at %s:%u",
+                           known->name, known->file, known->line)
+               : qdot_fail(QDOT_ENAME, "`%.200s` is a parameter", known->name));
+    return qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop));
+}
+
+static qdot_status
+check_definition(assignment *a)
+{
+    const qdot_session *s = a->session;
+    const char *name = a->name->text, *label, *why;
+    const qdot_name *known = declared(s, a->name);
+    const qdot_statement *row = qdot_statement_find(name);
+
+    if (known != NULL && known->kind == QDOT_NAME_PARAM && !is_member_of_value(a))
+        return is_foreign(a) ? QDOT_OK : tell_parameter(a, known);
+    if (known != NULL) /* a plain p beside p[x] */
+        return known->name[0] == 'p' && known->name[1] == '\0' && is_member_of_value(a)
+                   ? tell_member(a)
+                   : QDOT_OK;
+    if (row != NULL)
+        return tell_word(a, row);
+    if (is_member_of_value(a))
+        return tell_member(a);
+    why = why_reserved(s, name);
+    if (why != NULL)
+        return tell_reserved(a, why);
+    label = label_of(a);
+    return label != NULL ? tell_label(a, label) : QDOT_OK;
+}
+
+/* NAME(names) = EXPR of a function of the language is an equation of what is declared; with a name that
+ * means nothing it was meant as a definition. */
+static qdot_status
+check_function(assignment *a)
+{
+    const qdot_builtin *builtin = qdot_builtin_find(a->name->text);
+    bool unknown = false;
+
+    if (builtin == NULL || !qdot_token_is(a->name + 1, "("))
+        return QDOT_OK;
+    a->equals = qdot_statement_behind_bracket(a->name + 1);
+    if (!qdot_token_is(a->equals, "="))
+        return QDOT_OK;
+    for (const qdot_token *k = a->name + 2; k < a->equals - 1; k += 2) {
+        if (k->kind != QDOT_TOKEN_NAME || !(qdot_token_is(k + 1, ",") || qdot_token_is(k + 1, ")")))
+            return QDOT_OK;
+        unknown |= !qdot_cursor_knows(a->session, k->text);
+    }
+    if (!unknown)
+        return QDOT_OK;
+    read_right(a);
+    write_renamed(a);
+    return tell(a, "`%s` is a function of the language: it is not defined anew", a->name->text);
+}
+
+static qdot_status
+check_statement(assignment *a)
+{
+    const qdot_form form = qdot_statement_form(a->session, a->name);
+    const qdot_name *known = declared(a->session, a->name);
+    size_t primes = 0;
+
+    a->equals = find_primed(a->name, &primes);
+    if (form == QDOT_FORM_DEFINITION && qdot_token_is(a->name + 1, "("))
+        a->equals = qdot_statement_behind_bracket(a->name + 1);
+    if (known != NULL && known->kind == QDOT_NAME_COORD && a->equals != NULL &&
+        (form == QDOT_FORM_DEFINITION || form == QDOT_FORM_VALUE)) {
+        read_right(a);
+        return is_foreign(a) ? QDOT_OK : tell_coordinate(a, primes);
+    }
+    if (form == QDOT_FORM_VALUE)
+        return check_function(a);
+    if (form != QDOT_FORM_DEFINITION)
+        return QDOT_OK;
+    a->equals = a->name + 1;
+    if (!qdot_token_is(a->equals, "="))
+        a->equals = qdot_statement_behind_bracket(a->equals);
+    read_right(a);
+    return check_definition(a);
+}
+
+qdot_status
+qdot_definition_check(qdot_cursor *c, const qdot_token *end)
+{
+    assignment a = {.c = c, .session = c->session, .name = c->at, .end = end};
+    qdot_status status = QDOT_OK;
+
+    if (c->at->kind == QDOT_TOKEN_NAME)
+        status = check_statement(&a);
+    qdot_text_clear(&a.right);
+    qdot_text_clear(&a.loop);
+    qdot_text_clear(&a.line);
+    return status;
+}

@@ -1,0 +1,32 @@
+/* definition-parts.h -- LEFT = RIGHT as it stands, for the files that look for what was meant by it.
+ *
+ * Inside of lang/commands/definition-check.
+ */
+#ifndef QDOT_LANG_DEFINITION_PARTS_H
+#define QDOT_LANG_DEFINITION_PARTS_H
+
+#include "lang/commands/statement.h"
+
+/* The statement as it stands: LEFT = RIGHT [for ...]. */
+typedef struct {
+    qdot_cursor *c;
+    qdot_session *session;
+    const qdot_token *name, *equals, *behind, *end; /* behind: the word `for`, or `end` */
+    qdot_text right, loop; /* " for k = 1..3", or nothing */
+    qdot_text line;        /* what was meant */
+    bool moves;            /* the right side holds coordinates, positions or the time */
+    bool accelerations;
+    bool chained; /* it is an equation */
+    bool primed;  /* it holds velocities */
+} qdot_assignment;
+
+/* Whether the right side is written as a vector (a, b): how many components; 1: it is not. */
+size_t qdot_definition_components(const qdot_assignment *a);
+/* The first coordinate that is declared, or NULL. */
+const qdot_name *qdot_definition_coordinate(const qdot_session *s);
+
+/* The statement of the word with the right side as its operand into a->line: `potential -k/x` of
+ * `potential = -k/x`. False: it was meant as a value, for which a name was sought. */
+bool qdot_definition_statement(qdot_assignment *a, const qdot_statement *row);
+
+#endif

@@ -1,0 +1,181 @@
+/* definition-statement.c -- the statement that was meant where its word stands before an equation sign. */
+#include <string.h>
+
+#include "lang/commands/definition-parts.h"
+#include "lang/commands/statement-form.h"
+
+typedef qdot_assignment assignment;
+
+/* The first coordinate that is declared, or NULL. */
+const qdot_name *
+qdot_definition_coordinate(const qdot_session *s)
+{
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++)
+        if (name->kind == QDOT_NAME_COORD)
+            return name;
+    return NULL;
+}
+
+/* Whether the right side is written as a vector (a, b); how many components. */
+size_t
+qdot_definition_components(const assignment *a)
+{
+    size_t n = 1;
+    long depth = 0;
+
+    if (!qdot_token_is(a->equals + 1, "(") ||
+        qdot_statement_behind_bracket(a->equals + 1) != a->behind)
+        return 1;
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) {
+        depth += qdot_token_bracket(k);
+        n += depth == 1 && qdot_token_is(k, ",");
+    }
+    return n;
+}
+
+static bool
+is_sum(const assignment *a)
+{
+    long depth = 0;
+
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) {
+        depth += qdot_token_bracket(k);
+        if (depth == 0 && (qdot_token_is(k, "+") || qdot_token_is(k, "-")))
+            return true;
+    }
+    return false;
+}
+
+/* WORD RIGHT BEHIND */
+static void
+write_statement(assignment *a, const char *word, const char *behind)
+{
+    qdot_text_format(&a->line, "%s %s%s", word, qdot_text_str(&a->right), behind);
+}
+
+/* The number of dimensions of the scene; 0: nothing is placed yet. */
+static uint32_t
+count_dimensions(const qdot_session *s)
+{
+    const qdot_scene *scene = s->scene;
+    const qdot_expr at = scene->particles.n > 0 ? scene->particles.at[0].position
+                         : scene->bodies.n > 0  ? scene->bodies.at[0].position
+                                                : QDOT_NIL;
+
+    return at == QDOT_NIL                         ? 0
+           : qdot_expr_is_scalar(s->pool, at) ? 1
+                                                  : qdot_expr_count(s->pool, at);
+}
+
+/* gravity = g: along the last axis, downwards; gravity = (0, -g) as it is. False: it is no field of the
+ * scene. */
+static bool
+write_gravity(assignment *a)
+{
+    const uint32_t n = count_dimensions(a->session);
+    const char *right = qdot_text_str(&a->right);
+    const bool down = *right == '-'; /* already */
+    const bool whole = is_sum(a) && !down;
+
+    if (qdot_definition_components(a) > 1 && n > 0 && qdot_definition_components(a) != n)
+        return false;
+    if (qdot_definition_components(a) > 1 || n == 1)
+        write_statement(a, "gravity", "");
+    else
+        qdot_text_format(&a->line, "gravity (0, %s%s%s%s%s)", n == 3 ? "0, " : "", down ? "" : "-",
+                         whole ? "(" : "", right, whole ? ")" : "");
+    return true;
+}
+
+/* force = F: a vector on the first thing that has as many dimensions, a number on a coordinate. False:
+ * there is none. */
+static bool
+write_force(assignment *a, const char *word)
+{
+    const qdot_scene *s = a->session->scene;
+    const qdot_name *q = qdot_definition_coordinate(a->session);
+    const char *on = q != NULL ? q->name : NULL;
+    const bool vector = qdot_definition_components(a) > 1;
+    qdot_text behind = {0};
+
+    if (vector)
+        on = strcmp(word, "force") != 0 ? NULL
+             : s->particles.n > 0       ? s->particles.at[0].name
+             : s->bodies.n > 0          ? s->bodies.at[0].name
+                                        : NULL;
+    if (on == NULL)
+        return false;
+    qdot_text_format(&behind, " on %s", on);
+    write_statement(a, word, qdot_text_str(&behind));
+    qdot_text_clear(&behind);
+    return true;
+}
+
+/* spring = k: between the first particle and the origin. False: nothing is there. */
+static bool
+write_link(assignment *a, const char *word)
+{
+    static const char *const origin[] = {"", "0", "(0, 0)", "(0, 0, 0)"};
+    const qdot_scene *s = a->session->scene;
+    const uint32_t n = count_dimensions(a->session);
+
+    if (s->particles.n == 0 || n > 3 || qdot_definition_components(a) > 1)
+        return false;
+    qdot_text_format(&a->line, "%s between %s, %s %s %s", word, s->particles.at[0].name, origin[n],
+                     strcmp(word, "spring") == 0 ? "stiffness" : "coefficient",
+                     qdot_text_str(&a->right));
+    return true;
+}
+
+/* constraint = A = B is read as one; constraint = E holds E at 0. */
+static void
+write_constraint(assignment *a)
+{
+    bool equation = false;
+
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++)
+        equation |= qdot_token_is(k, "=") || qdot_token_is(k, "==");
+    write_statement(a, "constraint", equation ? "" : " = 0");
+}
+
+/* What stands behind these words may be written behind an equation sign by mistake; false: it is a
+ * value, for which a name was sought. */
+bool
+qdot_definition_statement(assignment *a, const qdot_statement *row)
+{
+    static const char *const terms[] = {"potential", "dissipation", "lagrangian", "hamiltonian"};
+    static const char *const options[][2] = {{"style", "plain unicode flat latex mathml"},
+                                             {"timing", "on off"}};
+    const qdot_scene *s = a->session->scene;
+    const char *word = row->word;
+    const qdot_token *right = a->equals + 1;
+    bool stated = s->lagrangian != QDOT_NIL;
+
+    if (row->run == NULL || a->name + 1 != a->equals) /* with arguments it is a function */
+        return false;
+    if ((stated && (strcmp(word, "potential") == 0 || strcmp(word, "gravity") == 0)) ||
+        ((strcmp(word, "lagrangian") == 0 || strcmp(word, "hamiltonian") == 0) &&
+         s->particles.n + s->bodies.n > 0))
+        return false;
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
+        if (strcmp(word, terms[i]) == 0 && qdot_definition_components(a) == 1)
+            return write_statement(a, word, ""), true;
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (strcmp(word, options[i][0]) == 0 && right->kind == QDOT_TOKEN_NAME &&
+            right + 1 == a->behind && qdot_has_word(options[i][1], right->text))
+            return write_statement(a, word, ""), true;
+    if (strcmp(word, "gravity") == 0)
+        return !a->primed && write_gravity(a);
+    if (strcmp(word, "constraint") == 0 && a->moves && qdot_definition_components(a) == 1)
+        return write_constraint(a), true;
+    if (strcmp(word, "force") == 0 || strcmp(word, "torque") == 0)
+        return write_force(a, word);
+    if (strcmp(word, "spring") == 0 || strcmp(word, "damper") == 0)
+        return write_link(a, word);
+    for (const qdot_token *k = right; k < a->behind && !row->alone; k++)
+        if (qdot_token_is(k, "..") || k->kind == QDOT_TOKEN_STRING)
+            return write_statement(a, word, ""), true; /* run = 0..5, include = "x.lag" */
+    return false;
+}

@@ -1,0 +1,141 @@
+/* loop-index.c -- where the index of a `for` occurs in what is repeated. */
+#include "lang/commands/loop-index.h"
+
+#include <string.h>
+
+#include "expr/walk.h"
+#include "lang/commands/statement-form.h"
+#include "lang/functions/quantity.h"
+
+/* --- where a declared symbol occurs ------------------------------------------------------- */
+
+static bool
+is_in_any(const qdot_session *s, size_t n, const qdot_expr *list, qdot_expr symbol)
+{
+    for (size_t i = 0; i < n; i++)
+        if (qdot_expr_contains(s->pool, list[i], symbol))
+            return true;
+    return false;
+}
+
+/* Whether what is declared, or a value of a parameter, or the start, holds the symbol. */
+static bool
+is_in_scene(const qdot_session *s, qdot_expr symbol)
+{
+    for (size_t i = 0; i < s->scene->events.n; i++) {
+        const qdot_event *event = &s->scene->events.at[i];
+
+        if (is_in_any(s, event->values.n, event->values.at, symbol) ||
+            qdot_expr_contains(s->pool, event->left, symbol) ||
+            qdot_expr_contains(s->pool, event->right, symbol))
+            return true;
+    }
+    return is_in_any(s, s->set_values.n, s->set_values.at, symbol) ||
+           is_in_any(s, s->start_values.n, s->start_values.at, symbol) ||
+           qdot_scene_contains(s->scene, symbol);
+}
+
+/* Whether the name that is no index itself stands for something with the symbol in it. */
+static bool
+stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
+{
+    const qdot_name *known = qdot_names_find(s->names, name);
+    const size_t length = strlen(name);
+
+    if (known != NULL && known->kind == QDOT_NAME_FUNCTION)
+        return true; /* its text may name anything */
+    if (known != NULL)
+        return known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol);
+    for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
+        if (strncmp(known->name, name, length) == 0 && known->name[length] == '[' &&
+            known->value != QDOT_NIL && qdot_expr_contains(s->pool, known->value, symbol))
+            return true;
+    return (qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)) &&
+           is_in_scene(s, symbol);
+}
+
+/* Whether the statement at `first`, in [first, to), depends on the declared symbol by more than its
+ * text: it asks of the scene or makes runs. */
+static bool
+depends_on_scene(const qdot_session *s, const qdot_token *first, qdot_expr symbol)
+{
+    static const char *const runs[] = {"run", "plan", "race", "workprecision", "longtime", "lyapunov",
+                                       "sweep", "find", "fit", "continue", "report"};
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (row == NULL)
+        return false;
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++)
+        if (strcmp(row->word, runs[i]) == 0)
+            return qdot_expr_is_class(s->pool, symbol, QDOT_COORD) || is_in_scene(s, symbol);
+    return row->alone && qdot_statement_asks(row) && is_in_scene(s, symbol);
+}
+
+static bool
+is_declaration(const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    return row != NULL && qdot_statement_declares(row);
+}
+
+/* --- the clause --------------------------------------------------------------------------- */
+
+/* The parameter or coordinate that the name is declared as; NULL: it is none. */
+static const qdot_name *
+declared(const qdot_session *s, const char *name)
+{
+    const qdot_name *known = qdot_names_find(s->names, name);
+
+    return known != NULL && (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD)
+               ? known
+               : NULL;
+}
+
+static bool
+is_used(const qdot_session *s, const char *name, const qdot_token *from, const qdot_token *to)
+{
+    const qdot_name *known = declared(s, name);
+    const qdot_token *first = from;
+
+    for (const qdot_token *k = from; k < to; k++)
+        if (qdot_token_is_word(k, name))
+            return true;
+    for (const qdot_token *k = from; k < to && known != NULL; k++) {
+        if (k == from || k[-1].kind == QDOT_TOKEN_END || qdot_token_is(k - 1, "{")) {
+            first = k;
+            if (depends_on_scene(s, k, known->value))
+                return true;
+        }
+        if (qdot_token_is(k, "%") && !is_declaration(first))
+            return true;
+        if (k->kind == QDOT_TOKEN_NAME && !is_declaration(first) &&
+            stands_for(s, k->text, known->value))
+            return true;
+    }
+    return false;
+}
+
+qdot_status
+qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *to, bool block)
+{
+    const qdot_token *clause = c->at, *end = clause;
+    long depth = 0;
+
+    while (end->kind != QDOT_TOKEN_END)
+        end++;
+    for (const qdot_token *k = clause; k < end; k++) {
+        depth += qdot_token_bracket(k);
+        if (depth != 0 || k->kind != QDOT_TOKEN_NAME || !qdot_token_is(k + 1, "=") ||
+            (k > clause && !qdot_token_is(k - 1, ",")) || is_used(c->session, k->text, from, to) ||
+            is_used(c->session, k->text, k + 2, end) ||
+            (block && declared(c->session, k->text) == NULL))
+            continue;
+        c->error_at = k->start;
+        (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
+        return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
+    }
+    return QDOT_OK;
+}

@@ -1,0 +1,182 @@
+/* statement-form.c -- what a statement is, by its first tokens. */
+#include "lang/commands/statement-form.h"
+
+#include <string.h>
+
+#include "lang/functions/builtin.h"
+#include "lang/functions/quantity.h"
+
+const qdot_token *
+qdot_statement_behind_bracket(const qdot_token *open)
+{
+    long depth = 0;
+
+    for (const qdot_token *k = open; k->kind != QDOT_TOKEN_END; k++) {
+        const int step = qdot_token_bracket(k);
+
+        depth += step;
+        if (step != 0 && depth == 0)
+            return k + 1;
+    }
+    return open; /* a statement cut by a `for` inside: not a bracket that closes */
+}
+
+/* --- definitions of functions --------------------------------------------------------- */
+
+/* Whether a name may stand for the argument of a function: pi, dtheta may not. */
+static bool
+is_free_argument(const qdot_session *session, const char *name)
+{
+    static const char *const reserved[] = {"pi", "true", "false", "and", "or", "not", "dt"};
+    const qdot_name *q;
+
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
+        if (strcmp(name, reserved[i]) == 0)
+            return false;
+    if (name[0] != 'd' || name[1] == '\0')
+        return true;
+    q = qdot_names_find(session->names, name + 1);
+    return q == NULL || q->kind != QDOT_NAME_COORD;
+}
+
+/* Whether `name` is what the function was defined with at place i. */
+static bool
+is_formal(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
+{
+    const qdot_symbol *formal;
+
+    if (i >= qdot_expr_count(session->pool, function->formals))
+        return false;
+    formal = qdot_expr_symbol(session->pool, qdot_expr_arg(session->pool, function->formals, i));
+    return formal != NULL && strcmp(formal->name, name) == 0;
+}
+
+/* Whether `name` means something at this moment that an argument could be. */
+static bool
+is_declared(const qdot_session *session, const char *name)
+{
+    return qdot_names_find(session->names, name) != NULL ||
+           qdot_scene_has_label(session->scene, name);
+}
+
+/* NAME(names) = */
+static bool
+defines_function(const qdot_session *session, const qdot_token *name)
+{
+    const qdot_builtin *builtin = qdot_builtin_find(name->text);
+    const qdot_name *known = qdot_names_find(session->names, name->text);
+    const qdot_token *k = name + 2;
+    bool applied = false; /* to declared names that are not its own arguments */
+
+    if (builtin != NULL && !(builtin->flags & QDOT_BUILTIN_SHORT) &&
+        (known == NULL || known->kind != QDOT_NAME_UFUN))
+        return false;
+    for (uint32_t i = 0;; i++, k += 2) {
+        if (k->kind != QDOT_TOKEN_NAME || !is_free_argument(session, k->text))
+            return false;
+        applied |= known != NULL && known->kind == QDOT_NAME_FUNCTION &&
+                   is_declared(session, k->text) && !is_formal(session, known, i, k->text);
+        if (!qdot_token_is(k + 1, ","))
+            break;
+    }
+    return qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=") && !applied;
+}
+
+/* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an
+ * operand unless it is written close to it. */
+static bool
+is_definition(const qdot_session *session, const qdot_token *name, bool word)
+{
+    const qdot_token *next = name + 1;
+
+    if (qdot_token_is(next, "="))
+        return true;
+    if (!(qdot_token_is(next, "[") || qdot_token_is(next, "(")) || (word && !next->glued))
+        return false;
+    if (qdot_token_is(next, "("))
+        return defines_function(session, name);
+    return qdot_token_is(qdot_statement_behind_bracket(next), "=");
+}
+
+/* --- statements of a word --------------------------------------------------------------- */
+
+/* Whether a minus is the sign of what follows, `potential -k/x`: a blank before it, none behind it. */
+static bool
+is_sign(const qdot_token *token)
+{
+    return qdot_token_is(token, "-") && !token->glued && token[1].glued;
+}
+
+/* Whether the token begins the operand of a statement: a name, a number, a sign, or a bracket that is
+ * not written close to the statement's word. */
+static bool
+begins_operand(const qdot_token *token)
+{
+    static const char *const words[] = {"and", "or", "to", "when", "within", "for", "at"};
+
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (qdot_token_is_word(token, words[i]))
+            return false;
+    return token->kind == QDOT_TOKEN_NAME || token->kind == QDOT_TOKEN_NUMBER ||
+           (qdot_token_is(token, "(") && !token->glued) || is_sign(token);
+}
+
+bool
+qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
+                       const qdot_statement *row)
+{
+    static const char *const binary[] = {"*", "/",  "^",  "'", "==", "<",
+                                         ">", "<=", ">=", "=", "!=", "."};
+    const qdot_token *next = name + 1;
+    bool declared = qdot_names_find(session->names, name->text) != NULL ||
+                    qdot_names_is_family(session->names, name->text);
+
+    /* `hamiltonian` is a value; with an operand behind it, a statement */
+    if (!row->alone && qdot_quantity_find(row->word) != NULL)
+        return declared || !begins_operand(next);
+    if (row->alone)
+        return (next->kind != QDOT_TOKEN_END && !qdot_token_is_word(next, "at") &&
+                !(qdot_token_is_word(next, "to") && next[1].kind != QDOT_TOKEN_OPERATOR)) ||
+               declared;
+    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
+        if (qdot_token_is(next, binary[i]))
+            return true;
+    return declared &&
+           (next->kind == QDOT_TOKEN_END || qdot_token_is(next, "+") ||
+            (qdot_token_is(next, "-") && !is_sign(next)) ||
+            ((qdot_token_is(next, "(") || qdot_token_is(next, "[")) && next->glued));
+}
+
+/* --- comparisons ------------------------------------------------------------------------ */
+
+/* A == B outside of brackets, with no `and`, `or`, `not` about it. */
+static bool
+is_comparison(const qdot_token *first)
+{
+    bool equal = false;
+    long depth = 0;
+
+    for (const qdot_token *k = first; k->kind != QDOT_TOKEN_END; k++) {
+        depth += qdot_token_bracket(k);
+        if (depth != 0)
+            continue;
+        if (qdot_token_is_word(k, "and") || qdot_token_is_word(k, "or") ||
+            qdot_token_is_word(k, "not"))
+            return false;
+        equal |= qdot_token_is(k, "==");
+    }
+    return equal;
+}
+
+qdot_form
+qdot_statement_form(const qdot_session *session, const qdot_token *first)
+{
+    const qdot_statement *row =
+        first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
+
+    if (first->kind == QDOT_TOKEN_NAME && is_definition(session, first, row != NULL))
+        return QDOT_FORM_DEFINITION;
+    if (row != NULL && !qdot_statement_is_name(session, first, row))
+        return QDOT_FORM_WORD;
+    return is_comparison(first) ? QDOT_FORM_COMPARISON : QDOT_FORM_VALUE;
+}

@@ -1,0 +1,34 @@
+/* statement-form.h -- what a statement is, by its first tokens.
+ *
+ *   theta = ..., f(u) = ..., r[k] = ...    a definition
+ *   potential k*x^2/2, run 0..5            the statement of a word
+ *   T == m*x'^2/2                          a comparison, which is `check`
+ *   T, sin(theta) = 0, theta' = 2          a value; an equation is one
+ *
+ * Tests  tests/script/equations.lag, tests/lang/hints.def
+ */
+#ifndef QDOT_LANG_STATEMENT_FORM_H
+#define QDOT_LANG_STATEMENT_FORM_H
+
+#include "lang/commands/statement.h"
+
+typedef enum {
+    QDOT_FORM_DEFINITION,
+    QDOT_FORM_WORD,
+    QDOT_FORM_COMPARISON,
+    QDOT_FORM_VALUE
+} qdot_form;
+
+/* The form of the statement that begins at `first`. NAME(args) = EXPR is a definition unless NAME is
+ * a function of the language, an argument is no name that can be taken, or it is a function of the
+ * user's with a declared name in place of its argument: f(u) = u^2, then f(x) = 0. */
+qdot_form qdot_statement_form(const qdot_session *session, const qdot_token *first);
+
+/* Whether the statement's word at `name` is used as a name there: `run*2`, a user's own `scene`. */
+bool qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
+                            const qdot_statement *row);
+
+/* The token behind the bracket that opens at `open`; `open` itself if none closes it. */
+const qdot_token *qdot_statement_behind_bracket(const qdot_token *open);
+
+#endif

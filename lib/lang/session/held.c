@@ -1,0 +1,162 @@
+/* held.c -- parameters and coordinates that have a value for one pass of a loop. */
+#include "lang/session/held.h"
+
+#include <string.h>
+
+#include "expr/calculus.h"
+#include "lang/session/bind.h"
+
+/* --- values of `set` and `start` --------------------------------------------------------- */
+
+/* Where the symbol stands in one of the two lists; its length: nowhere. */
+static size_t
+find(const qdot_expr *symbols, size_t n, qdot_expr symbol)
+{
+    size_t i = 0;
+
+    while (i < n && symbols[i] != symbol)
+        i++;
+    return i;
+}
+
+qdot_status
+qdot_held_begin(qdot_session *session, qdot_expr symbol, qdot_expr value)
+{
+    const bool starts = qdot_expr_is_class(session->pool, symbol, QDOT_COORD);
+    const qdot_expr *symbols = starts ? session->start_symbols.at : session->set_symbols.at;
+    const qdot_expr *values = starts ? session->start_values.at : session->set_values.at;
+    const size_t n = starts ? session->start_symbols.n : session->set_symbols.n;
+    const size_t i = find(symbols, n, symbol);
+    const qdot_held held = {symbol, value, i < n ? values[i] : QDOT_NIL};
+
+    QDOT_TRY(qdot_vec_push(&session->held, held));
+    if (qdot_session_put(session, symbol, value) == QDOT_OK)
+        return QDOT_OK;
+    session->held.n--;
+    return QDOT_ENOMEM;
+}
+
+#define TAKE_OUT(list, i)                                                                \
+    memmove(&(list).at[i], &(list).at[(i) + 1], (--(list).n - (i)) * sizeof *(list).at)
+
+void
+qdot_held_end(qdot_session *session)
+{
+    qdot_held held;
+    bool starts;
+    size_t n, i;
+
+    if (session->held.n == 0) /* a `reset` inside of the loop */
+        return;
+    held = session->held.at[--session->held.n];
+    starts = qdot_expr_is_class(session->pool, held.symbol, QDOT_COORD);
+    n = starts ? session->start_symbols.n : session->set_symbols.n;
+    i = find(starts ? session->start_symbols.at : session->set_symbols.at, n, held.symbol);
+    if (i == n) /* taken out by the statement, `reset start` */
+        return;
+    if (held.before != QDOT_NIL) {
+        *(starts ? &session->start_values.at[i] : &session->set_values.at[i]) = held.before;
+    } else if (starts) {
+        TAKE_OUT(session->start_symbols, i);
+        TAKE_OUT(session->start_values, i);
+    } else {
+        TAKE_OUT(session->set_symbols, i);
+        TAKE_OUT(session->set_values, i);
+    }
+}
+
+/* --- expressions ------------------------------------------------------------------------- */
+
+qdot_expr
+qdot_held_apply(qdot_session *session, qdot_expr e)
+{
+    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
+        e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
+                      &session->held.at[i].value);
+    return e;
+}
+
+bool
+qdot_held_coordinate(const qdot_session *session)
+{
+    for (size_t i = 0; i < session->held.n; i++)
+        if (qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
+            return true;
+    return false;
+}
+
+qdot_status
+qdot_held_check(qdot_session *session)
+{
+    for (size_t i = 0; i < session->held.n; i++)
+        QDOT_TRY(qdot_session_in_domain(session, session->held.at[i].symbol,
+                                        session->held.at[i].value));
+    return QDOT_OK;
+}
+
+/* --- the scene --------------------------------------------------------------------------- */
+
+/* e with held parameters put in. */
+static qdot_expr
+put_in(qdot_expr e, void *user)
+{
+    qdot_session *session = user;
+
+    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
+        if (!qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
+            e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
+                          &session->held.at[i].value);
+    return e;
+}
+
+static void
+drop(qdot_held_scene *kept)
+{
+    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++)
+        qdot_free(kept->at[k]);
+    *kept = (qdot_held_scene){0};
+}
+
+qdot_status
+qdot_held_scene_begin(qdot_session *session, qdot_held_scene *kept)
+{
+    qdot_scene *scene = session->scene;
+
+    kept->lagrangian = scene->lagrangian;
+    kept->version = scene->version;
+    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++) {
+        const qdot_scene_part part = qdot_scene_part_at(scene, k);
+        const size_t bytes = *part.n * part.size;
+
+        kept->at[k] = qdot_malloc(bytes + 1);
+        if (kept->at[k] == NULL) {
+            drop(kept);
+            return QDOT_ENOMEM;
+        }
+        if (bytes > 0)
+            memcpy(kept->at[k], *(void **)part.at, bytes);
+    }
+    return qdot_scene_map(scene, put_in, session);
+}
+
+void
+qdot_held_scene_end(qdot_session *session, qdot_held_scene *kept)
+{
+    qdot_scene *scene = session->scene;
+
+    if (kept->at[0] == NULL)
+        return;
+    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++) {
+        const qdot_scene_part part = qdot_scene_part_at(scene, k);
+        const size_t bytes = *part.n * part.size;
+
+        if (bytes > 0)
+            memcpy(*(void **)part.at, kept->at[k], bytes);
+    }
+    scene->lagrangian = kept->lagrangian;
+    scene->version++;
+    for (size_t i = 0; i < session->runs.n; i++) /* the scene is what it was */
+        if (session->runs.at[i].conditions->version == kept->version)
+            session->runs.at[i].conditions->version = scene->version;
+    drop(kept);
+}

@@ -1,0 +1,25 @@
+/* momenta.h -- expressions in momenta p[q] and in velocities q', one turned into the other.
+ *
+ * A definition keeps p[x] as the symbol. Where an expression of momenta meets one of velocities, the
+ * momenta become p = dL/dq', or the velocities what they are in momenta; so both sides of
+ * `check E1 == energy`, the columns of a table, and diff(E1, x') are in one kind of variables.
+ * Where the scene has no Lagrangian, momenta are symbols like others and nothing is changed.
+ *
+ * Tests  tests/script/momenta-in-names.lag
+ */
+#ifndef QDOT_LANG_MOMENTA_H
+#define QDOT_LANG_MOMENTA_H
+
+#include "lang/session/session.h"
+
+/* e with every momentum as dL/dq'. Nil: the pool keeps the failure, as below. */
+qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
+
+/* e in the variables of `symbol`: in momenta for p[x]; in velocities if p[q] and q' of one coordinate q
+ * stand in e and `symbol`, as p[x] for x'; else as it is: Routh's function keeps p[phi] for theta'. */
+qdot_expr qdot_momenta_for(qdot_session *session, qdot_expr e, qdot_expr symbol);
+
+/* Whether p[q] and q', or q'', of one coordinate stand in e [n]. */
+bool qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e);
+
+#endif
