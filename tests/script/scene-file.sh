@@ -49,14 +49,14 @@ qdot --json written.lag -e "$ask" | sed 's/"cpu[a-z_]*":[^,]*,//g' >two
 cmp one two && grep -c . two
 cat written.lag
 
-# A session has its style and its runs, these as comments; the scene is written in the plain style.
+# A session has its style and its runs; the scene is written in the plain style.
 qdot -q written.lag -e 'style unicode; run 0..1/2 tol 1e-9 as a with c = 1/4; run 0..1
 scene to "again.lag"; save session to "session.lag"; style latex; save session to "session.lag"' |
     grep -v 'cpu'
 cmp written.lag again.lag && diff again.lag session.lag
 qdot -q session.lag -e 'style plain; scene to "again.lag"' && cmp written.lag again.lag
 
-# Numbers of a run are written as what they are; what somebody wrote stays.
+# A name with a number of a run is no part of a scene; what somebody wrote stays.
 qdot -q -e "coord x; lagrangian x'^2 - x^2; start x = 1; 1; run 0..1; B = value(x, 1); start run1
 A = sin(x); sin = 3; G[k] = metric((k*x, 1)) for k = 1..2; c[k] = %1 + k for k = 1..2
 scene to \"other.lag\"" | tail -n 2

@@ -14,7 +14,9 @@
 #include "lang/commands/warnings.h"
 #include "lang/language/function.h"
 #include "lang/language/read.h"
+#include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "lang/source/source.h"
 
 /* --- lists of names with domains ---------------------------------------------------- */
@@ -494,6 +496,34 @@ define_function(qdot_cursor *c)
     return status;
 }
 
+/* The text of the right side. If it reads a run in a loop, with the values of the indices, since it may
+ * be written down (lang/declare/session-file). */
+static qdot_status
+keep_text(qdot_cursor *c, const qdot_token *right, qdot_expr value, qdot_function_body **body)
+{
+    qdot_source *source = NULL;
+    qdot_text text = {0};
+    qdot_status status;
+    size_t at;
+
+    if (c->session->loops == 0 || !qdot_measured_occurs(c->session, value)) {
+        *body = qdot_function_body_new(c->source, right, c->at);
+        return *body != NULL ? QDOT_OK : QDOT_ENOMEM;
+    }
+    qdot_token_text(c->session, right, c->at, &text);
+    status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_source_new("a definition", qdot_text_str(&text), text.n, &source, &at);
+    if (status == QDOT_OK) {
+        *body = qdot_function_body_new(source, source->tokens.at,
+                                       source->tokens.at + source->tokens.n - 1);
+        status = *body != NULL ? QDOT_OK : QDOT_ENOMEM;
+    }
+    qdot_source_free(source);
+    qdot_text_clear(&text);
+    return status;
+}
+
 qdot_status
 qdot_declare_definition(qdot_cursor *c)
 {
@@ -522,9 +552,7 @@ qdot_declare_definition(qdot_cursor *c)
                                : "start %s = ... gives its initial value",
                          name);
     }
-    entry.body = qdot_function_body_new(c->source, right, c->at);
-    if (entry.body == NULL)
-        return QDOT_ENOMEM;
+    QDOT_TRY(keep_text(c, right, entry.value, &entry.body));
     status = qdot_declare_name(c, start, &entry);
     qdot_function_body_release(entry.body);
     return status;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lang/answer/answer.h"
+#include "lang/declare/session-file.h"
 #include "lang/language/function.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
@@ -50,6 +51,22 @@ put_symbols(qdot_session *s, qdot_text *out)
     return QDOT_OK;
 }
 
+/* The text as the right side of a definition, which keeps momenta. */
+static qdot_status
+definition_source(const qdot_text *text, qdot_source **source)
+{
+    qdot_text line = {0};
+    qdot_status status;
+    size_t at;
+
+    qdot_text_format(&line, "it = %s", qdot_text_str(text));
+    status = qdot_text_status(&line);
+    if (status == QDOT_OK)
+        status = qdot_source_new("a definition", qdot_text_str(&line), line.n, source, &at);
+    qdot_text_clear(&line);
+    return status;
+}
+
 /* Whether the text has just this value here, and its entries go by these coordinates. */
 static qdot_status
 reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr over, bool *is)
@@ -57,13 +74,12 @@ reads_back(qdot_session *s, const qdot_text *text, qdot_expr value, qdot_expr ov
     qdot_source *source = NULL;
     qdot_expr read = QDOT_NIL, its_over = QDOT_NIL;
     qdot_status status;
-    size_t at;
 
     *is = false;
     QDOT_TRY(qdot_text_status(text));
-    status = qdot_source_new("a definition", qdot_text_str(text), text->n, &source, &at);
+    status = definition_source(text, &source);
     if (status == QDOT_OK) {
-        qdot_cursor c = {.session = s, .source = source, .at = source->tokens.at};
+        qdot_cursor c = {.session = s, .source = source, .at = source->tokens.at + 2};
 
         status = qdot_read_named(&c, &read, &its_over);
         *is = status == QDOT_OK && qdot_cursor_is_end(&c) && read == value &&
@@ -84,7 +100,7 @@ is_lasting(const qdot_function_body *body)
     return true;
 }
 
-enum { VALUE, CANONICAL, SAID, FORMS };
+enum { VALUE, SAID, FORMS };
 
 /* One way to write the right side; nothing: it has no such form. */
 static qdot_status
@@ -95,11 +111,7 @@ put_form(qdot_session *s, const qdot_name *name, qdot_expr value, int form, qdot
             qdot_token_text(s, name->body->from, name->body->to, out);
         return QDOT_OK;
     }
-    if (form == CANONICAL && !(qdot_expr_node(s->pool, value)->holds & QDOT_HAS_MOMENTUM))
-        return QDOT_OK;
-    QDOT_TRY(qdot_print(s->pool, value, QDOT_PLAIN, out));
-    qdot_text_add(out, form == CANONICAL ? " + 0*hamiltonian" : ""); /* p[ ] as in that */
-    return QDOT_OK;
+    return qdot_print(s->pool, value, QDOT_PLAIN, out);
 }
 
 /* The first form that reads back; *is: there is one. */
@@ -125,10 +137,11 @@ put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr ove
 static qdot_status
 put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
 {
-    const qdot_expr value = qdot_measured_as_rationals(s, name->value);
+    const qdot_expr value = name->value;
     bool is = false;
 
-    QDOT_TRY(qdot_pool_check(s->pool));
+    if (qdot_measured_occurs(s, value))
+        return QDOT_OK; /* it reads a run: lang/declare/session-file */
     QDOT_TRY(put_first(s, name, value, name->over, out, &is));
     if (!is && name->over != QDOT_NIL) /* its entries by numbers only */
         QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
@@ -159,25 +172,20 @@ put_definitions(qdot_session *s, qdot_text *out)
 
 static qdot_status
 put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
-           const qdot_expr *values, const char *last, qdot_text *out)
+           const qdot_expr *values, const char *last, bool remarks, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++) {
         QDOT_TRY(put(s, word, symbols[i], out));
         QDOT_TRY(put(s, " = ", values[i], out));
-        qdot_text_add(out, i + 1 == n ? last : "\n");
+        qdot_text_add(out, i + 1 == n ? last : "");
+        if (remarks)
+            qdot_session_file_remark(s, values[i], out);
+        qdot_text_char(out, '\n');
     }
     return QDOT_OK;
 }
 
 /* --- what is no scene ----------------------------------------------------------------- */
-
-static void
-put_runs(const qdot_session *s, const char *before, qdot_text *out)
-{
-    for (size_t i = 0; i < s->runs.n; i++)
-        qdot_text_format(out, "%srun %s as %s\n", before, s->runs.at[i].text,
-                         s->runs.at[i].name);
-}
 
 static void
 put_settings(const qdot_session *s, qdot_text *out)
@@ -197,21 +205,22 @@ put_settings(const qdot_session *s, qdot_text *out)
 qdot_status
 qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
+    const bool session = what == QDOT_FILE_SESSION;
+
     qdot_text_add(out, header);
     QDOT_TRY(put_symbols(s, out));
     QDOT_TRY(qdot_scene_print_things(s->scene, out));
     QDOT_TRY(put_definitions(s, out));
     QDOT_TRY(put_values(s, "set ", s->set_symbols.n, s->set_symbols.at, s->set_values.at,
-                        "\n", out));
+                        "", session, out));
     QDOT_TRY(put_values(s, "start ", s->start_symbols.n, s->start_symbols.at,
                         s->start_values.at,
-                        s->start_exactly ? " exactly\n" : "\n", out));
+                        s->start_exactly ? " exactly" : "", session, out));
     QDOT_TRY(put_values(s, "scale ", s->scale_symbols.n, s->scale_symbols.at,
-                        s->scale_values.at, "\n", out));
-    if (what != QDOT_FILE_SCENE) {
+                        s->scale_values.at, "", session, out));
+    if (session)
         put_settings(s, out);
-        put_runs(s, what == QDOT_FILE_SESSION ? "# " : "", out);
-    }
+    QDOT_TRY(qdot_session_file_runs(s, session, out));
     return qdot_text_status(out);
 }
 

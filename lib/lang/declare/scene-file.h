@@ -4,7 +4,8 @@
  * values are evaluated, in exact numbers, in the plain style. Order: parameters, functions and
  * coordinates as they were declared; assumptions; things with mass, forces, constraints, events;
  * definitions; values of `set`; the start. Read by a fresh program they give the same scene, and
- * written again the same file.
+ * written again the same file. A session has its runs too, each under the conditions it was made under
+ * (lang/declare/session-file).
  *
  * A definition is written as its value, or as the text it was defined with, whichever is verified
  * to read back as its value; else a comment and a notice say that it is missing.
@@ -23,8 +24,7 @@ bool qdot_scene_file_is(const qdot_token *token);
 
 typedef enum {
     QDOT_FILE_SCENE,   /* the scene, values, start and definitions */
-    QDOT_FILE_SESSION, /* and the style, and the runs as comments: reading it shall not integrate */
-    QDOT_FILE_SCRIPT   /* and the style, and the runs */
+    QDOT_FILE_SESSION  /* and the style, the runs, and names that hold numbers of them */
 } qdot_scene_file;
 
 /* Append what stands in such a file. */

@@ -97,7 +97,7 @@ add_script(page *p)
         qdot_page_verbatim(&p->page, p->c->source->text);
         return QDOT_OK;
     }
-    status = qdot_scene_file_text(p->session, QDOT_FILE_SCRIPT, &text);
+    status = qdot_scene_file_text(p->session, QDOT_FILE_SESSION, &text);
     if (status == QDOT_OK)
         qdot_page_verbatim(&p->page, qdot_text_str(&text));
     qdot_text_clear(&text);
