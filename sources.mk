@@ -1405,6 +1405,7 @@ unit_tests = \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
 	tests/src/test_prompt \
+	tests/src/test_readme \
 	tests/src/test_screen \
 	tests/tape/test_constant \
 	tests/tape/test_derivative \

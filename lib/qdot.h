@@ -7,7 +7,7 @@
  *     qdot_system_new(&s);
  *     qdot_system_declare(s, "coord theta\n"
  *                            "particle bob mass 1 at (sin(theta), -cos(theta))\n"
- *                            "gravity 9.81\n"
+ *                            "gravity (0, -9.81)\n"
  *                            "start theta = 2");
  *     qdot_system_run(s, "0..10 tol 1e-12", &m);
  *     qdot_motion_values(m, "theta", 2, t, 1, theta, error);
