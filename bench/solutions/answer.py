@@ -1,0 +1,140 @@
+"""answer.py -- what the program said to one script: its list, the conditions of each entry, and if it is all."""
+import json, re, subprocess, tempfile, os
+
+from formula import Unreadable, names
+
+PARTIAL = re.compile(r"there may be|may be others|may not|not all|searched|not proved|may be incomplete|no proof|"
+                     r"not known|cannot be told|incomplete|starts in numbers|unproved|without proof|may be more", re.I)
+NONE = re.compile(r"there (is|are) no\b|no equilibrium|no solution", re.I)
+ALL = re.compile(r"holds for every value|every value|every place", re.I)
+
+
+class Entry:
+    """One solution: equations NAME = formula (one unknown: its value), or a relation that holds on a set."""
+    def __init__(self, index, text):
+        self.index, self.text = index, text
+        self.equations, self.relations = [], []      # (name, formula); conditions that describe a set
+        self.exists, self.stable_when = None, None
+        self.stability, self.numeric, self.words = None, False, ""
+
+    def free(self, known):
+        """The integers of a family: names that nothing declares."""
+        parts = [f for _, f in self.equations] + self.relations + [c for c in (self.exists,) if c]
+        return sorted(set().union(*[names(p) for p in parts]) - known) if parts else []
+
+
+class Answer:
+    def __init__(self):
+        self.entries, self.notes = [], []
+        self.partial = self.none = self.every = self.turns = False
+        self.error, self.hint, self.crash, self.status, self.output = None, None, None, 0, ""
+
+
+def _split(text, at=", "):
+    """Parts outside brackets."""
+    parts, depth, last = [], 0, 0
+    for i, c in enumerate(text):
+        depth += (c in "([{") - (c in ")]}")
+        if depth == 0 and text.startswith(at, i):
+            parts.append(text[last:i])
+            last = i + len(at)
+    return parts + [text[last:]]
+
+
+def _conditions(words, entry):
+    """`numeric, exists when a > 0 and b > 0, stable when c > 0`."""
+    entry.words = words
+    for part in _split(words):
+        part = part.strip()
+        if part.startswith("numeric"):
+            entry.numeric = True
+        elif re.match(r"(exists |only )?(when|if|where) ",
+                      part) or part.startswith("for ") or part.startswith("exists"):
+            entry.exists = re.sub(r"^(exists )?(only )?(when|if|where|for) ", "", part)
+            entry.exists = re.sub(r",? *(any |every |an )?integers?( [a-z]\w*)?$", "", entry.exists).strip() or None
+        elif m := re.match(r"(stability undecided|stable to first order|unstable|stable|undecided)( when (.*))?$",
+                           part):
+            entry.stability, entry.stable_when = m[1], m[3]
+
+
+def _equation(text, unknown, entry):
+    """`x = 2`, a bare value, or a set such as `-1 <= x <= 1`."""
+    text = text.strip()
+    m = re.match(r"([A-Za-z_]\w*(?:\[[\w, ]+\])?) = (.*)$", text)
+    if m and (unknown is None or m[1] == unknown) and not re.search(r"[<>]", m[2]):
+        if not m[1].startswith("lambda"):
+            entry.equations.append((m[1], m[2]))
+    elif re.search(r"[<>]|!=| = ", text) and not text.startswith("if("):
+        entry.relations.append(text)
+    elif unknown is not None:
+        entry.equations.append((unknown, text))
+    else:
+        raise Unreadable(text)
+
+
+def ask(program, script, unknown=None, timeout=20):
+    """Run a script whose last statement asks for the list."""
+    said = Answer()
+    with tempfile.NamedTemporaryFile("w", suffix=".lag", delete=False) as f:
+        f.write(script)
+    try:
+        p = subprocess.run(["timeout", str(timeout), program, "--json", f.name], text=True, capture_output=True)
+    finally:
+        os.unlink(f.name)
+    said.status, said.output = p.returncode, p.stdout + p.stderr
+    if p.returncode == 124:
+        said.crash = f"over {timeout} s"
+        return said
+    if p.returncode < 0 or p.returncode > 2:
+        said.crash = f"status {p.returncode}: {p.stderr.strip()[-120:]}"
+        return said
+    entries, pending = {}, []
+    for line in p.stdout.splitlines():
+        try:
+            o = json.loads(line)
+        except json.JSONDecodeError:
+            said.crash = "no JSON: " + line[:80]
+            return said
+        name = o.get("name", "")
+        index = re.search(r"\[(\d+)\]$", name)
+        if o["kind"] == "error":
+            said.error, said.hint = o["message"], o.get("hint")
+        elif o["kind"] in ("expr", "number") and (name.startswith("solve") or name.startswith("equilibria")):
+            plain = o.get("plain") or o.get("value") or ""
+            if plain == "[]" and not index:
+                if unknown is not None:
+                    said.none = True
+                    continue
+            e = Entry(int(index[1]) if index else 1, str(plain))
+            entries[e.index] = e
+            body = e.text[1:-1] if e.text.startswith("[") and e.text.endswith("]") else e.text
+            for part in _split(body) if body else []:
+                _equation(part, unknown, e)
+        elif o["kind"] in ("text", "notice", "note", "value"):
+            words = o.get("text") or o.get("message") or ""
+            exists = re.match(r"\w+ = (.*) exists (when .*)$", words) if o["kind"] == "notice" else None
+            if exists:
+                pending.append((exists[1], exists[2]))
+                continue
+            if index and int(index[1]) in entries:
+                _conditions(words, entries[int(index[1])])
+            elif index and name.startswith("equilibria"):
+                e = entries[int(index[1])] = Entry(int(index[1]), "")
+                _conditions(words, e)
+            elif o["kind"] == "text" or PARTIAL.search(words) or "one turn" in words:
+                said.notes.append(words)
+    for text, words in pending:
+        for e in entries.values():
+            if e.text == text:
+                _conditions(words, e)
+    said.entries = [entries[k] for k in sorted(entries)]
+    notes = " ".join(said.notes)
+    said.partial = any(PARTIAL.search(words) for words in [notes] + [e.words for e in said.entries])
+    if not said.partial and NONE.search(notes):
+        said.none = True
+    said.turns = "one turn" in notes
+    if ALL.search(notes) or (said.error and ALL.search(said.error)):
+        said.every = True
+    if said.error and NONE.search(said.error) and not PARTIAL.search(said.error):
+        said.none = True
+    return said
