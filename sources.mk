@@ -2737,6 +2737,7 @@ test_files = \
 	tests/script/signs.out \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
+	tests/script/solution-sets.out \
 	tests/script/solve-numbers.out \
 	tests/script/solve-system.out \
 	tests/script/solve.out \
@@ -2839,6 +2840,14 @@ other_files = \
 	bench/pendulum-run.lag \
 	bench/ranks/kills \
 	bench/run \
+	bench/solutions/answer.py \
+	bench/solutions/equations.py \
+	bench/solutions/formula.py \
+	bench/solutions/rests.py \
+	bench/solutions/run \
+	bench/solutions/scene.py \
+	bench/solutions/search.py \
+	bench/solutions/verdict.py \
 	bench/stiff \
 	bench/symbolic/ginac-peer.cc \
 	bench/symbolic/identities \

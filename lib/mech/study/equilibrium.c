@@ -199,6 +199,8 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
                   name);
         return qdot_hint("set %.100s = ...", name);
     }
+    if (qdot_expr_count(pool, bound) != n && r->found.n > 0)
+        return QDOT_OK; /* what was found exactly stays */
     if (qdot_expr_count(pool, bound) != n)
         return qdot_fail(QDOT_EFAILED,
                          "the equilibria cannot be found: %u equations for %zu unknowns",
