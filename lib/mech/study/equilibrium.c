@@ -42,7 +42,7 @@ begin_branch(qdot_rest *r, qdot_expr equations)
 {
     qdot_expr none = qdot_list(r->pool, 0, NULL);
     qdot_rest_branch first = {
-        .equations = equations, .known = none, .conditions = r->sliding};
+        .equations = equations, .known = none, .conditions = r->sliding, .whole = equations};
 
     QDOT_TRY(qdot_pool_check(r->pool));
     QDOT_TRY(qdot_rest_corners(r, equations));
