@@ -350,11 +350,11 @@ library_sources = \
 	lib/normal/solve/solver.c \
 	lib/normal/solve/zeros-box.c \
 	lib/normal/solve/zeros-exact.c \
+	lib/normal/solve/zeros-find.c \
 	lib/normal/solve/zeros-multiple.c \
 	lib/normal/solve/zeros-near.c \
 	lib/normal/solve/zeros-places.c \
 	lib/normal/solve/zeros-systems.c \
-	lib/normal/solve/zeros.c \
 	lib/num/articulated.c \
 	lib/num/balance.c \
 	lib/num/batch.c \

@@ -1,4 +1,4 @@
-/* zeros.c -- all zeros in a box: systems, charts, ends; what is found put together. */
+/* zeros-find.c -- all zeros in a box: systems, charts, ends; what is found put together. */
 #include "normal/solve/zeros.h"
 
 #include <math.h>
