@@ -193,7 +193,7 @@ keeps_what_is_known(void **state)
     must(qdot_scene_potential(
         f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.25"), qdot_pow_int(f.pool, q, 4)),
                           times(&f, parameter(&f, "mu"), times(&f, q, q)))));
-    for (long n = 0; !whole; n += 1 + n / 10) {
+    for (long n = 0; !whole; n += 1 + n / 60) {
         qdot_equilibrium_curve c = {0};
         qdot_continuation x = {0};
 
