@@ -244,10 +244,13 @@ declare(writer *w, const char *word, bool truth, const char *text)
     qdot_text line = {0};
 
     say(&line, truth ? w->frame->syntax->truth : w->frame->syntax->number, word);
-    qdot_text_add(w->out, w->frame->indent);
-    say(w->out, qdot_text_str(&line), text);
-    qdot_text_char(w->out, '\n');
-    w->out->failed = w->out->failed || line.failed;
+    if (line.failed) {
+        w->out->failed = true; /* a format cut short has no place for the text */
+    } else {
+        qdot_text_add(w->out, w->frame->indent);
+        say(w->out, qdot_text_str(&line), text);
+        qdot_text_char(w->out, '\n');
+    }
     qdot_text_clear(&line);
 }
 
