@@ -11,6 +11,7 @@
 #include <flint/arb_fmpz_poly.h>
 #include <flint/arb_hypgeom.h>
 #include <flint/arb_mat.h>
+#include <flint/arb_poly.h>
 #else
 #include <acb.h>
 #include <acb_poly.h>
@@ -18,6 +19,7 @@
 #include <arb_fmpz_poly.h>
 #include <arb_hypgeom.h>
 #include <arb_mat.h>
+#include <arb_poly.h>
 #endif
 
 #endif

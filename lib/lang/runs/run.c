@@ -24,8 +24,10 @@ integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 
     status = qdot_run_new(session->scene, &request->request, &run);
     error = *qdot_last_error();
-    if (status == QDOT_OK)
-        QDOT_TRY(qdot_pool_check(session->pool));
+    if (status == QDOT_OK && (status = qdot_pool_check(session->pool)) != QDOT_OK) {
+        qdot_run_free(run);
+        return status;
+    }
     if (run == NULL)
         return status;
     if (status == QDOT_EINTR)

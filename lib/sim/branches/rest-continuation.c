@@ -86,6 +86,8 @@ qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least, double most
         status = qdot_continuation_follow(&s, at, count);
     }
     status = qdot_continuation_finish(&s, status);
+    if (out->interrupted && qdot_pool_check(c->pool) == QDOT_ENOMEM) /* the interruption is told */
+        status = QDOT_ENOMEM;
     if (status == QDOT_OK && out->branches.n == 0 && !out->interrupted)
         status = qdot_fail(QDOT_EFAILED, "no equilibrium was found that could be followed");
     qdot_free(at);
