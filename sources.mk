@@ -1487,6 +1487,7 @@ script_tests = \
 	tests/script/export.sh \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
+	tests/script/family-ends.lag \
 	tests/script/far-away.lag \
 	tests/script/far-sides.lag \
 	tests/script/fast-oscillations.sh \
@@ -2592,6 +2593,7 @@ test_files = \
 	tests/script/export.out \
 	tests/script/factor.out \
 	tests/script/fall.out \
+	tests/script/family-ends.out \
 	tests/script/far-away.out \
 	tests/script/far-sides.out \
 	tests/script/fast-oscillations.out \

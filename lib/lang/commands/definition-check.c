@@ -67,7 +67,19 @@ read_right(assignment *a)
 
 /* --- names ------------------------------------------------------------------------------ */
 
-/* The declared name, or a member of the family, that the token spells. */
+/* Whether the index of NAME[...] is written in numbers. */
+static bool
+has_plain_index(const qdot_token *name)
+{
+    const qdot_token *k = name + 2;
+
+    while (k->kind == QDOT_TOKEN_NUMBER || qdot_token_is(k, ","))
+        k++;
+    return k > name + 2 && qdot_token_is(k, "]");
+}
+
+/* The declared name that the token spells: of NAME[...] the member, or any member of the family where the index
+ * has yet to be evaluated. A member of numbers that is not declared, x[0] before x[1] ... x[n], is none. */
 static const qdot_name *
 declared(const qdot_session *s, const qdot_token *name)
 {
@@ -76,6 +88,15 @@ declared(const qdot_session *s, const qdot_token *name)
 
     if (known != NULL || !qdot_token_is(name + 1, "["))
         return known;
+    if (has_plain_index(name)) {
+        qdot_text member = {0};
+
+        for (const qdot_token *k = name; k < qdot_statement_behind_bracket(name + 1); k++)
+            qdot_text_add(&member, k->text);
+        known = member.failed ? NULL : qdot_names_find(s->names, qdot_text_str(&member));
+        qdot_text_clear(&member);
+        return known;
+    }
     for (size_t i = 0; (known = qdot_names_at(s->names, i)) != NULL; i++)
         if (strncmp(known->name, name->text, length) == 0 && known->name[length] == '[')
             return known;
