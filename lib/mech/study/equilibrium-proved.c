@@ -2,6 +2,8 @@
  *
  * Coordinates are searched in their declared domains, a turn of an angle, else everywhere; multipliers
  * everywhere (normal/solve/zeros.h). */
+#include <math.h>
+
 #include "mech/study/equilibrium-search.h"
 #include "normal/solve/zeros.h"
 
@@ -35,10 +37,21 @@ range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range 
     return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
 }
 
+/* Whether a zero is known to the digits in which places are listed: one that is merely enclosed is left to the
+ * search from starts. */
+static bool
+is_sharp(size_t n, const double *at, const double *radius)
+{
+    for (size_t k = 0; k < n; k++)
+        if (!(radius[k] <= 1e-12 * fmax(1, fabs(at[k]))))
+            return false;
+    return true;
+}
+
 qdot_status
 qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
-    size_t n = rest->unknowns.n;
+    size_t n = rest->searched;
     qdot_expr equations = qdot_list(rest->pool, (uint32_t)n, r);
     qdot_zeros_range range[MOST];
     qdot_zeros zeros;
@@ -57,9 +70,15 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
         return QDOT_OK;
     QDOT_TRY(status);
     out->complete = zeros.complete && zeros.count <= QDOT_PLACES_MOST;
-    for (size_t i = 0; i < zeros.count && i < QDOT_PLACES_MOST; i++, out->n++)
+    for (size_t i = 0; i < zeros.count && out->n < QDOT_PLACES_MOST; i++) {
+        if (!is_sharp(n, zeros.at + i * n, zeros.radius + i * n)) {
+            out->complete = false;
+            continue;
+        }
         for (size_t k = 0; k < n; k++)
-            out->at[i * n + k] = zeros.at[i * n + k];
+            out->at[out->n * n + k] = zeros.at[i * n + k];
+        out->n++;
+    }
     qdot_zeros_clear(&zeros);
     return QDOT_OK;
 }
