@@ -119,16 +119,9 @@ waves(search *s, qdot_expr e, qdot_expr x)
 static bool
 is_angle(search *s, qdot_expr x)
 {
-    qdot_expr turn = qdot_mul(s->pool, qdot_expr_int(s->pool, 2), QDOT_PI),
-              shifted = qdot_add(s->pool, x, turn);
+    qdot_expr turn = qdot_mul(s->pool, qdot_expr_int(s->pool, 2), QDOT_PI);
 
-    for (size_t i = 0; i < s->n; i++)
-        if (!qdot_is_zero(
-                s->pool,
-                qdot_sub(s->pool, qdot_subs(s->pool, s->f[i], 1, &x, &shifted), s->f[i]),
-                s->facts))
-            return false;
-    return true;
+    return qdot_is_period(s->pool, s->n, s->f, x, turn, s->facts);
 }
 
 /* The k-th equation holds one unknown only: each of its roots. Ranges and roots with conditions are not followed. */
