@@ -646,10 +646,13 @@ library_sources = \
 	lib/sim/study/variation-scene.c \
 	lib/sim/study/variation.c \
 	lib/sim/study/workprecision.c \
+	lib/sim/watch/watch-ends.c \
 	lib/sim/watch/watch-exclusion.c \
+	lib/sim/watch/watch-noise.c \
 	lib/sim/watch/watch-resolution.c \
 	lib/sim/watch/watch-roots.c \
 	lib/sim/watch/watch-rough.c \
+	lib/sim/watch/watch-two.c \
 	lib/sim/watch/watch-values.c \
 	lib/sim/watch/watch.c \
 	lib/tape/angle.c \
@@ -1632,6 +1635,7 @@ script_tests = \
 	tests/script/stiff-two.sh \
 	tests/script/styles-names.lag \
 	tests/script/styles.lag \
+	tests/script/surfaces-at-rounding.lag \
 	tests/script/sweep-lanes.sh \
 	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
@@ -2755,6 +2759,7 @@ test_files = \
 	tests/script/stiff-two.out \
 	tests/script/styles-names.out \
 	tests/script/styles.out \
+	tests/script/surfaces-at-rounding.out \
 	tests/script/sweep-lanes.out \
 	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \

@@ -43,6 +43,7 @@ typedef struct {
     double t, t_end, unit;
     int order;
     const double *y;
+    const double *carry; /* [n] the state less y; NULL: 0 */
 } qdot_ode_expanded;
 
 typedef struct qdot_ode_meter qdot_ode_meter;

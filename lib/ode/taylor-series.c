@@ -120,6 +120,34 @@ qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double
         y[i] = y0[i] + s * (series->x[i * series->stride + 1] + y[i]);
 }
 
+void
+qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
+                             double t_low, qdot_two *y)
+{
+    enum { of_two = QDOT_ODE_LEADING_MOST };
+    const qdot_ode_series *series = system->series;
+    const qdot_two_kernels *kernels = qdot_two_kernels_get();
+    qdot_two s, powers[QDOT_ODE_LEADING_MOST + 1];
+    double high[QDOT_SERIES_MOST + 8];
+
+    s.hi = qdot_two_rounded_sum(t, -step->t, &s.lo);
+    s.lo += t_low;
+    s = qdot_two_scale(qdot_two_of(s.hi, s.lo), 1 / step->unit);
+    kernels->powers(s, of_two, step->order > of_two ? step->order : of_two, powers, high);
+    for (size_t i = 0; i < system->n; i++) {
+        const double *x = series->x + i * series->stride;
+        qdot_two first[QDOT_ODE_LEADING_MOST + 1];
+        int last = step->order;
+
+        while (last > of_two && x[last] == 0)
+            last--;
+        first[0] = qdot_two_of(step->y[i], step->carry ? step->carry[i] : 0);
+        for (int k = 1; k <= of_two; k++)
+            first[k] = (qdot_two){k <= step->order ? x[k] : 0, 0};
+        y[i] = kernels->series(of_two, last, first, powers, x, high);
+    }
+}
+
 qdot_status
 qdot_ode_taylor_expand(const qdot_ode_system *system, int p, double t0, double h,
                        const double *y0)

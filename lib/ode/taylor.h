@@ -93,6 +93,10 @@ double qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_expand(const qdot_ode_system *system, int p,
                                                    double t0, double h,
                                                    const double *y0);
+/* The state y [n] at t + t_low of a step, by the series that is there, its coefficients taken as exact:
+ * the first orders in two doubles. Not for systems with `following`. */
+void qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
+                                  double t_low, qdot_two *y);
 void qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
                               double t, const double *y0, double *y);
 

@@ -331,6 +331,15 @@ qdot_tape_two_of_motion(const qdot_motion *motion, qdot_tape_two **two)
     return make_new(NULL, motion, QDOT_TWO_MOST + 1, 0, two);
 }
 
+double
+qdot_tape_two_rounding(const qdot_tape_two *t)
+{
+    for (const qdot_program_step *i = t->program->steps.at; i->op != QDOT_T_END; i++)
+        if (i->zero > QDOT_OP_SQRT)
+            return 0x1p-66;
+    return 0x1p-98;
+}
+
 void
 qdot_tape_two_free(qdot_tape_two *t)
 {

@@ -29,6 +29,9 @@ size_t qdot_tape_two_stride(const qdot_tape_two *t);
 /* Coefficients by order of output i. */
 const qdot_two *qdot_tape_two_output(const qdot_tape_two *t, size_t i);
 
+/* The relative error of an operation: more where there are functions (num/two.h). */
+double qdot_tape_two_rounding(const qdot_tape_two *t);
+
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them, where one of two doubles is. */
 void qdot_tape_two_order(qdot_tape_two *t, int k);

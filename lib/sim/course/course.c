@@ -1,6 +1,7 @@
 /* course.c -- the loop over pieces: finds the mode of each and passes from one to the next. */
 #include "sim/course/course.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "sim/course/piece.h"
@@ -19,7 +20,10 @@ make_room(qdot_piece *x)
     x->signs = qdot_calloc(m, sizeof *x->signs);
     x->left = qdot_calloc(m, sizeof *x->left);
     x->untouched = qdot_calloc(m, sizeof *x->untouched);
-    x->y = qdot_calloc(5 * x->n, sizeof *x->y);
+    x->touching = qdot_calloc(m, sizeof *x->touching);
+    x->root = qdot_calloc(x->n, sizeof *x->root);
+    x->thens = qdot_calloc(x->c->stage->events.n + 1, sizeof *x->thens);
+    x->y = qdot_calloc(9 * x->n, sizeof *x->y);
     x->step = (qdot_trajectory){.n = x->n,
                                 .count = 2,
                                 .method = x->method,
@@ -29,12 +33,16 @@ make_room(qdot_piece *x)
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
     if (!x->side || !x->functions_on || !x->before || !x->residual ||
-        !x->signs || !x->left || !x->untouched || !x->y || !x->step.t || !x->step.y)
+        !x->signs || !x->left || !x->untouched || !x->touching || !x->root || !x->thens || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
     x->rim = x->start.y + x->n;
     x->bare = x->rim + x->n;
+    x->start.low = x->bare + x->n;
+    x->start.low_of = x->start.low + x->n;
+    x->end_low = x->start.low_of + x->n;
+    x->largest = x->end_low + x->n;
     return qdot_vec_push(&x->step.pieces, (qdot_trajectory_piece){0});
 }
 
@@ -89,6 +97,12 @@ loop(qdot_piece *x, const double *y0)
     qdot_status status;
 
     memcpy(y, y0, x->n * sizeof *y);
+    for (size_t i = 0; i < x->n; i++)
+        x->largest[i] = fabs(y[i]);
+    if (x->options->carry) {
+        memcpy(x->start.low_of, y, x->n * sizeof *y);
+        memcpy(x->start.low, x->options->carry, x->n * sizeof *y);
+    }
     status = qdot_piece_sides(x, NULL);
     if (status == QDOT_OK)
         status = qdot_piece_enter(x);
@@ -102,10 +116,8 @@ loop(qdot_piece *x, const double *y0)
         status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')
             qdot_piece_stop(x, true);
-        if (status == QDOT_OK && c->tr.count > 0) {
-            x->start.t = c->tr.t[c->tr.count - 1];
-            memcpy(y, c->tr.y + (c->tr.count - 1) * x->n, x->n * sizeof *y);
-        }
+        if (status == QDOT_OK && c->tr.count > 0)
+            qdot_piece_start_at_end(x);
         if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0') {
             if (status == QDOT_OK && x->start.t == x->t1 && qdot_piece_end_in_layers(x))
                 status = resume(x);
@@ -117,11 +129,14 @@ loop(qdot_piece *x, const double *y0)
         }
         x->start.from = x->mode;
         x->start.jumped = false;
+        qdot_piece_find_delay(x);
+        if (changes_state(x) && qdot_piece_makes_up(x) && x->has_root)
+            status = qdot_piece_go_to_root(x);
         if (changes_state(x))
             (void)qdot_piece_end_in_layers(x);
-        status = qdot_piece_keep(x, NULL);
-        qdot_piece_find_delay(x);
-        if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x))
+        if (status == QDOT_OK)
+            status = qdot_piece_keep(x, NULL);
+        if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x) && !x->has_root)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
@@ -168,6 +183,11 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_free(x.signs);
     qdot_free(x.left);
     qdot_free(x.untouched);
+    qdot_free(x.touching);
+    qdot_free(x.root);
+    for (size_t i = 0; i < c->stage->events.n && x.thens; i++)
+        qdot_tape_two_free(x.thens[i]);
+    qdot_free(x.thens);
     qdot_free(x.fired.at);
     qdot_free(x.crossed.at);
     qdot_free(x.y);

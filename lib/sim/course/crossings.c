@@ -67,7 +67,7 @@ search_piece(search *s)
     const size_t last = qdot_trajectory_last_of(tr, s->piece);
     const bool final = s->piece + 1 == tr->pieces.n,
                jumps = !final && tr->pieces.at[s->piece + 1].jumped;
-    const qdot_watch_reader reader = {read_stored, s, qdot_course_systems(s->c) + mode,
+    const qdot_watch_reader reader = {read_stored, NULL, s, qdot_course_systems(s->c) + mode,
                                       NULL};
     size_t k = tr->pieces.at[s->piece].first;
     qdot_watch *w = s->watches[mode];
@@ -85,7 +85,7 @@ search_piece(search *s)
         w = s->watches[mode];
     }
     QDOT_TRY(qdot_watch_begin(w, &reader, tr->t[k], tr->y + k * tr->n,
-                              &(qdot_watch_known){0, &s->before, NULL}, &on));
+                              &(qdot_watch_known){0, &s->before, NULL, NULL, NULL, 0}, &on));
     s->sign = 0;
     for (; k < last; k++) {
         if (s->direction * (tr->t[k] - s->limits[1]) > 0)

@@ -58,7 +58,7 @@ is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double siz
         for (size_t i = 0; i < n; i++)
             old[n + i] -= speed * d[i] / size;
         memcpy(y, old, x->n * sizeof *y);
-        status = qdot_piece_change(x, e, x->start.t, old, y);
+        status = qdot_piece_change(x, e, x->start.t, old, NULL, y, NULL);
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         back += (y[n + i] - old[n + i]) * d[i] / size;

@@ -50,16 +50,42 @@ say_left(qdot_piece *x, const qdot_watched *w)
              qdot_piece_mode(x)->plan->names[d->coordinate], d->text, x->t_act);
 }
 
+/* `then` of an event in two doubles, from its inputs and what these leave out [n], into out and
+ * rest [changes]. */
+static qdot_status
+change_in_two(qdot_piece *x, const qdot_staged_event *e, const double *in, const double *low,
+              double *out, double *rest)
+{
+    const size_t at = (size_t)(e - x->c->stage->events.at);
+    qdot_tape_two *two;
+
+    if (!x->thens[at])
+        QDOT_TRY(qdot_tape_two_new(e->then, 0, x->n + 1, &x->thens[at]));
+    two = x->thens[at];
+    for (size_t i = 0; i <= x->n; i++)
+        *qdot_tape_two_input(two, i) = (qdot_two){in[i], i < x->n ? low[i] : 0};
+    qdot_tape_two_order(two, 0);
+    for (size_t i = 0; i < e->changes; i++) {
+        const qdot_two value = qdot_tape_two_output(two, i)[0];
+
+        if (!isfinite(value.hi) || !isfinite(value.lo))
+            continue;
+        out[i] = value.hi;
+        rest[i] = value.lo;
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const double *old,
-                  double *y)
+                  const double *low, double *y, double *rest)
 {
     const qdot_plan *p = qdot_piece_mode(x)->plan;
     const qdot_ode_system *system = &x->c->systems.at[x->mode];
     qdot_constrained *held = qdot_bind_held(system->user);
     size_t inputs = qdot_plan_inputs(p);
     double *in =
-        qdot_calloc(inputs + e->changes + 1 + qdot_tape_work(e->then), sizeof *in);
+        qdot_calloc(inputs + 2 * e->changes + 1 + qdot_tape_work(e->then), sizeof *in);
     bool *set = qdot_calloc(2 * p->n, sizeof *set);
     double *out = in ? in + inputs : NULL;
     qdot_status status = in && set ? QDOT_OK : QDOT_ENOMEM;
@@ -71,7 +97,11 @@ qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const dou
             status = qdot_bind_accelerations(system, t, old, in + x->n + 1);
     }
     if (status == QDOT_OK) {
-        qdot_tape_eval(e->then, in, out, out + e->changes + 1);
+        double *left = out + e->changes;
+
+        qdot_tape_eval(e->then, in, out, left + e->changes + 1);
+        if (low && rest && !e->accelerations)
+            status = change_in_two(x, e, in, low, out, left);
         for (size_t i = 0; i < e->changes; i++) {
             if (!isfinite(out[i]))
                 status = qdot_fail(
@@ -79,6 +109,8 @@ qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const dou
                     e->name,
                     e->targets[i] < p->n ? p->names[e->targets[i]] : "a velocity", t);
             y[e->targets[i]] = out[i];
+            if (rest)
+                rest[e->targets[i]] = left[i];
             set[e->targets[i]] = true;
         }
     }
@@ -236,7 +268,11 @@ look_before(qdot_piece *x, double t, double *g)
     const qdot_mode *m = qdot_piece_mode(x);
     const int *first = qdot_watch_first(qdot_piece_watch(x));
 
-    QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->signs, g));
+    /* places are as uncertain as velocities make them in a rounding of t */
+    memcpy(x->y, x->largest, x->n * sizeof *x->y);
+    for (size_t i = 0; i < x->n / 2; i++)
+        x->y[i] = fmax(x->y[i], fabs(t) * x->largest[x->n / 2 + i]);
+    QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->y, x->signs, g, x->touching));
     for (size_t i = 0; i < m->m; i++) {
         x->left[i] = first[i];
         x->untouched[i] = true;
@@ -256,7 +292,7 @@ look_behind(qdot_piece *x, double t, double *g)
     qdot_status status = signs ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_watch_look(qdot_piece_watch(x), t, x->start.y, signs, now);
+        status = qdot_watch_look(qdot_piece_watch(x), t, x->start.y, NULL, signs, now, NULL);
     for (size_t i = 0; i < m->m && status == QDOT_OK; i++)
         x->untouched[i] = x->untouched[i] && now[i] == g[i];
     qdot_free(signs);
@@ -266,7 +302,7 @@ look_behind(qdot_piece *x, double t, double *g)
 qdot_status
 qdot_piece_act(qdot_piece *x, bool *over)
 {
-    double *old = qdot_malloc(x->n * sizeof *old);
+    double *old = qdot_malloc(2 * x->n * sizeof *old), *low = old + x->n;
     double *g = qdot_malloc(2 * qdot_piece_mode(x)->m * sizeof *g);
     qdot_status status = old && g ? QDOT_OK : QDOT_ENOMEM;
     const qdot_mode *m = qdot_piece_mode(x);
@@ -307,7 +343,12 @@ qdot_piece_act(qdot_piece *x, bool *over)
 
             if (e->then) {
                 memcpy(old, y, x->n * sizeof *y);
-                status = qdot_piece_change(x, e, t, old, y);
+                qdot_piece_low(x, low);
+                memcpy(x->start.low, low, x->n * sizeof *low);
+                status = qdot_piece_change(x, e, t, old, low, y, x->start.low);
+                memcpy(x->start.low_of, y, x->n * sizeof *y);
+                for (size_t k = 0; k < x->n; k++)
+                    x->largest[k] = fmax(x->largest[k], fabs(y[k]));
                 x->start.jumped = true;
             }
             if (e->stop && status == QDOT_OK) {

@@ -66,9 +66,8 @@ qdot_piece_keep(qdot_piece *x, bool *near)
 
 /* --- what is known where a piece starts ---------------------------------------------- */
 
-/* Whether an event was recorded within about a double of t before the end of the piece. */
-static bool
-just_noted(const qdot_piece *x, size_t event)
+bool
+qdot_piece_just_noted(const qdot_piece *x, size_t event)
 {
     for (size_t i = x->c->occurrences.n; i-- > 0;) {
         const qdot_occurrence *o = &x->c->occurrences.at[i];
@@ -95,7 +94,7 @@ qdot_piece_carry(qdot_piece *x)
     size_t events = x->c->stage->events.n;
 
     for (size_t i = 0; i < next->m; i++) {
-        x->before[i] = x->start.jumped || i >= events || just_noted(x, i) ? 0 : x->signs[i];
+        x->before[i] = x->start.jumped || i >= events || qdot_piece_just_noted(x, i) ? 0 : x->signs[i];
         x->residual[i] = -1;
     }
     for (size_t i = 0; i < next->m; i++) { /* it was held at 0 */
@@ -289,41 +288,110 @@ leave_late(qdot_piece *x)
         x->c->ends.at[k].late = fmax(x->c->ends.at[k].late, x->late);
 }
 
+void
+qdot_piece_start_at_end(qdot_piece *x)
+{
+    const qdot_trajectory *tr = &x->c->tr;
+    double *y = x->start.y;
+
+    x->start.t = tr->t[tr->count - 1];
+    x->start.late = 0;
+    x->start.on_root = false;
+    memcpy(y, tr->y + (tr->count - 1) * x->n, x->n * sizeof *y);
+    memcpy(x->start.low_of, y, x->n * sizeof *y);
+    memcpy(x->start.low, x->end_low, x->n * sizeof *y);
+}
+
+void
+qdot_piece_low(const qdot_piece *x, double *low)
+{
+    for (size_t i = 0; i < x->n; i++)
+        low[i] = x->start.y[i] == x->start.low_of[i] ? x->start.low[i] : 0;
+}
+
+/* Whether all other switches are on the same sides at a state y [n] as where the piece starts. */
+static qdot_status
+has_sides(qdot_piece *x, const double *y, bool *alike)
+{
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
+    qdot_status status = sides ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, x->start.t, x->start.y, NULL, sides);
+    if (status == QDOT_OK)
+        status = qdot_stage_sides(x->c->stage, x->start.t, y, NULL, sides + surfaces);
+    *alike = status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0;
+    qdot_free(sides);
+    return status;
+}
+
+/* The start is at a state in two doubles [n]; *moved: if other switches are on the same sides there. */
+static qdot_status
+start_at(qdot_piece *x, const qdot_two *state, bool *moved)
+{
+    double *y = qdot_malloc((x->n + 1) * sizeof *y);
+    qdot_status status = y ? QDOT_OK : QDOT_ENOMEM;
+
+    *moved = false;
+    for (size_t i = 0; i < x->n && y; i++)
+        y[i] = state[i].hi;
+    if (status == QDOT_OK)
+        status = has_sides(x, y, moved);
+    for (size_t i = 0; i < x->n && *moved; i++) {
+        x->start.y[i] = x->start.low_of[i] = state[i].hi;
+        x->start.low[i] = state[i].lo;
+    }
+    if (status == QDOT_OK && !*moved)
+        leave_late(x);
+    qdot_free(y);
+    return status;
+}
+
+qdot_status
+qdot_piece_go_to_root(qdot_piece *x)
+{
+    return start_at(x, x->root, &x->start.on_root);
+}
+
+/* x->start moved by `time` along the rates of a mode, added to moved [n]. */
+static qdot_status
+move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
+{
+    double *rate = qdot_malloc((x->n + 1) * sizeof *rate);
+    qdot_status status = rate ? qdot_piece_rates(x, mode, rate) : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+        moved[i] = qdot_two_add_double(moved[i], time * rate[i]);
+    qdot_free(rate);
+    return status;
+}
+
 qdot_status
 qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
 {
-    const size_t modes[] = {behind, before};
-    const size_t surfaces = x->c->stage->switches.surfaces.n;
-    const double t = x->start.t, late = x->direction * (x->late + x->c->early * x->blur);
-    double *y = x->start.y;
-    double *moved = qdot_malloc(2 * x->n * sizeof *moved), *rate = moved + x->n;
-    long *sides = qdot_calloc(2 * surfaces + 1, sizeof *sides);
-    qdot_status status = moved && sides ? QDOT_OK : QDOT_ENOMEM;
-    bool alike = false;
+    const double late = x->direction * fmax(0, x->late + x->c->early * x->blur);
+    qdot_two *moved = qdot_malloc((x->n + 1) * sizeof *moved);
+    double *low = qdot_malloc((x->n + 1) * sizeof *low);
+    qdot_status status = moved && low ? QDOT_OK : QDOT_ENOMEM;
+    bool done = false;
 
     if (status == QDOT_OK)
-        memcpy(moved, y, x->n * sizeof *y);
-    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
-        const qdot_ode_system *system = x->c->systems.at + modes[k];
-
-        if (modes[k] == SIZE_MAX)
-            continue;
-        status = system->rhs(t, y, rate, system->user);
-        for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
-            moved[i] += (k == 0 ? late : -late) * rate[i];
-    }
+        qdot_piece_low(x, low);
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
+        moved[i] = (qdot_two){x->start.y[i], low[i]};
+    if (status == QDOT_OK && before != SIZE_MAX)
+        status = move_along(x, before, -late, moved);
+    if (status == QDOT_OK && behind != SIZE_MAX)
+        status = move_along(x, behind, late, moved);
     if (status == QDOT_OK)
-        status = qdot_stage_sides(x->c->stage, t, y, NULL, sides);
+        status = start_at(x, moved, &done);
+    if (status == QDOT_OK && behind == SIZE_MAX)
+        x->start.on_root = done;
     if (status == QDOT_OK)
-        status = qdot_stage_sides(x->c->stage, t, moved, NULL, sides + surfaces);
-    if (status == QDOT_OK)
-        alike = memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0;
-    if (alike)
-        memcpy(y, moved, x->n * sizeof *y);
-    else
-        leave_late(x);
+        x->start.late = done && behind != SIZE_MAX ? fabs(late) : 0;
     qdot_free(moved);
-    qdot_free(sides);
+    qdot_free(low);
     return qdot_grave(status);
 }
 

@@ -338,7 +338,7 @@ meet_events(qdot_piece *x)
     x->t_act = x->start.t;
     x->roots.n = 0;
     if (status == QDOT_OK && m > 0)
-        status = qdot_watch_look(qdot_piece_watch(x), x->start.t, x->start.y, signs, g);
+        status = qdot_watch_look(qdot_piece_watch(x), x->start.t, x->start.y, NULL, signs, g, NULL);
     for (size_t k = 0; k < x->c->stage->events.n && status == QDOT_OK; k++) {
         const qdot_root root = {
             .function = k, .t = x->start.t, .way = -x->signs[k], .blur = x->late};

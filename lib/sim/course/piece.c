@@ -20,6 +20,15 @@ read_series(double t, double *y, void *user)
 }
 
 static qdot_status
+read_series_two(double t, qdot_two *y, void *user)
+{
+    const qdot_piece *x = user;
+
+    qdot_ode_taylor_evaluate_two(x->reader.system, x->expanded, t, 0, y);
+    return QDOT_OK;
+}
+
+static qdot_status
 read_step(double t, double *y, void *user)
 {
     const qdot_piece *x = user;
@@ -160,6 +169,29 @@ stays_on_event(qdot_piece *x)
     return false;
 }
 
+/* Whether the function of event i changes where the piece starts, by more than the rounding of velocities. */
+static qdot_status
+is_moving(qdot_piece *x, size_t i, bool *is)
+{
+    const size_t n = x->n / 2;
+    double *rates = qdot_malloc((3 * x->n + 1) * sizeof *rates), *fast = rates + x->n,
+           *low = fast + x->n, rate, noise;
+    qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
+
+    *is = false;
+    if (status == QDOT_OK) {
+        qdot_piece_low(x, low);
+        memcpy(fast, x->largest + n, n * sizeof *fast);
+        for (size_t k = n; k < x->n; k++)
+            fast[k] = fabs(rates[k]);
+        status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, low, rates, fast, i,
+                                 &rate, &noise);
+        *is = status == QDOT_OK && fabs(rate) > noise;
+    }
+    qdot_free(rates);
+    return status;
+}
+
 /* Events with an action whose zero was reached at the start, or held until then, and is left at once
  * because another event has changed the state: bodies that touch, or roots that only rounding separates.
  * A zero onto which the change has put the motion does not count. */
@@ -170,11 +202,18 @@ follow_at_once(qdot_piece *x, double t0)
 
     for (size_t i = 0; i < x->c->stage->events.n && x->start.jumped; i++) {
         const qdot_staged_event *e = &x->c->stage->events.at[i];
-        const qdot_root root = {.function = i, .t = t0, .way = first[i], .exact = true};
+        bool moving;
+        const qdot_root root = {
+            .function = i, .t = t0, .way = first[i], .exact = true, .late = x->start.late};
 
-        if ((!e->stop && !e->then) || !x->untouched[i] || !x->functions_on[i] || first[i] == 0
-            || first[i] == x->left[i] || (e->way == 0 && x->left[i] == 0)
-            || !is_occurrence(x, &root))
+        if ((!e->stop && !e->then) || !x->untouched[i] || !x->touching[i] || first[i] == 0
+            || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, &root))
+            continue;
+        /* of one that rises or falls the side before may be rounding: it must be the other one */
+        if (first[i] == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
+            continue;
+        QDOT_TRY(is_moving(x, i, &moving));
+        if (!moving)
             continue;
         x->intent = QDOT_PIECE_ENDS;
         x->t_act = t0;
@@ -373,6 +412,18 @@ search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots,
     }
 }
 
+/* The state at the root that ends the piece. */
+static void
+read_root(qdot_piece *x)
+{
+    x->has_root = x->reader.read_two != NULL;
+    if (!x->has_root)
+        return;
+    qdot_piece_find_delay(x);
+    qdot_ode_taylor_evaluate_two(x->reader.system, x->expanded, x->t_act, -x->direction * x->late,
+                                 x->root);
+}
+
 static qdot_status
 look_at_expanded(qdot_ode_expanded *step, void *user)
 {
@@ -395,8 +446,10 @@ look_at_expanded(qdot_ode_expanded *step, void *user)
     if (x->intent == QDOT_PIECE_RETRIED ||
         (x->intent == QDOT_PIECE_ENDS && x->t_act == step->t))
         return break_off(x);
-    if (x->intent == QDOT_PIECE_ENDS)
+    if (x->intent == QDOT_PIECE_ENDS) {
         step->t_end = x->t_act;
+        read_root(x);
+    }
     return QDOT_OK;
 }
 
@@ -444,11 +497,15 @@ accepted(double t, const double *y, bool *stop, void *user)
         QDOT_TRY(x->options->accepted(t, y, stop, x->options->user));
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
+    for (size_t i = 0; i < x->n; i++)
+        x->largest[i] = fmax(x->largest[i], fabs(y[i]));
     if (!is_by_series(x))
         QDOT_TRY(look_at_step(x, t, y));
     x->first_step = false;
     if (x->intent == QDOT_PIECE_ENDS && !x->far) {
         *stop = true;
+        if (x->beyond && is_by_series(x))
+            memcpy(x->end_low, x->beyond, x->n * sizeof *x->end_low);
         return QDOT_OK;
     }
     if (!x->method->series) { /* the next step is from here */
@@ -487,13 +544,15 @@ qdot_piece_begin(qdot_piece *x)
 {
     const double t = x->start.t, *y = x->start.y;
     const qdot_ode_following *following = x->c->systems.at[x->mode].following;
+    const bool by_series_alone = x->method->series && !x->options->alternates && !following;
 
     qdot_trajectory_close(x->cursor);
     x->cursor = NULL;
     x->reader = (qdot_watch_reader){x->options->alternates ? read_either
                                     : x->method->series    ? read_series
                                                            : read_step,
-                                    x, &x->c->systems.at[x->mode], ends_piece};
+                                    by_series_alone ? read_series_two : NULL, x,
+                                    &x->c->systems.at[x->mode], ends_piece};
     if (qdot_piece_mode(x)->m == 0)
         return QDOT_OK;
     if (following)
@@ -505,9 +564,11 @@ qdot_piece_begin(qdot_piece *x)
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
     QDOT_TRY(widen_residuals(x));
+    qdot_piece_low(x, x->y);
     return qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
-        &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual},
+        &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual, x->y, x->largest,
+                            x->start.on_root ? x->c->stage->events.n : 0},
         x->functions_on);
 }
 
@@ -527,10 +588,16 @@ qdot_piece_integrate(qdot_piece *x)
             : NULL;
     options.now = &x->now;
     options.user = x;
+    options.beyond = &x->beyond;
+    if (!options.leading) {
+        qdot_piece_low(x, x->y);
+        options.carry = x->y;
+    }
     options.at_doubles = qdot_piece_mode(x)->m > 0;
     options.apart = qdot_piece_mode(x)->m == 0 && !x->options->accepted;
-    if (c->tr.count > 1 || x->start.t != c->tr.t[0])
-        options.carry = NULL;
+    x->beyond = NULL;
+    x->has_root = false;
+    memset(x->end_low, 0, x->n * sizeof *x->end_low);
     x->intent = QDOT_PIECE_GOES_ON;
     x->resting = SIZE_MAX;
     x->broken_off = false;

@@ -10,6 +10,7 @@
 #ifndef QDOT_SIM_PIECE_H
 #define QDOT_SIM_PIECE_H
 
+#include "series/two.h"
 #include "sim/course/course-state.h"
 
 typedef enum {
@@ -46,6 +47,10 @@ typedef struct {
     size_t mode;        /* of this piece */
     struct {
         double t, *y; /* [n] */
+        /* The state less y, of components that still are `low_of`: others were set, and are exact. */
+        double *low, *low_of; /* [n] each */
+        bool on_root; /* y was moved to the root that ended the piece before, */
+        double late;  /* and then on by this */
         size_t from;  /* the mode before */
         bool jumped;  /* an event has changed the state */
     } start;
@@ -54,6 +59,7 @@ typedef struct {
     int *before;        /* [functions] sign just before the start; 0: unknown */
     int *signs;         /* [functions] of the mode before, where its piece ended */
     int *left;          /* [functions] and just behind the start of the step that ended it */
+    bool *touching;     /* [functions] and was 0 where that piece ended, but for rounding */
     bool *untouched;    /* [functions] it did not end that piece, and what did left its value as it was */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
@@ -72,6 +78,10 @@ typedef struct {
     double t_act;
     double late, blur; /* the end is at t_act - late, uncertain by `blur` */
     double *y_act;             /* [n] the state at t_act, for methods without series */
+    const double *beyond;      /* while a step is accepted: the state less y; NULL: not known */
+    double *end_low;           /* [n] that at the end of the piece */
+    qdot_two *root;            /* [n] the state at the root that ends the piece */
+    bool has_root;             /* it is known, by a series */
     bool broken_off;           /* the integration was stopped on purpose: no failure */
     qdot_vec(qdot_root) roots; /* those at t_act */
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
@@ -94,6 +104,8 @@ typedef struct {
     /* Sides tried from one point: [tries x surfaces]; surfaces with alternatives. */
     qdot_vec(long) tried;
     qdot_vec(qdot_piece_doubt) doubts;
+    qdot_tape_two **thens; /* [events] `then` in two doubles; NULL until it is needed */
+    double *largest;       /* [n] of |y|, at the ends of steps so far */
     /* Repetitions, by kind and index. */
     qdot_vec(qdot_piece_repeat) repeats;
 } qdot_piece;
@@ -142,6 +154,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
  * mode. */
 void qdot_piece_carry(qdot_piece *x);
 
+/* Whether an event was recorded within about a double of t before the end of the piece. */
+bool qdot_piece_just_noted(const qdot_piece *x, size_t event);
+
 /* Check a mode before it is integrated; c->reason if it cannot be entered. */
 QDOT_MUST_CHECK qdot_status qdot_piece_cross(qdot_piece *x);
 
@@ -163,6 +178,12 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
  * companion takes the root for earlier by that, the other for later. If other switches are on other
  * sides then, nothing is done. */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
+/* The same by the root itself, where x->has_root: the state there. */
+QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
+/* Where the piece ended: its last point, and what that leaves out. */
+void qdot_piece_start_at_end(qdot_piece *x);
+/* The state at the start of the piece less y [n], into low [n]. */
+void qdot_piece_low(const qdot_piece *x, double *low);
 /* x->late and x->blur of the piece that ended, by its roots. */
 void qdot_piece_find_delay(qdot_piece *x);
 /* Whether that is done: if the system does not project onto constraints. */
@@ -185,9 +206,12 @@ extern const double qdot_piece_most_to_come;
  * changed. QDOT_EDOMAIN if an event sets a value that is not finite. */
 QDOT_MUST_CHECK qdot_status qdot_piece_act(qdot_piece *x, bool *over);
 
-/* The new values of an event into y [n], all from the state old [n]; errors as qdot_piece_act. */
+/* The new values of an event into y [n], all from the state old + low [n], what is left of them into
+ * rest [n]: other components are not touched. low, rest NULL: 0, not asked for. Errors as
+ * qdot_piece_act. */
 QDOT_MUST_CHECK qdot_status qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t,
-                                              const double *old, double *y);
+                                              const double *old, const double *low, double *y,
+                                              double *rest);
 
 /* (piece-contact.c) The motion comes to rest, within the time `left`, on the event that it meets with the
  * sign `way`. *lasts: the contact lasts (sim/model/contact.h), from the start of the piece on: x->side

@@ -231,14 +231,14 @@ copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
         for (int k = 1; k <= step->order && i < 2 * s->n; k++)
             to[k] = from[(size_t)k * L];
     }
-    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y};
+    a->step = (qdot_ode_expanded){step->t, step->t_end, step->unit, step->order, a->y, NULL};
 }
 
 /* The watch at the start of a member. */
 static qdot_status
 begin_watch(const qdot_ensemble_steps *s, lane *a)
 {
-    const qdot_watch_reader reader = {read_lane, a, &a->system, NULL};
+    const qdot_watch_reader reader = {read_lane, NULL, a, &a->system, NULL};
     const size_t m = s->of.watching->n_events;
     int *before = qdot_calloc(m + 1, sizeof *before);
     bool *on = qdot_calloc(m + 1, sizeof *on);
@@ -246,7 +246,7 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
 
     if (status == QDOT_OK)
         status = qdot_watch_begin(a->watch, &reader, a->step.t, a->y,
-                                  &(qdot_watch_known){s->of.moved, before, NULL}, on);
+                                  &(qdot_watch_known){s->of.moved, before, NULL, NULL, NULL, 0}, on);
     a->begun = true;
     qdot_free(before);
     qdot_free(on);

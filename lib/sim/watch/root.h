@@ -22,6 +22,8 @@ typedef struct {
 
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);
+    /* The same in sums of two doubles, of steps with a series; NULL: they are not known so. */
+    qdot_status (*read_two)(double t, qdot_two *y, void *user);
     void *user;
     const qdot_ode_system *system; /* for accelerations and multipliers */
     /* Whether the steps end at a root, so that those behind it are not wanted; NULL: they do not. */

@@ -1,7 +1,7 @@
 /* watch-parts.h -- the members of a watch.
  *
  * For watch.c only, which goes over a step part by part: values of the functions
- * (watch-values.c), proofs that a part holds no further roots (watch-exclusion.c), the
+ * (watch-values.c; in two doubles: watch-two.c) and their rounding (watch-noise.c), proofs that a part holds no further roots (watch-exclusion.c), the
  * polynomial of one function on one part with its roots (watch-roots.c), whether its rounding hides
  * some (watch-resolution.c), and roots on a part of a few
  * thousand doubles in which no polynomial represents the function (watch-rough.c).
@@ -13,11 +13,16 @@
 
 #include "num/chebyshev.h"
 #include "num/series.h"
+#include "series/two.h"
 #include "sim/bind/polynomial-bounds.h"
 #include "sim/watch/root.h"
 #include "sim/model/equations.h"
 
-enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST };
+enum { QDOT_WATCH_NODES = QDOT_CHEBYSHEV_MOST, QDOT_WATCH_LEAST_NODES = 16 };
+
+/* The largest |g|, also at a pole: it can be added up, multiplied by the square of a number of nodes, divided
+ * by the distance of nodes. */
+#define QDOT_WATCH_MOST 0x1p900
 
 /* A function of not more than so many times its noise is 0 but for rounding. */
 #define QDOT_WATCH_ROUNDINGS 16
@@ -30,7 +35,10 @@ struct qdot_watch_state {
     int *sign;  /* [m] the last sign that was not 0; 0: none yet, or none since a root from which on
                    g stays 0 */
     bool *on;   /* [m] the step starts on a zero of g */
+    bool *blurred; /* [m] which is an extremum within rounding of 0, or a jump to it: two doubles tell no more
+                      of it */
     double *g0; /* [m] g at that zero */
+    double *offset; /* [m] what rounding made of a zero: values in two doubles are less this */
 };
 
 typedef struct qdot_watch qdot_watch;
@@ -39,6 +47,14 @@ struct qdot_watch {
     const qdot_series_kernels *kernels;
     qdot_watch_reader reader; /* of the piece */
     qdot_tape *tape, *sizes; /* g; the sums of the magnitudes of their terms */
+    qdot_tape *plain; /* g, where `tape` is shaken; else NULL */
+    /* Values in sums of two doubles (watch-two.c). */
+    qdot_tape_two *two;   /* NULL until it is needed */
+    qdot_two *state_two;  /* [2n] scratch */
+    bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
+    bool expanded;        /* the step has a series */
+    bool fine;            /* values within the step are in two doubles at present */
+    bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;
     double tol;
@@ -68,6 +84,8 @@ struct qdot_watch {
 
     /* The step's start, and the search so far. */
     double t, *y; /* [2n] */
+    double begun;          /* when the piece did */
+    const double *largest; /* [2n] as in qdot_watch_known */
     double least; /* it is that of the piece, which was moved by a rounding of this; else 0 */
     struct qdot_watch_state start, now;
     int *first;      /* [m] */
@@ -81,6 +99,7 @@ struct qdot_watch {
     int *n_fitted;   /* [m] .. so many nodes of the part; 0: not yet */
     double *extrema; /* [m x QDOT_WATCH_NODES] x of the polynomial's extrema on the part */
     int *n_extrema;  /* [m] their number; QDOT_WATCH_UNKNOWN, or -1 as qdot_chebyshev_crossings */
+    double *fine_end; /* [m] g at the end of the part, in two doubles */
     double *ends;    /* [(DEEPEST + 2) x m] g at the ends of parts not yet searched */
     qdot_vec(qdot_root) roots;
 };
@@ -103,6 +122,20 @@ typedef enum {
     QDOT_PART_START_CUT, /* a short part at its start is cut off */
     QDOT_PART_START_FAR  /* likewise, as long as w->cut says */
 } qdot_watch_verdict;
+
+/* Whether values of function i are in two doubles at present. */
+static inline bool
+qdot_watch_is_fine(const qdot_watch *w, size_t i)
+{
+    return w->fine && w->smooth[i] && !w->now.blurred[i];
+}
+
+/* Of a function that is 0 where the part at hand starts: its value there, as its values are given. */
+static inline double
+qdot_watch_zero(const qdot_watch *w, size_t i)
+{
+    return qdot_watch_is_fine(w, i) ? 0 : w->now.g0[i];
+}
 
 static inline int
 qdot_watch_sign(double x)
@@ -128,6 +161,25 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value(qdot_watch *w, double t, double *g)
 /* g [m] at t within the step; w->in is the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double *g);
 
+/* --- values in two doubles (watch-two.c) --------------------------------------------- */
+
+/* Whether states within the step can be read in two doubles. */
+bool qdot_watch_can_two(const qdot_watch *w);
+
+/* g [m] at t within the step; w->in is the state there. */
+QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
+
+/* g [m] at the state y + low [2n] (NULL: 0). */
+QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, const double *y,
+                                                      const double *low, double *g);
+
+/* Whether a function that has been sampled on the part is so small, or starts on a zero, that doubles do not
+ * tell its sign. */
+QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes,
+                                                 bool *wants);
+
+/* --- their rounding (watch-noise.c) ------------------------------------------------- */
+
 /* The sum of the changes of g_i if t and each component of the state y [2n] in turn is changed by
  * the fraction `by` of max(|component|, least). Undefined values count as 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const double *y,
@@ -137,6 +189,18 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
 /* What rounding of the state y [2n], of t, of the terms and of the operations of g_i may make of it. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
+
+/* What changes of the components of the state y [2n] by 4 roundings of by [2n] make of g_i. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
+                                                const double *by, size_t i, double *noise);
+
+/* What the rounding of the change of the state y [2n] since the start of the step makes of g_i. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i,
+                                                 double *noise);
+
+/* Fill w->noise [m] of the part, after values at its nodes, if that is not done yet: where 64 nodes are not
+ * enough rounding may be all there is. */
+QDOT_MUST_CHECK qdot_status qdot_watch_find_noise(qdot_watch *w, const qdot_watch_part *p);
 
 /* --- no roots between the nodes (watch-exclusion.c) ---------------------------------- */
 
@@ -196,6 +260,14 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
  * w->now.sign, which becomes 0. */
 QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
                                             double least);
+
+/* --- where a run ends and starts (watch-ends.c) -------------------------------------- */
+
+/* The run ends at t: append the zeros on which it does. */
+QDOT_MUST_CHECK qdot_status qdot_watch_end_on_zero(qdot_watch *w, double t);
+
+/* Where a start was moved by a rounding, a function that then becomes 0 was 0 at the start: remove it. */
+QDOT_MUST_CHECK qdot_status qdot_watch_forget_start(qdot_watch *w);
 
 /* --- jumps, kinks (watch-rough.c) ---------------------------------------------------- */
 

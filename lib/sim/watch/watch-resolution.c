@@ -44,8 +44,11 @@ is_told(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size
     double noise;
 
     QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
-    QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &noise));
-    noise += p->from_zero ? fabs(w->now.g0[i]) : 0;
+    if (qdot_watch_is_fine(w, i))
+        QDOT_TRY(qdot_watch_noise_two(w, t, w->z, i, &noise));
+    else
+        QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &noise));
+    noise += p->from_zero ? fabs(qdot_watch_zero(w, i)) : 0;
     *is = size > QDOT_WATCH_ROUNDINGS * noise;
     return QDOT_OK;
 }
@@ -69,7 +72,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
                    qdot_watch_verdict *v)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES, *x, least = least_told(p),
-                 start = p->from_zero ? w->now.g0[i] : 0;
+                 start = p->from_zero ? qdot_watch_zero(w, i) : 0;
     bool told = false;
     int n;
 

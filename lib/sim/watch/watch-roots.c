@@ -12,6 +12,9 @@ static const double resolved = 0x1p-44, resolved_start = 1e-9;
 /* The fraction of its size that is not small. */
 static const double least_of_size = 1e-3;
 
+/* Beside a root a function is less than this part of its size; beside a jump and a pole it is not. */
+static const double rest_of_size = 1e-6;
+
 /* What the rounding of a function makes of its slope at a zero, by nodes that crowd there. */
 static const double noise_of_slope = 1e4;
 
@@ -88,7 +91,11 @@ fit_values(const qdot_watch *w, const qdot_watch_part *p, size_t i, double *c)
         if (p->from_zero) {
             double t = qdot_watch_time(p, qdot_chebyshev_node(p->n, j));
 
-            values[j] = (g[j] - w->now.g0[i]) * ((p->b - p->a) / (t - p->a));
+            /* a node that rounds to the start is as the one before */
+            values[j] = t != p->a
+                            ? (g[j] - qdot_watch_zero(w, i)) * ((p->b - p->a) / (t - p->a))
+                        : j > 0 ? values[j - 1]
+                                : 0;
         }
     }
     qdot_chebyshev_fit(p->n, values, c);
@@ -212,9 +219,10 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, con
     return QDOT_OK;
 }
 
-qdot_status
-qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
-                 qdot_watch_end *ends, qdot_root *root, bool *found)
+/* As qdot_watch_cross, by values as they are evaluated at present. */
+static qdot_status
+cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
+      qdot_root *root, bool *found)
 {
     QDOT_TRY(locate(w, i, way, ends, guess, found));
     if (!*found)
@@ -228,6 +236,31 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
         return QDOT_OK;
     QDOT_TRY(refine(w, ends, root));
     return is_pole(w, p, ends, root, &root->pole);
+}
+
+qdot_status
+qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
+                 qdot_watch_end *ends, qdot_root *root, bool *found)
+{
+    const qdot_watch_end wide[2] = {ends[0], ends[1]};
+    qdot_watch_end near[2] = {wide[0], wide[1]};
+    qdot_root again;
+    bool also;
+    qdot_status status;
+
+    QDOT_TRY(cross(w, p, i, way, guess, ends, root, found));
+    if (w->fine || w->coarse || !*found || root->pole || !w->smooth[i] || !qdot_watch_can_two(w)
+        || root->residual > rest_of_size * qdot_chebyshev_size(p->n, p->c))
+        return QDOT_OK;
+    w->fine = true; /* the same root, where doubles do not tell */
+    status = cross(w, p, i, way, root->t, near, &again, &also);
+    w->fine = false;
+    if (status == QDOT_OK && also && !again.pole) {
+        *root = again;
+        ends[0] = near[0];
+        ends[1] = near[1];
+    }
+    return status;
 }
 
 /* How long before t |g_i| was 4 times `least`, within rounding of which it is 0 at t; at most since the start of the
@@ -388,13 +421,15 @@ cross_start(qdot_watch *w, const qdot_watch_part *p, size_t i, int sign)
     qdot_root root;
     bool found = false;
 
-    if (w->now.g0[i] != 0)
+    if (qdot_watch_zero(w, i) != 0)
         QDOT_TRY(qdot_watch_cross(w, p, i, sign, p->a, ends, &root, &found));
     if (!found) /* it was before this step */
         root = (qdot_root){.function = i,
                            .t = p->a,
                            .way = sign,
-                           .blur = w->now.g0[i] != 0 ? time_of_change(p, fabs(w->now.g0[i])) : 0,
+                           .blur = qdot_watch_zero(w, i) != 0
+                                       ? time_of_change(p, fabs(qdot_watch_zero(w, i)))
+                                       : 0,
                            .exact = true};
     return qdot_watch_push(w, root);
 }
@@ -502,7 +537,7 @@ static qdot_status
 be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double noise = w->noise[i] > 0 ? QDOT_WATCH_ROUNDINGS * w->noise[i] : 0,
-                 start = p->from_zero ? fabs(w->now.g0[i]) : 0;
+                 start = p->from_zero ? fabs(qdot_watch_zero(w, i)) : 0;
     const bool leaves = fabs(p->at_end) > fmax(noise, start)
                         && fabs(p->at_end - qdot_chebyshev_at(p->n, p->c, 1)) > noise;
 

@@ -8,10 +8,28 @@
 
 #include "sim/bind/bind.h"
 #include "sim/model/term-magnitude.h"
-#include "tape/rounding.h"
 #include "tape/shake.h"
 
 /* --- their tapes --------------------------------------------------------------------- */
+
+/* Which functions hold nothing that switches. */
+static qdot_status
+find_smooth(qdot_watch *w, const qdot_expr *e)
+{
+    const qdot_plan *p = w->plan;
+
+    w->smooth = qdot_calloc(w->m + 1, sizeof *w->smooth);
+    if (!w->smooth)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < w->m; i++) {
+        qdot_tape *one = NULL;
+
+        QDOT_TRY(qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1, e + i, &one));
+        w->smooth[i] = qdot_program_hindrance(one) == NULL;
+        qdot_tape_free(one);
+    }
+    return QDOT_OK;
+}
 
 qdot_status
 qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
@@ -30,6 +48,8 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     }
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, w->m, e, &tape);
+    if (status == QDOT_OK)
+        status = find_smooth(w, e);
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++)
         e[i] = qdot_term_magnitude(p->pool, e[i]);
     if (status == QDOT_OK)
@@ -40,16 +60,12 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     qdot_free(e);
     if (status == QDOT_OK && shaken) {
         status = qdot_tape_shake(tape, &w->tape);
-        qdot_tape_free(tape);
+        w->plain = tape;
     } else {
         w->tape = tape;
     }
     return status;
 }
-
-/* The largest |g|, also at a pole: it can be added up, multiplied by the square of a number of nodes, divided
- * by the distance of nodes. */
-static const double most = 0x1p900;
 
 /* --- values -------------------------------------------------------------------------- */
 
@@ -110,8 +126,8 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
     for (size_t i = 0; i < w->m; i++)
         if (isnan(g[i]))
             return refuse_value(w, t);
-        else if (fabs(g[i]) > most)
-            g[i] = copysign(most, g[i]);
+        else if (fabs(g[i]) > QDOT_WATCH_MOST)
+            g[i] = copysign(QDOT_WATCH_MOST, g[i]);
         else if (fabs(g[i]) < DBL_MIN && (g[i] != 0 || underflows(w, i)))
             g[i] = copysign(DBL_MIN, g[i]); /* also of a 0: it keeps its sign */
     return QDOT_OK;
@@ -120,52 +136,8 @@ qdot_watch_value(qdot_watch *w, double t, double *g)
 qdot_status
 qdot_watch_value_at(qdot_watch *w, double t, double *g)
 {
+    if (w->fine)
+        return qdot_watch_value_two(w, t, g);
     QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
     return qdot_watch_value(w, t, g);
-}
-
-qdot_status
-qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double least, size_t i,
-                 double *noise)
-{
-    double g;
-
-    *noise = 0;
-    memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, t, w->moved));
-    g = w->moved[i];
-    for (size_t k = 0; k <= 2 * w->n; k++) {
-        double at = k < 2 * w->n ? y[k] : t,
-               to = at + by * copysign(fmax(least, fabs(at)), at);
-        qdot_status status;
-
-        if (to == at)
-            continue;
-        memcpy(w->in, y, 2 * w->n * sizeof *y);
-        if (k < 2 * w->n)
-            w->in[k] = to;
-        status = qdot_watch_value(w, k < 2 * w->n ? t : to, w->moved);
-        if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR)
-            continue;
-        QDOT_TRY(status);
-        *noise += fabs(w->moved[i] - g);
-    }
-    return QDOT_OK;
-}
-
-qdot_status
-qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *noise)
-{
-    double up, down;
-
-    QDOT_TRY(qdot_watch_noise(w, t, y, 4 * DBL_EPSILON, 0, i, &up)); /* they differ beside a kink */
-    QDOT_TRY(qdot_watch_noise(w, t, y, -4 * DBL_EPSILON, 0, i, &down));
-    memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* q'' too */
-    qdot_tape_eval(w->sizes, w->in, w->raw, w->work);
-    *noise = fmax(up, down) + 4 * DBL_EPSILON * fmin(w->raw[i], most);
-    qdot_rounding_bounds(w->tape, w->in, NULL, w->raw, w->work);
-    if (4 * w->raw[i] > *noise && w->raw[i] < most)
-        *noise = 4 * w->raw[i];
-    return QDOT_OK;
 }

@@ -8,7 +8,7 @@
 #include "base/interrupt.h"
 #include "sim/watch/watch-parts.h"
 
-enum { LEAST = 16, DEEPEST = 100, MOST_PARTS = 4000 };
+enum { DEEPEST = 100, MOST_PARTS = 4000 };
 
 /* A step of a series is left where so many have been looked at: it can end there. */
 enum { ENOUGH_PARTS = 500 };
@@ -57,66 +57,13 @@ is_short(const qdot_watch *w, const qdot_watch_part *p)
     return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, w->shortest);
 }
 
-/* The largest |g_i| at the nodes that were sampled first. */
-static double
-seen_size(const qdot_watch *w, size_t i)
-{
-    double largest = 0;
-
-    for (int j = 0; j < LEAST; j++)
-        largest = fmax(largest, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
-    return largest;
-}
-
-/* The rounding of all g at time t and the state in w->z, where that is less than noise [m], or this is
- * NaN. Beside rounding of the state there is that of the series, no more than that of g at the end of the step or at
- * the nodes of the part. */
-static qdot_status
-lessen_noise(qdot_watch *w, double t, double *noise)
-{
-    for (size_t i = 0; i < w->m; i++) {
-        double here;
-
-        if (!w->live[i])
-            continue;
-        QDOT_TRY(qdot_watch_rounding(w, t, w->z, i, &here));
-        noise[i] = fmin(noise[i],
-                        here + 4 * DBL_EPSILON * fmin(fabs(w->final[i]), seen_size(w, i)));
-    }
-    return QDOT_OK;
-}
-
-/* Where 64 nodes are not enough rounding may be all there is. It is found at the start of the step and
- * both ends of the part: a jump or a pole beside one of them makes it large there. */
-static qdot_status
-find_noise(qdot_watch *w, const qdot_watch_part *p)
-{
-    size_t any = 0;
-
-    while (!w->live[any])
-        any++;
-    if (!isnan(w->noise[any]))
-        return QDOT_OK;
-    if (isnan(w->first_noise[any])) {
-        memcpy(w->z, w->y, 2 * w->n * sizeof *w->z);
-        QDOT_TRY(lessen_noise(w, w->t, w->first_noise));
-    }
-    memcpy(w->noise, w->first_noise, w->m * sizeof *w->noise);
-    if (p->a != w->t) {
-        QDOT_TRY(w->reader.read(p->a, w->z, w->reader.user));
-        QDOT_TRY(lessen_noise(w, p->a, w->noise));
-    }
-    QDOT_TRY(w->reader.read(p->b, w->z, w->reader.user));
-    return lessen_noise(w, p->b, w->noise);
-}
-
 /* Whether function i is 0 at an end of the part, and at the node beside it, but not throughout: where the
  * part is not much longer than rounding a polynomial goes through the kink between. */
 static bool
 is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
-    const bool start = w->now.on[i] && w->now.g0[i] == 0 && g[nodes - 1] == 0,
+    const bool start = w->now.on[i] && qdot_watch_zero(w, i) == 0 && g[nodes - 1] == 0,
                end = g[0] == 0 && p->at_end == 0;
 
     return (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
@@ -137,8 +84,14 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
         QDOT_TRY(qdot_watch_resolve(w, p, i, nodes, &v));
         rough = v != QDOT_PART_GOOD;
     }
-    if (rough || is_partly_zero(w, p, i, nodes))
-        return qdot_watch_rough_roots(w, p, i, nodes);
+    if (rough || is_partly_zero(w, p, i, nodes)) {
+        qdot_status status;
+
+        w->coarse = true;
+        status = qdot_watch_rough_roots(w, p, i, nodes);
+        w->coarse = false;
+        return status;
+    }
     QDOT_TRY(qdot_watch_roots(w, p, i));
     if (!off || w->now.on[i] || w->now.sign[i] != sign || w->roots.n != before)
         return QDOT_OK;
@@ -160,6 +113,41 @@ resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot
     return QDOT_OK;
 }
 
+/* Values at the nodes; in two doubles, and *at_end too, where doubles do not tell the sign. */
+static qdot_status
+sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double **at_end)
+{
+    bool wants = w->fine;
+
+    if (!wants)
+        QDOT_TRY(sample(w, p, nodes));
+    if (!wants)
+        QDOT_TRY(qdot_watch_wants_two(w, p, nodes, &wants));
+    if (!wants)
+        return QDOT_OK;
+    w->fine = true;
+    QDOT_TRY(sample(w, p, nodes));
+    QDOT_TRY(qdot_watch_value_at(w, p->b, w->fine_end));
+    *at_end = w->fine_end;
+    return QDOT_OK;
+}
+
+/* A function that is 0 at the end of the part, but for rounding, is so from there on, until it is large
+ * beside that. */
+static void
+keep_offset(qdot_watch *w, size_t i)
+{
+    const bool fine = qdot_watch_is_fine(w, i);
+
+    if (fine)
+        w->now.g0[i] += w->now.offset[i];
+    if (w->now.on[i])
+        w->now.offset[i] = w->now.g0[i];
+    else if (!fine)
+        w->now.offset[i] = 0;
+    w->now.blurred[i] = w->now.on[i] && (w->now.blurred[i] || !fine);
+}
+
 static qdot_status
 look_at_part(qdot_watch *w, qdot_watch_part *p,
              const double *at_end, qdot_watch_verdict *v)
@@ -167,16 +155,19 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     int nodes = w->nodes;
     bool good;
 
+    w->fine = false;
     for (size_t i = 0; i < w->m; i++) {
         w->noise[i] = NAN;
         w->n_extrema[i] = QDOT_WATCH_UNKNOWN;
         w->n_fitted[i] = 0;
     }
     for (;; nodes *= 2) {
-        QDOT_TRY(sample(w, p, nodes));
+        QDOT_TRY(sample_enough(w, p, nodes, &at_end));
+        if (w->fine) /* what is seen may be all rounding */
+            QDOT_TRY(qdot_watch_find_noise(w, p));
         *v = judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w, p));
+            QDOT_TRY(qdot_watch_find_noise(w, p));
             *v = judge(w, p, nodes);
         }
         if (*v != QDOT_PART_MORE_NODES || nodes == QDOT_WATCH_NODES)
@@ -185,7 +176,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     if (*v == QDOT_PART_GOOD) {
         *v = qdot_watch_judge(w, p, nodes);
         if (*v == QDOT_PART_HALVED) {
-            QDOT_TRY(find_noise(w, p));
+            QDOT_TRY(qdot_watch_find_noise(w, p));
             *v = qdot_watch_judge(w, p, nodes);
         }
     }
@@ -195,14 +186,15 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
         return QDOT_OK;
     good = *v == QDOT_PART_GOOD;
     if (!good) /* a zero left so slowly that only rounding is seen yet; or it is rough */
-        QDOT_TRY(find_noise(w, p));
+        QDOT_TRY(qdot_watch_find_noise(w, p));
     *v = QDOT_PART_GOOD;
-    w->nodes = nodes > LEAST ? nodes : LEAST;
+    w->nodes = nodes > QDOT_WATCH_LEAST_NODES ? nodes : QDOT_WATCH_LEAST_NODES;
     for (size_t i = 0; i < w->m; i++) {
         if (!w->live[i])
             continue;
         p->at_end = at_end[i];
         QDOT_TRY(roots_of(w, p, i, nodes, good));
+        keep_offset(w, i);
     }
     return QDOT_OK;
 }
@@ -269,6 +261,7 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
 
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(look_at_part(w, &p, at_end, &v));
+        w->fine = false;
         w->looked_at++;
         if (v == QDOT_PART_GOOD) {
             w->part_before = p.a;
@@ -349,59 +342,9 @@ copy_state(const qdot_watch *w, struct qdot_watch_state *to,
 {
     memcpy(to->sign, from->sign, w->m * sizeof *to->sign);
     memcpy(to->on, from->on, w->m * sizeof *to->on);
+    memcpy(to->blurred, from->blurred, w->m * sizeof *to->blurred);
     memcpy(to->g0, from->g0, w->m * sizeof *to->g0);
-}
-
-/* The run ends on a zero: it is one. */
-static qdot_status
-end_on_zero(qdot_watch *w, double t)
-{
-    for (size_t i = 0; i < w->m; i++)
-        if (w->grazed[i])
-            QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
-                                                    .t = t,
-                                                    .residual = fabs(w->now.g0[i]),
-                                                    .exact = true}));
-        else if (w->now.g0[i] == 0 && w->now.sign[i] != 0 && w->live[i])
-            QDOT_TRY(qdot_watch_push(
-                w, (qdot_root){
-                       .function = i, .t = t, .way = -w->now.sign[i], .exact = true}));
-    return QDOT_OK;
-}
-
-/* Whether the state in z at a time is that of the start but for rounding. */
-static bool
-is_start(const qdot_watch *w, double t, const double *z)
-{
-    const double by = 4 * DBL_EPSILON;
-
-    if (w->bounds.reads_time && fabs(t - w->t) > by * fmax(w->least, fabs(t)))
-        return false;
-    for (size_t k = 0; k < 2 * w->n; k++)
-        if (fabs(z[k] - w->y[k]) > by * fmax(w->least, fabs(z[k])))
-            return false;
-    return true;
-}
-
-/* Where a start was moved by a rounding, a function that then becomes 0 was 0 at the start. */
-static qdot_status
-forget_start(qdot_watch *w)
-{
-    size_t n = 0;
-
-    for (size_t i = 0; i < w->roots.n; i++) {
-        const qdot_root *root = &w->roots.at[i];
-        bool is = false;
-
-        if (root->way == 0 || root->stays) {
-            QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
-            is = is_start(w, root->t, w->z);
-        }
-        if (!is)
-            w->roots.at[n++] = *root;
-    }
-    w->roots.n = n;
-    return QDOT_OK;
+    memcpy(to->offset, from->offset, w->m * sizeof *to->offset);
 }
 
 qdot_status
@@ -411,6 +354,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     bool any = false, whole = true;
 
     w->direction = t < w->t ? -1 : 1;
+    w->expanded = step != NULL;
+    w->fine = w->coarse = false;
     copy_state(w, &w->now, &w->start);
     w->roots.n = 0;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
@@ -436,15 +381,16 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     if (any)
         QDOT_TRY(look_at_step(w, t, step != NULL, &whole));
     if (last && whole)
-        QDOT_TRY(end_on_zero(w, t));
+        QDOT_TRY(qdot_watch_end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
         if (!w->live[i]) {
             w->now.g0[i] = w->final[i];
-            w->now.on[i] = false;
+            w->now.on[i] = w->now.blurred[i] = false;
+            w->now.offset[i] = 0;
         }
     sort_roots(w);
     if (w->least > 0)
-        QDOT_TRY(forget_start(w));
+        QDOT_TRY(qdot_watch_forget_start(w));
     *roots = w->roots.at;
     *n = w->roots.n;
     w->in[2 * w->n] = t;
@@ -508,22 +454,39 @@ is_rounding(qdot_watch *w, double t, const double *y, double least, size_t i, do
     return QDOT_OK;
 }
 
+/* Of |g| beside a root that was located: what is less is 0, for the place of the root is rounded. */
+static const double negligible = 0x1p-10;
+
 qdot_status
 qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const double *y,
                  const qdot_watch_known *known, bool *on)
 {
+    const bool exact = reader->read_two && !w->accelerations;
+
     w->reader = *reader;
     w->least = known->least;
+    w->largest = known->largest;
+    w->begun = t;
     memcpy(w->y, y, 2 * w->n * sizeof *y);
     w->t = t;
     memcpy(w->in, y, 2 * w->n * sizeof *y);
-    QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
+    memset(w->now.blurred, 0, w->m * sizeof *w->now.blurred);
+    if (exact)
+        QDOT_TRY(qdot_watch_value_at_start(w, t, y, known->low, w->start.g0));
+    else
+        QDOT_TRY(qdot_watch_value(w, t, w->start.g0));
     for (size_t i = 0; i < w->m; i++) {
         const double g = w->start.g0[i];
+        const bool met = known->residual && known->residual[i] >= 0;
 
-        QDOT_TRY(is_rounding(w, t, y, known->least, i, g, &w->start.on[i]));
-        if (known->residual && known->residual[i] >= 0)
-            w->start.on[i] = w->start.on[i] || fabs(g) <= 4 * known->residual[i];
+        if (exact && w->smooth[i] && met && i < known->left) {
+            w->start.on[i] = fabs(g) <= negligible * known->residual[i];
+        } else {
+            QDOT_TRY(is_rounding(w, t, y, known->least, i, g, &w->start.on[i]));
+            w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
+        }
+        w->start.blurred[i] = false;
+        w->start.offset[i] = w->start.on[i] && exact && w->smooth[i] ? g : 0;
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
     }
@@ -555,12 +518,20 @@ qdot_watch_slow(const qdot_watch *w)
 }
 
 qdot_status
-qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs, double *g)
+qdot_watch_look(qdot_watch *w, double t, const double *y, const double *largest, int *signs, double *g,
+                bool *on)
 {
     memcpy(w->in, y, 2 * w->n * sizeof *y);
     QDOT_TRY(qdot_watch_value(w, t, g));
     for (size_t i = 0; i < w->m; i++)
         signs[i] = qdot_watch_sign(g[i]);
+    for (size_t i = 0; i < w->m && on; i++) {
+        double noise = 0;
+
+        if (g[i] != 0)
+            QDOT_TRY(qdot_watch_noise_of(w, t, y, largest, i, &noise));
+        on[i] = fabs(g[i]) <= noise;
+    }
     return QDOT_OK;
 }
 
@@ -571,6 +542,7 @@ qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)
 {
     w->coordinate[i] = coordinate;
     w->bound[i] = bound;
+    w->smooth[i] = false; /* the run ends at the last state that is within it as a double */
     w->all_bounds = true;
     for (size_t k = 0; k < w->m; k++)
         w->all_bounds = w->all_bounds && w->coordinate[k] != SIZE_MAX;
@@ -583,6 +555,10 @@ qdot_watch_free(qdot_watch *w)
         return;
     qdot_tape_free(w->tape);
     qdot_tape_free(w->sizes);
+    qdot_tape_free(w->plain);
+    qdot_tape_two_free(w->two);
+    qdot_free(w->state_two);
+    qdot_free(w->smooth);
     qdot_polynomial_bounds_clear(&w->bounds);
     qdot_free(w->coordinate);
     qdot_free(w->bound);
@@ -602,11 +578,11 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 2 * work + 10 * m +
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 2 * work + 13 * m +
                                  3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(5 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(6 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(8 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -634,6 +610,9 @@ make_room(qdot_watch *w)
     w->extrema = w->samples + QDOT_WATCH_NODES * m;
     w->fitted = w->extrema + QDOT_WATCH_NODES * m;
     w->ends = w->fitted + QDOT_WATCH_NODES * m;
+    w->fine_end = w->ends + (DEEPEST + 2) * m;
+    w->start.offset = w->fine_end + m;
+    w->now.offset = w->start.offset + m;
     w->start.sign = signs + m;
     w->now.sign = signs + 2 * m;
     w->n_extrema = signs + 3 * m;
@@ -643,6 +622,8 @@ make_room(qdot_watch *w)
     w->now.on = flags + 3 * m;
     w->slow = flags + 4 * m;
     w->grazed = flags + 5 * m;
+    w->start.blurred = flags + 6 * m;
+    w->now.blurred = flags + 7 * m;
     return QDOT_OK;
 }
 
@@ -661,7 +642,7 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     w->m = m;
     w->n = plan->n;
     w->tol = tol;
-    w->nodes = LEAST;
+    w->nodes = QDOT_WATCH_LEAST_NODES;
     status = qdot_watch_lower(w, g, shaken);
     if (status == QDOT_OK)
         status = make_room(w);

@@ -54,6 +54,10 @@ typedef struct {
     const int *before;      /* [m] the signs just before; 0: none, as at the start of a run */
     const double *residual; /* [m] |g| up to which it counts as 0, if a root was located here;
                                or NULL */
+    const double *low;      /* [2n] the state less y; NULL: 0 */
+    const double *largest;  /* [2n] of |y| so far in the run; borrowed, it may grow; NULL: not known */
+    size_t left;            /* functions below this have left their root with the state: they are 0
+                               only where that is lost in the rounding of two doubles */
 } qdot_watch_known;
 
 /* Begin a piece of the run at (t, y); `reader`, copied, reads its states. on [m] out: whether g
@@ -93,8 +97,15 @@ void qdot_watch_pass(qdot_watch *w, double t, const double *y);
 const int *qdot_watch_first(const qdot_watch *w);
 const bool *qdot_watch_slow(const qdot_watch *w);
 
-/* All g [m] at a state, and their signs [m]. */
-QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y, int *signs,
-                                            double *g);
+/* dg_i/dt at the state y + low [2n] near a zero of g_i, where that has the rates [2n]; *noise: what the
+ * rounding of rates as large as fast [2n] makes of it. */
+QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const double *y, const double *low,
+                                            const double *rates, const double *fast, size_t i,
+                                            double *rate, double *noise);
+
+/* All g [m] at a state, and their signs [m]; on [m], unless NULL: whether they are 0 but for rounding of a
+ * state whose components have been as large as `largest` [2n]. */
+QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
+                                            const double *largest, int *signs, double *g, bool *on);
 
 #endif

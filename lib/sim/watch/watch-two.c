@@ -1,0 +1,155 @@
+/* watch-two.c -- the watched functions in sums of two doubles, where a double cannot tell their sign. */
+#include "sim/watch/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* A function this small beside its terms is evaluated in two doubles. */
+static const double small = 0x1p-20;
+
+bool
+qdot_watch_can_two(const qdot_watch *w)
+{
+    return w->reader.read_two && w->expanded && !w->accelerations;
+}
+
+/* Made when it is needed first. */
+static qdot_status
+make_two(qdot_watch *w)
+{
+    if (w->two)
+        return QDOT_OK;
+    w->state_two = qdot_malloc((2 * w->n + 1) * sizeof *w->state_two);
+    if (!w->state_two)
+        return QDOT_ENOMEM;
+    return qdot_tape_two_new(w->plain ? w->plain : w->tape, 0, 2 * w->n + 1, &w->two);
+}
+
+/* The sizes of values that two doubles hold: beyond, one of them overflows or underflows. */
+static const double least_of_two = 1 / QDOT_WATCH_MOST, most_of_two = QDOT_WATCH_MOST;
+
+/* What jumps or has a kink is a matter of its values as doubles are. */
+static bool
+is_of_two(const qdot_watch *w, size_t i)
+{
+    const double size = fabs(qdot_tape_two_output(w->two, i)[0].hi);
+
+    return w->smooth[i] && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
+}
+
+/* Whether a smooth function is 0 in two doubles: as a double it may be rounding, or too small a number. */
+static bool
+is_nothing(const qdot_watch *w, size_t i)
+{
+    return w->smooth[i] && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
+}
+
+static qdot_status
+value_two(qdot_watch *w, double t, const qdot_two *y, double *g)
+{
+    bool rest = false;
+
+    for (size_t k = 0; k < 2 * w->n; k++) {
+        *qdot_tape_two_input(w->two, k) = y[k];
+        w->in[k] = y[k].hi;
+    }
+    *qdot_tape_two_input(w->two, 2 * w->n) = (qdot_two){t, 0};
+    qdot_tape_two_order(w->two, 0);
+    for (size_t i = 0; i < w->m; i++)
+        rest = rest || !is_of_two(w, i);
+    if (rest)
+        QDOT_TRY(qdot_watch_value(w, t, g));
+    for (size_t i = 0; i < w->m; i++)
+        if (is_of_two(w, i))
+            g[i] = qdot_tape_two_output(w->two, i)[0].hi;
+        else if (is_nothing(w, i) && fabs(g[i]) > DBL_MIN) /* but rounding as a double */
+            g[i] = 0;
+    return QDOT_OK;
+}
+
+static double
+difference(qdot_two a, double b)
+{
+    return qdot_two_add_double(a, -b).hi;
+}
+
+qdot_status
+qdot_watch_value_two(qdot_watch *w, double t, double *g)
+{
+    QDOT_TRY(make_two(w));
+    QDOT_TRY(w->reader.read_two(t, w->state_two, w->reader.user));
+    QDOT_TRY(value_two(w, t, w->state_two, g));
+    for (size_t i = 0; i < w->m; i++)
+        if (w->now.offset[i] != 0 && is_of_two(w, i))
+            g[i] = difference(qdot_tape_two_output(w->two, i)[0], w->now.offset[i]);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double *low, double *g)
+{
+    QDOT_TRY(make_two(w));
+    for (size_t k = 0; k < 2 * w->n; k++)
+        w->state_two[k] = (qdot_two){y[k], low ? low[k] : 0};
+    return value_two(w, t, w->state_two, g);
+}
+
+qdot_status
+qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *wants)
+{
+    *wants = false;
+    if (!qdot_watch_can_two(w))
+        return QDOT_OK;
+    for (size_t i = 0; i < w->m; i++)
+        if (w->live[i] && w->now.on[i] && w->smooth[i] && !w->now.blurred[i])
+            *wants = true;
+    if (*wants)
+        return QDOT_OK;
+    for (int end = 0; end < 2; end++) { /* at a pole the terms are large */
+        const double t = end == 0 ? p->a : p->b;
+
+        QDOT_TRY(w->reader.read(t, w->in, w->reader.user));
+        w->in[2 * w->n] = t;
+        qdot_tape_eval(w->sizes, w->in, end == 0 ? w->g : w->moved, w->work);
+    }
+    for (size_t i = 0; i < w->m; i++) {
+        double size = 0;
+
+        w->moved[i] = fmin(w->moved[i], w->g[i]);
+        for (int j = 0; j < nodes; j++)
+            size = fmax(size, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
+        if (w->live[i] && w->smooth[i] && !w->now.blurred[i] && w->moved[i] <= most_of_two
+            && size < small * w->moved[i])
+            *wants = true;
+    }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_watch_rate(qdot_watch *w, double t, const double *y, const double *low, const double *rates,
+                const double *fast, size_t i, double *rate, double *noise)
+{
+    const bool exact = w->reader.read_two && !w->accelerations && w->smooth[i];
+    const double h = exact ? 0x1p-40 : 0x1p-20;
+    double *there = qdot_malloc((2 * w->n + 1) * sizeof *there), g = 0;
+    qdot_status status = there ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < 2 * w->n && there; k++)
+        there[k] = exact ? (low ? low[k] : 0) + h * rates[k] : y[k] + h * rates[k];
+    if (status == QDOT_OK) {
+        memcpy(w->in, y, 2 * w->n * sizeof *y);
+        status = exact ? qdot_watch_value_at_start(w, t, y, low, w->g) : qdot_watch_value(w, t, w->g);
+        g = w->g[i];
+    }
+    if (status == QDOT_OK && !exact)
+        memcpy(w->in, there, 2 * w->n * sizeof *there);
+    if (status == QDOT_OK)
+        status = exact ? qdot_watch_value_at_start(w, t + h, y, there, w->g)
+                       : qdot_watch_value(w, t + h, w->g);
+    *rate = status == QDOT_OK ? (w->g[i] - g) / h : 0;
+    if (status == QDOT_OK)
+        status = qdot_watch_noise_of(w, t, y, fast, i, noise);
+    qdot_free(there);
+    return status;
+}
