@@ -210,6 +210,17 @@ changes(double a, double b)
     return (a < 0) != (b < 0);
 }
 
+/* Drop coefficients below the rounding of the others. */
+static int
+shorten(int n, const double *c)
+{
+    double least = 0x1p-56 * qdot_chebyshev_size(n, c);
+
+    while (n > 2 && fabs(c[n - 1]) <= least)
+        n--;
+    return n;
+}
+
 /* The Illinois method. */
 double
 qdot_chebyshev_root(int n, const double *c, double lo, double hi)
@@ -219,6 +230,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 
     int kept = 0; /* the end that the last step has kept: -1 lo, 1 hi */
 
+    n = shorten(n, c);
     for (int k = 0; k < 100; k++) {
         double now;
 
@@ -252,17 +264,6 @@ refine(const piece *p)
     const double x = qdot_chebyshev_root(p->n, p->c, -1, 1);
 
     return 0.5 * (p->lo + p->hi) + 0.5 * (p->hi - p->lo) * x;
-}
-
-/* Drop coefficients below the rounding of the others. */
-static int
-shorten(int n, const double *c)
-{
-    double least = 0x1p-56 * qdot_chebyshev_size(n, c);
-
-    while (n > 2 && fabs(c[n - 1]) <= least)
-        n--;
-    return n;
 }
 
 static bool

@@ -108,6 +108,24 @@ qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p, doubl
     return least;
 }
 
+/* Whether all coefficients of order p are 0. */
+static bool
+is_order_zero(const qdot_ode_series *series, size_t n, int p)
+{
+    for (size_t i = 0; i < n; i++)
+        if (series->x[i * series->stride + (size_t)p] != 0)
+            return false;
+    return true;
+}
+
+int
+qdot_ode_taylor_last_order(const qdot_ode_system *system, int p)
+{
+    while (p > 2 && is_order_zero(system->series, system->n, p))
+        p--;
+    return p;
+}
+
 void
 qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
                          double t, const double *y0, double *y)

@@ -287,7 +287,8 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     if (!*good)
         return QDOT_OK;
     if (r->options->expanded) {
-        qdot_ode_expanded step = {r->t, t_end, r->unit, r->cut, r->y, r->carry};
+        qdot_ode_expanded step = {
+            r->t, t_end, r->unit, qdot_ode_taylor_last_order(r->system, r->cut), r->y, r->carry};
 
         QDOT_TRY(r->options->expanded(&step, r->options->user));
         t_end = step.t_end;

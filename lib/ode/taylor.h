@@ -93,6 +93,8 @@ double qdot_ode_taylor_least_term(const qdot_ode_series *series, size_t n, int p
 QDOT_MUST_CHECK qdot_status qdot_ode_taylor_expand(const qdot_ode_system *system, int p,
                                                    double t0, double h,
                                                    const double *y0);
+/* The highest order, at most p, whose coefficients are not all 0; at least 2. */
+int qdot_ode_taylor_last_order(const qdot_ode_system *system, int p);
 /* The state y [n] at t + t_low of a step, by the series that is there, its coefficients taken as exact:
  * the first orders in two doubles. Not for systems with `following`. */
 void qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,

@@ -78,7 +78,7 @@ struct qdot_watch {
     double cut;         /* QDOT_PART_START_FAR: the fraction of the part that is cut off at its start */
     double reached;     /* of the step, where its search ended */
     size_t looked_at;   /* parts of all steps */
-    double reach;       /* of the last part of a step that a root ended; 0: none did */
+    double reach;       /* from the start of the step to the root that ended it; 0: none did */
     double part_before; /* the start of the part before the present one, in this step */
     double direction;   /* of time in it */
 

@@ -67,6 +67,20 @@ start_cut(const qdot_watch *w, const qdot_watch_part *p, double fraction)
     return fmin(fmax(cut, least), 0.5);
 }
 
+/* Whether the function leaves 0 at the start of the part, where it has the sign of g and its polynomial none,
+ * so fast that there is no second sign until the polynomial tells it: at a slope of more than its error. The
+ * derivative of a polynomial is at most n^2 times as large as it. */
+static bool
+leaves_start(const qdot_watch_part *p, double g, double least)
+{
+    double d[QDOT_WATCH_NODES], slope, error = (double)p->n * p->n * least;
+
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    slope = copysign(1, g) * qdot_chebyshev_at(p->n - 1, d, -1);
+    return slope > error
+           && copysign(1, g) * qdot_chebyshev_at(p->n - 1, d, -1 + 4 * least / slope) > error;
+}
+
 qdot_status
 qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
                    qdot_watch_verdict *v)
@@ -80,7 +94,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
     if (qdot_watch_vanishes(w, p, i))
         return QDOT_OK;
     n = qdot_watch_extrema(w, p, i, &x);
-    if (!p->from_zero && fabs(w->now.g0[i]) <= least) {
+    if (!p->from_zero && fabs(w->now.g0[i]) <= least && !leaves_start(p, w->now.g0[i], least)) {
         QDOT_TRY(is_told(w, p, i, p->a, fabs(w->now.g0[i]), &told));
         if (told) {
             w->cut = start_cut(w, p, fabs(w->now.g0[i]) / qdot_chebyshev_size(p->n, p->c));

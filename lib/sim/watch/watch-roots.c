@@ -219,14 +219,11 @@ is_pole(qdot_watch *w, const qdot_watch_part *p, const qdot_watch_end *ends, con
     return QDOT_OK;
 }
 
-/* As qdot_watch_cross, by values as they are evaluated at present. */
+/* The root between neighbouring doubles. */
 static qdot_status
-cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
-      qdot_root *root, bool *found)
+found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_watch_end *ends,
+              qdot_root *root)
 {
-    QDOT_TRY(locate(w, i, way, ends, guess, found));
-    if (!*found)
-        return QDOT_OK;
     *root = (qdot_root){.function = i,
                         .t = ends[1].t,
                         .way = way,
@@ -238,18 +235,84 @@ cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, 
     return is_pole(w, p, ends, root, &root->pole);
 }
 
+/* As qdot_watch_cross, by values as they are evaluated at present. */
+static qdot_status
+cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, qdot_watch_end *ends,
+      qdot_root *root, bool *found)
+{
+    QDOT_TRY(locate(w, i, way, ends, guess, found));
+    return *found ? found_between(w, p, i, way, ends, root) : QDOT_OK;
+}
+
+/* The slope of function i at t, by the part's polynomial. */
+static double
+slope_at(const qdot_watch_part *p, double t)
+{
+    double d[QDOT_WATCH_NODES];
+    const double length = p->b - p->a, x = 2 * (t - p->a) / length - 1;
+
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return qdot_chebyshev_at(p->n - 1, d, x) * (2 / length) * (p->from_zero ? (t - p->a) / length : 1);
+}
+
+/* As qdot_watch_cross, by values in two doubles: the guess is good, so the root is beside the next step of
+ * Newton's method. *found false: it is not. */
+static qdot_status
+cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
+           qdot_watch_end *ends, qdot_root *root, bool *found)
+{
+    const double rest = rest_of_size * qdot_chebyshev_size(p->n, p->c);
+    qdot_watch_end at[2];
+    double t = guess;
+
+    *found = false;
+    for (int k = 0; k < 3 && w->direction * (t - ends[0].t) > 0 && w->direction * (ends[1].t - t) > 0; k++) {
+        bool over, other;
+        double next;
+
+        QDOT_TRY(narrow(w, i, way, t, at, &over));
+        if (at[over].g != 0 && fabs(at[over].g) > rest)
+            return QDOT_OK;
+        next = nextafter(t, over ? -w->direction * INFINITY : w->direction * INFINITY);
+        if (fabs(at[over].g) <= 2 * fabs(slope_at(p, t) * (next - t))) {
+            QDOT_TRY(narrow(w, i, way, next, at, &other));
+            if (other == over)
+                t = next;
+            *found = other != over;
+            if (*found)
+                break;
+        }
+        t -= at[over].g / slope_at(p, t);
+    }
+    if (!*found || at[0].t == ends[0].t || at[1].t == ends[1].t) {
+        *found = false;
+        return QDOT_OK;
+    }
+    ends[0] = at[0];
+    ends[1] = at[1];
+    return found_between(w, p, i, way, ends, root);
+}
+
 qdot_status
 qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
+    const bool two = !w->fine && !w->coarse && w->smooth[i] && qdot_watch_can_two(w);
     const qdot_watch_end wide[2] = {ends[0], ends[1]};
     qdot_watch_end near[2] = {wide[0], wide[1]};
     qdot_root again;
-    bool also;
-    qdot_status status;
+    bool also = false;
+    qdot_status status = QDOT_OK;
 
+    if (two) {
+        w->fine = true;
+        status = cross_near(w, p, i, way, guess, ends, root, found);
+        w->fine = false;
+        if (status != QDOT_OK || *found)
+            return status;
+    }
     QDOT_TRY(cross(w, p, i, way, guess, ends, root, found));
-    if (w->fine || w->coarse || !*found || root->pole || !w->smooth[i] || !qdot_watch_can_two(w)
+    if (!two || !*found || root->pole
         || root->residual > rest_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
     w->fine = true; /* the same root, where doubles do not tell */

@@ -76,7 +76,8 @@ roots_of(qdot_watch *w, qdot_watch_part *p, size_t i, int nodes, bool good)
     const size_t before = w->roots.n;
     const int sign = w->now.sign[i];
     bool rough = qdot_watch_fit(w, p, i, nodes) == QDOT_PART_MORE_NODES;
-    const bool off = !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
+    const bool may_kink = !w->smooth[i] || !w->expanded,
+               off = may_kink && !w->now.on[i] && sign != 0 && qdot_watch_is_noisy(w, p, i);
 
     if (!good && !rough) {
         qdot_watch_verdict v;
@@ -202,17 +203,20 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
 /* Roots nearer than this fraction of their time may be of one instant. */
 static const double one_instant = 64 * DBL_EPSILON;
 
-/* Whether a root from w->roots.at[since] on ends the step, clearly before b. */
+/* Whether a root from w->roots.at[since] on ends the step, clearly before b; *after: how long after the start of
+ * the step. */
 static bool
-ends_before(const qdot_watch *w, double b, size_t since)
+ends_before(const qdot_watch *w, double b, size_t since, double *after)
 {
     for (size_t i = since; i < w->roots.n && w->reader.ends; i++) {
         const qdot_root *root = &w->roots.at[i];
 
+        *after = fabs(root->t - w->t);
         if (fabs(b - root->t) > one_instant * fmax(fabs(b), fabs(root->t))
             && w->reader.ends(root, w->reader.user))
             return true;
     }
+    *after = 0;
     return false;
 }
 
@@ -227,14 +231,15 @@ wait_until(qdot_watch *w, double t, double *ends, int *depth)
     return QDOT_OK;
 }
 
-/* A step much longer than what the last root left is looked at from a part of about that length on:
+/* Where the last step was ended by a root, this one, if much longer, is looked at from a part of about that length on:
  * events of which hundreds would lie in the step come so. */
 static double
 first_cut(const qdot_watch *w, double t)
 {
-    return w->reach > 0 && w->length > 16 * w->reach
-               ? w->t + copysign(4 * w->reach, t - w->t)
-               : t;
+    const double least = 0x1p-30 * fmax(fabs(w->t), fabs(t)); /* a root at once says nothing */
+
+    return w->reach > least && w->length > 16 * w->reach ? w->t + copysign(4 * w->reach, t - w->t)
+                                                         : t;
 }
 
 /* The whole step, left to right, or as far as it is wanted; parts that wait stand on a stack of
@@ -267,13 +272,11 @@ look_at_step(qdot_watch *w, double t, bool series, bool *whole)
             w->part_before = p.a;
             from = p.b;
             depth--;
-            *whole = !ends_before(w, p.b, earlier);
+            *whole = !ends_before(w, p.b, earlier, &w->reach);
             earlier = before;
             before = w->roots.n;
-            if (!*whole) {
-                w->reach = fabs(p.b - p.a);
+            if (!*whole)
                 break;
-            }
             continue;
         }
         middle =
