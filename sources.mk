@@ -1372,6 +1372,7 @@ unit_tests = \
 	tests/sim/test_bordered \
 	tests/sim/test_budget \
 	tests/sim/test_constraints \
+	tests/sim/test_contacts \
 	tests/sim/test_continuation \
 	tests/sim/test_cost \
 	tests/sim/test_dips \

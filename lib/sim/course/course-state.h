@@ -41,6 +41,7 @@ typedef struct qdot_course {
      * 0: no limit */
     uint64_t looked, most_looked;
     double left_out; /* of velocities by layers so far, relative to their sizes (ode/scale.h) */
+    const struct qdot_course *leader; /* of a companion: the run, which says when a contact lasts; else NULL */
     size_t most_pieces; /* a companion with more is given up; 0: no limit */
     qdot_trajectory tr;
     qdot_vec(qdot_bind *) binds;         /* by mode; NULL for modes not yet met */

@@ -9,11 +9,13 @@
 
 /* Two velocities count as equal up to this. */
 static const double alike = 1e-9;
+/* The operations of `then` may round it by so many times the rounding of velocities. */
+static const double roundings = 32;
 /* The speed of a trial impact. */
 static const double trial = 1e-3;
-/* What a contact may leave out: the height of the bounces to come, in roundings of the place. Lower
- * ones are lost in these. */
-static const double least_height = 1e7 * DBL_EPSILON;
+/* What a contact may leave out: the height of the bounces to come, beside the place. Lower ones are lost in its
+ * rounding. */
+static const double least_height = DBL_EPSILON / 8;
 /* A speed above this is none of rest. */
 static const double fastest = 1e-4;
 
@@ -66,7 +68,7 @@ is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double siz
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         aside = fmax(aside, fabs(y[n + i] - old[n + i] - back * d[i] / size));
-    *yes = status == QDOT_OK && aside <= alike * (speed + DBL_EPSILON * scale / alike)
+    *yes = status == QDOT_OK && aside <= alike * speed + roundings * DBL_EPSILON * scale
            && back >= speed * (1 - 1e-6) - alike * scale
            && back <= 2 * speed * (1 + 1e-6) + alike * scale;
     qdot_free(old);
@@ -89,37 +91,57 @@ is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, bool *yes)
     return qdot_grave(status);
 }
 
-/* How large the terms of u are: what u is changed by if q is by its own size. */
+/* How large the terms of u have been: what u is changed by if each component of q is by its largest size so far. */
 static qdot_status
 size_of_place(qdot_piece *x, size_t surface, double *size)
 {
-    const double by = 0x1p-20;
-    double *y = qdot_malloc((x->n + 1) * sizeof *y), u0 = 0, u1 = 0;
+    double *slopes = qdot_malloc((x->n + 1) * sizeof *slopes), u;
     const size_t free = x->mode;
-    qdot_status status = y ? qdot_piece_enter(x) : QDOT_ENOMEM; /* the mode of the contact */
+    qdot_status status = slopes ? qdot_piece_enter(x) : QDOT_ENOMEM; /* the mode of the contact */
 
-    for (size_t i = 0; i < x->n && y; i++)
-        y[i] = x->start.y[i] * (i < x->n / 2 ? 1 + by : 1);
+    *size = 0;
     if (status == QDOT_OK)
         status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t,
-                                         x->start.y, surface, 0, &u0, NULL);
-    if (status == QDOT_OK)
-        status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, y,
-                                         surface, 0, &u1, NULL);
-    *size = fabs(u1 - u0) / by;
+                                         x->start.y, surface, 0, &u, slopes);
+    for (size_t i = 0; i < x->n / 2 && status == QDOT_OK; i++)
+        *size += fabs(slopes[i]) * x->largest[i];
     x->mode = free;
-    qdot_free(y);
+    qdot_free(slopes);
     return status;
 }
 
 /* --- where one begins ----------------------------------------------------------------- */
+
+/* The start moves along d [n], M^-1 du/dq times a number, until the row of that order of the surface is kept: an
+ * impulse of the contact, so that what other forces conserve stays. *moved at least its largest change, relative
+ * to max(1, |component|). */
+static qdot_status
+move_onto(qdot_piece *x, size_t surface, int order, const double *d, double *moved)
+{
+    const size_t n = x->n / 2;
+    double *slopes = qdot_malloc((n + 1) * sizeof *slopes), *y = x->start.y + (size_t)order * n, value, rise = 0;
+    qdot_status status = slopes ? qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y,
+                                                          surface, order, &value, slopes)
+                                : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        rise += slopes[i] * d[i];
+    for (size_t i = 0; i < n && status == QDOT_OK && rise != 0; i++) {
+        const double by = value / rise * d[i];
+
+        *moved = fmax(*moved, fabs(by) / fmax(1, fabs(y[i])));
+        y[i] -= by;
+    }
+    qdot_free(slopes);
+    return status;
+}
 
 /* Enter the contact at the start of the piece; *moved by how much that is off it. */
 static qdot_status
 enter(qdot_piece *x, size_t surface, double *moved, bool *can)
 {
     const size_t free = x->mode, n = x->n;
-    double *kept = qdot_malloc((n + 1) * sizeof *kept);
+    double *kept = qdot_malloc((2 * n + 1) * sizeof *kept), *d = kept + n, size = 0, rest = 0;
     qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
 
     *can = false;
@@ -127,10 +149,15 @@ enter(qdot_piece *x, size_t surface, double *moved, bool *can)
         return status;
     memcpy(kept, x->start.y, n * sizeof *kept);
     x->side[surface] = QDOT_SIDE_SLIDES;
+    *moved = 0;
     status = qdot_piece_enter(x);
     if (status == QDOT_OK)
-        status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, n / 2, x->start.t, x->start.y,
-                                        moved);
+        status = direction(x, x->mode, free, d, &size);
+    for (int order = 0; order < 2 && status == QDOT_OK && size > 0 && isfinite(size); order++)
+        status = move_onto(x, surface, order, d, moved);
+    if (status == QDOT_OK)
+        status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, n / 2, x->start.t, x->start.y, &rest);
+    *moved = fmax(*moved, rest);
     if (status == QDOT_OK && isfinite(*moved))
         status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free,
                                 can);
@@ -162,7 +189,7 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
         status = size_of_place(x, surface, &noise);
     height = moved * left;
     if (status == QDOT_OK && *lasts
-        && (moved > fastest || height > least_height * fmax(noise, 0x1p-24))) {
+        && (moved > fastest || height > least_height * noise)) {
         *lasts = false;
         *soon = moved <= fastest || left > 0;
         x->side[surface] = 0;

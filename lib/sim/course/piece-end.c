@@ -1,12 +1,13 @@
 /* piece-end.c -- carries out what ends a piece: an event, a bound or a switch. */
 #include "sim/course/piece.h"
+#include "sim/model/contact.h"
 
 #include <math.h>
 #include <string.h>
 
-/* In fractions of the time of the run. An event or switch accumulates if it occurs more than
- * MOST_REPEATS times within a MOMENT, or as often at intervals with the SAME_RATIO whose sum ends
- * NEAR. A motion that comes to rest at x is lost in rounding when it moves by less than an ulp of
+/* In fractions of the time since the run began, however long it goes on: an event or switch accumulates if it
+ * occurs more than MOST_REPEATS times within a MOMENT, or as often at intervals with the SAME_RATIO whose sum
+ * ends NEAR. A motion that comes to rest at x is lost in rounding when it moves by less than an ulp of
  * x, which it does for an interval of 1e-8 of its time. */
 enum { MOST_REPEATS = 4 };
 #define MOMENT 1e-9
@@ -145,7 +146,7 @@ remaining(qdot_piece_repeat *r, double t)
 static qdot_status
 accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
 {
-    double reach = fmax(fabs(t), fabs(x->t1 - x->c->tr.t[0]));
+    const double since = fabs(t - x->c->tr.t[0]), reach = since > 0 ? since : fabs(t);
     qdot_piece_repeat *r = NULL;
 
     *yes = false;
@@ -215,6 +216,18 @@ has_too_many_to_come(qdot_piece *x, const qdot_watched *w, double t)
              t, qdot_text_str(&text), LOOKED_AT, fabs(since), to_come, x->t1);
     qdot_text_clear(&text);
     return true;
+}
+
+/* Of a companion: whether the motion of the run comes to rest on the event that ended this piece; *led: the run says
+ * that, for it has a piece behind this one. What the bounces to come are left out for is the same in both then. */
+static bool
+rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
+{
+    const qdot_course *run = x->c->leader;
+    const size_t next = x->c->tr.pieces.n, surface = qdot_contacts_surface(&x->c->stage->switches, w->index, way);
+
+    *led = run && w->kind == QDOT_WATCH_EVENT && surface != SIZE_MAX && next < run->tr.pieces.n;
+    return *led && x->c->stage->modes.at[run->tr.pieces.at[next].mode]->side[surface] == QDOT_SIDE_SLIDES;
 }
 
 /* The event w comes ever faster: its contact lasts from here on (*fast false), or will soon. */
@@ -318,7 +331,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
         double left = 0;
-        bool fast = false;
+        bool fast = false, led, rests;
 
         if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
             x->c->stage->events.at[w->index].then)
@@ -361,8 +374,10 @@ qdot_piece_act(qdot_piece *x, bool *over)
         }
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
-        if (status == QDOT_OK && fast && !*over && w->kind == QDOT_WATCH_EVENT)
-            status = come_to_rest(x, w, root->way, left, &fast);
+        rests = rests_in_run(x, w, root->way, &led);
+        if (status == QDOT_OK && (led ? rests : fast) && !*over && w->kind == QDOT_WATCH_EVENT)
+            status = come_to_rest(x, w, root->way, led ? 0 : left, &fast);
+        fast = fast && !led;
         if (fast && !*over)
             say_accumulated(x, w, t, left);
         if (status == QDOT_OK && !*over && (fast || has_too_many_to_come(x, w, t))) {

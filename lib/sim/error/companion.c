@@ -131,6 +131,7 @@ begin_anew(qdot_course *c)
                                .shaken = c->shaken,
                                .no_series = c->no_series,
                                .early = c->early,
+                               .leader = c->leader,
                                .most_pieces = c->most_pieces,
                                .touch_tol = c->touch_tol};
 
@@ -229,6 +230,7 @@ follow(qdot_run *run, size_t number, qdot_course *c, bool *has)
         return QDOT_ENOMEM;
     c->shaken = number == 0;
     c->early = number == 0 ? 1 : -1;
+    c->leader = &run->course;
     c->touch_tol = has_touches(&run->course) ? run->course.touch_tol : 0;
     /* moved off a surface that the run rests on, it would cross it without end */
     c->most_pieces = 2 * run->course.tr.pieces.n + 1000;

@@ -37,7 +37,8 @@ struct qdot_watch_state {
     bool *on;   /* [m] the step starts on a zero of g */
     bool *blurred; /* [m] which is an extremum within rounding of 0, or a jump to it: two doubles tell no more
                       of it */
-    double *g0; /* [m] g at that zero */
+    double *g0; /* [m] g at that zero, or where the part at hand starts */
+    bool *sharp; /* [m] which is in two doubles */
     double *offset; /* [m] what rounding made of a zero: values in two doubles are less this */
 };
 

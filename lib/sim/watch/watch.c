@@ -147,6 +147,7 @@ keep_offset(qdot_watch *w, size_t i)
     else if (!fine)
         w->now.offset[i] = 0;
     w->now.blurred[i] = w->now.on[i] && (w->now.blurred[i] || !fine);
+    w->now.sharp[i] = fine;
 }
 
 static qdot_status
@@ -236,7 +237,7 @@ wait_until(qdot_watch *w, double t, double *ends, int *depth)
 static double
 first_cut(const qdot_watch *w, double t)
 {
-    const double least = 0x1p-30 * fmax(fabs(w->t), fabs(t)); /* a root at once says nothing */
+    const double least = 0x1p-40 * fmax(fabs(w->t), fabs(t)); /* a root at once says nothing */
 
     return w->reach > least && w->length > 16 * w->reach ? w->t + copysign(4 * w->reach, t - w->t)
                                                          : t;
@@ -346,6 +347,7 @@ copy_state(const qdot_watch *w, struct qdot_watch_state *to,
     memcpy(to->sign, from->sign, w->m * sizeof *to->sign);
     memcpy(to->on, from->on, w->m * sizeof *to->on);
     memcpy(to->blurred, from->blurred, w->m * sizeof *to->blurred);
+    memcpy(to->sharp, from->sharp, w->m * sizeof *to->sharp);
     memcpy(to->g0, from->g0, w->m * sizeof *to->g0);
     memcpy(to->offset, from->offset, w->m * sizeof *to->offset);
 }
@@ -388,7 +390,7 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     for (size_t i = 0; i < w->m; i++)
         if (!w->live[i]) {
             w->now.g0[i] = w->final[i];
-            w->now.on[i] = w->now.blurred[i] = false;
+            w->now.on[i] = w->now.blurred[i] = w->now.sharp[i] = false;
             w->now.offset[i] = 0;
         }
     sort_roots(w);
@@ -489,6 +491,7 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;
+        w->start.sharp[i] = exact && w->smooth[i];
         w->start.offset[i] = w->start.on[i] && exact && w->smooth[i] ? g : 0;
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
@@ -585,7 +588,7 @@ make_room(qdot_watch *w)
                                  3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(5 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(8 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(10 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -627,6 +630,8 @@ make_room(qdot_watch *w)
     w->grazed = flags + 5 * m;
     w->start.blurred = flags + 6 * m;
     w->now.blurred = flags + 7 * m;
+    w->start.sharp = flags + 8 * m;
+    w->now.sharp = flags + 9 * m;
     return QDOT_OK;
 }
 
