@@ -652,6 +652,7 @@ library_sources = \
 	lib/sim/watch/watch-resolution.c \
 	lib/sim/watch/watch-roots.c \
 	lib/sim/watch/watch-rough.c \
+	lib/sim/watch/watch-touches.c \
 	lib/sim/watch/watch-two.c \
 	lib/sim/watch/watch-values.c \
 	lib/sim/watch/watch.c \

@@ -95,6 +95,8 @@ qdot_touches_look(qdot_run *run, size_t event, double *widths, double *tol)
 static bool
 ends_on(const qdot_run *run, size_t event, double t)
 {
+    if (run->course.stopped_by == event)
+        return true;
     for (size_t i = run->course.occurrences.n; i-- > 0;)
         if (run->course.occurrences.at[i].event == event)
             return fabs(run->course.occurrences.at[i].t - t) <= 4 * DBL_EPSILON * fabs(t);

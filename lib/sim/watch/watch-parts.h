@@ -262,6 +262,16 @@ QDOT_MUST_CHECK qdot_status qdot_watch_cross(qdot_watch *w, const qdot_watch_par
 QDOT_MUST_CHECK qdot_status qdot_watch_stay(qdot_watch *w, size_t i, double from, double to,
                                             double least);
 
+/* --- touches (watch-touches.c) ------------------------------------------------------- */
+
+/* Whether an extremum of value v at x of the polynomial of function i is a root; *within: as in qdot_root. */
+QDOT_MUST_CHECK qdot_status qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x,
+                                                double v, bool *touch, double *within);
+
+/* The root there. Its time is as uncertain as two crossings may be apart that rounding makes a touch of. */
+QDOT_MUST_CHECK qdot_status qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v,
+                                             double within, qdot_root *root);
+
 /* --- where a run ends and starts (watch-ends.c) -------------------------------------- */
 
 /* The run ends at t: append the zeros on which it does. */

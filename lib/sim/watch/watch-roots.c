@@ -371,51 +371,6 @@ qdot_watch_stay(qdot_watch *w, size_t i, double from, double to, double least)
 
 /* --- its roots ----------------------------------------------------------------------- */
 
-/* Whether an extremum of value v at x is a root; *within: as in qdot_root. */
-static qdot_status
-is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch,
-         double *within)
-{
-    const double rounding = 0x1p-50, by = fmax(w->tol, rounding);
-    double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
-    double t = qdot_watch_time(p, x);
-
-    *within = 0;
-    *touch = fabs(v) <= 0x1p-48 * size;
-    if (!*touch && (p->from_zero || fabs(v) > least_of_size * size))
-        return QDOT_OK;
-    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
-    if (!p->from_zero && fabs(w->g[i] - v) > least_of_size * size) { /* beside a jump or a pole */
-        *touch = false;
-        return QDOT_OK;
-    }
-    if (w->g[i] != 0 && fabs(w->g[i]) <= DBL_MIN) { /* a sign is all that is known of it */
-        *touch = false;
-        return QDOT_OK;
-    }
-    v = fmin(fabs(v), fabs(w->g[i])); /* beside a root of even order v is rounding of the polynomial */
-    *touch |= v <= 0x1p-48 * size;
-    if (*touch)
-        return QDOT_OK;
-    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
-    QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
-    *touch = v <= noise;
-    if (*touch && v * by > noise * rounding)
-        *within = v / noise * by;
-    return QDOT_OK;
-}
-
-/* g'' at x; d: the derivative of the part's polynomial in x. */
-static double
-bend_at(const qdot_watch_part *p, const double *d, double x)
-{
-    double second[QDOT_WATCH_NODES];
-    const double slope = 2 / (p->b - p->a);
-
-    qdot_chebyshev_derivative(p->n - 1, d, second);
-    return qdot_chebyshev_at(p->n - 2, second, x) * slope * slope;
-}
-
 /* The root of the polynomial between x0 and x1, where it is monotone. */
 static double
 between(const qdot_watch_part *p, double x0, double x1, int way)
@@ -576,25 +531,6 @@ forget_roundings(qdot_watch *w, size_t i, double from)
         w->roots.n--;
 }
 
-/* Whether the derivative d [n - 1] is more than its rounding at x, which may lie beyond the part. */
-static bool
-is_steep(const qdot_watch_part *p, const double *d, double x)
-{
-    return fabs(x) > 1
-           || fabs(qdot_chebyshev_at(p->n - 1, d, x)) > 0x1p-49 * qdot_chebyshev_size(p->n - 1, d);
-}
-
-/* How far from an extremum at x the function is flat but for rounding. */
-static double
-flat_width(const qdot_watch_part *p, const double *d, double x)
-{
-    double width = DBL_EPSILON;
-
-    while (!is_steep(p, d, x - width) || !is_steep(p, d, x + width))
-        width *= 2;
-    return width * fabs(p->b - p->a) / 2;
-}
-
 /* The function vanishes on the part, at the end of which it may jump. */
 static qdot_status
 be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
@@ -621,7 +557,7 @@ qdot_status
 qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
     const double *extrema;
-    double d[QDOT_WATCH_NODES], x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
+    double x[QDOT_WATCH_NODES + 2], from = p->a, x_from = -1;
     double sure = p->a; /* g has `sign` there, by the states */
     int n, sign = w->now.sign[i];
     bool grazes;
@@ -635,10 +571,8 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         QDOT_TRY(pass_start(w, p, i, sign));
     }
     n = qdot_watch_extrema(w, p, i, &extrema);
-    if (n > 0) {
-        qdot_chebyshev_derivative(p->n, p->c, d);
+    if (n > 0)
         memcpy(x, extrema, (size_t)n * sizeof *x);
-    }
     x[n++] = 1;
     grazes = grazes_at_end(p);
     for (int e = 0; e < n; e++) {
@@ -649,19 +583,16 @@ qdot_watch_roots(qdot_watch *w, const qdot_watch_part *p, size_t i)
         double within = 0;
 
         if (e + 1 < n && there != 0)
-            QDOT_TRY(is_touch(w, p, i, x[e], v, &touch, &within));
+            QDOT_TRY(qdot_watch_is_touch(w, p, i, x[e], v, &touch, &within));
         if (touch || (e + 1 < n && there == 0)) {
-            const double bend = within > 0 ? bend_at(p, d, x[e]) : 0;
+            qdot_root root;
 
             if (within == 0)
                 forget_roundings(w, i, from);
-            if (sign != 0 && !is_start_again(p, to))
-                QDOT_TRY(qdot_watch_push(w, (qdot_root){.function = i,
-                                                        .t = to,
-                                                        .residual = fabs(v),
-                                                        .blur = flat_width(p, d, x[e]),
-                                                        .within = within,
-                                                        .bend = bend}));
+            if (sign != 0 && !is_start_again(p, to)) {
+                QDOT_TRY(qdot_watch_touch(w, p, i, x[e], v, within, &root));
+                QDOT_TRY(qdot_watch_push(w, root));
+            }
             continue;
         }
         if (there != 0 && sign != 0 && there != sign) {

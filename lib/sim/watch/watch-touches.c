@@ -1,0 +1,103 @@
+/* watch-touches.c -- extrema at which a function touches 0. */
+#include "sim/watch/watch-parts.h"
+
+#include <float.h>
+#include <math.h>
+
+/* The fraction of its size up to which a function may be 0 at an extremum. */
+static const double small_of_size = 1e-3;
+
+qdot_status
+qdot_watch_is_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, bool *touch,
+                    double *within)
+{
+    const double rounding = 0x1p-50, by = fmax(w->tol, rounding);
+    double size = qdot_chebyshev_size(p->n, p->c), noise = 0;
+    double t = qdot_watch_time(p, x);
+
+    *within = 0;
+    *touch = fabs(v) <= 0x1p-48 * size;
+    if (!*touch && (p->from_zero || fabs(v) > small_of_size * size))
+        return QDOT_OK;
+    QDOT_TRY(qdot_watch_value_at(w, t, w->g));
+    if (!p->from_zero && fabs(w->g[i] - v) > small_of_size * size) { /* beside a jump or a pole */
+        *touch = false;
+        return QDOT_OK;
+    }
+    if (w->g[i] != 0 && fabs(w->g[i]) <= DBL_MIN) { /* a sign is all that is known of it */
+        *touch = false;
+        return QDOT_OK;
+    }
+    v = fmin(fabs(v), fabs(w->g[i])); /* beside a root of even order v is rounding of the polynomial */
+    *touch |= v <= 0x1p-48 * size;
+    if (*touch)
+        return QDOT_OK;
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, by, 0, i, &noise));
+    *touch = v <= noise;
+    if (*touch && v * by > noise * rounding)
+        *within = v / noise * by;
+    return QDOT_OK;
+}
+
+/* g'' at x; d: the derivative of the part's polynomial in x. */
+static double
+bend_at(const qdot_watch_part *p, const double *d, double x)
+{
+    double second[QDOT_WATCH_NODES];
+    const double slope = 2 / (p->b - p->a);
+
+    qdot_chebyshev_derivative(p->n - 1, d, second);
+    return qdot_chebyshev_at(p->n - 2, second, x) * slope * slope * (p->from_zero ? (x + 1) / 2 : 1);
+}
+
+/* How far from an extremum of value v at t two crossings may lie that cannot be told from a touch there: as far as
+ * rounding of g makes two of it. */
+static qdot_status
+most_apart(qdot_watch *w, size_t i, double t, double v, double bend, double *apart)
+{
+    double noise;
+
+    QDOT_TRY(w->reader.read(t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, t, w->z, 4 * DBL_EPSILON, 0, i, &noise));
+    *apart = bend != 0 ? sqrt(2 * (fabs(v) + noise) / fabs(bend)) : 0;
+    return QDOT_OK;
+}
+
+/* Whether the derivative d [n - 1] is more than its rounding at x, which may lie beyond the part. */
+static bool
+is_steep(const qdot_watch_part *p, const double *d, double x)
+{
+    return fabs(x) > 1
+           || fabs(qdot_chebyshev_at(p->n - 1, d, x)) > 0x1p-49 * qdot_chebyshev_size(p->n - 1, d);
+}
+
+/* How far from an extremum at x the function is flat but for rounding. */
+static double
+flat_width(const qdot_watch_part *p, const double *d, double x)
+{
+    double width = DBL_EPSILON;
+
+    while (!is_steep(p, d, x - width) || !is_steep(p, d, x + width))
+        width *= 2;
+    return width * fabs(p->b - p->a) / 2;
+}
+
+qdot_status
+qdot_watch_touch(qdot_watch *w, const qdot_watch_part *p, size_t i, double x, double v, double within,
+                 qdot_root *root)
+{
+    const double t = qdot_watch_time(p, x);
+    double d[QDOT_WATCH_NODES], bend, apart;
+
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    bend = bend_at(p, d, x);
+    QDOT_TRY(most_apart(w, i, t, v, bend, &apart));
+    *root = (qdot_root){.function = i,
+                        .t = t,
+                        .residual = fabs(v),
+                        .blur = fmax(flat_width(p, d, x), apart),
+                        .within = within,
+                        .bend = within > 0 ? bend : 0};
+    return QDOT_OK;
+}
