@@ -2858,6 +2858,8 @@ other_files = \
 	bench/solutions/search.py \
 	bench/solutions/verdict.py \
 	bench/stiff \
+	bench/surfaces/run \
+	bench/surfaces/scenes.py \
 	bench/symbolic/ginac-peer.cc \
 	bench/symbolic/identities \
 	bench/symbolic/maxima-peer.mac \
