@@ -2036,6 +2036,7 @@ script_tests = \
 	examples/pendulum.lag \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
+	examples/pushed-blocks.lag \
 	examples/race.lag \
 	examples/rattleback.lag \
 	examples/resonance.lag \
@@ -2990,6 +2991,7 @@ example_files = \
 	examples/polar.lag \
 	examples/pumped-swing.lag \
 	examples/pumped-swing.svg \
+	examples/pushed-blocks.lag \
 	examples/race.lag \
 	examples/race.svg \
 	examples/rattleback.lag \
