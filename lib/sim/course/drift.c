@@ -103,6 +103,11 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
         last = change;
         if (piece > 0 && is_switch(tr, piece - 1, k))
             continue;
+        /* nor what a contact that lasts changes, as its impacts did: it is held in another mode */
+        if (drift->changed && piece > 0 && tr->pieces.at[piece - 1].mode != tr->pieces.at[0].mode) {
+            start = change;
+            continue;
+        }
         change = fabs(change - start);
         if (fabs(start) > 1)
             change /= fabs(start);
