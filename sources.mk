@@ -627,6 +627,7 @@ library_sources = \
 	lib/sim/run/scales.c \
 	lib/sim/run/slides.c \
 	lib/sim/run/tighter-run.c \
+	lib/sim/start/given.c \
 	lib/sim/start/nearest-search.c \
 	lib/sim/start/nearest.c \
 	lib/sim/start/start.c \
@@ -1180,6 +1181,7 @@ library_headers = \
 	lib/sim/run/scales.h \
 	lib/sim/run/slides.h \
 	lib/sim/run/tighter-run.h \
+	lib/sim/start/given.h \
 	lib/sim/start/nearest.h \
 	lib/sim/start/start.h \
 	lib/sim/study/exponents.h \
@@ -1627,6 +1629,7 @@ script_tests = \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
+	tests/script/start-exact.lag \
 	tests/script/start-mass.lag \
 	tests/script/state-rounding.sh \
 	tests/script/stays.lag \
@@ -2752,6 +2755,7 @@ test_files = \
 	tests/script/solve.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
+	tests/script/start-exact.out \
 	tests/script/start-mass.out \
 	tests/script/state-rounding.out \
 	tests/script/stays.out \

@@ -30,6 +30,12 @@ static const double shrunk = 0x1p-10;
 /* For many right-hand sides an inverse is computed up to so many unknowns. */
 enum { most_inverted = 24, lanes = 8 };
 
+static double
+weight_of(const qdot_saddle *s, size_t k)
+{
+    return s->weight ? s->weight[k] : 1;
+}
+
 static size_t
 width(const qdot_saddle *s)
 {
@@ -387,8 +393,8 @@ factor_free(qdot_saddle *s, size_t *failed)
     return status;
 }
 
-/* R E^-1 (unscaled multipliers) = T^T V^T, V's columns orthonormal, by Gram-Schmidt
- * twice. V by columns, T by rows. */
+/* R E^-1 W (unscaled multipliers over their weights) = T^T V^T, V's columns orthonormal, by
+ * Gram-Schmidt twice. V by columns, T by rows. */
 static void
 orthogonalise(qdot_saddle *s)
 {
@@ -398,7 +404,8 @@ orthogonalise(qdot_saddle *s)
         double *v = s->V + j * m, norm;
 
         for (size_t k = 0; k < m; k++)
-            v[k] = k < j ? 0 : s->R[k * s->n + j] / s->e[s->pivot[k]];
+            v[k] = k < j ? 0
+                         : s->R[k * s->n + j] / s->e[s->pivot[k]] * weight_of(s, s->pivot[k]);
         for (size_t i = 0; i < j; i++)
             s->T[i * m + j] = 0;
         for (int twice = 0; twice < 2; twice++)
@@ -518,7 +525,7 @@ multipliers(qdot_saddle *s, double *u, double *mu)
 
         for (size_t j = 0; j < r; j++)
             sum += s->V[j * m + k] * u[j];
-        mu[s->pivot[k]] = sum;
+        mu[s->pivot[k]] = sum * weight_of(s, s->pivot[k]);
     }
 }
 

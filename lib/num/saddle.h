@@ -10,7 +10,7 @@
  *     R P^T mu = Y^T (b - M x).
  *
  * r is the rank of A. If r < m some rows are redundant: x is the same whichever r independent
- * rows are used, and mu is the solution of least norm. The first factorisation finds the rank,
+ * rows are used, and mu is the solution with the least sum of (mu_k/weight_k)^2. The first factorisation finds the rank,
  * which is then kept: rounding at a later state cannot make dependent, or nearly dependent, rows
  * independent.
  *
@@ -47,6 +47,7 @@ typedef struct {
     double *M; /* [n x n] written by the caller, both triangles */
     double *A; /* [m x n] written by the caller */
     double *x; /* [n + m] right-hand side (b, c), then solution (x, mu) */
+    const double *weight; /* [m] of the multipliers, > 0; NULL: all 1 */
 
     size_t rank;      /* r; QDOT_SADDLE_UNKNOWN before the first factorisation */
     double quality;   /* |R_rr / R_11| of the last factorisation; 1 if r is 0 */

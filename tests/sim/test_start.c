@@ -255,6 +255,50 @@ dead_point_is_found(void **state)
     finish(&s);
 }
 
+/* --- exact zeros ---------------------------------------------------------------------- */
+
+/* At theta = -pi/2 the slope of y' + cos(theta) x' = 0 by x' is 0, and 6e-17 in doubles: it asks nothing of
+ * x', which is left to x' = 1. The first digit beside it does. */
+static void
+vanishing_slope_asks_for_nothing(void **state)
+{
+    (void)state;
+    for (int beside = 0; beside < 2; beside++) {
+        start s;
+        fixture *f = &s.f;
+        qdot_expr theta, right;
+
+        memset(&s, 0, sizeof s);
+        begin(f);
+        s.x = coordinate(f, "x");
+        s.y = coordinate(f, "y");
+        theta = coordinate(f, "theta");
+        right = qdot_neg(f->pool, times(f, number(f, "0.5"), QDOT_PI));
+        must(qdot_scene_particle(f->scene, "a", QDOT_ONE, pair(f, s.x, s.y)));
+        must(qdot_scene_constraint(
+            f->scene, "slope",
+            qdot_add(f->pool, velocity(f, s.y),
+                     times(f, qdot_fun1(f->pool, QDOT_COS, theta), velocity(f, s.x))),
+            QDOT_ZERO));
+        must(qdot_scene_constraint(f->scene, "drive", velocity(f, s.x), QDOT_ONE));
+        f->request.q_named = s.q_named;
+        f->request.v_named = s.v_named;
+        s.q_named[2] = s.v_named[1] = true;
+        s.y0[2] = -0x1.921fb54442d18p+0;
+        s.low[2] = -0x1.1a62633145c07p-54;
+        f->q0[2] = right;
+        if (beside) {
+            f->q0[2] = qdot_neg(f->pool, number(f, "1.5"));
+            s.y0[2] = -1.5;
+            s.low[2] = 0;
+        }
+        must(settle(&s));
+        assert_true((s.notice.n > 0) == beside);
+        assert_true(s.y0[3] == 1 && fabs(s.y0[4] + beside * cos(1.5)) < 1e-16);
+        finish(&s);
+    }
+}
+
 /* --- moving constraints ---------------------------------------------------------------*/
 
 /* x = sin(t) at t0 = 1: position and velocity follow. */
@@ -347,6 +391,7 @@ main(void)
         cmocka_unit_test(contradictory_constraints_are_named),
         cmocka_unit_test(redundant_constraints_are_no_hindrance),
         cmocka_unit_test(dead_point_is_found),
+        cmocka_unit_test(vanishing_slope_asks_for_nothing),
         cmocka_unit_test(moving_constraint_gives_the_velocity),
         cmocka_unit_test(least_changes_are_perpendicular),
         cmocka_unit_test(no_memory_is_an_error),

@@ -11,6 +11,7 @@ typedef struct {
     size_t m;
     size_t *row; /* [m] index of each in the constraints */
     double *residual; /* [m] residuals of those rows, including the carry */
+    double *noise;    /* [m] what rounding of a state makes of them */
     bool filled; /* M and A have been evaluated */
     bool few;    /* few rows and M diagonal: projections use `move`, if it is factored */
     bool moves;  /* `move` is factored */
@@ -24,12 +25,13 @@ struct qdot_constrained {
     qdot_tape *positions, *velocities, *metric, *equations; /* shaken copies or NULL */
     qdot_constrained_level levels[3];
     qdot_constrained_level *at[3]; /* by kind; kinds with the same rows share a level */
-    double *in;                    /* [2n + 1] q, q', t */
+    double *in;                    /* [2n + 1] q, q', t; room for so many more */
     double *out, *work;
     double *f, *w; /* [m] residuals of positions and velocities, by row */
     double *f_bound,
         *w_bound; /* [m] rounding of f, w; they grow along a run */
     double *a;    /* [n + m] */
+    double *weight; /* [m] of the multipliers, with room for the outputs and the work of c->scale; NULL: 1 */
     /* If the method needs a Jacobian, else NULL; derivatives by q, q', t: */
     double *slopes;      /* [outputs x (2n + 1)] of a tape */
     double *gains;       /* [(n + m) x (2n + 1)] of the equations */

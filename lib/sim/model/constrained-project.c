@@ -137,15 +137,57 @@ step(const part *p, size_t n, double *moved)
     *moved = most;
 }
 
-/* Whether the residuals are within the effect of rounding of max(1, |x|): if x is 0 so are the
- * bounds, and cannot be met. */
-static bool
-is_rounding(const part *p)
+/* The level's noise: how much the residuals of the loaded state change where every input does by about
+ * one rounding of max(1, |x|), in a few directions. Writes h->out. */
+static void
+measure_noise(qdot_constrained *h, const part *p)
 {
-    for (size_t k = 0; k < p->l->m; k++)
-        if (!(fabs(p->l->residual[k])
-              <= DBL_EPSILON * qdot_saddle_row_size(&p->l->saddle, k, p->x, 1)))
+    static const double far = 0x1p-30;
+    const size_t inputs = 2 * h->plan->n + 1, m = p->l->m;
+    double *kept = h->in + inputs, *noise = p->l->noise;
+    unsigned long seed = 12345;
+
+    memcpy(kept, h->in, inputs * sizeof *kept);
+    memset(noise, 0, m * sizeof *noise);
+    for (int k = 0; k < 4; k++) {
+        for (size_t i = 0; i < inputs; i++) {
+            seed = seed * 1103515245 + 12345;
+            h->in[i] = kept[i] + (seed >> 16 & 1 ? far : -far) * fmax(1, fabs(kept[i]));
+        }
+        qdot_tape_eval(p->tape, h->in, h->out, h->work);
+        for (size_t r = 0; r < m; r++) {
+            const double change = fabs(h->out[r] - p->l->residual[r]);
+
+            noise[r] = fmax(noise[r], 4 * DBL_EPSILON / far * change);
+        }
+    }
+    memcpy(h->in, kept, inputs * sizeof *kept);
+}
+
+/* Whether the residuals are within the effect of rounding of max(1, |x|): if x is 0 so are the
+ * bounds, and cannot be met. Nothing is moved for a redundant row: it also has what
+ * rounding makes of the slopes of all rows, of which it is a combination. */
+static bool
+is_rounding(qdot_constrained *h, const part *p)
+{
+    const qdot_saddle *s = &p->l->saddle;
+    const size_t m = p->l->m;
+    const bool redundant = !p->l->moves && s->rank < m;
+    double noise = 0; /* of all rows, in the scales of the system */
+
+    if (redundant)
+        measure_noise(h, p);
+    for (size_t k = 0; redundant && k < m; k++)
+        noise += s->e[k] * p->l->noise[k];
+    for (size_t j = 0; j < m; j++) {
+        const size_t k = redundant ? s->pivot[j] : j;
+        double bound = DBL_EPSILON * qdot_saddle_row_size(s, k, p->x, 1);
+
+        if (redundant && j >= s->rank)
+            bound = fmax(bound, noise / s->e[k]);
+        if (!(fabs(p->l->residual[k]) <= bound))
             return false;
+    }
     return true;
 }
 
@@ -188,7 +230,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
         if (c->rate * now <= sure)
             return QDOT_OK;
     }
-    return bounded && is_rounding(p)
+    return bounded && is_rounding(h, p)
                ? QDOT_OK
                : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
 }

@@ -34,6 +34,7 @@ qdot_constrained_free(qdot_constrained *h)
     qdot_free(h->f_bound);
     qdot_free(h->w_bound);
     qdot_free(h->a);
+    qdot_free(h->weight);
     qdot_free(h->slopes);
     qdot_free(h->gains);
     qdot_free(h->slopes_work);
@@ -236,6 +237,19 @@ evaluate(qdot_constrained *h, level *all, const double *y)
     return gamma;
 }
 
+/* The multipliers of least norm are those of the scene: c->scale times those of the rows. */
+static void
+weigh_multipliers(qdot_constrained *h)
+{
+    static const double most = 0x1p400;
+    const size_t m = h->c->m;
+    double *scale = h->weight + m;
+
+    qdot_tape_eval(h->c->scale, h->in, scale, scale + m);
+    for (size_t k = 0; k < m; k++)
+        h->weight[k] = isnan(scale[k]) ? 1 : fmin(most, fmax(1 / most, 1 / fabs(scale[k])));
+}
+
 qdot_status
 qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a,
                        double *lambda)
@@ -254,6 +268,8 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_damp(h, x + n);
+    if (lambda && h->weight)
+        weigh_multipliers(h);
     QDOT_TRY(qdot_constrained_look_first(h, all));
     QDOT_TRY(qdot_constrained_factor_rows(p, &all->saddle, all->row));
     qdot_saddle_solve_refined(&all->saddle);
@@ -442,11 +458,12 @@ make_level(qdot_constrained *h, qdot_constraint_kind kind)
         return QDOT_OK;
     }
     l->row = qdot_calloc(l->m + 1, sizeof *l->row);
-    l->residual = qdot_calloc(l->m + 1, sizeof *l->residual);
+    l->residual = qdot_calloc(2 * l->m + 1, sizeof *l->residual);
     l->move = (qdot_least_move){.n = h->plan->n, .m = l->m};
     l->move.W = qdot_calloc(l->m * h->plan->n + 1, sizeof *l->move.W);
     if (!l->row || !l->residual || !l->move.W)
         return QDOT_ENOMEM;
+    l->noise = l->residual + l->m;
     l->few = l->m <= QDOT_LEAST_MOVE_ROWS && c->n_masses == h->plan->n && !h->plan->indefinite;
     for (size_t k = 0; k < c->n_masses; k++)
         l->few = l->few && c->masses[k].row == c->masses[k].column;
@@ -499,7 +516,7 @@ make(qdot_constrained *h, bool shaken)
         out = o > out ? o : out;
         work = w > work ? w : work;
     }
-    h->in = qdot_calloc(2 * h->plan->n + 1, sizeof *h->in);
+    h->in = qdot_calloc(2 * (2 * h->plan->n + 1), sizeof *h->in);
     h->out = qdot_calloc(out + 1, sizeof *h->out);
     h->work = qdot_calloc(work + 1, sizeof *h->work);
     h->f = qdot_calloc(m + 1, sizeof *h->f);
@@ -512,6 +529,14 @@ make(qdot_constrained *h, bool shaken)
         return QDOT_ENOMEM;
     for (int kind = 0; kind < 3; kind++)
         QDOT_TRY(make_level(h, (qdot_constraint_kind)kind));
+    if (h->c->scale) {
+        h->weight = qdot_calloc(2 * m + qdot_tape_work(h->c->scale) + 1, sizeof *h->weight);
+        if (!h->weight)
+            return QDOT_ENOMEM;
+        for (size_t k = 0; k < m; k++)
+            h->weight[k] = 1;
+        h->at[QDOT_ACCELERATION]->saddle.weight = h->weight;
+    }
     if (qdot_plan_needs_jacobian(h->plan))
         QDOT_TRY(make_slopes(h, out));
     return shaken ? shake(h) : QDOT_OK;

@@ -114,5 +114,6 @@ qdot_run_name_redundant(qdot_run *run, qdot_scene *scene, const qdot_run_request
 {
     if (run->report.independent >= run->report.m)
         return QDOT_OK;
-    return qdot_start_redundant(scene, run->plan, request, run->start, &run->notice);
+    return qdot_start_redundant(scene, run->plan, request, run->start, run->start_low,
+                                &run->notice);
 }

@@ -16,6 +16,9 @@ static const double on_it = 1e-8;   /* F = 0 is met: what is left is for balls *
 static const double alike = 1e-6;   /* points nearer than this are one */
 static const double as_near = 1e-9; /* distances nearer than this are equal */
 
+/* Slopes below this fraction of the largest of their row so far are rounding. */
+static const double rounding = 1e-13;
+
 typedef struct {
     qdot_nearest *p;
     size_t n;         /* free unknowns */
@@ -25,6 +28,7 @@ typedef struct {
     qdot_row_space rows;
     double *B;        /* [m * n] rows C^-1 A_k */
     double *size;     /* [m] |A_k| */
+    double *widest;   /* [m] the largest so far, of rows that are not linear */
     double *b;        /* [m] */
     double *lambda;   /* [m] */
     double *centre;   /* [inputs] */
@@ -41,6 +45,17 @@ place(const search *s, size_t i)
     return s->p->first + s->index[i];
 }
 
+/* |A_k|, or its largest so far where all that is left of it is rounding. */
+static void
+measure_row(search *s, size_t k, double length)
+{
+    if (!s->p->linear[k] && isfinite(length)) {
+        s->widest[k] = fmax(s->widest[k], length);
+        length = length > rounding * s->widest[k] ? length : s->widest[k];
+    }
+    s->size[k] = length;
+}
+
 /* F and A at a point, |A_k|, and sum (F_k / |A_k|)^2 in units of `size`; infinite where
  * undefined. */
 static double
@@ -50,12 +65,12 @@ evaluate(search *s, const double *at, bool measure)
     const double *A = p->value + p->m;
     double sum = 0;
 
-    qdot_tape_eval(p->tape, at, p->value, p->work);
+    qdot_nearest_evaluate(p, at);
     for (size_t k = 0; k < p->m; k++) {
         double F = p->value[k];
 
         if (measure)
-            s->size[k] = qdot_nearest_length(A + k * p->n, p->n);
+            measure_row(s, k, qdot_nearest_length(A + k * p->n, p->n));
         if (!isfinite(s->size[k])) /* no slope: nothing is near */
             sum = INFINITY;
         else if (F != 0)
@@ -71,8 +86,14 @@ factor_rows(search *s)
     const qdot_nearest *p = s->p;
 
     for (size_t k = 0; k < p->m; k++) {
-        double *row = s->B + k * s->n;
+        double *row = s->B + k * s->n, most = 0;
 
+        for (size_t i = 0; i < s->n; i++)
+            most = fmax(most, fabs(p->value[p->m + k * p->n + s->index[i]]));
+        if (most <= rounding * s->widest[k]) {
+            memset(row, 0, s->n * sizeof *row);
+            continue;
+        }
         for (size_t i = 0; i < s->n; i++) {
             row[i] = p->value[p->m + k * p->n + s->index[i]];
             for (size_t j = 0; s->C && j < i; j++)
@@ -498,14 +519,15 @@ search_init(search *s, const bool *free, const double *at)
     n = s->n;
     QDOT_TRY(qdot_row_space_init(&s->rows, m, n));
     s->B = qdot_calloc(m * n + 1, sizeof *s->B);
-    s->size = qdot_calloc(3 * m + 2 * n + 1, sizeof *s->size);
+    s->size = qdot_calloc(4 * m + 2 * n + 1, sizeof *s->size);
     s->centre = qdot_calloc(4 * p->inputs + 1, sizeof *s->centre);
     s->curvature = qdot_calloc(p->curves + 1, sizeof *s->curvature);
     s->curved_work = qdot_calloc(p->curved ? qdot_tape_work(p->curved) + 1 : 1,
                                  sizeof *s->curved_work);
     if (!s->B || !s->size || !s->centre || !s->curvature || !s->curved_work)
         return QDOT_ENOMEM;
-    s->b = s->size + m;
+    s->widest = s->size + m;
+    s->b = s->widest + m;
     s->lambda = s->b + m;
     s->step = s->lambda + m;
     s->away = s->step + n;

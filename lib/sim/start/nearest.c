@@ -10,7 +10,7 @@
 #include "normal/refute/ball.h"
 #include "tape/constant.h"
 
-enum { BITS = 256, MOST_REFINEMENTS = 150 };
+enum { MOST_REFINEMENTS = 150 };
 
 void
 qdot_nearest_end(qdot_nearest *p)
@@ -19,8 +19,94 @@ qdot_nearest_end(qdot_nearest *p)
     qdot_tape_free(p->curved);
     qdot_free(p->A);
     qdot_free(p->place);
+    qdot_free(p->linear);
+    qdot_free(p->constant);
     qdot_free(p->value);
     qdot_free(p->work);
+}
+
+/* --- balls -------------------------------------------------------------------------- */
+
+/* Where F and A are evaluated: the given values, the unknowns as they are given, at + low, or 0. */
+typedef struct {
+    const qdot_nearest *p;
+    enum { AS_GIVEN, MOVED, AT_ZERO } unknowns;
+    const double *at, *low;
+} point;
+
+static bool
+value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+{
+    const point *x = user;
+    const qdot_nearest *p = x->p;
+    size_t i = 0;
+
+    while (i < p->inputs && p->symbol[i] != atom)
+        i++;
+    if (i == p->inputs)
+        return false;
+    if (x->unknowns == AS_GIVEN || i < p->first || i >= p->first + p->n) {
+        arb_set(value, p->given->at + i);
+    } else if (x->unknowns == AT_ZERO) {
+        arb_zero(value);
+    } else {
+        arb_t low;
+
+        arb_init(low);
+        arb_set_d(value, x->at[i]);
+        arb_set_d(low, x->low[i]);
+        arb_add(value, value, low, prec);
+        arb_clear(low);
+    }
+    return true;
+}
+
+/* Expressions [m], each rounded once. */
+static qdot_status
+evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
+{
+    qdot_ball ball;
+
+    QDOT_TRY(qdot_ball_begin(&ball, x->p->pool, m, e));
+    qdot_ball_eval(&ball, QDOT_GIVEN_BITS, value_of, (void *)x);
+    for (size_t k = 0; k < m; k++)
+        out[k] = qdot_given_double(qdot_ball_get(&ball, e[k]));
+    qdot_ball_end(&ball);
+    return QDOT_OK;
+}
+
+/* --- F and A ------------------------------------------------------------------------ */
+
+static bool
+has_unknowns(const qdot_nearest *p, qdot_expr e)
+{
+    const qdot_expr atoms = qdot_expr_atoms(p->pool, e, false);
+
+    for (uint32_t k = 0; k < qdot_expr_count(p->pool, atoms); k++)
+        for (size_t i = 0; i < p->n; i++)
+            if (qdot_expr_arg(p->pool, atoms, k) == p->symbol[p->first + i])
+                return true;
+    return false;
+}
+
+/* Find the linear rows, and what they are; F and A are `out` [m + m*n]. */
+static qdot_status
+find_linear(qdot_nearest *p, const qdot_expr *out)
+{
+    const size_t m = p->m, n = p->n;
+    const point zero = {.p = p, .unknowns = AT_ZERO};
+
+    p->linear = qdot_calloc(m + 1, sizeof *p->linear);
+    p->constant = qdot_calloc(m + m * n + 1, sizeof *p->constant);
+    if (!p->linear || !p->constant)
+        return QDOT_ENOMEM;
+    QDOT_TRY(evaluate(&zero, m + m * n, out, p->constant));
+    for (size_t k = 0; k < m; k++) {
+        p->linear[k] = isfinite(p->constant[k]);
+        for (size_t e = m + k * n; e < m + (k + 1) * n && p->linear[k]; e++)
+            p->linear[k] = isfinite(p->constant[e]) && !has_unknowns(p, out[e]);
+    }
+    return qdot_pool_check(p->pool);
 }
 
 qdot_status
@@ -45,6 +131,8 @@ qdot_nearest_begin(qdot_nearest *p)
         p->work = qdot_calloc(qdot_tape_work(p->tape) + 1, sizeof *p->work);
         status = p->value && p->work ? QDOT_OK : QDOT_ENOMEM;
     }
+    if (status == QDOT_OK)
+        status = find_linear(p, out);
     p->A = NULL;
     if (status == QDOT_OK) {
         p->A = out;
@@ -56,48 +144,22 @@ qdot_nearest_begin(qdot_nearest *p)
     return status;
 }
 
-/* --- balls -------------------------------------------------------------------------- */
-
-typedef struct {
-    const qdot_nearest *p;
-    const double *at, *low;
-} point;
-
-static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+void
+qdot_nearest_evaluate(qdot_nearest *p, const double *at)
 {
-    const point *x = user;
+    const size_t m = p->m, n = p->n;
 
-    for (size_t i = 0; i < x->p->inputs; i++)
-        if (x->p->symbol[i] == atom) {
-            arb_t low;
+    qdot_tape_eval(p->tape, at, p->value, p->work);
+    for (size_t k = 0; k < m; k++) {
+        const double *slopes = p->constant + m + k * n;
 
-            arb_init(low);
-            arb_set_d(value, x->at[i]);
-            arb_set_d(low, x->low ? x->low[i] : 0);
-            arb_add(value, value, low, prec);
-            arb_clear(low);
-            return true;
-        }
-    return false;
-}
-
-/* F [m] at a point, each rounded once. */
-static qdot_status
-residuals(qdot_nearest *p, const double *at, const double *low, double *F)
-{
-    point x = {p, at, low};
-    qdot_ball ball;
-
-    QDOT_TRY(qdot_ball_begin(&ball, p->pool, p->m, p->F));
-    qdot_ball_eval(&ball, BITS, value_of, &x);
-    for (size_t k = 0; k < p->m; k++) {
-        arb_srcptr b = qdot_ball_get(&ball, p->F[k]);
-
-        F[k] = b ? arf_get_d(arb_midref(b), ARF_RND_NEAR) : NAN;
+        if (!p->linear[k])
+            continue;
+        p->value[k] = p->constant[k];
+        for (size_t i = 0; i < n; i++)
+            p->value[k] += slopes[i] * at[p->first + i];
+        memcpy(p->value + m + k * n, slopes, n * sizeof *slopes);
     }
-    qdot_ball_end(&ball);
-    return QDOT_OK;
 }
 
 double
@@ -111,13 +173,13 @@ qdot_nearest_length(const double *x, size_t n)
 }
 
 qdot_status
-qdot_nearest_distance(qdot_nearest *p, const double *at, const double *low,
-                      double *distance, double *residual)
+qdot_nearest_distance(qdot_nearest *p, const double *at, double *distance, double *residual)
 {
     const double *A = p->value + p->m;
+    const point start = {.p = p, .unknowns = AS_GIVEN};
 
-    QDOT_TRY(residuals(p, at, low, distance));
-    qdot_tape_eval(p->tape, at, p->value, p->work);
+    QDOT_TRY(evaluate(&start, p->m, p->F, distance));
+    qdot_nearest_evaluate(p, at);
     for (size_t k = 0; k < p->m; k++) {
         double F = distance[k], slope = qdot_nearest_length(A + k * p->n, p->n);
 
@@ -142,11 +204,13 @@ typedef struct {
 static qdot_status
 refine(qdot_nearest *p, refinement *r, double *at, double *low)
 {
+    const point moved = {.p = p, .unknowns = MOVED, .at = at, .low = low};
+
     for (int k = 0; k < MOST_REFINEMENTS; k++) {
         double most = 0;
 
-        QDOT_TRY(residuals(p, at, low, r->F));
-        qdot_tape_eval(p->tape, at, p->value, p->work);
+        QDOT_TRY(evaluate(&moved, p->m, p->F, r->F));
+        qdot_nearest_evaluate(p, at);
         for (size_t i = 0; i < p->m; i++) {
             r->F[i] = -r->F[i];
             for (size_t j = 0; j < r->n; j++)

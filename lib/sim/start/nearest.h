@@ -10,6 +10,10 @@
  * finishes. The nearest solution found is taken; another one as near is reported. The solution is
  * refined with F in ball arithmetic, into two doubles for each unknown.
  *
+ * A row is `linear` if its slopes depend on given values only: then these slopes, and what F is at 0,
+ * are found in balls, so that a slope that is 0 is none (cos(theta) at theta = pi/2 is 6e-17 in doubles).
+ * Of other rows slopes far below their largest so far count as rounding.
+ *
  * Tests  tests/sim/test_start.c
  */
 #ifndef QDOT_SIM_NEAREST_H
@@ -17,6 +21,7 @@
 
 #include "num/row-space.h"
 #include "sim/model/domain.h"
+#include "sim/start/given.h"
 
 typedef struct {
     qdot_pool *pool;         /* borrowed, as all below */
@@ -26,6 +31,7 @@ typedef struct {
     size_t m;
     const qdot_expr *F; /* [m] */
     const qdot_domains *domains; /* of the unknowns; NULL: none */
+    const qdot_given *given;     /* [inputs] the start that is asked for */
 
     /* made by _begin */
     qdot_tape *tape, *curved; /* F and A; second derivatives where there are any */
@@ -34,6 +40,8 @@ typedef struct {
     size_t curves;
     bool curves_known; /* second derivatives are lowered */
     bool bent; /* A depends on the unknowns */
+    bool *linear;  /* [m] */
+    double *constant; /* [m + m*n] of linear rows: F where all unknowns are 0, and A */
     double *value; /* [m + m*n] F and A, of the latest point */
     double *work;
 } qdot_nearest;
@@ -48,11 +56,14 @@ typedef enum {
 QDOT_MUST_CHECK qdot_status qdot_nearest_begin(qdot_nearest *p);
 void qdot_nearest_end(qdot_nearest *p);
 
-/* distance [m] to F_k = 0 at at + low [inputs], by balls: |F_k| / |A_k|, in units of the
- * unknowns; 0 if F_k may be exactly 0. residual [m] = F_k (NULL: not wanted). */
+/* F and A at a point, into p->value. */
+void qdot_nearest_evaluate(qdot_nearest *p, const double *at);
+
+/* distance [m] to F_k = 0 at the start that is given, whose doubles are at [inputs], by balls:
+ * |F_k| / |A_k|, in units of the unknowns; 0 if F_k may be exactly 0. residual [m] = F_k (NULL: not
+ * wanted). */
 QDOT_MUST_CHECK qdot_status qdot_nearest_distance(qdot_nearest *p, const double *at,
-                                                  const double *low, double *distance,
-                                                  double *residual);
+                                                  double *distance, double *residual);
 
 /* Move the free unknowns of `at` to the nearest solution; a is `at` on entry. free [n]; W [n *
  * n], NULL: 1; other [n]: the second solution, if SEVERAL. */

@@ -31,6 +31,7 @@ typedef struct {
     bool *free;          /* [n] */
     qdot_nearest near;
     const double *before; /* [2n] */
+    const qdot_given *given;
 } level;
 
 /* --- the equations ------------------------------------------------------------------ */
@@ -123,6 +124,7 @@ equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *doma
                           .n = l->n,
                           .m = m,
                           .F = F,
+                          .given = l->given,
                           .domains = l->velocities ? NULL : domains};
 }
 
@@ -365,27 +367,9 @@ blame(const level *l, const qdot_domains *domains, const double *start)
 
 /* --- a level ------------------------------------------------------------------------ */
 
-/* Expressions [m] of q and q' at y. */
-static qdot_status
-evaluate(const level *l, size_t m, const qdot_expr *exprs, const double *y, double *out)
-{
-    qdot_tape *tape;
-    double *work;
-    qdot_status status;
-
-    QDOT_TRY(qdot_tape_new(l->plan->pool, 2 * l->n, l->plan->inputs, m, exprs, &tape));
-    work = qdot_calloc(qdot_tape_work(tape) + 1, sizeof *work);
-    status = work ? QDOT_OK : QDOT_ENOMEM;
-    if (work)
-        qdot_tape_eval(tape, y, out, work);
-    qdot_tape_free(tape);
-    qdot_free(work);
-    return status;
-}
-
 /* M at the start. */
 static qdot_status
-metric(const level *l, const double *y, double *W)
+metric(const level *l, double *W)
 {
     qdot_pool *pool = l->plan->pool;
     const size_t n = l->n, m = n - l->plan->n_states;
@@ -405,7 +389,7 @@ metric(const level *l, const double *y, double *W)
                      : i / n == i % n ? QDOT_ONE
                                       : QDOT_ZERO;
     if (status == QDOT_OK)
-        status = evaluate(l, n * n, entries, y, W);
+        status = qdot_given_evaluate(l->given, n * n, entries, W);
     for (size_t i = 0; i < n * n && status == QDOT_OK; i++) {
         const bool massless = l->plan->massless && l->plan->massless[i / n];
 
@@ -428,7 +412,7 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
     for (size_t i = 0; i < l->n; i++)
         l->free[i] = is_moving(l, i);
     if (status == QDOT_OK)
-        status = metric(l, y, W);
+        status = metric(l, W);
     if (status == QDOT_OK)
         status = qdot_nearest_find(&l->near, l->free, W, y, other, &outcome);
     qdot_free(W);
@@ -507,7 +491,7 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
     qdot_status status = residual ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
-        status = qdot_nearest_distance(&l->near, y, low, l->distance, residual);
+        status = qdot_nearest_distance(&l->near, y, l->distance, residual);
     broken = status == QDOT_OK ? worst(l, y) : 0;
     for (size_t i = 0; i < l->n; i++)
         l->free[i] = is_moving(l, i);
@@ -525,9 +509,9 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
 
 /* --- constraints that say nothing new ----------------------------------------------- */
 
-/* Rows of A by each constraint's kind, at y. */
+/* Rows of A by each constraint's kind, at the start. */
 static qdot_status
-slopes(const level *l, const double *y, double *A)
+slopes(const level *l, double *A)
 {
     qdot_scene *scene = l->scene;
     qdot_pool *pool = l->plan->pool;
@@ -552,29 +536,36 @@ slopes(const level *l, const double *y, double *A)
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = evaluate(l, c * n, entries, y, A);
+        status = qdot_given_evaluate(l->given, c * n, entries, A);
     qdot_free(entries);
     return status;
 }
 
 qdot_status
 qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
-                     const qdot_run_request *request, const double *y, qdot_text *notice)
+                     const qdot_run_request *request, const double *y, const double *low,
+                     qdot_text *notice)
 {
     size_t n = plan->n, c = scene->constraints.n;
-    level l = {.scene = scene, .plan = plan, .request = request, .n = n};
+    qdot_given given;
+    level l = {.scene = scene, .plan = plan, .request = request, .n = n, .given = &given};
     double *A = qdot_calloc(c * n + 1, sizeof *A);
     bool *which = qdot_calloc(c + 1, sizeof *which);
     qdot_row_space rows = {0};
-    qdot_status status = A && which ? qdot_row_space_init(&rows, c, n) : QDOT_ENOMEM;
+    qdot_status status = A && which ? QDOT_OK : QDOT_ENOMEM;
 
+    if (status == QDOT_OK)
+        status = qdot_row_space_init(&rows, c, n);
+    given = (qdot_given){0};
+    if (status == QDOT_OK)
+        status = qdot_given_init(&given, plan, request, y, low);
     if (status == QDOT_OK)
         status = level_init(&l);
     for (size_t k = 0; k < c && status == QDOT_OK; k++)
         l.constraint[k] = k;
     l.m = c;
     if (status == QDOT_OK)
-        status = slopes(&l, y, A);
+        status = slopes(&l, A);
     if (status == QDOT_OK) {
         qdot_row_space_factor(&rows, A, 1e-9, true);
         for (size_t k = rows.rank; k < c; k++)
@@ -589,6 +580,7 @@ qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
         }
     }
     level_clear(&l);
+    qdot_given_clear(&given);
     qdot_row_space_clear(&rows);
     qdot_free(A);
     qdot_free(which);
@@ -607,8 +599,10 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
     if (status == QDOT_OK)
         memcpy(before, y, 2 * n * sizeof *before);
     for (int part = 0; part < 4 && status == QDOT_OK; part++) {
+        qdot_given given = {0};
         level l = {.scene = scene,
                    .plan = plan,
+                   .given = &given,
                    .request = request,
                    .velocities = part > 1,
                    .massless = part % 2,
@@ -616,6 +610,8 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
                    .before = before};
 
         status = level_init(&l);
+        if (status == QDOT_OK && l.m > 0)
+            status = qdot_given_init(&given, plan, request, y, low);
         if (status == QDOT_OK && l.m > 0) {
             l.near = equations(&l, l.m, l.F, domains);
             status = check_left_alone(&l, domains, y);
@@ -627,6 +623,7 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
             }
         }
         level_clear(&l);
+        qdot_given_clear(&given);
     }
     qdot_free(before);
     return status;

@@ -13,6 +13,8 @@
  * Then the equations of coordinates without mass (sim/model/massless.h) likewise, where these alone
  * move.
  *
+ * What is 0 at the start is decided by its exact values (sim/start/given.h).
+ *
  * A start breaks a constraint if it is further from it than 1e-14 max(1, |x|). Nearer ones are
  * refined too, so that F is 0 to the precision of two doubles for each value.
  *
@@ -37,10 +39,11 @@ QDOT_MUST_CHECK qdot_status qdot_start_settle(qdot_scene *scene, const qdot_plan
                                               const qdot_domains *domains, double *y,
                                               double *low, qdot_text *notice);
 
-/* Append to `notice` the names of redundant constraints: their gradients at the settled y [2n]
+/* Append to `notice` the names of redundant constraints: their gradients at the settled y + low [2n]
  * depend on those of the constraints before them. Appends nothing if all are independent. */
 QDOT_MUST_CHECK qdot_status qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
                                                  const qdot_run_request *request,
-                                                 const double *y, qdot_text *notice);
+                                                 const double *y, const double *low,
+                                                 qdot_text *notice);
 
 #endif
