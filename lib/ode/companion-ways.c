@@ -9,6 +9,9 @@
 
 static const double unit = 0x1p-53;
 
+/* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
+static const double derived = 4;
+
 /* Of the run's work: what each of the two may cost. The rest of QDOT_COMPANION_MOST is for the horizon. */
 static const double shares[] = {1.55, 1.3};
 
@@ -226,7 +229,9 @@ qdot_companion_first_share(size_t number)
 }
 
 double
-qdot_companion_floor(uint64_t steps)
+qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_t steps)
 {
+    if (leading)
+        return system->following ? derived * unit : unit;
     return 2 * unit * fmin(most_floor, fmax(1, sqrt((double)steps)));
 }

@@ -12,9 +12,6 @@
 
 static const double unit = 0x1p-53;
 
-/* Rounding error of a velocity that is computed from a conserved momentum, in units of 2^-53. */
-static const double derived = 4;
-
 /* A companion's own error, as a part of its distance from the run, where the companions agree; where they do not,
  * and the run is far from both. */
 static const double most_share = 0.25, unlike_share = 3;
@@ -504,9 +501,7 @@ qdot_companion_limit(qdot_companion *c, uint64_t steps)
 {
     c->steps = (double)steps;
     choose_times(c, steps);
-    c->floor = !c->leading                    ? qdot_companion_floor(steps)
-               : c->at[0].system.following ? derived * unit
-                                           : unit;
+    c->floor = qdot_companion_floor(&c->at[0].system, c->leading, steps);
 }
 
 /* Whether a finer way, given up by its cost, had shown more error of the run than the coarse way does. */

@@ -213,8 +213,8 @@ void qdot_companion_limit(qdot_companion *c, uint64_t steps);
  * alike whatever the tolerance, and err alike. */
 double qdot_companion_first_share(size_t number);
 
-/* The least error stated for a run of so many steps. */
-double qdot_companion_floor(uint64_t steps);
+/* The least error stated for a run of so many steps of the system; `leading`: one in two doubles. */
+double qdot_companion_floor(const qdot_ode_system *system, bool leading, uint64_t steps);
 
 /* The run has ended at t_end with y [n]: wait for the companions (if it ended before t1, until they
  * are beyond t_end), compare, and free them.

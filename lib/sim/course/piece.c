@@ -98,6 +98,29 @@ ends_piece(const qdot_root *root, void *user)
     return is_occurrence(user, root) && is_action(user, root);
 }
 
+/* Companions of a run in two doubles share the rounding of the states that are looked at: by how much that
+ * moves the root, in its blur. */
+static qdot_status
+add_rounding(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
+{
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
+    double *y = qdot_calloc(4 * x->n, sizeof *y), *low = y + x->n, *rates = low + x->n,
+           *size = rates + x->n, rate = 0, noise = 0;
+    qdot_status status = y ? x->reader.read(root->t, y, x->reader.user) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = system->rhs(root->t, y, rates, system->user);
+    for (size_t i = 0; i < x->n && y; i++)
+        size[i] = fabs(y[i]);
+    if (status == QDOT_OK)
+        status = qdot_watch_rate(qdot_piece_watch(x), root->t, y, low, rates, size, root->function,
+                                 &rate, &noise);
+    if (status == QDOT_OK && rate != 0)
+        o->blur = fmax(o->blur, fabs(noise / rate));
+    qdot_free(y);
+    return status;
+}
+
 static qdot_status
 note(qdot_piece *x, const qdot_root *root)
 {
@@ -105,7 +128,11 @@ note(qdot_piece *x, const qdot_root *root)
     qdot_occurrence o = {w->index, root->t, way_of(x, root),
                          root->within, root->bend, root->way == 0 || root->stays ? root->blur : 0};
 
-    return w->kind == QDOT_WATCH_EVENT ? qdot_vec_push(&x->c->occurrences, o) : QDOT_OK;
+    if (w->kind != QDOT_WATCH_EVENT)
+        return QDOT_OK;
+    if (x->options->leading && root->way != 0)
+        QDOT_TRY(add_rounding(x, root, &o));
+    return qdot_vec_push(&x->c->occurrences, o);
 }
 
 qdot_status

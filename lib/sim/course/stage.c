@@ -85,6 +85,7 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
 {
     qdot_vec(qdot_expr) values = {0};
     qdot_status status = QDOT_OK;
+    bool changes = false;
 
     e->changes = event->targets.n;
     e->targets = qdot_calloc(e->changes + 1, sizeof *e->targets);
@@ -102,8 +103,13 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
              & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
             != 0;
         status = find_broken(scene, p, e->targets[i], e);
+        changes |= value != p->inputs[e->targets[i]];
         if (status == QDOT_OK)
             status = qdot_vec_push(&values, value);
+    }
+    if (!changes) { /* x' = x': the event is only seen */
+        e->changes = 0;
+        e->positions = e->velocities = false;
     }
     if (status == QDOT_OK && e->changes > 0)
         status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, values.n, values.at,

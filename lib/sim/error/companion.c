@@ -356,7 +356,9 @@ qdot_run_end_error(qdot_run *run, double *difference)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const double *y = tr->y + (tr->count - 1) * tr->n, t = tr->t[tr->count - 1];
-    double plain = qdot_companion_floor(tr->result.stats.steps), scaled = plain;
+    double plain = qdot_companion_floor(qdot_course_systems(&run->course), run->leading,
+                                        tr->result.stats.steps),
+           scaled = plain;
     double ends[2] = {t, t}, *of;
     const size_t companions = run->has_twin ? 2 : 1;
     bool known = run->has_companion;

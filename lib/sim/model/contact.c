@@ -12,15 +12,18 @@ may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {
     const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER
                             | QDOT_HAS_TIME;
+    bool changes = false; /* not by x' = x' */
 
     if (event->stop || event->targets.n == 0
         || !(qdot_expr_node(scene->pool, u)->holds & QDOT_HAS_COORD)
         || (qdot_expr_node(scene->pool, u)->holds & others))
         return false;
-    for (size_t i = 0; i < event->targets.n; i++)
+    for (size_t i = 0; i < event->targets.n; i++) {
         if (!(qdot_expr_node(scene->pool, event->targets.at[i])->holds & QDOT_HAS_VELOCITY))
             return false;
-    return true;
+        changes |= event->values.at[i] != event->targets.at[i];
+    }
+    return changes;
 }
 
 static qdot_status

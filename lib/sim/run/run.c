@@ -285,6 +285,16 @@ is_alone(const qdot_run *run)
     return run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
+/* Whether nothing changes the motion on the way: events are only seen. */
+static bool
+is_undisturbed(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.events.n; i++)
+        if (run->stage.events.at[i].then || run->stage.events.at[i].stop)
+            return false;
+    return run->stage.switches.surfaces.n == 0;
+}
+
 static qdot_status
 measure_multipliers(qdot_run *run)
 {
@@ -402,7 +412,7 @@ run_after(qdot_run *run, double tol, bool *interrupted)
     run->report.error = run->report.scaled_error = NAN;
     run->report.tol = tol;
     QDOT_TRY(measure_multipliers(run));
-    if (*interrupted)
+    if (*interrupted || run->course.tr.result.unfit)
         return QDOT_OK;
     QDOT_TRY(qdot_run_twin(run));
     status = qdot_run_end_error(run, run->difference);
@@ -410,6 +420,13 @@ run_after(qdot_run *run, double tol, bool *interrupted)
         status = qdot_multipliers_errors(run->course.binds.at, &run->course.tr, run->difference,
                                          &run->multipliers);
     return status;
+}
+
+/* Integrate, and find the error. */
+static qdot_status
+integrate_with_error(qdot_run *run, double tol, bool *interrupted)
+{
+    return is_alone(run) ? run_beside(run, tol, interrupted) : run_after(run, tol, interrupted);
 }
 
 /* Make a run whose first orders in two doubles did not fit once more, without them; of its notice as
@@ -424,7 +441,8 @@ run_in_doubles(qdot_run *run, double tol, size_t notice, bool *interrupted)
     run->report.status = QDOT_RUN_DONE;
     qdot_text_truncate(&run->notice, notice);
     run->leading = run->singular = false;
-    return run_beside(run, tol, interrupted);
+    qdot_run_drop_companions(run);
+    return integrate_with_error(run, tol, interrupted);
 }
 
 /* Integrate, then find the error and the drift of conserved quantities. */
@@ -440,10 +458,9 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < 2 * run->plan->n; i++)
         run->difference[i] = NAN;
-    /* events are found by doubles */
-    run->leading = run->plan->leading && is_alone(run);
-    status = is_alone(run) ? run_beside(run, tol, interrupted)
-                           : run_after(run, tol, interrupted);
+    /* what acts begins at a double */
+    run->leading = run->plan->leading && is_undisturbed(run);
+    status = integrate_with_error(run, tol, interrupted);
     if (status == QDOT_OK && run->course.tr.result.unfit)
         status = run_in_doubles(run, tol, notice, interrupted);
     run->report.tol = tol;
@@ -481,7 +498,7 @@ foresee(qdot_scene *scene, const qdot_run *run, double tol, double *better)
     bool conserved = false;
 
     *better = tol;
-    if (!is_alone(run))
+    if (!is_undisturbed(run))
         return QDOT_OK;
     QDOT_TRY(qdot_long_run_tolerance(&it, better));
     if (*better != tol)
