@@ -1490,6 +1490,7 @@ script_tests = \
 	tests/script/event-storms.sh \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
+	tests/script/events-seen.lag \
 	tests/script/events.lag \
 	tests/script/export.sh \
 	tests/script/factor.lag \
@@ -2599,6 +2600,7 @@ test_files = \
 	tests/script/event-storms.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \
+	tests/script/events-seen.out \
 	tests/script/events.out \
 	tests/script/export.out \
 	tests/script/factor.out \

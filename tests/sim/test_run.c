@@ -425,6 +425,50 @@ refuse(fixture *f, qdot_status status, const char *message)
         fail_msg("\"%s\" does not say \"%s\"", qdot_last_error()->message, message);
 }
 
+/* An event without an action, or with one that changes nothing, leaves the run as it was: its steps, its end to
+ * the last bit, and the error stated. */
+static void
+events_that_are_only_seen_cost_nothing(void **state)
+{
+    uint64_t steps = 0;
+    double q = 0, v = 0, error = 0;
+
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) { /* without, with one, with theta' = theta' */
+        qdot_event e = {.name = (char *)"low", .right = QDOT_ZERO};
+        const qdot_run_report *r;
+        qdot_expr rate;
+        qdot_run *made;
+        fixture f;
+
+        pendulum(&f);
+        f.q0[0] = QDOT_ONE;
+        f.request.tol = 1e-15;
+        f.request.t1 = qdot_expr_int(f.pool, 20);
+        e.left = f.scene->coordinates.at[0];
+        rate = velocity(&f, e.left);
+        if (kind == 2) {
+            e.targets.at = e.values.at = &rate;
+            e.targets.n = e.values.n = 1;
+        }
+        if (kind > 0)
+            must(qdot_scene_event(f.scene, &e));
+        made = run(&f);
+        r = qdot_run_get_report(made);
+        if (kind > 0) {
+            assert_true(r->steps == steps && r->q[0] == q && r->v[0] == v);
+            assert_true(r->error < 4 * error);
+        }
+        steps = r->steps;
+        q = r->q[0];
+        v = r->v[0];
+        error = r->error;
+        qdot_run_free(made);
+        end(&f);
+    }
+    assert_true(error < 1e-14);
+}
+
 static void
 requests_without_sense_are_refused(void **state)
 {
@@ -645,6 +689,7 @@ main(void)
         cmocka_unit_test(functions_may_be_set),
         cmocka_unit_test(a_stated_lagrangian_may_be_indefinite),
         cmocka_unit_test(energy_drift_only_where_it_is_conserved),
+        cmocka_unit_test(events_that_are_only_seen_cost_nothing),
         cmocka_unit_test(requests_without_sense_are_refused),
         cmocka_unit_test(scenes_without_motion_are_refused),
         cmocka_unit_test(singular_masses_name_the_coordinate),

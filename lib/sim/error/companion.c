@@ -115,25 +115,36 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     return QDOT_OK;
 }
 
+/* Whether it met as many events, and switched alike; `acting`: events that are only seen do not count. */
 static bool
-met_the_same(const qdot_run *run, const qdot_course *c)
+met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
 {
-    for (size_t i = 0; i < run->stage.events.n; i++)
-        if (count(&run->course, i) != count(c, i))
+    for (size_t i = 0; i < run->stage.events.n; i++) {
+        const qdot_staged_event *e = run->stage.events.at + i;
+
+        if ((!acting || e->then || e->stop) && count(&run->course, i) != count(c, i))
             return false;
+    }
     return went_alike(&run->course, c);
+}
+
+/* A course of the same kind that has not begun. */
+static qdot_course
+course_like(const qdot_course *c)
+{
+    return (qdot_course){.stage = c->stage,
+                         .shaken = c->shaken,
+                         .no_series = c->no_series,
+                         .early = c->early,
+                         .leader = c->leader,
+                         .most_pieces = c->most_pieces,
+                         .touch_tol = c->touch_tol};
 }
 
 static void
 begin_anew(qdot_course *c)
 {
-    const qdot_course empty = {.stage = c->stage,
-                               .shaken = c->shaken,
-                               .no_series = c->no_series,
-                               .early = c->early,
-                               .leader = c->leader,
-                               .most_pieces = c->most_pieces,
-                               .touch_tol = c->touch_tol};
+    const qdot_course empty = course_like(c);
 
     qdot_course_clear(c);
     *c = empty;
@@ -164,6 +175,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
                                 .stiff_work = INFINITY};
     double t0 = run->leading ? run->t0 : qdot_shake_double(run->t0, run->t0_side);
     size_t n = 2 * run->plan->n;
+    qdot_course first = {0};
     qdot_ode_system system;
     double *y;
     qdot_status status;
@@ -183,7 +195,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         return status == QDOT_ENOMEM ? status : QDOT_OK;
     }
     /* a start on a surface, moved to its other side, meets it once more: the second time
-     * it stays on it */
+     * it stays on it; where what is only seen differs the first one is as good for states */
     for (int tries = 0; tries < 2; tries++) {
         qdot_progress_begin(t0, goal(run), "error of the run");
         qdot_ode_meter_begin(meter, t0, goal(run));
@@ -191,16 +203,29 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
-        if (!*has || met_the_same(run, c))
+        if (!*has || met_the_same(run, c, false))
             break;
         if (tries == 0) {
-            begin_anew(c);
+            if (met_the_same(run, c, true)) {
+                first = *c;
+                *c = course_like(c);
+            } else {
+                begin_anew(c);
+            }
             *spent += meter->work;
             meter->spent = *spent;
         }
         memcpy(y, run->start, n * sizeof *y);
     }
     qdot_free(y);
+    if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK
+        && !(*has && met_the_same(run, c, false))) {
+        qdot_course_clear(c);
+        *c = first;
+        first = (qdot_course){0};
+        *has = true;
+    }
+    qdot_course_clear(&first);
     return qdot_grave(status);
 }
 
@@ -272,7 +297,14 @@ qdot_run_twin(qdot_run *run)
     QDOT_TRY(make_companion(run));
     if (!run->has_companion || run->has_twin)
         return QDOT_OK;
-    return follow(run, 1, &run->twin, &run->has_twin);
+    QDOT_TRY(follow(run, 1, &run->twin, &run->has_twin));
+    if (run->has_twin && !covers(&run->twin, run->course.tr.t[run->course.tr.count - 1])) {
+        /* given up on the way: the first alone */
+        begin_anew(&run->twin);
+        run->has_twin = false;
+        run->way = QDOT_COMPANION_WAYS;
+    }
+    return QDOT_OK;
 }
 
 /* --- the error ----------------------------------------------------------------------- */

@@ -102,7 +102,7 @@ qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system, double t0,
     qdot_status status;
 
     for (size_t i = 0; i < 2 * n; i++)
-        units[i] = qdot_ode_scale(system->scales, i);
+        units[i] = i % n < n - plan->n_states ? qdot_ode_scale(system->scales, i) : 0;
     if (!plan->M || !plan->f || plan->constraints || plan->massless)
         return QDOT_OK;
     z.still = qdot_calloc(n, sizeof *z.still);

@@ -8,7 +8,7 @@
  * as a bead on the axis of a turning hoop, or a body in a plane of symmetry. There 0 is exact, not
  * rounded, so the companions (ode/companion.h) are not moved in it, however unstable it is. Only where M
  * then depends on no coordinate: else the motion may meet a place where M is singular, which those moved
- * aside show; and not under constraints.
+ * aside show; and not under constraints. Parameters that events set do not move either.
  *
  * Tests  tests/script/stays.lag
  */
@@ -18,7 +18,8 @@
 #include "ode/system.h"
 #include "sim/model/equations.h"
 
-/* units [2n]: the scales of the system, 0 for coordinates that stay 0 and their velocities.
+/* units [2n]: the scales of the system, 0 for coordinates that stay 0 and for states
+ * (plan->n_states), and the velocities of these.
  *   y, low  [2n] the start and what is exact beyond it
  * Errors: QDOT_ENOMEM. */
 QDOT_MUST_CHECK qdot_status qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system,
