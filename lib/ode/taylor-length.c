@@ -125,14 +125,23 @@ near_length(const run *r, double h)
 static qdot_status
 length_of_step(run *r, double most, double *h)
 {
+    double ends = 0; /* a unit in which the series ends, so that any step may be its */
+
     for (int tries = 0;; tries++) {
         double l, far;
 
         QDOT_TRY(qdot_ode_taylor_run_expand(r));
         l = log_step(r);
+        if (isnan(l) && ends != 0) { /* of terms times 0, in one that was brought near the step */
+            qdot_ode_taylor_run_set_unit(r, ends);
+            QDOT_TRY(qdot_ode_taylor_run_begin(r, r->t, r->y));
+            tries = 8;
+            continue;
+        }
         if (isnan(l)) { /* overflow, if the first orders exist */
             far = -10 - 40 * tries;
         } else {
+            ends = l < INFINITY ? 0 : r->unit;
             *h = fabs(r->unit) * qdot_rough_exp2(l);
             if (r->series->near)
                 *h = near_length(r, *h);
@@ -142,7 +151,7 @@ length_of_step(run *r, double most, double *h)
             if (!(fabs(far) > 8) || isinf(far))
                 return QDOT_OK;
         }
-        if (tries == 8) {
+        if (tries >= 8) {
             if (isnan(l))
                 return qdot_fail(QDOT_EDOMAIN, "the solution is not finite beyond it");
             return QDOT_OK;
