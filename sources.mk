@@ -580,6 +580,7 @@ library_sources = \
 	lib/sim/model/contact.c \
 	lib/sim/model/domain.c \
 	lib/sim/model/equations.c \
+	lib/sim/model/gates.c \
 	lib/sim/model/layer.c \
 	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
@@ -592,6 +593,7 @@ library_sources = \
 	lib/sim/model/sliding.c \
 	lib/sim/model/still.c \
 	lib/sim/model/substitute.c \
+	lib/sim/model/switch-freeze.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
 	lib/sim/plan/cost.c \
@@ -1139,6 +1141,7 @@ library_headers = \
 	lib/sim/model/contact.h \
 	lib/sim/model/domain.h \
 	lib/sim/model/equations.h \
+	lib/sim/model/gates.h \
 	lib/sim/model/layer.h \
 	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
@@ -1386,6 +1389,7 @@ unit_tests = \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_exponents \
+	tests/sim/test_gates \
 	tests/sim/test_horizon \
 	tests/sim/test_longtime \
 	tests/sim/test_motion \
@@ -1646,6 +1650,7 @@ script_tests = \
 	tests/script/sweep-resume.sh \
 	tests/script/sweep-threads.sh \
 	tests/script/sweep.sh \
+	tests/script/switch-branches.lag \
 	tests/script/switch-nested.lag \
 	tests/script/switching.lag \
 	tests/script/text.lag \
@@ -2773,6 +2778,7 @@ test_files = \
 	tests/script/sweep-resume.out \
 	tests/script/sweep-threads.out \
 	tests/script/sweep.out \
+	tests/script/switch-branches.out \
 	tests/script/switch-nested.out \
 	tests/script/switching.out \
 	tests/script/text.out \

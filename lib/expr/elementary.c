@@ -385,21 +385,47 @@ signum(qdot_pool *pool, qdot_expr x)
     return x == QDOT_NIL ? x : plain(pool, QDOT_SIGN, 1, &x);
 }
 
+/* Whether `other` decides that a number is not needed among the arguments of min or max: max(u, 0) is u
+ * where u >= 0 is known. */
+static bool
+is_beyond(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_expr other)
+{
+    const bool max = id == QDOT_MAX;
+
+    return NUMBER(pool, other) == NULL && (NODE(pool, number)->sign & (max ? QDOT_LE0 : QDOT_GE0))
+           && (NODE(pool, other)->sign & (max ? QDOT_GE0 : QDOT_LE0));
+}
+
 static qdot_expr
 extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
-    qdot_expr best = args[0];
+    qdot_expr best = args[0], few[16];
+    uint32_t k = 0;
 
     for (uint32_t i = 0; i < n; i++) {
         const fmpq *v = NUMBER(pool, args[i]),
                    *b = NUMBER(pool, best);
 
         if (v == NULL || b == NULL)
-            return n == 1 ? best : plain(pool, id, n, args);
+            break;
+        if (i + 1 == n)
+            k = 1;
         if ((id == QDOT_MIN) == (qdot_rational_cmp(v, b) < 0) && !qdot_rational_equal(v, b))
             best = args[i];
     }
-    return best;
+    if (k == 1 || n == 1)
+        return best;
+    for (uint32_t i = 0; i < n && n <= 16; i++) {
+        bool needed = true;
+
+        for (uint32_t j = 0; j < n && needed && NUMBER(pool, args[i]) != NULL; j++)
+            needed = !is_beyond(pool, id, args[i], args[j]);
+        if (needed)
+            few[k++] = args[i];
+    }
+    if (k == 0 || k == n)
+        return plain(pool, id, n, args);
+    return k == 1 ? few[0] : plain(pool, id, k, few);
 }
 
 static qdot_expr

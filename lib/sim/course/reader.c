@@ -82,6 +82,7 @@ read_sides(const qdot_plan *p, const qdot_reader_course *c)
     }
     for (size_t i = 0; i < own; i++)
         sides[i] = m->side[i] == QDOT_SIDE_SLIDES ? fmin(fmax(sides[i], -1), 1)
+                   : m->side[i] == QDOT_SIDE_IDLE ? 0
                                                   : (double)m->side[i];
     return QDOT_OK;
 }

@@ -27,6 +27,7 @@ typedef struct {
     double *u, *noise; /* [m] what rounding of the state and of u makes of u */
     bool *flat;        /* [m] u is the same wherever the state is moved */
     double *before;    /* [m] u by the old sides */
+    uint8_t *open;     /* of the gates, then of surfaces [m] (sim/model/gates.h) */
     double *out, *in, *work;
 } decision;
 
@@ -71,6 +72,14 @@ qdot_stage_lower_sides(qdot_stage *s)
     return status;
 }
 
+static void
+end(decision *d)
+{
+    qdot_free(d->u);
+    qdot_free(d->flat);
+    qdot_free(d->open);
+}
+
 static qdot_status
 begin(decision *d, const qdot_stage *s, double t, const double *y)
 {
@@ -80,7 +89,8 @@ begin(decision *d, const qdot_stage *s, double t, const double *y)
     *d = (decision){.s = s, .m = m, .n = n, .t = t, .y = y};
     d->u = qdot_calloc(5 * m + n + 1 + m + qdot_tape_work(s->sides) + 1, sizeof *d->u);
     d->flat = qdot_calloc(m, sizeof *d->flat);
-    if (!d->u || !d->flat)
+    d->open = qdot_calloc(s->switches.gates.gates.n + m + 1, sizeof *d->open);
+    if (!d->u || !d->flat || !d->open)
         return QDOT_ENOMEM;
     d->noise = d->u + m;
     d->before = d->noise + m;
@@ -97,7 +107,8 @@ static void
 evaluate(decision *d, const long *side)
 {
     for (size_t i = 0; i < d->m; i++)
-        d->in[d->n + 1 + i] = side[i] == QDOT_SIDE_SLIDES ? 0 : (double)side[i];
+        d->in[d->n + 1 + i] =
+            side[i] == QDOT_SIDE_SLIDES || side[i] == QDOT_SIDE_IDLE ? 0 : (double)side[i];
     qdot_tape_eval(d->s->sides, d->in, d->out, d->work);
     memcpy(d->in, d->y, d->n * sizeof *d->in);
     d->in[d->n] = d->t;
@@ -134,6 +145,24 @@ measure(decision *d, const long *side)
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && d->out[i] == d->u[i];
     }
+}
+
+/* Find the surfaces on which something switches by these sides. */
+static void
+find_open(decision *d, const long *side)
+{
+    const qdot_gates *gates = &d->s->switches.gates;
+
+    if (gates->branches)
+        qdot_gates_open(gates, side, NULL, d->open);
+    else
+        memset(d->open + gates->gates.n, 1, d->m);
+}
+
+static bool
+is_open(const decision *d, size_t i)
+{
+    return d->open[d->s->switches.gates.gates.n + i] != 0;
 }
 
 /* The side of surface i, which had `kept`. */
@@ -243,8 +272,7 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
     }
     qdot_free(side);
     qdot_free(a);
-    qdot_free(d.u);
-    qdot_free(d.flat);
+    end(&d);
     return status;
 }
 
@@ -272,20 +300,24 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
             memset(side, 0, m * sizeof *side);
         }
     }
-    /* as often as surfaces stand inside one another, at most */
-    for (size_t pass = 0; pass <= m && changed && status == QDOT_OK; pass++) {
+    /* as often as surfaces stand inside one another, and branches, at most */
+    for (size_t pass = 0; pass <= 2 * m && changed && status == QDOT_OK; pass++) {
         measure(&d, side);
+        find_open(&d, side);
         changed = false;
         for (size_t i = 0; i < m && status == QDOT_OK; i++) {
             const long was = side[i];
 
-            status = decide(&d, i, !old, kept[i], &side[i]);
+            if (is_open(&d, i))
+                status = decide(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
+                                kept[i] == QDOT_SIDE_IDLE ? 0 : kept[i], &side[i]);
+            else
+                side[i] = QDOT_SIDE_IDLE;
             changed |= side[i] != was;
         }
     }
     qdot_free(kept);
-    qdot_free(d.u);
-    qdot_free(d.flat);
+    end(&d);
     return status;
 }
 

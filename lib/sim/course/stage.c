@@ -290,7 +290,7 @@ watch_surfaces(const qdot_stage *s, qdot_mode *m)
                 watch_function(m, m->plan->share[i], w);
             continue;
         }
-        if (x->contact)
+        if (x->contact || m->side[i] == QDOT_SIDE_IDLE)
             continue;
         QDOT_TRY(qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1, &x->u, &u));
         if (qdot_expr_kind(pool, u) == QDOT_NUM && !is_side(pool, x, u, m->side[i]))
@@ -370,8 +370,9 @@ find_held(const qdot_stage *s, qdot_mode *m)
     if (!u)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < surfaces && status == QDOT_OK; i++)
-        status = qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1,
-                                      &s->switches.surfaces.at[i].u, u + i);
+        if (m->side[i] == QDOT_SIDE_SLIDES)
+            status = qdot_switches_freeze(&s->switches, m->side, m->plan->share, 1,
+                                          &s->switches.surfaces.at[i].u, u + i);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_make(m->plan, &s->switches, m->side, u, &m->held);
     for (size_t i = 0; i < surfaces; i++)
@@ -482,6 +483,21 @@ tol_of_series(const qdot_run_request *r)
     return r->digits == 0 && (!method || method->series) ? r->tol : 0;
 }
 
+/* What stands under a power that counts as 0 in a layer is 0 there for what decides by it as well. */
+static qdot_status
+lower_with_layers(qdot_stage *s)
+{
+    bool some = false;
+
+    for (size_t i = 0; i < qdot_switches_own(&s->switches); i++)
+        some |= s->switches.surfaces.at[i].layer > 0;
+    if (!some)
+        return QDOT_OK;
+    qdot_tape_free(s->sides);
+    s->sides = NULL;
+    return qdot_stage_lower_sides(s);
+}
+
 /* The sides at y, or at the start before there is a mode: side [surfaces]. Layers are measured
  * first, once. */
 static qdot_status
@@ -495,6 +511,8 @@ start_sides(qdot_stage *s, const double *settled, long *side)
         status = qdot_tape_constant(s->scene->pool, s->request->t1, &t1);
     if (status == QDOT_OK && s->modes.n == 0)
         status = qdot_stage_layers(s, t, y, fmax(fabs(t), fabs(t1)), tol_of_series(s->request));
+    if (status == QDOT_OK && s->modes.n == 0)
+        status = lower_with_layers(s);
     if (status == QDOT_OK && settled)
         memcpy(y, settled, 2 * n * sizeof *y);
     if (status == QDOT_OK)

@@ -143,28 +143,36 @@ qdot_layers_share(qdot_pool *pool, qdot_expr share)
     return qdot_mul(pool, qdot_sub(pool, QDOT_ONE, more), share);
 }
 
-qdot_expr
-qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces, const long *side,
-                  const long *corner, qdot_expr node, qdot_expr *rest)
+bool
+qdot_layers_has(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr product, uint32_t k,
+                size_t *surface, int *only)
 {
     double p;
+    bool broken = false;
+
+    for (size_t i = 0; i < m; i++) {
+        if (surfaces[i].layer == 0)
+            continue;
+        if (!broken && !qdot_layers_is_broken(pool, product, k, &p))
+            return false;
+        broken = true;
+        *surface = i;
+        if (is_base(pool, qdot_expr_arg(pool, product, k), surfaces[i].u, only))
+            return true;
+    }
+    return false;
+}
+
+bool
+qdot_layers_hold(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr node)
+{
+    size_t surface;
     int only;
 
-    if (!side || qdot_expr_kind(pool, node) != QDOT_PROD)
-        return QDOT_NIL;
+    if (qdot_expr_kind(pool, node) != QDOT_PROD)
+        return false;
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
-        for (size_t i = 0; i < m; i++) {
-            const qdot_expr base = qdot_expr_arg(pool, node, k),
-                            exponent = qdot_expr_arg(pool, node, k + 1);
-            const bool held = side[i] == QDOT_SIDE_SLIDES;
-
-            if (surfaces[i].layer == 0 || (side[i] != 0 && !held) || !qdot_layers_is_broken(pool, node, k, &p)
-                || !is_base(pool, base, surfaces[i].u, &only))
-                continue;
-            *rest = qdot_div(pool, node, qdot_pow(pool, base, exponent));
-            return held && only != -corner[i]
-                       ? qdot_pow(pool, qdot_layers_rim(pool, &surfaces[i]), exponent)
-                       : QDOT_ZERO;
-        }
-    return QDOT_NIL;
+        if (qdot_layers_has(pool, m, surfaces, node, k, &surface, &only))
+            return true;
+    return false;
 }

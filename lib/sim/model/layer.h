@@ -48,11 +48,11 @@ qdot_expr qdot_layers_share(qdot_pool *pool, qdot_expr share);
 /* Whether u is of the time alone: what its layer leaves out is known. */
 bool qdot_layers_in_time(const qdot_pool *pool, const qdot_surface *surface);
 
-/* If a node of an expression that is not frozen is a product with such a power of a u: its value where u
- * is in its layer by side [m], 0, or where it is held at 0, that at the rim on the side of corner [m];
- * *rest is the product without it. Nil: it is none. */
-qdot_expr qdot_layers_power(qdot_pool *pool, size_t m, const qdot_surface *surfaces,
-                            const long *side, const long *corner, qdot_expr node,
-                            qdot_expr *rest);
+/* Whether factor k of a product is a power of a u that has a layer: *surface; *only: the sign of u on the one
+ * side where the power is not 0, else 0. */
+bool qdot_layers_has(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr product,
+                     uint32_t k, size_t *surface, int *only);
+/* Whether a node is a product with such a factor. */
+bool qdot_layers_hold(qdot_pool *pool, size_t m, const qdot_surface *surfaces, qdot_expr node);
 
 #endif

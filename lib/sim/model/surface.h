@@ -17,6 +17,9 @@
 /* For freezing: what switches there stays as it is. */
 #define QDOT_SIDE_OPEN LONG_MIN
 
+/* Of a surface that nothing in the mode switches on (sim/model/gates.h). */
+#define QDOT_SIDE_IDLE (LONG_MIN + 1)
+
 typedef struct {
     qdot_expr u;  /* as in the equations, with parameter values */
     bool steps;   /* the side is floor(u); else the sign of u */

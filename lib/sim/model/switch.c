@@ -1,4 +1,4 @@
-/* switch.c -- finds and freezes the functions that switch in the equations. */
+/* switch.c -- finds the functions that switch in the equations. */
 #include "sim/model/switch.h"
 
 #include <stdio.h>
@@ -20,53 +20,9 @@ qdot_switches_clear(qdot_switches *s)
     qdot_free(s->surfaces.at);
     qdot_free(s->atoms.at);
     qdot_free(s->pucks.at);
+    qdot_free(s->roots.at);
+    qdot_gates_clear(&s->gates);
     *s = (qdot_switches){0};
-}
-
-static bool
-moves(const qdot_pool *pool, qdot_expr e)
-{
-    return (qdot_expr_node(pool, e)->holds
-            & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME
-               | QDOT_HAS_MULTIPLIER))
-           != 0;
-}
-
-static bool
-is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
-}
-
-static bool
-is_relation(const qdot_pool *pool, qdot_expr e)
-{
-    return qdot_expr_kind(pool, e) == QDOT_REL;
-}
-
-/* Whether the node itself switches; `if` does by the relations in it. */
-static bool
-is_atom(const qdot_pool *pool, qdot_expr e)
-{
-    static const qdot_fun_id ids[] = {QDOT_ABS, QDOT_SIGN,  QDOT_MIN,
-                                      QDOT_MAX, QDOT_FLOOR, QDOT_MOD};
-
-    if (!moves(pool, e))
-        return false;
-    if (is_relation(pool, e))
-        return true;
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        if (is_function(pool, e, ids[i]))
-            return true;
-    return false;
-}
-
-/* u or -u, whichever prints without a sign in front; *turned: it is -u. */
-static qdot_expr
-upright(qdot_pool *pool, qdot_expr u, bool *turned)
-{
-    *turned = qdot_expr_is_negative(pool, u);
-    return *turned ? qdot_neg(pool, u) : u;
 }
 
 static qdot_status collect(qdot_switches *s, qdot_expr e);
@@ -81,9 +37,9 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     bool turned;
 
     if (!steps)
-        u = upright(s->pool, u, &turned);
+        u = qdot_gates_upright(s->pool, u, &turned);
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (!moves(s->pool, u)) /* what moved cancelled */
+    if (!qdot_gates_moves(s->pool, u)) /* what moved cancelled */
         return QDOT_OK;
     QDOT_TRY(collect(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)
@@ -107,13 +63,13 @@ add_atom(qdot_switches *s, qdot_expr e)
         if (s->atoms.at[i] == e)
             return QDOT_OK;
     QDOT_TRY(qdot_vec_push(&s->atoms, e));
-    if (is_relation(pool, e))
+    if (qdot_expr_kind(pool, e) == QDOT_REL)
         return add_surface(s, qdot_sub(pool, a, b), false);
-    if (is_function(pool, e, QDOT_ABS) || is_function(pool, e, QDOT_SIGN))
+    if (qdot_gates_is_function(pool, e, QDOT_ABS) || qdot_gates_is_function(pool, e, QDOT_SIGN))
         return add_surface(s, a, false);
-    if (is_function(pool, e, QDOT_FLOOR))
+    if (qdot_gates_is_function(pool, e, QDOT_FLOOR))
         return add_surface(s, a, true);
-    if (is_function(pool, e, QDOT_MOD))
+    if (qdot_gates_is_function(pool, e, QDOT_MOD))
         return add_surface(s, qdot_div(pool, a, b), true);
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = i + 1; j < n; j++)
@@ -132,10 +88,18 @@ collect(qdot_switches *s, qdot_expr e)
     qdot_status status = qdot_walk_begin(s->pool, e, &walk);
 
     for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
-        if (is_atom(s->pool, walk.at[i]))
+        if (qdot_gates_is_switch(s->pool, walk.at[i]))
             status = add_atom(s, walk.at[i]);
     qdot_walk_end(&walk);
     return status;
+}
+
+/* Collect those of an expression of the equations. */
+static qdot_status
+collect_root(qdot_switches *s, qdot_expr e)
+{
+    QDOT_TRY(collect(s, e));
+    return qdot_vec_push(&s->roots, e);
 }
 
 static bool
@@ -148,7 +112,7 @@ switches(const qdot_switches *s, qdot_expr e, qdot_status *status)
         return false;
     *status = qdot_walk_begin(s->pool, e, &walk);
     for (size_t i = 0; *status == QDOT_OK && i < walk.n; i++)
-        found = found || is_atom(s->pool, walk.at[i]);
+        found = found || qdot_gates_is_switch(s->pool, walk.at[i]);
     qdot_walk_end(&walk);
     return found;
 }
@@ -182,7 +146,7 @@ find_level(qdot_switches *s, qdot_scene *scene, const qdot_run_request *request,
 static bool
 may_switch(const qdot_pool *pool, qdot_expr e)
 {
-    if (qdot_expr_kind(pool, e) == QDOT_UFUN || is_atom(pool, e))
+    if (qdot_expr_kind(pool, e) == QDOT_UFUN || qdot_gates_is_switch(pool, e))
         return true;
     for (uint32_t i = 2; qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e);
          i += 2) {
@@ -270,6 +234,7 @@ collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
     qdot_pool *pool = s->pool;
     qdot_walk walk;
     qdot_status status = qdot_walk_begin(pool, e, &walk);
+    qdot_expr distance;
     double p;
 
     for (size_t i = 0; status == QDOT_OK && i < walk.n; i++)
@@ -277,8 +242,12 @@ collect_times(qdot_switches *s, const qdot_run_request *request, qdot_expr e)
                              && k + 1 < qdot_expr_count(pool, walk.at[i]);
              k += 2)
             if (qdot_layers_is_broken(pool, walk.at[i], k, &p) && p > 0
-                && vanishes_in_time(pool, request, qdot_expr_arg(pool, walk.at[i], k)))
-                status = add_atom(s, qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, walk.at[i], k)));
+                && vanishes_in_time(pool, request, qdot_expr_arg(pool, walk.at[i], k))) {
+                distance = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, walk.at[i], k));
+                status = add_atom(s, distance);
+                if (status == QDOT_OK)
+                    status = qdot_vec_push(&s->roots, distance);
+            }
     qdot_walk_end(&walk);
     return status;
 }
@@ -302,7 +271,7 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
             e[i] = qdot_substitute(pool, e[i], request->n_values, request->symbols,
                                    request->values);
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(collect(s, e[i]));
+        QDOT_TRY(collect_root(s, e[i]));
         QDOT_TRY(collect_times(s, request, e[i]));
     }
     s->mass = e[0];
@@ -313,248 +282,11 @@ qdot_switches_find(qdot_scene *scene, const qdot_run_request *request, qdot_swit
                                       request->symbols, request->values);
 
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(collect(s, f));
+        QDOT_TRY(collect_root(s, f));
     }
     QDOT_TRY(find_level(s, scene, request, e[0]));
-    return s->level == QDOT_NIL ? QDOT_OK : collect(s, s->level);
-}
-
-/* --- freezing ------------------------------------------------------------------------ */
-
-typedef struct {
-    const qdot_switches *s;
-    const long *side; /* NULL: symbols */
-    const long *corner; /* [surfaces] the side meant by QDOT_SIDE_SLIDES */
-    size_t done;       /* atoms frozen so far */
-    qdot_expr *frozen; /* [atoms] */
-} freezer;
-
-static qdot_expr inner(const freezer *f, qdot_expr e);
-
-static qdot_expr
-look_up(qdot_pool *pool, qdot_expr node, void *user)
-{
-    const freezer *f = user;
-    qdot_expr power, rest;
-
-    for (size_t i = 0; i < f->done; i++)
-        if (f->s->atoms.at[i] == node)
-            return f->frozen[i];
-    power = qdot_layers_power(pool, f->s->surfaces.n, f->s->surfaces.at, f->side, f->corner, node,
-                              &rest);
-    return power == QDOT_NIL || power == QDOT_ZERO ? power
-                                                   : qdot_mul(pool, power, inner(f, rest));
-}
-
-static qdot_expr
-inner(const freezer *f, qdot_expr e)
-{
-    return qdot_walk_map(f->s->pool, e, look_up, (void *)f);
-}
-
-/* The symbol of the side of u; for a constant u its sign or floor. */
-static qdot_expr
-side_of(const freezer *f, qdot_expr u, bool steps)
-{
-    qdot_pool *pool = f->s->pool;
-    bool turned = false;
-
-    if (!steps)
-        u = upright(pool, u, &turned);
-    for (size_t i = 0; i < qdot_switches_own(f->s); i++) {
-        const qdot_surface *x = &f->s->surfaces.at[i];
-        qdot_expr side;
-
-        if (x->u != u || x->steps != steps)
-            continue;
-        side = !f->side                          ? x->side
-               : f->side[i] == QDOT_SIDE_SLIDES ? qdot_expr_int(pool, f->corner[i])
-                                                 : qdot_expr_int(pool, f->side[i]);
-        return turned ? qdot_neg(pool, side) : side;
-    }
-    u = qdot_fun1(pool, steps ? QDOT_FLOOR : QDOT_SIGN, u);
-    return turned ? qdot_neg(pool, u) : u;
-}
-
-/* Whether u is held at 0. */
-static bool
-is_held(const freezer *f, qdot_expr u)
-{
-    bool turned;
-
-    u = upright(f->s->pool, u, &turned);
-    for (size_t i = 0; i < qdot_switches_own(f->s) && f->side; i++)
-        if (f->s->surfaces.at[i].u == u && f->side[i] == QDOT_SIDE_SLIDES)
-            return true;
-    return false;
-}
-
-/* The argument that min or max selects; the first of equal ones. */
-static qdot_expr
-chosen(const freezer *f, qdot_expr e, int way)
-{
-    qdot_pool *pool = f->s->pool;
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr best = inner(f, qdot_expr_arg(pool, e, n - 1));
-
-    for (uint32_t i = n - 1; i-- > 0;) {
-        qdot_expr own = inner(f, qdot_expr_arg(pool, e, i)), kept = own;
-
-        for (uint32_t j = i + 1; j < n; j++) {
-            qdot_expr u = qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, j));
-            qdot_expr side = is_held(f, u) ? QDOT_ZERO : side_of(f, u, false);
-
-            if (way < 0)
-                side = qdot_neg(pool, side);
-            kept = qdot_fun(pool, QDOT_IF, 3,
-                            (qdot_expr[]){qdot_rel(pool, QDOT_LE, QDOT_ZERO, side), kept,
-                                          best});
-        }
-        best = kept;
-    }
-    return best;
-}
-
-static qdot_expr
-freeze_atom(const freezer *f, qdot_expr e)
-{
-    qdot_pool *pool = f->s->pool;
-    uint32_t n = qdot_expr_count(pool, e);
-    qdot_expr a = qdot_expr_arg(pool, e, 0), b = n > 1 ? qdot_expr_arg(pool, e, 1) : a;
-
-    if (is_relation(pool, e)) {
-        qdot_rel_op op = qdot_expr_node(pool, e)->op;
-        qdot_expr side = side_of(f, qdot_sub(pool, a, b), false);
-
-        if (op == QDOT_EQ && qdot_expr_kind(pool, side) == QDOT_NUM)
-            return side == QDOT_ZERO ? QDOT_TRUE : QDOT_FALSE;
-        return qdot_rel(pool, op, side, QDOT_ZERO);
-    }
-    if (is_function(pool, e, QDOT_ABS) && is_held(f, a))
-        return QDOT_ZERO;
-    if (is_function(pool, e, QDOT_ABS))
-        return qdot_mul(pool, side_of(f, a, false), inner(f, a));
-    if (is_function(pool, e, QDOT_SIGN))
-        return side_of(f, a, false);
-    if (is_function(pool, e, QDOT_FLOOR))
-        return side_of(f, a, true);
-    if (is_function(pool, e, QDOT_MOD))
-        return qdot_sub(pool, inner(f, a),
-                        qdot_mul(pool, inner(f, b),
-                                 side_of(f, qdot_div(pool, a, b), true)));
-    return chosen(f, e, is_function(pool, e, QDOT_MAX) ? 1 : -1);
-}
-
-/* Whether a function switches on a surface whose side is left open. */
-static bool
-is_open(const freezer *f, qdot_expr atom)
-{
-    qdot_pool *pool = f->s->pool;
-    const uint32_t n = qdot_expr_count(pool, atom);
-    bool turned;
-
-    for (size_t s = 0; s < qdot_switches_own(f->s) && f->side; s++) {
-        const qdot_expr u = f->s->surfaces.at[s].u;
-
-        if (f->side[s] != QDOT_SIDE_OPEN)
-            continue;
-        if (f->s->surfaces.at[s].steps) {
-            if (is_function(pool, atom, QDOT_FLOOR) || is_function(pool, atom, QDOT_MOD))
-                return true;
-            continue;
-        }
-        if (n == 1 && upright(pool, qdot_expr_arg(pool, atom, 0), &turned) == u)
-            return true;
-        for (uint32_t i = 0; i < n; i++)
-            for (uint32_t j = i + 1; j < n; j++)
-                if (upright(pool,
-                            qdot_sub(pool, qdot_expr_arg(pool, atom, i),
-                                     qdot_expr_arg(pool, atom, j)),
-                            &turned)
-                    == u)
-                    return true;
-    }
-    return false;
-}
-
-/* With one side of every surface: that of `corner` where the motion slides. */
-static qdot_status
-freeze_corner(freezer f, size_t n, const qdot_expr *e, qdot_expr *frozen)
-{
-    f.frozen = qdot_calloc(f.s->atoms.n, sizeof *f.frozen);
-    if (!f.frozen)
-        return QDOT_ENOMEM;
-    for (f.done = 0; f.done < f.s->atoms.n; f.done++) {
-        const qdot_expr atom = f.s->atoms.at[f.done];
-
-        f.frozen[f.done] = is_open(&f, atom) ? atom : freeze_atom(&f, atom);
-    }
-    for (size_t i = 0; i < n; i++)
-        frozen[i] = inner(&f, e[i]);
-    qdot_free(f.frozen);
-    return qdot_pool_check(f.s->pool);
-}
-
-/* (1 + share)/2 a + (1 - share)/2 b. */
-static qdot_expr
-mean(qdot_pool *pool, qdot_expr share, qdot_expr a, qdot_expr b)
-{
-    if (a == b)
-        return a;
-    return qdot_mul(pool, QDOT_HALF,
-                    qdot_add(pool, qdot_add(pool, a, b),
-                             qdot_mul(pool, share, qdot_sub(pool, a, b))));
-}
-
-/* The mean over both sides of every surface along which the motion slides, from surface `from`
- * on. */
-static qdot_status
-freeze_means(const freezer *f, long *corner, const qdot_expr *share, size_t from, size_t n,
-             const qdot_expr *e, qdot_expr *frozen)
-{
-    size_t i = from;
-    qdot_expr *low;
-    qdot_status status;
-
-    while (i < qdot_switches_own(f->s) && f->side && f->side[i] != QDOT_SIDE_SLIDES)
-        i++;
-    if (!f->side || i == qdot_switches_own(f->s))
-        return freeze_corner(*f, n, e, frozen);
-    low = qdot_malloc((n + 1) * sizeof *low);
-    if (!low)
-        return QDOT_ENOMEM;
-    corner[i] = -1;
-    status = freeze_means(f, corner, share, i + 1, n, e, low);
-    corner[i] = 1;
-    if (status == QDOT_OK)
-        status = freeze_means(f, corner, share, i + 1, n, e, frozen);
-    for (size_t k = 0; k < n && status == QDOT_OK; k++)
-        frozen[k] = mean(f->s->pool, share[i], frozen[k], low[k]);
-    qdot_free(low);
-    return status == QDOT_OK ? qdot_pool_check(f->s->pool) : status;
-}
-
-qdot_status
-qdot_switches_freeze(const qdot_switches *s, const long *side, const qdot_expr *share,
-                     size_t n, const qdot_expr *e, qdot_expr *frozen)
-{
-    qdot_expr *copy;
-    long *corner;
-    qdot_status status;
-
-    if (s->atoms.n == 0) {
-        memcpy(frozen, e, n * sizeof *e);
-        return QDOT_OK;
-    }
-    corner = qdot_calloc(s->surfaces.n + 1, sizeof *corner);
-    copy = qdot_malloc((n + 1) * sizeof *copy); /* `frozen` may be `e` */
-    status = corner && copy ? QDOT_OK : QDOT_ENOMEM;
-    if (status == QDOT_OK) {
-        memcpy(copy, e, n * sizeof *e);
-        status = freeze_means(&(freezer){.s = s, .side = side, .corner = corner}, corner, share,
-                              0, n, copy, frozen);
-    }
-    qdot_free(corner);
-    qdot_free(copy);
-    return status;
+    if (s->level != QDOT_NIL)
+        QDOT_TRY(collect_root(s, s->level));
+    return s->atoms.n == 0 ? QDOT_OK
+                           : qdot_gates_find(pool, s->surfaces.n, s->surfaces.at, s->roots.n, s->roots.at, true, &s->gates);
 }

@@ -11,8 +11,9 @@
  * A jump of T - V itself is a surface too, even if the equations on both sides are the same.
  *
  * A mode is one side of every surface: a sign, 0 if u stays 0 or in a layer about it
- * (sim/model/layer.h), the integer of a floor, or
- * QDOT_SIDE_SLIDES. An expression frozen to a mode does not switch.
+ * (sim/model/layer.h), the integer of a floor,
+ * QDOT_SIDE_SLIDES, or QDOT_SIDE_IDLE if only branches that are not taken switch on it
+ * (sim/model/gates.h). An expression frozen to a mode does not switch.
  *
  * On a surface along which the motion slides an expression is the mean of its values e+, e- on both
  * sides, with a share s of -1 ... 1 (Filippov):
@@ -22,13 +23,14 @@
  * Surfaces may be nested: u of if(mod(t, 1) < 0.3, A, B) is mod(t, 1) - 0.3, which is t - k - 0.3
  * on the side k of its inner surface. A surface comes after those inside it, so that sides can be
  * decided one after another; as expressions in q, q', t and the sides, as symbols, all u are
- * smooth.
+ * smooth. What stands in a branch that is not taken need not be defined.
  *
- * Tests  tests/script/switching.lag, switch-nested.lag, tests/sim/test_switch.c, test_taylor.c
+ * Tests  tests/script/switching.lag, switch-nested.lag, switch-branches.lag, tests/sim/test_switch.c, test_taylor.c
  */
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H
 
+#include "sim/model/gates.h"
 #include "sim/model/request.h"
 #include "sim/model/surface.h"
 
@@ -39,6 +41,8 @@ typedef struct qdot_switches {
     qdot_vec(qdot_puck) pucks; /* whose surfaces come behind those of contacts */
     size_t n_puck_symbols;     /* their symbols, k + 1 of each */
     qdot_vec(qdot_expr) atoms; /* the functions that switch, inner ones first */
+    qdot_vec(qdot_expr) roots; /* the expressions that hold them */
+    qdot_gates gates; /* of these, and of the u */
     qdot_expr mass, forcing; /* M, f of M q'' = f as they switch, with parameter values */
     qdot_expr level; /* the terms of T - V that switch: a jump of them is an infinite force;
                         NIL: none */

@@ -1,0 +1,83 @@
+/* gates.h -- which switches the equations hold in a mode.
+ *
+ * A switch may stand in a branch that is not taken:
+ *
+ *     if(y < 0, max((-y)^1.5, 0), 0)          max(u, v, w) where u is the largest: v - w
+ *
+ * It has no side then: what decides it may be undefined, and need not be watched. The gates are the
+ * nodes of the equations between their roots and their switches, the switches among them. From the sides
+ * follows which branches are taken, and from these, beginning at the roots, which gates are open. What a surface
+ * decides by, u, is looked at where one of its switches is open.
+ *
+ * Tests  tests/script/switch-branches.lag, tests/sim/test_gates.c
+ */
+#ifndef QDOT_SIM_GATES_H
+#define QDOT_SIM_GATES_H
+
+#include "base/memory.h"
+#include "sim/model/surface.h"
+
+/* The sign of a difference by the side of a surface: u, or -u. */
+typedef struct {
+    size_t surface; /* SIZE_MAX: it does not move */
+    int turned;     /* -1: the surface has -u; else 1 */
+    uint8_t sign;   /* what is known of that of one that does not move: QDOT_GE0 ... */
+    qdot_expr u;    /* the difference */
+} qdot_gate_pair;
+
+typedef enum {
+    QDOT_GATE_PASSES,  /* a node that holds gates, or a product with a power that has a layer */
+    QDOT_GATE_IF,
+    QDOT_GATE_LOGIC,
+    QDOT_GATE_RELATION,
+    QDOT_GATE_EXTREME, /* min, max: pairs of arguments (0, 1), (0, 2), ... (1, 2), ... */
+    QDOT_GATE_VALUE    /* abs, sign, floor, mod */
+} qdot_gate_kind;
+
+typedef struct {
+    qdot_expr node;
+    qdot_gate_kind kind;
+    uint16_t op; /* of the node, */
+    uint32_t n;  /* and how many arguments it has */
+    size_t first; /* of its arguments in `arguments`: gates, SIZE_MAX for those that are none */
+    size_t pair;  /* of its pairs */
+} qdot_gate;
+
+/* Start from {0}. */
+typedef struct {
+    size_t surfaces;
+    qdot_vec(qdot_gate) gates; /* those of children first */
+    qdot_vec(size_t) arguments;
+    qdot_vec(qdot_gate_pair) pairs;
+    qdot_vec(size_t) roots; /* gates */
+    size_t *decides; /* [surfaces] the gate of what a surface decides by; SIZE_MAX: it is none */
+    bool branches;   /* in some mode a gate is closed */
+} qdot_gates;
+
+/* Whether a node switches by itself, where what it is of moves. */
+bool qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e);
+bool qdot_gates_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id);
+/* Whether it holds what changes along a run. */
+bool qdot_gates_moves(const qdot_pool *pool, qdot_expr e);
+/* u or -u, whichever prints without a sign in front; *turned: it is -u. */
+qdot_expr qdot_gates_upright(qdot_pool *pool, qdot_expr u, bool *turned);
+
+/* Find the gates of e [n], whose surfaces are at [m]. `deciding`: also of what these decide by, which is
+ * open where one of their switches is. */
+QDOT_MUST_CHECK qdot_status qdot_gates_find(qdot_pool *pool, size_t m, const qdot_surface *at, size_t n,
+                                            const qdot_expr *e, bool deciding, qdot_gates *gates);
+void qdot_gates_clear(qdot_gates *gates);
+
+/* What may be true of a condition; whether a gate is open. */
+enum { QDOT_GATE_FALSE = 1, QDOT_GATE_TRUE = 2, QDOT_GATE_OPEN = 4 };
+
+/* The sign of a pair by the sides; *known: there is one. Where the motion slides it is that of corner
+ * [surfaces], or unknown without. */
+int qdot_gates_sign(const qdot_gate_pair *pair, const long *side,
+                    const long *corner, bool *known);
+
+/* Mark what is open with these sides (NULL: all) into open [gates.n + surfaces], gates and then surfaces.
+ * Allocates nothing, and makes no node. */
+void qdot_gates_open(const qdot_gates *gates, const long *side, const long *corner, uint8_t *open);
+
+#endif
