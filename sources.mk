@@ -497,10 +497,12 @@ library_sources = \
 	lib/sim/branches/rest-bifurcation.c \
 	lib/sim/branches/rest-continuation.c \
 	lib/sim/branches/rest-path.c \
+	lib/sim/course/chatter.c \
 	lib/sim/course/course.c \
 	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
+	lib/sim/course/piece-chatter.c \
 	lib/sim/course/piece-contact.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
@@ -1074,6 +1076,7 @@ library_headers = \
 	lib/sim/branches/rest-bifurcation.h \
 	lib/sim/branches/rest-continuation.h \
 	lib/sim/branches/rest-path.h \
+	lib/sim/course/chatter.h \
 	lib/sim/course/course-state.h \
 	lib/sim/course/course.h \
 	lib/sim/course/crossings.h \
@@ -1608,6 +1611,7 @@ script_tests = \
 	tests/script/ranges.lag \
 	tests/script/reactions.lag \
 	tests/script/refuted.lag \
+	tests/script/relay-at-rounding.lag \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
@@ -2735,6 +2739,7 @@ test_files = \
 	tests/script/ranges.out \
 	tests/script/reactions.out \
 	tests/script/refuted.out \
+	tests/script/relay-at-rounding.out \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
@@ -2871,6 +2876,8 @@ other_files = \
 	bench/solutions/search.py \
 	bench/solutions/verdict.py \
 	bench/stiff \
+	bench/surfaces/nested \
+	bench/surfaces/relays \
 	bench/surfaces/run \
 	bench/surfaces/scenes.py \
 	bench/symbolic/ginac-peer.cc \

@@ -138,12 +138,78 @@ states_are_brought_back(void **state)
     end(&f);
 }
 
+/* x'' = -F sign(x - 1) + b x' from x = 1 with speed v. */
+static void
+relay(fixture *f, const char *F, const char *b, const char *v)
+{
+    qdot_expr x;
+
+    begin(f);
+    x = coordinate(f, "x");
+    must(qdot_scene_particle(f->scene, "p", QDOT_ONE, x));
+    must(qdot_scene_torque(
+        f->scene,
+        &(qdot_torque){
+            .coordinate = x,
+            .torque = qdot_sub(f->pool, qdot_mul(f->pool, number(f, b), velocity(f, x)),
+                               qdot_mul(f->pool, number(f, F),
+                                        qdot_fun1(f->pool, QDOT_SIGN,
+                                                  qdot_sub(f->pool, x, QDOT_ONE))))}));
+    f->q0[0] = QDOT_ONE;
+    f->v0[0] = number(f, v);
+    f->request.t1 = QDOT_ONE;
+}
+
+/* A relay entered so slowly that the rounding of x hides its swings slides by every method; that its speed
+ * stays is stated. Faster, it is followed. */
+static void
+a_relay_slides_where_rounding_hides_its_swings(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        const qdot_run_report *report;
+        qdot_run *r = NULL;
+        fixture f;
+
+        relay(&f, k % 2 ? "1" : "2.5", "0", k % 3 ? "0.00000001" : "-0.00000003");
+        f.request.method = methods[k];
+        f.request.tol = 1e-9;
+        must(qdot_run_new(f.scene, &f.request, &r));
+        report = qdot_run_get_report(r);
+        assert_int_equal(report->status, QDOT_RUN_DONE);
+        assert_true(report->q[0] == 1 && report->v[0] == 0);
+        if (!(report->error >= (k % 3 ? 1e-8 : 3e-8) && report->error < 1e-7))
+            fail_msg("%s states %.3g", methods[k], report->error);
+        qdot_run_free(r);
+        end(&f);
+    }
+}
+
+/* Where its speed grows tenfold it does not stay: that is told. */
+static void
+a_relay_that_grows_does_not_slide(void **state)
+{
+    const qdot_run_report *report;
+    qdot_run *r = NULL;
+    fixture f;
+
+    (void)state;
+    relay(&f, "1", "20", "0.000000001");
+    must(qdot_run_new(f.scene, &f.request, &r));
+    report = qdot_run_get_report(r);
+    assert_int_equal(report->status, QDOT_RUN_FAILED);
+    qdot_run_free(r);
+    end(&f);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(swings_come_to_rest),
         cmocka_unit_test(states_are_brought_back),
+        cmocka_unit_test(a_relay_slides_where_rounding_hides_its_swings),
+        cmocka_unit_test(a_relay_that_grows_does_not_slide),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

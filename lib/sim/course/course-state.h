@@ -28,6 +28,17 @@ typedef struct {
     double t, after;
 } qdot_course_rest;
 
+/* The motion slid along a surface, about which it went too fast to be followed (sim/course/chatter.h). */
+typedef struct {
+    size_t surface;
+    double t, end;        /* until when */
+    double speed;         /* |u'| at most */
+    double place;         /* |u| at the start */
+    size_t mode[3];       /* below the surface, on it, above */
+    double *along;        /* [n] of u = 1, then the slopes of u [n]; owned */
+    bool ended;           /* it has left the surface */
+} qdot_course_chatter;
+
 typedef struct qdot_course {
     qdot_stage *stage; /* borrowed */
     bool shaken;
@@ -50,6 +61,7 @@ typedef struct qdot_course {
     qdot_vec(qdot_occurrence) occurrences;
     qdot_vec(qdot_course_end) ends; /* in order of time; one piece may have several at one time */
     qdot_vec(qdot_course_rest) rests;
+    qdot_vec(qdot_course_chatter) chatters;
     size_t stopped_by; /* the event; SIZE_MAX: none */
     char reason[400];  /* why it ended early; "" */
     bool failed;       /* the reason is a failure, not an event's `stop` */

@@ -59,6 +59,22 @@ changes_state(const qdot_piece *x)
     return false;
 }
 
+/* Whether the piece ends on surfaces of places, which the motion crosses with the speed that it has. */
+static bool
+crosses_places(const qdot_piece *x)
+{
+    bool places = false;
+
+    for (size_t i = 0; i < x->roots.n; i++) {
+        const qdot_watched *w = &qdot_piece_mode(x)->watched[x->roots.at[i].function];
+
+        if (w->kind == QDOT_WATCH_SURFACE && (w->velocity || w->inside == 0))
+            return false;
+        places |= w->kind == QDOT_WATCH_SURFACE;
+    }
+    return places;
+}
+
 /* Make the state set by an event at the end of the run its last point. */
 static qdot_status
 resume(qdot_piece *x)
@@ -76,6 +92,7 @@ come_to_rest(qdot_piece *x, bool anew, bool *over)
         QDOT_TRY(qdot_piece_stop_pucks(x, anew));
         x->roots.n = 0;
         QDOT_TRY(qdot_piece_stop_in_layers(x));
+        QDOT_TRY(qdot_piece_stop_chatter(x, anew));
         if (x->roots.n == 0)
             return QDOT_OK;
         x->start.jumped = false;
@@ -130,7 +147,7 @@ loop(qdot_piece *x, const double *y0)
         x->start.from = x->mode;
         x->start.jumped = false;
         qdot_piece_find_delay(x);
-        if (changes_state(x) && qdot_piece_makes_up(x) && x->has_root)
+        if ((changes_state(x) || crosses_places(x)) && qdot_piece_makes_up(x) && x->has_root)
             status = qdot_piece_go_to_root(x);
         if (changes_state(x))
             (void)qdot_piece_end_in_layers(x);
@@ -244,5 +261,8 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->occurrences.at);
     qdot_free(c->ends.at);
     qdot_free(c->rests.at);
+    for (size_t i = 0; i < c->chatters.n; i++)
+        qdot_free(c->chatters.at[i].along);
+    qdot_free(c->chatters.at);
     *c = (qdot_course){0};
 }

@@ -309,6 +309,21 @@ qdot_piece_low(const qdot_piece *x, double *low)
         low[i] = x->start.y[i] == x->start.low_of[i] ? x->start.low[i] : 0;
 }
 
+/* Whether the piece ends on surface i. */
+static bool
+is_met(const qdot_piece *x, size_t i)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+    bool met = false;
+
+    for (size_t k = 0; k < x->crossed.n; k++)
+        met |= x->crossed.at[k] == i;
+    for (size_t k = 0; k < x->roots.n; k++)
+        met |= m->watched[x->roots.at[k].function].kind == QDOT_WATCH_SURFACE
+               && m->watched[x->roots.at[k].function].index == i;
+    return met;
+}
+
 /* Whether all other switches are on the same sides at a state y [n] as where the piece starts. */
 static qdot_status
 has_sides(qdot_piece *x, const double *y, bool *alike)
@@ -321,7 +336,9 @@ has_sides(qdot_piece *x, const double *y, bool *alike)
         status = qdot_stage_sides(x->c->stage, x->start.t, x->start.y, NULL, sides);
     if (status == QDOT_OK)
         status = qdot_stage_sides(x->c->stage, x->start.t, y, NULL, sides + surfaces);
-    *alike = status == QDOT_OK && memcmp(sides, sides + surfaces, surfaces * sizeof *sides) == 0;
+    *alike = status == QDOT_OK;
+    for (size_t i = 0; i < surfaces && *alike; i++)
+        *alike = sides[i] == sides[surfaces + i] || is_met(x, i);
     qdot_free(sides);
     return status;
 }
@@ -420,7 +437,8 @@ qdot_piece_cross(qdot_piece *x)
         return QDOT_OK;
     qdot_piece_carry(x);
     if ((x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
-        QDOT_TRY(qdot_piece_make_up(x, x->start.jumped ? SIZE_MAX : x->start.from, x->mode));
+        QDOT_TRY(qdot_piece_make_up(x, x->start.jumped || x->start.on_root ? SIZE_MAX : x->start.from,
+                                    x->mode));
     QDOT_TRY(qdot_piece_keep(x, NULL));
     x->put_aside |= qdot_piece_makes_up(x);
     return QDOT_OK;

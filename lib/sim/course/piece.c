@@ -595,7 +595,9 @@ qdot_piece_begin(qdot_piece *x)
     return qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
         &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual, x->y, x->largest,
-                            x->start.on_root ? x->c->stage->events.n : 0},
+                            !x->start.on_root  ? 0
+                            : x->start.jumped ? x->c->stage->events.n
+                                              : qdot_piece_mode(x)->m},
         x->functions_on);
 }
 

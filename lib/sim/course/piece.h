@@ -169,6 +169,11 @@ bool qdot_piece_end_in_layers(qdot_piece *x);
 /* In x->side: surfaces of velocities in whose layers friction brings the motion to rest. Where a piece
  * starts it goes there, to a start of its own, with the events that it meets then in x->roots. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_in_layers(qdot_piece *x);
+/* Whether u of a surface is of places, and has no layer. */
+bool qdot_piece_is_of_places(const qdot_piece *x, size_t surface);
+/* In x->side: surfaces of places about which the motion goes too fast to be followed (sim/course/chatter.h) where a
+ * piece starts; not `anew`: only those that were crossed there. It slides along them, from a start on them. */
+QDOT_MUST_CHECK qdot_status qdot_piece_stop_chatter(qdot_piece *x, bool anew);
 /* An event that is met where a piece starts: it is noted, and in x->roots, if its way fits. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root);
 

@@ -248,6 +248,48 @@ go_by(qdot_piece *x)
     return go(x);
 }
 
+/* Whether a surface in doubt is one of places that the motion crosses, or one that it leaves after it has slid along it
+ * as far as its share goes: it goes on to the side to which it led, tried first. */
+static bool
+is_decided(const qdot_piece *x, size_t surface)
+{
+    const qdot_surface *s = &x->c->stage->switches.surfaces.at[surface];
+    const bool slid = x->c->stage->modes.at[x->start.from]->side[surface] == QDOT_SIDE_SLIDES;
+    const long first = x->tried.at[surface];
+    bool crossed = false;
+
+    for (size_t k = 0; k < x->crossed.n; k++)
+        crossed |= x->crossed.at[k] == surface;
+    return crossed && (first == 1 || first == -1) && (slid || qdot_piece_is_of_places(x, surface))
+           && !s->contact && s->puck == 0 && s->layer == 0;
+}
+
+/* No sides fit by the first step, which may be lost in the rounding of what decides: where what is known of the
+ * crossing decides, go on by that. *decided: it does. */
+static qdot_status
+go_by_crossing(qdot_piece *x, bool *decided)
+{
+    const size_t surfaces = x->c->stage->switches.surfaces.n;
+    bool can;
+
+    *decided = x->doubts.n > 0 && !x->start.jumped && x->tried.n >= surfaces;
+    for (size_t i = 0; i < x->doubts.n && *decided; i++)
+        *decided = is_decided(x, x->doubts.at[i].surface);
+    if (!*decided)
+        return QDOT_OK;
+    memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
+    memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
+    QDOT_TRY(enter(x, &can));
+    *decided = can;
+    if (!can)
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_cross(x));
+    if (x->c->reason[0] != '\0')
+        return QDOT_OK;
+    x->search = QDOT_SIDES_KNOWN;
+    return go(x);
+}
+
 static qdot_status
 search(qdot_piece *x)
 {
@@ -266,7 +308,11 @@ search(qdot_piece *x)
         memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
         QDOT_TRY(next_sides(x, &combinations, &over));
         if (over) {
-            say_slides(x);
+            bool decided;
+
+            QDOT_TRY(go_by_crossing(x, &decided));
+            if (!decided)
+                say_slides(x);
             return QDOT_OK;
         }
         QDOT_TRY(enter(x, &can));

@@ -10,6 +10,7 @@
 #include "ode/scale.h"
 #include "sim/model/still.h"
 #include "tape/shake.h"
+#include "sim/course/chatter.h"
 
 /* The end time of the companion: that of the run, or, if an event ended the run, its limit. */
 static double
@@ -405,6 +406,8 @@ qdot_run_end_error(qdot_run *run, double *difference)
         status = end_of(run, &run->twin, ends + 1, of + tr->n, &known);
     if (status == QDOT_OK && known)
         status = add_delays(&run->course, of + 2 * tr->n);
+    if (status == QDOT_OK && known)
+        qdot_chatter_add_state(&run->course, t, y, of + 2 * tr->n);
     for (size_t i = 0; i < tr->n && status == QDOT_OK && known; i++) {
         const double size = qdot_ode_size(run->stage.scales, i, y[i]);
         const double theirs[] = {of[i], of[tr->n + i]};

@@ -9,6 +9,7 @@
 #include "ode/scale.h"
 #include "sim/error/companion.h"
 #include "sim/error/oscillations.h"
+#include "sim/course/chatter.h"
 
 /* Radians on either side. */
 static const double least_turn = 0.5;
@@ -282,6 +283,7 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t k = qdot_trajectory_locate(tr, t, 0), piece = qdot_trajectory_piece_of(tr, k);
+    const bool chatters = d->own.n_courses == 1 && qdot_chatters_at(&d->run->course, t);
     double *own = qdot_malloc((d->m + 1) * sizeof *own);
     qdot_status status = own ? QDOT_OK : QDOT_ENOMEM;
 
@@ -293,10 +295,12 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
         status = look_around(d, piece, k, own);
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
         out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
-    if (status == QDOT_OK && d->over)
+    if (status == QDOT_OK && (d->over || chatters))
         status = qdot_reader_at(&d->own, piece, t, own);
     if (status == QDOT_OK && d->over)
         status = qdot_oscillations_add(d->over, &d->own, t, own, out);
+    if (status == QDOT_OK && chatters)
+        status = qdot_chatter_add(&d->run->course, &d->own, t, own, out);
     qdot_free(own);
     return status;
 }
