@@ -5,6 +5,7 @@
 #include "mech/dynamics/quantity.h"
 #include "mech/study/equilibrium.h"
 #include "mech/study/modes.h"
+#include "normal/solve/isolate.h"
 
 static void
 find(kit *k, qdot_equilibria *r, size_t n)
@@ -261,6 +262,50 @@ few_unknowns_are_searched_whole_body(kit *k)
 }
 TEST(few_unknowns_are_searched_whole)
 
+/* Beside a corner at -2 the equation repeats, across it not: places on one side are none of the other. */
+static void
+places_of_one_side_stay_there_body(kit *k)
+{
+    qdot_equilibria r;
+    size_t numeric = 0;
+
+    coords(k, "x");
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - cos(x) - abs(x + 2)/2")));
+    must(qdot_equilibrium_find(k->scene, NULL, NULL, &r));
+    for (size_t i = 0; i < r.n; i++) {
+        qdot_expr x = rhs(k, qdot_expr_arg(k->pool, r.at[i].equations, 0));
+        double at;
+
+        if (!r.at[i].numeric)
+            continue;
+        must(qdot_generic_evaluate(k->pool, 1, &x, NULL, &at));
+        if (fabs(sin(at) - (at > -2 ? 0.5 : -0.5)) > 1e-12)
+            fail_msg("%.17g is no rest", at);
+        numeric++;
+    }
+    assert_true(numeric > 10 && !r.complete);
+    qdot_equilibria_clear(&r);
+}
+TEST(places_of_one_side_stay_there)
+
+/* From far away the proof still ends at the zero, to the digits of a double. */
+static void
+proved_places_are_sharp_body(kit *k)
+{
+    qdot_expr x, f;
+    qdot_isolate isolate;
+    double at = -0.5, radius;
+
+    coords(k, "x");
+    x = E(k, "x");
+    f = E(k, "sin(x) - 1/2");
+    must(qdot_isolate_begin(&isolate, k->pool, 1, &f, &x));
+    assert_true(qdot_isolate_prove(&isolate, &at, &radius));
+    assert_true(fabs(at - acos(-1.0) / 6) <= 2e-16 && radius <= 1e-15);
+    qdot_isolate_end(&isolate);
+}
+TEST(proved_places_are_sharp)
+
 /* w^2 = (2 -+ sqrt 2) g/l, amplitudes 1 : +-sqrt 2. */
 static void
 modes_of_the_double_pendulum_body(kit *k)
@@ -353,6 +398,8 @@ main(void)
         cmocka_unit_test(multipliers_change_at_rest),
         cmocka_unit_test(a_fading_force_is_no_rest),
         cmocka_unit_test(few_unknowns_are_searched_whole),
+        cmocka_unit_test(places_of_one_side_stay_there),
+        cmocka_unit_test(proved_places_are_sharp),
         cmocka_unit_test(modes_of_the_double_pendulum),
         cmocka_unit_test(modes_in_numbers),
         cmocka_unit_test(free_motion_is_a_mode),

@@ -13,21 +13,23 @@ enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16 };
 
 /* --- periods --------------------------------------------------------------------------- */
 
+/* Whether a shift of u by `period` changes none of the LIST of equations. */
+static bool
+is_period(const qdot_rest *r, qdot_expr u, qdot_expr period, qdot_expr equations)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(r->pool, equations); i++) {
+        qdot_expr one = qdot_expr_arg(r->pool, equations, i);
+
+        if (!qdot_is_period(r->pool, 1, &one, u, period, &r->facts))
+            return false;
+    }
+    return true;
+}
+
 bool
 qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
 {
-    qdot_pool *pool = r->pool;
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
-              shifted = qdot_add(pool, u, turn);
-
-    shifted = qdot_subs(pool, equations, 1, &u, &shifted);
-    for (uint32_t i = 0; shifted != QDOT_NIL && i < qdot_expr_count(pool, equations); i++)
-        if (!qdot_is_zero(pool,
-                          qdot_sub(pool, qdot_expr_arg(pool, shifted, i),
-                                   qdot_expr_arg(pool, equations, i)),
-                          &r->facts))
-            return false;
-    return shifted != QDOT_NIL;
+    return is_period(r, u, qdot_mul(r->pool, qdot_expr_int(r->pool, 2), QDOT_PI), equations);
 }
 
 /* The rates c at which u occurs in circular functions, sin(c u + d), each once; false: one is not linear in u. */
@@ -111,26 +113,20 @@ static qdot_status
 find_period(qdot_rest *r, qdot_expr u, qdot_expr *period)
 {
     qdot_pool *pool = r->pool;
-    uint32_t n = qdot_expr_count(pool, r->equations);
-    qdot_expr rate[MOST_RATES], *all = qdot_malloc((n + 1) * sizeof *all);
+    qdot_expr rate[MOST_RATES];
     size_t rates;
 
     *period = QDOT_FALSE;
-    if (all == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        all[i] = qdot_expr_arg(pool, r->equations, i);
     if (circular_rates(r, u, rate, &rates)) {
         qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
                   least = common_period(r, rate, rates);
 
-        if (qdot_is_period(pool, n, all, u, turn, &r->facts))
+        if (is_period(r, u, turn, r->equations))
             *period = turn;
-        else if (least != QDOT_NIL && qdot_is_period(pool, n, all, u, least, &r->facts) &&
+        else if (least != QDOT_NIL && is_period(r, u, least, r->equations) &&
                  moves_alike(r, u, least))
             *period = least;
     }
-    qdot_free(all);
     return qdot_pool_check(pool);
 }
 

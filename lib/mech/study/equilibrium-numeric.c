@@ -138,28 +138,16 @@ square(const problem *p)
     return sum;
 }
 
-/* Which coordinates the equations repeat in after a full turn: at two places, to rounding. */
+/* In which coordinates the equations are proved to repeat after a full turn. */
 static qdot_status
-find_angles(problem *p)
+find_angles(problem *p, const qdot_rest *rest)
 {
-    for (size_t k = 0; k < p->coordinates; k++) {
-        p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]);
-        for (int at = 1; at <= 2 && p->angle[k]; at++) {
-            double most, off = 0, *before = p->try;
+    qdot_expr equations = qdot_list(p->pool, (uint32_t)p->n, p->e);
 
-            for (size_t i = 0; i < p->n; i++)
-                p->x[i] = qdot_generic_value(p->pool, p->u[i], (uint64_t)at);
-            QDOT_TRY(evaluate(p, p->x, false, &most));
-            for (size_t i = 0; i < p->n; i++)
-                before[i] = p->value[i];
-            p->x[k] += 2 * M_PI;
-            QDOT_TRY(evaluate(p, p->x, false, &most));
-            for (size_t i = 0; i < p->n; i++)
-                off = fmax(off, fabs(p->value[i] - before[i]));
-            p->angle[k] = off < 1e-10 * fmax(1, most); /* no value: no angle */
-        }
-    }
-    return QDOT_OK;
+    for (size_t k = 0; k < p->coordinates; k++)
+        p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]) &&
+                      qdot_rest_is_angle(rest, p->u[k], equations);
+    return qdot_pool_check(p->pool);
 }
 
 /* --- steps -------------------------------------------------------------------------------- */
@@ -372,7 +360,8 @@ search(problem *p, qdot_isolate *isolate, qdot_places *out)
             continue;
         for (size_t i = 0; i < n; i++)
             place[i] = p->x[i];
-        if (how == FLAT || !qdot_isolate_prove(isolate, place, radius)) {
+        if (how == FLAT || !qdot_isolate_prove(isolate, place, radius) ||
+            !qdot_rest_is_sharp(n, place, radius)) {
             out->unproved++;
             continue;
         }
@@ -406,7 +395,7 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 
     out->reach = ranges[RANGES - 1];
     if (status == QDOT_OK)
-        status = find_angles(&p);
+        status = find_angles(&p, rest);
     if (status == QDOT_OK)
         status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
     if (status == QDOT_OK) {

@@ -37,10 +37,8 @@ range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range 
     return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
 }
 
-/* Whether a zero is known to the digits in which places are listed: one that is merely enclosed is left to the
- * search from starts. */
-static bool
-is_sharp(size_t n, const double *at, const double *radius)
+bool
+qdot_rest_is_sharp(size_t n, const double *at, const double *radius)
 {
     for (size_t k = 0; k < n; k++)
         if (!(radius[k] <= 1e-12 * fmax(1, fabs(at[k]))))
@@ -71,7 +69,7 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     QDOT_TRY(status);
     out->complete = zeros.complete && zeros.count <= QDOT_PLACES_MOST;
     for (size_t i = 0; i < zeros.count && out->n < QDOT_PLACES_MOST; i++) {
-        if (!is_sharp(n, zeros.at + i * n, zeros.radius + i * n)) {
+        if (!qdot_rest_is_sharp(n, zeros.at + i * n, zeros.radius + i * n)) {
             out->complete = false;
             continue;
         }

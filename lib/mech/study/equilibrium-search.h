@@ -101,6 +101,9 @@ QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r
 /* Those that exclusion finds, added to *out; out->complete. (equilibrium-proved.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r,
                                               qdot_places *out);
+/* Whether a proved zero at [n] is known to the digits in which places are listed, not merely enclosed.
+ * (equilibrium-proved.c) */
+bool qdot_rest_is_sharp(size_t n, const double *at, const double *radius);
 void qdot_places_clear(qdot_places *places);
 
 #endif

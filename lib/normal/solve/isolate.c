@@ -1,13 +1,14 @@
 /* isolate.c -- Krawczyk's test in balls. */
 #include "normal/solve/isolate.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "expr/calculus.h"
 
-enum { BITS = 128, SIZES = 5 };
+enum { BITS = 128, SIZES = 5, STEPS = 10 };
 
 static bool
 value_of(void *user, qdot_expr atom, arb_t value, slong prec)
@@ -164,6 +165,29 @@ newton_step(qdot_isolate *s, const double *x0)
     return true;
 }
 
+/* Newton's steps from x0 until they end at rounding; s->y and C at the last x0. Where they hardly shorten, x0 is near a
+ * multiple zero or none. */
+static bool
+newton_to_end(qdot_isolate *s, double *x0)
+{
+    double before = INFINITY;
+
+    for (int k = 0; k <= STEPS; k++) {
+        double length = 0;
+
+        if (!newton_step(s, x0))
+            return false;
+        for (size_t i = 0; i < s->n; i++)
+            length = fmax(length, fabs(mid(s->y + i)) / fmax(fabs(x0[i]), 1e-3));
+        if (k == STEPS || (k >= 3 && !(length > 2 * DBL_EPSILON && length < before / 4)))
+            break;
+        for (size_t i = 0; i < s->n; i++)
+            x0[i] -= mid(s->y + i);
+        before = length;
+    }
+    return true;
+}
+
 /* Whether K lies inside the box x0 +- radius; s->z is K - x0. */
 static bool
 is_inside(qdot_isolate *s, const double *x0, const double *radius)
@@ -205,13 +229,7 @@ qdot_isolate_prove(qdot_isolate *s, double *x0, double *radius)
     size_t n = s->n;
     double grow = 1;
 
-    for (int k = 0; k < 3; k++) { /* from where Newton's steps in double ended */
-        if (!newton_step(s, x0))
-            return false;
-        for (size_t i = 0; i < n; i++)
-            x0[i] -= mid(s->y + i);
-    }
-    if (!newton_step(s, x0))
+    if (!newton_to_end(s, x0))
         return false;
     for (int size = 0; size < SIZES; size++, grow *= 1e3) {
         double *r = radius;
