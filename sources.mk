@@ -252,6 +252,7 @@ library_sources = \
 	lib/mech/study/collision-pairs.c \
 	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
+	lib/mech/study/equilibrium-bands.c \
 	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-corners.c \
 	lib/mech/study/equilibrium-curve.c \
@@ -259,6 +260,7 @@ library_sources = \
 	lib/mech/study/equilibrium-members.c \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-proved.c \
+	lib/mech/study/equilibrium-ranges.c \
 	lib/mech/study/equilibrium-twice.c \
 	lib/mech/study/equilibrium.c \
 	lib/mech/study/geometry.c \
@@ -272,6 +274,7 @@ library_sources = \
 	lib/mech/study/reactions.c \
 	lib/mech/study/rods.c \
 	lib/mech/study/stability-exact.c \
+	lib/mech/study/stability-friction.c \
 	lib/mech/study/stability-numbers.c \
 	lib/mech/study/stability-roots.c \
 	lib/mech/study/stability-signs.c \
@@ -861,6 +864,7 @@ library_headers = \
 	lib/mech/study/chart.h \
 	lib/mech/study/collision.h \
 	lib/mech/study/distance-ends.h \
+	lib/mech/study/equilibrium-bands.h \
 	lib/mech/study/equilibrium-curve.h \
 	lib/mech/study/equilibrium-search.h \
 	lib/mech/study/equilibrium.h \
@@ -1299,6 +1303,7 @@ unit_tests = \
 	tests/mech/test_chart \
 	tests/mech/test_collision \
 	tests/mech/test_equilibrium \
+	tests/mech/test_equilibrium_bands \
 	tests/mech/test_geometry \
 	tests/mech/test_hamilton \
 	tests/mech/test_integrated \
@@ -1616,6 +1621,7 @@ script_tests = \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/resting.lag \
+	tests/script/rests-under-friction.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
@@ -2744,6 +2750,7 @@ test_files = \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/resting.out \
+	tests/script/rests-under-friction.out \
 	tests/script/rests.out \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \

@@ -204,9 +204,12 @@ def truth_everywhere(tree, x, at, lo, hi):
     return True
 
 
-def holds(e, at):
-    """Does an entry that stands for a set hold this place?"""
-    return all(value(r, at) for r in e.relations) and (e.exists is None or value(e.exists, at) is True)
+def holds(e, at, turns=()):
+    """Does an entry that stands for a set hold this place, or one that is whole turns of these unknowns away?"""
+    shifts = itertools.product((0, 1, -1, 2, -2), repeat=len(turns))
+    places = (dict(at, **{n: at[n] + 2 * k * mpmath.pi for n, k in zip(turns, by)}) for by in shifts)
+    return any(all(value(r, p) for r in e.relations) and (e.exists is None or value(e.exists, p) is True)
+               for p in places)
 
 
 def entry_states(e, scene, tree, x, at, lo, hi, known, reach):
@@ -535,7 +538,8 @@ def on_entry(e, scene, p, at, known, regular=True):
     for ints in integers(e, known, 40 if len(e.free(known)) == 1 else 8):
         now = dict(here, **ints)
         off = [(here[n] - value(f, now), abs(here[n]), angle[n]) for n, f in e.equations]
-        if all(abs(wrap(d) if turns else d) <= near * (1 + size) for d, size, turns in off) and holds(e, now):
+        if all(abs(wrap(d) if turns else d) <= near * (1 + size) for d, size, turns in off) and \
+                holds(e, now, [n for n in angle if angle[n]]):
             return True
     return False
 

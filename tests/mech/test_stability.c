@@ -39,7 +39,7 @@ judged_body(kit *k, const row *r)
 JUDGED(a_least_energy, {"x", "x'^2/2 - x^2/2", NULL, NULL, QDOT_STABLE})
 JUDGED(a_drive_that_grows, {"x", "x'^2/2 - x^2/2", "x'^3", "x", QDOT_STABLE_TO_FIRST_ORDER})
 JUDGED(a_drag_of_third_order, {"x", "x'^2/2 - x^2/2", "-x'^3", "x", QDOT_STABLE})
-JUDGED(dry_friction_is_left_open, {"x", "x'^2/2 - x^2/2", "-sign(x')", "x", QDOT_STABILITY_UNDECIDED})
+JUDGED(dry_friction_holds, {"x", "x'^2/2 - x^2/2", "-sign(x')", "x", QDOT_STABLE})
 JUDGED(linear_damping, {"x", "x'^2/2 - x^2/2", "-x'*(1 - x^2)", "x", QDOT_STABLE})
 JUDGED(van_der_pol, {"x", "x'^2/2 - x^2/2", "x'*(1 - x^2)", "x", QDOT_UNSTABLE})
 JUDGED(a_family_of_saddles, {"x y", "(x'^2 + y'^2)/2 - x*y^2/2", NULL, NULL, QDOT_STABILITY_UNDECIDED})
@@ -64,7 +64,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_least_energy),       cmocka_unit_test(a_drive_that_grows),
-        cmocka_unit_test(a_drag_of_third_order), cmocka_unit_test(dry_friction_is_left_open),
+        cmocka_unit_test(a_drag_of_third_order), cmocka_unit_test(dry_friction_holds),
         cmocka_unit_test(linear_damping),       cmocka_unit_test(van_der_pol),
         cmocka_unit_test(a_family_of_saddles),  cmocka_unit_test(a_trough),
         cmocka_unit_test(a_ridge),              cmocka_unit_test(a_kink_at_the_bottom),

@@ -47,25 +47,89 @@ greater(qdot_style style, bool or_equal)
     return style == QDOT_LATEX ? " \\ge " : style == QDOT_UNICODE ? " ≥ " : " >= ";
 }
 
-/* `a > b and c > d`; a relation reads with > as people say it, and `g < 0`. */
+static const char *
+less(qdot_style style, bool or_equal)
+{
+    if (style == QDOT_MATHML)
+        return or_equal ? "<mo>&#8804;</mo>" : "<mo>&lt;</mo>";
+    if (!or_equal)
+        return " < ";
+    return style == QDOT_LATEX ? " \\le " : style == QDOT_UNICODE ? " ≤ " : " <= ";
+}
+
+static bool
+is_bound(const qdot_pool *pool, qdot_expr relation)
+{
+    return qdot_expr_kind(pool, relation) == QDOT_REL && qdot_expr_node(pool, relation)->op != QDOT_EQ;
+}
+
+static bool
+is_coordinate(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_class(pool, e, QDOT_COORD);
+}
+
+/* lo < u < hi of lo < u and u < hi (other: nil where there is one end alone), u a coordinate; false: it is none. */
+static bool
+print_interval(qdot_session *session, qdot_expr one, qdot_expr other, bool *both, qdot_text *out,
+               qdot_status *status)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr left, right;
+
+    *both = false;
+    if (!is_bound(pool, one))
+        return false;
+    left = qdot_expr_arg(pool, one, 0);
+    right = qdot_expr_arg(pool, one, 1);
+    if (is_coordinate(pool, right) == is_coordinate(pool, left))
+        return false;
+    *both = is_coordinate(pool, right) && other != QDOT_NIL && is_bound(pool, other) &&
+            qdot_expr_arg(pool, other, 0) == right &&
+            !is_coordinate(pool, qdot_expr_arg(pool, other, 1));
+    if (!*both && is_coordinate(pool, right)) /* u > lo */
+        return false;
+    qdot_formula_bracket(session, true, out);
+    *status = qdot_print(pool, left, session->style, out);
+    if (*both && *status == QDOT_OK) {
+        qdot_text_add(out, less(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
+        *status = qdot_print(pool, right, session->style, out);
+        one = other;
+        right = qdot_expr_arg(pool, one, 1);
+    }
+    qdot_text_add(out, less(session->style, qdot_expr_node(pool, one)->op == QDOT_LE));
+    if (*status == QDOT_OK)
+        *status = qdot_print(pool, right, session->style, out);
+    qdot_formula_bracket(session, false, out);
+    return true;
+}
+
+/* `a > b and c > d`; a relation reads with > as people say it, `g < 0`, and a range of a coordinate as one. */
 static qdot_status
 print_conditions(qdot_session *session, qdot_expr list, qdot_text *out)
 {
     qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, list);
 
-    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
-        qdot_expr one = qdot_expr_arg(pool, list, i);
-        bool first = i == 0;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, list, i),
+                  next = i + 1 < n ? qdot_expr_arg(pool, list, i + 1) : QDOT_NIL;
+        qdot_status status = QDOT_OK;
+        bool both;
 
-        if (i + 1 < qdot_expr_count(pool, list)) {
-            qdot_expr both = as_magnitude(pool, one, qdot_expr_arg(pool, list, i + 1));
-
-            i += both != QDOT_NIL;
-            one = both != QDOT_NIL ? both : one;
+        qdot_text_add(out, i == 0 ? "" : " and ");
+        if (print_interval(session, one, next, &both, out, &status)) {
+            QDOT_TRY(status);
+            i += both;
+            continue;
         }
-        qdot_text_add(out, first ? "" : " and ");
-        if (qdot_expr_kind(pool, one) != QDOT_REL ||
-            qdot_expr_node(pool, one)->op == QDOT_EQ ||
+        if (next != QDOT_NIL) {
+            qdot_expr magnitude = as_magnitude(pool, one, next);
+
+            i += magnitude != QDOT_NIL;
+            one = magnitude != QDOT_NIL ? magnitude : one;
+        }
+        if (!is_bound(pool, one) ||
             qdot_expr_rational(pool, qdot_expr_arg(pool, one, 1)) != NULL) {
             QDOT_TRY(qdot_formula(session, one, out));
             continue;
@@ -89,7 +153,7 @@ print_stability(qdot_session *session, const qdot_equilibrium *e, qdot_text *out
         [QDOT_STABILITY_UNDECIDED] = "stability undecided",
     };
 
-    if (e->numeric)
+    if (e->numeric || e->numeric_range)
         qdot_text_add(out, "numeric, ");
     if (e->exists != QDOT_NIL) {
         qdot_text_add(out, "exists when ");
@@ -134,7 +198,7 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
 
     snprintf(name, sizeof name, "equilibria[%zu]", i + 1);
     if (session->json)
-        QDOT_TRY(qdot_answer_expr(session, name, e->equations));
+        QDOT_TRY(qdot_answer_expr(session, name, qdot_equilibria_value(session->pool, e)));
     sheet = qdot_sheet_begin(session);
     if (!session->json)
         qdot_text_format(&text, "%s: ", name);
@@ -142,7 +206,11 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
         status = print_equation(session, e, k, &text);
         qdot_text_add(&text, ", ");
     }
-    if (n == 0 && !session->json)
+    if (e->range != QDOT_NIL && !session->json && status == QDOT_OK) {
+        status = print_conditions(session, e->range, &text);
+        qdot_text_add(&text, ", ");
+    }
+    if (n == 0 && e->range == QDOT_NIL && !session->json)
         qdot_text_add(&text, "everywhere, "); /* or wherever it exists */
     if (status == QDOT_OK)
         status = print_stability(session, e, &text);

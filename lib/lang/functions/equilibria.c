@@ -30,6 +30,42 @@ qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
     return qdot_equilibrium_find(session->scene, bind, session, out);
 }
 
+qdot_expr
+qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e)
+{
+    uint32_t n = qdot_expr_count(pool, e->equations),
+             m = e->range == QDOT_NIL ? 0 : qdot_expr_count(pool, e->range);
+    qdot_expr *all, list;
+
+    if (m == 0)
+        return e->equations;
+    all = qdot_malloc((n + m) * sizeof *all);
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n + m; i++)
+        all[i] = i < n ? qdot_expr_arg(pool, e->equations, i) : qdot_expr_arg(pool, e->range, i - n);
+    list = qdot_list(pool, n + m, all);
+    qdot_free(all);
+    return list;
+}
+
+/* Those of a LIST that are equations: without the range of a band. */
+static qdot_expr
+equations_of(qdot_pool *pool, qdot_expr list)
+{
+    uint32_t n = qdot_expr_count(pool, list), kept = 0;
+    qdot_expr *all = qdot_malloc((n + 1) * sizeof *all);
+
+    if (all == NULL)
+        return qdot_pool_fail(pool);
+    for (uint32_t i = 0; i < n; i++)
+        if (qdot_expr_node(pool, qdot_expr_arg(pool, list, i))->op == QDOT_EQ)
+            all[kept++] = qdot_expr_arg(pool, list, i);
+    list = qdot_list(pool, kept, all);
+    qdot_free(all);
+    return list;
+}
+
 qdot_status
 qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_expr *value)
 {
@@ -38,7 +74,7 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
     if (members == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < all->n; i++)
-        members[i] = all->at[i].equations;
+        members[i] = qdot_equilibria_value(session->pool, &all->at[i]);
     *value = qdot_list(session->pool, (uint32_t)all->n, members);
     qdot_free(members);
     return qdot_pool_check(session->pool);
@@ -91,7 +127,7 @@ qdot_equilibria_stability(qdot_session *session, qdot_expr equations, qdot_expr 
     size_t at = 0;
     qdot_status status = qdot_equilibria_find(session, &all);
 
-    while (status == QDOT_OK && at < all.n && all.at[at].equations != equations)
+    while (status == QDOT_OK && at < all.n && qdot_equilibria_value(session->pool, &all.at[at]) != equations)
         at++;
     if (status == QDOT_OK && at == all.n) {
         (void)qdot_fail(QDOT_EINVAL, "that is none of the scene's equilibria");
@@ -150,6 +186,7 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
         qdot_equilibria_clear(&all);
         QDOT_TRY(status);
     }
+    equations = equations_of(session->pool, equations);
     equations = qdot_subs(session->pool, equations, 1, &n, &zero); /* of a family: one member */
     QDOT_TRY(qdot_modes_about(session->scene, equations, is_numeric(session, equations),
                               bind, session, modes));

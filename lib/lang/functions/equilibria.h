@@ -9,11 +9,13 @@
 /* As qdot_equilibrium_find, with the values of `set`. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_find(qdot_session *session,
                                                  qdot_equilibria *out);
-/* A LIST of their LISTs of equations. */
+/* A LIST of their LISTs of equations; a band's has the relations of its range too. */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
                                                  const qdot_equilibria *all,
                                                  qdot_expr *value);
-/* The verdict on one, a LIST of equations, as a value: a word, or if(CONDITION, word, undecided). */
+/* The LIST of one of them. */
+qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
+/* The verdict on one, such a LIST, as a value: a word, or if(CONDITION, word, undecided). */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
                                                       qdot_expr equations,
                                                       qdot_expr *value);

@@ -116,6 +116,7 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
                 for (size_t k = 0; k < n; k++)
                     G[k] = with[k];
                 r->friction = qdot_rest_appended(pool, r->friction, 1, room);
+                r->slips = qdot_rest_appended(pool, r->slips, 1, &u);
                 r->sliding = qdot_conditions_and(pool, r->sliding, when);
             }
             qdot_free(with);

@@ -23,6 +23,7 @@ typedef struct {
     qdot_expr equations; /* all of them, a LIST */
     qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
     qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
+    qdot_expr slips;     /* a LIST: the u of each of these signs */
     qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
     qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
     size_t coordinates;           /* of them */
@@ -81,6 +82,10 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
 /* Remove places that belong to a listed family, or differ by full turns from one listed before.
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
+
+/* List each region of rests in one coordinate as intervals, where they can be found.
+ * (equilibrium-ranges.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_ranges(qdot_rest *r);
 
 /* --- numbers (equilibrium-numeric.c) ---- */
 enum { QDOT_PLACES_MOST = 100 };

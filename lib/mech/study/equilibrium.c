@@ -254,6 +254,11 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
     qdot_judge *judge;
     qdot_status status = qdot_judge_new(r->s, r->equations, bind, user, &judge);
 
+    if (status == QDOT_OK) {
+        judge->forces = r->forces;
+        judge->friction = r->friction;
+        judge->slips = r->slips;
+    }
     for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
         status = judge_member(r, judge, &r->found.at[i]);
         if (first && r->found.at[i].stability != QDOT_UNSTABLE)
@@ -299,7 +304,8 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
         QDOT_TRY(keep_lasting(r));
     else if (!r->complete)
         QDOT_TRY(search(r, bind, user, out));
-    return qdot_rest_leave_out_twice(r, r->equations);
+    QDOT_TRY(qdot_rest_leave_out_twice(r, r->equations));
+    return qdot_rest_ranges(r);
 }
 
 static qdot_status

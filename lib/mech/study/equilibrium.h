@@ -24,6 +24,8 @@
  *     unstable   one of the roots has a positive real part: H falls in some direction without gyroscopic
  *                terms, or a condition of Hurwitz is broken; or one degree of freedom whose force points
  *                away on one side and whose energy does not grow
+ *     by friction    see mech/study/stability-friction.c: places in a band are stable, or stable where the
+ *                    coordinates without friction are
  *     to first order   the linear motion stays near, of the whole nothing is known
  *     undecided  else, always with velocity constraints
  *

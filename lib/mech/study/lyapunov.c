@@ -25,12 +25,36 @@ without_velocities(qdot_scene *s, qdot_expr e)
     return e;
 }
 
+/* e with |u|/u for each sign u: then u sign u is |u|. */
+static qdot_status
+with_magnitudes(qdot_scene *s, qdot_expr *e)
+{
+    qdot_walk w;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_walk_begin(s->pool, *e, &w));
+    for (size_t i = w.n; i-- > 0 && status == QDOT_OK;) {
+        qdot_expr u, to;
+
+        if (qdot_expr_kind(s->pool, w.at[i]) != QDOT_FUN ||
+            qdot_expr_node(s->pool, w.at[i])->op != QDOT_SIGN)
+            continue;
+        u = qdot_expr_arg(s->pool, w.at[i], 0);
+        to = qdot_div(s->pool, qdot_fun1(s->pool, QDOT_ABS, u), u);
+        *e = qdot_subs(s->pool, *e, 1, &w.at[i], &to);
+        status = qdot_pool_check(s->pool);
+    }
+    qdot_walk_end(&w);
+    return status;
+}
+
 /* Whether e >= 0 is proved wherever it has a value. */
 static qdot_status
 never_negative(qdot_scene *s, qdot_expr e, const qdot_facts *facts, bool *yes)
 {
     qdot_decision d;
 
+    QDOT_TRY(with_magnitudes(s, &e));
     e = qdot_simplify(s->pool, e, facts);
     QDOT_TRY(qdot_pool_check(s->pool));
     *yes = (qdot_expr_node(s->pool, e)->sign & QDOT_GE0) != 0;

@@ -161,21 +161,15 @@ kink_at(const qdot_judgement *j, qdot_expr equations, bool *yes)
 
 /* --- families -------------------------------------------------------------------------- */
 
-/* Whether what the verdict rests on holds all along a family: else it is left open. */
-static qdot_status
-confirm_family(qdot_judgement *j, qdot_equilibrium *e)
+qdot_status
+qdot_judgement_confirm(qdot_judgement *j, bool *yes)
 {
-    bool yes = true;
-
-    if (e->stability == QDOT_STABILITY_UNDECIDED)
-        return QDOT_OK;
-    for (size_t i = 0; i < j->claims.n && yes; i++)
-        QDOT_TRY(qdot_judgement_is_sure(j, j->claims.at[i], true, &yes));
-    for (size_t r = 0; r < j->m.rank && yes; r++)
+    *yes = true;
+    for (size_t i = 0; i < j->claims.n && *yes; i++)
+        QDOT_TRY(qdot_judgement_is_sure(j, j->claims.at[i], true, yes));
+    for (size_t r = 0; r < j->m.rank && *yes; r++)
         if (qdot_mech_holds(j->s, j->m.pivot[r]) & QDOT_HAS_COORD)
-            QDOT_TRY(qdot_judgement_is_sure(j, j->m.pivot[r], false, &yes));
-    if (!yes)
-        e->stability = QDOT_STABILITY_UNDECIDED;
+            QDOT_TRY(qdot_judgement_is_sure(j, j->m.pivot[r], false, yes));
     return QDOT_OK;
 }
 
@@ -244,7 +238,7 @@ static qdot_status
 exact_place(qdot_judgement *j, qdot_equilibrium *e)
 {
     qdot_scene *s = j->s;
-    bool kink;
+    bool kink, sure;
     size_t known;
 
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(s->pool, e->exists); i++)
@@ -257,7 +251,11 @@ exact_place(qdot_judgement *j, qdot_equilibrium *e)
     if (e->stability == QDOT_STABILITY_UNDECIDED && s->coordinates.n == 1 &&
         s->constraints.n == 0 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(by_sides(j, e));
-    QDOT_TRY(confirm_family(j, e));
+    if (e->stability != QDOT_STABILITY_UNDECIDED) {
+        QDOT_TRY(qdot_judgement_confirm(j, &sure));
+        if (!sure)
+            e->stability = QDOT_STABILITY_UNDECIDED;
+    }
     QDOT_TRY(qdot_judgement_drop_implied(j, known));
     if ((e->stability == QDOT_STABLE || e->stability == QDOT_STABLE_TO_FIRST_ORDER) &&
         j->when.n > 0)

@@ -63,6 +63,9 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_is_sure(qdot_judgement *j, qdot_expr 
 /* Leave out conditions that follow of others. known [n]: scalars that are positive without any. */
 QDOT_MUST_CHECK qdot_status qdot_judgement_drop_implied(qdot_judgement *j, size_t n);
 
+/* Whether what was claimed to be positive is so all along a family of places (stability-exact.c). */
+QDOT_MUST_CHECK qdot_status qdot_judgement_confirm(qdot_judgement *j, bool *yes);
+
 /* --- the linear motion (stability-roots.c) ----
  * By the roots s of det(M s^2 + Gamma s + H), block by block of coordinates that are coupled:
  * unstable, asymptotically stable, or bounded: stable where nothing is neglected, else to first order.

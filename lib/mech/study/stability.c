@@ -46,6 +46,13 @@ qdot_judge_place(qdot_judge *judge, qdot_equilibrium *e)
     e->stable_when = QDOT_NIL;
     if (!judge->holonomic || (judge->timed && judge->law == QDOT_ENERGY_UNKNOWN))
         return QDOT_OK;
+    if (judge->friction != QDOT_NIL && !e->numeric) {
+        bool judged;
+
+        QDOT_TRY(qdot_stability_judge_held(judge, e, &judged));
+        if (judged)
+            return QDOT_OK;
+    }
     if (e->numeric) {
         if (judge->numbers == NULL)
             QDOT_TRY(qdot_stability_numbers_new(judge, &judge->numbers));

@@ -16,6 +16,8 @@ typedef struct {
     bool timed;         /* the equations depend on t */
     bool velocity_kink; /* they contain |q'|, sign(q') ...: they have no linear part at rest */
     qdot_expr at_rest;  /* the equations at rest, a LIST */
+    /* Of dry friction, as qdot_rest has them; nil: none. */
+    qdot_expr forces, friction, slips;
     qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
     qdot_expr parameter; /* one that bind leaves free, with a value at each place; nil: none */
 } qdot_judge;
@@ -43,6 +45,10 @@ bool qdot_stability_is_told(const qdot_judge *judge, size_t i);
 /* A place known exactly, holonomic constraints (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_stability_judge_exact(qdot_judge *judge,
                                                        qdot_equilibrium *e);
+
+/* A rest that dry friction holds. *judged is false where it says nothing (stability-friction.c). */
+QDOT_MUST_CHECK qdot_status qdot_stability_judge_held(qdot_judge *judge, qdot_equilibrium *e,
+                                                      bool *judged);
 
 /* --- places in numbers (stability-numbers.c) ----
  * The slopes of the equations, with the values of bind; freed by the caller. */

@@ -1,0 +1,398 @@
+/* stability-friction.c -- rests that dry friction holds.
+ *
+ * Let friction -f_i sign(q_i'), f_i > 0, act on coordinates i in S, each strictly below its limit: |F_i| < f_i, F
+ * the other forces. Beside such a place, with V the potential and d > 0,
+ *
+ *     L = T + V - V_0 - sum_S V_i (q_i - q_i0) + d sum_S |q_i - q_i0|,   dL/dt <= 0,
+ *
+ * for the friction takes at least (|F_i| + d) |q_i'| of power. L has a strict minimum there if V has one in the other
+ * coordinates while those of S are fixed: the rest is stable. If S is all of them no energy law is needed: the
+ * power of all forces together is at most -d sum |q_i'|. If V falls in the other coordinates and their
+ * motion with S fixed, which friction keeps so, is not gyroscopic, the rest is unstable.
+ *
+ * At an end of an interval of one coordinate |F| = f. Where the force beyond the end points back inside, the
+ * energy T + V + f q (towards the inside) takes the place of L; where it points away the end is left.
+ *
+ * Source  Lyapunov's and Lagrange's theorems for the L above.
+ * Tests   tests/mech/test_equilibrium_bands.c
+ */
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/study/stability-parts.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
+
+typedef struct {
+    qdot_judgement j;
+    qdot_equilibrium *e;
+    qdot_expr inside;     /* a LIST: the conditions of e and its range, strictly */
+    qdot_expr *limit;     /* [coordinates] f_i; nil: not held */
+    qdot_expr *force;     /* [coordinates] F_i, without friction */
+} held;
+
+/* --- what holds ---------------------------------------------------------------------------- */
+
+/* The coordinate of whose velocity alone u is a multiple; s->coordinates.n: there is none. */
+static size_t
+slipping(qdot_scene *s, qdot_expr u)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr v = qdot_mech_jet(s, i, 1), c = qdot_diff(s->pool, u, v);
+
+        if (c == QDOT_NIL || c == QDOT_ZERO)
+            continue;
+        if (qdot_mech_holds(s, c) == 0 && qdot_sub(s->pool, u, qdot_mul(s->pool, c, v)) == QDOT_ZERO)
+            return i;
+        break;
+    }
+    return s->coordinates.n;
+}
+
+/* Whether the equation of motion of coordinate i jumps with velocities by the friction on i alone. */
+static qdot_status
+jumps_are_own(held *h, size_t i, bool *yes)
+{
+    qdot_scene *s = h->j.s;
+    qdot_expr slips = h->j.judge->slips;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(s->pool, qdot_mech_equation(s, s->coordinates.at[i]), &w));
+    for (size_t k = 0; k < w.n && *yes; k++) {
+        uint32_t op = qdot_expr_node(s->pool, w.at[k])->op;
+
+        if (qdot_expr_kind(s->pool, w.at[k]) != QDOT_FUN || !qdot_stability_has_kink(op) ||
+            op == QDOT_ABS || (qdot_mech_holds(s, w.at[k]) & QDOT_HAS_VELOCITY) == 0)
+            continue;
+        *yes = op == QDOT_SIGN && h->limit[i] != QDOT_NIL &&
+               qdot_expr_place(qdot_expr_count(s->pool, slips), qdot_expr_args(s->pool, slips),
+                               qdot_expr_arg(s->pool, w.at[k], 0)) <
+                   qdot_expr_count(s->pool, slips) &&
+               slipping(s, qdot_expr_arg(s->pool, w.at[k], 0)) == i;
+    }
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+/* Whether the forces at rest have slopes everywhere. */
+static qdot_status
+is_smooth(held *h, bool *yes)
+{
+    qdot_pool *pool = h->j.s->pool;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(pool, h->j.judge->forces, &w));
+    for (size_t k = 0; k < w.n && *yes; k++)
+        *yes = qdot_expr_kind(pool, w.at[k]) != QDOT_FUN ||
+               !qdot_stability_has_kink(qdot_expr_node(pool, w.at[k])->op);
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+/* F and f of every coordinate at the place; *yes where friction has the form above. */
+static qdot_status
+split_forces(held *h, bool *yes)
+{
+    qdot_judge *judge = h->j.judge;
+    qdot_scene *s = judge->s;
+    qdot_pool *pool = s->pool;
+    uint32_t sides = qdot_expr_count(pool, judge->friction);
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        h->force[i] = qdot_expr_arg(pool, judge->forces, (uint32_t)i);
+    for (uint32_t k = 0; k < sides && *yes; k++) {
+        qdot_expr side = qdot_expr_arg(pool, judge->friction, k), none = QDOT_ZERO;
+        size_t i = slipping(s, qdot_expr_arg(pool, judge->slips, k));
+
+        *yes = i < s->coordinates.n && h->limit[i] == QDOT_NIL;
+        for (size_t n = 0; n < s->coordinates.n && *yes; n++) {
+            qdot_expr slope = qdot_diff(pool, h->force[n], side);
+
+            *yes = slope != QDOT_NIL &&
+                   (n == i ? !qdot_expr_contains(pool, slope, side) : slope == QDOT_ZERO);
+            if (n != i)
+                continue;
+            /* of sign(c q') with c < 0 the limit is the slope itself */
+            h->limit[i] = qdot_neg(pool, slope);
+            if (qdot_positive(pool, h->limit[i], &h->j.facts, h->j.known.n, h->j.known.at) !=
+                QDOT_TRUE)
+                h->limit[i] = slope;
+            *yes = *yes && qdot_positive(pool, h->limit[i], &h->j.facts, h->j.known.n,
+                                         h->j.known.at) == QDOT_TRUE;
+            h->force[i] = qdot_subs(pool, h->force[i], 1, &side, &none);
+        }
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    for (size_t i = 0; i < s->coordinates.n && *yes; i++)
+        QDOT_TRY(jumps_are_own(h, i, yes));
+    return *yes ? is_smooth(h, yes) : QDOT_OK;
+}
+
+/* Whether friction is below its limit: inside the region by its conditions, elsewhere asked. */
+static qdot_status
+is_below(held *h, bool *yes)
+{
+    qdot_scene *s = h->j.s;
+    qdot_pool *pool = s->pool;
+
+    for (size_t i = 0; i < s->coordinates.n && *yes; i++) {
+        qdot_expr F = qdot_rest_value(s, h->e->equations, h->force[i]),
+                  f = h->limit[i] == QDOT_NIL ? QDOT_NIL
+                                              : qdot_rest_value(s, h->e->equations, h->limit[i]);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        if (f == QDOT_NIL || (qdot_mech_holds(s, qdot_sub(pool, f, F)) & QDOT_HAS_COORD) != 0)
+            continue;
+        for (int sign = -1; sign <= 1 && *yes; sign += 2) {
+            qdot_expr gap = sign < 0 ? qdot_sub(pool, f, F) : qdot_add(pool, f, F), answer;
+
+            QDOT_TRY(qdot_judgement_ask(&h->j, qdot_simplify(pool, gap, &h->j.facts), &answer));
+            *yes = answer != QDOT_FALSE;
+        }
+    }
+    return QDOT_OK;
+}
+
+/* --- the other coordinates --------------------------------------------------------------- */
+
+/* M, Gamma, H over the coordinates that nothing holds (all of them for M where `whole`). */
+static qdot_status
+matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
+{
+    qdot_scene *s = h->j.s;
+    qdot_pool *pool = s->pool;
+    size_t a = 0;
+
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        qdot_expr one = qdot_mech_equation(s, s->coordinates.at[i]), gap;
+        size_t b = 0;
+
+        if (one == QDOT_NIL)
+            return qdot_pool_check(pool);
+        gap = qdot_sub(pool, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
+        for (size_t k = 0; k < s->coordinates.n && h->limit[i] == QDOT_NIL; k++) {
+            if (h->limit[k] != QDOT_NIL)
+                continue;
+            M[a * n + b] = qdot_rest_value(s, h->e->equations, qdot_mass_of_lagrangian(s, i, k));
+            H[a * n + b] = qdot_rest_value(
+                s, h->e->equations,
+                qdot_neg(pool, qdot_diff(pool, h->force[i], s->coordinates.at[k])));
+            Gamma[a * n + b] = qdot_rest_value(s, h->e->equations,
+                                               qdot_diff(pool, gap, qdot_mech_jet(s, k, 1)));
+            M[a * n + b] = qdot_simplify(pool, M[a * n + b], &h->j.facts);
+            H[a * n + b] = qdot_simplify(pool, H[a * n + b], &h->j.facts);
+            Gamma[a * n + b] = qdot_simplify(pool, Gamma[a * n + b], &h->j.facts);
+            b++;
+        }
+        a += h->limit[i] == QDOT_NIL;
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+by_others(held *h)
+{
+    qdot_scene *s = h->j.s;
+    size_t n = 0;
+    qdot_expr *M;
+    qdot_definite how = QDOT_DEFINITE_UNKNOWN;
+    qdot_status status;
+    bool mass = false;
+
+    for (size_t i = 0; i < s->coordinates.n; i++)
+        n += h->limit[i] == QDOT_NIL;
+    if (n == 0) {
+        h->e->stability = QDOT_STABLE;
+        return QDOT_OK;
+    }
+    if (h->j.judge->law == QDOT_ENERGY_UNKNOWN)
+        return QDOT_OK;
+    M = qdot_calloc(3 * n * n, sizeof *M);
+    if (M == NULL)
+        return QDOT_ENOMEM;
+    status = matrices(h, n, M, M + n * n, M + 2 * n * n);
+    if (status == QDOT_OK && qdot_judgement_is_symmetric(&h->j, n, M + 2 * n * n, 1))
+        status = qdot_judgement_definiteness(&h->j, n, M + 2 * n * n, &how);
+    if (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL)
+        h->e->stability = QDOT_STABLE;
+    if (how == QDOT_NEGATIVE_SOMEWHERE && status == QDOT_OK)
+        status = qdot_judgement_is_definite(&h->j, n, M, &mass);
+    if (mass && qdot_judgement_is_symmetric(&h->j, n, M + n * n, 1)) {
+        h->e->stability = QDOT_UNSTABLE;
+        h->j.when.n = 0;
+    }
+    qdot_free(M);
+    return status;
+}
+
+/* The whole of M is positive definite, so T measures every velocity. */
+static qdot_status
+has_mass(held *h, bool *yes)
+{
+    qdot_scene *s = h->j.s;
+    size_t n = s->coordinates.n;
+    qdot_expr *M = qdot_calloc(n * n, sizeof *M);
+    qdot_definite how;
+    qdot_status status = M == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t i = 0; i < n * n && status == QDOT_OK; i++)
+        M[i] = qdot_simplify(
+            s->pool,
+            qdot_rest_value(s, h->e->equations, qdot_mass_of_lagrangian(s, i / n, i % n)),
+            &h->j.facts);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(s->pool);
+    if (status == QDOT_OK)
+        status = qdot_judgement_definiteness(&h->j, n, M, &how);
+    *yes = status == QDOT_OK &&
+           (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL);
+    qdot_free(M);
+    return status;
+}
+
+/* --- ends -------------------------------------------------------------------------------- */
+
+/* Whether the force at an end of the range of the only coordinate points inside. */
+static qdot_status
+points_inside(held *h, qdot_expr end, bool upper, bool *yes)
+{
+    qdot_scene *s = h->j.s;
+    qdot_pool *pool = s->pool;
+    qdot_expr u = s->coordinates.at[0], F = qdot_subs(pool, h->force[0], 1, &u, &end);
+    const qdot_symbol *symbol = qdot_expr_symbol(pool, u);
+
+    *yes = false;
+    if (upper)
+        F = qdot_neg(pool, F);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (end == symbol->lo || end == symbol->hi) /* of the domain: F is not at the limit */
+        return QDOT_OK;
+    if (qdot_is_constant(pool, F)) {
+        qdot_constant_sign sign;
+
+        QDOT_TRY(qdot_constant_decide(pool, F, &sign));
+        *yes = sign == QDOT_CONSTANT_POSITIVE;
+        return QDOT_OK;
+    }
+    *yes = qdot_positive(pool, qdot_simplify(pool, F, &h->j.facts), &h->j.facts, h->j.known.n,
+                         h->j.known.at) == QDOT_TRUE;
+    return qdot_pool_check(pool);
+}
+
+/* The relation of a closed end, with < for <=; nil: it needs none. */
+static qdot_expr
+strictly(qdot_pool *pool, qdot_expr relation)
+{
+    return qdot_expr_node(pool, relation)->op == QDOT_LE
+               ? qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, relation, 0),
+                          qdot_expr_arg(pool, relation, 1))
+               : QDOT_NIL;
+}
+
+/* Conditions that leave out the ends of a stable band at which nothing is proved. */
+static qdot_status
+leave_out_ends(held *h)
+{
+    qdot_scene *s = h->j.s;
+    qdot_pool *pool = s->pool;
+
+    for (int part = 0; part < 2; part++) {
+        qdot_expr list = part == 0 ? h->e->exists : h->e->range;
+
+        for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++) {
+            qdot_expr one = qdot_expr_arg(pool, list, i), strict = strictly(pool, one);
+            bool upper = qdot_expr_arg(pool, one, 0) == s->coordinates.at[0], inside = false;
+
+            if (strict == QDOT_NIL || (qdot_mech_holds(s, one) & QDOT_HAS_COORD) == 0)
+                continue;
+            if (part == 1 && s->coordinates.n == 1)
+                QDOT_TRY(points_inside(h, qdot_expr_arg(pool, one, upper ? 1 : 0), upper, &inside));
+            if (!inside)
+                QDOT_TRY(qdot_vec_push(&h->j.when, strict));
+        }
+    }
+    return qdot_pool_check(pool);
+}
+
+/* --- the verdict ------------------------------------------------------------------------- */
+
+static qdot_status
+judge_held(held *h, bool *judged)
+{
+    qdot_scene *s = h->j.s;
+    qdot_pool *pool = s->pool;
+    bool sure;
+    size_t known;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, h->inside); i++)
+        QDOT_TRY(qdot_vec_push(&h->j.known,
+                               qdot_positive_of(pool, qdot_expr_arg(pool, h->inside, i))));
+    known = h->j.known.n;
+    *judged = true;
+    QDOT_TRY(split_forces(h, judged));
+    if (*judged)
+        QDOT_TRY(is_below(h, judged));
+    if (*judged)
+        QDOT_TRY(has_mass(h, judged));
+    if (!*judged)
+        return QDOT_OK;
+    QDOT_TRY(by_others(h));
+    QDOT_TRY(qdot_judgement_confirm(&h->j, &sure));
+    if (!sure)
+        h->e->stability = QDOT_STABILITY_UNDECIDED;
+    QDOT_TRY(qdot_judgement_drop_implied(&h->j, known));
+    if (h->e->stability == QDOT_STABLE)
+        QDOT_TRY(leave_out_ends(h));
+    if (h->e->stability == QDOT_STABLE && h->j.when.n > 0)
+        h->e->stable_when = qdot_list(pool, (uint32_t)h->j.when.n, h->j.when.at);
+    return qdot_pool_check(pool);
+}
+
+/* All conditions of e, with < for <=. */
+static qdot_expr
+inside_of(qdot_pool *pool, const qdot_equilibrium *e)
+{
+    qdot_expr all = QDOT_NIL;
+
+    for (int part = 0; part < 2; part++) {
+        qdot_expr list = part == 0 ? e->exists : e->range;
+
+        for (uint32_t i = 0; list != QDOT_NIL && i < qdot_expr_count(pool, list); i++) {
+            qdot_expr one = qdot_expr_arg(pool, list, i), strict = strictly(pool, one);
+
+            all = qdot_conditions_and(pool, all, strict != QDOT_NIL ? strict : one);
+        }
+    }
+    return all == QDOT_NIL ? qdot_list(pool, 0, NULL) : all;
+}
+
+qdot_status
+qdot_stability_judge_held(qdot_judge *judge, qdot_equilibrium *e, bool *judged)
+{
+    qdot_scene *s = judge->s;
+    held h = {.j = {.judge = judge, .s = s}, .e = e, .inside = inside_of(s->pool, e)};
+    qdot_expr *own = NULL;
+    qdot_status status = qdot_pool_check(s->pool);
+
+    *judged = false;
+    if (status != QDOT_OK || s->constraints.n > 0 || judge->timed || h.inside == QDOT_FALSE)
+        return status;
+    h.limit = qdot_calloc(2 * s->coordinates.n + 1, sizeof *h.limit);
+    if (h.limit == NULL)
+        return QDOT_ENOMEM;
+    h.force = h.limit + s->coordinates.n;
+    status = qdot_rest_facts(s, h.inside, &h.j.facts, &own);
+    if (status == QDOT_OK)
+        status = judge_held(&h, judged);
+    qdot_free(h.limit);
+    qdot_free(own);
+    qdot_free(h.j.known.at);
+    qdot_free(h.j.when.at);
+    qdot_free(h.j.claims.at);
+    return status;
+}
