@@ -261,6 +261,7 @@ library_sources = \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-proved.c \
 	lib/mech/study/equilibrium-ranges.c \
+	lib/mech/study/equilibrium-symmetric.c \
 	lib/mech/study/equilibrium-twice.c \
 	lib/mech/study/equilibrium.c \
 	lib/mech/study/geometry.c \
@@ -1621,6 +1622,7 @@ script_tests = \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/resting.lag \
+	tests/script/rests-of-parameters.lag \
 	tests/script/rests-under-friction.lag \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
@@ -2750,6 +2752,7 @@ test_files = \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/resting.out \
+	tests/script/rests-of-parameters.out \
 	tests/script/rests-under-friction.out \
 	tests/script/rests.out \
 	tests/script/routh.out \

@@ -288,6 +288,24 @@ places_of_one_side_stay_there_body(kit *k)
 }
 TEST(places_of_one_side_stay_there)
 
+/* No formula, no values of parameters: what a symmetry provides, and what a search would need. */
+static void
+symmetric_places_need_no_values_body(kit *k)
+{
+    qdot_equilibria r;
+
+    coords(k, "x");
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - a*x^4/4 + b*cos(x)")));
+    find(k, &r, 1);
+    is(k, &r.at[0], "[x = 0]", QDOT_STABLE, "nil", "nil");
+    assert_true(!r.complete && r.unset != NULL && strcmp(r.unset, "a") == 0);
+    qdot_equilibria_clear(&r);
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - a*exp(x) - x^2")));
+    assert_int_equal(qdot_equilibrium_find(k->scene, NULL, NULL, &r), QDOT_EUNSET);
+    qdot_equilibria_clear(&r);
+}
+TEST(symmetric_places_need_no_values)
+
 /* From far away the proof still ends at the zero, to the digits of a double. */
 static void
 proved_places_are_sharp_body(kit *k)
@@ -399,6 +417,7 @@ main(void)
         cmocka_unit_test(a_fading_force_is_no_rest),
         cmocka_unit_test(few_unknowns_are_searched_whole),
         cmocka_unit_test(places_of_one_side_stay_there),
+        cmocka_unit_test(symmetric_places_need_no_values),
         cmocka_unit_test(proved_places_are_sharp),
         cmocka_unit_test(modes_of_the_double_pendulum),
         cmocka_unit_test(modes_in_numbers),

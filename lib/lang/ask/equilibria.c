@@ -230,6 +230,9 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
         return QDOT_OK;
     if (all->complete) {
         qdot_text_add(&text, "there is no equilibrium");
+    } else if (all->unset != NULL) {
+        qdot_text_format(&text, "there may be others: they cannot be solved for exactly, and numbers "
+                                "need a value of `%.100s`", all->unset);
     } else if (all->starts == 0) {
         qdot_text_add(&text, all->n == 0 ? "no equilibrium was found; there may be some"
                                          : "there may be others");

@@ -83,6 +83,9 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
 
+/* Rests at which every coordinate is 0, or half a turn of an angle, where that is proved.
+ * (equilibrium-symmetric.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_symmetric(qdot_rest *r);
 /* List each region of rests in one coordinate as intervals, where they can be found.
  * (equilibrium-ranges.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_ranges(qdot_rest *r);

@@ -193,6 +193,10 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
                                        "numbers");
     name = unset(r, bound);
     if (name != NULL) {
+        QDOT_TRY(qdot_rest_symmetric(r));
+        out->unset = name;
+        if (r->found.n > 0)
+            return QDOT_OK;
         qdot_fail(QDOT_EUNSET,
                   "the equilibria cannot be solved for exactly; numbers need a "
                   "value of `%.100s`",

@@ -39,7 +39,7 @@
 #include "mech/scene/things.h"
 #include "mech/study/rest.h"
 
-/* *out cleared by the caller. QDOT_EUNSET names a parameter if numbers are needed, QDOT_EFAILED
+/* *out cleared by the caller. QDOT_EUNSET names a parameter if nothing is found without numbers, QDOT_EFAILED
  * if nothing can be said. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_find(qdot_scene *s, qdot_binder bind,
                                                   void *user, qdot_equilibria *out);

@@ -30,6 +30,7 @@ typedef struct {
     size_t starts;        /* of a numerical search; 0: there was none */
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */
+    const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
 } qdot_equilibria;
 
 /* Values of parameters for numbers: e bound as far as they are known. */

@@ -1,11 +1,14 @@
 /* stability-signs.c -- what must be positive for a verdict: proved, or noted as a condition. */
 #include "expr/tensor.h"
+#include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/study/stability-parts.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
+
+enum { MOST_ASKED = 150 }; /* operations of conditions of which some may follow of others */
 
 /* --- definite or not ---------------------------------------------------------------------- */
 
@@ -213,6 +216,16 @@ qdot_judgement_is_sure(qdot_judgement *j, qdot_expr e, bool above, bool *yes)
     return status;
 }
 
+/* How long all conditions are together. */
+static uint64_t
+length_of_conditions(const qdot_judgement *j)
+{
+    uint64_t sum = 0;
+
+    for (size_t i = 0; i < j->when.n; i++)
+        sum += qdot_expr_size(j->s->pool, j->when.at[i]);
+    return sum;
+}
 
 /* Whether condition i follows of one other: a > 0 of b > 0 where a - b is positive, by the scalars
  * [n] that are positive without conditions; or of all others. */
@@ -229,7 +242,7 @@ follows(qdot_judgement *j, size_t i, size_t n, bool *yes)
         *yes = k != i && qdot_positive(pool, more, &j->facts, n, j->known.at) == QDOT_TRUE;
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (*yes || j->when.n < 2)
+    if (*yes || j->when.n < 2 || length_of_conditions(j) > MOST_ASKED)
         return QDOT_OK;
     j->when.at[i] = j->when.at[--j->when.n];
     QDOT_TRY(qdot_judgement_is_sure(j, e, true, yes));
