@@ -30,8 +30,8 @@ add_field(qdot_text *line, const char *field)
 }
 
 static qdot_status
-put_rows(qdot_sink *sink, size_t columns, const qdot_column *column, size_t rows,
-         qdot_text *text)
+put_rows(qdot_sink *sink, size_t columns, const qdot_column *column,
+         char *const *const *texts, size_t rows, qdot_text *text)
 {
     for (size_t j = 0; j < columns; j++) {
         if (j > 0)
@@ -43,7 +43,10 @@ put_rows(qdot_sink *sink, size_t columns, const qdot_column *column, size_t rows
         for (size_t j = 0; j < columns; j++) {
             if (j > 0)
                 qdot_text_char(text, ',');
-            qdot_text_double(text, column[j].at[i], EXACT);
+            if (texts != NULL && texts[j] != NULL)
+                add_field(text, texts[j][i]);
+            else
+                qdot_text_double(text, column[j].at[i], EXACT);
         }
         qdot_text_char(text, '\n');
         if (text->n >= CHUNK) {
@@ -58,7 +61,8 @@ put_rows(qdot_sink *sink, size_t columns, const qdot_column *column, size_t rows
 }
 
 qdot_status
-qdot_table_csv(size_t columns, const qdot_column *column, size_t rows, const char *path)
+qdot_table_csv_texts(size_t columns, const qdot_column *column, char *const *const *texts,
+                     size_t rows, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
@@ -67,11 +71,17 @@ qdot_table_csv(size_t columns, const qdot_column *column, size_t rows, const cha
     if (columns == 0)
         return qdot_fail(QDOT_EINVAL, "a table needs a column");
     QDOT_TRY(qdot_sink_open(&sink, path));
-    status = put_rows(&sink, columns, column, rows, &text);
+    status = put_rows(&sink, columns, column, texts, rows, &text);
     qdot_text_clear(&text);
     if (status != QDOT_OK) {
         qdot_sink_abandon(&sink);
         return status;
     }
     return qdot_sink_close(&sink);
+}
+
+qdot_status
+qdot_table_csv(size_t columns, const qdot_column *column, size_t rows, const char *path)
+{
+    return qdot_table_csv_texts(columns, column, NULL, rows, path);
 }

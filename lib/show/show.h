@@ -21,4 +21,8 @@ QDOT_MUST_CHECK qdot_status qdot_table_text(size_t columns, const qdot_column *c
 /* Comma-separated values, header quoted by RFC 4180 where needed, 17 digits. path "-": stdout. */
 QDOT_MUST_CHECK qdot_status qdot_table_csv(size_t columns, const qdot_column *column,
                                            size_t rows, const char *path);
+/* The same with columns of texts among them, as qdot_data has them: texts [columns] of [rows]. */
+QDOT_MUST_CHECK qdot_status qdot_table_csv_texts(size_t columns, const qdot_column *column,
+                                                 char *const *const *texts, size_t rows,
+                                                 const char *path);
 #endif

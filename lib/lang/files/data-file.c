@@ -165,8 +165,11 @@ qdot_status
 qdot_data_file_write_texts(qdot_session *session, qdot_run *run, qdot_data *data,
                            const char *path)
 {
+    const type type = type_of(path);
+
     QDOT_TRY(qdot_data_file_check(path));
     data->title = title_of(path);
-    QDOT_TRY(write_facts(session, run, type_of(path), data, path));
+    QDOT_TRY(type == CSV ? qdot_table_csv_texts(data->columns, data->column, data->texts, data->rows, path)
+                         : write_facts(session, run, type, data, path));
     return qdot_answer_file(session, path);
 }

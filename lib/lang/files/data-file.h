@@ -15,7 +15,7 @@ QDOT_MUST_CHECK qdot_status qdot_data_file_check(const char *path);
 QDOT_MUST_CHECK qdot_status qdot_data_file_write(qdot_session *session, qdot_run *run, size_t n,
                                                  const qdot_column *columns, size_t rows,
                                                  const char *path);
-/* The same of columns that are texts where texts[j] [rows] is not NULL; .json, .html, .h5 only. */
+/* The same of columns that are texts where texts[j] [rows] is not NULL; .csv, .json, .html, .h5 only. */
 QDOT_MUST_CHECK qdot_status qdot_data_file_write_texts(qdot_session *session, qdot_run *run,
                                                        qdot_data *data, const char *path);
 

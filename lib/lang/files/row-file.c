@@ -21,7 +21,7 @@ qdot_row_file_named(const qdot_cursor *c)
 static qdot_status
 write_file(qdot_session *session, const qdot_row_table *t, const char *path)
 {
-    const bool bare = qdot_ends_in(path, ".csv") || qdot_ends_in(path, ".txt");
+    const bool bare = qdot_ends_in(path, ".txt") || (qdot_ends_in(path, ".csv") && t->note == NULL);
     qdot_row_columns x = {0};
     qdot_status status = qdot_row_columns_fill(t, NULL, &x);
 

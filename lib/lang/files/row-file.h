@@ -1,7 +1,7 @@
 /* row-file.h -- rows of many runs in a file.
  *
  * Columns: what was swept, what was asked for, then the errors of the latter; in .json, .html and .h5
- * why rows failed as well ("" where they did not).
+ * why rows failed as well ("" where they did not); what the rows are, as the type of a bifurcation, in .csv too.
  *
  * Tests  tests/script/sweep.sh
  */
