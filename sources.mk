@@ -488,6 +488,7 @@ library_sources = \
 	lib/sim/bind/polynomial-bounds.c \
 	lib/sim/bind/pulses.c \
 	lib/sim/branches/bifurcation.c \
+	lib/sim/branches/branch-marks.c \
 	lib/sim/branches/branch.c \
 	lib/sim/branches/continuation.c \
 	lib/sim/branches/dips.c \
@@ -1068,6 +1069,8 @@ library_headers = \
 	lib/sim/bind/polynomial-bounds.h \
 	lib/sim/bind/pulses.h \
 	lib/sim/branches/bifurcation.h \
+	lib/sim/branches/branch-marks.h \
+	lib/sim/branches/branch-parts.h \
 	lib/sim/branches/branch.h \
 	lib/sim/branches/continuation.h \
 	lib/sim/branches/dips.h \

@@ -115,6 +115,49 @@ a_closed_curve(void **state)
     finish(&f, &c, &x);
 }
 
+/* x'' = -(mu - 1/2)(mu - 1/2 - d) x - x^n: two crossings, however near; from 3e-8 on no sign of a
+ * determinant tells them apart. */
+static void
+pairs_of_crossings(void **state)
+{
+    static const struct {
+        const char *d, *half;
+        unsigned n;
+    } rows[] = {{"0.000001", "0.5", 3}, {"0.00000001", "0.5", 3}, {"0.0000000001", "0.5", 3},
+                {"0.000001", "0.5", 2}, {"0.00000002", "0.5", 2}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        qdot_equilibrium_curve c = {0};
+        qdot_continuation x = {0};
+        fixture f;
+        qdot_expr q, square, off, well;
+        double least = INFINITY, most = -INFINITY;
+
+        begin(&f);
+        q = coordinate(&f, "x");
+        square = times(&f, q, q);
+        off = qdot_sub(f.pool, parameter(&f, "mu"), number(&f, rows[i].half));
+        off = times(&f, off, qdot_sub(f.pool, off, number(&f, rows[i].d)));
+        well = rows[i].n == 3 ? times(&f, number(&f, "0.25"), times(&f, square, square))
+                              : times(&f, number(&f, "0.5"), times(&f, square, q));
+        must(qdot_scene_particle(f.scene, "a", QDOT_ONE, q));
+        must(qdot_scene_potential(
+            f.scene, qdot_add(f.pool, well, times(&f, number(&f, "0.5"), times(&f, off, square)))));
+        follow(&f, "mu", -1, 1, &c, &x);
+        assert_int_equal(x.bifurcations.n, 2);
+        for (size_t k = 0; k < 2; k++) {
+            const qdot_bifurcation *b = &x.bifurcations.at[k];
+
+            assert_int_equal(b->kind, rows[i].n == 3 ? QDOT_PITCHFORK : QDOT_TRANSCRITICAL);
+            least = fmin(least, b->y[1]);
+            most = fmax(most, b->y[1]);
+        }
+        assert_true(fabs(least - 0.5) < 1e-15 && fabs(most - 0.5 - atof(rows[i].d)) < 1e-15);
+        finish(&f, &c, &x);
+    }
+}
+
 /* x'' = mu x' - 9 x: an oscillation of frequency 3 from mu = 0 on; a parameter without influence. */
 static void
 a_hopf_point(void **state)
@@ -219,6 +262,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pitchfork),
         cmocka_unit_test(a_closed_curve),
+        cmocka_unit_test(pairs_of_crossings),
         cmocka_unit_test(a_hopf_point),
         cmocka_unit_test(survives_failed_allocations_too),
         cmocka_unit_test(keeps_what_is_known),

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
-#include "sim/branches/dips.h"
+#include "sim/branches/branch-marks.h"
 
 /* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
 static const double first_step = 2e-3, far_away = 100;
@@ -16,7 +16,7 @@ static const double straight = 0.99;
 static const double longer = 1.02;
 /* Multipliers of neighbouring orbits turn and grow by less, unless the step is short. */
 static const double turned = 0.5, grown = 1;
-/* Bifurcations of one kind within this distance are one. */
+/* Steps across two bifurcations of different kinds that are not told apart. */
 static const double together = 1e-6;
 /* Steps at which two curves that do not cross are told apart. */
 static const double nearest = 1e-8;
@@ -192,66 +192,6 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     return status;
 }
 
-/* How far apart two bifurcations of a kind may be found that are one: those that are not located better
- * than by their errors, by these. */
-static double
-apart(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
-{
-    double sum = together;
-
-    if (a->kind == QDOT_NOT_SIMPLE)
-        sum += sqrt(qdot_path_product(x, a->error, a->error)) +
-               sqrt(qdot_path_product(x, b->error, b->error));
-    return sum;
-}
-
-/* The index of the same bifurcation; their number: it is new. */
-static size_t
-index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
-{
-    size_t i = 0;
-
-    while (i < s->all->bifurcations.n &&
-           (s->all->bifurcations.at[i].kind != b->kind ||
-            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) >
-                apart(s->x, &s->all->bifurcations.at[i], b)))
-        i++;
-    return i;
-}
-
-/* Angles as -pi < q <= pi, as far as is known. */
-static void
-turn_back(const qdot_path *x, double *y)
-{
-    for (size_t i = 0; i < x->n; i++)
-        if (x->angle[i])
-            y[i] -= 2 * M_PI * ceil((y[i] - M_PI) / (2 * M_PI) - 1e-9);
-}
-
-/* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */
-static qdot_status
-keep(qdot_branch_search *s, qdot_bifurcation *b, double *other, size_t *mark)
-{
-    const size_t i = index_of(s, b);
-    qdot_status status = QDOT_OK;
-
-    *mark = i + 1;
-    if (i < s->all->bifurcations.n) {
-        qdot_free(b->y);
-        qdot_free(other);
-        return QDOT_OK;
-    }
-    status = qdot_vec_push(&s->all->bifurcations, *b);
-    if (status != QDOT_OK)
-        qdot_free(b->y);
-    if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
-        status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
-        other = status == QDOT_OK ? NULL : other;
-    }
-    qdot_free(other);
-    return status;
-}
-
 /* It is a point of the branch, too. Takes b->y and other. */
 static qdot_status
 mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
@@ -275,8 +215,8 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
         qdot_path_point_end(&here);
         return status;
     }
-    turn_back(x, b->y);
-    status = keep(s, b, other, &mark);
+    qdot_branch_turn_back(x, b->y);
+    status = qdot_branch_mark(s, b, other, &mark);
     if (status == QDOT_OK)
         status = qdot_branch_add(x, branch, here.y, here.stability, mark);
     qdot_path_point_end(&here);
@@ -511,30 +451,6 @@ look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double
     return status == QDOT_EINTR ? QDOT_OK : status;
 }
 
-/* A place at which the determinant vanishes without a change of its sign: several curves meet. */
-static qdot_status
-mark_zero(qdot_branch_search *s, const qdot_dips *d, size_t place, double apart, qdot_branch *branch)
-{
-    qdot_path *x = s->x;
-    const size_t w = x->width;
-    const qdot_path_point *here = &d->at[place];
-    qdot_bifurcation b = {.kind = QDOT_NOT_SIMPLE, .y = qdot_calloc(2 * w, sizeof *b.y)};
-    size_t mark = 0;
-    qdot_status status = b.y ? QDOT_OK : QDOT_ENOMEM;
-
-    if (status != QDOT_OK)
-        return status;
-    b.error = b.y + w;
-    memcpy(b.y, here->y, w * sizeof *b.y);
-    for (size_t i = 0; i < w; i++)
-        b.error[i] = i <= x->n ? apart / sqrt(x->weight[i]) : NAN;
-    turn_back(x, b.y);
-    status = keep(s, &b, NULL, &mark);
-    if (status == QDOT_OK && d->count[place] > 0)
-        branch->mark[d->count[place] - 1] = mark;
-    return status;
-}
-
 /* Look whether something dips to 0 between the latest points; *again: a, `gone` and the branch are
  * those of an earlier point, from which the way is gone by shorter steps. */
 static qdot_status
@@ -542,6 +458,7 @@ look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, dou
               qdot_path_point *a, double *gone, qdot_branch *branch, bool *again)
 {
     size_t place;
+    bool both;
 
     *again = false;
     switch (qdot_dips_look(s->x, d, b, *gone + length, &place)) {
@@ -553,7 +470,8 @@ look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, dou
         d->n = 1;
         return QDOT_OK;
     case QDOT_DIPS_ZERO:
-        return mark_zero(s, d, place, *gone + length - d->gone[0], branch);
+        QDOT_TRY(qdot_branch_mark_pair(s, d, place, *gone + length - d->gone[0], branch, &both));
+        return both ? QDOT_OK : qdot_branch_mark_zero(s, d, place, *gone + length - d->gone[0], branch);
     default:
         return QDOT_OK;
     }

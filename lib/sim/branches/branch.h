@@ -5,57 +5,7 @@
 #ifndef QDOT_SIM_BRANCH_H
 #define QDOT_SIM_BRANCH_H
 
-#include "sim/branches/bifurcation.h"
-
-typedef enum {
-    QDOT_END_RANGE,   /* of the parameter */
-    QDOT_END_DOMAIN,  /* of a coordinate */
-    QDOT_END_CLOSED,  /* it came back to where it began */
-    QDOT_END_FAR,     /* it goes on to infinity */
-    QDOT_END_REST,    /* an orbit shrinks to a place at rest */
-    QDOT_END_HALF,    /* an orbit becomes one of half its period */
-    QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
-    QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, or jump */
-    QDOT_END_BLURRED, /* what is judged drowns in errors */
-    QDOT_END_STOPPED  /* interrupted, or too many points */
-} qdot_branch_end;
-
-typedef struct {
-    size_t n, room;
-    double *y;                 /* [n * width] */
-    qdot_stability *stability; /* [n] */
-    size_t *mark;              /* [n] 1 + the bifurcation that the point is; 0: none */
-    qdot_branch_end end[2];    /* before its first point, behind its last */
-    char reason[2][QDOT_PATH_REASON]; /* of an end that is lost: why there was no value; "": there was one */
-} qdot_branch;
-
-typedef struct {
-    size_t n, coordinates; /* of the unknowns: those that are told, then others */
-    size_t width;          /* n + 1, and what is told beside them at each point */
-    double *size;          /* [width] of each; of p its range */
-    qdot_vec(qdot_branch) branches;
-    qdot_vec(qdot_bifurcation) bifurcations;
-    bool conserved; /* of orbits: their energy is */
-    bool interrupted;
-} qdot_continuation;
-
-/* A crossing whose other curve is to be followed. */
-typedef struct {
-    size_t at;     /* the bifurcation */
-    double *other; /* [n + 1] its direction, owned */
-} qdot_branch_crossing;
-
-typedef struct {
-    qdot_path *x;
-    qdot_bifurcation_finder *find;
-    void *user; /* of `find` */
-    qdot_continuation *all;
-    qdot_vec(qdot_branch_crossing) crossings;
-    bool leapt; /* the latest step went over to another curve, which does not cross this one, or over two
-                   bifurcations: it is made again, shorter */
-    size_t most_points; /* of a branch; 0: as many as any may have */
-    qdot_branch_end over; /* the latest step led to that end of the branch; QDOT_END_STOPPED: it goes on */
-} qdot_branch_search;
+#include "sim/branches/branch-parts.h"
 
 QDOT_MUST_CHECK qdot_status qdot_branch_add(const qdot_path *x, qdot_branch *branch,
                                             const double *y, qdot_stability stability, size_t mark);

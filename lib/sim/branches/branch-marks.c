@@ -1,0 +1,148 @@
+/* branch-marks.c -- bifurcations that are kept, each once; pairs of them between two points of a curve. */
+#include "sim/branches/branch-marks.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Bifurcations of one kind within this distance are one, if they are located no better; beside their errors where
+ * they are proved. */
+static const double together = 1e-6, rounded = 1e-11;
+
+/* How far apart two bifurcations of a kind may be found that are one: those that are not located better
+ * than by their errors, and those of equations with accurate test functions, by these. */
+static double
+apart(const qdot_path *x, const qdot_bifurcation *a, const qdot_bifurcation *b)
+{
+    const double errors = sqrt(qdot_path_product(x, a->error, a->error)) +
+                          sqrt(qdot_path_product(x, b->error, b->error));
+
+    if (a->kind == QDOT_NOT_SIMPLE)
+        return together + errors;
+    return x->dips ? 4 * errors + rounded : together;
+}
+
+/* The index of the same bifurcation; their number: it is new. */
+static size_t
+index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
+{
+    size_t i = 0;
+
+    while (i < s->all->bifurcations.n &&
+           (s->all->bifurcations.at[i].kind != b->kind ||
+            qdot_path_distance(s->x, s->all->bifurcations.at[i].y, b->y) >
+                apart(s->x, &s->all->bifurcations.at[i], b)))
+        i++;
+    return i;
+}
+
+void
+qdot_branch_turn_back(const qdot_path *x, double *y)
+{
+    for (size_t i = 0; i < x->n; i++)
+        if (x->angle[i])
+            y[i] -= 2 * M_PI * ceil((y[i] - M_PI) / (2 * M_PI) - 1e-9);
+}
+
+qdot_status
+qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size_t *mark)
+{
+    const size_t i = index_of(s, b);
+    qdot_status status = QDOT_OK;
+
+    *mark = i + 1;
+    if (i < s->all->bifurcations.n) {
+        qdot_free(b->y);
+        qdot_free(other);
+        return QDOT_OK;
+    }
+    status = qdot_vec_push(&s->all->bifurcations, *b);
+    if (status != QDOT_OK)
+        qdot_free(b->y);
+    if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
+        status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
+        other = status == QDOT_OK ? NULL : other;
+    }
+    qdot_free(other);
+    return status;
+}
+
+/* The crossing to which the search leads from the point at `way` along the curve from a; false: none near. */
+static qdot_status
+find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, qdot_path_point *room,
+                   qdot_bifurcation *b, double *other, bool *found)
+{
+    qdot_path *x = s->x;
+    qdot_bifurcation_bracket in = {.a = a, .to = fabs(way)};
+    qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
+    int steps;
+
+    *found = qdot_path_go(x, a, way, room, &steps);
+    if (!*found)
+        return QDOT_OK;
+    memcpy(b->y, room->y, x->width * sizeof *b->y);
+    b->kind = QDOT_PITCHFORK;
+    QDOT_TRY(s->find(s->user, &in, b, other, &answer));
+    *found = answer == QDOT_BIFURCATION_FOUND && qdot_path_distance(x, a->y, b->y) < 4 * fabs(way);
+    qdot_branch_turn_back(x, b->y);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d, size_t place, double way, qdot_branch *branch,
+          bool *both)
+{
+    qdot_path *x = s->x;
+    const size_t w = x->width;
+    qdot_bifurcation b[2] = {{.y = qdot_calloc(2 * w, sizeof(double))},
+                             {.y = qdot_calloc(2 * w, sizeof(double))}};
+    double *other[2] = {qdot_calloc(x->n + 1, sizeof(double)), qdot_calloc(x->n + 1, sizeof(double))};
+    qdot_path_point room = {0};
+    qdot_status status = b[0].y && b[1].y && other[0] && other[1] ? qdot_path_point_begin(x, &room)
+                                                                 : QDOT_ENOMEM;
+
+    *both = status == QDOT_OK;
+    for (int k = 0; k < 2 && *both && status == QDOT_OK; k++) {
+        b[k].error = b[k].y + w;
+        status = find_crossing_from(s, &d->at[place], k == 0 ? -way : way, &room, &b[k], other[k], both);
+    }
+    *both = *both && status == QDOT_OK &&
+            qdot_path_distance(x, b[0].y, b[1].y) > apart(x, &b[0], &b[1]);
+    for (size_t k = 0; k < 2 && *both && status == QDOT_OK; k++) {
+        const size_t point = d->count[k + 1];
+        size_t mark = 0;
+
+        status = qdot_branch_mark(s, &b[k], other[k], &mark);
+        b[k].y = other[k] = NULL;
+        if (status == QDOT_OK && point > 0 && branch->mark[point - 1] == 0)
+            branch->mark[point - 1] = mark;
+    }
+    for (int k = 0; k < 2; k++) {
+        qdot_free(b[k].y);
+        qdot_free(other[k]);
+    }
+    qdot_path_point_end(&room);
+    return status;
+}
+
+qdot_status
+qdot_branch_mark_zero(qdot_branch_search *s, const qdot_dips *d, size_t place, double apart, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    const size_t w = x->width;
+    const qdot_path_point *here = &d->at[place];
+    qdot_bifurcation b = {.kind = QDOT_NOT_SIMPLE, .y = qdot_calloc(2 * w, sizeof *b.y)};
+    size_t mark = 0;
+    qdot_status status = b.y ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status != QDOT_OK)
+        return status;
+    b.error = b.y + w;
+    memcpy(b.y, here->y, w * sizeof *b.y);
+    for (size_t i = 0; i < w; i++)
+        b.error[i] = i <= x->n ? apart / sqrt(x->weight[i]) : NAN;
+    qdot_branch_turn_back(x, b.y);
+    status = qdot_branch_mark(s, &b, NULL, &mark);
+    if (status == QDOT_OK && d->count[place] > 0)
+        branch->mark[d->count[place] - 1] = mark;
+    return status;
+}

@@ -1,0 +1,31 @@
+/* branch-marks.h -- bifurcations that are kept, each once; pairs of them between two points of a curve.
+ *
+ * Where the determinant dips to rounding without a change of its sign (dips.h), two crossings lie closer together than
+ * the steps can be short. Newton's method on the larger system (rest-bifurcation.h) leads from either side of the dip
+ * to one of them each, however near they are; where it does not, several curves meet at one place.
+ *
+ * Tests  tests/sim/test_continuation.c
+ */
+#ifndef QDOT_SIM_BRANCH_MARKS_H
+#define QDOT_SIM_BRANCH_MARKS_H
+
+#include "sim/branches/branch-parts.h"
+#include "sim/branches/dips.h"
+
+/* Angles as -pi < q <= pi, as far as is known. */
+void qdot_branch_turn_back(const qdot_path *x, double *y);
+
+/* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */
+QDOT_MUST_CHECK qdot_status qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b,
+                                             double *other, size_t *mark);
+
+/* Two crossings beside the kept point `place`, `way` along the curve or nearer; *both is false where they are not
+ * told apart: then nothing is kept. */
+QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d,
+                                                  size_t place, double way, qdot_branch *branch,
+                                                  bool *both);
+/* A place at which several curves meet, known to `apart`. */
+QDOT_MUST_CHECK qdot_status qdot_branch_mark_zero(qdot_branch_search *s, const qdot_dips *d,
+                                                  size_t place, double apart, qdot_branch *branch);
+
+#endif
