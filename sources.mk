@@ -261,6 +261,7 @@ library_sources = \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-proved.c \
 	lib/mech/study/equilibrium-ranges.c \
+	lib/mech/study/equilibrium-special.c \
 	lib/mech/study/equilibrium-symmetric.c \
 	lib/mech/study/equilibrium-twice.c \
 	lib/mech/study/equilibrium.c \

@@ -217,12 +217,33 @@ answer_one(qdot_session *session, size_t i, const qdot_equilibrium *e)
     return qdot_sheet_end(session, &sheet, name, status, &text);
 }
 
+/* Tell at which values of parameters the list is none: `where a = 0 the places are others`. */
+static qdot_status
+answer_special(qdot_session *session, qdot_expr special)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, special) && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i == 0 ? "where " : " or ");
+        status = qdot_print(session->pool, qdot_expr_arg(session->pool, special, i), QDOT_PLAIN, &text);
+        qdot_text_add(&text, " = 0");
+    }
+    qdot_text_add(&text, " the places are others");
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 /* Tell that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
 {
     qdot_text text = {0};
 
+    if (all->special != QDOT_NIL)
+        QDOT_TRY(answer_special(session, all->special));
     if (all->recurs)
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));

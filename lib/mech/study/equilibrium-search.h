@@ -83,6 +83,9 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
 
+/* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.
+ * (equilibrium-special.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, qdot_expr *special);
 /* Rests at which every coordinate is 0, or half a turn of an angle, where that is proved.
  * (equilibrium-symmetric.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_symmetric(qdot_rest *r);

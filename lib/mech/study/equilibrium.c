@@ -323,6 +323,8 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = qdot_rest_find(&r, bind, user, out);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
+    if (status == QDOT_OK && !first_only)
+        status = qdot_rest_special(&r, &out->special);
     out->at = r.found.at;
     out->n = r.found.n;
     out->complete = r.complete;

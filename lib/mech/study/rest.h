@@ -30,6 +30,7 @@ typedef struct {
     size_t starts;        /* of a numerical search; 0: there was none */
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */
+    qdot_expr special;    /* a LIST of what values divide by: where one is 0 this is not the list; nil: none */
     const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
 } qdot_equilibria;
 

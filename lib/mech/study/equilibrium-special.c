@@ -1,0 +1,82 @@
+/* equilibrium-special.c -- values of parameters at which the listed rests are not those of the scene.
+ *
+ * Parameters are generic: x = b/a is listed without a condition a != 0. Such a divisor, if its sign is not
+ * declared and no condition of the place excludes its zero, is told with the list. */
+#include "expr/calculus.h"
+#include "mech/study/equilibrium-search.h"
+#include "normal/refute/constant.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
+
+enum { MOST_SPECIAL = 8 };
+
+/* Whether the conditions cannot hold where d = 0: put in for the first symbol that d gives. */
+static qdot_status
+is_excluded(const qdot_rest *r, qdot_expr exists, qdot_expr d, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr atoms = qdot_expr_atoms(pool, d, true), at;
+    qdot_solutions zero = {.complete = true};
+    qdot_status status = QDOT_OK;
+
+    *yes = false;
+    if (exists == QDOT_NIL || atoms == QDOT_NIL || qdot_expr_count(pool, atoms) == 0)
+        return qdot_pool_check(pool);
+    at = qdot_expr_arg(pool, atoms, 0);
+    if (qdot_expr_kind(pool, at) == QDOT_SYM)
+        status = qdot_solve(pool, d, at, &r->facts, &zero);
+    if (status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL) {
+        qdot_expr there = qdot_conditions_at(pool, exists, 1, &at, &zero.root.at[0].value, &r->facts);
+
+        *yes = there == QDOT_FALSE;
+        status = qdot_pool_check(pool);
+        if (status == QDOT_EDOMAIN) { /* they are not defined there */
+            *yes = true;
+            status = QDOT_OK;
+        }
+    }
+    qdot_solutions_clear(&zero);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* The divisors of a place that may be 0, to *special. */
+static qdot_status
+add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
+{
+    qdot_pool *pool = r->pool;
+    qdot_walk w;
+    qdot_status status = QDOT_OK;
+
+    QDOT_TRY(qdot_walk_begin(pool, e->equations, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD ? qdot_expr_count(pool, w.at[i]) : 0;
+
+        for (uint32_t k = 1; k + 1 < n && status == QDOT_OK; k += 2) {
+            qdot_expr base = qdot_expr_arg(pool, w.at[i], k);
+            const fmpq *exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+            uint32_t had = *special == QDOT_NIL ? 0 : qdot_expr_count(pool, *special);
+            bool out = exponent == NULL || fmpq_sgn(exponent) >= 0 || had == MOST_SPECIAL ||
+                       (qdot_expr_node(pool, base)->sign & QDOT_NE0) != 0 ||
+                       !qdot_is_generic(pool, base) || qdot_is_constant(pool, base);
+
+            for (uint32_t m = 0; m < had && !out; m++)
+                out = qdot_expr_arg(pool, *special, m) == base;
+            if (!out)
+                status = is_excluded(r, e->exists, base, &out);
+            if (!out && status == QDOT_OK)
+                *special = qdot_rest_appended(pool, *special, 1, &base);
+        }
+    }
+    qdot_walk_end(&w);
+    return status;
+}
+
+qdot_status
+qdot_rest_special(const qdot_rest *r, qdot_expr *special)
+{
+    *special = QDOT_NIL;
+    for (size_t i = 0; i < r->found.n; i++)
+        if (!r->found.at[i].numeric)
+            QDOT_TRY(add_divisors(r, &r->found.at[i], special));
+    return qdot_pool_check(r->pool);
+}
