@@ -1,6 +1,7 @@
 /* Rests that dry friction holds: intervals, their ends, what is stable. */
 #include "kit.h"
 
+#include "base/memory.h"
 #include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium.h"
 
@@ -93,6 +94,9 @@ static const row rows[] = {
     {"x", "cos(x)", "-sign(x')/2", NULL, 2, "[x >= -1/6*pi, x <= 1/6*pi]", QDOT_STABLE,
      "[x > -1/6*pi, x < 1/6*pi]"},
     {"x", "2*x", "-sign(x')", NULL, 0, NULL, QDOT_STABLE, NULL},
+    /* what drives is weaker than friction near rest, but not at an end, where friction is used up */
+    {"x", "x^2/2", "-sign(x')/2 + 3*x'", NULL, 1, "[x >= -1/2, x <= 1/2]", QDOT_STABLE,
+     "[x > -1/2, x < 1/2]"},
     /* friction that drives holds nothing */
     {"x", "x^2/2", "sign(x')", NULL, 1, "nil", QDOT_STABILITY_UNDECIDED, "nil"},
     /* y without friction: at a least V of it, or not; x stays where friction holds it */
@@ -137,6 +141,30 @@ rests_under_friction_body(kit *k)
 }
 TEST(rests_under_friction)
 
+/* Out of memory at the n-th allocation, for n up to where it passes. */
+static void
+survives_failed_allocations_too_body(kit *k)
+{
+    qdot_status status = QDOT_ENOMEM;
+    long n = 0;
+
+    coords(k, "x");
+    must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - x^2/2 - alpha*cos(x)/beta")));
+    torque(k, "-sign(x')/2", "x");
+    for (; status != QDOT_OK && n < 200000; n += 1 + n / 30) {
+        qdot_equilibria all = {0};
+
+        k->scene->version++; /* derive again */
+        qdot_memory_fail_at(n);
+        status = qdot_equilibrium_find(k->scene, NULL, NULL, &all);
+        qdot_memory_fail_at(-1);
+        assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
+        qdot_equilibria_clear(&all);
+    }
+    assert_true(status == QDOT_OK && n > 20);
+}
+TEST(survives_failed_allocations_too)
+
 int
 main(void)
 {
@@ -145,6 +173,7 @@ main(void)
         cmocka_unit_test(a_circle_has_no_ends),
         cmocka_unit_test(linear_relations_may_have_parameters),
         cmocka_unit_test(rests_under_friction),
+        cmocka_unit_test(survives_failed_allocations_too),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

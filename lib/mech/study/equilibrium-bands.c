@@ -267,6 +267,7 @@ collect(const line *l, const bool *holds, qdot_bands *out)
     out->whole = l->turn ? first == pieces : true;
     for (size_t k = 0; k < pieces && !l->turn; k++)
         out->whole = out->whole && holds[k];
+    out->touched = out->whole && l->points > 0;
     if (out->whole)
         return QDOT_OK;
     for (size_t k = first; k < first + pieces; k++) {

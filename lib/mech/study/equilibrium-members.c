@@ -2,6 +2,7 @@
  * domains, and the conditions under which each exists. */
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
+#include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
@@ -243,6 +244,43 @@ append_place(qdot_rest *r, const place *p, qdot_expr conditions)
     return qdot_vec_push(&r->found, e);
 }
 
+/* Sides of jumps that nothing determines may have any value that the conditions leave: where there is one, the
+ * conditions on them are met. *conditions: FALSE where there is none. */
+static qdot_status
+choose_sides(qdot_rest *r, qdot_expr *conditions)
+{
+    qdot_pool *pool = r->pool;
+
+    for (size_t i = r->searched; i < r->unknowns.n && *conditions != QDOT_FALSE; i++) {
+        qdot_expr side = r->unknowns.at[i], on[QDOT_CONDITIONS_MOST], others = QDOT_NIL;
+        uint32_t n = *conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, *conditions);
+        qdot_bands bands;
+        size_t count = 0;
+        bool found;
+        qdot_status status;
+
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr one = qdot_expr_arg(pool, *conditions, k);
+
+            if (qdot_expr_contains(pool, one, side) && count < QDOT_CONDITIONS_MOST)
+                on[count++] = one;
+            else
+                others = qdot_conditions_and(pool, others, one);
+        }
+        if (count == 0)
+            continue;
+        status = qdot_bands_find(pool, side, count, on, &r->facts, &bands, &found);
+        if (status == QDOT_OK && !found)
+            r->complete = false;
+        *conditions = !found || (bands.at.n == 0 && !bands.whole)
+                          ? QDOT_FALSE
+                          : qdot_conditions_all(pool, others, bands.also);
+        qdot_bands_clear(&bands);
+        QDOT_TRY(status);
+    }
+    return qdot_pool_check(pool);
+}
+
 /* The members of the i-th unknown and of those behind it, inside their domains. */
 static qdot_status
 append_members(qdot_rest *r, const place *p, size_t i, qdot_expr conditions)
@@ -253,8 +291,10 @@ append_members(qdot_rest *r, const place *p, size_t i, qdot_expr conditions)
     qdot_window window;
     qdot_status status;
 
-    if (i == p->n)
-        return append_place(r, p, conditions);
+    if (i == p->n) {
+        QDOT_TRY(choose_sides(r, &conditions));
+        return conditions == QDOT_FALSE ? QDOT_OK : append_place(r, p, conditions);
+    }
     u = p->symbol[i];
     QDOT_TRY(qdot_rest_period(r, u, &period));
     window = qdot_solve_window(pool, u, period == turn);

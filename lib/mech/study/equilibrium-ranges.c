@@ -22,10 +22,10 @@ free_coordinate(const qdot_rest *r, qdot_expr conditions)
 
 static qdot_status
 append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr exists,
-             const qdot_band *band)
+             const qdot_band *band, bool touched)
 {
     qdot_pool *pool = r->pool;
-    qdot_equilibrium one = {.equations = all->equations, .exists = exists};
+    qdot_equilibrium one = {.equations = all->equations, .exists = exists, .touched = touched};
     qdot_expr ends[2];
     size_t n = 0;
 
@@ -54,7 +54,9 @@ static qdot_status
 list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr u = free_coordinate(r, all->exists), in[QDOT_CONDITIONS_MOST], exists = QDOT_NIL;
+    qdot_expr u = free_coordinate(r, all->exists), in[QDOT_CONDITIONS_MOST], exists = QDOT_NIL,
+              room[QDOT_CONDITIONS_MOST];
+    qdot_facts facts;
     size_t n = 0;
     qdot_bands bands;
     qdot_status status;
@@ -72,7 +74,8 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
         else
             exists = qdot_conditions_and(pool, exists, one);
     }
-    status = qdot_bands_find(pool, u, n, in, &r->facts, &bands, done);
+    facts = qdot_facts_and(pool, &r->facts, exists, room);
+    status = qdot_bands_find(pool, u, n, in, &facts, &bands, done);
     if (bands.touched && r->s->coordinates.n > 1)
         *done = false;
     for (size_t i = 0; i < bands.at.n && *done; i++) /* a place in numbers would want numbers alone */
@@ -82,9 +85,9 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
     if (exists == QDOT_FALSE)
         bands.at.n = 0;
     for (size_t i = 0; i < bands.at.n && *done && status == QDOT_OK; i++)
-        status = append_range(r, all, u, exists, &bands.at.at[i]);
+        status = append_range(r, all, u, exists, &bands.at.at[i], bands.touched);
     if (*done && bands.whole && status == QDOT_OK)
-        status = append_range(r, all, u, exists, &(qdot_band){0});
+        status = append_range(r, all, u, exists, &(qdot_band){0}, bands.touched);
     qdot_bands_clear(&bands);
     return status;
 }

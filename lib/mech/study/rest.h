@@ -16,6 +16,7 @@ typedef struct {
         equations;    /* a LIST: coordinate = value ..., then lambda[...] = value ... */
     qdot_expr exists; /* a LIST of RELs under which it is real; nil: always */
     qdot_expr range;  /* a LIST of RELs lo <= u, u <= hi: every u between is a rest; nil: none */
+    bool touched;       /* at a point inside the range friction is at its limit */
     bool numeric_range; /* an end of it is a decimal number, known to 12 digits */
     qdot_stability stability;
     qdot_expr stable_when; /* STABLE, TO_FIRST_ORDER: a LIST of RELs; nil: always */

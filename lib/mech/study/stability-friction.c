@@ -10,8 +10,8 @@
  * power of all forces together is at most -d sum |q_i'|. If V falls in the other coordinates and their
  * motion with S fixed, which friction keeps so, is not gyroscopic, the rest is unstable.
  *
- * At an end of an interval of one coordinate |F| = f. Where the force beyond the end points back inside, the
- * energy T + V + f q (towards the inside) takes the place of L; where it points away the end is left.
+ * At an end of an interval of one coordinate |F| = f. Where the force beyond the end points back inside and the
+ * energy never grows, T + V + f q (towards the inside) takes the place of L; where it points away the end is left.
  *
  * Source  Lyapunov's and Lagrange's theorems for the L above.
  * Tests   tests/mech/test_equilibrium_bands.c
@@ -310,7 +310,7 @@ leave_out_ends(held *h)
 
             if (strict == QDOT_NIL || (qdot_mech_holds(s, one) & QDOT_HAS_COORD) == 0)
                 continue;
-            if (part == 1 && s->coordinates.n == 1)
+            if (part == 1 && s->coordinates.n == 1 && h->j.judge->law != QDOT_ENERGY_UNKNOWN)
                 QDOT_TRY(points_inside(h, qdot_expr_arg(pool, one, upper ? 1 : 0), upper, &inside));
             if (!inside)
                 QDOT_TRY(qdot_vec_push(&h->j.when, strict));
@@ -339,7 +339,7 @@ judge_held(held *h, bool *judged)
         QDOT_TRY(is_below(h, judged));
     if (*judged)
         QDOT_TRY(has_mass(h, judged));
-    if (!*judged)
+    if (!*judged || (h->e->touched && h->j.judge->law == QDOT_ENERGY_UNKNOWN))
         return QDOT_OK;
     QDOT_TRY(by_others(h));
     QDOT_TRY(qdot_judgement_confirm(&h->j, &sure));
