@@ -10,28 +10,6 @@
 #include "lang/commands/statement.h"
 #include "lang/source/source.h"
 
-/* A session file without the lines of runs: a run counts as one of an earlier scene once what the scene was has
- * been undone, also where it is done again. */
-static char *
-without_runs(const char *text)
-{
-    char *copy = malloc(strlen(text) + 1), *to = copy;
-
-    assert_non_null(copy);
-    while (*text != 0) {
-        const char *end = strchr(text, '\n');
-        size_t n = end == NULL ? strlen(text) : (size_t)(end - text) + 1;
-
-        if (strncmp(text, "run ", 4) != 0 && strncmp(text, "# run ", 6) != 0) {
-            memcpy(to, text, n);
-            to += n;
-        }
-        text += n;
-    }
-    *to = 0;
-    return copy;
-}
-
 /* All that a session file says, and every name. */
 static char *
 state_of(talk *k)
@@ -42,7 +20,8 @@ state_of(talk *k)
     assert_int_equal(qdot_scene_file_text(k->session, true, &text), QDOT_OK);
     for (size_t i = 0; qdot_names_at(k->session->names, i) != NULL; i++)
         qdot_text_format(&text, "%s ", qdot_names_at(k->session->names, i)->name);
-    copy = without_runs(qdot_text_str(&text));
+    copy = strdup(qdot_text_str(&text));
+    assert_non_null(copy);
     qdot_text_clear(&text);
     (void)heard(k);
     return copy;
@@ -245,6 +224,37 @@ runs_come_back(void **state)
     assert_int_equal(say(k, "redo 3; check value(a.x, 2) == cos(2*sqrt(2)) within 1e-9"), 0);
 }
 
+/* A session file writes the runs of the scene that is declared now: after `undo` those of the scene before. */
+static void
+runs_belong_to_their_scene(void **state)
+{
+    talk *k = *state;
+    char *one, *two, *other;
+
+    assert_int_equal(say(k, "param k = 2; coord x; particle b mass 1 at x; potential k*x^2/2; start x = 1; "
+                            "run 0..1 as a"), 0);
+    one = state_of(k);
+    assert_non_null(strstr(one, "run 0..1 as a\n"));
+    back_and_forth(k, "potential x^4");
+    assert_int_equal(say(k, "run 0..1 as b"), 0);
+    two = state_of(k);
+    assert_null(strstr(two, "as a\n"));
+    assert_non_null(strstr(two, "run 0..1 as b\n"));
+    leads_to(k, "undo 2", one);
+    leads_to(k, "redo 2", two);
+    /* another scene instead of that one is none of the two */
+    leads_to(k, "undo 2", one);
+    assert_int_equal(say(k, "potential x^6"), 0);
+    other = state_of(k);
+    assert_null(strstr(other, "\nrun 0..1"));
+    leads_to(k, "undo", one);
+    /* what is held in a loop changes nothing for good */
+    leads_to(k, "print diff(V, x) for k = 1..2", one);
+    free(one);
+    free(two);
+    free(other);
+}
+
 /* Whatever fails, what can still be undone can also be done again. */
 static void
 left_whole(void (*arm)(long n))
@@ -415,6 +425,7 @@ main(void)
         cmocka_unit_test_setup_teardown(failures_leave_what_they_did, begin, end),
         cmocka_unit_test_setup_teardown(a_name_declared_anew_has_no_past, begin, end),
         cmocka_unit_test_setup_teardown(runs_come_back, begin, end),
+        cmocka_unit_test_setup_teardown(runs_belong_to_their_scene, begin, end),
         cmocka_unit_test(failures_of_memory_leave_it_whole),
         cmocka_unit_test(ctrl_c_leaves_it_whole),
         cmocka_unit_test(scripts_are_undone_statement_by_statement),

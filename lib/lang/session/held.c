@@ -154,9 +154,6 @@ qdot_held_scene_end(qdot_session *session, qdot_held_scene *kept)
             memcpy(*(void **)part.at, kept->at[k], bytes);
     }
     scene->lagrangian = kept->lagrangian;
-    scene->version++;
-    for (size_t i = 0; i < session->runs.n; i++) /* the scene is what it was */
-        if (session->runs.at[i].conditions->version == kept->version)
-            session->runs.at[i].conditions->version = scene->version;
+    scene->version = kept->version;
     drop(kept);
 }

@@ -20,6 +20,7 @@ typedef struct {
 typedef struct {
     char *text;
     bool joined; /* it goes with the record before it */
+    uint64_t version[2]; /* of the scene */
     qdot_vec(change) changes;
     qdot_undo_single single[2];
     size_t history[2];   /* answers given */
@@ -369,10 +370,12 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
     u->under_way--;
     if (!u->known)
         return;
+    r.version[0] = u->version;
+    r.version[1] = s->scene->version;
     status = compare(s, &r);
     /* declaring the same thing again is a change of which no array shows anything */
     if (status == QDOT_OK &&
-        (!is_nothing(&r) || (!u->moved && s->scene->version != u->version)))
+        (!is_nothing(&r) || (!u->moved && r.version[0] != r.version[1])))
         status = push(s, &r);
     u->version = s->scene->version;
     if (status == QDOT_OK && !u->moved)
@@ -487,7 +490,6 @@ static qdot_status
 apply(qdot_session *s, record *r, int to)
 {
     qdot_undo *u = s->undo;
-    bool counts = r->single[0].lagrangian != r->single[1].lagrangian;
 
     if (r->other != NULL) {
         cross(s, r);
@@ -499,8 +501,6 @@ apply(qdot_session *s, record *r, int to)
         const change *c = &r->changes.at[i];
         const qdot_scene_part live = qdot_undo_part(s, &s->undo->now, c->part);
 
-        counts = counts || (c->part < QDOT_SCENE_PARTS &&
-                            qdot_scene_part_counts((size_t)c->part));
         if (c->part == QDOT_UNDO_RUNS || c->part == QDOT_UNDO_TABLES) {
             qdot_undo_count(c->part, c->items[to], c->n[to], true);
             qdot_undo_count(c->part, c->items[!to], c->n[!to], false);
@@ -520,7 +520,7 @@ apply(qdot_session *s, record *r, int to)
     s->flat = u->now.single.flat;
     s->timing = u->now.single.timing;
     s->start_exactly = u->now.single.start_exactly;
-    s->scene->version += counts;
+    s->scene->version = r->version[to];
     return QDOT_OK;
 }
 

@@ -212,7 +212,7 @@ qdot_scene_body(qdot_scene *s, const char *name, const qdot_body *body, qdot_exp
         QDOT_TRY(check_rotation(s, rotation));
     QDOT_TRY(qdot_scene_copy_text(s, name, &b.name));
     QDOT_TRY(qdot_vec_push(&s->bodies, b));
-    s->version++;
+    qdot_scene_changed(s);
     return QDOT_OK;
 }
 

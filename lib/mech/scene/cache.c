@@ -62,7 +62,8 @@ qdot_derived_get(qdot_scene *s)
 
     if (d->version != s->version) {
         derived_clear(d);
-        *d = (qdot_derived){.version = s->version, .n = s->coordinates.n};
+        *d = (qdot_derived){
+            .newest = d->newest, .version = s->version, .n = s->coordinates.n};
     }
     return d;
 }

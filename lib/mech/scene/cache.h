@@ -63,6 +63,7 @@ typedef struct {
 } qdot_cyclic_known;
 
 struct qdot_derived {
+    uint64_t newest;  /* the highest version the scene has had; of no state alone */
     uint64_t version; /* of the scene all below belongs to */
     size_t n;
     bool kinematics_ready;

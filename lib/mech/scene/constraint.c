@@ -204,7 +204,7 @@ qdot_scene_constraint(qdot_scene *s, const char *label, qdot_expr left, qdot_exp
         qdot_scene_forget_dropped(s);
         return status;
     }
-    s->version++;
+    qdot_scene_changed(s);
     return QDOT_OK;
 }
 

@@ -76,7 +76,7 @@ qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind kind, size_t k)
         TAKE(s->torques, torque);
         break;
     }
-    s->version++;
+    qdot_scene_changed(s);
     return QDOT_OK;
 }
 

@@ -1,26 +1,17 @@
 /* parts.c -- the arrays of a scene in one form, for saving and restoring its state. */
 #include "mech/scene/scene.h"
 
-enum { EVENTS = 0 };
-
 qdot_scene_part
 qdot_scene_part_at(qdot_scene *s, size_t k)
 {
 #define PART(list) {&(list).at, &(list).n, &(list).capacity, sizeof *(list).at}
     const qdot_scene_part parts[QDOT_SCENE_PARTS] = {
-        [EVENTS] = PART(s->events), PART(s->coordinates), PART(s->particles),
-        PART(s->bodies),            PART(s->gravities),   PART(s->potentials),
-        PART(s->springs),           PART(s->dampers),     PART(s->dissipations),
-        PART(s->forces),            PART(s->torques),     PART(s->constraints),
-        PART(s->assumed),           PART(s->conditions),  PART(s->relations),
+        PART(s->events),     PART(s->coordinates), PART(s->particles),    PART(s->bodies),
+        PART(s->gravities),  PART(s->potentials),  PART(s->springs),      PART(s->dampers),
+        PART(s->dissipations), PART(s->forces),    PART(s->torques),      PART(s->constraints),
+        PART(s->assumed),    PART(s->conditions),  PART(s->relations),
     };
 #undef PART
 
     return parts[k];
-}
-
-bool
-qdot_scene_part_counts(size_t k)
-{
-    return k != EVENTS;
 }

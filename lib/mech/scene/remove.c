@@ -102,6 +102,6 @@ qdot_scene_remove(qdot_scene *s, const char *label)
     FILTER(s->potentials, p, qdot_label_is(p->name, label));
     FILTER(s->dissipations, p, qdot_label_is(p->name, label));
     FILTER(s->constraints, p, qdot_label_is(p->label, label));
-    s->version++;
+    qdot_scene_changed(s);
     return found ? QDOT_OK : qdot_fail(QDOT_ENAME, "nothing is labelled %s", label);
 }

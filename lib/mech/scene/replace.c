@@ -62,7 +62,7 @@ qdot_status
 qdot_scene_map(qdot_scene *s, qdot_expr (*f)(qdot_expr e, void *user), void *user)
 {
     map_all(s, (mapping){f, user});
-    s->version++;
+    qdot_scene_changed(s);
     return qdot_pool_check(s->pool);
 }
 

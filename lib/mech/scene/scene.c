@@ -167,10 +167,18 @@ qdot_scene_copy_text(qdot_scene *s, const char *text, char **copy)
     return *copy || !text ? QDOT_OK : QDOT_ENOMEM;
 }
 
+void
+qdot_scene_changed(qdot_scene *s)
+{
+    if (s->derived->newest < s->version)
+        s->derived->newest = s->version;
+    s->version = ++s->derived->newest;
+}
+
 static qdot_status
 changed(qdot_scene *s)
 {
-    s->version++;
+    qdot_scene_changed(s);
     return QDOT_OK;
 }
 

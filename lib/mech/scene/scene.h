@@ -66,17 +66,18 @@ QDOT_MUST_CHECK qdot_status qdot_scene_remove_at(qdot_scene *s, qdot_scene_kind 
  * particle, a body or at a place; QDOT_TORQUE: also those declared with `force`. */
 bool qdot_scene_said_twice(const qdot_scene *s, qdot_scene_kind kind);
 
+/* The scene is another one than before: `version` becomes a number that none of its states has had. */
+void qdot_scene_changed(qdot_scene *s);
+
 /* The arrays of declarations in a uniform form: `size` bytes an item, which may be copied byte by
- * byte. With `lagrangian` they are the state of a scene: a copy of all can be put back; then
- * increment `version`. */
+ * byte. With `lagrangian` they are the state of a scene: a copy of all can be put back, with the
+ * `version` that the scene had then. */
 enum { QDOT_SCENE_PARTS = 15 };
 typedef struct {
     void *at;            /* the pointer to the items */
     size_t *n, *capacity, size;
 } qdot_scene_part;
 qdot_scene_part qdot_scene_part_at(qdot_scene *s, size_t k);
-/* Whether derived results depend on part k. */
-bool qdot_scene_part_counts(size_t k);
 
 /* Rotation matrix Rz(phi) Rx(theta) Rz(psi). */
 qdot_expr qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi);

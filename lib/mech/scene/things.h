@@ -97,7 +97,7 @@ typedef struct qdot_derived qdot_derived; /* mech/scene/cache.h */
 typedef struct {
     qdot_pool *pool;  /* borrowed */
     qdot_arena *texts;
-    uint64_t version; /* grows with every change */
+    uint64_t version; /* one number for each state: qdot_scene_changed */
     qdot_vec(qdot_expr) coordinates;
     qdot_vec(qdot_particle) particles;
     qdot_vec(qdot_body) bodies;
