@@ -89,6 +89,7 @@ library_sources = \
 	lib/lang/figures/figure-file.c \
 	lib/lang/figures/figure-option.c \
 	lib/lang/figures/plot-branches.c \
+	lib/lang/figures/plot-loop.c \
 	lib/lang/figures/plot-over.c \
 	lib/lang/figures/plot-rows.c \
 	lib/lang/figures/plot-run.c \
@@ -136,6 +137,7 @@ library_sources = \
 	lib/lang/runs/event.c \
 	lib/lang/runs/longtime.c \
 	lib/lang/runs/own-run.c \
+	lib/lang/runs/plot-again.c \
 	lib/lang/runs/race.c \
 	lib/lang/runs/request.c \
 	lib/lang/runs/run-options.c \
@@ -749,8 +751,11 @@ library_headers = \
 	lib/lang/figures/figure-file.h \
 	lib/lang/figures/figure-option.h \
 	lib/lang/figures/plot-branches.h \
+	lib/lang/figures/plot-loop.h \
 	lib/lang/figures/plot-parts.h \
 	lib/lang/figures/plot-rows.h \
+	lib/lang/figures/plot-runs.h \
+	lib/lang/figures/plot.h \
 	lib/lang/figures/solid.h \
 	lib/lang/files/data-file.h \
 	lib/lang/files/digits-table.h \
@@ -1605,6 +1610,7 @@ script_tests = \
 	tests/script/plan-chain.lag \
 	tests/script/plan-options.lag \
 	tests/script/plan-tree.lag \
+	tests/script/plot-for.sh \
 	tests/script/plot-two-runs.sh \
 	tests/script/poincare.sh \
 	tests/script/poisson.lag \
@@ -2734,6 +2740,7 @@ test_files = \
 	tests/script/plan-chain.out \
 	tests/script/plan-options.out \
 	tests/script/plan-tree.out \
+	tests/script/plot-for.out \
 	tests/script/plot-two-runs.out \
 	tests/script/poincare.out \
 	tests/script/poisson.out \

@@ -6,6 +6,7 @@
 #include "expr/walk.h"
 #include "lang/commands/statement-form.h"
 #include "lang/functions/quantity.h"
+#include "lang/language/token-text.h"
 
 /* --- where a declared symbol occurs ------------------------------------------------------- */
 
@@ -60,7 +61,7 @@ static bool
 depends_on_scene(const qdot_session *s, const qdot_token *first, qdot_expr symbol)
 {
     static const char *const runs[] = {"run", "plan", "race", "workprecision", "longtime", "lyapunov",
-                                       "sweep", "find", "fit", "continue", "report"};
+                                       "sweep", "find", "fit", "continue", "report", "plot"};
     const qdot_statement *row =
         first->kind == QDOT_TOKEN_NAME ? qdot_statement_find(first->text) : NULL;
 
@@ -118,6 +119,38 @@ is_used(const qdot_session *s, const char *name, const qdot_token *from, const q
     return false;
 }
 
+/* The error: the index at k occurs in none of the tokens [from, to). */
+static qdot_status
+fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const qdot_token *to,
+            const qdot_token *end)
+{
+    qdot_session *s = c->session;
+    const qdot_name *known = declared(s, k->text);
+    const qdot_named_run *latest = s->runs.n > 0 ? &s->runs.at[s->runs.n - 1] : NULL;
+    qdot_text text = {0};
+
+    c->error_at = k->start;
+    if (latest == NULL || known == NULL ||
+        (!qdot_expr_is_class(s->pool, known->value, QDOT_COORD) && !is_in_scene(s, known->value))) {
+        (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
+        return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
+    }
+    qdot_text_format(&text, "{ run %s", latest->text);
+    for (const qdot_token *first = from, *last; first < to; first = last + 1) {
+        for (last = first; last < to && last->kind != QDOT_TOKEN_END;)
+            last++;
+        qdot_text_add(&text, first < last ? "; " : "");
+        qdot_token_text(s, first, last, &text);
+    }
+    qdot_text_add(&text, " } for ");
+    qdot_token_text(s, c->at, end, &text);
+    (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated: `%.200s` has one "
+                                 "value of it", k->text, latest->name);
+    (void)qdot_hint("%s", qdot_text_status(&text) == QDOT_OK ? qdot_text_str(&text) : "");
+    qdot_text_clear(&text);
+    return QDOT_EINVAL;
+}
+
 qdot_status
 qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *to, bool block)
 {
@@ -133,9 +166,7 @@ qdot_loop_index_check(qdot_cursor *c, const qdot_token *from, const qdot_token *
             is_used(c->session, k->text, k + 2, end) ||
             (block && declared(c->session, k->text) == NULL))
             continue;
-        c->error_at = k->start;
-        (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
-        return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
+        return fail_unused(c, k, from, to, end);
     }
     return QDOT_OK;
 }

@@ -49,7 +49,7 @@ qdot_operand_read(qdot_cursor *c, qdot_operand *o)
     o->session = c->session;
     QDOT_TRY(resolve_members(o, &run, &e));
     if (run != NULL)
-        QDOT_TRY(qdot_runs_find(c->session, run, &named));
+        QDOT_TRY(qdot_runs_read(c->session, run, &named));
     o->run = named != NULL ? named->run : NULL;
     o->vector = qdot_expr_kind(c->session->pool, e) == QDOT_VEC;
     QDOT_TRY(qdot_runs_flatten(c->session, e, &o->columns));
@@ -87,7 +87,7 @@ qdot_operands_find_runs(qdot_session *session, qdot_operands *list)
 
         if (list->at[i].run != NULL)
             continue;
-        QDOT_TRY(qdot_runs_find(session, NULL, &latest));
+        QDOT_TRY(qdot_runs_read(session, NULL, &latest));
         list->at[i].run = latest->run;
     }
     return QDOT_OK;

@@ -2,8 +2,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
-#include "lang/commands/loop-index.h"
-#include "lang/commands/loop.h"
+#include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
@@ -66,20 +65,6 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     return qdot_trace_begin(&one->source, FIRST_POINTS, s, &one->points);
 }
 
-/* ", l = 1": the values of the loop's indices. */
-static qdot_status
-add_indices(qdot_session *session, const qdot_loop *loop, qdot_text *label)
-{
-    for (size_t i = 0; loop != NULL && i < loop->indices.n; i++) {
-        const char *name = loop->indices.at[i].name;
-
-        qdot_text_format(label, ", %s = ", name);
-        QDOT_TRY(qdot_print(session->pool, qdot_names_find(session->names, name)->value,
-                            QDOT_PLAIN, label));
-    }
-    return QDOT_OK;
-}
-
 /* One expression as a curve; behind it stands what is to be read next. */
 static qdot_status
 curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_panel *p)
@@ -95,7 +80,7 @@ curve_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_p
     c->error_at = start->start;
     qdot_token_text_written(session, start, c->at, &axis);
     qdot_text_add(&label, qdot_text_str(&axis));
-    status = add_indices(session, loop, &label);
+    status = qdot_plot_indices(session, loop, &label);
     if (status == QDOT_OK)
         status = qdot_text_status(&axis);
     if (status == QDOT_OK)
@@ -120,22 +105,6 @@ curves_over(qdot_cursor *c, const variable *v, const qdot_loop *loop, qdot_plot_
     return qdot_cursor_is_word(c, "vs") ? QDOT_OK : qdot_cursor_expected(c, "`vs`");
 }
 
-/* Where the clause of a `for` ends: the first option behind something complete. */
-static const qdot_token *
-find_option(const qdot_cursor *c)
-{
-    const qdot_token *end = qdot_cursor_find_word(c, NULL);
-    int depth = 0;
-
-    for (const qdot_token *t = c->at; t < end; t++) {
-        depth += qdot_token_bracket(t);
-        if (t > c->at && depth == 0 && qdot_figure_option_is(t) &&
-            (t[-1].kind != QDOT_TOKEN_OPERATOR || qdot_token_bracket(t - 1) < 0))
-            return t;
-    }
-    return end;
-}
-
 /* `NAME = A..B [for ...]` with options behind `vs`. */
 static qdot_status
 read_variable(qdot_cursor *c, variable *v, qdot_plot_panel *p, qdot_figure_choice *figure)
@@ -156,7 +125,7 @@ read_variable(qdot_cursor *c, variable *v, qdot_plot_panel *p, qdot_figure_choic
     QDOT_TRY(qdot_session_number(c->session, to, &v->to, NULL));
     if (qdot_cursor_accept_word(c, "for")) {
         v->clause = c->at;
-        c->at = find_option(c);
+        c->at = qdot_plot_clause_end(c);
     }
     v->behind = c->at;
     QDOT_TRY(qdot_figure_option_read(c, figure, &p->choice));
@@ -170,40 +139,26 @@ read_variable(qdot_cursor *c, variable *v, qdot_plot_panel *p, qdot_figure_choic
     return QDOT_OK;
 }
 
+typedef struct {
+    const variable *v;
+    qdot_plot_panel *panel;
+} repeated;
+
+static qdot_status
+pass(qdot_cursor *c, const qdot_loop *loop, void *user)
+{
+    const repeated *r = user;
+
+    return curves_over(c, r->v, loop, r->panel);
+}
+
 static qdot_status
 loop_over(qdot_cursor *c, const variable *v, qdot_plot_panel *p)
 {
-    qdot_token *behind = (qdot_token *)v->behind; /* an end to the clause for the while */
-    uint8_t kind = behind->kind;
-    qdot_cursor clause = *c;
-    qdot_status status;
-    qdot_loop loop;
-    bool more;
+    repeated r = {v, p};
 
-    clause.at = v->clause;
-    behind->kind = QDOT_TOKEN_END;
-    status = qdot_loop_index_check(&clause, v->operands, v->clause - 1, false);
-    if (status != QDOT_OK) {
-        behind->kind = kind;
-        c->error_at = clause.error_at;
-        return status;
-    }
-    status = qdot_loop_begin(&loop, &clause, &more);
-    if (status != QDOT_OK)
-        c->error_at = loop.error_at;
-    while (status == QDOT_OK && more) {
-        behind->kind = kind;
-        status = curves_over(c, v, &loop, p);
-        behind->kind = QDOT_TOKEN_END;
-        if (status == QDOT_OK) {
-            status = qdot_loop_next(&loop, &more);
-            if (status != QDOT_OK)
-                c->error_at = loop.error_at;
-        }
-    }
-    behind->kind = kind;
-    qdot_loop_end(&loop);
-    return status;
+    return qdot_plot_loop_carry_out(
+        c, &(qdot_plot_loop){v->operands, v->clause - 1, v->clause, v->behind, pass, &r});
 }
 
 qdot_status

@@ -4,6 +4,7 @@
 
 #include "lang/figures/figure-option.h"
 #include "lang/commands/operands.h"
+#include "lang/figures/plot-runs.h"
 #include "show/trace.h"
 #include "tape/tape.h"
 
@@ -22,9 +23,10 @@ typedef struct {
     qdot_trace points;
 } qdot_plot_curve;
 
-/* An item between commas: an operand; its abscissa, counted from 1 in `versus`, 0: t. */
+/* An item between commas: an operand; its abscissa, counted from 1 in `versus`, 0: t; the pass of a
+ * loop, counted from 1 in `passes`. */
 typedef struct {
-    size_t versus;
+    size_t versus, pass;
     bool drift;
 } qdot_plot_item;
 
@@ -32,6 +34,8 @@ typedef struct {
     qdot_operands operands, versus;
     qdot_vec(qdot_plot_item) items; /* beside operands */
     qdot_vec(qdot_plot_curve *) curves; /* each owned */
+    qdot_vec(char *) passes;        /* ", l = 1"; owned */
+    qdot_vec(qdot_named_run) made;  /* a run for each pass; one use of each */
     char *variable;                 /* the abscissa of `vs NAME = A..B`; NULL */
     qdot_panel_choice choice;
 } qdot_plot_panel;
@@ -41,9 +45,9 @@ void qdot_plot_panel_clear(qdot_plot_panel *panel);
 QDOT_MUST_CHECK qdot_status qdot_plot_curve_add(qdot_plot_panel *panel, const char *label,
                                                 const char *axis, qdot_plot_curve **added);
 
-/* `E, ... [vs E], ...` with options, and the first points of each curve along its run. */
-QDOT_MUST_CHECK qdot_status qdot_plot_run(qdot_cursor *c, qdot_plot_panel *panel,
-                                          qdot_figure_choice *figure);
+/* `E, ... [vs E], ... [for ...]` with options, and the first points of each curve along its run. */
+QDOT_MUST_CHECK qdot_status qdot_plot_run(qdot_cursor *c, const qdot_plot_runs *runs,
+                                          qdot_plot_panel *panel, qdot_figure_choice *figure);
 /* The `vs` of `vs NAME = A..B` at the top level; NULL: there is none. */
 const qdot_token *qdot_plot_over_find(const qdot_cursor *c);
 /* `E, ... vs NAME = A..B [for ...]` with options, and the first points of each curve. */

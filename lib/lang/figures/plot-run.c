@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "lang/figures/plot-loop.h"
 #include "lang/figures/plot-parts.h"
 #include "lang/language/read.h"
+#include "lang/language/token-text.h"
 #include "lang/session/member.h"
 
 enum { LEAST_POINTS = 201, PARTS_OF_STEP = 8, MOST_AT_FIRST = 10001 };
@@ -17,7 +19,8 @@ static qdot_status
 push_item(qdot_plot_panel *p, bool drift)
 {
     while (p->items.n < p->operands.n)
-        QDOT_TRY(qdot_vec_push(&p->items, ((qdot_plot_item){.drift = drift})));
+        QDOT_TRY(qdot_vec_push(&p->items,
+                               ((qdot_plot_item){.drift = drift, .pass = p->passes.n})));
     return QDOT_OK;
 }
 
@@ -37,6 +40,22 @@ is_drift(const qdot_cursor *c)
             qdot_token_is(end + 1, ","));
 }
 
+/* In a loop an operand is called as it was written: the indices stand behind all labels. */
+static qdot_status
+rename_written(qdot_cursor *c, const qdot_token *start, qdot_operand *o)
+{
+    qdot_text label = {0};
+
+    qdot_token_text_written(c->session, start, c->at, &label);
+    if (qdot_text_status(&label) != QDOT_OK) {
+        qdot_text_clear(&label);
+        return QDOT_ENOMEM;
+    }
+    qdot_free(o->label);
+    o->label = label.at;
+    return QDOT_OK;
+}
+
 /* E, or drift(E, ...) */
 static qdot_status
 read_item(qdot_cursor *c, qdot_plot_panel *p)
@@ -46,9 +65,12 @@ read_item(qdot_cursor *c, qdot_plot_panel *p)
     if (drift)
         c->at += 2;
     do {
+        const qdot_token *start = c->at;
         qdot_operand o = {0};
         qdot_status status = qdot_operand_read(c, &o);
 
+        if (status == QDOT_OK && p->passes.n > 0)
+            status = rename_written(c, start, &o);
         if (status == QDOT_OK)
             status = qdot_vec_push(&p->operands, o);
         if (status != QDOT_OK) {
@@ -72,6 +94,8 @@ read_versus(qdot_cursor *c, qdot_plot_panel *p, size_t first)
         c->error_at = start->start;
         status = qdot_fail(QDOT_ETYPE, "`vs` takes one number");
     }
+    if (status == QDOT_OK && p->passes.n > 0)
+        status = rename_written(c, start, &o);
     if (status == QDOT_OK)
         status = qdot_vec_push(&p->versus, o);
     if (status != QDOT_OK) {
@@ -84,9 +108,9 @@ read_versus(qdot_cursor *c, qdot_plot_panel *p, size_t first)
 }
 
 static qdot_status
-read_all(qdot_cursor *c, qdot_plot_panel *p, qdot_figure_choice *figure)
+read_items(qdot_cursor *c, qdot_plot_panel *p)
 {
-    size_t first = 0;
+    size_t first = p->items.n;
 
     do {
         QDOT_TRY(read_item(c, p));
@@ -95,11 +119,108 @@ read_all(qdot_cursor *c, qdot_plot_panel *p, qdot_figure_choice *figure)
             first = p->items.n;
         }
     } while (qdot_cursor_accept_op(c, ","));
+    return QDOT_OK;
+}
+
+/* --- a loop: the run once more for each pass ----------------------------------------------- */
+
+typedef struct {
+    const qdot_token *operands;
+    const qdot_plot_runs *runs;
+    qdot_plot_panel *panel;
+} repeated;
+
+/* Keep the latest run, made for this pass, and read along it what has no run yet. */
+static qdot_status
+keep_run(qdot_session *session, qdot_plot_panel *p, qdot_operands *list, size_t first)
+{
+    qdot_named_run *latest;
+
+    QDOT_TRY(qdot_runs_find(session, NULL, &latest));
+    for (size_t i = first; i < list->n; i++) {
+        if (list->at[i].run == NULL) {
+            list->at[i].run = latest->run;
+            continue;
+        }
+        (void)qdot_fail(QDOT_EINVAL, "`%.200s` names its run, which has one value of the index",
+                        list->at[i].label);
+        return qdot_hint("without a run before the point it is the latest, made once more for each value");
+    }
+    if (p->made.n > 0 && p->made.at[p->made.n - 1].run == latest->run)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&p->made, *latest));
+    ++*latest->uses;
+    return QDOT_OK;
+}
+
+static qdot_status
+read_pass(qdot_cursor *c, const qdot_loop *loop, void *user)
+{
+    const repeated *r = user;
+    qdot_plot_panel *p = r->panel;
+    const size_t first = p->operands.n, first_versus = p->versus.n;
+    qdot_text indices = {0};
+    qdot_status status = qdot_plot_indices(c->session, loop, &indices);
+
+    if (status == QDOT_OK)
+        status = qdot_text_status(&indices);
+    if (status == QDOT_OK)
+        status = qdot_vec_push(&p->passes, indices.at);
+    if (status != QDOT_OK) {
+        qdot_text_clear(&indices);
+        return status;
+    }
+    c->at = r->operands;
+    c->error_at = c->at->start;
+    status = r->runs->make(r->runs->user);
+    if (status == QDOT_EFAILED) {
+        const qdot_error error = *qdot_last_error();
+
+        (void)qdot_fail(QDOT_EFAILED, "the run with %s: %s", p->passes.at[p->passes.n - 1] + 2,
+                        error.message);
+    }
+    if (status == QDOT_OK)
+        status = read_items(c, p);
+    if (status == QDOT_OK && !qdot_cursor_is_word(c, "for"))
+        status = qdot_cursor_expected(c, "`for`");
+    if (status == QDOT_OK)
+        status = keep_run(c->session, p, &p->operands, first);
+    if (status == QDOT_OK)
+        status = keep_run(c->session, p, &p->versus, first_versus);
+    r->runs->drop(r->runs->user);
+    return status;
+}
+
+static qdot_status
+read_loop(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p)
+{
+    repeated r = {c->at, runs, p};
+    qdot_plot_loop l = {.from = c->at - 1, .pass = read_pass, .user = &r};
+    qdot_status status;
+
+    QDOT_TRY(runs->begin(runs->user));
+    l.to = qdot_cursor_find_word(c, "for");
+    l.clause = c->at = l.to + 1;
+    l.behind = qdot_plot_clause_end(c);
+    status = qdot_plot_loop_carry_out(c, &l);
+    if (status == QDOT_OK)
+        c->at = l.behind;
+    if (status == QDOT_OK && p->operands.n == 0)
+        status = qdot_fail(QDOT_EINVAL, "there is no curve to plot");
+    return status;
+}
+
+static qdot_status
+read_all(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p, qdot_figure_choice *figure)
+{
+    const bool repeats = qdot_token_is_word(qdot_cursor_find_word(c, "for"), "for");
+
+    QDOT_TRY(repeats ? read_loop(c, runs, p) : read_items(c, p));
     QDOT_TRY(qdot_figure_option_read(c, figure, &p->choice));
     if (qdot_cursor_is_end(c))
         return QDOT_OK;
-    return qdot_cursor_expected(c, p->versus.n > 0 ? QDOT_FIGURE_OPTIONS
-                                                   : "`vs`, " QDOT_FIGURE_OPTIONS);
+    return qdot_cursor_expected(c, p->versus.n > 0 || repeats ? QDOT_FIGURE_OPTIONS
+                                                              : "`vs`, " QDOT_FIGURE_OPTIONS);
 }
 
 /* Curves that share no axes. */
@@ -284,8 +405,10 @@ write_labels(const qdot_plot_panel *p, size_t i, qdot_text *label, qdot_text *ax
 
     qdot_text_format(axis, p->items.at[i].drift ? "drift(%s)" : "%s", o->label);
     qdot_text_add(label, qdot_text_str(axis));
-    if (p->versus.n > 1 && versus > 0)
+    if (p->versus.n > (p->passes.n > 0 ? p->passes.n : 1) && versus > 0)
         qdot_text_format(label, " vs %s", p->versus.at[versus - 1].label);
+    if (p->items.at[i].pass > 0)
+        qdot_text_add(label, p->passes.at[p->items.at[i].pass - 1]);
     QDOT_TRY(qdot_text_status(axis));
     return qdot_text_status(label);
 }
@@ -322,11 +445,12 @@ curves_of(qdot_plot_panel *p, size_t i)
 }
 
 qdot_status
-qdot_plot_run(qdot_cursor *c, qdot_plot_panel *p, qdot_figure_choice *figure)
+qdot_plot_run(qdot_cursor *c, const qdot_plot_runs *runs, qdot_plot_panel *p,
+              qdot_figure_choice *figure)
 {
     const qdot_token *start = c->at;
 
-    QDOT_TRY(read_all(c, p, figure));
+    QDOT_TRY(read_all(c, runs, p, figure));
     c->error_at = start->start;
     QDOT_TRY(check_kinds(p));
     QDOT_TRY(qdot_operands_find_runs(c->session, &p->operands));

@@ -1,11 +1,11 @@
-/* plot.c -- the statement `plot`: panels of curves as a figure. */
+/* plot.c -- panels of curves as a figure. */
 #include <string.h>
 
 #include "lang/figures/figure-file.h"
 #include "lang/figures/plot-parts.h"
+#include "lang/figures/plot.h"
 #include "lang/figures/plot-rows.h"
 #include "lang/answer/answer.h"
-#include "lang/commands/statement.h"
 
 enum { LONGEST_LABEL = 48 };
 
@@ -31,6 +31,12 @@ qdot_plot_panel_clear(qdot_plot_panel *p)
         free_curve(p->curves.at[i]);
     qdot_free(p->curves.at);
     qdot_free(p->items.at);
+    for (size_t i = 0; i < p->passes.n; i++)
+        qdot_free(p->passes.at[i]);
+    qdot_free(p->passes.at);
+    for (size_t i = 0; i < p->made.n; i++)
+        qdot_named_run_release(&p->made.at[i]);
+    qdot_free(p->made.at);
     qdot_free(p->variable);
     qdot_operands_free(&p->operands);
     qdot_operands_free(&p->versus);
@@ -226,19 +232,19 @@ find_bar(const qdot_cursor *c)
 }
 
 static qdot_status
-read_panel(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
+read_panel(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
     qdot_plot_panel empty = {0}, *p;
     const qdot_token *vs = qdot_plot_over_find(c);
 
     QDOT_TRY(qdot_vec_push(all, empty));
     p = &all->at[all->n - 1];
-    return vs != NULL ? qdot_plot_over(c, vs, p, figure) : qdot_plot_run(c, p, figure);
+    return vs != NULL ? qdot_plot_over(c, vs, p, figure) : qdot_plot_run(c, runs, p, figure);
 }
 
 /* Panels, each with an end of its own while it is read. */
 static qdot_status
-read_panels(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
+read_panels(qdot_cursor *c, const qdot_plot_runs *runs, qdot_figure_choice *figure, panels *all)
 {
     for (;;) {
         qdot_token *bar = find_bar(c);
@@ -246,7 +252,7 @@ read_panels(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
         qdot_status status;
 
         bar->kind = QDOT_TOKEN_END;
-        status = read_panel(c, figure, all);
+        status = read_panel(c, runs, figure, all);
         bar->kind = kind;
         QDOT_TRY(status);
         if (!qdot_cursor_accept_op(c, "|"))
@@ -259,7 +265,7 @@ read_panels(qdot_cursor *c, qdot_figure_choice *figure, panels *all)
 }
 
 qdot_status
-qdot_plot_statement(qdot_cursor *c)
+qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs)
 {
     qdot_figure_choice choice = {0};
     panels all = {0};
@@ -268,7 +274,7 @@ qdot_plot_statement(qdot_cursor *c)
 
     if (qdot_plot_rows_is(c))
         return qdot_plot_rows(c);
-    status = read_panels(c, &choice, &all);
+    status = read_panels(c, runs, &choice, &all);
 
     if (status == QDOT_OK)
         status = build(&all, &f);

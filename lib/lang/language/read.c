@@ -12,8 +12,12 @@
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 
+/* What an expression may go along. */
+typedef enum { NOTHING, MOTION } course;
+
+/* Along a motion coordinates move: what a loop holds them at is where they start. */
 static qdot_status
-read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
+read_expression(qdot_cursor *c, qdot_parse_extent extent, course along, qdot_expr *value,
                 qdot_expr *over, const char **run)
 {
     qdot_postfix_list program = {0};
@@ -26,7 +30,8 @@ read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
         *value = qdot_momenta_to_velocities(c->session, *value);
         status = qdot_value_kind_check(c->session->pool, *value);
     } else if (status == QDOT_OK && c->session->held.n > 0) {
-        *value = qdot_held_apply(c->session, *value);
+        *value = along == MOTION ? qdot_held_parameters(c->session, *value)
+                                 : qdot_held_apply(c->session, *value);
         status = qdot_value_kind_check(c->session->pool, *value);
     }
     return status;
@@ -35,26 +40,32 @@ read_expression(qdot_cursor *c, qdot_parse_extent extent, qdot_expr *value,
 qdot_status
 qdot_read_value(qdot_cursor *c, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_VALUE, value, NULL, NULL);
+    return read_expression(c, QDOT_PARSE_VALUE, NOTHING, value, NULL, NULL);
 }
 
 qdot_status
 qdot_read_named(qdot_cursor *c, qdot_expr *value, qdot_expr *over)
 {
-    return read_expression(c, QDOT_PARSE_VALUE, value, over, NULL);
+    return read_expression(c, QDOT_PARSE_VALUE, NOTHING, value, over, NULL);
 }
 
 qdot_status
 qdot_read_side(qdot_cursor *c, qdot_expr *value)
 {
-    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, NULL);
+    return read_expression(c, QDOT_PARSE_SIDE, NOTHING, value, NULL, NULL);
+}
+
+qdot_status
+qdot_read_motion(qdot_cursor *c, qdot_expr *value)
+{
+    return read_expression(c, QDOT_PARSE_SIDE, MOTION, value, NULL, NULL);
 }
 
 qdot_status
 qdot_read_member(qdot_cursor *c, qdot_expr *value, const char **run)
 {
     *run = NULL;
-    return read_expression(c, QDOT_PARSE_SIDE, value, NULL, run);
+    return read_expression(c, QDOT_PARSE_SIDE, MOTION, value, NULL, run);
 }
 
 /* Fail at `at`: a value of the wrong kind. */

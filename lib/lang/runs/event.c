@@ -92,9 +92,9 @@ read_event(qdot_cursor *c, qdot_event *event)
     QDOT_TRY(qdot_read_name(c, &name));
     event->name = (char *)name;
     QDOT_TRY(qdot_cursor_expect_op(c, ":"));
-    QDOT_TRY(qdot_read_side(c, &event->left));
+    QDOT_TRY(qdot_read_motion(c, &event->left));
     if (qdot_cursor_accept_op(c, "=") || qdot_cursor_accept_op(c, "==")) {
-        QDOT_TRY(qdot_read_side(c, &event->right));
+        QDOT_TRY(qdot_read_motion(c, &event->right));
     } else if (qdot_expr_kind(pool, event->left) == QDOT_REL
                && qdot_expr_node(pool, event->left)->op == QDOT_EQ) {
         event->right = qdot_expr_arg(pool, event->left, 1); /* a named equation */

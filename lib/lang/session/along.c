@@ -82,7 +82,7 @@ value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *
     if (mixed)
         return qdot_member_values(session, run, e,
                                   &(qdot_samples){1, &t, NULL, value, &error});
-    QDOT_TRY(qdot_runs_find(session, run, &named));
+    QDOT_TRY(qdot_runs_read(session, run, &named));
     return qdot_run_values_beyond(named->run, 1, &e, &(qdot_exact_times){1, &t, NULL}, value, &error);
 }
 
@@ -143,7 +143,7 @@ qdot_along_value(qdot_session *session, const char *run, uint32_t n,
         (void)qdot_fail(QDOT_ETYPE, "`value` needs an expression and a time");
         return qdot_hint("value(theta, 20)");
     }
-    QDOT_TRY(qdot_runs_find(session, run, &named));
+    QDOT_TRY(qdot_runs_read(session, run, &named));
     status = QDOT_OK;
     for (uint32_t i = 0; i + 1 < n && status == QDOT_OK; i++)
         status = qdot_runs_flatten(session, args[i], &columns);

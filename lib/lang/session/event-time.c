@@ -34,7 +34,7 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
     qdot_status status;
     size_t n;
 
-    QDOT_TRY(qdot_runs_find(session, run, &named));
+    QDOT_TRY(qdot_runs_read(session, run, &named));
     if (!qdot_run_has_event(named->run, name)) {
         (void)qdot_fail(QDOT_ENAME, "the run %.100s knows no event `%.100s`", named->name,
                         name);

@@ -76,6 +76,16 @@ qdot_held_apply(qdot_session *session, qdot_expr e)
     return e;
 }
 
+qdot_expr
+qdot_held_parameters(qdot_session *session, qdot_expr e)
+{
+    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
+        if (!qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
+            e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
+                          &session->held.at[i].value);
+    return e;
+}
+
 bool
 qdot_held_coordinate(const qdot_session *session)
 {
@@ -96,17 +106,10 @@ qdot_held_check(qdot_session *session)
 
 /* --- the scene --------------------------------------------------------------------------- */
 
-/* e with held parameters put in. */
 static qdot_expr
 put_in(qdot_expr e, void *user)
 {
-    qdot_session *session = user;
-
-    for (size_t i = session->held.n; i-- > 0 && e != QDOT_NIL;)
-        if (!qdot_expr_is_class(session->pool, session->held.at[i].symbol, QDOT_COORD))
-            e = qdot_subs(session->pool, e, 1, &session->held.at[i].symbol,
-                          &session->held.at[i].value);
-    return e;
+    return qdot_held_parameters(user, e);
 }
 
 static void

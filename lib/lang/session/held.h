@@ -19,6 +19,8 @@ void qdot_held_end(qdot_session *session);
 
 /* e with what is held put in. Nil: the pool keeps the failure. */
 qdot_expr qdot_held_apply(qdot_session *session, qdot_expr e);
+/* The same of held parameters alone. */
+qdot_expr qdot_held_parameters(qdot_session *session, qdot_expr e);
 /* Whether a coordinate is held. */
 bool qdot_held_coordinate(const qdot_session *session);
 /* QDOT_EDOMAIN where a value is outside the declared domain. */

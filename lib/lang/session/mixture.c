@@ -62,7 +62,7 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
         if (m == NULL &&
             !(qdot_expr_node(session->pool, atom)->holds & QDOT_MEMBER_MOTION))
             continue;
-        QDOT_TRY(qdot_runs_find(session, m != NULL ? m->run : run, &named));
+        QDOT_TRY(qdot_runs_read(session, m != NULL ? m->run : run, &named));
         QDOT_TRY(add_run(x, named->run, &own.run));
         QDOT_TRY(qdot_vec_push(&x->symbols, atom));
         QDOT_TRY(qdot_vec_push(&x->members, own));

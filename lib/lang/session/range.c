@@ -61,7 +61,7 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
     QDOT_TRY(qdot_member_resolve(session, &run, &e, &mixed));
     if (mixed)
         return measure_mixed(session, run, kind, e, range, value);
-    QDOT_TRY(qdot_runs_find(session, run, &named));
+    QDOT_TRY(qdot_runs_read(session, run, &named));
     report = qdot_run_get_report(named->run);
     QDOT_TRY(qdot_run_range(named->run, kind, e, range != NULL ? range[0] : report->t0,
                             range != NULL ? range[1] : report->t1, &x, &error));

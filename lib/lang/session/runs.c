@@ -98,6 +98,65 @@ qdot_runs_find(qdot_session *session, const char *name, qdot_named_run **run)
     return unknown_run(session, name);
 }
 
+/* The value that the run was made with: of a parameter, or of a coordinate at its start; nil: it is none
+ * of the run's. */
+static qdot_expr
+made_with(const qdot_session *session, const qdot_conditions *c, qdot_expr symbol)
+{
+    for (size_t i = 0; i < c->symbols.n; i++)
+        if (c->symbols.at[i] == symbol)
+            return c->values.at[i];
+    for (size_t i = 0; i < c->q0.n && i < session->scene->coordinates.n; i++)
+        if (session->scene->coordinates.at[i] == symbol)
+            return c->q0.at[i];
+    return QDOT_NIL;
+}
+
+/* "l = 1" */
+static qdot_status
+put_value(const qdot_session *session, qdot_expr symbol, qdot_expr value, qdot_text *text)
+{
+    qdot_text_format(text, "%s = ", qdot_expr_symbol(session->pool, symbol)->name);
+    QDOT_TRY(qdot_print(session->pool, value, QDOT_PLAIN, text));
+    return qdot_text_status(text);
+}
+
+static qdot_status
+fail_other_value(const qdot_session *session, const qdot_named_run *run, const qdot_held *held,
+                 qdot_expr value)
+{
+    qdot_text own = {0}, loop = {0};
+    qdot_status status = put_value(session, held->symbol, value, &own);
+
+    if (status == QDOT_OK)
+        status = put_value(session, held->symbol, held->value, &loop);
+    if (status == QDOT_OK) {
+        (void)qdot_fail(QDOT_EINVAL, "the run `%.200s` has %.100s, and this pass of the loop %.100s",
+                        run->name, qdot_text_str(&own), qdot_text_str(&loop));
+        status = qdot_hint("run %.200s with %.100s", run->text, qdot_text_str(&loop));
+    }
+    qdot_text_clear(&own);
+    qdot_text_clear(&loop);
+    return status;
+}
+
+qdot_status
+qdot_runs_read(qdot_session *session, const char *name, qdot_named_run **run)
+{
+    const qdot_conditions *c;
+
+    QDOT_TRY(qdot_runs_find(session, name, run));
+    c = (*run)->conditions;
+    for (size_t i = 0; c != NULL && i < session->held.n; i++) {
+        const qdot_held *held = &session->held.at[i];
+        const qdot_expr value = made_with(session, c, held->symbol);
+
+        if (value != QDOT_NIL && value != qdot_session_bind(session, held->value))
+            return fail_other_value(session, *run, held, value);
+    }
+    return qdot_pool_check(session->pool);
+}
+
 qdot_status
 qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns)
 {

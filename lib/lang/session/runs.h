@@ -7,6 +7,10 @@
 /* The run of that name, the latest for NULL. QDOT_ENAME where there is none. */
 QDOT_MUST_CHECK qdot_status qdot_runs_find(qdot_session *session, const char *name,
                                            qdot_named_run **run);
+/* The same, for numbers along it: QDOT_EINVAL where a loop holds a parameter or a start at another value
+ * than the run was made with. */
+QDOT_MUST_CHECK qdot_status qdot_runs_read(qdot_session *session, const char *name,
+                                           qdot_named_run **run);
 /* Whether a run NAME[...] is kept. */
 bool qdot_runs_is_family(const qdot_session *session, const char *name);
 /* Keep the run, made as `request` asked, under its name; an older one of that name goes. Takes

@@ -54,7 +54,7 @@ qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
 
     own.at = x->at.at[i];
     own.error_at = own.at->start;
-    status = qdot_read_side(&own, e);
+    status = qdot_read_motion(&own, e);
     if (status == QDOT_OK && !qdot_token_is(own.at, ",") && own.at != x->end)
         status = qdot_cursor_expected(&own, "`,`, `as NAME` or the end of the statement");
     if (status == QDOT_OK) {

@@ -42,9 +42,9 @@ read_surface(qdot_cursor *c, poincare *p)
     const qdot_token *start = c->at;
     qdot_expr left, right;
 
-    QDOT_TRY(qdot_read_side(c, &left));
+    QDOT_TRY(qdot_read_motion(c, &left));
     if (qdot_cursor_accept_op(c, "=") || qdot_cursor_accept_op(c, "==")) {
-        QDOT_TRY(qdot_read_side(c, &right));
+        QDOT_TRY(qdot_read_motion(c, &right));
     } else if (qdot_expr_kind(pool, left) == QDOT_REL
                && qdot_expr_node(pool, left)->op == QDOT_EQ) {
         right = qdot_expr_arg(pool, left, 1); /* a named equation */

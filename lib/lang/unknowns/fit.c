@@ -71,7 +71,7 @@ read_expression(qdot_cursor *c, qdot_fit *f, qdot_fit_column *x)
     const size_t measured = session->measured.n;
     qdot_text text = {0};
 
-    QDOT_TRY(qdot_read_side(c, &x->e));
+    QDOT_TRY(qdot_read_motion(c, &x->e));
     qdot_token_text(session, start, c->at, &text);
     x->label = text.at;
     QDOT_TRY(qdot_text_status(&text));

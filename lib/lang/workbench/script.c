@@ -240,8 +240,19 @@ statement(engine *x, size_t i)
 
 /* --- trailing `for` ----------------------------------------------------------------- */
 
+/* Whether the statement `plot` draws a curve for each value of the index: it is a parameter or
+ * coordinate, of which the run is made once more. */
+static bool
+is_of_plot(const engine *x, size_t i, const qdot_token *index)
+{
+    const qdot_name *known = qdot_names_find(x->session->names, index->text);
+
+    return qdot_token_is_word(&x->tokens[i], "plot") && known != NULL &&
+           (known->kind == QDOT_NAME_PARAM || known->kind == QDOT_NAME_COORD);
+}
+
 /* The top-level `for NAME =` of the statement at i, or its END. plot keeps the one
- * that goes with `vs NAME =`. */
+ * that goes with `vs NAME =`, or with a declared NAME. */
 static size_t
 statement_end(const engine *x, size_t i)
 {
@@ -260,6 +271,7 @@ statement_end(const engine *x, size_t i)
             qdot_token_is(token + 2, "=") && qdot_token_is_word(&x->tokens[i], "plot"))
             own = true;
         if (!own && qdot_token_is_word(token, "for") && token[1].kind == QDOT_TOKEN_NAME &&
+            !is_of_plot(x, i, &token[1]) &&
             (qdot_token_is(token + 2, "=") || token[2].kind == QDOT_TOKEN_NAME ||
              token[2].kind == QDOT_TOKEN_END))
             return k;

@@ -1,0 +1,15 @@
+/* plot-runs.h -- the runs that `plot ... for l = [1, 2]` needs, made on the floor above. */
+#ifndef QDOT_LANG_PLOT_RUNS_H
+#define QDOT_LANG_PLOT_RUNS_H
+
+#include "base/status.h"
+
+/* How the latest run is made once more with the values that a loop holds. */
+typedef struct {
+    qdot_status (*begin)(void *user); /* before the loop: can it be made once more? */
+    qdot_status (*make)(void *user);  /* it is the latest run until it is dropped */
+    void (*drop)(void *user);
+    void *user;
+} qdot_plot_runs;
+
+#endif

@@ -1,0 +1,103 @@
+/* plot-again.c -- the statement `plot`: `for l = [1, 2]` makes the latest run once more for each value. */
+#include <string.h>
+
+#include "lang/commands/statement.h"
+#include "lang/figures/plot.h"
+#include "lang/language/read.h"
+#include "lang/runs/own-run.h"
+#include "lang/session/runs.h"
+#include "lang/source/source.h"
+
+typedef struct {
+    qdot_session *session;
+    char *text;           /* of the run, "0..20 tol 1e-9"; owned */
+    qdot_source *source;  /* the same with its tokens */
+    qdot_run_options run; /* as the values in force have them */
+} again;
+
+/* Read the statement with the values in force; the names in it are those of the scene, no indices. */
+static qdot_status
+read_run(again *a)
+{
+    qdot_cursor c = {.session = a->session, .source = a->source, .at = a->source->tokens.at};
+    const qdot_token *start = c.at;
+    const size_t outer = qdot_names_enclose(a->session->names);
+    qdot_status status;
+
+    qdot_run_options_free(&a->run);
+    a->run = (qdot_run_options){.tol = 1e-12};
+    status = qdot_read_range(&c, &a->run.from, &a->run.to);
+    if (status == QDOT_OK)
+        status = qdot_run_options_read(&c, start, &a->run);
+    qdot_names_disclose(a->session->names, outer);
+    return status;
+}
+
+/* Whether the statement, carried out now, makes the run that there is. */
+static qdot_status
+is_repeatable(again *a, const qdot_named_run *latest, bool *is)
+{
+    qdot_request request = {0};
+    qdot_conditions now = {0};
+    qdot_status status = qdot_run_options_fill(a->session, &a->run, a->run.from, a->run.to, &request);
+
+    if (status == QDOT_OK)
+        status = qdot_conditions_take(a->session->scene, &request.request, &now);
+    *is = status == QDOT_OK && latest->conditions != NULL &&
+          qdot_conditions_same(&now, latest->conditions);
+    qdot_conditions_clear(&now);
+    qdot_request_free(&request);
+    return status;
+}
+
+static qdot_status
+begin(void *user)
+{
+    again *a = user;
+    qdot_named_run *latest;
+    size_t at;
+    bool is = false;
+
+    QDOT_TRY(qdot_runs_find(a->session, NULL, &latest));
+    a->text = qdot_strdup(latest->text);
+    if (a->text == NULL)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_source_new("a run", a->text, strlen(a->text), &a->source, &at));
+    if (read_run(a) == QDOT_OK)
+        QDOT_TRY(is_repeatable(a, latest, &is));
+    else
+        QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name that the text holds has gone */
+    if (is)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EINVAL, "the scene, its values or its start are no longer those of `%.200s`, so it cannot "
+                                 "be made once more", latest->name);
+    return qdot_hint("run %.100s", latest->text);
+}
+
+static qdot_status
+make(void *user)
+{
+    again *a = user;
+
+    QDOT_TRY(read_run(a));
+    return qdot_own_run_make(a->session, &a->run, a->run.from, a->run.to, NULL, NULL);
+}
+
+static void
+drop(void *user)
+{
+    qdot_own_run_drop(((again *)user)->session);
+}
+
+qdot_status
+qdot_plot_statement(qdot_cursor *c)
+{
+    again a = {.session = c->session};
+    const qdot_plot_runs runs = {begin, make, drop, &a};
+    const qdot_status status = qdot_plot_figure(c, &runs);
+
+    qdot_run_options_free(&a.run);
+    qdot_source_free(a.source);
+    qdot_free(a.text);
+    return status;
+}
