@@ -1537,6 +1537,7 @@ script_tests = \
 	tests/script/forms.lag \
 	tests/script/formula-file.sh \
 	tests/script/friction-to-rest.lag \
+	tests/script/function-argument.lag \
 	tests/script/function-calculus.lag \
 	tests/script/functions.lag \
 	tests/script/geometry.lag \
@@ -2652,6 +2653,7 @@ test_files = \
 	tests/script/forms.out \
 	tests/script/formula-file.out \
 	tests/script/friction-to-rest.out \
+	tests/script/function-argument.out \
 	tests/script/function-calculus.out \
 	tests/script/functions.out \
 	tests/script/geometry.out \

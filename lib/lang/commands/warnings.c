@@ -3,9 +3,11 @@
 
 #include <string.h>
 
+#include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/functions/builtin.h"
 #include "lang/functions/short-names.h"
+#include "lang/language/function.h"
 #include "lang/language/token-text.h"
 
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
@@ -81,6 +83,55 @@ tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row
     return status;
 }
 
+/* Whether the name, none of the function's own, stands for something that holds the symbol. */
+static bool
+stands_for(const qdot_session *s, const char *name, qdot_expr symbol)
+{
+    const qdot_name *known = qdot_names_find(s->names, name);
+
+    if (known != NULL)
+        return known->kind == QDOT_NAME_VALUE && qdot_expr_contains(s->pool, known->value, symbol);
+    return (qdot_quantity_find(name) != NULL || qdot_scene_has_label(s->scene, name)) &&
+           qdot_scene_contains(s->scene, symbol);
+}
+
+/* Whether the text of the function takes expressions apart by a symbol: diff(V, x). */
+static bool
+takes_apart(const qdot_name *f)
+{
+    static const char *const words[] = {"diff", "subs", "integral", "limit", "series", "solve"};
+
+    for (const qdot_token *k = f->body->from; k < f->body->to; k++)
+        for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+            if (qdot_token_is_word(k, words[i]))
+                return true;
+    return false;
+}
+
+/* f(x) = V, where V holds a declared x: f(3) has that x in it still. */
+static qdot_status
+tell_arguments(qdot_session *session, const qdot_name *f)
+{
+    const qdot_pool *pool = session->pool;
+    const uint32_t n = takes_apart(f) ? 0 : qdot_expr_count(pool, f->formals);
+
+    for (uint32_t i = 0; i < n; i++) {
+        const char *formal = qdot_expr_symbol(pool, qdot_expr_arg(pool, f->formals, i))->name;
+        const qdot_name *declared = qdot_names_find(session->names, formal);
+
+        if (declared == NULL || (declared->kind != QDOT_NAME_COORD && declared->kind != QDOT_NAME_PARAM))
+            continue;
+        for (const qdot_token *k = f->body->from; k < f->body->to; k++)
+            if (k->kind == QDOT_TOKEN_NAME && qdot_function_mentions(pool, f, k->text) &&
+                stands_for(session, k->text, declared->value))
+                return qdot_answer_notice(session,
+                                          "the %s in `%.100s` is the declared one, not the argument of %.100s; "
+                                          "`subs(%.100s, %s = ...)` has another in its place",
+                                          formal, k->text, f->name, k->text, formal);
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 {
@@ -90,6 +141,8 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
     const char *longer;
     char words[120] = "";
 
+    if (function)
+        QDOT_TRY(tell_arguments(session, entry));
     if (hidden != NULL && hidden->least > 0) /* only name[...] is the language's */
         hidden = NULL;
     longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;
