@@ -242,7 +242,8 @@ tell_coordinate(assignment *a, size_t primes)
     }
     if (primes == 2)
         return tell_acceleration(a);
-    if (qdot_token_is(a->name + 1, "(")) /* theta(t) = 2*t */
+    if (qdot_token_is(a->name + 1, "(") || /* theta(t) = 2*t, theta[1] = 2 of no family */
+        (qdot_token_is(a->name + 1, "[") && strcmp(known->name, a->name->text) == 0 && primes == 0))
         qdot_text_format(&a->line, "%s %s = %s", a->moves ? "constraint" : "start", known->name,
                          qdot_text_str(&a->right));
     else
@@ -355,7 +356,7 @@ label_of(const assignment *a)
     const char *name = a->name->text;
     const size_t length = strlen(name);
 
-    if (a->name + 1 == a->equals)
+    if (a->name + 1 == a->equals || qdot_token_is(a->name + 1, "("))
         return qdot_scene_has_label(s->scene, name) || is_run(s, name) ? name : NULL;
     if (!qdot_token_is(a->name + 1, "["))
         return NULL;

@@ -89,6 +89,20 @@ write_gravity(assignment *a)
     return true;
 }
 
+/* Whether the right side says `on` what it acts. */
+static bool
+says_on(const assignment *a)
+{
+    long depth = 0;
+
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) {
+        depth += qdot_token_bracket(k);
+        if (depth == 0 && k > a->equals + 1 && qdot_token_is_word(k, "on"))
+            return true;
+    }
+    return false;
+}
+
 /* force = F: a vector on the first thing that has as many dimensions, a number on a coordinate. False:
  * there is none. */
 static bool
@@ -100,6 +114,8 @@ write_force(assignment *a, const char *word)
     const bool vector = qdot_definition_components(a) > 1;
     qdot_text behind = {0};
 
+    if (says_on(a))
+        return write_statement(a, word, ""), true;
     if (vector)
         on = strcmp(word, "force") != 0 ? NULL
              : s->particles.n > 0       ? s->particles.at[0].name
