@@ -20,6 +20,7 @@
 #include "lang/functions/algebra.h"
 #include "lang/functions/switch.h"
 #include "lang/session/bind.h"
+#include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
@@ -578,6 +579,8 @@ series_of(qdot_session *s, qdot_expr e, uint32_t n, const qdot_expr *args, long 
     degree d = {&x, most};
     qdot_status status = directions(s, n, args, &x);
 
+    for (size_t i = 0; i < x.r.from.n && status == QDOT_OK; i++)
+        e = qdot_momenta_for(s, e, x.r.from.at[i]);
     if (status == QDOT_OK) {
         qdot_expr sum = qdot_value_map(pool, e, sum_along, &d);
 

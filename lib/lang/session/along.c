@@ -8,6 +8,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/member.h"
+#include "lang/session/momenta.h"
 #include "lang/session/runs.h"
 
 /* A column that names runs inside. Along one run it is measured as any other; along several that
@@ -40,7 +41,7 @@ any_member(const qdot_session *session, const qdot_runs_columns *columns)
     return false;
 }
 
-/* Note what the columns are of the run, from the arguments as they were written. */
+/* Note what the columns are of the run, from the arguments as they were written; slopes are of velocities. */
 static void
 note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr *args,
              qdot_expr time, qdot_measured *m)
@@ -52,7 +53,8 @@ note_origins(qdot_session *session, const char *run, uint32_t n, const qdot_expr
         for (uint32_t k = 0; k < parts; k++, m++)
             m->origin = (qdot_origin){
                 .kind = QDOT_ORIGIN_VALUE,
-                .e = scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k),
+                .e = qdot_momenta_to_velocities(
+                    session, scalar ? args[i] : qdot_expr_arg(session->pool, args[i], k)),
                 .time = time,
                 .run = run};
     }

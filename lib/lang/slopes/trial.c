@@ -3,6 +3,7 @@
 
 #include "expr/calculus.h"
 #include "lang/runs/own-run.h"
+#include "lang/session/momenta.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
@@ -70,6 +71,8 @@ qdot_trial_at_end(qdot_session *session, qdot_expr *e)
                             QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
     qdot_named_run *named;
 
+    *e = qdot_momenta_to_velocities(session, *e);
+    QDOT_TRY(qdot_pool_check(session->pool));
     if (!(qdot_expr_node(session->pool, *e)->holds & moving))
         return QDOT_OK;
     QDOT_TRY(qdot_runs_find(session, NULL, &named));
