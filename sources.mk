@@ -1483,6 +1483,7 @@ script_tests = \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
 	tests/script/digits-constraint-events.lag \
+	tests/script/digits-events-file.sh \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
 	tests/script/digits-shown.sh \
@@ -2596,6 +2597,7 @@ test_files = \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
 	tests/script/digits-constraint-events.out \
+	tests/script/digits-events-file.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
 	tests/script/digits-shown.out \

@@ -73,10 +73,16 @@ add_labels(cells *t, const qdot_operands *list)
     return status;
 }
 
-/* The values of one operand at a time. */
+/* Where a row is: at a time, or at a point of the run beside an event. */
+typedef struct {
+    qdot_expr time;
+    bool beside;
+    size_t point;
+} place;
+
+/* The values of one operand at a place. */
 static qdot_status
-add_values(qdot_session *session, cells *t, const qdot_operand *o, qdot_expr time,
-           int digits)
+add_values(qdot_session *session, cells *t, const qdot_operand *o, const place *at, int digits)
 {
     const size_t n = o->columns.n;
     double *errors = qdot_calloc(n, sizeof *errors);
@@ -85,7 +91,10 @@ add_values(qdot_session *session, cells *t, const qdot_operand *o, qdot_expr tim
     qdot_text text = {0};
 
     if (status == QDOT_OK)
-        status = qdot_run_exact_values(o->run, n, o->columns.at, time, values, errors);
+        status = at->beside ? qdot_run_exact_point_values(o->run, n, o->columns.at, at->point, values,
+                                                          errors)
+                            : qdot_run_exact_values(o->run, n, o->columns.at, at->time, values,
+                                                    errors);
     for (size_t k = 0; k < n && status == QDOT_OK; k++) {
         status = qdot_digits_text(session, values[k], digits, errors[k], &text);
         if (status == QDOT_OK)
@@ -98,19 +107,19 @@ add_values(qdot_session *session, cells *t, const qdot_operand *o, qdot_expr tim
 }
 
 static qdot_status
-add_row(qdot_session *session, cells *t, const qdot_operands *list, qdot_expr time,
-        int digits)
+add_row(qdot_session *session, cells *t, const qdot_operands *list, const place *at, int digits)
 {
     qdot_text text = {0};
     double x = qdot_run_get_report(list->at[0].run)->t1;
-    qdot_status status = time != QDOT_NIL ? qdot_session_number(session, time, &x, NULL) : QDOT_OK;
+    qdot_status status =
+        at->time != QDOT_NIL ? qdot_session_number(session, at->time, &x, NULL) : QDOT_OK;
 
     if (status == QDOT_OK) {
         qdot_number_text(&text, x, 0);
         status = add_cell(t, &text);
     }
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
-        status = add_values(session, t, &list->at[i], time, digits);
+        status = add_values(session, t, &list->at[i], at, digits);
     qdot_text_clear(&text);
     return status;
 }
@@ -224,16 +233,18 @@ tell(qdot_session *session, qdot_run *run, const cells *t, const char *path)
 
 qdot_status
 qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_run *run, size_t rows,
-                  const qdot_expr *times, const char *path)
+                  const qdot_expr *times, const bool *beside, const char *path)
 {
     const int digits = qdot_digits_table_of(list);
     cells t = {0};
     qdot_status status = add_labels(&t, list);
 
     for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
+        const place at = {times[k], beside != NULL && beside[k], k};
+
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = add_row(session, &t, list, times[k], digits);
+            status = add_row(session, &t, list, &at, digits);
     }
     t.width = qdot_calloc(t.columns + 1, sizeof *t.width);
     if (status == QDOT_OK)

@@ -10,11 +10,12 @@
 /* The fewest digits of the operands' runs, where all of them have `digits`; else 0. */
 int qdot_digits_table_of(const qdot_operands *list);
 
-/* A table at exact times [rows], nil: the end of the run. Text, rows of JSON (the time a number, the
+/* A table at exact times [rows], nil: the end of the run; beside [rows], NULL: none: the row is that point of
+ * the run, on its side of an event. Text, rows of JSON (the time a number, the
  * others strings) or, with a path, a file by its ending (data-file.h); run as there. */
 QDOT_MUST_CHECK qdot_status qdot_digits_table(qdot_session *session,
                                               const qdot_operands *list, qdot_run *run,
                                               size_t rows, const qdot_expr *times,
-                                              const char *path);
+                                              const bool *beside, const char *path);
 
 #endif

@@ -269,7 +269,7 @@ exact_table(qdot_session *session, const qdot_operands *list, const double *time
         status = qdot_pool_check(pool);
     }
     if (status == QDOT_OK)
-        status = qdot_digits_table(session, list, only_run(list), rows, at, path);
+        status = qdot_digits_table(session, list, only_run(list), rows, at, NULL, path);
     qdot_free(at);
     return status;
 }
@@ -358,15 +358,19 @@ exact_save(qdot_session *session, const qdot_operands *list, qdot_run *run, size
            const double *times, const char *path)
 {
     qdot_expr *at = qdot_calloc(rows + 1, sizeof *at);
-    qdot_status status = at != NULL ? QDOT_OK : QDOT_ENOMEM;
+    bool *beside = qdot_calloc(rows + 1, sizeof *beside); /* an event, on either side */
+    qdot_status status = at != NULL && beside != NULL ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t k = 0; k + 1 < rows && status == QDOT_OK; k++) {
-        at[k] = qdot_measured_rational(session->pool, times[k]);
+    for (size_t k = 0; k < rows && status == QDOT_OK; k++) {
+        if (k + 1 < rows)
+            at[k] = qdot_measured_rational(session->pool, times[k]);
+        beside[k] = qdot_run_is_before_event(run, k) || (k > 0 && qdot_run_is_before_event(run, k - 1));
         status = qdot_pool_check(session->pool);
     }
     if (status == QDOT_OK)
-        status = qdot_digits_table(session, list, run, rows, at, path);
+        status = qdot_digits_table(session, list, run, rows, at, beside, path);
     qdot_free(at);
+    qdot_free(beside);
     return status;
 }
 

@@ -68,6 +68,24 @@ read_at(reader *r)
     return evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
 }
 
+/* At the first or last point of a piece: a segment that has points. */
+static qdot_status
+read_end(reader *r, size_t piece, bool last)
+{
+    const qdot_precise_side *s = r->side;
+    const mpfr_t *point;
+    size_t k = 0;
+
+    while (k < s->segments.n && (s->segments.at[k].run.count == 0 || piece-- > 0))
+        k++;
+    if (k == s->segments.n)
+        return qdot_fail(QDOT_EDOMAIN, "there is no such piece of the run");
+    r->segment = k;
+    point = (const mpfr_t *)qdot_precise_point(&s->segments.at[k].run,
+                                               last ? s->segments.at[k].run.count - 1 : 0);
+    return evaluate(r, point[0], point + 1);
+}
+
 /* --- both ---------------------------------------------------------------------------- */
 
 /* The same expressions along both runs. */
@@ -113,21 +131,32 @@ undefined(const readers *r, size_t j)
     return status;
 }
 
-/* Values of the run, and their distances from the companion's into errors [m] (may be
- * NULL), at the times that stand in both. */
+/* Where both runs are read: at the times that stand in both, or at the end of a piece. */
+typedef struct {
+    bool end, last;
+    size_t piece;
+} place;
+
 static qdot_status
-read_both(readers *r, double *errors)
+read_place(reader *r, place at)
+{
+    return at.end ? read_end(r, at.piece, at.last) : read_at(r);
+}
+
+/* Values of the run, and their distances from the companion's into errors [m] (may be NULL). */
+static qdot_status
+read_both(readers *r, place at, double *errors)
 {
     const qdot_precise_pair *pair = r->pair;
     qdot_status status;
 
-    QDOT_TRY(read_at(&r->run));
+    QDOT_TRY(read_place(&r->run, at));
     for (size_t j = 0; j < r->of.m; j++)
         if (!mpfr_number_p(qdot_precise_output(r->run.program, j)[0]))
             return undefined(r, j);
     if (!errors)
         return QDOT_OK;
-    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_at(&r->companion);
+    status = isnan(pair->log10_error) ? QDOT_EDOMAIN : read_place(&r->companion, at);
     if (qdot_grave(status) != QDOT_OK)
         return status;
     for (size_t j = 0; j < r->of.m; j++) {
@@ -157,6 +186,20 @@ take_time(const qdot_plan *plan, qdot_expr time, reader *r)
     return QDOT_OK;
 }
 
+/* Read both at a place into values [m] and errors [m]. */
+static qdot_status
+give_values(readers *r, size_t m, place at, qdot_expr *values, double *errors)
+{
+    qdot_pool *pool = r->pair->plan->pool;
+    qdot_status status = read_both(r, at, errors);
+
+    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
+        values[j] = qdot_constant_of_real(pool, qdot_precise_output(r->run.program, j)[0]);
+        status = qdot_pool_check(pool);
+    }
+    return status;
+}
+
 qdot_status
 qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs,
                          qdot_expr time, qdot_expr *values, double *errors)
@@ -169,12 +212,20 @@ qdot_precise_pair_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exp
     if (status == QDOT_OK)
         status = take_time(pair->plan, time, &r.companion);
     if (status == QDOT_OK)
-        status = read_both(&r, errors);
-    for (size_t j = 0; j < m && status == QDOT_OK; j++) {
-        values[j] = qdot_constant_of_real(pair->plan->pool,
-                                          qdot_precise_output(r.run.program, j)[0]);
-        status = qdot_pool_check(pair->plan->pool);
-    }
+        status = give_values(&r, m, (place){0}, values, errors);
+    readers_clear(&r);
+    return status;
+}
+
+qdot_status
+qdot_precise_pair_end_values(qdot_precise_pair *pair, size_t m, const qdot_expr *exprs, size_t piece,
+                             bool last, qdot_expr *values, double *errors)
+{
+    readers r;
+    qdot_status status = readers_init(&r, pair, m, exprs);
+
+    if (status == QDOT_OK)
+        status = give_values(&r, m, (place){true, last, piece}, values, errors);
     readers_clear(&r);
     return status;
 }
@@ -192,7 +243,7 @@ qdot_precise_pair_sample_values(qdot_precise_pair *pair, size_t m, const qdot_ex
         mpfr_set_d(r.run.numbers.at[0], times[i], RN);
         mpfr_set_d(r.companion.numbers.at[0], times[i], RN);
         if (status == QDOT_OK)
-            status = read_both(&r, errors ? errors + i * m : NULL);
+            status = read_both(&r, (place){0}, errors ? errors + i * m : NULL);
         for (size_t j = 0; j < m && status == QDOT_OK; j++) {
             double x = mpfr_get_d(qdot_precise_output(r.run.program, j)[0], RN);
 

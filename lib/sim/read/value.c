@@ -247,6 +247,17 @@ qdot_run_exact_values(qdot_run *run, size_t m, const qdot_expr *exprs, qdot_expr
     return qdot_precise_pair_values(run->precise, m, exprs, time, values, errors);
 }
 
+qdot_status
+qdot_run_exact_point_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k,
+                            qdot_expr *values, double *errors)
+{
+    if (!run->precise)
+        return qdot_fail(QDOT_EINVAL, "the run was made in doubles");
+    return qdot_precise_pair_end_values(run->precise, m, exprs,
+                                        qdot_trajectory_piece_of(&run->course.tr, k),
+                                        qdot_run_is_before_event(run, k), values, errors);
+}
+
 double
 qdot_run_requested_end(const qdot_run *run)
 {

@@ -65,6 +65,12 @@ QDOT_MUST_CHECK qdot_status qdot_run_exact_values(qdot_run *run, size_t m, const
                                                   qdot_expr time, qdot_expr *values,
                                                   double *errors);
 
+/* The same at point k of qdot_run_times beside an event: the state before it at the earlier of the two
+ * points of one time, the state after it at the later. */
+QDOT_MUST_CHECK qdot_status qdot_run_exact_point_values(qdot_run *run, size_t m,
+                                                        const qdot_expr *exprs, size_t k,
+                                                        qdot_expr *values, double *errors);
+
 /* Over a range of a run: the largest or least value of e between its ends, extrema inside steps
  * included; its mean over time; its drift, max |e - e0| / max(1, |e0|) with e0 where the range
  * begins; its reach, max |e|. The error, from the companion: NaN where unknown. QDOT_EDOMAIN: outside the run, or e is
