@@ -402,6 +402,47 @@ meet_velocities(qdot_session *session, question *q, qdot_assumed *f)
     return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
 }
 
+/* Whether both sides hold multipliers and are one whatever these are: a reaction and its parts. */
+static qdot_status
+is_formal(qdot_session *session, const question *q, const qdot_assumed *f, bool *is)
+{
+    qdot_pool *pool = session->pool;
+    qdot_decision decision;
+    qdot_facts known;
+
+    *is = q->how == EQUAL && (qdot_expr_node(pool, q->left)->holds & QDOT_HAS_MULTIPLIER) &&
+          (qdot_expr_node(pool, q->right)->holds & QDOT_HAS_MULTIPLIER);
+    if (!*is)
+        return QDOT_OK;
+    known = all_known(session, f, q);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(decide(session, qdot_assumed_replace(session, f, q->left),
+                    qdot_assumed_replace(session, f, q->right), q->how, &known, &decision));
+    *is = decision.verdict == QDOT_PROVED;
+    return QDOT_OK;
+}
+
+/* A multiplier among values is what the equations make of it; beside accelerations, in an equation or in
+ * numbers of a run it stays itself. */
+static qdot_status
+meet_multipliers(qdot_session *session, const question *q, qdot_assumed *f)
+{
+    bool formal;
+    const qdot_pool *pool = session->pool;
+    const uint32_t holds =
+        qdot_expr_node(pool, q->left)->holds | qdot_expr_node(pool, q->right)->holds;
+
+    if (!(holds & QDOT_HAS_MULTIPLIER) || (holds & QDOT_HAS_ACCELERATION) || f->motion || q->within ||
+        qdot_expr_kind(pool, q->left) == QDOT_REL || qdot_expr_kind(pool, q->right) == QDOT_REL ||
+        qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right))
+        return QDOT_OK;
+    QDOT_TRY(is_formal(session, q, f, &formal));
+    if (formal)
+        return QDOT_OK;
+    QDOT_TRY(qdot_answer_notice(session, "multipliers are what the equations make of them: checked `when eom`"));
+    return qdot_assumed_motion(session, f);
+}
+
 static qdot_status
 answer(qdot_cursor *c, question *q, qdot_assumed *f)
 {
@@ -413,6 +454,7 @@ answer(qdot_cursor *c, question *q, qdot_assumed *f)
     bool measured;
 
     unwrap(pool, &q->left, &q->right);
+    QDOT_TRY(meet_multipliers(session, q, f));
     QDOT_TRY(meet_velocities(session, q, f));
     measured =
         qdot_measured_occurs(session, q->left) || qdot_measured_occurs(session, q->right);
