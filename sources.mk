@@ -1681,6 +1681,7 @@ script_tests = \
 	tests/script/text.lag \
 	tests/script/textbook.lag \
 	tests/script/three-bodies.lag \
+	tests/script/ties-of-rounding.lag \
 	tests/script/tighter.sh \
 	tests/script/to-file.sh \
 	tests/script/undo-included.sh \
@@ -2816,6 +2817,7 @@ test_files = \
 	tests/script/text.out \
 	tests/script/textbook.out \
 	tests/script/three-bodies.out \
+	tests/script/ties-of-rounding.out \
 	tests/script/tighter.out \
 	tests/script/to-file.out \
 	tests/script/undo-included.out \

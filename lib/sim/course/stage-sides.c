@@ -25,7 +25,7 @@ typedef struct {
     double t;
     const double *y;
     double *u, *noise; /* [m] what rounding of the state and of u makes of u */
-    bool *flat;        /* [m] u is the same wherever the state is moved */
+    bool *flat;        /* [m] u is the same, but for rounding, wherever the state is moved */
     double *before;    /* [m] u by the old sides */
     uint8_t *open;     /* of the gates, then of surfaces [m] (sim/model/gates.h) */
     double *out, *in, *work;
@@ -143,7 +143,8 @@ measure(decision *d, const long *side)
                 d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
         evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
-            d->flat[i] = d->flat[i] && d->out[i] == d->u[i];
+            d->flat[i] = d->flat[i] && fabs(d->out[i] - d->u[i]) <=
+                                           fmax(d->noise[i], rounding * d->out[d->m + i]);
     }
 }
 
