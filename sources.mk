@@ -1490,6 +1490,8 @@ script_tests = \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
+	tests/script/disguised-slopes.sh \
+	tests/script/disguised-studies.lag \
 	tests/script/disguised.lag \
 	tests/script/dof-redundant.lag \
 	tests/script/double-energy.lag \
@@ -2607,6 +2609,8 @@ test_files = \
 	tests/script/digits.csv \
 	tests/script/digits.out \
 	tests/script/digits.txt \
+	tests/script/disguised-slopes.out \
+	tests/script/disguised-studies.out \
 	tests/script/disguised.out \
 	tests/script/dof-redundant.out \
 	tests/script/double-energy.out \

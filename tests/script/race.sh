@@ -42,6 +42,22 @@ torque 1 on x
 constraint wall: x = 1
 race 0..1
 END
+# constraints in velocities that are holonomic in disguise
+qdot -q - <<'END' | sed -n 's/^\([0-9]* coordinates\)/\1/p; s/^not in/not in/p'
+coord x, phi
+body w mass 1 inertia 1/2 at (x, 1) angle phi
+potential x^2
+constraint roll: x' + phi' = 0
+start x = 1
+race 0..10
+reset
+coord x, y
+particle b mass 1 at (x, y)
+gravity (0, -10)
+constraint rod: x*x' + y*y' = 0
+start x = 1, y = 1/2
+race 0..2
+END
 # spheres: a spherical pendulum whose start is a pole of the usual angles, and two in a row
 for scene in one two; do
     {

@@ -8,6 +8,7 @@
 
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/scene/access.h"
 #include "mech/scene/scene.h"
 
@@ -18,8 +19,8 @@ typedef struct {
     bool *solved;    /* [constraints] */
     bool *gone;      /* [n] coordinates that were solved for */
     qdot_expr *angle; /* [n] new coordinates, as many as out->fresh */
-    double (*size)(qdot_expr e, void *user);
-    void *user;
+    qdot_expr *held; /* [constraints] that are 0: a function of coordinates and t */
+    const qdot_minimal_start *start;
 } work;
 
 void
@@ -175,9 +176,9 @@ choose_axis(const work *w, const qdot_expr *x, const ball *given)
     size_t best = 2;
     double least = INFINITY;
 
-    for (size_t k = most_axes; w->size && k-- > 0;) {
+    for (size_t k = most_axes; k-- > 0;) {
         const double from = fabs(
-            w->size(qdot_sub(w->pool, x[k], given->centre[k]), w->user));
+            w->start->size(qdot_sub(w->pool, x[k], given->centre[k]), w->start->user));
 
         if (from < least) {
             least = from;
@@ -231,6 +232,20 @@ solve_sphere(work *w, qdot_expr f, qdot_expr whole)
     return false;
 }
 
+/* What constraint k holds at 0: itself, or by its integral F less F at the start; nil: neither. */
+static qdot_expr
+held_by(work *w, size_t k)
+{
+    const qdot_constraint *c = &w->s->constraints.at[k];
+    qdot_expr mu, F;
+
+    if (c->kind == QDOT_HOLONOMIC)
+        return c->f;
+    F = c->kind == QDOT_VELOCITY ? qdot_integrated_of(w->s, k, &mu) : QDOT_NIL;
+    return F == QDOT_NIL ? QDOT_NIL
+                         : qdot_sub(w->pool, F, w->start->value(F, w->start->user));
+}
+
 /* Solve what can be solved until nothing more can; QDOT_OK with a reason if something is
  * left. */
 static qdot_status
@@ -241,17 +256,20 @@ solve_all(work *w)
     size_t c = w->s->constraints.n, left = c;
     bool progress = true;
 
-    for (size_t k = 0; k < c; k++)
-        if (w->s->constraints.at[k].kind != QDOT_HOLONOMIC) {
+    for (size_t k = 0; k < c; k++) {
+        w->held[k] = held_by(w, k);
+        QDOT_TRY(qdot_pool_check(w->pool));
+        if (w->held[k] == QDOT_NIL) {
             snprintf(w->out->reason, sizeof w->out->reason,
                      "constraint %.60s is not holonomic", w->s->constraints.at[k].name);
             return QDOT_OK;
         }
+    }
     while (left > 0 && progress) {
         progress = false;
         for (size_t way = 0; way < sizeof ways / sizeof *ways && !progress; way++)
             for (size_t k = 0; k < c && !progress; k++) {
-                qdot_expr whole = w->s->constraints.at[k].f, f;
+                qdot_expr whole = w->held[k], f;
 
                 if (w->solved[k])
                     continue;
@@ -319,11 +337,10 @@ is_acted_on(work *w)
 }
 
 qdot_status
-qdot_minimal_make(qdot_scene *s, double (*size)(qdot_expr e, void *user), void *user,
-                  qdot_minimal *m)
+qdot_minimal_make(qdot_scene *s, const qdot_minimal_start *start, qdot_minimal *m)
 {
     size_t n = s->coordinates.n;
-    work w = {.s = s, .pool = s->pool, .out = m, .size = size, .user = user};
+    work w = {.s = s, .pool = s->pool, .out = m, .start = start};
     qdot_status status;
 
     *m = (qdot_minimal){.n = n};
@@ -332,8 +349,9 @@ qdot_minimal_make(qdot_scene *s, double (*size)(qdot_expr e, void *user), void *
     w.angle = qdot_calloc(n + 1, sizeof *w.angle);
     w.gone = qdot_calloc(n + 1, sizeof *w.gone);
     w.solved = qdot_calloc(s->constraints.n + 1, sizeof *w.solved);
-    status = m->given && m->angle && w.angle && w.gone && w.solved ? QDOT_OK
-                                                                   : QDOT_ENOMEM;
+    w.held = qdot_calloc(s->constraints.n + 1, sizeof *w.held);
+    status = m->given && m->angle && w.angle && w.gone && w.solved && w.held ? QDOT_OK
+                                                                             : QDOT_ENOMEM;
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         m->given[i] = s->coordinates.at[i];
     if (status == QDOT_OK)
@@ -343,6 +361,7 @@ qdot_minimal_make(qdot_scene *s, double (*size)(qdot_expr e, void *user), void *
     qdot_free(w.angle);
     qdot_free(w.gone);
     qdot_free(w.solved);
+    qdot_free(w.held);
     if (status != QDOT_OK)
         qdot_minimal_clear(m);
     return status;

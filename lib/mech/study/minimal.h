@@ -9,7 +9,8 @@
  *                                         z = c - l cos u, two; z, of the three, that which
  *                                         starts nearest to the centre, far from the poles
  *
- * where c, s, l contain no coordinates, and a, b, c of a centre and g none of x, y, z. There is
+ * where c, s, l contain no coordinates, and a, b, c of a centre and g none of x, y, z. A velocity
+ * constraint that is holonomic in disguise is F = F at the start, by its integral. There is
  * no such form with other constraints, velocity or acceleration constraints, or a generalized
  * force on a coordinate that would be eliminated.
  *
@@ -29,11 +30,17 @@ typedef struct {
     qdot_expr *angle;  /* [fresh] in terms of the given coordinates */
 } qdot_minimal;
 
-/* size: about the value of an expression in coordinates and parameters at the start; NULL:
- * unknown. Errors: the pool's; a scene without that form is no error. */
-QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s,
-                                              double (*size)(qdot_expr e, void *user),
-                                              void *user, qdot_minimal *minimal);
+/* Of an expression in coordinates and parameters at the start: about how large it is, and its exact
+ * value, in which parameters may stand. */
+typedef struct {
+    double (*size)(qdot_expr e, void *user);
+    qdot_expr (*value)(qdot_expr e, void *user);
+    void *user;
+} qdot_minimal_start;
+
+/* Errors: the pool's; a scene without that form is no error. */
+QDOT_MUST_CHECK qdot_status qdot_minimal_make(qdot_scene *s, const qdot_minimal_start *start,
+                                              qdot_minimal *minimal);
 void qdot_minimal_clear(qdot_minimal *minimal);
 
 #endif

@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
+#include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/dynamics/virtual-work.h"
 #include "mech/scene/access.h"
@@ -553,6 +554,15 @@ conserved(search *f)
             status = qdot_jumps(f->pool, f->L, QDOT_HAS_TIME, &jumps);
         if (status == QDOT_OK && !jumps)
             status = search_linear(f);
+    }
+    for (size_t k = 0; k < f->s->constraints.n && status == QDOT_OK; k++) { /* disguised ones */
+        qdot_expr mu, F = QDOT_NIL;
+
+        if (f->s->constraints.at[k].kind == QDOT_VELOCITY)
+            F = qdot_integrated_of(f->s, k, &mu);
+        status = qdot_pool_check(f->pool);
+        if (status == QDOT_OK && F != QDOT_NIL)
+            status = qdot_vec_push(&f->found, F);
     }
     qdot_free(list);
     qdot_free(cyclic);

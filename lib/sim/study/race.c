@@ -216,16 +216,23 @@ size_at_start(qdot_expr e, void *user)
                : 0;
 }
 
+static qdot_expr
+value_at_start(qdot_expr e, void *user)
+{
+    return at_start(user, e);
+}
+
 static qdot_status
 try_minimal(race *r)
 {
+    const qdot_minimal_start start = {size_at_start, value_at_start, r};
     qdot_minimal m;
     qdot_status status;
 
     if (qdot_scene_acting_event(r->scene))
         return give_reason(&r->race->lane[MINIMAL],
                            "events are met in the coordinates as given only");
-    status = qdot_minimal_make(r->scene, size_at_start, r, &m);
+    status = qdot_minimal_make(r->scene, &start, &m);
     if (is_its_own(status))
         return give_reason(&r->race->lane[MINIMAL], qdot_last_error()->message);
     QDOT_TRY(status);

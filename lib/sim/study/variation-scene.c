@@ -135,7 +135,7 @@ add_events(const qdot_variation *v)
 /* --- the start ---------------------------------------------------------------------------- */
 
 /* How many constraints hold coordinates (velocities: them too), and how many of these the start leaves
- * open. */
+ * open. Where none holds coordinates none is open: what is not named is 0. */
 static void
 count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
 {
@@ -145,7 +145,7 @@ count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
     for (size_t c = 0; c < v->m; c++)
         *held += v->of->constraints.at[c].kind == QDOT_HOLONOMIC ||
                  (velocities && v->of->constraints.at[c].kind == QDOT_VELOCITY);
-    for (size_t i = 0; i < v->n; i++)
+    for (size_t i = 0; i < v->n && *held > 0; i++)
         *open += named && !named[i];
 }
 
@@ -256,12 +256,14 @@ put_start(const qdot_variation *v)
 {
     const qdot_run_request *r = v->request;
     const size_t n = v->n, all = (v->k + 1) * n;
+    size_t held, open;
 
+    count_open(v, false, &held, &open);
     for (size_t k = 0; k <= v->k; k++)
         for (size_t i = 0; i < n; i++) {
             v->start[k * n + i] = k == 0 ? r->q0[i] : start_of(v, k - 1, i);
             v->start[all + k * n + i] = k == 0 ? r->v0[i] : start_of(v, k - 1, n + i);
-            v->named[k * n + i] = k == 0 || !r->q_named || r->q_named[i];
+            v->named[k * n + i] = k == 0 || open == 0 || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
     for (size_t j = 0; j < 2 * all && v->w > 0; j++) /* equations of massless ones determine these alone */
