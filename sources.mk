@@ -1693,6 +1693,7 @@ script_tests = \
 	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
 	tests/script/with-values.sh \
+	tests/script/workprecision-power.sh \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/alone-word.lag \
@@ -2831,6 +2832,7 @@ test_files = \
 	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \
 	tests/script/with-values.out \
+	tests/script/workprecision-power.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \
 	tests/series/operations.h \

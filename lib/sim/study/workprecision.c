@@ -65,7 +65,8 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.digits = REFERENCE_DIGITS;
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
-    if (scene->constraints.n > 0 && (status == QDOT_ENOTBUILT || status == QDOT_ESINGULAR)) {
+    if ((scene->constraints.n > 0 && (status == QDOT_ENOTBUILT || status == QDOT_ESINGULAR)) ||
+        (run == NULL && status == QDOT_EFAILED)) { /* digits do not follow it: abs(x)^1.5 */
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
     }

@@ -1,0 +1,5 @@
+# `digits` do not follow a power whose base passes 0: the reference is then a run in doubles.
+qdot -q -e "coord x; particle p mass 1 at x; force -x - abs(x)^1.5/5 on x; start x = 1/64, x' = -1" \
+    -e 'run 0..1/32 digits 20' 2>&1 | grep error
+qdot -q -e "coord x; particle p mass 1 at x; force -x - abs(x)^1.5/5 on x; start x = 1/64, x' = -1" \
+    -e 'workprecision 0..1/32 to "w.svg"' | awk '/^(taylor|dop853|radau) .* done/ { n++; bad += $3 > 1e-3 } END { print (n > 20 ? "many runs" : n), bad + 0, "bad" }'
