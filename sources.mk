@@ -599,6 +599,7 @@ library_sources = \
 	lib/sim/model/puck.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
+	lib/sim/model/simple-zeros.c \
 	lib/sim/model/sliding-rows.c \
 	lib/sim/model/sliding.c \
 	lib/sim/model/still.c \
@@ -1168,6 +1169,7 @@ library_headers = \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
 	lib/sim/model/request.h \
+	lib/sim/model/simple-zeros.h \
 	lib/sim/model/sliding.h \
 	lib/sim/model/still.h \
 	lib/sim/model/substitute.h \
@@ -1424,6 +1426,7 @@ unit_tests = \
 	tests/sim/test_routh \
 	tests/sim/test_run \
 	tests/sim/test_shooting \
+	tests/sim/test_simple-zeros \
 	tests/sim/test_sliding \
 	tests/sim/test_start \
 	tests/sim/test_switch \
@@ -1509,6 +1512,7 @@ script_tests = \
 	tests/script/event-ends.sh \
 	tests/script/event-parameters-json.lag \
 	tests/script/event-parameters.lag \
+	tests/script/event-powers.lag \
 	tests/script/event-roots.lag \
 	tests/script/event-spans.lag \
 	tests/script/event-stays.lag \
@@ -2631,6 +2635,7 @@ test_files = \
 	tests/script/event-ends.out \
 	tests/script/event-parameters-json.out \
 	tests/script/event-parameters.out \
+	tests/script/event-powers.out \
 	tests/script/event-roots.out \
 	tests/script/event-spans.out \
 	tests/script/event-stays.out \

@@ -9,6 +9,7 @@
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
 #include "sim/model/puck.h"
+#include "sim/model/simple-zeros.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
@@ -118,14 +119,14 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
     return status;
 }
 
-/* |u| has a kink at its zeros, which no polynomial shows: u is looked at. */
+/* |u| has a kink at its zeros, which no polynomial shows, and u^2 hardly shows them: u is looked at. */
 static void
-open_modulus(const qdot_pool *pool, qdot_staged_event *e)
+simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
 {
-    e->touches = qdot_expr_kind(pool, e->function) == QDOT_FUN
-                 && qdot_expr_node(pool, e->function)->op == QDOT_ABS;
-    if (e->touches)
-        e->function = qdot_expr_arg(pool, e->function, 0);
+    const qdot_expr u = qdot_touching_zeros(pool, e->function);
+
+    e->touches = u != QDOT_NIL;
+    e->function = qdot_simple_zeros(pool, e->touches ? u : e->function);
 }
 
 static qdot_status
@@ -139,7 +140,8 @@ stage_events(qdot_stage *s, const qdot_plan *p)
         e.function =
             qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
         QDOT_TRY(qdot_pool_check(p->pool));
-        open_modulus(p->pool, &e);
+        simplify_zeros(p->pool, &e);
+        QDOT_TRY(qdot_pool_check(p->pool));
         e.name = qdot_strdup(event->name);
         status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
         if (status == QDOT_OK)

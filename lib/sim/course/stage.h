@@ -15,8 +15,8 @@
 
 typedef struct {
     char *name;
-    qdot_expr function; /* left - right, with parameter values; u of |u| = 0 */
-    bool touches;       /* it is that u: where it changes its sign, |u| only touches 0 */
+    qdot_expr function; /* left - right, with parameter values; u of |u| = 0 and u^2 = 0 */
+    bool touches;       /* it is that u: where it changes its sign, |u| or u^2 only touches 0 */
     int way;            /* 1 rising, -1 falling as t grows, 0 either */
     bool stop;
     size_t changes;  /* number of assignments of `then`, to q, q' and parameters */

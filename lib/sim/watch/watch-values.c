@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "sim/bind/bind.h"
+#include "sim/model/simple-zeros.h"
 #include "sim/model/term-magnitude.h"
 #include "tape/shake.h"
 
@@ -40,7 +41,7 @@ qdot_watch_lower(qdot_watch *w, const qdot_expr *g, bool shaken)
     qdot_status status = e ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < w->m && status == QDOT_OK; i++) {
-        e[i] = qdot_plan_substitute(p, g[i]);
+        e[i] = qdot_simple_zeros(p->pool, qdot_plan_substitute(p, g[i]));
         status = qdot_pool_check(p->pool);
         if (status == QDOT_OK)
             w->accelerations |= (qdot_expr_node(p->pool, e[i])->holds &
