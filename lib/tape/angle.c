@@ -174,12 +174,15 @@ magnitude(qdot_pool *pool, qdot_expr number)
     return qdot_expr_is_negative(pool, number) ? qdot_neg(pool, number) : number;
 }
 
+/* Nil absorbs. */
 static qdot_expr
 common_unit(qdot_pool *pool, qdot_expr x, qdot_expr y)
 {
     qdot_expr e;
     fmpq_t g;
 
+    if (x == QDOT_NIL || y == QDOT_NIL)
+        return QDOT_NIL;
     fmpq_init(g);
     qdot_rational_gcd(g, qdot_expr_rational(pool, x), qdot_expr_rational(pool, y));
     e = qdot_expr_fmpq(pool, g);

@@ -433,6 +433,43 @@ every_failed_allocation_is_survived(void **state)
 }
 
 /* A DAG 100,000 deep. */
+/* As where Ctrl-C is pressed: from some node on the pool makes none. */
+static void
+every_node_may_be_the_last(void **state)
+{
+    uint64_t stopped = 0;
+
+    (void)state;
+    for (uint64_t round = 0; round < 40; round++) {
+        qdot_status status = QDOT_ELIMIT;
+
+        for (uint64_t work = 0; status != QDOT_OK; work++) {
+            qdot_pool *pool = qdot_pool_new();
+            qdot_expr have[LEAVES + NODES];
+            qdot_tape *tape = NULL;
+
+            seed = 1000 + round;
+            for (int i = 0; i < LEAVES; i++)
+                have[i] = coordinate(pool, "x", i);
+            for (unsigned i = LEAVES; i < LEAVES + NODES; i++) {
+                have[i] = random_node(pool, have, i < 12 ? i : 12);
+                if (have[i] == QDOT_NIL) {
+                    assert_int_not_equal(qdot_pool_check(pool), QDOT_OK);
+                    have[i] = have[0];
+                }
+            }
+            qdot_pool_budget(pool, work);
+            status = qdot_tape_new(pool, LEAVES, have, OUTPUTS, have + LEAVES + NODES - OUTPUTS, &tape);
+            assert_true(status == QDOT_OK || status == QDOT_ELIMIT);
+            assert_true((status == QDOT_OK) == (tape != NULL));
+            qdot_tape_free(tape);
+            qdot_pool_free(pool);
+            stopped += status != QDOT_OK;
+        }
+    }
+    assert_true(stopped > 300);
+}
+
 static void
 depth_is_no_limit(void **state)
 {
@@ -507,6 +544,7 @@ main(void)
         cmocka_unit_test(names_without_value_are_told),
         cmocka_unit_test(vectors_are_refused),
         cmocka_unit_test(every_failed_allocation_is_survived),
+        cmocka_unit_test(every_node_may_be_the_last),
         cmocka_unit_test(depth_is_no_limit),
         cmocka_unit_test(when_nodes_were_made_does_not_matter),
     };
