@@ -59,6 +59,22 @@ wait_for_input(void)
     return came;
 }
 
+/* Readline may take a signal between characters that come in one go, and go on to the end of a line: what was
+ * typed before Ctrl-C then stands in it. */
+static void
+clear_line(void)
+{
+    if (answer.ready) {
+        free(answer.line);
+        return;
+    }
+    rl_callback_sigcleanup();
+    rl_free_line_state();
+    rl_callback_handler_remove();
+    fputc('\n', rl_outstream);
+    fflush(rl_outstream);
+}
+
 typedef enum { LINE, CLEARED, ENDED } line_kind;
 
 /* One line into *line (to be freed). CLEARED: Ctrl-C. */
@@ -70,17 +86,15 @@ read_line(const char *prompt, char **line)
     qdot_signals_waiting();
     (void)qdot_signals_take();
     rl_callback_handler_install(prompt, take_line);
-    while (!answer.ready) {
+    for (;;) {
         /* before it sleeps: readline may have taken a signal while it showed the prompt */
         rl_check_signals();
         if (qdot_signals_take()) {
-            rl_callback_sigcleanup();
-            rl_free_line_state();
-            rl_callback_handler_remove();
-            fputc('\n', rl_outstream);
-            fflush(rl_outstream);
+            clear_line();
             return CLEARED;
         }
+        if (answer.ready)
+            break;
         if (wait_for_input())
             rl_callback_read_char();
     }

@@ -3,6 +3,10 @@
 #include "base/memory.h"
 #include "talk.h"
 
+#include <unistd.h>
+
+#define EXPORTED P_tmpdir "/qdot-interrupts.c"
+
 /* Scenes and statements that run, search, read or write; each short, for it is done once for every check. */
 static const struct {
     const char *name, *scene, *statement;
@@ -37,6 +41,21 @@ static const struct {
     {"equations and rests",
      "param m > 0, l > 0, g > 0\ncoord theta\nparticle p mass m at (l*sin(theta), -l*cos(theta))\ngravity (0, -g)",
      "eom\nequilibria\nsimplify(sin(theta)^2 + cos(theta)^2)"},
+    {"branches of equilibria", "param P = 1\ncoord x\nparticle p mass 1 at x\npotential x^4/4 - P*x^2/2",
+     "continue equilibria in P = -0.1..0.1"},
+    {"a branch of orbits",
+     "param F = 1\ncoord x\nparticle p mass 1 at x\npotential x^2/2\nforce F*cos(2*t) - x' on p\n"
+     "find x = 0, x' = 0 such that returns after pi",
+     "continue orbit in F = 1..1.02"},
+    {"a section",
+     "coord x\nparticle p mass 1 at x\npotential x^4/4\nstart x = 1\nrun 0..20",
+     "poincare x = 0 rising : x'"},
+    {"slopes", "param k = 1\ncoord x\nparticle p mass 1 at x\npotential k*x^2/2\nstart x = 1\nrun 0..2",
+     "sensitivity value(x, 2) of k, x"},
+    {"equations as functions",
+     "param l > 0\ncoord a, b\nparticle p mass 1 at (l*sin(a), -l*cos(a))\n"
+     "particle q mass 1 at (l*sin(a) + l*sin(2*a + b), -l*cos(a) - l*cos(2*a + b))\ngravity (0, -1)",
+     "export c eom to \"" EXPORTED "\""},
 };
 
 /* Carry out the statement with Ctrl-C at the n-th place, then once more; whether none was reached. */
@@ -92,6 +111,14 @@ it_may_come_between_checks(void **state)
     at_every_place("allocation", qdot_memory_press_at, 40);
 }
 
+static int
+remove_exported(void **state)
+{
+    (void)state;
+    (void)unlink(EXPORTED);
+    return 0;
+}
+
 int
 main(void)
 {
@@ -100,5 +127,5 @@ main(void)
         cmocka_unit_test(it_may_come_between_checks),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, remove_exported);
 }

@@ -132,10 +132,9 @@ name_columns(job *j, qdot_branches *b)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < width; i++)
         j->names[i] = j->text[i];
-    for (size_t i = 0; i < 2 * n; i++)
-        snprintf(j->text[i], NAME_ROOM, "%s",
-                 qdot_expr_symbol(s->pool, qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n))
-                     ->name);
+    for (size_t i = 0; i < 2 * n; i++) /* by no symbol of a velocity: after Ctrl-C there is none */
+        snprintf(j->text[i], NAME_ROOM, "%s%s", qdot_expr_symbol(s->pool, s->coordinates.at[i % n])->name,
+                 i < n ? "" : "'");
     strcpy(j->text[2 * n], "T");
     snprintf(j->text[j->found.n], NAME_ROOM, "%s",
              j->w->parameter == QDOT_NIL ? "energy"
