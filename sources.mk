@@ -1531,6 +1531,7 @@ script_tests = \
 	tests/script/figures.sh \
 	tests/script/find-no-solution.sh \
 	tests/script/find-orbit.sh \
+	tests/script/find-powers.lag \
 	tests/script/find.sh \
 	tests/script/fit.sh \
 	tests/script/flat-places.lag \
@@ -1775,6 +1776,7 @@ script_tests = \
 	tests/bad/find-length.lag \
 	tests/bad/find-many.lag \
 	tests/bad/find-nothing.lag \
+	tests/bad/find-overflows.lag \
 	tests/bad/find-pole.lag \
 	tests/bad/find-short.lag \
 	tests/bad/find-such.lag \
@@ -2205,6 +2207,7 @@ test_files = \
 	tests/bad/find-length.out \
 	tests/bad/find-many.out \
 	tests/bad/find-nothing.out \
+	tests/bad/find-overflows.out \
 	tests/bad/find-pole.out \
 	tests/bad/find-short.out \
 	tests/bad/find-such.out \
@@ -2654,6 +2657,7 @@ test_files = \
 	tests/script/figures.out \
 	tests/script/find-no-solution.out \
 	tests/script/find-orbit.out \
+	tests/script/find-powers.out \
 	tests/script/find.out \
 	tests/script/fit.out \
 	tests/script/flat-places.out \

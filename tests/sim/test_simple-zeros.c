@@ -31,13 +31,16 @@ exponents_are_the_least_of_their_sign(void **state)
 {
     factors s;
     qdot_pool *pool;
+    qdot_expr g;
 
     (void)state;
     begin_factors(&s);
     pool = s.f.pool;
     assert_int_equal(qdot_simple_zeros(pool, qdot_pow_int(pool, s.b, 10001)), s.b);
     assert_int_equal(qdot_simple_zeros(pool, product(&s, 4, 3)), product(&s, 2, 1));
-    assert_int_equal(qdot_simple_zeros(pool, product(&s, -4, 6)), product(&s, -4, 2));
+    assert_int_equal(qdot_simple_zeros(pool, product(&s, -4, 6)), product(&s, -2, 2));
+    assert_int_equal(qdot_simple_zeros(pool, product(&s, -10001, 1)), product(&s, -1, 1));
+    assert_int_equal(qdot_simple_zeros(pool, qdot_mul(pool, number(&s.f, "-1e-320"), s.a)), qdot_neg(pool, s.a));
     assert_int_equal(qdot_simple_zeros(pool, product(&s, 1, 2)), product(&s, 1, 2));
     /* (a^3)^(1/2) is not there for a < 0 */
     assert_int_equal(qdot_simple_zeros(pool, qdot_pow(pool, qdot_pow_int(pool, s.a, 3), QDOT_HALF)),
@@ -45,6 +48,10 @@ exponents_are_the_least_of_their_sign(void **state)
     /* of a sum no term is */
     assert_int_equal(qdot_simple_zeros(pool, qdot_add(pool, QDOT_ONE, qdot_pow_int(pool, s.a, 4))),
                      qdot_add(pool, QDOT_ONE, qdot_pow_int(pool, s.a, 4)));
+    /* a double holds its coefficients to four digits */
+    g = qdot_simple_zeros(pool, qdot_sub(pool, qdot_mul(pool, number(&s.f, "1e-320"), s.a), number(&s.f, "2e-320")));
+    assert_int_equal(qdot_div(pool, qdot_expr_arg(pool, g, 0), qdot_expr_arg(pool, g, 2)), qdot_expr_int(pool, -2));
+    assert_true(qdot_pool_check(pool) == QDOT_OK);
     end(&s.f);
 }
 

@@ -12,6 +12,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
+#include "sim/model/simple-zeros.h"
 
 void
 qdot_find_free(qdot_find *f)
@@ -357,7 +358,7 @@ static qdot_status
 read_equation(qdot_cursor *own, const qdot_find_condition *x, qdot_expr *e)
 {
     qdot_session *session = own->session;
-    qdot_expr side[2];
+    qdot_expr side[2], touching;
 
     QDOT_TRY(qdot_read_side(own, &side[0]));
     if (!qdot_cursor_accept_op(own, "=") && !qdot_cursor_accept_op(own, "=="))
@@ -372,7 +373,10 @@ read_equation(qdot_cursor *own, const qdot_find_condition *x, qdot_expr *e)
             return qdot_fail(QDOT_ETYPE, "a condition is between numbers");
         QDOT_TRY(qdot_trial_at_end(session, &side[i]));
     }
+    /* the zero of u^9 is known to no more than the ninth root of a rounding, and u^1001 underflows beside it */
     *e = qdot_sub(session->pool, side[0], side[1]);
+    touching = qdot_touching_zeros(session->pool, *e);
+    *e = qdot_simple_zeros(session->pool, touching != QDOT_NIL ? touching : *e);
     return qdot_pool_check(session->pool);
 }
 

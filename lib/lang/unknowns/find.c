@@ -208,6 +208,9 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
 
     if (status == QDOT_OK)
         status = qdot_trial_numbers(&h->trial, h->m, h->e, f, error);
+    for (size_t i = 0; i < h->m && status == QDOT_OK; i++)
+        if (isinf(f[i])) /* with an error as large, it would be a zero */
+            status = qdot_fail(QDOT_EDOMAIN, "a condition is larger than a double holds");
     if (status == QDOT_OK && slope != NULL) {
         status = qdot_trial_slopes(&h->trial, h->m, h->e, slope, h->slope_error);
         qdot_find_spent(&h->budget, h->trial.run, 1 + h->trial.n);

@@ -1,16 +1,28 @@
 /* simple-zeros.c -- lowers the exponents of a product. */
 #include "sim/model/simple-zeros.h"
 
-/* Whether the exponent is a whole number from `least`. *n out: 1 if it is odd, 2 if it is even. */
+/* Whether the exponent is a whole number. *n out: 1 if it is odd, 2 if it is even, with its sign. */
 static bool
-is_whole(const qdot_pool *pool, qdot_expr exponent, long least, long *n)
+is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
 {
     const fmpq *q = qdot_expr_rational(pool, exponent);
 
-    if (q == NULL || !fmpz_is_one(fmpq_denref(q)) || fmpz_cmp_si(fmpq_numref(q), least) < 0)
+    if (q == NULL || !fmpz_is_one(fmpq_denref(q)))
         return false;
-    *n = fmpz_is_odd(fmpq_numref(q)) ? 1 : 2;
+    *n = fmpz_sgn(fmpq_numref(q)) * (fmpz_is_odd(fmpq_numref(q)) ? 1 : 2);
     return true;
+}
+
+/* The power of 2 near a number that is far from 1; 0 for others. */
+static long
+far(const qdot_pool *pool, qdot_expr number)
+{
+    enum { FAR = 500 };
+    const fmpq *q = qdot_expr_rational(pool, number);
+    const long e = q == NULL || fmpq_is_zero(q) ? 0
+                                                : (long)fmpz_bits(fmpq_numref(q)) - (long)fmpz_bits(fmpq_denref(q));
+
+    return e > FAR || e < -FAR ? e : 0;
 }
 
 static bool
@@ -19,26 +31,48 @@ is_modulus(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == QDOT_ABS;
 }
 
+/* A sum times a power of 2, if all its coefficients are far from 1, to one side. */
+static qdot_expr
+scaled(qdot_pool *pool, qdot_expr sum)
+{
+    long most = far(pool, qdot_expr_arg(pool, sum, 0));
+    qdot_expr by, e;
+
+    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, sum); k += 2) {
+        const long here = far(pool, qdot_expr_arg(pool, sum, k + 1));
+
+        if (here == 0)
+            return sum;
+        most = most == 0 || here > most ? here : most;
+    }
+    if (qdot_expr_arg(pool, sum, 0) != QDOT_ZERO && far(pool, qdot_expr_arg(pool, sum, 0)) == 0)
+        return sum;
+    by = qdot_pow_int(pool, qdot_expr_int(pool, 2), -most);
+    e = qdot_mul(pool, by, qdot_expr_arg(pool, sum, 0));
+    for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, sum); k += 2)
+        e = qdot_add(pool, e,
+                     qdot_mul(pool, qdot_mul(pool, by, qdot_expr_arg(pool, sum, k + 1)), qdot_expr_arg(pool, sum, k)));
+    return e;
+}
+
 qdot_expr
 qdot_simple_zeros(qdot_pool *pool, qdot_expr g)
 {
     qdot_expr e;
-    bool lower = false;
-    long n;
 
+    if (qdot_expr_kind(pool, g) == QDOT_SUM)
+        return scaled(pool, g);
     if (qdot_expr_kind(pool, g) != QDOT_PROD)
         return g;
-    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2)
-        lower = lower || is_whole(pool, qdot_expr_arg(pool, g, i + 1), 3, &n);
-    if (!lower)
-        return g;
     e = qdot_expr_arg(pool, g, 0);
+    if (far(pool, e) != 0)
+        e = qdot_expr_is_negative(pool, e) ? qdot_neg(pool, QDOT_ONE) : QDOT_ONE;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, g, i), exponent = qdot_expr_arg(pool, g, i + 1);
+        long n;
 
         e = qdot_mul(pool, e,
-                     is_whole(pool, exponent, 3, &n) ? qdot_pow_int(pool, base, n)
-                                                     : qdot_pow(pool, base, exponent));
+                     is_whole(pool, exponent, &n) ? qdot_pow_int(pool, base, n) : qdot_pow(pool, base, exponent));
     }
     return e;
 }
@@ -56,7 +90,7 @@ qdot_touching_zeros(qdot_pool *pool, qdot_expr g)
         const qdot_expr base = qdot_expr_arg(pool, g, i);
         long n;
 
-        if (!is_whole(pool, qdot_expr_arg(pool, g, i + 1), 1, &n) || (n == 1 && !is_modulus(pool, base)))
+        if (!is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !is_modulus(pool, base)))
             return QDOT_NIL;
         u = qdot_mul(pool, u, is_modulus(pool, base) ? qdot_expr_arg(pool, base, 0) : base);
     }

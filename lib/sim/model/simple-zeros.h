@@ -13,8 +13,8 @@
 
 #include "expr/expr.h"
 
-/* The factors of g with exponent 1 in place of an odd one, 2 in place of an even one; others, and those
- * of negative powers, as they are. Nil absorbs. */
+/* The factors of g with exponent 1 in place of an odd one, 2 in place of an even one, -1 and -2 of
+ * poles; others as they are. A number far from 1, in all terms, is divided out. Nil absorbs. */
 qdot_expr qdot_simple_zeros(qdot_pool *pool, qdot_expr g);
 
 /* u, if g is c u^2, or |u|, or a product of such: it never changes its sign. Otherwise nil. */
