@@ -2566,6 +2566,7 @@ test_files = \
 	tests/num/kit.h \
 	tests/ode/failing.h \
 	tests/ode/problems.h \
+	tests/own-folder.h \
 	tests/sanitized.h \
 	tests/script/abbreviate.out \
 	tests/script/accel-large-coefficients.out \

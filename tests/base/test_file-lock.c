@@ -12,22 +12,7 @@
 #include <unistd.h>
 
 #include "base/file-lock.h"
-
-static char folder[] = P_tmpdir "/qdot-lock-XXXXXX";
-
-static int
-enter(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int
-leave(void **state)
-{
-    (void)state;
-    return chdir("/") != 0 || rmdir(folder) != 0;
-}
+#include "own-folder.h"
 
 /* What another process gets; `dies` with the lock. */
 static qdot_status
@@ -99,5 +84,5 @@ main(void)
         cmocka_unit_test(a_file_of_the_user_is_no_lock),
     };
 
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, own_folder_enter, own_folder_leave);
 }

@@ -7,7 +7,6 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* RTLD_NEXT */
 #endif
-#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -16,6 +15,7 @@
 
 #include "base/memory.h"
 #include "lang/talk.h"
+#include "own-folder.h"
 #include "sanitized.h"
 
 static const char *const scripts[] = {
@@ -97,8 +97,6 @@ fclose(FILE *file)
 
 /* --- files ------------------------------------------------------------------------------ */
 
-static char folder[] = P_tmpdir "/qdot-reliability-XXXXXX";
-
 static char *
 contents(const char *path, size_t *n)
 {
@@ -123,24 +121,6 @@ put_old(const char *path)
     assert_true(fd >= 0);
     assert_int_equal(write(fd, old, strlen(old)), strlen(old));
     close(fd);
-}
-
-/* Remove all files; whether there are others than `path`. */
-static bool
-clean(const char *path)
-{
-    DIR *all = opendir(".");
-    bool others = false;
-
-    assert_non_null(all);
-    for (struct dirent *e = readdir(all); e != NULL; e = readdir(all)) {
-        if (e->d_name[0] == '.' && (e->d_name[1] == '\0' || strcmp(e->d_name, "..") == 0))
-            continue;
-        others |= strcmp(e->d_name, path) != 0;
-        (void)unlink(e->d_name);
-    }
-    closedir(all);
-    return others;
 }
 
 /* --- both ------------------------------------------------------------------------------- */
@@ -194,7 +174,7 @@ survives(size_t i, void (*fail_at)(long n), long n, const char *whole, size_t le
     if (say(k, outputs[i].statement) != 0)
         fail_msg("%s: after call %ld: %s", path, n, complaint(k));
     end(&data);
-    if (clean(path))
+    if (own_folder_clean(path) > 0)
         fail_msg("%s: call %ld fails, and other files are left", path, n);
     return done;
 }
@@ -221,7 +201,7 @@ files_are_old_or_whole(void **state)
         assert_non_null(bytes);
         memcpy(whole, bytes, length);
         end(&data);
-        (void)clean(outputs[i].file);
+        (void)own_folder_clean(NULL);
         for (calls = 0; !survives(i, fail_call, calls, whole, length); calls++)
             ;
         for (n = 0; !survives(i, qdot_memory_fail_at, n, whole, length); n += is_long() ? 1 : 1 + n / 10)
@@ -269,26 +249,11 @@ any_allocation_may_fail(void **state)
         seen++;
         for (; !goes_on(path, n); times++)
             n += is_long() ? 1 : 1 + n / (i < 3 ? 20 : 4);
-        (void)clean("");
+        (void)own_folder_clean(NULL);
         print_message("# %s: %ld of %ld allocations\n", scripts[i], times, n);
     }
     if (root != NULL)
         assert_int_equal(seen, SCRIPTS);
-}
-
-static int
-enter(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int
-leave(void **state)
-{
-    (void)state;
-    (void)clean("");
-    return chdir("/") != 0 || rmdir(folder) != 0;
 }
 
 int
@@ -299,5 +264,5 @@ main(void)
         cmocka_unit_test(any_allocation_may_fail),
     };
 
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, own_folder_enter, own_folder_leave);
 }

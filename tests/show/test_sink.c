@@ -5,7 +5,6 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,41 +14,15 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "own-folder.h"
 #include "show/sink.h"
-
-static char folder[] = P_tmpdir "/qdot-sink-XXXXXX";
 
 static int
 enter(void **state)
 {
     (void)state;
     (void)signal(SIGXFSZ, SIG_IGN);
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-/* How many files the folder holds; they are removed. */
-static int
-leave_nothing(void)
-{
-    DIR *all = opendir(".");
-    int n = 0;
-
-    assert_non_null(all);
-    for (struct dirent *e = readdir(all); e != NULL; e = readdir(all))
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) {
-            n++;
-            (void)unlink(e->d_name);
-        }
-    closedir(all);
-    return n;
-}
-
-static int
-leave(void **state)
-{
-    (void)state;
-    (void)leave_nothing();
-    return chdir("/") != 0 || rmdir(folder) != 0;
+    return own_folder_enter(state);
 }
 
 static void
@@ -76,7 +49,7 @@ an_abandoned_file_leaves_the_old_one(void **state)
     assert_holds("a", "old");
     qdot_sink_abandon(&sink);
     assert_holds("a", "old");
-    assert_int_equal(leave_nothing(), 1);
+    assert_int_equal(own_folder_clean(NULL), 1);
 }
 
 static void
@@ -94,7 +67,7 @@ a_full_disk_leaves_the_old_one(void **state)
     assert_int_equal(qdot_sink_write("b", much, sizeof much), QDOT_EIO);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_holds("a", "old");
-    assert_int_equal(leave_nothing(), 1);
+    assert_int_equal(own_folder_clean(NULL), 1);
 }
 
 static void
@@ -112,7 +85,7 @@ permissions_and_links_stay(void **state)
     assert_true(S_ISLNK(st.st_mode));
     assert_int_equal(stat("a", &st), 0);
     assert_int_equal(st.st_mode & 0777, 0640);
-    assert_int_equal(leave_nothing(), 2);
+    assert_int_equal(own_folder_clean(NULL), 2);
 }
 
 static void
@@ -123,7 +96,7 @@ what_is_no_file_is_written_as_it_is(void **state)
     assert_int_equal(qdot_sink_write(".", "x", 1), QDOT_EIO);
     assert_int_equal(qdot_sink_write("none/a", "x", 1), QDOT_EIO);
     assert_int_equal(qdot_sink_write("", "x", 1), QDOT_EINVAL);
-    assert_int_equal(leave_nothing(), 0);
+    assert_int_equal(own_folder_clean(NULL), 0);
 }
 
 static void
@@ -135,7 +108,7 @@ only_marked_files_are_free(void **state)
     assert_true(qdot_sink_is_free("a", "# mark"));
     assert_int_equal(qdot_sink_write("a", "# ma", 4), QDOT_OK);
     assert_false(qdot_sink_is_free("a", "# mark"));
-    assert_int_equal(leave_nothing(), 1);
+    assert_int_equal(own_folder_clean(NULL), 1);
 }
 
 static void
@@ -153,7 +126,7 @@ failing_memory_leaves_the_old_one(void **state)
         assert_true(status == QDOT_OK || status == QDOT_ENOMEM);
     }
     assert_holds("a", "new");
-    assert_int_equal(leave_nothing(), 1);
+    assert_int_equal(own_folder_clean(NULL), 1);
 }
 
 int
@@ -168,5 +141,5 @@ main(void)
         cmocka_unit_test(failing_memory_leaves_the_old_one),
     };
 
-    return cmocka_run_group_tests(tests, enter, leave);
+    return cmocka_run_group_tests(tests, enter, own_folder_leave);
 }
