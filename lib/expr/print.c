@@ -504,7 +504,8 @@ qdot_print_series(const qdot_pool *pool, qdot_expr e, qdot_expr in, qdot_style s
                  .out = out};
 
     if (e == QDOT_NIL)
-        return qdot_fail(QDOT_EINVAL, "nothing to print");
+        return qdot_pool_failed(pool) ? qdot_fail_again(&pool->error) /* why there is none */
+                                      : qdot_fail(QDOT_EINVAL, "nothing to print");
     find_below(&p, e);
     child(&p, e, TOP);
     while (p.status == QDOT_OK && (p.next.n > 0 || p.todo.n > 0)) {

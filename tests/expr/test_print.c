@@ -388,6 +388,11 @@ nothing_cannot_be_printed(void **state)
 
     (void)state;
     assert_int_equal(qdot_print(p.pool, QDOT_NIL, QDOT_PLAIN, &out), QDOT_EINVAL);
+    /* where the pool failed, as after Ctrl-C, that is why */
+    qdot_pool_budget(p.pool, 0);
+    assert_int_equal(qdot_print(p.pool, qdot_fun1(p.pool, QDOT_SIN, QDOT_PI), QDOT_PLAIN, &out), QDOT_ELIMIT);
+    qdot_pool_budget(p.pool, UINT64_MAX);
+    assert_int_equal(qdot_pool_check(p.pool), QDOT_ELIMIT);
     qdot_text_clear(&out);
 }
 
