@@ -1699,6 +1699,7 @@ script_tests = \
 	tests/script/vector-functions.lag \
 	tests/script/with-values.sh \
 	tests/script/workprecision-power.sh \
+	tests/script/workprecision-scenes.sh \
 	tests/script/workprecision.sh \
 	tests/bad/acceleration-position.lag \
 	tests/bad/alone-word.lag \
@@ -2843,6 +2844,7 @@ test_files = \
 	tests/script/vector-functions.out \
 	tests/script/with-values.out \
 	tests/script/workprecision-power.out \
+	tests/script/workprecision-scenes.out \
 	tests/script/workprecision.out \
 	tests/series/kit.h \
 	tests/series/operations.h \
