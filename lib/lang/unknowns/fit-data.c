@@ -41,10 +41,12 @@ is_of_motion(const qdot_fit *f, const char *name)
 {
     const qdot_scene *s = f->session->scene;
 
-    for (size_t i = 0; i < 2 * s->coordinates.n; i++) {
-        const qdot_expr z = qdot_symbol_jet(s->pool, s->coordinates.at[i / 2], i % 2);
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        /* by no symbol of the velocity: after Ctrl-C there is none */
+        const char *own = qdot_expr_symbol(s->pool, s->coordinates.at[i])->name;
+        const size_t n = strlen(own);
 
-        if (strcmp(name, qdot_expr_symbol(s->pool, z)->name) == 0)
+        if (strncmp(name, own, n) == 0 && (name[n] == '\0' || strcmp(name + n, "'") == 0))
             return true;
     }
     return strcmp(name, "t") == 0;
