@@ -357,6 +357,7 @@ library_sources = \
 	lib/normal/solve/solver.c \
 	lib/normal/solve/zeros-box.c \
 	lib/normal/solve/zeros-exact.c \
+	lib/normal/solve/zeros-far.c \
 	lib/normal/solve/zeros-find.c \
 	lib/normal/solve/zeros-multiple.c \
 	lib/normal/solve/zeros-near.c \

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "normal/refute/enclosure.h"
+#include "normal/solve/zeros-parts.h"
 #include "normal/solve/zeros.h"
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS };
@@ -130,6 +131,20 @@ static const struct {
     {"exp(exp(x)) - 10", "x -100 100 []", "0.834032445247956"},
     {"1/cosh(x)^2 - 1/2", "x - -", "-0.881373587019543 0.881373587019543"},
     {"2*y + 4*y^3 + x/2; 2*x - 1 + y/2", "x - -; y -1 1 ()", "0.5321943492500909"},
+    /* by growth */
+    {"x*exp(-x^2) - 1/10", "x - -", "0.1010258483156852 1.67963061042845"},
+    {"exp(x) - x^2", "x - -", "-0.7034674224983917"},
+    {"exp(x) - x^10", "x - -", "-0.9127652716086226 1.1183255915896297 35.77152063957297"},
+    {"exp(x) + x^2", "x - -", ""},
+    {"exp(x) - x", "x - -", ""},
+    {"log(x) - x + 2", "x 0 - ()", "0.15859433956303937 3.1461932206205825"},
+    {"log(x)/x - 1/10", "x 0 - ()", "1.1183255915896297 35.77152063957297"},
+    {"2^x - x - 2", "x - -", "-1.6900930676193095 2"},
+    {"cosh(x) - 2*x - 1", "x - -", "0 2.466497136207526"},
+    {"sqrt(x) - cos(x)", "x 0 - []", "0.6417143708728826"},
+    {"x^2*exp(-x) - 1/2", "x - -",
+     "-0.5398352769028200 1.487962065498177 2.617866613066813"},
+    {"x + 20*sin(x)/x^2 - 40", "x 1 - ()", "39.9906037498864"},
     {"x^2 + y^2 - 1; 2*z*x; 1 + 2*z*y", "x - -; y - -; z - - () 1", "0 0"},
     {"x; y^2 - 100", "x 0 - []; y - -", "0 0"},
     {"x; y^2 - 100", "x 0 - (); y - -", ""},
@@ -174,6 +189,72 @@ all_zeros_are_found_and_proved(void **state)
     }
 }
 
+static unsigned
+next_random(unsigned *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 16;
+}
+
+/* A random sum of terms c x^a exp(b x^d) log(x)^k, some with a wave, as a text. */
+static void
+write_terms(unsigned *seed, char *text, size_t size)
+{
+    static const char *const tops[] = {"", "*exp(x)", "*exp(-x)", "*exp(2*x)", "*exp(-x^2/2)",
+                                       "*exp(sqrt(x))", "*log(x)", "*log(x)^2", "*sinh(x/2)",
+                                       "*exp(x - 3*log(2)*x)", "*tanh(x)", "*atan(x)"},
+                      *const powers[] = {"1", "x", "x^2", "x^3", "sqrt(x)", "1/x", "x^5", "x^(2/3)"},
+                      *const waves[] = {"", "", "", "*sin(x)", "*cos(3*x)", "*(2 + cos(x))"};
+    int n = 2 + next_random(seed) % 3;
+
+    text[0] = '\0';
+    for (int i = 0; i < n; i++) {
+        size_t length = strlen(text);
+
+        snprintf(text + length, size - length, "%s%u*%s%s%s", i > 0 ? next_random(seed) % 2 ? " - " : " + " : "",
+                 1 + next_random(seed) % 9, powers[next_random(seed) % 8],
+                 tops[next_random(seed) % 12], waves[next_random(seed) % 6]);
+    }
+}
+
+/* Beyond R there are no zeros: the sign stays the same, at many places in balls. */
+static void
+growth_excludes_only_what_has_no_zeros(void **state)
+{
+    enum { SUMS = 300, PLACES = 200 };
+    unsigned seed = 5, bounded = 0;
+    qdot_expr x = text_read(pool, "x");
+
+    (void)state;
+    for (int k = 0; k < SUMS; k++) {
+        char text[400];
+        qdot_enclosure *bounds;
+        qdot_expr f;
+        double R, last = 0;
+
+        write_terms(&seed, text, sizeof text);
+        f = text_read(pool, text);
+        assert_int_equal(qdot_zeros_far(pool, f, x, 1, &R), QDOT_OK);
+        if (isinf(R))
+            continue;
+        bounded++;
+        assert_int_equal(qdot_enclosure_new(pool, 1, &f, 1, &x, &bounds), QDOT_OK);
+        for (int i = 0; i < PLACES; i++) {
+            qdot_interval X = qdot_interval_point(R * (1 + i * 0.02 + i * i * 0.003)), y;
+
+            qdot_enclosure_eval(bounds, &X, false);
+            y = qdot_enclosure_get(bounds, 0)->y;
+            if (y.lo <= 0 && y.hi >= 0) /* beyond doubles */
+                continue;
+            if (last * y.lo < 0)
+                fail_msg("%s changes sign beyond %g, before %g", text, R, X.lo);
+            last = y.lo > 0 ? 1 : -1;
+        }
+        qdot_enclosure_free(bounds);
+    }
+    assert_true(bounded > SUMS / 2);
+}
+
 /* What cannot be decided is said: a place in doubt, the far away, the budget. */
 static void
 what_is_not_proved_is_said(void **state)
@@ -183,7 +264,7 @@ what_is_not_proved_is_said(void **state)
         bool doubt, beyond, exhausted;
     } beside[] = {
         {"sin(x) - 1/2", "x - -", false, true, false},
-        {"x*exp(-x^2) - 1/10", "x - -", false, true, false},
+        {"x*sin(x) - 1", "x - -", false, true, false},
         {"sign(x - 1)", "x -3 3 []", true, false, false},
         {"x^2 + y^2 + z^2 - 3; x*y*z - 1; x - y + z^2 - 1", "x - -; y - -; z - -", true,
          false, false},
@@ -345,6 +426,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(all_zeros_are_found_and_proved, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(growth_excludes_only_what_has_no_zeros, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(what_is_not_proved_is_said, open_pool,
                                         close_pool),

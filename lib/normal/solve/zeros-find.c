@@ -164,13 +164,13 @@ decide_doubt(qdot_zeros_task *t, const qdot_expr *f, const qdot_zero_box *box,
 /* The zeros of one system within R. */
 static qdot_status
 search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
-            const qdot_zero_box *box)
+            const qdot_zero_box *box, bool again)
 {
     bool plain = true;
 
     for (size_t i = 0; i < t->n; i++)
         plain &= t->f[k][i] == t->F[i];
-    if (!plain) {
+    if (!plain && core->also == NULL) {
         QDOT_TRY(qdot_enclosure_new(t->pool, t->n, t->F, t->n, t->x, &core->also));
         core->others = t->n;
     }
@@ -182,7 +182,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         qdot_zeros_join(core);
     }
     for (size_t i = 0; i < core->found.n; i++)
-        QDOT_TRY(qdot_zeros_add(t, k, core->found.at[i], false));
+        QDOT_TRY(qdot_zeros_add(t, k, core->found.at[i], again));
     for (size_t i = 0; i < core->doubt.n; i++) {
         qdot_zero_place place;
         bool decided = false;
@@ -190,7 +190,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         if (t->n > 1 && core->doubt.n <= PLACES)
             QDOT_TRY(decide_doubt(t, t->f[k], &core->doubt.at[i], &decided, &place));
         if (decided)
-            QDOT_TRY(qdot_zeros_add(t, k, place, false));
+            QDOT_TRY(qdot_zeros_add(t, k, place, again));
         else
             QDOT_TRY(qdot_vec_push(&t->doubt, core->doubt.at[i]));
     }
@@ -265,6 +265,31 @@ search_beyond(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     }
 }
 
+/* One unknown: the zeros of a system beyond the box, up to where growth excludes them; *beyond: it does not. */
+static qdot_status
+search_to_growth(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
+                 const qdot_interval *box, bool *beyond)
+{
+    qdot_zero_box below, above;
+    double lo = -t->bounds[0].lo, hi = t->bounds[0].hi;
+
+    *beyond = false;
+    if (isinf(lo))
+        QDOT_TRY(qdot_zeros_far(t->pool, t->f[k][0], t->x[0], -1, &lo));
+    if (isinf(hi))
+        QDOT_TRY(qdot_zeros_far(t->pool, t->f[k][0], t->x[0], 1, &hi));
+    *beyond = isinf(lo) || isinf(hi);
+    if (*beyond)
+        return QDOT_OK;
+    below.at[0] = (qdot_interval){-lo, box->lo};
+    above.at[0] = (qdot_interval){box->hi, hi};
+    core->found.n = core->doubt.n = 0;
+    if (-lo < box->lo)
+        QDOT_TRY(search_core(t, k, core, &below, true));
+    core->found.n = core->doubt.n = 0;
+    return box->hi < hi ? search_core(t, k, core, &above, true) : QDOT_OK;
+}
+
 static qdot_status
 search_system(qdot_zeros_task *t, size_t k)
 {
@@ -272,13 +297,18 @@ search_system(qdot_zeros_task *t, size_t k)
     qdot_zeros_chart chart;
     qdot_zeros_system core;
     qdot_status status;
-    bool beyond = false;
+    bool beyond = false, wild;
 
     QDOT_TRY(qdot_zeros_system_begin(&core, t->pool, t->n, t->f[k], t->x));
     qdot_zeros_chart_at(t->pool, t->n, t->x, t->range, t->bounds, 0, &chart);
-    status = search_core(t, k, &core, &chart.box);
-    if (status == QDOT_OK)
+    status = search_core(t, k, &core, &chart.box, false);
+    wild = t->n == 1 && qdot_zeros_is_wild(t->pool, t->n, t->f[k], t->x, t->range);
+    if (status == QDOT_OK && wild)
+        status = search_to_growth(t, k, &core, &chart.box.at[0], &beyond);
+    if (status == QDOT_OK && (!wild || beyond))
         status = search_beyond(t, k, &core, t->range, &beyond);
+    if (status == QDOT_OK && !wild && beyond && t->n == 1)
+        status = search_to_growth(t, k, &core, &chart.box.at[0], &beyond);
     if (status == QDOT_OK && beyond &&
         t->n > 1) { /* zeros at infinity of one form may be none of the other */
         for (size_t j = 0; j < t->n; j++) {

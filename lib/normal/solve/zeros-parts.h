@@ -74,6 +74,11 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_vanish(qdot_pool *pool, size_t m,
 /* Bounds of a constant; the whole line if it has no value. */
 qdot_interval qdot_zeros_constant(qdot_pool *pool, qdot_expr e);
 
+/* One unknown: *R such that f(sign x) has no zeros for x >= R, proved by the growth of its terms; infinity where that
+ * does not tell. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. (zeros-far.c) */
+QDOT_MUST_CHECK qdot_status qdot_zeros_far(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                                           int sign, double *R);
+
 /* --- systems (zeros-systems.c) ---- */
 /* The factors of f's numerator that may vanish, a LIST; f itself where writing it as a product gives nothing. */
 QDOT_MUST_CHECK qdot_status qdot_zeros_factors(qdot_pool *pool, qdot_expr f, size_t n,

@@ -14,6 +14,9 @@
  * else has bounds at s -> 0, have no zero out there that is missed. Unknowns that grow apart (coordinates
  * and multipliers) are in groups with an s each.
  *
+ * One unknown: where charts do not exclude zeros far away - exponentials, logarithms, waves beside what grows - the
+ * growth of the terms does (zeros-far.c), and the box is searched as far as that.
+ *
  * Whether a zero lies at an end, and whether F is defined at a zero of its numerator, is decided exactly, by
  * candidates: ends, rational numbers, parts of pi. One unknown: they also serve where no proof of a simple zero is
  * possible; if the k-th derivative does not vanish nearby and the lower ones do at the candidate, it is
