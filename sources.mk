@@ -113,7 +113,9 @@ library_sources = \
 	lib/lang/functions/quantity.c \
 	lib/lang/functions/series.c \
 	lib/lang/functions/short-names.c \
+	lib/lang/functions/solve-conditions.c \
 	lib/lang/functions/solve-numbers.c \
+	lib/lang/functions/solve.c \
 	lib/lang/functions/switch.c \
 	lib/lang/language/call.c \
 	lib/lang/language/closed-sum.c \
@@ -774,7 +776,9 @@ library_headers = \
 	lib/lang/functions/quantity.h \
 	lib/lang/functions/series.h \
 	lib/lang/functions/short-names.h \
+	lib/lang/functions/solve-conditions.h \
 	lib/lang/functions/solve-numbers.h \
+	lib/lang/functions/solve.h \
 	lib/lang/functions/switch.h \
 	lib/lang/language/closed-sum.h \
 	lib/lang/language/condition.h \
@@ -1662,7 +1666,10 @@ script_tests = \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
+	tests/script/solve-domains.lag \
+	tests/script/solve-line.lag \
 	tests/script/solve-numbers.lag \
+	tests/script/solve-special.lag \
 	tests/script/solve-system.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
@@ -1939,6 +1946,7 @@ script_tests = \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-curve.lag \
+	tests/bad/solve-far.lag \
 	tests/bad/solve-for-sum.lag \
 	tests/bad/solve-no-value.lag \
 	tests/bad/solve-range.lag \
@@ -2370,6 +2378,7 @@ test_files = \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-curve.out \
+	tests/bad/solve-far.out \
 	tests/bad/solve-for-sum.out \
 	tests/bad/solve-no-value.out \
 	tests/bad/solve-range.out \
@@ -2807,7 +2816,10 @@ test_files = \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solution-sets.out \
+	tests/script/solve-domains.out \
+	tests/script/solve-line.out \
 	tests/script/solve-numbers.out \
+	tests/script/solve-special.out \
 	tests/script/solve-system.out \
 	tests/script/solve.out \
 	tests/script/stability.out \

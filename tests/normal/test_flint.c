@@ -176,7 +176,7 @@ solve_one(qdot_pool *pool, size_t i)
 
     switch (i % KINDS) {
     case 0:
-        status = qdot_solve_inside(pool, e, unknown, NULL, &found);
+        status = qdot_solve_inside(pool, e, unknown, QDOT_NIL, NULL, &found);
         qdot_solutions_clear(&found);
         return status;
     case 1: (void)qdot_solve_factors(pool, e); break;

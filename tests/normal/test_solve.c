@@ -73,7 +73,7 @@ roots_satisfy_their_equation(void **state)
         const qdot_root *roots;
         size_t n;
 
-        assert_int_equal(qdot_solve_inside(pool, f, x, NULL, &found), QDOT_OK);
+        assert_int_equal(qdot_solve_inside(pool, f, x, QDOT_NIL, NULL, &found), QDOT_OK);
         if (!found.complete)
             fail_msg("%s: not complete", rows[i].f);
         roots = found.root.at;
@@ -192,7 +192,7 @@ listed(qdot_expr f, qdot_expr x)
     qdot_solutions found;
 
     qdot_text_clear(&all);
-    assert_int_equal(qdot_solve_inside(pool, f, x, NULL, &found), QDOT_OK);
+    assert_int_equal(qdot_solve_inside(pool, f, x, QDOT_NIL, NULL, &found), QDOT_OK);
     for (size_t k = 0; k < found.root.n; k++) {
         qdot_text_format(&all, "%s%s", k > 0 ? "; " : "", shown(found.root.at[k].value));
         if (found.root.at[k].condition != QDOT_NIL)
@@ -255,6 +255,105 @@ roots_are_real_or_say_when(void **state)
         if (row[i][1] != NULL)
             assert_string_equal(listed(text_read(pool, row[i][0]), text_read(pool, "x")),
                                 row[i][1]);
+}
+
+/* What stood in the equation before it was simplified: it must be defined, and no divisor 0. */
+static void
+roots_lie_where_all_is_defined(void **state)
+{
+    static const struct {
+        const char *f, *also, *roots;
+    } row[] = {
+        {"x - k", "asin(x)", "k |[k + 1 >= 0, k <= 1]"},
+        {"x - k", "sqrt(x)", "k |[k >= 0]"},
+        {"x - k", "log(x)", "k |[k > 0]"},
+        {"x", "x^(-1/3)", ""},
+        {"x*(x - 1)", "1/x", "1"},
+        {"x - pi/2", "tan(x)", ""},
+        {"x - k", "exp(x)", "k"},
+        {"0", "1/x", "x |[abs(x) > 0]"},
+        {"0", "log(x)", "x |[x > 0]"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        qdot_expr x = text_read(pool, "x"), also = text_read(pool, row[i].also), domain;
+        qdot_text all = {0};
+        qdot_solutions found;
+
+        domain = qdot_conditions_all(pool, qdot_conditions_of_domain(pool, also, x),
+                                     qdot_conditions_of_divisors(pool, also, x));
+        if (domain == QDOT_NIL)
+            domain = qdot_list(pool, 0, NULL);
+        assert_int_equal(
+            qdot_solve_inside(pool, text_read(pool, row[i].f), x, domain, NULL, &found), QDOT_OK);
+        assert_true(found.complete);
+        for (size_t k = 0; k < found.root.n; k++) {
+            qdot_text_format(&all, "%s%s", k > 0 ? "; " : "", shown(found.root.at[k].value));
+            if (found.root.at[k].condition != QDOT_NIL)
+                qdot_text_format(&all, " |%s", shown(found.root.at[k].condition));
+        }
+        if (strcmp(qdot_text_str(&all), row[i].roots) != 0)
+            fail_msg("%s beside %s: %s, not %s", row[i].f, row[i].also, qdot_text_str(&all),
+                     row[i].roots);
+        qdot_text_clear(&all);
+        qdot_solutions_clear(&found);
+    }
+}
+
+/* Divisors and factors of parameters alone: where one is 0 the set may be another. */
+static void
+special_parameters_are_listed(void **state)
+{
+    static const char *const row[][2] = {
+        {"k*x - 1", "k"},
+        {"k*x^2 + x - 1", "k"},
+        {"k*(x - 1)", "k"},
+        {"sin(k*x)", "k"},
+        {"(k - 1)*x - 2", "k - 1"},
+        {"x^2 - k", ""},
+        {"m*x - k", ""}, /* m > 0 in text.h */
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        qdot_solutions found;
+
+        assert_int_equal(
+            qdot_solve(pool, text_read(pool, row[i][0]), text_read(pool, "x"), NULL, &found),
+            QDOT_OK);
+        if (found.special.n != (row[i][1][0] != '\0'))
+            fail_msg("%s: %zu special values", row[i][0], found.special.n);
+        if (found.special.n > 0)
+            assert_string_equal(shown(found.special.at[0]), row[i][1]);
+        qdot_solutions_clear(&found);
+    }
+}
+
+/* Factors that no formula solves. */
+static void
+unsolved_factors_are_listed(void **state)
+{
+    static const struct {
+        const char *f, *list;
+        bool all;
+    } row[] = {
+        {"x^5 - x + 1", "[x^5 - x + 1]", true},
+        {"(x^5 - x + 1)*(x - k)", "[x^5 - x + 1]", false},
+        {"sin(x)*(x - 1)", "[]", false},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        qdot_expr list;
+        bool all;
+
+        assert_int_equal(qdot_solve_unsolved(pool, text_read(pool, row[i].f),
+                                             text_read(pool, "x"), NULL, &list, &all),
+                         QDOT_OK);
+        assert_string_equal(shown(list), row[i].list);
+        assert_int_equal(all, row[i].all);
+    }
 }
 
 /* A divisor that holds another unknown: where it is 0 the roots are others. */
@@ -399,6 +498,9 @@ main(void)
                                         close_pool),
         cmocka_unit_test_setup_teardown(roots_are_real_or_say_when, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(divisors_are_listed, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(roots_lie_where_all_is_defined, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(special_parameters_are_listed, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(unsolved_factors_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(products_are_irreducible, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(conditions_are_short, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(what_is_known_is_left_out, open_pool, close_pool),

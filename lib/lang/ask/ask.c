@@ -21,6 +21,7 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "normal/refute/constant.h"
 
 /* --- expressions -------------------------------------------------------------------- */
 
@@ -134,9 +135,49 @@ answer_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr o
     return QDOT_OK;
 }
 
+/* Whether a list holds numbers of runs and beside them members without a value. */
+static bool
+is_mixed(qdot_session *session, qdot_expr value)
+{
+    bool mixed = false;
+
+    if (qdot_expr_kind(session->pool, value) != QDOT_LIST)
+        return false;
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, value) && !mixed; i++) {
+        qdot_expr one = qdot_expr_arg(session->pool, value, i);
+
+        mixed = !qdot_measured_occurs(session, one) &&
+                !qdot_is_constant(session->pool, qdot_session_bind(session, one));
+    }
+    return mixed;
+}
+
+/* Each member by itself: a number with its error, or an expression. */
+static qdot_status
+answer_mixed(qdot_session *session, const char *name, qdot_expr list)
+{
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
+        qdot_expr one = qdot_expr_arg(session->pool, list, i);
+        qdot_text member = {0};
+
+        member_name(session, name, QDOT_NIL, i, &member);
+        status = qdot_text_status(&member);
+        if (status == QDOT_OK)
+            status = qdot_measured_occurs(session, one)
+                         ? answer_measured(session, qdot_text_str(&member), one)
+                         : qdot_answer_expr(session, qdot_text_str(&member), one);
+        qdot_text_clear(&member);
+    }
+    return status;
+}
+
 qdot_status
 qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
+    if (qdot_measured_occurs(session, value) && is_mixed(session, value))
+        return answer_mixed(session, name, value);
     if (qdot_measured_occurs(session, value))
         return answer_measured(session, name, value);
     if (qdot_components_are(session, name, value, over))

@@ -1,4 +1,4 @@
-/* algebra.c -- derivatives, sides, forms, replacements, solutions, factors, eigenvalues. */
+/* algebra.c -- derivatives, sides, forms, replacements, factors, eigenvalues. */
 #include "lang/functions/algebra.h"
 
 #include "base/memory.h"
@@ -244,100 +244,13 @@ qdot_algebra_subs(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
     return status;
 }
 
-/* --- factor, solve, eigenvalues ----------------------------------------------------- */
+/* --- factor, eigenvalues ----------------------------------------------------- */
 
 qdot_status
 qdot_algebra_factor(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
 {
     (void)n;
     return qdot_value_kind_give(s->pool, qdot_solve_product(s->pool, args[0]), value);
-}
-
-/* `x = V exists when C and D`, of a root that has conditions. */
-static qdot_status
-notice_conditions(qdot_session *s, qdot_expr x, const qdot_root *root)
-{
-    qdot_pool *pool = s->pool;
-    uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
-    qdot_text text = {0};
-    qdot_status status;
-
-    if (n == 0)
-        return QDOT_OK;
-    status = qdot_print(pool, qdot_rel(pool, QDOT_EQ, x, root->value), QDOT_PLAIN, &text);
-    qdot_text_add(&text, " exists");
-    for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i == 0 ? " when " : " and ");
-        status = qdot_print(pool, qdot_expr_arg(pool, root->condition, i), QDOT_PLAIN, &text);
-    }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice_once(s, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
-}
-
-/* A root as a value: a number, or the relations that say which x are roots. */
-static qdot_status
-root_value(qdot_session *s, qdot_expr x, const qdot_root *root, qdot_expr *value)
-{
-    qdot_pool *pool = s->pool;
-    uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
-
-    *value = root->value;
-    if (root->value != x)
-        return notice_conditions(s, x, root);
-    if (n == 0)
-        return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
-    *value = n == 1 ? qdot_expr_arg(pool, root->condition, 0)
-                    : qdot_logic(pool, QDOT_AND, n, qdot_expr_args(pool, root->condition));
-    return qdot_pool_check(pool);
-}
-
-/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
-qdot_status
-qdot_algebra_solve(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
-{
-    qdot_facts facts = qdot_scene_facts(s->scene);
-    qdot_expr f = qdot_value_kind_is_equation(s->pool, args[0])
-                      ? qdot_sub(s->pool, qdot_expr_arg(s->pool, args[0], 0),
-                                 qdot_expr_arg(s->pool, args[0], 1))
-                      : args[0];
-    qdot_solutions found = {0};
-    qdot_expr *values = NULL;
-    qdot_status status;
-
-    (void)n;
-    if (qdot_expr_kind(s->pool, args[1]) != QDOT_SYM || args[1] <= QDOT_FALSE)
-        return qdot_fail(QDOT_ETYPE, "solve(a = b, x) takes a symbol for x");
-    if (f != QDOT_NIL)
-        f = qdot_momenta_for(s, f, args[1]);
-    QDOT_TRY(qdot_value_kind_check(s->pool, f));
-    if (!qdot_expr_is_scalar(s->pool, f))
-        return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
-                         qdot_value_kind_words(s->pool, args[0]));
-    status = qdot_solve_inside(s->pool, f, args[1], &facts, &found);
-    if (status == QDOT_OK && !found.complete) {
-        (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
-                        found.root.n > 0 ? " for every x" : "");
-        status = qdot_hint("linear, quadratic, factorable and trigonometric equations can");
-    }
-    if (status == QDOT_OK &&
-        (values = qdot_malloc((found.root.n + 1) * sizeof *values)) == NULL)
-        status = QDOT_ENOMEM;
-    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++)
-        status = root_value(s, args[1], &found.root.at[i], &values[i]);
-    if (status == QDOT_OK && found.recurs)
-        status = qdot_answer_notice_once(
-            s, "these are the solutions of one turn: within the domain of %s each recurs after "
-               "every whole turn",
-            qdot_expr_symbol(s->pool, args[1])->name);
-    if (status == QDOT_OK)
-        *value = qdot_list(s->pool, (uint32_t)found.root.n, values);
-    qdot_free(values);
-    qdot_solutions_clear(&found);
-    return status == QDOT_OK ? qdot_value_kind_check(s->pool, *value) : status;
 }
 
 /* Every root of det(M - x 1), as often as it is one. */

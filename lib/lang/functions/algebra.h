@@ -1,4 +1,4 @@
-/* algebra.h -- functions that differentiate, rewrite and solve; their rows are in builtin.c. */
+/* algebra.h -- functions that differentiate and rewrite; their rows are in builtin.c. */
 #ifndef QDOT_LANG_ALGEBRA_H
 #define QDOT_LANG_ALGEBRA_H
 
@@ -18,7 +18,6 @@ QDOT_ALGEBRA(collect);
 QDOT_ALGEBRA(simplify);
 QDOT_ALGEBRA(subs);
 QDOT_ALGEBRA(factor);
-QDOT_ALGEBRA(solve);
 QDOT_ALGEBRA(eigenvalues);
 #undef QDOT_ALGEBRA
 

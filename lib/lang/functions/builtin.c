@@ -13,7 +13,7 @@
 #include "lang/functions/equilibria.h"
 #include "lang/functions/numeric.h"
 #include "lang/functions/series.h"
-#include "lang/functions/solve-numbers.h"
+#include "lang/functions/solve.h"
 #include "lang/session/along.h"
 #include "lang/session/labels.h"
 #include "lang/session/member.h"
@@ -425,9 +425,9 @@ static const qdot_builtin rows[] = {
             "factor(t^2 - 1)"),
     {"solve", 2, 2, qdot_solve_call,
      "solve(a = b, x), solve(a = b, x, lo..hi), solve(a = b, x = guess)",
-     "every real x, a list; angles between -pi and pi; parameters are generic; of lists of "
+     "every real x, a list; angles between -pi and pi; where no formula gives all, in numbers; of lists of "
      "equations and unknowns; with a range or a guess in numbers",
-     "solve(t^2 = 4, t)", QDOT_BUILTIN_RANGE, NULL},
+     "solve(t^2 = 4, t)", QDOT_BUILTIN_RANGE | QDOT_BUILTIN_PASSED, NULL},
     ALGEBRA(3, -1, series, QDOT_SERIES,
             "Taylor series about x = a, y = b: terms up to total degree n",
             "series(cos(t), t = 0, 4)"),

@@ -21,7 +21,8 @@ enum {
     QDOT_BUILTIN_RUN = 4,     /* arguments may name a run, value(a.theta, 20) */
     QDOT_BUILTIN_FORM = 8,    /* special syntax: sum, if */
     QDOT_BUILTIN_SHORT = 16,  /* anything else of this name takes precedence */
-    QDOT_BUILTIN_RANGE = 32   /* a range a..b may stand last: its ends are two more arguments */
+    QDOT_BUILTIN_RANGE = 32,  /* a range a..b may stand last: its ends are two more arguments */
+    QDOT_BUILTIN_PASSED = 64  /* while its arguments are read, session->passed keeps what must exist in them */
 };
 const qdot_builtin *qdot_builtin_find(const char *name);
 const qdot_builtin *qdot_builtin_at(size_t i); /* NULL past the end */

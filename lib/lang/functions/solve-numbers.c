@@ -9,12 +9,12 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
-#include "lang/functions/algebra.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
-#include "normal/solve/solve-system.h"
+#include "normal/refute/constant.h"
+#include "normal/refute/enclosure.h"
 #include "normal/solve/zeros.h"
 #include "num/lu.h"
 #include "tape/constant.h"
@@ -241,6 +241,91 @@ tell_doubts(const question *q, const qdot_zeros *z)
     return QDOT_OK;
 }
 
+/* --- the domain of what was written ---------------------------------------------------------------------- */
+
+/* Whether the zero z fulfils a < b or a <= b: 1 yes, 0 no, -1 not decided. What depends on what has no value is not
+ * asked. */
+static qdot_status
+fulfils(const question *q, qdot_expr relation, const double *z, const double *radius,
+        int *yes)
+{
+    qdot_pool *pool = q->session->pool;
+    bool open = qdot_expr_node(pool, relation)->op == QDOT_LT, exact = false;
+    qdot_expr gap = qdot_sub(pool, qdot_expr_arg(pool, relation, 1),
+                             qdot_expr_arg(pool, relation, 0)),
+              at[MOST];
+    qdot_interval X[MOST];
+    qdot_enclosure *bounds;
+    qdot_status status;
+
+    gap = qdot_session_bind(q->session, qdot_subs(pool, gap, q->n, q->name, q->x));
+    gap = qdot_measured_as_rationals(q->session, gap);
+    QDOT_TRY(qdot_value_kind_check(pool, gap));
+    status = qdot_enclosure_new(pool, 1, &gap, q->n, q->x, &bounds);
+    *yes = 1;
+    if (status == QDOT_ETYPE)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    for (size_t j = 0; j < q->n; j++)
+        X[j] = (qdot_interval){z[j] - radius[j], z[j] + radius[j]};
+    qdot_enclosure_eval(bounds, X, false);
+    *yes = qdot_enclosure_get(bounds, 0)->state == QDOT_ENCLOSURE_NOWHERE ? 0 : -1;
+    if (qdot_enclosure_get(bounds, 0)->state == QDOT_ENCLOSURE_WHOLE) {
+        qdot_interval y = qdot_enclosure_get(bounds, 0)->y;
+
+        if (y.lo > 0 || (y.lo == 0 && !open))
+            *yes = 1;
+        else if (y.hi < 0 || (y.hi == 0 && open))
+            *yes = 0;
+    }
+    qdot_enclosure_free(bounds);
+    if (*yes >= 0)
+        return QDOT_OK;
+    QDOT_TRY(is_exact(q, z, &exact));
+    for (size_t j = 0; j < q->n; j++)
+        at[j] = qdot_expr_of_double(pool, z[j]);
+    if (exact && qdot_is_zero(pool, qdot_subs(pool, gap, q->n, q->x, at), NULL))
+        *yes = !open;
+    return qdot_pool_check(pool);
+}
+
+/* Leave out zeros at which what was written is not defined. */
+static qdot_status
+keep_defined(const question *q, qdot_expr domain, qdot_zeros *zeros)
+{
+    uint32_t n = domain == QDOT_NIL || domain == QDOT_FALSE
+                     ? 0
+                     : qdot_expr_count(q->session->pool, domain);
+    size_t kept = 0;
+
+    if (domain == QDOT_FALSE)
+        zeros->count = 0;
+    for (size_t k = 0; k < zeros->count; k++) {
+        int yes = 1, one;
+
+        for (uint32_t i = 0; i < n && yes != 0; i++) {
+            QDOT_TRY(fulfils(q, qdot_expr_arg(q->session->pool, domain, i),
+                             zeros->at + k * q->n, zeros->radius + k * q->n, &one));
+            yes = one < yes ? one : yes;
+        }
+        if (yes < 0)
+            QDOT_TRY(qdot_answer_notice(
+                q->session,
+                "whether the equation is defined at the zero %.100s = %.17g "
+                "is not decided",
+                qdot_expr_symbol(q->session->pool, q->name[0])->name,
+                zeros->at[k * q->n]));
+        for (size_t j = 0; j < q->n && yes != 0; j++) {
+            zeros->at[kept * q->n + j] = zeros->at[k * q->n + j];
+            zeros->radius[kept * q->n + j] = zeros->radius[k * q->n + j];
+        }
+        if (yes != 0)
+            zeros->simple[kept++] = zeros->simple[k];
+    }
+    zeros->count = kept;
+    return QDOT_OK;
+}
+
 /* --- over a range ----------------------------------------------------------------------------------------- */
 
 /* The double of a constant. */
@@ -273,62 +358,152 @@ narrow_end(const question *q, qdot_expr declared, bool open, bool upper, qdot_ex
 }
 
 static qdot_status
-solve_range(question *q, const qdot_expr *ends, qdot_expr *value)
+find_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range,
+           qdot_zeros *zeros)
 {
-    const qdot_symbol *x = qdot_expr_symbol(q->session->pool, q->name[0]);
-    qdot_expr lo, hi, *numbers;
-    qdot_zeros_range range = {0};
-    qdot_zeros zeros;
-    qdot_status status;
-    double a, b;
-    const qdot_expr declared[] = {x->lo, x->hi};
-    const bool open[] = {x->lo_open, x->hi_open};
+    qdot_status status =
+        qdot_zeros_find(q->session->pool, 1, q->F, q->x, range, 0, zeros);
 
-    QDOT_TRY(constant_of(q, ends[0], &lo));
-    QDOT_TRY(constant_of(q, ends[1], &hi));
-    QDOT_TRY(double_of(q, lo, &a));
-    QDOT_TRY(double_of(q, hi, &b));
-    range.lo = a <= b ? lo : hi;
-    range.hi = a <= b ? hi : lo;
-    QDOT_TRY(narrow_end(q, declared[0], open[0], false, &range.lo, &range.lo_open));
-    QDOT_TRY(narrow_end(q, declared[1], open[1], true, &range.hi, &range.hi_open));
-    status = qdot_zeros_find(q->session->pool, 1, q->F, q->x, &range, 0, &zeros);
     if (status == QDOT_EDOMAIN)
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
-    QDOT_TRY(status);
+    if (status == QDOT_OK)
+        status = keep_defined(q, domain, zeros);
+    return status;
+}
+
+qdot_status
+qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr domain,
+                 const qdot_expr *ends, qdot_expr *value)
+{
+    question q = {.session = session};
+    const qdot_symbol *symbol;
+    qdot_expr lo, hi, declared[2], *numbers;
+    qdot_zeros_range range = {0};
+    qdot_zeros zeros = {0};
+    qdot_status status;
+    double a, b;
+    bool open[2];
+
+    QDOT_TRY(add_unknown(&q, x));
+    QDOT_TRY(set_equation(&q, 0, equation));
+    QDOT_TRY(constant_of(&q, ends[0], &lo));
+    QDOT_TRY(constant_of(&q, ends[1], &hi));
+    QDOT_TRY(double_of(&q, lo, &a));
+    QDOT_TRY(double_of(&q, hi, &b));
+    symbol = qdot_expr_symbol(session->pool, x);
+    declared[0] = symbol->lo;
+    declared[1] = symbol->hi;
+    open[0] = symbol->lo_open;
+    open[1] = symbol->hi_open;
+    range.lo = a <= b ? lo : hi;
+    range.hi = a <= b ? hi : lo;
+    QDOT_TRY(narrow_end(&q, declared[0], open[0], false, &range.lo, &range.lo_open));
+    QDOT_TRY(narrow_end(&q, declared[1], open[1], true, &range.hi, &range.hi_open));
+    status = find_zeros(&q, domain, &range, &zeros);
     numbers = qdot_malloc((zeros.count + 1) * sizeof *numbers);
-    status = numbers == NULL ? QDOT_ENOMEM : QDOT_OK;
+    if (status == QDOT_OK && numbers == NULL)
+        status = QDOT_ENOMEM;
     for (size_t k = 0; k < zeros.count && status == QDOT_OK; k++)
-        status = numbers_of(q, &zeros, k, &numbers[k]);
+        status = numbers_of(&q, &zeros, k, &numbers[k]);
     if (status == QDOT_OK)
         status = qdot_value_kind_give(
-            q->session->pool, qdot_list(q->session->pool, (uint32_t)zeros.count, numbers),
+            session->pool, qdot_list(session->pool, (uint32_t)zeros.count, numbers),
             value);
     if (status == QDOT_OK)
-        status = tell_doubts(q, &zeros);
+        status = tell_doubts(&q, &zeros);
     qdot_free(numbers);
+    qdot_zeros_clear(&zeros);
+    return status;
+}
+
+/* --- over the whole domain -------------------------------------------------------------------------------- */
+
+/* An end of the window as a constant; *known: it is one, or there is none. */
+static qdot_status
+bind_end(const question *q, qdot_expr end, qdot_expr *constant, bool *known)
+{
+    *constant = QDOT_NIL;
+    if (end == QDOT_NIL)
+        return QDOT_OK;
+    end = qdot_session_bind(q->session, end);
+    QDOT_TRY(qdot_value_kind_check(q->session->pool, end));
+    *constant = qdot_measured_as_rationals(q->session, end);
+    QDOT_TRY(qdot_value_kind_check(q->session->pool, *constant));
+    *known = *known && qdot_is_constant(q->session->pool, *constant);
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
+                const qdot_window *window, qdot_solve_zeros *out, bool *known, bool *all)
+{
+    question q = {.session = session};
+    qdot_zeros_range range = {
+        .lo_open = window->lo_open, .hi_open = window->hi_open, .turn = window->turn};
+    qdot_zeros zeros = {0};
+    qdot_status status;
+
+    *known = true;
+    QDOT_TRY(add_unknown(&q, x));
+    status = set_equation(&q, 0, f);
+    *known = status != QDOT_EUNSET;
+    if (!*known)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    QDOT_TRY(bind_end(&q, window->lo, &range.lo, known));
+    QDOT_TRY(bind_end(&q, window->hi, &range.hi, known));
+    if (!*known)
+        return QDOT_OK;
+    status = find_zeros(&q, domain, &range, &zeros);
+    *known = !zeros.beyond && !zeros.exhausted;
+    *all = zeros.complete;
+    for (size_t k = 0; k < zeros.count && *known && status == QDOT_OK; k++) {
+        qdot_solve_zero one = {.at = zeros.at[k], .radius = zeros.radius[k]};
+
+        status = numbers_of(&q, &zeros, k, &one.value);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(out, one);
+    }
+    if (status == QDOT_OK && *known)
+        status = tell_doubts(&q, &zeros);
     qdot_zeros_clear(&zeros);
     return status;
 }
 
 /* --- from a guess ------------------------------------------------------------------------------------------ */
 
-static qdot_status
-solve_near(question *q, const qdot_expr *guesses, bool list, qdot_expr *value)
+qdot_status
+qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
+                const qdot_expr *unknowns, qdot_expr domain, bool list, qdot_expr *value)
 {
+    question q = {.session = session};
     qdot_expr numbers[MOST];
     double guess[MOST];
     qdot_zeros zeros;
     qdot_status status;
 
-    for (size_t j = 0; j < q->n; j++) {
+    for (uint32_t j = 0; j < n; j++)
+        QDOT_TRY(add_unknown(&q, qdot_expr_arg(session->pool, unknowns[j], 0)));
+    for (uint32_t i = 0; i < n; i++)
+        QDOT_TRY(set_equation(&q, i, equations[i]));
+    for (uint32_t j = 0; j < n; j++) {
         qdot_expr e;
 
-        QDOT_TRY(constant_of(q, guesses[j], &e));
-        QDOT_TRY(double_of(q, e, &guess[j]));
+        QDOT_TRY(constant_of(&q, qdot_expr_arg(session->pool, unknowns[j], 1), &e));
+        QDOT_TRY(double_of(&q, e, &guess[j]));
     }
-    QDOT_TRY(qdot_zeros_near(q->session->pool, q->n, q->F, q->x, guess, &zeros));
-    if (zeros.count == 0) {
+    QDOT_TRY(qdot_zeros_near(session->pool, q.n, q.F, q.x, guess, &zeros));
+    if (zeros.count > 0) {
+        status = keep_defined(&q, domain, &zeros);
+        if (status == QDOT_OK && zeros.count == 0) {
+            (void)qdot_fail(QDOT_EFAILED,
+                            "where the zero that is reached lies, the equation as it is "
+                            "written is not defined");
+            status = qdot_hint("another guess");
+        }
+        if (status == QDOT_OK)
+            status = numbers_of(&q, &zeros, 0, numbers);
+    } else {
         (void)qdot_fail(
             QDOT_EFAILED,
             zeros.doubts > 0
@@ -336,122 +511,15 @@ solve_near(question *q, const qdot_expr *guesses, bool list, qdot_expr *value)
                 : "no zero is reached from there",
             zeros.doubts > 0 ? zeros.doubt[0] : 0.0);
         status = qdot_hint(
-            q->n == 1 ? "another guess, or every zero in a range: solve(A = B, x, 0..1)"
-                      : "another guess");
-    } else {
-        status = numbers_of(q, &zeros, 0, numbers);
+            q.n == 1 ? "another guess, or every zero in a range: solve(A = B, x, 0..1)"
+                     : "another guess");
     }
     if (status == QDOT_OK)
         status = qdot_value_kind_give(
-            q->session->pool,
-            list ? qdot_list(q->session->pool, (uint32_t)q->n, numbers) : numbers[0],
-            value);
+            session->pool,
+            list ? qdot_list(session->pool, (uint32_t)q.n, numbers) : numbers[0], value);
     if (status == QDOT_OK)
-        status = tell_doubts(q, &zeros);
+        status = tell_doubts(&q, &zeros);
     qdot_zeros_clear(&zeros);
     return status;
-}
-
-/* --- the function -------------------------------------------------------------------------------------------- */
-
-static bool
-is_list_of_equations(const qdot_pool *pool, qdot_expr e)
-{
-    uint32_t n = qdot_expr_kind(pool, e) == QDOT_LIST ? qdot_expr_count(pool, e) : 0;
-
-    for (uint32_t i = 0; i < n; i++)
-        if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i)))
-            return false;
-    return n > 0;
-}
-
-/* solve([A = B, C = D], [x = 1, y = 2]) */
-static qdot_status
-solve_system(question *q, qdot_expr equations, qdot_expr unknowns, qdot_expr *value)
-{
-    qdot_pool *pool = q->session->pool;
-    uint32_t n = qdot_expr_count(pool, unknowns);
-    qdot_expr guesses[MOST];
-
-    if (qdot_expr_kind(pool, equations) != QDOT_LIST ||
-        qdot_expr_count(pool, equations) != n) {
-        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns");
-        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x = 1, y = 1])");
-    }
-    for (uint32_t j = 0; j < n; j++) {
-        qdot_expr one = qdot_expr_arg(pool, unknowns, j);
-
-        QDOT_TRY(add_unknown(q, qdot_expr_arg(pool, one, 0)));
-        guesses[j] = qdot_expr_arg(pool, one, 1);
-    }
-    for (uint32_t i = 0; i < n; i++)
-        QDOT_TRY(set_equation(q, i, qdot_expr_arg(pool, equations, i)));
-    return solve_near(q, guesses, true, value);
-}
-
-/* solve([A = B, C = D], [x, y]): exactly; a list of lists of equations. */
-static qdot_status
-solve_exactly(qdot_session *session, qdot_expr equations, qdot_expr unknowns,
-              qdot_expr *value)
-{
-    qdot_pool *pool = session->pool;
-    uint32_t n = qdot_expr_count(pool, unknowns);
-    qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr f[MOST], u[MOST];
-    bool complete;
-
-    if (n == 0 || n > MOST || qdot_expr_kind(pool, equations) != QDOT_LIST ||
-        qdot_expr_count(pool, equations) != n) {
-        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns, up to %d",
-                        MOST);
-        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x, y])");
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr e = qdot_expr_arg(pool, equations, i);
-
-        u[i] = qdot_expr_arg(pool, unknowns, i);
-        if (qdot_expr_kind(pool, u[i]) != QDOT_SYM || u[i] <= QDOT_FALSE)
-            return qdot_fail(QDOT_ETYPE, "solve takes symbols as unknowns, not %s",
-                             qdot_value_kind_words(pool, u[i]));
-        f[i] = qdot_value_kind_is_equation(pool, e)
-                   ? qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))
-                   : e;
-        QDOT_TRY(qdot_value_kind_check(pool, f[i]));
-        if (!qdot_expr_is_scalar(pool, f[i]))
-            return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
-                             qdot_value_kind_words(pool, e));
-    }
-    QDOT_TRY(qdot_solve_system(pool, n, f, u, &facts, value, &complete));
-    if (complete)
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
-                    qdot_expr_count(pool, *value) > 0 ? " for all their solutions" : "");
-    return qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
-}
-
-qdot_status
-qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
-                qdot_expr *value)
-{
-    qdot_pool *pool = session->pool;
-    question q = {.session = session};
-    qdot_expr guess;
-
-    if (n != 2 && n != 4) {
-        (void)qdot_fail(QDOT_ETYPE,
-                        "solve takes one equation and one unknown, then a range");
-        return qdot_hint("as in solve(cos(x) = x, x, 0..2)");
-    }
-    if (n == 2 && is_list_of_equations(pool, args[1]))
-        return solve_system(&q, args[0], args[1], value);
-    if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)
-        return solve_exactly(session, args[0], args[1], value);
-    if (n == 2 && !qdot_value_kind_is_equation(pool, args[1]))
-        return qdot_algebra_solve(session, n, args, value);
-    QDOT_TRY(add_unknown(&q, n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0)));
-    QDOT_TRY(set_equation(&q, 0, args[0]));
-    if (n == 4)
-        return solve_range(&q, args + 2, value);
-    guess = qdot_expr_arg(pool, args[1], 1);
-    return solve_near(&q, &guess, false, value);
 }

@@ -1,24 +1,40 @@
-/* solve-numbers.h -- solve(...): exactly, in numbers over a range, in numbers from a guess.
+/* solve-numbers.h -- zeros in numbers, with the values of `set`.
  *
- *     solve(A = B, x)                             every value, exact (functions/algebra.h)
- *     solve([A = B, C = D], [x, y])               exactly, in several unknowns (normal/solve/solve-system.h)
- *     solve(A = B, x, a..b)                       every zero in a..b, in numbers
- *     solve(A = B, x = guess)                     the one that Newton's steps reach
- *     solve([A = B, C = D], [x = 1, y = 2])       the same in several unknowns
+ * Each is proved to be a zero, has its error, and stands in expressions like a number of a run. What cannot be proved
+ * is told in a notice: a zero that is not simple, a place that is not decided, a search that was ended.
+ * `domain`: conditions that a solution fulfils beside its equations (normal/solve/conditions.h); nil: none.
  *
- * Numbers are taken with the values of `set`. Each is proved to be a zero, has its error, and stands in
- * expressions like a number of a run. What cannot be proved is told in a notice: a zero that is not
- * simple, a place that is not decided, a search that was ended.
- *
- * Tests   tests/script/solve-numbers.lag, tests/bad/solve-*.lag, tests/normal/test_zeros.c
+ * Tests   tests/script/solve-numbers.lag, solve-line.lag, tests/bad/solve-*.lag, tests/normal/test_zeros.c
  */
 #ifndef QDOT_LANG_SOLVE_NUMBERS_H
 #define QDOT_LANG_SOLVE_NUMBERS_H
 
 #include "lang/session/session.h"
+#include "normal/solve/solutions.h"
 
-/* args [n]: n = 4 if a range is given, its ends stand last. */
-QDOT_MUST_CHECK qdot_status qdot_solve_call(qdot_session *session, uint32_t n,
-                                            const qdot_expr *args, qdot_expr *value);
+/* solve(equation, x, a..b): a LIST. */
+QDOT_MUST_CHECK qdot_status qdot_solve_range(qdot_session *session, qdot_expr equation,
+                                             qdot_expr x, qdot_expr domain,
+                                             const qdot_expr *ends, qdot_expr *value);
+
+/* solve(equation, x = guess): a number; of [n] equations, `list`: a LIST. */
+QDOT_MUST_CHECK qdot_status qdot_solve_near(qdot_session *session, uint32_t n,
+                                            const qdot_expr *equations,
+                                            const qdot_expr *unknowns, qdot_expr domain,
+                                            bool list, qdot_expr *value);
+
+/* Every zero of f in the window. *all: it is proved that there are no others; else notices tell which places are not
+ * decided. *known false: zeros are not excluded far away or too many, or f holds what has no value; then none is given. */
+typedef struct {
+    qdot_expr value; /* a number with its error */
+    double at, radius;
+} qdot_solve_zero;
+typedef qdot_vec(qdot_solve_zero) qdot_solve_zeros;
+
+QDOT_MUST_CHECK qdot_status qdot_solve_line(qdot_session *session, qdot_expr f,
+                                            qdot_expr x, qdot_expr domain,
+                                            const qdot_window *window,
+                                            qdot_solve_zeros *zeros, bool *known,
+                                            bool *all);
 
 #endif

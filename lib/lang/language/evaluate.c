@@ -361,6 +361,8 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
     case QDOT_POSTFIX_IF_TEST: return qdot_forms_if(m, code, pc);
     case QDOT_POSTFIX_IF_ELSE: qdot_forms_else(m, code, pc); return QDOT_OK;
     case QDOT_POSTFIX_IF_END: return qdot_forms_end(m);
+    case QDOT_POSTFIX_PASS_BEGIN: return qdot_machine_pass_begin(m);
+    case QDOT_POSTFIX_PASS_END: qdot_machine_pass_end(m); return QDOT_OK;
     }
     return qdot_fail(QDOT_EFAILED, "the reader lost its way");
 }
@@ -405,6 +407,8 @@ qdot_evaluate(qdot_cursor *c, const qdot_postfix_list *program, qdot_expr *value
     for (size_t i = m.frames.n; i > 0; i--) /* only after a failure */
         if (m.frames.at[i - 1].bound)
             qdot_names_pop(m.session->names);
+    while (m.passed != NULL) /* only after a failure */
+        qdot_machine_pass_end(&m);
     qdot_free(m.stack.at);
     qdot_free(m.frames.at);
     qdot_free(m.terms.at);

@@ -38,7 +38,9 @@ typedef enum {
     QDOT_POSTFIX_SUM_NEXT,  /* the body's value popped; round again or go on */
     QDOT_POSTFIX_IF_TEST,   /* the condition stays; false: nil pushed, go to `to` */
     QDOT_POSTFIX_IF_ELSE,   /* condition true: both popped, value pushed, go to `to` */
-    QDOT_POSTFIX_IF_END     /* condition, a, b popped; push if(...) */
+    QDOT_POSTFIX_IF_END,    /* condition, a, b popped; push if(...) */
+    QDOT_POSTFIX_PASS_BEGIN, /* session->passed keeps from here what must exist */
+    QDOT_POSTFIX_PASS_END    /* ... to here */
 } qdot_postfix_kind;
 
 typedef struct {

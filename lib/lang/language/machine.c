@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/memory.h"
 #include "lang/session/member.h"
 #include "lang/session/value-kind.h"
 
@@ -25,6 +26,33 @@ qdot_machine_pass(qdot_machine *m, qdot_expr value)
         qdot_expr_kind(m->pool, value) == QDOT_NUM)
         return QDOT_OK;
     return qdot_vec_push(&p->value, value);
+}
+
+qdot_status
+qdot_machine_pass_begin(qdot_machine *m)
+{
+    qdot_passed_frame *frame = qdot_calloc(1, sizeof *frame);
+
+    if (frame == NULL)
+        return QDOT_ENOMEM;
+    frame->outer = m->session->passed;
+    frame->below = m->passed;
+    m->passed = frame;
+    m->session->passed = &frame->passed;
+    return QDOT_OK;
+}
+
+void
+qdot_machine_pass_end(qdot_machine *m)
+{
+    qdot_passed_frame *frame = m->passed;
+
+    m->session->passed = frame->outer;
+    m->passed = frame->below;
+    if (frame->outer != NULL)
+        frame->outer->spoiled = true; /* such a function takes its arguments apart */
+    qdot_free(frame->passed.value.at);
+    qdot_free(frame);
 }
 
 /* Functions of numbers only: what else is called may take its arguments apart. The body of a

@@ -25,6 +25,13 @@ typedef struct {
     qdot_expr symbol; /* what it is bound to for a formula of many terms; nil: to numbers */
 } qdot_sum_frame;
 
+/* What a call with QDOT_BUILTIN_PASSED keeps while its arguments are read. */
+typedef struct qdot_passed_frame {
+    qdot_passed passed;
+    qdot_passed *outer; /* that of the session before */
+    struct qdot_passed_frame *below;
+} qdot_passed_frame;
+
 typedef struct {
     qdot_cursor *c;
     qdot_session *session;
@@ -37,6 +44,7 @@ typedef struct {
     qdot_vec(const char *) labels; /* of the arguments of the present call */
     const qdot_token *blame;   /* the token that an error points at */
     bool belongs;              /* the run of the following MEMBER has been used */
+    qdot_passed_frame *passed; /* the innermost open one; NULL */
 } qdot_machine;
 
 static inline qdot_slot *
@@ -48,6 +56,9 @@ qdot_machine_top(qdot_machine *m, size_t n)
 QDOT_MUST_CHECK qdot_status qdot_machine_push(qdot_machine *m, qdot_expr value);
 /* Keep a value that must exist, of a scalar with symbols. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass(qdot_machine *m, qdot_expr value);
+/* Keep such values in a frame of their own, from _begin to _end. */
+QDOT_MUST_CHECK qdot_status qdot_machine_pass_begin(qdot_machine *m);
+void qdot_machine_pass_end(qdot_machine *m);
 /* A call of `name`: unless it is a function of numbers only, it may take its arguments apart. */
 void qdot_machine_spoil(qdot_machine *m, const char *name);
 /* What is meant along a run and enters an expression: a symbol from now on. */

@@ -39,6 +39,7 @@ typedef struct {
     uint8_t kind; /* waiting_kind */
     uint8_t primes;
     bool ranged; /* of IN_CALL: its last argument is a range */
+    bool passed; /* of IN_CALL: between PASS_BEGIN and PASS_END */
     const qdot_token *token; /* the operator's last sign; what opened the bracket */
     const qdot_token *name;  /* of IN_SUM: its index */
     const qdot_token *power; /* of IN_CALL: sin²(x) is sin(x)^2; NULL */
@@ -254,6 +255,10 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
         p->depth--;
         p->operand = false;
         return emit(p, QDOT_POSTFIX_CALL, name, 0, indices, n_primes);
+    }
+    if (flags & QDOT_BUILTIN_PASSED) {
+        top(p)->passed = true;
+        return emit(p, QDOT_POSTFIX_PASS_BEGIN, name, 0, 0, 0);
     }
     return flags & QDOT_BUILTIN_LABEL ? label(p, "the name of a body or particle")
                                       : QDOT_OK;
@@ -545,8 +550,11 @@ close_bracket(parser *p)
         return QDOT_OK;
     default:
         if (w.ranged)
-            return emit(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0);
-        QDOT_TRY(emit(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
+            QDOT_TRY(emit(p, QDOT_POSTFIX_RANGE, w.token, w.count + 1, 0, 0));
+        else
+            QDOT_TRY(emit(p, QDOT_POSTFIX_CALL, w.token, w.count + 1, w.indices, w.primes));
+        if (w.passed)
+            QDOT_TRY(emit(p, QDOT_POSTFIX_PASS_END, w.token, 0, 0, 0));
         if (w.power == NULL)
             return QDOT_OK;
         QDOT_TRY(emit(p, QDOT_POSTFIX_NUMBER, w.power, 0, 0, 0));

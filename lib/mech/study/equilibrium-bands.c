@@ -95,7 +95,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     size_t had = l->points;
     const qdot_symbol *u = qdot_expr_symbol(l->pool, l->u);
     qdot_solutions found;
-    qdot_status status = qdot_solve_inside(l->pool, g, l->u, l->facts, &found);
+    qdot_status status = qdot_solve_inside(l->pool, g, l->u, QDOT_NIL, l->facts, &found);
 
     *all = status == QDOT_OK && found.complete && found.divisor.n == 0;
     for (size_t i = 0; i < found.root.n && *all; i++) {

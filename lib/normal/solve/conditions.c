@@ -312,7 +312,7 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
 
 /* The set and lo <= u <= hi, or lo < u < hi; nil: no such end. */
 static qdot_expr
-within(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
+conditions_add_bounds(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, bool open)
 {
     qdot_rel_op op = open ? QDOT_LT : QDOT_LE;
 
@@ -324,20 +324,20 @@ within(qdot_pool *pool, qdot_expr set, qdot_expr u, qdot_expr lo, qdot_expr hi, 
 }
 
 static qdot_expr
-of_node(qdot_pool *pool, qdot_expr set, qdot_expr node)
+conditions_of_function(qdot_pool *pool, qdot_expr set, qdot_expr node)
 {
     qdot_expr u = qdot_expr_count(pool, node) == 0 ? QDOT_NIL : qdot_expr_arg(pool, node, 0);
 
     switch (qdot_expr_node(pool, node)->op) {
     case QDOT_LOG:
-        return within(pool, set, u, QDOT_ZERO, QDOT_NIL, true);
+        return conditions_add_bounds(pool, set, u, QDOT_ZERO, QDOT_NIL, true);
     case QDOT_ASIN:
     case QDOT_ACOS:
-        return within(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, false);
+        return conditions_add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, false);
     case QDOT_ATANH:
-        return within(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, true);
+        return conditions_add_bounds(pool, set, u, QDOT_MINUS_ONE, QDOT_ONE, true);
     case QDOT_ACOSH:
-        return within(pool, set, u, QDOT_ONE, QDOT_NIL, false);
+        return conditions_add_bounds(pool, set, u, QDOT_ONE, QDOT_NIL, false);
     default:
         return set;
     }
@@ -345,7 +345,7 @@ of_node(qdot_pool *pool, qdot_expr set, qdot_expr node)
 
 /* The bases of the powers in a product with exponents that are no integers. */
 static qdot_expr
-of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
+conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
 {
     for (uint32_t i = 1; i < qdot_expr_count(pool, product); i += 2) {
         qdot_expr base = qdot_expr_arg(pool, product, i),
@@ -355,7 +355,7 @@ of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
         if ((x != QDOT_NIL && !qdot_expr_contains(pool, base, x)) ||
             (q != NULL && fmpz_is_one(fmpq_denref(q))))
             continue;
-        set = within(pool, set, base, QDOT_ZERO, QDOT_NIL, q == NULL || fmpq_sgn(q) < 0);
+        set = conditions_add_bounds(pool, set, base, QDOT_ZERO, QDOT_NIL, q == NULL || fmpq_sgn(q) < 0);
     }
     return set;
 }
@@ -374,9 +374,62 @@ qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
         if (x != QDOT_NIL && !qdot_expr_contains(pool, node, x))
             continue;
         if (qdot_expr_kind(pool, node) == QDOT_FUN)
-            set = of_node(pool, set, node);
+            set = conditions_of_function(pool, set, node);
         else if (qdot_expr_kind(pool, node) == QDOT_PROD)
-            set = of_powers(pool, set, node, x);
+            set = conditions_of_powers(pool, set, node, x);
+    }
+    qdot_walk_end(&w);
+    return set;
+}
+
+/* --- where it is divided -------------------------------------------------------------- */
+
+/* The set and u != 0, said as 0 < |u|. */
+static qdot_expr
+conditions_add_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
+{
+    return qdot_conditions_and(pool, set,
+                               qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
+}
+
+static qdot_expr
+conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
+{
+    qdot_expr u = qdot_expr_count(pool, node) == 0 ? QDOT_NIL : qdot_expr_arg(pool, node, 0);
+
+    switch (qdot_expr_node(pool, node)->op) {
+    case QDOT_TAN:
+    case QDOT_SEC: return conditions_add_nonzero(pool, set, qdot_fun1(pool, QDOT_COS, u));
+    case QDOT_COT:
+    case QDOT_CSC: return conditions_add_nonzero(pool, set, qdot_fun1(pool, QDOT_SIN, u));
+    default: return set;
+    }
+}
+
+qdot_expr
+qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
+{
+    qdot_expr set = QDOT_NIL;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n; i++) {
+        qdot_expr node = w.at[i];
+        bool product = qdot_expr_kind(pool, node) == QDOT_PROD;
+
+        if (x != QDOT_NIL && !qdot_expr_contains(pool, node, x))
+            continue;
+        if (qdot_expr_kind(pool, node) == QDOT_FUN)
+            set = conditions_of_pole(pool, set, node);
+        for (uint32_t k = 1; product && k < qdot_expr_count(pool, node); k += 2) {
+            qdot_expr base = qdot_expr_arg(pool, node, k);
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, node, k + 1));
+
+            if (q != NULL && fmpq_sgn(q) < 0 &&
+                (x == QDOT_NIL || qdot_expr_contains(pool, base, x)))
+                set = conditions_add_nonzero(pool, set, base);
+        }
     }
     qdot_walk_end(&w);
     return set;

@@ -36,6 +36,8 @@ qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdo
 /* The conditions under which every part of f that holds x (nil: every part) is defined: of bases of roots, logarithms
  * and inverse functions. Denominators and poles are not among them. */
 qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
+/* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0. */
+qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
 
 /* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than
  * that are left out. */

@@ -124,7 +124,7 @@ typedef struct {
 
 /* The conditions and that `value` lies in the window. */
 static qdot_expr
-inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
+conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
        const qdot_facts *facts)
 {
     qdot_expr room[QDOT_CONDITIONS_MOST], relations = QDOT_NIL;
@@ -151,12 +151,12 @@ inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
 }
 
 static qdot_status
-append(const members *m, qdot_expr value, const qdot_window *w)
+members_add_value(const members *m, qdot_expr value, const qdot_window *w)
 {
     qdot_root one = {qdot_simplify(m->pool, value, m->facts), QDOT_NIL, QDOT_NIL, QDOT_NIL};
 
     QDOT_TRY(qdot_pool_check(m->pool));
-    one.condition = inside(m->pool, m->root->condition, one.value, w, m->facts);
+    one.condition = conditions_inside(m->pool, m->root->condition, one.value, w, m->facts);
     if (one.condition != QDOT_FALSE && m->root->members != QDOT_NIL)
         one.condition = qdot_conditions_all(
             m->pool, one.condition,
@@ -188,7 +188,7 @@ periods_to(const members *m, qdot_expr end, double *v)
 }
 
 static qdot_expr
-member(const members *m, long k)
+members_value(const members *m, long k)
 {
     return qdot_add(m->pool, m->root->value,
                     qdot_mul(m->pool, qdot_expr_int(m->pool, k), m->root->period));
@@ -196,32 +196,32 @@ member(const members *m, long k)
 
 /* Members between first and last periods; those near an end are decided, the others lie inside. */
 static qdot_status
-append_members(const members *m, double first, double last)
+members_add_between(const members *m, double first, double last)
 {
     for (long k = (long)ceil(first - 1e-6); k <= (long)floor(last + 1e-6); k++) {
         bool is_near = (double)k - first < 1e-6 || last - (double)k < 1e-6;
 
-        QDOT_TRY(append(m, member(m, k), is_near ? m->window : &window_whole));
+        QDOT_TRY(members_add_value(m, members_value(m, k), is_near ? m->window : &window_whole));
     }
     return QDOT_OK;
 }
 
 /* Members from `first` on in one direction, until one is proved to lie beyond the end. */
 static qdot_status
-append_outward(const members *m, long first, long direction)
+members_add_outward(const members *m, long first, long direction)
 {
     const qdot_window *w = m->window;
     qdot_expr end = direction > 0 ? w->hi : w->lo;
 
     for (long k = first; labs(k) <= MOST_PERIODS; k += direction) {
-        qdot_expr value = member(m, k), gap, within;
+        qdot_expr value = members_value(m, k), gap, within;
 
         gap = direction > 0 ? qdot_sub(m->pool, end, value) : qdot_sub(m->pool, value, end);
         within = qdot_condition(m->pool, gap, direction > 0 ? w->hi_open : w->lo_open, m->facts);
         QDOT_TRY(qdot_pool_check(m->pool));
         if (within == QDOT_FALSE)
             return QDOT_OK;
-        QDOT_TRY(append(m, value, w));
+        QDOT_TRY(members_add_value(m, value, w));
     }
     m->out->complete = false;
     return QDOT_OK;
@@ -229,7 +229,7 @@ append_outward(const members *m, long first, long direction)
 
 /* As many members as make a turn, whichever turn they lie in. */
 static qdot_status
-append_turn(const members *m)
+members_add_turn(const members *m)
 {
     qdot_expr turn = qdot_mul(m->pool, qdot_expr_int(m->pool, 2), QDOT_PI);
     double n;
@@ -238,13 +238,13 @@ append_turn(const members *m)
     if (!as_number(m->pool, turn, &n))
         n = 1;
     for (long k = 0; k < lround(n); k++) /* 0, -1, 1, -2 ... */
-        QDOT_TRY(append(m, member(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
+        QDOT_TRY(members_add_value(m, members_value(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
     return QDOT_OK;
 }
 
 /* The family itself, value + n period, with what n must fulfil. */
 static qdot_status
-append_family(const members *m)
+members_add_family(const members *m)
 {
     qdot_pool *pool = m->pool;
     const qdot_window *w = m->window;
@@ -256,7 +256,7 @@ append_family(const members *m)
 
     if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at)) {
         /* counted from the first member on */
-        qdot_expr first = member(m, (long)ceil(at - 1e-6));
+        qdot_expr first = members_value(m, (long)ceil(at - 1e-6));
 
         if (qdot_condition(pool, qdot_sub(pool, first, w->lo), w->lo_open, m->facts) == QDOT_FALSE)
             first = qdot_add(pool, first, m->root->period);
@@ -267,7 +267,7 @@ append_family(const members *m)
     }
     QDOT_TRY(qdot_pool_check(pool));
     all.root = &from;
-    return append(&all, qdot_add(pool, value, qdot_mul(pool, n, m->root->period)), &rest);
+    return members_add_value(&all, qdot_add(pool, value, qdot_mul(pool, n, m->root->period)), &rest);
 }
 
 qdot_status
@@ -280,20 +280,20 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
 
     out->recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
     if (root->period == QDOT_NIL)
-        return append(&m, root->value, root->value == x ? &window_whole : &w);
+        return members_add_value(&m, root->value, root->value == x ? &window_whole : &w);
     if (w.lo == QDOT_NIL || w.hi == QDOT_NIL)
-        return append_family(&m);
+        return members_add_family(&m);
     if (periods_to(&m, w.lo, &first) && periods_to(&m, w.hi, &last))
         return fabs(last - first) <= MOST_MEMBERS
-                   ? append_members(&m, fmin(first, last), fmax(first, last))
-                   : append_family(&m);
+                   ? members_add_between(&m, fmin(first, last), fmax(first, last))
+                   : members_add_family(&m);
     QDOT_TRY(qdot_pool_check(pool));
     if (!qdot_is_constant(pool, root->period))
-        return append_family(&m);
+        return members_add_family(&m);
     if (w.turn)
-        return append_turn(&m);
-    QDOT_TRY(append_outward(&m, 0, 1));
-    return append_outward(&m, -1, -1);
+        return members_add_turn(&m);
+    QDOT_TRY(members_add_outward(&m, 0, 1));
+    return members_add_outward(&m, -1, -1);
 }
 
 void
@@ -301,5 +301,6 @@ qdot_solutions_clear(qdot_solutions *s)
 {
     qdot_free(s->root.at);
     qdot_free(s->divisor.at);
+    qdot_free(s->special.at);
     *s = (qdot_solutions){0};
 }

@@ -20,6 +20,7 @@ typedef struct {
     bool complete; /* these are all, where no divisor is 0 */
     bool recurs;   /* of an angle with one declared end: those of one turn, the others are whole turns away */
     qdot_vec(qdot_expr) divisor; /* without x: what was divided by; of a LIST not all are 0 */
+    qdot_vec(qdot_expr) special; /* the same, of parameters alone: where one is 0 the set may be another */
 } qdot_solutions;
 
 void qdot_solutions_clear(qdot_solutions *s);

@@ -131,7 +131,7 @@ solve_one(search *s, const branch *b, size_t k, size_t which)
     qdot_solutions found;
     bool defined;
     qdot_status status =
-        qdot_solve_inside(s->pool, b->f[k], s->u[which], s->facts, &found);
+        qdot_solve_inside(s->pool, b->f[k], s->u[which], QDOT_NIL, s->facts, &found);
 
     if (status == QDOT_OK &&
         (!found.complete || (waves(s, b->f[k], s->u[which]) && !is_angle(s, s->u[which]))))

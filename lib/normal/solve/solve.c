@@ -1,6 +1,8 @@
 /* solve.c -- the set of roots of an equation, and what of it lies inside a domain. */
 #include "normal/solve/solve.h"
 
+#include <string.h>
+
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
@@ -44,7 +46,8 @@ static void
 solve_guarded(void *user)
 {
     qdot_solver *s = user;
-    qdot_expr domain = qdot_conditions_of_domain(s->pool, s->f, s->x);
+    qdot_expr domain = qdot_conditions_all(
+        s->pool, qdot_conditions_of_domain(s->pool, s->f, s->x), s->domain);
 
     s->status = qdot_pool_check(s->pool);
     if (s->status == QDOT_OK)
@@ -55,16 +58,17 @@ solve_guarded(void *user)
         s->status = qdot_solve_sort(s->pool, s->out->root.n, s->out->root.at);
 }
 
-qdot_status
-qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
-           qdot_solutions *out)
+static qdot_status
+solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain, const qdot_facts *facts,
+            qdot_solutions *out)
 {
-    qdot_solver s = {.pool = pool, .f = f, .x = x, .facts = facts, .out = out};
+    qdot_solver s = {
+        .pool = pool, .f = f, .x = x, .domain = domain, .facts = facts, .out = out};
     qdot_status status;
 
     *out = (qdot_solutions){.complete = true};
     QDOT_TRY(qdot_pool_check(pool));
-    if (qdot_is_zero(pool, f, facts))
+    if (domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);
     if (status != QDOT_OK) { /* what it allocated is there no more */
@@ -75,14 +79,47 @@ qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
 }
 
 qdot_status
-qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
-                  qdot_solutions *out)
+qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
+           qdot_solutions *out)
+{
+    return solve_where(pool, f, x, QDOT_NIL, facts, out);
+}
+
+qdot_status
+qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
+                    qdot_expr *list, bool *all)
+{
+    qdot_expr factors = qdot_solve_factors(pool, f), members = QDOT_NIL;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    *all = true;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, factors); i++) {
+        qdot_expr one = qdot_expr_arg(pool, factors, i);
+        qdot_solutions found;
+        qdot_status status;
+
+        if (!qdot_expr_contains(pool, one, x))
+            continue;
+        status = qdot_solve(pool, one, x, facts, &found);
+        *all = *all && !found.complete;
+        if (status == QDOT_OK && !found.complete)
+            members = qdot_conditions_and(pool, members, one);
+        qdot_solutions_clear(&found);
+        QDOT_TRY(status);
+    }
+    *list = members == QDOT_NIL ? qdot_list(pool, 0, NULL) : members;
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
+                  const qdot_facts *facts, qdot_solutions *out)
 {
     qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
     qdot_solutions all;
     qdot_window window;
     bool angle = false;
-    qdot_status status = qdot_solve(pool, f, x, facts, &all);
+    qdot_status status = solve_where(pool, f, x, domain, facts, &all);
 
     *out = (qdot_solutions){0};
     for (size_t i = 0; i < all.root.n && !angle; i++)
@@ -95,6 +132,8 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *f
     for (size_t i = 0; i < all.root.n && status == QDOT_OK; i++)
         status = qdot_solve_members(pool, x, &all.root.at[i], &window, facts, out);
     out->recurs = out->recurs && out->root.n > 0;
+    memcpy(&out->special, &all.special, sizeof out->special);
+    memset(&all.special, 0, sizeof all.special);
     qdot_solutions_clear(&all);
     if (status == QDOT_OK)
         status = qdot_solve_sort(pool, out->root.n, out->root.at);

@@ -26,9 +26,17 @@
  * the caller in any case. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. */
 QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                        const qdot_facts *facts, qdot_solutions *out);
-/* qdot_solve, and the members inside the declared domain of x, or in one turn of an angle. */
+/* qdot_solve, and the members inside the declared domain of x, or in one turn of an angle. `domain`: conditions that
+ * roots fulfil beside f = 0, or nil: of what stood in the equation before it was simplified; where f is 0 identically,
+ * these alone. */
 QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x,
-                                              const qdot_facts *facts, qdot_solutions *out);
+                                              qdot_expr domain, const qdot_facts *facts,
+                                              qdot_solutions *out);
+
+/* The factors of f that hold x and that qdot_solve does not solve completely; a LIST. *all: f has no others. */
+QDOT_MUST_CHECK qdot_status qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                                                const qdot_facts *facts, qdot_expr *list,
+                                                bool *all);
 
 /* Sort roots [n] by their values, if all are constants; else they stay as they are. */
 QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);

@@ -27,17 +27,26 @@ qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
                : qdot_condition(s->pool, gap, qdot_is_generic(s->pool, gap), s->facts);
 }
 
+static bool
+is_listed(size_t n, const qdot_expr *list, qdot_expr e)
+{
+    return qdot_expr_place(n, list, e) < n;
+}
+
 qdot_status
 qdot_solver_divide(qdot_solver *s, qdot_expr d)
 {
     if (d == QDOT_NIL)
         return qdot_pool_check(s->pool);
-    if (qdot_is_generic(s->pool, d) || (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0)
+    if ((qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0)
         return QDOT_OK;
-    for (size_t i = 0; i < s->out->divisor.n; i++)
-        if (s->out->divisor.at[i] == d)
-            return QDOT_OK;
-    return qdot_vec_push(&s->out->divisor, d);
+    if (qdot_is_generic(s->pool, d))
+        return is_listed(s->out->special.n, s->out->special.at, d)
+                   ? QDOT_OK
+                   : qdot_vec_push(&s->out->special, d);
+    return is_listed(s->out->divisor.n, s->out->divisor.at, d)
+               ? QDOT_OK
+               : qdot_vec_push(&s->out->divisor, d);
 }
 
 /* --- is it one? -------------------------------------------------------------------- */
@@ -171,7 +180,7 @@ typedef qdot_vec(argument) arguments;
 
 /* y with y^k = v: v^(1/k), its negative where k is even. */
 static qdot_status
-extract(qdot_solver *s, qdot_expr v, long k, qdot_expr when, arguments *out)
+arguments_add_roots(qdot_solver *s, qdot_expr v, long k, qdot_expr when, arguments *out)
 {
     qdot_pool *pool = s->pool;
     qdot_expr y, exponent = qdot_expr_ratio(pool, 1, k);
@@ -236,7 +245,7 @@ polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, argu
     a = c[degree];
     QDOT_TRY(qdot_solver_divide(s, a));
     if (degree == step)
-        return extract(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
+        return arguments_add_roots(s, qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, c[0], a))), step,
                        when, out);
     b = c[step];
     discriminant = qdot_solver_tidy(
@@ -255,7 +264,7 @@ polynomial(qdot_solver *s, const qdot_expr *c, long degree, qdot_expr when, argu
 
         y = qdot_solver_tidy(s, qdot_neg(pool, qdot_div(pool, y, two_a)));
         QDOT_TRY(qdot_pool_check(pool));
-        QDOT_TRY(extract(s, y, step, when, out));
+        QDOT_TRY(arguments_add_roots(s, y, step, when, out));
         if (discriminant == QDOT_ZERO)
             break;
     }
@@ -401,6 +410,8 @@ hyperbolic(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, const shape *sh,
                 qdot_condition(pool, found.root.at[i].value, true, s->facts)));
     for (size_t i = 0; i < found.divisor.n && status == QDOT_OK; i++)
         status = qdot_solver_divide(s, found.divisor.at[i]);
+    for (size_t i = 0; i < found.special.n && status == QDOT_OK; i++)
+        status = qdot_solver_divide(s, found.special.at[i]);
     s->out->complete = s->out->complete && found.complete;
     qdot_solutions_clear(&found);
     return status;
@@ -481,6 +492,14 @@ is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind 
            a->pair == (uint32_t)sh->var[1] && (a->kind == sine || a->kind == cosine);
 }
 
+/* A factor without x: where it is 0 the set is another. */
+static qdot_status
+note_factor(qdot_solver *s, qdot_expr e)
+{
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_is_generic(s->pool, e) ? qdot_solver_divide(s, e) : QDOT_OK;
+}
+
 static qdot_status
 one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
 {
@@ -489,8 +508,10 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
 
     QDOT_TRY(qdot_interrupt_check());
     status = shape_of(s, f, p, &sh);
-    if (status != QDOT_OK || sh.n == 0)
+    if (status != QDOT_OK)
         ;
+    else if (sh.n == 0) /* of parameters alone: where it is 0 every x is a root */
+        status = note_factor(s, qdot_field_expr(f, p));
     else if (sh.n == 1)
         status = one_generator(s, f, &sh, when);
     else if (sh.n > 2)

@@ -8,6 +8,7 @@
 typedef struct {
     qdot_pool *pool;
     qdot_expr f, x;
+    qdot_expr domain; /* conditions of every root; nil: none */
     const qdot_facts *facts;
     qdot_solutions *out;
     int depth; /* of functions inverted */

@@ -1,0 +1,335 @@
+/* solve.c -- solve(...): which of its forms is meant; exact solutions, their conditions, and what no formula gives. */
+#include "lang/functions/solve.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/functions/solve-numbers.h"
+#include "lang/functions/solve-conditions.h"
+#include "lang/session/bind.h"
+#include "lang/session/momenta.h"
+#include "lang/session/value-kind.h"
+#include "normal/refute/ball.h"
+#include "normal/solve/solve-system.h"
+#include "normal/solve/solve.h"
+
+enum { MOST = QDOT_SOLVE_UNKNOWNS };
+
+static qdot_status
+is_symbol(qdot_session *session, qdot_expr x, const char *message)
+{
+    if (qdot_expr_kind(session->pool, x) == QDOT_SYM && x > QDOT_FALSE)
+        return QDOT_OK;
+    return qdot_fail(QDOT_ETYPE, message, qdot_value_kind_words(session->pool, x));
+}
+
+/* left - right, or e itself. */
+static qdot_expr
+difference_of(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_value_kind_is_equation(pool, e)
+               ? qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))
+               : e;
+}
+
+/* Where all that was written is defined, of what holds x (nil: anything): conditions. */
+static qdot_expr
+domain_as_written(qdot_session *session, qdot_expr x)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_passed *p = session->passed;
+    qdot_expr list;
+
+    if (p == NULL || p->spoiled || p->value.n == 0)
+        return QDOT_NIL;
+    list = qdot_list(pool, (uint32_t)p->value.n, p->value.at);
+    return qdot_conditions_all(pool, qdot_conditions_of_domain(pool, list, x),
+                               qdot_conditions_of_divisors(pool, list, x));
+}
+
+/* --- one unknown ------------------------------------------------------------------------------------- */
+
+/* A list of solutions in the making. */
+typedef struct {
+    qdot_vec(qdot_solve_zero) at;
+    bool constant; /* all are numbers: kept in their order */
+} solve_list;
+
+/* Add a number at its place among numbers; one that is listed as a formula already is left out. */
+static qdot_status
+solve_list_add(solve_list *l, qdot_solve_zero one)
+{
+    size_t k = l->at.n;
+
+    for (size_t i = 0; i < l->at.n; i++)
+        if (fabs(l->at.at[i].at - one.at) <= 4 * one.radius + 1e-15 * fabs(one.at))
+            return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&l->at, one));
+    for (; l->constant && k > 0 && l->at.at[k - 1].at > one.at; k--)
+        l->at.at[k] = l->at.at[k - 1];
+    l->at.at[k] = one;
+    return QDOT_OK;
+}
+
+/* The exact roots to the list, with what their conditions are in notices. */
+static qdot_status
+add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
+          const qdot_specials *specials, solve_list *list)
+{
+    qdot_pool *pool = session->pool;
+
+    for (size_t i = 0; i < found->root.n; i++) {
+        qdot_solve_zero one = {.value = found->root.at[i].value, .at = NAN};
+
+        list->constant =
+            list->constant && qdot_ball_double(pool, one.value, NULL, NULL, &one.at);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (!list->constant)
+            one.at = NAN;
+        QDOT_TRY(
+            qdot_solve_root_value(session, x, &found->root.at[i], specials, &one.value));
+        QDOT_TRY(qdot_vec_push(&list->at, one));
+    }
+    return QDOT_OK;
+}
+
+/* Whether something other than x is left in e that has no value. */
+static bool
+holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr atoms = qdot_expr_atoms(pool, qdot_session_bind(session, e), true);
+    bool others = false;
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms); i++)
+        others = others ||
+                 (qdot_expr_arg(pool, atoms, i) != x &&
+                  !qdot_expr_is_class(pool, qdot_expr_arg(pool, atoms, i), QDOT_CONST));
+    return others;
+}
+
+/* Where no formula gives all roots: the factors that are left, in numbers. *known: these are all. */
+static qdot_status
+add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
+            solve_list *list, bool *recurs, bool *known)
+{
+    qdot_pool *pool = session->pool;
+    qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), factors,
+              rest = QDOT_ONE;
+    qdot_solve_zeros zeros = {0};
+    qdot_window window;
+    qdot_status status;
+    bool whole, all = true;
+    size_t exact;
+
+    QDOT_TRY(qdot_solve_unsolved(pool, f, x, &facts, &factors, &whole));
+    whole = whole && !holds_others(session, f, x);
+    for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
+        rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
+    rest = whole ? f : rest;
+    window = qdot_solve_window(pool, x, qdot_is_period(pool, 1, &rest, x, turn, &facts));
+    QDOT_TRY(qdot_pool_check(pool));
+    *recurs = *recurs || window.recurs;
+    domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
+    window = qdot_solve_tighten(pool, x, domain, window, &facts);
+    if (!whole) /* a zero of these factors may be one of a divisor */
+        domain =
+            qdot_conditions_all(pool, domain, qdot_conditions_of_divisors(pool, f, x));
+    QDOT_TRY(qdot_pool_check(pool));
+    status = qdot_solve_line(session, rest, x, domain, &window, &zeros, known, &all);
+    exact = list->at.n;
+    for (size_t i = 0; i < zeros.n && status == QDOT_OK; i++)
+        status = solve_list_add(list, zeros.at[i]);
+    qdot_free(zeros.at);
+    if (status == QDOT_OK && *known && (list->at.n > exact || exact == 0 || !all))
+        status = qdot_answer_notice(session, "no formula gives %s: found in numbers%s",
+                                    list->at.n == exact + 1 ? "this zero" : "these zeros",
+                                    all ? ", proved to be all" : "");
+    return status;
+}
+
+/* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
+static qdot_status
+one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_expr f = difference_of(pool, equation), domain, *values;
+    qdot_solutions found = {0};
+    qdot_specials specials = {0};
+    solve_list list = {.constant = true};
+    qdot_status status;
+    bool known = true, complete;
+
+    QDOT_TRY(is_symbol(session, x, "solve(a = b, x) takes a symbol for x"));
+    if (f != QDOT_NIL)
+        f = qdot_momenta_for(session, f, x);
+    QDOT_TRY(qdot_value_kind_check(pool, f));
+    if (!qdot_expr_is_scalar(pool, f))
+        return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
+                         qdot_value_kind_words(pool, equation));
+    domain = domain_as_written(session, x);
+    QDOT_TRY(qdot_pool_check(pool));
+    status = qdot_solve_inside(pool, f, x, domain, &facts, &found);
+    complete = found.complete;
+    if (status == QDOT_OK && complete)
+        status = qdot_solve_specials(session, f, x, domain, &found, &specials);
+    if (status == QDOT_OK)
+        status = add_exact(session, x, &found, &specials, &list);
+    if (status == QDOT_OK && !complete)
+        status = add_numbers(session, f, x, domain, &list, &found.recurs, &known);
+    if (status == QDOT_OK && !known) {
+        (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
+                        found.root.n > 0 ? " for every x" : "");
+        status = qdot_hint(
+            "linear, quadratic, factorable and trigonometric equations can; others in "
+            "numbers within a range: solve(A = B, x, 0..1)");
+    }
+    if (status == QDOT_OK && found.recurs)
+        status = qdot_answer_notice_once(session,
+                                         "these are the solutions of one turn: within "
+                                         "the domain of %s each recurs after "
+                                         "every whole turn",
+                                         qdot_expr_symbol(pool, x)->name);
+    values = qdot_malloc((list.at.n + 1) * sizeof *values);
+    if (status == QDOT_OK && values == NULL)
+        status = QDOT_ENOMEM;
+    for (size_t i = 0; i < list.at.n && status == QDOT_OK; i++)
+        values[i] = list.at.at[i].value;
+    if (status == QDOT_OK)
+        *value = qdot_list(pool, (uint32_t)list.at.n, values);
+    qdot_free(values);
+    qdot_free(list.at.at);
+    qdot_specials_clear(&specials);
+    qdot_solutions_clear(&found);
+    return status == QDOT_OK ? qdot_value_kind_check(pool, *value) : status;
+}
+
+/* --- several unknowns -------------------------------------------------------------------------------- */
+
+/* The solutions at which all that was written is defined, as far as that is decided. */
+static qdot_expr
+leave_out_undefined(qdot_session *session, uint32_t n, const qdot_expr *u, qdot_expr list)
+{
+    qdot_pool *pool = session->pool;
+    qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_expr domain = domain_as_written(session, QDOT_NIL), kept = QDOT_NIL;
+
+    if (domain == QDOT_NIL)
+        return list;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
+        qdot_expr one = qdot_expr_arg(pool, list, i), at[MOST];
+
+        for (uint32_t j = 0; j < n; j++)
+            at[j] = qdot_expr_arg(pool, qdot_expr_arg(pool, one, j), 1);
+        if (qdot_conditions_at(pool, domain, n, u, at, &facts) != QDOT_FALSE)
+            kept = qdot_conditions_and(pool, kept, one);
+    }
+    return kept == QDOT_NIL ? qdot_list(pool, 0, NULL) : kept;
+}
+
+/* solve([A = B, C = D], [x, y]): exactly; a list of lists of equations. */
+static qdot_status
+system_exactly(qdot_session *session, qdot_expr equations, qdot_expr unknowns,
+               qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, unknowns);
+    qdot_facts facts = qdot_scene_facts(session->scene);
+    qdot_expr f[MOST], u[MOST];
+    bool complete;
+
+    if (n == 0 || n > MOST || qdot_expr_kind(pool, equations) != QDOT_LIST ||
+        qdot_expr_count(pool, equations) != n) {
+        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns, up to %d",
+                        MOST);
+        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x, y])");
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr e = qdot_expr_arg(pool, equations, i);
+
+        u[i] = qdot_expr_arg(pool, unknowns, i);
+        QDOT_TRY(is_symbol(session, u[i], "solve takes symbols as unknowns, not %s"));
+        f[i] = difference_of(pool, e);
+        QDOT_TRY(qdot_value_kind_check(pool, f[i]));
+        if (!qdot_expr_is_scalar(pool, f[i]))
+            return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
+                             qdot_value_kind_words(pool, e));
+    }
+    QDOT_TRY(qdot_solve_system(pool, n, f, u, &facts, value, &complete));
+    *value = leave_out_undefined(session, n, u, *value);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (complete)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
+                    qdot_expr_count(pool, *value) > 0 ? " for all their solutions" : "");
+    return qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
+}
+
+/* solve([A = B, C = D], [x = 1, y = 2]) */
+static qdot_status
+system_near(qdot_session *session, qdot_expr equations, qdot_expr guesses,
+            qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, guesses);
+    qdot_expr f[MOST], u[MOST];
+
+    if (qdot_expr_kind(pool, equations) != QDOT_LIST ||
+        qdot_expr_count(pool, equations) != n) {
+        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns");
+        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x = 1, y = 1])");
+    }
+    if (n > MOST)
+        return qdot_fail(QDOT_ELIMIT, "solve takes up to %d unknowns", MOST);
+    for (uint32_t i = 0; i < n; i++) {
+        f[i] = qdot_expr_arg(pool, equations, i);
+        u[i] = qdot_expr_arg(pool, guesses, i);
+    }
+    return qdot_solve_near(session, n, f, u, domain_as_written(session, QDOT_NIL), true,
+                           value);
+}
+
+/* --- the function ------------------------------------------------------------------------------------ */
+
+static bool
+is_list_of_equations(const qdot_pool *pool, qdot_expr e)
+{
+    uint32_t n = qdot_expr_kind(pool, e) == QDOT_LIST ? qdot_expr_count(pool, e) : 0;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i)))
+            return false;
+    return n > 0;
+}
+
+qdot_status
+qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
+                qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr x;
+
+    if (n != 2 && n != 4) {
+        (void)qdot_fail(QDOT_ETYPE,
+                        "solve takes one equation and one unknown, then a range");
+        return qdot_hint("as in solve(cos(x) = x, x, 0..2)");
+    }
+    if (n == 2 && is_list_of_equations(pool, args[1]))
+        return system_near(session, args[0], args[1], value);
+    if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)
+        return system_exactly(session, args[0], args[1], value);
+    if (n == 2 && !qdot_value_kind_is_equation(pool, args[1]))
+        return one_unknown(session, args[0], args[1], value);
+    x = n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0);
+    if (n == 4)
+        return qdot_solve_range(session, args[0], x, domain_as_written(session, x),
+                                args + 2, value);
+    return qdot_solve_near(session, 1, args, args + 1, domain_as_written(session, x),
+                           false, value);
+}
