@@ -1502,6 +1502,7 @@ script_tests = \
 	tests/script/disguised-studies.lag \
 	tests/script/disguised.lag \
 	tests/script/dof-redundant.lag \
+	tests/script/domain-ends.lag \
 	tests/script/double-energy.lag \
 	tests/script/doubts.sh \
 	tests/script/end-errors.sh \
@@ -2633,6 +2634,7 @@ test_files = \
 	tests/script/disguised-studies.out \
 	tests/script/disguised.out \
 	tests/script/dof-redundant.out \
+	tests/script/domain-ends.out \
 	tests/script/double-energy.out \
 	tests/script/doubts.out \
 	tests/script/end-errors.awk \

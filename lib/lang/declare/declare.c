@@ -12,6 +12,7 @@
 #include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
+#include "lang/functions/builtin.h"
 #include "lang/language/function.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
@@ -90,7 +91,16 @@ is_more(const qdot_cursor *c)
            !qdot_cursor_is_end(c);
 }
 
-/* Whether `LO <` stands before the name: a number, a sign, a bracket, or a name that
+/* Whether a call of a function of the language stands here, `sqrt(2)`; its name is no name to declare. */
+static bool
+begins_with_call(const qdot_cursor *c)
+{
+    return c->at->kind == QDOT_TOKEN_NAME && qdot_token_is(&c->at[1], "(") &&
+           qdot_names_find(c->session->names, c->at->text) == NULL &&
+           qdot_builtin_find(c->at->text) != NULL;
+}
+
+/* Whether `LO <` stands before the name: a number, a sign, a bracket, a call, or a name that
  * is declared followed by one that is not. */
 static bool
 begins_with_bound(const qdot_cursor *c)
@@ -106,6 +116,8 @@ begins_with_bound(const qdot_cursor *c)
         return is_more(&look) && (!is_relation(&look, &less, &strict) ||
                                   look.at[1].kind == QDOT_TOKEN_NAME);
     }
+    if (begins_with_call(c))
+        return true;
     if (qdot_names_find(c->session->names, c->at->text) == NULL)
         return false;
     if (qdot_read_name(&look, &name) != QDOT_OK)
@@ -124,7 +136,8 @@ read_item(qdot_cursor *c, bool valued, item *x)
     bool less, strict;
 
     if (c->at->kind != QDOT_TOKEN_NAME && c->at->kind != QDOT_TOKEN_NUMBER &&
-        !qdot_cursor_is_op(c, "-") && !qdot_cursor_is_op(c, "("))
+        !qdot_cursor_is_op(c, "-") && !qdot_cursor_is_op(c, "+") &&
+        !qdot_cursor_is_op(c, "sqrt") && !qdot_cursor_is_op(c, "("))
         return qdot_cursor_expected(c, "a name");
     if (begins_with_bound(c)) {
         const qdot_token *at = c->at;
