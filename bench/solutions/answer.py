@@ -26,6 +26,7 @@ class Entry:
 class Answer:
     def __init__(self):
         self.entries, self.notes = [], []
+        self.special = []                             # (relation of a parameter, the formulas that then solve; None: all)
         self.partial = self.none = self.every = self.turns = False
         self.error, self.hint, self.crash, self.status, self.output = None, None, None, 0, ""
 
@@ -107,12 +108,24 @@ def ask(program, script, unknown=None, timeout=20):
                     continue
             e = Entry(int(index[1]) if index else 1, str(plain))
             entries[e.index] = e
+            e.numeric = o["kind"] == "number"
             body = e.text[1:-1] if e.text.startswith("[") and e.text.endswith("]") else e.text
             for part in _split(body) if body else []:
                 _equation(part, unknown, e)
+        elif o["kind"] == "numbers" and name.startswith("solve"):
+            for k, v in enumerate(o["values"], 1):
+                e = entries[k] = Entry(k, str(v))
+                e.numeric = True
+                _equation(e.text, unknown, e)
         elif o["kind"] in ("text", "notice", "note", "value"):
             words = o.get("text") or o.get("message") or ""
             exists = re.match(r"\w+ = (.*) exists (when .*)$", words) if o["kind"] == "notice" else None
+            special = re.match(r"for (\w+ = [^:]*): (.*)$", words) if o["kind"] == "notice" else None
+            if special:
+                every = special[2] == "every value is a solution"
+                said.special.append((special[1], None if every else
+                                     [part.partition(" = ")[2].partition(" when ")[0] for part in _split(special[2])]))
+                continue
             if exists:
                 pending.append((exists[1], exists[2]))
                 continue

@@ -1,6 +1,7 @@
 """equations.py -- equations in one unknown, for `solve`, by kinds."""
 from fractions import Fraction
 
+from formula import names, read
 from scene import WAVES, angle_domain, domain, expand, num, pick, polynomial, shifted, sign, signs, total
 
 
@@ -336,6 +337,67 @@ def assumptions(s, d):
     s.reach = 7 if s.turn else 40
 
 
+def as_written(s, d):
+    """What simplifies away, but must be defined."""
+    u = pick(s, ["x", "x - 1", "2*x + 1", "x^2 - 1", "x - a", "1 - x", "x/2", "x + a"])
+    form = d.choice(["sin(asin({u}))", "cos(acos({u}))", "tan(atan({u}))", "exp(log({u}))", "sqrt({u})^2", "cosh(acosh({u}))",
+                     "sinh(asinh({u}))", "tanh(atanh({u}))", "(({u})^(1/3))^3", "({u})/({u})^(1/3)", "({u})^2/({u})",
+                     "({u})*(x - 2)/({u})", "sqrt({u})*sqrt({u})", "log({u}) - log({u}) + x", "tan({u})*cos({u})",
+                     "({u})^(3/2)/sqrt({u})", "exp(2*log({u}))", "x + 1/({u}) - 1/({u})", "x*log({u})/log({u})",
+                     "asin({u}) + acos({u}) + x", "x^2*({u})^(1/2)/({u})^(1/2)", "({u})^(-2)*({u})^3"]).format(u=u)
+    s.lhs = form
+    s.rhs = d.choice(["0", "1", "1/2", "2", "-1", "b", "b", "x", "x^2", "3"])
+    if d.random() < 0.25:
+        s.lhs = f"({form})*(x - {d.choice(['3', '1/2', 'b'])})"
+    signs(s, d, s.lhs, s.rhs)
+    waves = "tan(" in form and "atan(" not in form
+    s.turn = waves and u in ("x", "x - 1", "1 - x", "x - a", "x + a") and s.rhs not in ("x", "x^2") and "*(x" not in s.lhs
+    s.coords = [("x", *domain(d, 0.3), False)]
+    s.reach = 7 if waves else 40
+
+
+def without_formula(s, d):
+    """Numbers only, and no formula: all zeros on the line, or an error that asks for a range."""
+    p, q = num(d, 6, (1, 1, 2)), num(d, 6, (1, 2))
+    k, m = d.choice((1, 2, 3, 5, 10)), d.choice((2, 3, 4, 5, 6, 10))
+    forms = [(f"x^3 + {p}*x", f"{q}"), (f"x^5 + {p}*x^2", f"{q}"), (f"x^4 + {p}*x + {q}", "0"), ("exp(x)", f"x^{m}"),
+             (f"{k}*exp(-x)", f"x + {p}"), ("x", f"cos({k}*x)"), (f"log(x)", f"x/{m} + {p}"), ("2^x", f"{p}*x + {q}"),
+             ("sinh(x)", f"{p}*x + {q}"), ("cosh(x)", f"{p}*x^2 + {q}"), ("x^2*exp(-x)", f"1/{m}"), ("sqrt(x)", f"cos({k}*x)"),
+             (f"tanh({k}*x)", f"x/{m}"), ("sin(x)", f"x/{m}"), ("abs(x)", f"{k}*cos(x)"), ("x*exp(x)", f"{p}"),
+             (f"exp(-x^2)", f"x/{m} + {p}/10"), (f"atan({k}*x)", f"x/{m}"), ("x*log(x)", f"{p}"), (f"x + sin({k}*x)", f"{q}"),
+             ("x^(1/3)", f"x^2 + {p}"), ("exp(x/10)", f"x^2 + {p}"), (f"x^3*exp(-x/{m})", f"{abs(q)}/10"),
+             ("sin(x)^3 - sin(x)", f"{p}/20"), ("exp(x) - exp(-2*x)", f"{p}*x"), ("x^2 + cos(3*x)", f"{k}"),
+             (f"(x^3 - {m}*x + 1)*(x^2 - {k})", "0"), (f"(x^3 + x + {q})*(x - a)", "0"), ("log(x)^2", f"x + {p}"),
+             ("x^7 - x + 1", f"{q}"), (f"sqrt(x^2 + 1)", f"exp(x)/{m}"), ("exp(x)", f"{m}*x^2/(1 + x^2)"),
+             (f"x^6 - {m}*x^3", f"{p}*x"), ("x*exp(-abs(x))", f"1/{m}"), ("1/x + x^3", f"{q}"),
+             ("max(x, 1)", f"exp(x)/{m}"), ("x*sin(x)", f"{p}"), ("tan(x)", "x")]
+    s.lhs, s.rhs = pick(s, forms)
+    signs(s, d, s.lhs, s.rhs)
+    s.turn = s.lhs.startswith("sin(x)^3")
+    s.coords = [("x", *domain(d, 0.3), False)]
+    s.reach = 12 if s.turn or s.lhs.startswith("x*sin") or s.lhs == "tan(x)" else 45
+
+
+def special_values(s, d):
+    """Parameters that take the values at which the list is another one."""
+    zero = [{"a": "0"}, {"a": "0"}]
+    forms = [("a*x", "b", zero), ("a*x^2 + b*x", "0", zero), ("a*x^2 + b*x + c", "0", zero), ("sin(a*x)", "0", zero),
+             ("sin(a*x)", "1/2", zero), ("(a - 1)*x", "b", [{"a": "1"}]), ("a*b*x", "a", [{"a": "0"}, {"b": "0"}]),
+             ("a*x/(x - b)", "0", zero), ("a*exp(x)", "b", zero), ("(a - b)*x", "c", [{"a": "b"}]), ("a*x^3 - b*x", "0", zero),
+             ("a*cos(x)", "0", zero), ("a*cos(x)", "b", zero), ("exp(a*x)", "b", zero), ("a*(x - 1) + b*(x - 1)", "0", [{"a": "-b"}]),
+             ("a*x^2", "b", zero), ("a*x", "a*b", zero), ("a*tanh(x)", "b", zero), ("a^2*x", "a", zero), ("a*abs(x)", "b", zero),
+             ("(a + b)*x", "1", [{"a": "-b"}]), ("a*x^2 + x - b", "0", zero), ("(a^2 - 4)*x", "b", [{"a": "2"}, {"a": "-2"}]),
+             ("a*sqrt(x)", "b", zero), ("a*log(x)", "b", zero), ("a*x + b*x^2", "0", [{"b": "0"}]), ("x/a", "b", []),
+             ("a*sin(x) + b*cos(x)", "0", zero), ("(x - b)*(a*x - 1)", "0", zero), ("a*x^4 - b", "0", zero),
+             ("a*(b*x - 1)", "0", [{"a": "0"}, {"b": "0"}]), ("a*x - b*x", "0", [{"a": "b"}]), ("cos(a*x) - 1", "0", zero)]
+    s.lhs, s.rhs, s.specials = pick(s, forms)
+    for n in sorted((names(read(s.lhs)) | names(read(s.rhs))) - {"x"}):
+        s.params[n] = ""
+    s.turn = any(w in s.lhs for w in ("cos(x)", "sin(x)"))
+    s.coords = [("x", *domain(d, 0.2), False)]
+    s.reach = 7 if any(w in s.lhs for w in WAVES) else 40
+
+
 KINDS = {
     "polynomial": polynomial_numbers, "polynomial-parameters": polynomial_parameters,
     "trigonometric": trigonometric,
@@ -343,5 +405,6 @@ KINDS = {
     "rationals": rationals,
     "inverses": inverses, "parameter-domains": parameter_domains, "mixed": mixed, "ends": ends_of_domains,
     "nested": nested,
+    "as-written": as_written, "without-formula": without_formula, "special-values": special_values,
     "products": products, "in-function": in_function, "assumptions": assumptions,
 }

@@ -30,6 +30,7 @@ class Scene:
     assume: list = field(default_factory=list)        # relations between parameters
     constraint: str = ""                              # in x and y, = 0, with a curve x(s), y(s) along it
     curve: tuple = ()
+    specials: list = field(default_factory=list)      # {parameter: formula}: values that count too
     hints: list = field(default_factory=list)         # formulas that may be zeros: checked, not believed
 
     def script(self):
@@ -59,6 +60,13 @@ class Scene:
             out += [f"force -{m}*{q}' on {q}" for q, m in self.damping.items()]
             out.append("equilibria")
         return "\n".join(out) + "\n"
+
+    def special_samples(self):
+        """Values of the parameters, some of them special."""
+        for at, special in zip(self.samples(max(2, len(self.specials))), self.specials):
+            for name, formula in special.items():
+                at[name] = value(formula, at)
+            yield at
 
     def full_potential(self):
         return " + ".join(p for p in [self.potential] + [f"{c}*abs({f})" for c, f in self.corners] if p)

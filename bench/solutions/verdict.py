@@ -151,6 +151,8 @@ def compare_roots(scene, said):
             of = " (of an interval)" if v in spans else ""
             missing(verdict, said, f"{x} = {mpmath.nstr(v, 12)} is missing at {short(at)}{of}")
             break
+    for at in scene.special_samples():
+        compare_special(verdict, scene, said, tree, x, at, known)
     for e, states in zip(said.entries, seen):
         if scene.params and not any(s == "root" for s, _, _ in states):
             for at in scene.samples(60)[8:]:
@@ -159,6 +161,35 @@ def compare_roots(scene, said):
                 states += [(s, at, v) for s, v in more if s == "root"]
         weigh(verdict, e.text + (f" [{e.words}]" if e.words else ""), e.exists is not None, states)
     return verdict
+
+
+def compare_special(verdict, scene, said, tree, x, at, known):
+    """At special values of parameters: no entry without a value, and every zero listed or in a notice."""
+    if undefined(tree, at):
+        return
+    (lo, hi), = ends(scene, at)
+    part = window(scene, lo, hi)
+    truth, spans = zeros(tree, x, at, *part)
+    listed, every = [], said.every
+    for e in said.entries:
+        for state, v in entry_states(e, scene, tree, x, at, lo, hi, known, scene.reach):
+            if state == "root":
+                listed.append(v)
+            elif state != "idle":
+                verdict.add("condition", f"{e.text} [{e.words}] is none at {short(at)}")
+    for relation, formulas in said.special:
+        left, _, right = relation.partition(" = ")
+        if abs(value(left, at) - value(right, at)) > 1e-30:
+            continue
+        every = every or formulas is None
+        for n in range(-8, 9):
+            listed += [Real.of(read(f), dict(at, n=mpmath.mpf(n))) for f in formulas or []]
+    for v in [] if every else truth + spans:
+        if not any(abs(u - v) <= 1e-9 * (1 + abs(v)) or abs(wrap(u - v)) <= 1e-9 * (1 + abs(v)) for u in listed):
+            missing(verdict, said, f"{x} = {mpmath.nstr(v, 12)} is missing at special {short(at)}")
+            return
+    if every and not truth_everywhere(tree, x, at, lo, hi):
+        verdict.add("wrong", f"holds for every value is false at {short(at)}")
 
 
 def suspicious(scene, said, tree, x, at):

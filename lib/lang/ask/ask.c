@@ -135,7 +135,7 @@ answer_list(qdot_session *session, const char *name, qdot_expr list, qdot_expr o
     return QDOT_OK;
 }
 
-/* Whether a list holds numbers of runs and beside them members without a value. */
+/* Whether a list holds numbers of runs and beside them members that are no numbers: without a value, or sqrt(2). */
 static bool
 is_mixed(qdot_session *session, qdot_expr value)
 {
@@ -147,7 +147,9 @@ is_mixed(qdot_session *session, qdot_expr value)
         qdot_expr one = qdot_expr_arg(session->pool, value, i);
 
         mixed = !qdot_measured_occurs(session, one) &&
-                !qdot_is_constant(session->pool, qdot_session_bind(session, one));
+                qdot_expr_kind(session->pool, one) != QDOT_NUM &&
+                (qdot_is_constant(session->pool, one) ||
+                 !qdot_is_constant(session->pool, qdot_session_bind(session, one)));
     }
     return mixed;
 }
