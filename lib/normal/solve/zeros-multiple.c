@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "normal/refute/ball.h"
+#include "normal/simplify/simplify.h"
 #include "normal/solve/zeros-parts.h"
 
 enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000 };
@@ -62,6 +63,47 @@ is_only_zero(qdot_zeros_system *s, qdot_expr c, qdot_interval X, int *k)
     return QDOT_OK;
 }
 
+/* Whether f, which vanishes at the end c of its range, has no other zero within `reach` on the side `side` of c. Its
+ * slope may be infinite there, as that of sqrt(x) - sin(x) is at 0:
+ *
+ *     x = c +- y^m,   y >= 0,   m such that f rises or falls in y. */
+static qdot_status
+is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, bool *yes)
+{
+    static const long orders[] = {2, 3, 4, 6};
+    qdot_pool *pool = s->pool;
+    qdot_expr y = qdot_symbol_get(pool, QDOT_FORMAL, "end#y");
+    bool jumps;
+
+    *yes = false;
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_symbol(pool, y)->lo == QDOT_NIL)
+        qdot_symbol_domain(pool, y, QDOT_ZERO, true, QDOT_NIL, false);
+    QDOT_TRY(qdot_jumps(pool, s->f[0], UINT32_MAX, &jumps));
+    for (size_t i = 0; i < sizeof orders / sizeof *orders && !*yes && !jumps; i++) {
+        qdot_interval Y = {0, 1.01 * pow(reach, 1 / (double)orders[i])};
+        qdot_expr to = qdot_add(pool, c, qdot_mul(pool, qdot_expr_int(pool, side),
+                                                  qdot_pow_int(pool, y, orders[i]))),
+                  slope = qdot_diff(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), y);
+        qdot_enclosure *bounds;
+        qdot_status status;
+
+        slope = qdot_simplify(pool, slope, NULL);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_EDOMAIN)
+            continue;
+        QDOT_TRY(status);
+        QDOT_TRY(qdot_enclosure_new(pool, 1, &slope, 1, &y, &bounds));
+        qdot_enclosure_eval(bounds, &Y, false);
+        s->evaluations++;
+        *yes = qdot_enclosure_get(bounds, 0)->state == QDOT_ENCLOSURE_WHOLE &&
+               (qdot_enclosure_get(bounds, 0)->y.lo > 0 ||
+                qdot_enclosure_get(bounds, 0)->y.hi < 0);
+        qdot_enclosure_free(bounds);
+    }
+    return qdot_pool_check(pool);
+}
+
 /* The place in doubt, X, as one exact zero. */
 static qdot_status
 decide_exactly(qdot_zeros_system *s, qdot_expr ends, qdot_interval X, bool *decided)
@@ -89,7 +131,16 @@ decide_exactly(qdot_zeros_system *s, qdot_expr ends, qdot_interval X, bool *deci
             bool only = false;
 
             QDOT_TRY(qdot_zeros_vanish(s->pool, 1, s->f, 1, s->x, &c, &only));
-            if (!only || !is_monotone_aside(s, at, wide))
+            if (!only)
+                continue;
+            only = is_monotone_aside(s, at, wide);
+            if (!only && i < n) { /* the range lies on one side of an end */
+                int side = X.hi - at.hi > at.lo - X.lo ? 1 : -1;
+
+                QDOT_TRY(is_only_zero_at_end(
+                    s, c, side, side > 0 ? wide.hi - at.lo : at.hi - wide.lo, &only));
+            }
+            if (!only)
                 continue;
         }
         place.at[0] = at.lo / 2 + at.hi / 2;
