@@ -169,7 +169,6 @@ none_to_swing_about(const qdot_equilibria *all)
 qdot_status
 qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes *modes)
 {
-    qdot_expr n = qdot_solve_integer(session->pool), zero = QDOT_ZERO;
     qdot_equilibria all;
     size_t at = 0;
 
@@ -187,7 +186,7 @@ qdot_equilibria_modes_at(qdot_session *session, qdot_expr equations, qdot_modes 
         QDOT_TRY(status);
     }
     equations = equations_of(session->pool, equations);
-    equations = qdot_subs(session->pool, equations, 1, &n, &zero); /* of a family: one member */
+    equations = qdot_solve_one_member(session->pool, equations);
     QDOT_TRY(qdot_modes_about(session->scene, equations, is_numeric(session, equations),
                               bind, session, modes));
     return modes->unordered

@@ -281,6 +281,13 @@ choose_sides(qdot_rest *r, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
+/* How many integers count members of the unknowns before the i-th: each family has one of its own. */
+static unsigned
+integers_before(qdot_rest *r, const place *p, size_t i)
+{
+    return qdot_solve_integers(r->pool, qdot_list(r->pool, (uint32_t)i, p->equation));
+}
+
 /* The members of the i-th unknown and of those behind it, inside their domains. */
 static qdot_status
 append_members(qdot_rest *r, const place *p, size_t i, qdot_expr conditions)
@@ -298,6 +305,7 @@ append_members(qdot_rest *r, const place *p, size_t i, qdot_expr conditions)
     u = p->symbol[i];
     QDOT_TRY(qdot_rest_period(r, u, &period));
     window = qdot_solve_window(pool, u, period == turn);
+    window.integer = integers_before(r, p, i);
     status = qdot_solve_members(pool, u, &(qdot_root){.value = p->value[i], .period = period}, &window,
                                 &r->facts, &members);
     r->complete = r->complete && members.complete;

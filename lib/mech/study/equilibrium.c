@@ -228,20 +228,26 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 
 /* --- all of them ------------------------------------------------------------------------- */
 
-/* One place of a family: the integer that counts its members is 0. All members are alike, for a family has the
+static bool
+holds_integer(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_solve_one_member(pool, e) != e;
+}
+
+/* One place of a family: the integers that count its members are 0. All members are alike, for a family has the
  * period of the equations of motion. */
 static qdot_status
 judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr n = qdot_solve_integer(pool), zero = QDOT_ZERO, left = QDOT_NIL;
+    qdot_expr left = QDOT_NIL;
     qdot_equilibrium one = *e;
 
-    if (!qdot_expr_contains(pool, e->equations, n))
+    if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
-    one.equations = qdot_subs(pool, e->equations, 1, &n, &zero);
+    one.equations = qdot_solve_one_member(pool, e->equations);
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(pool, e->exists); i++)
-        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, e->exists, i), n))
+        if (!holds_integer(pool, qdot_expr_arg(pool, e->exists, i)))
             left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, e->exists, i));
     one.exists = left;
     QDOT_TRY(qdot_pool_check(pool));

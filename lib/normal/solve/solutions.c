@@ -13,7 +13,7 @@
 
 /* More members than these are given as a family; a family whose ends depend on parameters is followed so many
  * periods to either side. */
-enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12 };
+enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16 };
 
 static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_open = true};
 
@@ -28,14 +28,14 @@ qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
 
     if (symbol != NULL)
         w = (qdot_window){symbol->lo, symbol->hi, symbol->lo_open, symbol->hi_open, false,
-                          false};
+                          false, 0};
     if (!angle || (w.lo != QDOT_NIL && w.hi != QDOT_NIL))
         return w;
     if (w.lo != QDOT_NIL)
-        return (qdot_window){w.lo, qdot_add(pool, w.lo, turn), w.lo_open, !w.lo_open, false, true};
+        return (qdot_window){w.lo, qdot_add(pool, w.lo, turn), w.lo_open, !w.lo_open, false, true, 0};
     if (w.hi != QDOT_NIL)
-        return (qdot_window){qdot_sub(pool, w.hi, turn), w.hi, !w.hi_open, w.hi_open, false, true};
-    return (qdot_window){qdot_neg(pool, QDOT_PI), QDOT_PI, true, false, true, false};
+        return (qdot_window){qdot_sub(pool, w.hi, turn), w.hi, !w.hi_open, w.hi_open, false, true, 0};
+    return (qdot_window){qdot_neg(pool, QDOT_PI), QDOT_PI, true, false, true, false, 0};
 }
 
 /* Whether the end a is nearer than b (nil: none): above it for a lower end. */
@@ -101,13 +101,35 @@ qdot_is_period(qdot_pool *pool, size_t n, const qdot_expr *f, qdot_expr x, qdot_
 }
 
 qdot_expr
-qdot_solve_integer(qdot_pool *pool)
+qdot_solve_integer(qdot_pool *pool, unsigned k)
 {
-    char name[16] = "n";
+    char name[24] = "n";
 
-    for (int k = 1; qdot_symbol_is_declared(pool, name); k++)
-        snprintf(name, sizeof name, "n%d", k);
+    for (unsigned i = 1; qdot_symbol_is_declared(pool, name) || k-- > 0; i++)
+        snprintf(name, sizeof name, "n%u", i);
     return qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
+unsigned
+qdot_solve_integers(qdot_pool *pool, qdot_expr e)
+{
+    unsigned n = 0;
+
+    while (n < MOST_INTEGERS && qdot_expr_contains(pool, e, qdot_solve_integer(pool, n)))
+        n++;
+    return n;
+}
+
+qdot_expr
+qdot_solve_one_member(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr integer[MOST_INTEGERS], zero[MOST_INTEGERS];
+
+    for (unsigned k = 0; k < MOST_INTEGERS; k++) {
+        integer[k] = qdot_solve_integer(pool, k);
+        zero[k] = QDOT_ZERO;
+    }
+    return qdot_subs(pool, e, MOST_INTEGERS, integer, zero);
 }
 
 /* The members of a root inside a window, to out. */
@@ -248,7 +270,7 @@ members_add_family(const members *m)
 {
     qdot_pool *pool = m->pool;
     const qdot_window *w = m->window;
-    qdot_expr n = qdot_solve_integer(pool), value = m->root->value;
+    qdot_expr n = qdot_solve_integer(pool, w->integer), value = m->root->value;
     qdot_root from = *m->root;
     qdot_window rest = *w;
     members all = *m;

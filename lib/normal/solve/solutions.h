@@ -33,6 +33,7 @@ typedef struct {
     bool lo_open, hi_open;
     bool turn;   /* one turn of an angle without declared ends: any other turn would do */
     bool recurs; /* one turn of an angle with one declared end */
+    unsigned integer; /* which integer counts the members of a family, see qdot_solve_integer */
 } qdot_window;
 
 /* The declared domain of x. An angle (f changes nothing in a full turn of x) without two declared ends gets one
@@ -53,7 +54,13 @@ QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, con
                                                const qdot_window *window,
                                                const qdot_facts *facts, qdot_solutions *out);
 
-/* The symbol of an integer: `n`, or n1, n2 ... where that is a declared name. */
-qdot_expr qdot_solve_integer(qdot_pool *pool);
+/* The k-th symbol of an integer, k = 0, 1 ...: of n, n1, n2 ... those that are no declared names. */
+qdot_expr qdot_solve_integer(qdot_pool *pool, unsigned k);
+
+/* How many of these symbols occur in e: those before it do. */
+unsigned qdot_solve_integers(qdot_pool *pool, qdot_expr e);
+
+/* e with all these integers 0: one member of a family. */
+qdot_expr qdot_solve_one_member(qdot_pool *pool, qdot_expr e);
 
 #endif
