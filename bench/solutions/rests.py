@@ -477,6 +477,20 @@ def rods(s, d):
     s.coords = [("x", *domain(d, 0.1), False), ("y", *domain(d, 0.2), False)]
 
 
+def waves_beside(s, d):
+    """A coordinate both in waves and beside them: its rests have no period."""
+    wave = pick(s, ["sin(y)", "cos(y)", "sin(2*y)", "cos(y/2)", "sin(y)*cos(y)", "(cos(y) - 1/2)", "(sin(y)^2 - 1/4)",
+                    "sin(pi*y)", "(sin(y) + cos(y))", "cos(y)*sin(y/2)"])
+    a, b = num(d, 4, (1,)), num(d, 4, (1, 2))
+    s.potential = d.choice([f"{a}*x*{wave} + {b}*y^2/2", f"{a}*x*{wave} + {b}*(y - pi)^2/2",
+                            f"{a}*x*{wave} + {b}*y^3", f"k*x*{wave} + {b}*y^2/2", f"{a}*x*{wave} + {b}*y^2/2 + x^2*{wave}"])
+    if "k" in s.potential:
+        s.params = {"k": d.choice(["> 0", "< 0"])}
+    ends = d.choice([(None, None)] * 4 + [("0", None), ("-2", "9")])
+    s.coords = [("x", None, None, False), ("y", *ends, False)]
+    s.reach = 10
+
+
 KINDS = {
     "potential-1": potential_1, "potential-2": potential_2, "potential-3": potential_3, "angles-1": angles_1,
     "angles-2": angles_2, "angles-3": angles_3, "corners": corners, "frictions": frictions,
@@ -484,5 +498,5 @@ KINDS = {
     "parameters-1": parameters_1, "parameters-2": parameters_2, "bowls": bowls, "springs": springs,
     "wells": wells,
     "poles": poles, "hoops": hoops, "sets": sets, "chains": chains, "two-lines": two_lines, "graphs": graphs,
-    "factored": factored, "wires": wires, "rotating": rotating, "rods": rods,
+    "factored": factored, "wires": wires, "waves-beside": waves_beside, "rotating": rotating, "rods": rods,
 }

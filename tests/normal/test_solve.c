@@ -356,6 +356,31 @@ unsolved_factors_are_listed(void **state)
     }
 }
 
+/* Whole turns of an integer are left out of circular functions, and of nothing else. */
+static void
+whole_turns_are_left_out(void **state)
+{
+    qdot_expr n = qdot_solve_integer(pool, 0), n1 = qdot_solve_integer(pool, 1),
+              from[2] = {text_read(pool, "x"), text_read(pool, "u")},
+              turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), to[2];
+    static const char *const row[][2] = {
+        {"sin(x)", "sin(k)"},
+        {"cos(3*x - u)", "cos(3*k)"},
+        {"cos(x/2)", "cos(1/2*(k + 2*pi*n))"},
+    };
+
+    (void)state;
+    assert_int_equal(qdot_solve_integers(pool, n1), 2);
+    to[0] = qdot_add(pool, text_read(pool, "k"), qdot_mul(pool, turn, n));
+    to[1] = qdot_mul(pool, turn, n1);
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        qdot_expr e = qdot_subs(pool, text_read(pool, row[i][0]), 2, from, to);
+
+        assert_string_equal(shown(qdot_solve_without_turns(pool, e)), row[i][1]);
+    }
+    assert_int_equal(qdot_solve_one_member(pool, to[0]), text_read(pool, "k"));
+}
+
 /* A divisor that holds another unknown: where it is 0 the roots are others. */
 static void
 divisors_are_listed(void **state)
@@ -498,6 +523,7 @@ main(void)
                                         close_pool),
         cmocka_unit_test_setup_teardown(roots_are_real_or_say_when, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(divisors_are_listed, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(whole_turns_are_left_out, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_lie_where_all_is_defined, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(special_parameters_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(unsolved_factors_are_listed, open_pool, close_pool),

@@ -1,9 +1,15 @@
 /* equilibrium-branches.c -- the equations at rest, solved one unknown at a time, factor by
  * factor; where a step divides, the divisor's zeros are a branch of their own. */
+#include <math.h>
+#include <stdlib.h>
+
 #include "base/interrupt.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
@@ -106,6 +112,13 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
     uint32_t n = qdot_expr_count(pool, b->known);
     qdot_expr *known;
 
+    if (qdot_solve_integers(pool, value) > 0) { /* counts members of a family */
+        next.equations = qdot_solve_without_turns(pool, next.equations);
+        next.known = qdot_solve_without_turns(pool, next.known);
+        next.conditions = next.conditions == QDOT_NIL
+                              ? QDOT_NIL
+                              : qdot_solve_without_turns(pool, next.conditions);
+    }
     if (qdot_pool_failed(pool)) { /* a denominator is 0 there: no solution */
         qdot_status status = qdot_pool_check(pool);
 
@@ -129,6 +142,72 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
     return qdot_vec_push(&r->todo, next);
 }
 
+/* How many members u = base + k period, k = 0, 1 ..., the circular functions of u in the equations take for
+ * different: *members; 0: without end, or more than MOST_MEMBERS. */
+static qdot_status
+count_members(qdot_rest *r, qdot_expr u, qdot_expr period, long *members)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+    qdot_walk w;
+
+    *members = 1;
+    QDOT_TRY(qdot_walk_begin(pool, r->equations, &w));
+    for (size_t i = 0; i < w.n && *members > 0; i++) {
+        qdot_expr turns;
+        const fmpq *q;
+
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN ||
+            qdot_expr_node(pool, w.at[i])->op > QDOT_COT ||
+            !qdot_expr_contains(pool, w.at[i], u))
+            continue;
+        turns = qdot_mul(pool, period, qdot_diff(pool, qdot_expr_arg(pool, w.at[i], 0), u));
+        turns = qdot_simplify(pool, qdot_div(pool, turns, two_pi), &r->facts);
+        q = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
+        if (q == NULL || fmpz_cmp_si(fmpq_denref(q), MOST_MEMBERS) > 0) {
+            *members = 0;
+        } else { /* the least common multiple */
+            long d = fmpz_get_si(fmpq_denref(q)), k = *members;
+
+            while (k % d != 0)
+                k += *members;
+            *members = k > MOST_MEMBERS ? 0 : k;
+        }
+    }
+    qdot_walk_end(&w);
+    return qdot_pool_check(pool);
+}
+
+/* A family of u in which the equations are not periodic, as u stands in them beside its sines: a branch
+ * u = base + (k + members n) period for each value of the sines; they lose their whole turns, and the integer n stays.
+ * *done: false where there is no such number. */
+static qdot_status
+with_integer(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
+             const qdot_root *root, bool *done)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, b->known));
+    long members = 0;
+    qdot_status status = QDOT_OK;
+
+    *done = false;
+    if (qdot_expr_place(r->coordinates, r->unknowns.at, u) == r->coordinates ||
+        root->members != QDOT_NIL || qdot_solve_window(pool, u, false).lo != QDOT_NIL ||
+        qdot_solve_window(pool, u, false).hi != QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(count_members(r, u, root->period, &members));
+    for (long k = members; k-- > 0 && status == QDOT_OK;) {
+        qdot_expr count = qdot_add(pool, qdot_expr_int(pool, k),
+                                   qdot_mul(pool, qdot_expr_int(pool, members), n));
+
+        status = with_value(r, b, equations, u,
+                            qdot_add(pool, root->value, qdot_mul(pool, count, root->period)),
+                            root->condition);
+    }
+    *done = members > 0;
+    return status;
+}
+
 /* One branch for each member of a family of u within the period of all equations in u. */
 static qdot_status
 with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
@@ -139,6 +218,7 @@ with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_e
                                             qdot_solve_window(pool, u, false), &r->facts);
     qdot_expr period, ratio;
     long members = 0;
+    bool done;
     qdot_status status = qdot_rest_period(r, u, &period);
 
     if (status == QDOT_OK && period != QDOT_NIL) {
@@ -165,6 +245,9 @@ with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_e
         qdot_solutions_clear(&inside);
         return status;
     }
+    QDOT_TRY(with_integer(r, b, equations, u, root, &done));
+    if (done)
+        return QDOT_OK;
     r->complete = false; /* other equations differ from member to member, without end */
     return with_value(r, b, equations, u, root->value,
                       qdot_conditions_all(pool, root->condition, root->members));
@@ -268,11 +351,59 @@ is_never_zero(qdot_rest *r, qdot_expr e)
     return QDOT_OK;
 }
 
+/* e = 0 without unknowns, with integers that count members of families: the branch for each integer that solves it. A
+ * root with parameters is no integer for generic ones. */
+static qdot_status
+with_integers_solved(qdot_rest *r, const qdot_rest_branch *b, qdot_expr e)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, e) - 1);
+    qdot_solutions found;
+    qdot_status status = qdot_solve(pool, e, n, &r->facts, &found);
+
+    r->complete = r->complete && found.complete;
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
+        qdot_expr value = found.root.at[i].value, k;
+        qdot_rest_branch next = *b;
+        double x;
+
+        if (found.root.at[i].period != QDOT_NIL || value == n ||
+            qdot_solve_integers(pool, value) > 0) {
+            r->complete = false;
+            continue;
+        }
+        if (!qdot_is_constant(pool, value))
+            continue;
+        if (!qdot_ball_double(pool, value, NULL, NULL, &x) || fabs(x) > 1e9) {
+            r->complete = false;
+            continue;
+        }
+        k = qdot_expr_int(pool, lround(x));
+        if (fabs(x - (double)lround(x)) > 1e-6)
+            continue;
+        if (!qdot_is_zero(pool, qdot_sub(pool, value, k), &r->facts)) {
+            r->complete = false;
+            continue;
+        }
+        next.equations = qdot_subs(pool, b->equations, 1, &n, &k);
+        next.known = qdot_subs(pool, b->known, 1, &n, &k);
+        next.first = QDOT_NIL;
+        next.conditions = qdot_conditions_at(pool, b->conditions, 1, &n, &k, &r->facts);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_EDOMAIN)
+            status = QDOT_OK;
+        else if (status == QDOT_OK && next.conditions != QDOT_FALSE)
+            status = qdot_vec_push(&r->todo, next);
+    }
+    qdot_solutions_clear(&found);
+    return status;
+}
+
 /* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
- * never 0. */
+ * never 0. *integers: instead, it is 0 for some integers that count members of families; else nil. */
 static qdot_status
 choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
-       bool *dead)
+       bool *dead, qdot_expr *integers)
 {
     qdot_pool *pool = r->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
@@ -293,7 +424,9 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
         if (list == QDOT_NIL)
             break;
         *dead = holds_unknowns(r, e) == 0;
-        if (*dead)
+        if (*dead && qdot_solve_integers(pool, e) > 0)
+            *integers = e;
+        else if (*dead)
             status = is_never_zero(r, e);
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
             int one = easiest(r, qdot_expr_arg(pool, list, k), &which);
@@ -330,20 +463,26 @@ choose_divisor(qdot_rest *r, qdot_expr divisor, qdot_expr *factors, bool *dead)
     *factors = qdot_solve_factors(pool, e);
     *dead = holds_unknowns(r, e) == 0;
     QDOT_TRY(qdot_pool_check(pool));
+    if (*dead && qdot_solve_integers(pool, e) > 0) { /* for which integers is not asked */
+        r->complete = false;
+        return QDOT_OK;
+    }
     return *dead ? is_never_zero(r, e) : QDOT_OK;
 }
 
 static qdot_status
 step(qdot_rest *r, const qdot_rest_branch *b)
 {
-    qdot_expr factors = QDOT_NIL, others = b->equations;
+    qdot_expr factors = QDOT_NIL, others = b->equations, integers = QDOT_NIL;
     bool dead = false;
 
     QDOT_TRY(qdot_interrupt_check());
     if (b->first != QDOT_NIL)
         QDOT_TRY(choose_divisor(r, b->first, &factors, &dead));
     if (factors == QDOT_NIL && !dead)
-        QDOT_TRY(choose(r, b->equations, &factors, &others, &dead));
+        QDOT_TRY(choose(r, b->equations, &factors, &others, &dead, &integers));
+    if (integers != QDOT_NIL)
+        return with_integers_solved(r, b, integers);
     if (dead)
         return QDOT_OK;
     if (factors == QDOT_NIL)

@@ -181,10 +181,11 @@ divides_by_zero(const qdot_rest *r, qdot_expr e)
 /* Whether the equations may be 0 there: they have values (that a numerator vanishes is not enough), and none is
  * refuted; *conditions gets where all of it is defined. */
 static qdot_status
-may_rest(const qdot_rest *r, const qdot_rest_branch *b, qdot_expr *conditions, bool *yes)
+may_rest(qdot_rest *r, const qdot_rest_branch *b, qdot_expr *conditions, bool *yes)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr there = qdot_rest_put(r, b->whole == QDOT_NIL ? r->equations : b->whole, b->known),
+    qdot_expr there = qdot_solve_without_turns(
+                  pool, qdot_rest_put(r, b->whole == QDOT_NIL ? r->equations : b->whole, b->known)),
               room[QDOT_CONDITIONS_MOST];
     qdot_facts facts;
     qdot_status status = qdot_pool_check(pool);
@@ -208,6 +209,8 @@ may_rest(const qdot_rest *r, const qdot_rest_branch *b, qdot_expr *conditions, b
         QDOT_TRY(
             qdot_decide_equal(pool, qdot_expr_arg(pool, there, i), QDOT_ZERO, &facts, &d));
         *yes = d.verdict != QDOT_REFUTED;
+        if (!*yes && qdot_solve_integers(pool, there) > 0) /* perhaps for some integers */
+            r->complete = false;
     }
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
@@ -281,11 +284,15 @@ choose_sides(qdot_rest *r, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
-/* How many integers count members of the unknowns before the i-th: each family has one of its own. */
+/* How many integers count members already, of the unknowns before the i-th and in the values of all: each family has
+ * one of its own. */
 static unsigned
 integers_before(qdot_rest *r, const place *p, size_t i)
 {
-    return qdot_solve_integers(r->pool, qdot_list(r->pool, (uint32_t)i, p->equation));
+    unsigned a = qdot_solve_integers(r->pool, qdot_list(r->pool, (uint32_t)i, p->equation)),
+             b = qdot_solve_integers(r->pool, qdot_list(r->pool, (uint32_t)p->n, p->value));
+
+    return a > b ? a : b;
 }
 
 /* The members of the i-th unknown and of those behind it, inside their domains. */

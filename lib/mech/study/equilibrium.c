@@ -234,6 +234,22 @@ holds_integer(qdot_pool *pool, qdot_expr e)
     return qdot_solve_one_member(pool, e) != e;
 }
 
+/* Whether every coordinate that an integer counts has a period in the equations: then members are alike. */
+static qdot_status
+is_alike(qdot_rest *r, const qdot_equilibrium *e, bool *yes)
+{
+    *yes = true;
+    for (uint32_t i = 0; i < qdot_expr_count(r->pool, e->equations) && *yes; i++) {
+        qdot_expr one = qdot_expr_arg(r->pool, e->equations, i), period;
+
+        if (!holds_integer(r->pool, one))
+            continue;
+        QDOT_TRY(qdot_rest_period(r, qdot_expr_arg(r->pool, one, 0), &period));
+        *yes = period != QDOT_NIL;
+    }
+    return qdot_pool_check(r->pool);
+}
+
 /* One place of a family: the integers that count its members are 0. All members are alike, for a family has the
  * period of the equations of motion. */
 static qdot_status
@@ -242,9 +258,15 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     qdot_pool *pool = r->pool;
     qdot_expr left = QDOT_NIL;
     qdot_equilibrium one = *e;
+    bool alike;
 
     if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
+    QDOT_TRY(is_alike(r, e, &alike));
+    if (!alike) {
+        e->stability = QDOT_STABILITY_UNDECIDED;
+        return QDOT_OK;
+    }
     one.equations = qdot_solve_one_member(pool, e->equations);
     for (uint32_t i = 0; e->exists != QDOT_NIL && i < qdot_expr_count(pool, e->exists); i++)
         if (!holds_integer(pool, qdot_expr_arg(pool, e->exists, i)))

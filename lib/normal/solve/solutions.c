@@ -113,11 +113,42 @@ qdot_solve_integer(qdot_pool *pool, unsigned k)
 unsigned
 qdot_solve_integers(qdot_pool *pool, qdot_expr e)
 {
-    unsigned n = 0;
+    unsigned n = MOST_INTEGERS;
 
-    while (n < MOST_INTEGERS && qdot_expr_contains(pool, e, qdot_solve_integer(pool, n)))
-        n++;
+    while (n > 0 && !qdot_expr_contains(pool, e, qdot_solve_integer(pool, n - 1)))
+        n--;
     return n;
+}
+
+/* f(u) with u less the whole turns in it, of a circular function f. */
+static qdot_expr
+leave_out_turns(qdot_pool *pool, qdot_expr f, void *user)
+{
+    qdot_expr u = qdot_expr_count(pool, f) == 1 ? qdot_expr_arg(pool, f, 0) : QDOT_NIL,
+              two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+
+    (void)user;
+    if (u == QDOT_NIL || qdot_expr_node(pool, f)->op > QDOT_COT)
+        return f;
+    for (unsigned k = 0, n = qdot_solve_integers(pool, u); k < n; k++) {
+        qdot_expr integer = qdot_solve_integer(pool, k), zero = QDOT_ZERO, turns;
+        const fmpq *whole;
+
+        if (!qdot_expr_contains(pool, u, integer))
+            continue;
+        turns = qdot_simplify(pool, qdot_div(pool, qdot_diff(pool, u, integer), two_pi), NULL);
+        whole = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
+        if (whole == NULL || !fmpz_is_one(fmpq_denref(whole)))
+            return turns == QDOT_NIL ? QDOT_NIL : f;
+        u = qdot_subs(pool, u, 1, &integer, &zero);
+    }
+    return qdot_fun1(pool, qdot_expr_node(pool, f)->op, u);
+}
+
+qdot_expr
+qdot_solve_without_turns(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_walk_replace(pool, e, QDOT_FUN, leave_out_turns, NULL);
 }
 
 qdot_expr

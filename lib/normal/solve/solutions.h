@@ -57,8 +57,11 @@ QDOT_MUST_CHECK qdot_status qdot_solve_members(qdot_pool *pool, qdot_expr x, con
 /* The k-th symbol of an integer, k = 0, 1 ...: of n, n1, n2 ... those that are no declared names. */
 qdot_expr qdot_solve_integer(qdot_pool *pool, unsigned k);
 
-/* How many of these symbols occur in e: those before it do. */
+/* How many of these symbols, from n on, are needed to name those that occur in e. */
 unsigned qdot_solve_integers(qdot_pool *pool, qdot_expr e);
+
+/* e with the whole turns left out that integers make of circular functions: sin(x) for sin(x + 2 pi n). */
+qdot_expr qdot_solve_without_turns(qdot_pool *pool, qdot_expr e);
 
 /* e with all these integers 0: one member of a family. */
 qdot_expr qdot_solve_one_member(qdot_pool *pool, qdot_expr e);
