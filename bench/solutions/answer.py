@@ -137,9 +137,10 @@ def ask(program, script, unknown=None, timeout=20):
             elif o["kind"] == "text" or PARTIAL.search(words) or "one turn" in words:
                 said.notes.append(words)
     for text, words in pending:
-        for e in entries.values():
-            if e.text == text:
+        for e in entries.values():                     # two entries of one text: each has its notice
+            if e.text == text and not e.words:
                 _conditions(words, e)
+                break
     said.entries = [entries[k] for k in sorted(entries)]
     notes = " ".join(said.notes)
     said.partial = any(PARTIAL.search(words) for words in [notes] + [e.words for e in said.entries])
