@@ -36,31 +36,19 @@ difference_of(qdot_pool *pool, qdot_expr e)
                : e;
 }
 
-/* Where all that was written is defined, of what holds x (nil: anything): conditions. That divisors which are left in
- * f (nil: there is none) are not 0 is not among them. */
+/* Where all that was written is defined, of what holds x (nil: anything): conditions. */
 static qdot_expr
-domain_as_written(qdot_session *session, qdot_expr f, qdot_expr x)
+domain_as_written(qdot_session *session, qdot_expr x)
 {
     qdot_pool *pool = session->pool;
     const qdot_passed *p = session->passed;
-    qdot_expr list, domain, divisors, left;
+    qdot_expr list;
 
     if (p == NULL || p->spoiled || p->value.n == 0)
         return QDOT_NIL;
     list = qdot_list(pool, (uint32_t)p->value.n, p->value.at);
-    domain = qdot_conditions_of_domain(pool, list, x);
-    divisors = qdot_conditions_of_divisors(pool, list, x);
-    left = f == QDOT_NIL ? QDOT_NIL : qdot_conditions_of_divisors(pool, f, x);
-    for (uint32_t i = 0; divisors != QDOT_NIL && i < qdot_expr_count(pool, divisors);
-         i++) {
-        qdot_expr one = qdot_expr_arg(pool, divisors, i);
-
-        if (left == QDOT_NIL ||
-            qdot_expr_place(qdot_expr_count(pool, left), qdot_expr_args(pool, left),
-                            one) == qdot_expr_count(pool, left))
-            domain = qdot_conditions_and(pool, domain, one);
-    }
-    return domain;
+    return qdot_conditions_all(pool, qdot_conditions_of_domain(pool, list, x),
+                               qdot_conditions_of_divisors(pool, list, x));
 }
 
 /* --- one unknown ------------------------------------------------------------------------------------- */
@@ -185,7 +173,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (!qdot_expr_is_scalar(pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(pool, equation));
-    domain = domain_as_written(session, f, x);
+    domain = domain_as_written(session, x);
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_inside(pool, f, x, domain, &facts, &found);
     complete = found.complete;
@@ -230,7 +218,7 @@ leave_out_undefined(qdot_session *session, uint32_t n, const qdot_expr *u, qdot_
 {
     qdot_pool *pool = session->pool;
     qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr domain = domain_as_written(session, QDOT_NIL, QDOT_NIL), kept = QDOT_NIL;
+    qdot_expr domain = domain_as_written(session, QDOT_NIL), kept = QDOT_NIL;
 
     if (domain == QDOT_NIL)
         return list;
@@ -303,8 +291,8 @@ system_near(qdot_session *session, qdot_expr equations, qdot_expr guesses,
         f[i] = qdot_expr_arg(pool, equations, i);
         u[i] = qdot_expr_arg(pool, guesses, i);
     }
-    return qdot_solve_near(session, n, f, u,
-                           domain_as_written(session, QDOT_NIL, QDOT_NIL), true, value);
+    return qdot_solve_near(session, n, f, u, domain_as_written(session, QDOT_NIL), true,
+                           value);
 }
 
 /* --- the function ------------------------------------------------------------------------------------ */
@@ -340,8 +328,8 @@ qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
         return one_unknown(session, args[0], args[1], value);
     x = n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0);
     if (n == 4)
-        return qdot_solve_range(session, args[0], x,
-                                domain_as_written(session, QDOT_NIL, x), args + 2, value);
-    return qdot_solve_near(session, 1, args, args + 1,
-                           domain_as_written(session, QDOT_NIL, x), false, value);
+        return qdot_solve_range(session, args[0], x, domain_as_written(session, x),
+                                args + 2, value);
+    return qdot_solve_near(session, 1, args, args + 1, domain_as_written(session, x),
+                           false, value);
 }
