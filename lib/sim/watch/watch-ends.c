@@ -15,6 +15,7 @@ is_about_to_cross(qdot_watch *w, size_t i, double t, bool *is)
     if (!qdot_watch_can_two(w) || !w->smooth[i] || !w->live[i] || w->now.on[i]
         || w->now.sign[i] == 0 || before == w->t)
         return QDOT_OK;
+    w->wants[i] = true;
     QDOT_TRY(qdot_watch_value_two(w, t, w->g));
     g = w->g[i];
     QDOT_TRY(qdot_watch_value_two(w, before, w->g));

@@ -54,7 +54,8 @@ struct qdot_watch {
     qdot_two *state_two;  /* [2n] scratch */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
     bool expanded;        /* the step has a series */
-    bool fine;            /* values within the step are in two doubles at present */
+    bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
+    bool fine;            /* values of those within the step are in two doubles at present */
     bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;
@@ -128,7 +129,7 @@ typedef enum {
 static inline bool
 qdot_watch_is_fine(const qdot_watch *w, size_t i)
 {
-    return w->fine && w->smooth[i] && !w->now.blurred[i];
+    return w->fine && w->wants[i] && w->smooth[i] && !w->now.blurred[i];
 }
 
 /* Of a function that is 0 where the part at hand starts: its value there, as its values are given. */
@@ -167,17 +168,16 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at(qdot_watch *w, double t, double 
 /* Whether states within the step can be read in two doubles. */
 bool qdot_watch_can_two(const qdot_watch *w);
 
-/* g [m] at t within the step; w->in is the state there. */
+/* g [m] at t within the step, in two doubles where w->wants says so; w->in is the state there. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_two(qdot_watch *w, double t, double *g);
 
-/* g [m] at the state y + low [2n] (NULL: 0). */
+/* g [m] at the state y + low [2n] (NULL: 0), all in two doubles. */
 QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, const double *y,
                                                       const double *low, double *g);
 
-/* Whether a function that has been sampled on the part is so small, or starts on a zero, that doubles do not
- * tell its sign. */
-QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes,
-                                                 bool *wants);
+/* Set w->wants [m] of functions that, sampled on the part, are so small, or start on a zero, that doubles do not
+ * tell their signs; *any: whether there is one. */
+QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any);
 
 /* --- their rounding (watch-noise.c) ------------------------------------------------- */
 

@@ -293,11 +293,20 @@ cross_near(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double gu
     return found_between(w, p, i, way, ends, root);
 }
 
+/* Evaluate function i in two doubles from now on, or no longer. */
+static void
+set_fine(qdot_watch *w, size_t i, bool fine, bool others)
+{
+    w->wants[i] = fine;
+    w->fine = fine || others;
+}
+
 qdot_status
 qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess,
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
-    const bool two = !w->fine && !w->coarse && w->smooth[i] && qdot_watch_can_two(w);
+    const bool others = w->fine; /* are evaluated so on this part */
+    const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && w->smooth[i] && qdot_watch_can_two(w);
     const qdot_watch_end wide[2] = {ends[0], ends[1]};
     qdot_watch_end near[2] = {wide[0], wide[1]};
     qdot_root again;
@@ -305,9 +314,9 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     qdot_status status = QDOT_OK;
 
     if (two) {
-        w->fine = true;
+        set_fine(w, i, true, others);
         status = cross_near(w, p, i, way, guess, ends, root, found);
-        w->fine = false;
+        set_fine(w, i, false, others);
         if (status != QDOT_OK || *found)
             return status;
     }
@@ -315,9 +324,9 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
     if (!two || !*found || root->pole
         || root->residual > rest_of_size * qdot_chebyshev_size(p->n, p->c))
         return QDOT_OK;
-    w->fine = true; /* the same root, where doubles do not tell */
+    set_fine(w, i, true, others); /* the same root, where doubles do not tell */
     status = cross(w, p, i, way, root->t, near, &again, &also);
-    w->fine = false;
+    set_fine(w, i, false, others);
     if (status == QDOT_OK && also && !again.pole) {
         *root = again;
         ends[0] = near[0];

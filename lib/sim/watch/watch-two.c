@@ -35,14 +35,14 @@ is_of_two(const qdot_watch *w, size_t i)
 {
     const double size = fabs(qdot_tape_two_output(w->two, i)[0].hi);
 
-    return w->smooth[i] && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
+    return w->wants[i] && w->smooth[i] && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
 }
 
 /* Whether a smooth function is 0 in two doubles: as a double it may be rounding, or too small a number. */
 static bool
 is_nothing(const qdot_watch *w, size_t i)
 {
-    return w->smooth[i] && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
+    return w->wants[i] && w->smooth[i] && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
 }
 
 static qdot_status
@@ -90,21 +90,18 @@ qdot_status
 qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double *low, double *g)
 {
     QDOT_TRY(make_two(w));
+    for (size_t i = 0; i < w->m; i++)
+        w->wants[i] = true;
     for (size_t k = 0; k < 2 * w->n; k++)
         w->state_two[k] = (qdot_two){y[k], low ? low[k] : 0};
     return value_two(w, t, w->state_two, g);
 }
 
 qdot_status
-qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *wants)
+qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
 {
-    *wants = false;
+    *any = false;
     if (!qdot_watch_can_two(w))
-        return QDOT_OK;
-    for (size_t i = 0; i < w->m; i++)
-        if (w->live[i] && w->now.on[i] && w->smooth[i] && !w->now.blurred[i])
-            *wants = true;
-    if (*wants)
         return QDOT_OK;
     for (int end = 0; end < 2; end++) { /* at a pole the terms are large */
         const double t = end == 0 ? p->a : p->b;
@@ -116,12 +113,14 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *w
     for (size_t i = 0; i < w->m; i++) {
         double size = 0;
 
+        if (!w->live[i] || !w->smooth[i] || w->now.blurred[i])
+            continue;
         w->moved[i] = fmin(w->moved[i], w->g[i]);
         for (int j = 0; j < nodes; j++)
             size = fmax(size, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
-        if (w->live[i] && w->smooth[i] && !w->now.blurred[i] && w->moved[i] <= most_of_two
-            && size < small * w->moved[i])
-            *wants = true;
+        if (w->now.on[i] || (w->moved[i] <= most_of_two && size < small * w->moved[i]))
+            w->wants[i] = true;
+        *any = *any || w->wants[i];
     }
     return QDOT_OK;
 }

@@ -118,13 +118,13 @@ resolve(qdot_watch *w, qdot_watch_part *p, const double *at_end, int nodes, qdot
 static qdot_status
 sample_enough(qdot_watch *w, const qdot_watch_part *p, int nodes, const double **at_end)
 {
-    bool wants = w->fine;
+    bool any = w->fine;
 
-    if (!wants)
+    if (!any)
         QDOT_TRY(sample(w, p, nodes));
-    if (!wants)
-        QDOT_TRY(qdot_watch_wants_two(w, p, nodes, &wants));
-    if (!wants)
+    if (!any)
+        QDOT_TRY(qdot_watch_wants_two(w, p, nodes, &any));
+    if (!any)
         return QDOT_OK;
     w->fine = true;
     QDOT_TRY(sample(w, p, nodes));
@@ -159,6 +159,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
 
     w->fine = false;
     for (size_t i = 0; i < w->m; i++) {
+        w->wants[i] = false;
         w->noise[i] = NAN;
         w->n_extrema[i] = QDOT_WATCH_UNKNOWN;
         w->n_fitted[i] = 0;
@@ -588,7 +589,7 @@ make_room(qdot_watch *w)
                                  3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
     int *signs = qdot_calloc(5 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(10 * m + 1, sizeof *flags);
+    bool *flags = qdot_calloc(11 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -632,6 +633,7 @@ make_room(qdot_watch *w)
     w->now.blurred = flags + 7 * m;
     w->start.sharp = flags + 8 * m;
     w->now.sharp = flags + 9 * m;
+    w->wants = flags + 10 * m;
     return QDOT_OK;
 }
 
