@@ -390,9 +390,9 @@ break_off(qdot_piece *x)
     return qdot_fail(QDOT_ELIMIT, "the piece is over");
 }
 
-/* A run is given up if the last LOOKED_AT parts of steps of a piece were so short that most_to_come would
- * follow: a function that jumps 1e9 times in a run is never searched to the end. */
-enum { LOOKED_AT = 20000 };
+/* A run is given up if the last LOOKED_AT parts of steps of a piece, beyond what any step may have, were so short that
+ * most_to_come would follow: a function that jumps 1e9 times in a run is never searched to the end. */
+enum { LOOKED_AT = 20000, ORDINARY_PARTS = 8 };
 static const double most_to_come = 4e6;
 
 static qdot_status
@@ -401,7 +401,7 @@ count_parts(qdot_piece *x, double t, size_t parts)
     const double passed = fabs(t - x->searched.since);
     const double to_come = LOOKED_AT * (fabs(x->t1 - t) / passed);
 
-    x->searched.parts += parts;
+    x->searched.parts += parts > ORDINARY_PARTS ? parts - ORDINARY_PARTS : 0;
     if (x->searched.parts < LOOKED_AT)
         return QDOT_OK;
     x->searched.parts = 0;
