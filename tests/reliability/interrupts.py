@@ -87,6 +87,7 @@ class Terminal:
             os.execv(program, [program, "-q"])
         self.seen = b""
         self.passed = b""
+        self.questions = 0
 
     def type(self, text):
         for line in text.splitlines():
@@ -120,9 +121,12 @@ class Terminal:
 
 
 def answers(terminal):
-    for _ in range(30):  # Ctrl-C throws away what is typed before it is heard
-        terminal.type("print 1001*222")
-        if terminal.wait(b"222222", 2):
+    """Whether the prompt answers a new question. It is typed again where Ctrl-C threw it away before it was heard, so
+    each has a number of its own: late answers to an older one are passed over."""
+    terminal.questions += 1
+    for _ in range(30):
+        terminal.type("print 2*%d" % (100000 + terminal.questions))
+        if terminal.wait(b"%d" % (200000 + 2 * terminal.questions), 2):
             return True
     return False
 
@@ -137,7 +141,7 @@ def declared(terminal):
     lines = terminal.passed.decode("utf-8", "replace").replace("\r", "\n").split("\n")
     # not what was typed, nor values: those are what find and fit are for
     return [line for line in lines if line.strip() and "> " not in line and not line.startswith(("set ", "start "))
-            and "1001" not in line and line != "scene"]
+            and "print 2*" not in line and not line.strip().isdigit() and line != "scene"]
 
 
 def put_data():
