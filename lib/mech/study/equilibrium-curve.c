@@ -277,6 +277,10 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
         y[c->n] = p;
         *count += known;
     }
+    if (status != QDOT_OK) {
+        qdot_free(*at);
+        *at = NULL;
+    }
     rest.unknowns.at = NULL; /* c's own */
     qdot_rest_end(&rest);
     return status;
