@@ -2,6 +2,7 @@
 #include "scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
