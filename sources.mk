@@ -1927,6 +1927,7 @@ script_tests = \
 	tests/bad/second-decimal.lag \
 	tests/bad/semicolon-list.lag \
 	tests/bad/sensitivity-changed.lag \
+	tests/bad/sensitivity-contact.lag \
 	tests/bad/sensitivity-corner.lag \
 	tests/bad/sensitivity-jump.lag \
 	tests/bad/sensitivity-member.lag \
@@ -2359,6 +2360,7 @@ test_files = \
 	tests/bad/second-decimal.out \
 	tests/bad/semicolon-list.out \
 	tests/bad/sensitivity-changed.out \
+	tests/bad/sensitivity-contact.out \
 	tests/bad/sensitivity-corner.out \
 	tests/bad/sensitivity-jump.out \
 	tests/bad/sensitivity-member.out \

@@ -13,6 +13,7 @@
 #include "lang/session/measured.h"
 #include "lang/session/runs.h"
 #include "sim/model/substitute.h"
+#include "sim/run/slides.h"
 #include "sim/study/sizes.h"
 
 /* A run with slopes goes beyond the last time that it is needed at by so much of the whole, since errors at
@@ -413,7 +414,10 @@ qdot_slopes_make(qdot_slopes *s, const char *name, qdot_expr e, size_t first)
     }
     QDOT_TRY(qdot_runs_keep(s->session, qdot_slopes_run, "", &request, run));
     if (qdot_run_get_report(run)->status == QDOT_RUN_FAILED)
-        return qdot_fail(QDOT_EFAILED, "the run with slopes failed: %.300s",
+        return qdot_fail(QDOT_EFAILED,
+                         qdot_slides_in_contact(s->run)
+                             ? "not built yet: slopes through a contact that lasts: %.300s"
+                             : "the run with slopes failed: %.300s",
                          qdot_run_get_report(run)->reason);
     QDOT_TRY(qdot_variation_check_start(&s->variation, run));
     return compare_ends(s, run);

@@ -80,31 +80,64 @@ tell(qdot_run *run, size_t surface)
     return to ? qdot_text_status(to) : QDOT_OK;
 }
 
+/* Whether the run slid along a surface that values are read by: the sides of others stand in no equation. */
+static bool
+is_read(const qdot_run *run, size_t surface)
+{
+    const qdot_surface *at = &run->stage.switches.surfaces.at[surface];
+    bool slid = false;
+
+    for (size_t k = 0; k < run->course.tr.pieces.n; k++)
+        slid = slid || slides(run, k, surface);
+    return slid && !at->contact && !(at->layer > 0); /* the powers of a layer are 0 at u = 0 */
+}
+
+/* Values are read by these sides. Where there are none the plan stays as it is: without switches other runs hold it
+ * too (sim/plan/kept.h), which outlive the switches of this one. */
+static qdot_status
+keep_sides(qdot_run *run)
+{
+    const size_t surfaces = run->stage.switches.surfaces.n;
+    long *side = qdot_calloc(surfaces + 1, sizeof *side);
+    bool any = false;
+
+    if (!side)
+        return QDOT_ENOMEM;
+    for (size_t i = 0; i < surfaces; i++) {
+        side[i] = is_read(run, i) ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
+        any = any || side[i] == QDOT_SIDE_SLIDES;
+    }
+    if (!any) {
+        qdot_free(side);
+        return QDOT_OK;
+    }
+    qdot_free(run->plan->read_side);
+    run->plan->read_side = side;
+    run->plan->read_switches = &run->stage.switches;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_slides_tell(qdot_run *run)
 {
-    const size_t surfaces = run->stage.switches.surfaces.n;
     bool any = false;
 
     for (size_t i = 0; i < run->stage.modes.n; i++)
         any = any || qdot_sliding_is(&run->stage.switches, run->stage.modes.at[i]->side);
     if (!any)
         return QDOT_OK;
-    qdot_free(run->plan->read_side);
-    run->plan->read_switches = &run->stage.switches;
-    run->plan->read_side = qdot_calloc(surfaces, sizeof *run->plan->read_side);
-    if (!run->plan->read_side)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < surfaces; i++) {
-        bool slid = false;
-
-        for (size_t k = 0; k < run->course.tr.pieces.n; k++)
-            slid = slid || slides(run, k, i);
-        if (run->stage.switches.surfaces.at[i].contact /* no equation holds its side */
-            || run->stage.switches.surfaces.at[i].layer > 0) /* its powers are 0 at u = 0 */
-            slid = false;
-        run->plan->read_side[i] = slid ? QDOT_SIDE_SLIDES : QDOT_SIDE_OPEN;
+    QDOT_TRY(keep_sides(run));
+    for (size_t i = 0; i < run->stage.switches.surfaces.n; i++)
         QDOT_TRY(tell(run, i));
-    }
     return QDOT_OK;
+}
+
+bool
+qdot_slides_in_contact(const qdot_run *run)
+{
+    for (size_t i = 0; i < run->stage.switches.surfaces.n; i++)
+        for (size_t k = 0; k < run->course.tr.pieces.n && run->stage.switches.surfaces.at[i].contact; k++)
+            if (slides(run, k, i))
+                return true;
+    return false;
 }
