@@ -1778,6 +1778,7 @@ script_tests = \
 	tests/bad/family-and-vector.lag \
 	tests/bad/figure-options.sh \
 	tests/bad/find-after.lag \
+	tests/bad/find-bounces.lag \
 	tests/bad/find-domain.lag \
 	tests/bad/find-empty.lag \
 	tests/bad/find-equation.lag \
@@ -2211,6 +2212,7 @@ test_files = \
 	tests/bad/family-and-vector.out \
 	tests/bad/figure-options.out \
 	tests/bad/find-after.out \
+	tests/bad/find-bounces.out \
 	tests/bad/find-domain.out \
 	tests/bad/find-empty.out \
 	tests/bad/find-equation.out \

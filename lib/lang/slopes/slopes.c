@@ -313,21 +313,58 @@ needed_time(qdot_slopes *s, const qdot_measured *m)
     }
 }
 
-/* Whether the number stands in e, or in what other numbers from the first-th on are of. */
+typedef qdot_vec(size_t) indices;
+
+/* Of the numbers measured from the first-th on the values: what other numbers may stand in. Few of many, where events
+ * without end are measured too. */
+static qdot_status
+find_values(const qdot_slopes *s, size_t first, indices *values)
+{
+    for (size_t i = first; i < s->session->measured.n; i++)
+        if (s->session->measured.at[i].origin.kind == QDOT_ORIGIN_VALUE)
+            QDOT_TRY(qdot_vec_push(values, i));
+    return QDOT_OK;
+}
+
+/* Whether the number stands in e, or in what those values are of. */
 static bool
-is_used(const qdot_slopes *s, qdot_expr e, size_t first, qdot_expr symbol)
+is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symbol)
 {
     const qdot_pool *pool = s->session->pool;
     bool used = qdot_expr_contains(pool, e, symbol);
 
-    for (size_t i = first; i < s->session->measured.n && !used; i++) {
-        const qdot_origin *of = &s->session->measured.at[i].origin;
+    for (size_t i = 0; i < values->n && !used; i++) {
+        const qdot_origin *of = &s->session->measured.at[values->at[i]].origin;
 
-        used =
-            of->kind == QDOT_ORIGIN_VALUE && (qdot_expr_contains(pool, of->e, symbol) ||
-                                              qdot_expr_contains(pool, of->time, symbol));
+        used = qdot_expr_contains(pool, of->e, symbol) || qdot_expr_contains(pool, of->time, symbol);
     }
     return used;
+}
+
+/* How far from its start the run is needed for numbers measured from the first-th on; infinite: all of it. */
+static qdot_status
+find_furthest(qdot_slopes *s, qdot_expr e, size_t first, const indices *values, double *furthest)
+{
+    const double t0 = qdot_run_get_report(s->run)->t0;
+
+    *furthest = 0;
+    for (size_t i = first; i < s->session->measured.n; i++) {
+        const qdot_measured m = s->session->measured.at[i];
+        qdot_expr time;
+        double t;
+
+        if (!is_used(s, e, values, m.symbol))
+            continue;
+        time = needed_time(s, &m);
+        QDOT_TRY(qdot_pool_check(s->session->pool));
+        if (time == QDOT_NIL) {
+            *furthest = INFINITY;
+            return QDOT_OK;
+        }
+        QDOT_TRY(qdot_session_number(s->session, time, &t, NULL));
+        *furthest = fmax(*furthest, fabs(t - t0));
+    }
+    return QDOT_OK;
 }
 
 /* End the run with slopes where the last number measured from the first-th on needs it. */
@@ -336,22 +373,14 @@ shorten(qdot_slopes *s, qdot_expr e, size_t first)
 {
     const qdot_run_report *report = qdot_run_get_report(s->run);
     const double whole = report->t1 - report->t0;
+    indices values = {0};
     double furthest = 0, length;
+    qdot_status status = find_values(s, first, &values);
 
-    for (size_t i = first; i < s->session->measured.n; i++) {
-        const qdot_measured m = s->session->measured.at[i];
-        qdot_expr time;
-        double t;
-
-        if (!is_used(s, e, first, m.symbol))
-            continue;
-        time = needed_time(s, &m);
-        QDOT_TRY(qdot_pool_check(s->session->pool));
-        if (time == QDOT_NIL)
-            return QDOT_OK;
-        QDOT_TRY(qdot_session_number(s->session, time, &t, NULL));
-        furthest = fmax(furthest, fabs(t - report->t0));
-    }
+    if (status == QDOT_OK)
+        status = find_furthest(s, e, first, &values, &furthest);
+    qdot_free(values.at);
+    QDOT_TRY(status);
     length = furthest + beyond * fabs(whole);
     if (furthest > 0 && length < fabs(whole))
         s->request.t1 =

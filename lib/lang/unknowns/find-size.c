@@ -52,6 +52,9 @@ qdot_find_sizes(const qdot_find *f, qdot_run *run, const qdot_expr *e, double *s
 
 /* A search may cost so many times its first run, and at least this (ode/meter.h). */
 static const double most_runs = 1500, least_budget = 4e9;
+/* What an event or a switch costs beside the steps that the meter counts: that it is searched for, carried out and
+ * kept, in the run and the second ones. Runs with bounces without number cost little else. */
+static const double of_piece = 25000;
 
 qdot_status
 qdot_find_spend(qdot_find_budget *b, double length)
@@ -67,7 +70,8 @@ void
 qdot_find_spent(qdot_find_budget *b, qdot_run *run, size_t runs)
 {
     const qdot_run_report *report = qdot_run_get_report(run);
-    const double work = report->work + report->estimate_work;
+    const double work = report->work + report->estimate_work
+                        + (report->pieces > 1 ? of_piece * (double)(report->pieces - 1) : 0);
 
     if (b->first == 0) {
         b->first = work;
