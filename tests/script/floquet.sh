@@ -66,3 +66,33 @@ start x = 0, y = 0, z = 1
 run 0..2*pi/3
 floquet
 END
+# multipliers 1 in pairs with one vector behind impacts: a ball, by its height or its time alone; a square in a circle; never
+# surely beyond the circle, nor one of a complex pair alone. A wall and a kick at the floor: 1 and 1/2, a ball that settles
+for from in "find y = 1, T = 0.9" "find T = 0.9"; do
+    qdot -q - <<END 2>&1 | sed -n 's/ ±.*//; s/^floquet.*/&/p; /^run1/p' | sed 's/1\.0000[0-9]*/1/'
+coord y
+particle p mass 1 at y
+gravity -10
+event b: y = 0 falling then y' = -y'
+start y = 1
+$from such that returns after T
+floquet
+END
+done
+qdot -q - <<'END' 2>&1 | sed -n 's/ ±.*//; s/^\(floquet.[0-9]. = \)\(1\|1\.0000[0-9]*\|0\.9999[0-9]*\)\( [+-] [0-9.e-]*\*i\)*$/\11 nearly/p; /^run1/p'
+coord x, y
+particle p mass 1 at (x, y)
+event b: x^2 + y^2 = 1 rising then x' = x' - 2*(x*x' + y*y')*x, y' = y' - 2*(x*x' + y*y')*y
+start x = sqrt(1/2), y' = 1
+find T = 5.6 such that returns after T
+floquet
+END
+qdot -q - <<'END' 2>&1 | sed -n 's/ ±.*//; /^floquet/p; /^run1/p'
+coord y
+particle p mass 1 at y
+gravity -10
+event b: y = 0 falling then y' = -0.5*y' + 1
+start y = 0.1, y' = sqrt(2)
+find y' = sqrt(2), T = 0.4 such that returns after T
+floquet
+END

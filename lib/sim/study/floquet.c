@@ -241,6 +241,22 @@ qdot_floquet_is_lagrangian(const qdot_scene *s)
 
 /* --- multipliers ----------------------------------------------------------------------------- */
 
+/* One of a pair whose other one was stated as real is real too: within its error with its imaginary part. */
+static void
+pair_up(qdot_floquet *x)
+{
+    for (size_t k = 0; k < x->n; k++) {
+        size_t j = 0;
+
+        while (j < x->n && (x->re[j] != x->re[k] || x->im[j] != -x->im[k]))
+            j++;
+        if (j < x->n)
+            continue;
+        x->error[k] += fabs(x->im[k]);
+        x->im[k] = 0;
+    }
+}
+
 /* The multipliers nearest to 1 are 1. */
 static void
 state_trivial(qdot_floquet *x, size_t count)
@@ -312,7 +328,7 @@ find_eigenvalues(size_t K, size_t k, const double *B, const double *E, qdot_floq
     if (sum == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < K * kk; i++)
-        sum[i % kk] += fabs(B[i]);
+        sum[i % kk] += fabs(B[i]) + E[i]; /* what is less than its error is no unit */
     qdot_balance(k, sum, unit);
     for (size_t i = 0; i < K * kk; i++) {
         const double by = unit[i % k] / unit[i % kk / k];
@@ -338,6 +354,7 @@ qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t tri
     x->error = x->im + k;
     QDOT_TRY(find_eigenvalues(K, k, B, E, x));
     state_trivial(x, trivial);
+    pair_up(x);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
     judge(x);
     return QDOT_OK;
@@ -363,6 +380,8 @@ static qdot_status
 find_multipliers(orbit *o, qdot_floquet *x)
 {
     const bool free = qdot_floquet_is_lagrangian(o->scene);
+    const size_t z = 2 * o->n;
+    const qdot_flow_orbit of = {.K = o->K, .t0 = o->t0, .T = o->T, .first = o->states, .others = o->states + z};
     bool driven, rests;
 
     QDOT_TRY(fill_factors(o, qdot_flow_tolerance[1], o->E));
@@ -371,6 +390,8 @@ find_multipliers(orbit *o, qdot_floquet *x)
     o->v = qdot_response_variation(o->flow.response);
     driven = holds_time(o);
     QDOT_TRY(qdot_floquet_rests(o->scene, o->run, &rests));
+    if (!rests) /* else its states have no sizes */
+        QDOT_TRY(qdot_flow_rounding(&o->flow, &of, o->ends, z * z, o->size, o->E));
     return qdot_floquet_of(o->K, o->c, o->B, o->E, driven || rests ? 0 : free ? 2 : 1, !free, x);
 }
 

@@ -4,7 +4,8 @@
  *
  * Where motions near by grow, B is the product of the slopes over segments, between states that are found with the start
  * and the period (shooting.h), so that all closes also where no run in doubles comes back. Errors are how far B is by a
- * tolerance 100 times as large.
+ * tolerance 100 times as large, and what rounding leaves beside the largest slopes in units of the states: a slope that is 0
+ * by cancellation may be the same in both, and a pair with one vector, as behind impacts, is known to its root alone.
  *
  * Where the equations hold no time and the orbit is no rest, one multiplier is 1, that of a shift in time; where
  * they come from a Lagrangian, a second, that of the energy. These are stated as 1. Without friction multipliers

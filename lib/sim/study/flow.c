@@ -1,6 +1,7 @@
 /* flow.c -- a response whose unknowns are a state and parameters; how fast its slopes grow. */
 #include "sim/study/flow.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,9 @@ const double qdot_flow_tolerance[2] = {1e-13, 1e-11};
 
 /* What both flows round alike, relative to a slope. */
 static const double alike = 1e-14;
+
+/* What sums that cancel keep, relative to the largest slope. */
+static const double cancelled = 8 * DBL_EPSILON;
 
 static qdot_status
 make_room(qdot_flow *x)
@@ -260,17 +264,24 @@ along(const qdot_flow *x, size_t c, const double *from, const double *to, const 
                     out[a * c + b] += to[a * x->z + i] * S[i * (x->z + x->p) + j] * from[b * x->z + j];
 }
 
+/* The tangents at the beginnings of the segments: N [K x z x z], c of each. */
+static qdot_status
+find_tangents(qdot_flow *x, const qdot_flow_orbit *o, size_t *c, double *N)
+{
+    for (size_t k = 0; k < o->K; k++) {
+        put(x, qdot_flow_state(x, o, k), o->parameters);
+        QDOT_TRY(qdot_response_tangents(x->response, x->in, qdot_flow_time(o, k), c, N + k * x->z * x->z));
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_flow_factors(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step, size_t *c, double *B)
 {
     const size_t zz = x->z * x->z;
     double *N = qdot_calloc(o->K * zz, sizeof *N);
-    qdot_status status = N ? QDOT_OK : QDOT_ENOMEM;
+    const qdot_status status = N ? find_tangents(x, o, c, N) : QDOT_ENOMEM;
 
-    for (size_t k = 0; k < o->K && status == QDOT_OK; k++) {
-        put(x, qdot_flow_state(x, o, k), o->parameters);
-        status = qdot_response_tangents(x->response, x->in, qdot_flow_time(o, k), c, N + k * zz);
-    }
     for (size_t k = 0; k < o->K && status == QDOT_OK; k++)
         along(x, *c, N + k * zz, N + (k + 1) % o->K * zz, ends + k * step, B + k * *c * *c);
     qdot_free(N);
@@ -282,4 +293,40 @@ qdot_flow_errors(size_t count, const double *B, double *coarse)
 {
     for (size_t i = 0; i < count; i++)
         coarse[i] = fabs(coarse[i] - B[i]) + alike * fabs(B[i]);
+}
+
+/* R [z x (z + p)]: some epsilons of the largest of S [z x (z + p)] in units size [z]. */
+static void
+fill_rounding(const qdot_flow *x, const double *S, const double *size, double *R)
+{
+    const size_t width = x->z + x->p;
+    double most = 0;
+
+    for (size_t i = 0; i < x->z; i++)
+        for (size_t j = 0; j < x->z; j++)
+            most = fmax(most, fabs(S[i * width + j]) * size[j] / size[i]);
+    for (size_t i = 0; i < x->z; i++)
+        for (size_t j = 0; j < x->z; j++)
+            R[i * width + j] = cancelled * most * size[i] / size[j];
+}
+
+qdot_status
+qdot_flow_rounding(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step, const double *size,
+                   double *E)
+{
+    const size_t zz = x->z * x->z, width = x->z + x->p;
+    double *N = qdot_calloc((o->K + 1) * zz + x->z * width, sizeof *N), *by = N + o->K * zz, *R = by + zz;
+    size_t c = 0;
+    const qdot_status status = N ? find_tangents(x, o, &c, N) : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < o->K * zz && status == QDOT_OK; i++)
+        N[i] = fabs(N[i]);
+    for (size_t k = 0; k < o->K && status == QDOT_OK; k++) {
+        fill_rounding(x, ends + k * step, size, R);
+        along(x, c, N + k * zz, N + (k + 1) % o->K * zz, R, by);
+        for (size_t i = 0; i < c * c; i++)
+            E[k * c * c + i] += by[i];
+    }
+    qdot_free(N);
+    return status;
 }

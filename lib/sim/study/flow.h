@@ -74,5 +74,9 @@ QDOT_MUST_CHECK qdot_status qdot_flow_factors(qdot_flow *x, const qdot_flow_orbi
                                               size_t *c, double *B);
 /* Errors of B [count] by a flow, from the same by the other: coarse becomes these. */
 void qdot_flow_errors(size_t count, const double *B, double *coarse);
+/* Add to E [K x c x c] what rounding leaves in these factors where both flows round alike, as in a slope that is 0 by
+ * cancellation: some epsilons of the largest slope in units size [z] of the states. */
+QDOT_MUST_CHECK qdot_status qdot_flow_rounding(qdot_flow *x, const qdot_flow_orbit *o, const double *ends, size_t step,
+                                               const double *size, double *E);
 
 #endif
