@@ -21,6 +21,7 @@ make_room(qdot_piece *x)
     x->left = qdot_calloc(m, sizeof *x->left);
     x->untouched = qdot_calloc(m, sizeof *x->untouched);
     x->touching = qdot_calloc(m, sizeof *x->touching);
+    x->turned = qdot_calloc(m, sizeof *x->turned);
     x->root = qdot_calloc(x->n, sizeof *x->root);
     x->thens = qdot_calloc(x->c->stage->events.n + 1, sizeof *x->thens);
     x->y = qdot_calloc(9 * x->n, sizeof *x->y);
@@ -33,7 +34,7 @@ make_room(qdot_piece *x)
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
     if (!x->side || !x->functions_on || !x->before || !x->residual ||
-        !x->signs || !x->left || !x->untouched || !x->touching || !x->root || !x->thens || !x->y || !x->step.t || !x->step.y)
+        !x->signs || !x->left || !x->untouched || !x->touching || !x->turned || !x->root || !x->thens || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
@@ -205,6 +206,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_free(x.left);
     qdot_free(x.untouched);
     qdot_free(x.touching);
+    qdot_free(x.turned);
     qdot_free(x.root);
     for (size_t i = 0; i < c->stage->events.n && x.thens; i++)
         qdot_tape_two_free(x.thens[i]);

@@ -289,6 +289,7 @@ look_before(qdot_piece *x, double t, double *g)
     for (size_t i = 0; i < m->m; i++) {
         x->left[i] = first[i];
         x->untouched[i] = true;
+        x->turned[i] = false;
     }
     for (size_t i = 0; i < x->fired.n; i++)
         x->untouched[x->fired.at[i].function] = false;
@@ -312,14 +313,54 @@ look_behind(qdot_piece *x, double t, double *g)
     return status;
 }
 
+/* Carry out `then` of the event that root k is of, among others at the same instant. One whose crossing an event before
+ * it has turned back does nothing if it would turn it about once more. An event that turns its own crossing back may
+ * be met again, by what the others do. */
+static qdot_status
+change_state(qdot_piece *x, size_t k, double *old)
+{
+    const qdot_root *root = &x->roots.at[k];
+    const qdot_staged_event *e = &x->c->stage->events.at[qdot_piece_mode(x)->watched[root->function].index];
+    const bool alone = x->roots.n == 1;
+    double *y = x->start.y, *low = old + x->n;
+    int before = 0, behind = 0;
+
+    if (!alone && x->start.jumped)
+        QDOT_TRY(qdot_piece_way(x, root->function, &before));
+    memcpy(old, y, x->n * sizeof *y);
+    qdot_piece_low(x, low);
+    memcpy(x->start.low, low, x->n * sizeof *low);
+    QDOT_TRY(qdot_piece_change(x, e, x->t_act, old, low, y, x->start.low));
+    memcpy(x->start.low_of, y, x->n * sizeof *y);
+    if (!alone)
+        QDOT_TRY(qdot_piece_way(x, root->function, &behind));
+    if (root->way != 0 && before == -root->way && behind == root->way) {
+        memcpy(y, old, x->n * sizeof *y);
+        memcpy(x->start.low_of, old, x->n * sizeof *y);
+        memcpy(x->start.low, low, x->n * sizeof *low);
+        behind = before;
+    } else {
+        for (size_t i = 0; i < k; i++)
+            x->untouched[x->roots.at[i].function] = x->turned[x->roots.at[i].function];
+    }
+    x->turned[root->function] = root->way != 0 && behind != root->way;
+    x->untouched[root->function] = false;
+    if (x->turned[root->function])
+        x->left[root->function] = -root->way;
+    for (size_t i = 0; i < x->n; i++)
+        x->largest[i] = fmax(x->largest[i], fabs(y[i]));
+    x->start.jumped = true;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_piece_act(qdot_piece *x, bool *over)
 {
-    double *old = qdot_malloc(2 * x->n * sizeof *old), *low = old + x->n;
+    double *old = qdot_malloc(2 * x->n * sizeof *old);
     double *g = qdot_malloc(2 * qdot_piece_mode(x)->m * sizeof *g);
     qdot_status status = old && g ? QDOT_OK : QDOT_ENOMEM;
     const qdot_mode *m = qdot_piece_mode(x);
-    double t = x->t_act, *y = x->start.y;
+    const double t = x->t_act;
 
     x->fired.n = 0;
     x->crossed.n = 0;
@@ -354,16 +395,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
         } else {
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
-            if (e->then) {
-                memcpy(old, y, x->n * sizeof *y);
-                qdot_piece_low(x, low);
-                memcpy(x->start.low, low, x->n * sizeof *low);
-                status = qdot_piece_change(x, e, t, old, low, y, x->start.low);
-                memcpy(x->start.low_of, y, x->n * sizeof *y);
-                for (size_t k = 0; k < x->n; k++)
-                    x->largest[k] = fmax(x->largest[k], fabs(y[k]));
-                x->start.jumped = true;
-            }
+            if (e->then)
+                status = change_state(x, i, old);
             if (e->stop && status == QDOT_OK) {
                 x->c->stopped_by = w->index;
                 *over = true;

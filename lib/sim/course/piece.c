@@ -196,16 +196,15 @@ stays_on_event(qdot_piece *x)
     return false;
 }
 
-/* Whether the function of event i changes where the piece starts, by more than the rounding of velocities. */
-static qdot_status
-is_moving(qdot_piece *x, size_t i, bool *is)
+qdot_status
+qdot_piece_way(qdot_piece *x, size_t i, int *way)
 {
     const size_t n = x->n / 2;
     double *rates = qdot_malloc((3 * x->n + 1) * sizeof *rates), *fast = rates + x->n,
            *low = fast + x->n, rate, noise;
     qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
 
-    *is = false;
+    *way = 0;
     if (status == QDOT_OK) {
         qdot_piece_low(x, low);
         memcpy(fast, x->largest + n, n * sizeof *fast);
@@ -213,7 +212,8 @@ is_moving(qdot_piece *x, size_t i, bool *is)
             fast[k] = fabs(rates[k]);
         status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, low, rates, fast, i,
                                  &rate, &noise);
-        *is = status == QDOT_OK && fabs(rate) > noise;
+        if (status == QDOT_OK && fabs(rate) > noise)
+            *way = rate * x->direction > 0 ? 1 : -1;
     }
     qdot_free(rates);
     return status;
@@ -229,7 +229,7 @@ follow_at_once(qdot_piece *x, double t0)
 
     for (size_t i = 0; i < x->c->stage->events.n && x->start.jumped; i++) {
         const qdot_staged_event *e = &x->c->stage->events.at[i];
-        bool moving;
+        int way;
         const qdot_root root = {
             .function = i, .t = t0, .way = first[i], .exact = true, .late = x->start.late};
 
@@ -239,8 +239,8 @@ follow_at_once(qdot_piece *x, double t0)
         /* of one that rises or falls the side before may be rounding: it must be the other one */
         if (first[i] == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
             continue;
-        QDOT_TRY(is_moving(x, i, &moving));
-        if (!moving)
+        QDOT_TRY(qdot_piece_way(x, i, &way));
+        if (way == 0)
             continue;
         x->intent = QDOT_PIECE_ENDS;
         x->t_act = t0;

@@ -60,7 +60,9 @@ typedef struct {
     int *signs;         /* [functions] of the mode before, where its piece ended */
     int *left;          /* [functions] and just behind the start of the step that ended it */
     bool *touching;     /* [functions] and was 0 where that piece ended, but for rounding */
-    bool *untouched;    /* [functions] it did not end that piece, and what did left its value as it was */
+    bool *untouched;    /* [functions] what ended that piece left its value as it was; it did not end it, or an event
+                           behind it changed the state once more */
+    bool *turned;       /* [functions] an event on it ended that piece, and its own `then` turned it back */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
     double *bare;  /* [n] the start, before a try has moved it */
@@ -232,6 +234,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 /* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
  * one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);
+
+/* The sign to which function i leaves its zero where the piece starts, in the direction of the run, by its rate; 0: the
+ * rate may be the rounding of velocities. */
+QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);
 
 /* End the run here, as failed or as stopped. */
 void qdot_piece_stop(qdot_piece *x, bool failed);

@@ -93,7 +93,7 @@ qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double
     for (size_t i = 0; i < w->m; i++)
         w->wants[i] = true;
     for (size_t k = 0; k < 2 * w->n; k++)
-        w->state_two[k] = (qdot_two){y[k], low ? low[k] : 0};
+        w->state_two[k] = qdot_two_add_double((qdot_two){y[k], 0}, low ? low[k] : 0);
     return value_two(w, t, w->state_two, g);
 }
 
