@@ -173,8 +173,8 @@ rests_on(const qdot_piece *x, size_t i, int way)
            && qdot_watch_first(qdot_piece_watch(x))[i] == way;
 }
 
-/* Whether a contact persists: an event with `then` that ended the piece before, or on which the
- * run starts, occurs again at once. The event's way, where the run starts, is that of its
+/* Whether a contact persists: an event with `then` that ended the piece before, occurs again at once; or the motion
+ * has been on it from the start of the run or all through that piece, and would leave it now in the way of its
  * statement. */
 static bool
 stays_on_event(qdot_piece *x)
@@ -187,8 +187,9 @@ stays_on_event(qdot_piece *x)
             x->resting_way = x->fired.at[k].way;
             return true;
         }
-    for (size_t i = 0; i < x->c->stage->events.n && begins; i++)
-        if (rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
+    for (size_t i = 0; i < x->c->stage->events.n; i++)
+        if ((begins || (x->left[i] == 0 && x->touching[i]))
+            && rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
             x->resting = i;
             x->resting_way = qdot_watch_first(qdot_piece_watch(x))[i];
             return true;
