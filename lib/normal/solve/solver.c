@@ -8,6 +8,7 @@
 #include "normal/field/prepare.h"
 #include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
 #include "normal/refute/sample.h"
 #include "normal/simplify/simplify.h"
 
@@ -22,9 +23,10 @@ qdot_solver_tidy(const qdot_solver *s, qdot_expr e)
 qdot_expr
 qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
 {
-    return gap == QDOT_NIL
-               ? QDOT_NIL
-               : qdot_condition(s->pool, gap, qdot_is_generic(s->pool, gap), s->facts);
+    bool strict = gap != QDOT_NIL && qdot_is_generic(s->pool, gap) &&
+                  !qdot_is_constant(s->pool, gap); /* a number may be 0 */
+
+    return gap == QDOT_NIL ? QDOT_NIL : qdot_condition(s->pool, gap, strict, s->facts);
 }
 
 static bool

@@ -8,9 +8,11 @@
 #include "expr/calculus.h"
 #include "normal/refute/ball.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
 #include "normal/solve/zeros-parts.h"
 
-enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000 };
+enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100 };
 
 /* --- exact candidates ------------------------------------------------------------------------------- */
 
@@ -104,17 +106,69 @@ is_only_zero_at_end(qdot_zeros_system *s, qdot_expr c, int side, double reach, b
     return qdot_pool_check(pool);
 }
 
-/* The place in doubt, X, as one exact zero. */
+/* The root, or that of its family, nearest to v. */
+static qdot_expr
+nearest_member(qdot_pool *pool, const qdot_root *root, double v)
+{
+    double at, period;
+
+    if (root->period == QDOT_NIL)
+        return root->value;
+    if (!qdot_ball_double(pool, root->value, NULL, NULL, &at) ||
+        !qdot_ball_double(pool, root->period, NULL, NULL, &period) ||
+        !(fabs(v - at) < 1e9 * fabs(period)))
+        return QDOT_NIL;
+    return qdot_add(pool, root->value,
+                    qdot_mul(pool, qdot_expr_int(pool, lround((v - at) / period)),
+                             root->period));
+}
+
+/* The roots by formulas that lie about X, a LIST: what is not simple in doubles may be simple to write. */
 static qdot_status
-decide_exactly(qdot_zeros_system *s, qdot_expr ends, qdot_interval X, bool *decided)
+roots_near(qdot_zeros_system *s, const qdot_solutions *roots, qdot_interval X,
+           qdot_expr *list)
+{
+    qdot_interval wide = {X.lo - 1e-6 * fmax(fabs(X.lo), 1),
+                          X.hi + 1e-6 * fmax(fabs(X.hi), 1)};
+
+    *list = qdot_list(s->pool, 0, NULL);
+    for (size_t i = 0; i < roots->root.n; i++) {
+        qdot_expr c = nearest_member(s->pool, &roots->root.at[i], X.lo / 2 + X.hi / 2);
+        double at;
+
+        QDOT_TRY(qdot_pool_check(s->pool));
+        if (c != QDOT_NIL && qdot_ball_double(s->pool, c, NULL, NULL, &at) &&
+            at > wide.lo && at < wide.hi)
+            *list = qdot_conditions_and(s->pool, *list, c);
+    }
+    return qdot_pool_check(s->pool);
+}
+
+/* The roots by formulas of an equation that is short; none where they are not known. */
+static qdot_status
+solve_by_formulas(qdot_zeros_system *s, qdot_solutions *roots)
+{
+    qdot_status status;
+
+    *roots = (qdot_solutions){0};
+    if (qdot_expr_size(s->pool, s->f[0]) > LONGEST)
+        return QDOT_OK;
+    status = qdot_solve(s->pool, s->f[0], s->x[0], NULL, roots);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* The place in doubt, X, as one exact zero: one of the list, of ends of the range or of roots, or a simple number. */
+static qdot_status
+decide_exactly(qdot_zeros_system *s, qdot_expr list, bool ends, qdot_interval X,
+               bool *decided)
 {
     double more = X.hi - X.lo + 1e-9 * fmax(fabs(X.lo), 1e-3);
     qdot_interval wide = {X.lo - more, X.hi + more};
-    uint32_t n = qdot_expr_count(s->pool, ends);
+    uint32_t n = qdot_expr_count(s->pool, list);
 
     *decided = false;
-    for (uint32_t i = 0; i < n + 2 && !*decided; i++) {
-        qdot_expr c = i < n ? qdot_expr_arg(s->pool, ends, i)
+    for (uint32_t i = 0; i < n + (ends ? 2 : 0) && !*decided; i++) {
+        qdot_expr c = i < n ? qdot_expr_arg(s->pool, list, i)
                             : qdot_zeros_candidate(s->pool, X, (int)(i - n));
         qdot_zero_place place = {.simple = false};
         qdot_interval at;
@@ -134,7 +188,7 @@ decide_exactly(qdot_zeros_system *s, qdot_expr ends, qdot_interval X, bool *deci
             if (!only)
                 continue;
             only = is_monotone_aside(s, at, wide);
-            if (!only && i < n) { /* the range lies on one side of an end */
+            if (!only && ends && i < n) { /* the range lies on one side of an end */
                 int side = X.hi - at.hi > at.lo - X.lo ? 1 : -1;
 
                 QDOT_TRY(is_only_zero_at_end(
@@ -297,6 +351,8 @@ qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
 {
     size_t n = s->doubt.n;
     qdot_zero_box *before = s->doubt.at;
+    qdot_solutions roots = {0};
+    bool solved = false;
     qdot_status status = QDOT_OK;
 
     s->doubt.at = NULL;
@@ -307,12 +363,25 @@ qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
 
         status = qdot_interrupt_check();
         if (status == QDOT_OK)
-            status = decide_exactly(s, ends, X, &decided);
+            status = decide_exactly(s, ends, true, X, &decided);
+        if (status == QDOT_OK && !decided && !solved) {
+            status = solve_by_formulas(s, &roots);
+            solved = true;
+        }
+        if (status == QDOT_OK && !decided && roots.root.n > 0 && isfinite(X.lo) &&
+            isfinite(X.hi)) {
+            qdot_expr near;
+
+            status = roots_near(s, &roots, X, &near);
+            if (status == QDOT_OK)
+                status = decide_exactly(s, near, false, X, &decided);
+        }
         if (status == QDOT_OK && !decided && isfinite(X.lo) && isfinite(X.hi))
             status = decide_by_bits(s, X);
         else if (status == QDOT_OK && !decided)
             status = qdot_vec_push(&s->doubt, before[i]);
     }
+    qdot_solutions_clear(&roots);
     qdot_free(before);
     return status;
 }

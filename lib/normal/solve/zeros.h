@@ -18,9 +18,9 @@
  * growth of the terms does (zeros-far.c), and the box is searched as far as that.
  *
  * Whether a zero lies at an end, and whether F is defined at a zero of its numerator, is decided exactly, by
- * candidates: ends, rational numbers, parts of pi. One unknown: they also serve where no proof of a simple zero is
- * possible; if the k-th derivative does not vanish nearby and the lower ones do at the candidate, it is
- * the only zero. Then more bits are tried.
+ * candidates: ends, rational numbers, parts of pi. One unknown: they, and the roots
+ * that formulas give, also serve where no proof of a simple zero is possible; if the k-th derivative does not vanish
+ * nearby and the lower ones do at the candidate, it is the only zero. Then more bits are tried.
  *
  * Where neither is possible - a multiple zero, a kink, a whole curve of zeros - a place stays in doubt.
  *
