@@ -261,6 +261,7 @@ library_sources = \
 	lib/mech/study/equilibrium-corners.c \
 	lib/mech/study/equilibrium-curve.c \
 	lib/mech/study/equilibrium-equations.c \
+	lib/mech/study/equilibrium-kinks.c \
 	lib/mech/study/equilibrium-members.c \
 	lib/mech/study/equilibrium-numeric.c \
 	lib/mech/study/equilibrium-proved.c \

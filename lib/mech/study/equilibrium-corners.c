@@ -129,13 +129,14 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
 
 /* The branch in which the jumps of the bits of `which` are at 0. */
 static qdot_status
-corner_branch(qdot_rest *r, qdot_expr equations, const qdot_expr *u, size_t n, unsigned which)
+corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_expr *u, size_t n,
+              unsigned which)
 {
     qdot_pool *pool = r->pool;
-    uint32_t count = qdot_expr_count(pool, r->forces);
+    uint32_t count = qdot_expr_count(pool, forces);
     qdot_rest_branch b = {.equations = equations, .known = qdot_list(pool, 0, NULL),
                           .conditions = r->sliding};
-    qdot_expr *G = qdot_malloc((count + 1) * sizeof *G), forces = r->forces;
+    qdot_expr *G = qdot_malloc((count + 1) * sizeof *G);
     qdot_status status = QDOT_OK;
 
     if (G == NULL)
@@ -175,9 +176,11 @@ qdot_status
 qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 {
     qdot_pool *pool = r->pool;
-    qdot_expr u[MOST_CORNERS + 1];
+    qdot_expr u[MOST_CORNERS + 1], forces;
     size_t n = 0;
 
+    QDOT_TRY(qdot_rest_by_signs(r, equations, &equations));
+    QDOT_TRY(qdot_rest_by_signs(r, r->forces, &forces));
     while (n <= MOST_CORNERS && (u[n] = next_jump(r, equations, false, n, u)) != QDOT_NIL)
         n++;
     QDOT_TRY(qdot_pool_check(pool));
@@ -188,6 +191,6 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
     for (size_t k = 0; k < n; k++)
         QDOT_TRY(qdot_vec_push(&r->unknowns, side_symbol(pool, MOST_CORNERS + k)));
     for (unsigned which = 1; which < 1u << n; which++)
-        QDOT_TRY(corner_branch(r, equations, u, n, which));
+        QDOT_TRY(corner_branch(r, equations, forces, u, n, which));
     return QDOT_OK;
 }

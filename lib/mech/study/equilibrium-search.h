@@ -24,6 +24,7 @@ typedef struct {
     qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
     qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
     qdot_expr slips;     /* a LIST: the u of each of these signs */
+    qdot_expr energy;    /* L at rest */
     qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
     qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
     size_t coordinates;           /* of them */
@@ -34,6 +35,7 @@ typedef struct {
     qdot_vec(qdot_equilibrium) found;
     uint64_t work; /* rest of the budget of exact solution, in operations */
     bool complete;
+    bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
     bool recurs; /* an angle with one declared end: places of one turn */
 } qdot_rest;
 
@@ -74,6 +76,12 @@ QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
 /* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
+
+/* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
+ * (equilibrium-kinks.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
+/* r->unresolved where forces have no value at the tip of a cone, or the energy jumps. (equilibrium-kinks.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
 
 /* The equations without t that hold at a place at which those hold at all times. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,

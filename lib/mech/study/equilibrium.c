@@ -4,8 +4,10 @@
 #include <math.h>
 
 #include "mech/dynamics/generic.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-search.h"
+#include "mech/study/linear-motion.h"
 #include "mech/study/stability.h"
 #include "normal/solve/solve.h"
 
@@ -303,6 +305,8 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 qdot_status
 qdot_rest_begin(qdot_rest *r, qdot_scene *s)
 {
+    qdot_status status;
+
     *r = (qdot_rest){.s = s,
                      .pool = s->pool,
                      .facts = qdot_scene_facts(s),
@@ -310,7 +314,13 @@ qdot_rest_begin(qdot_rest *r, qdot_scene *s)
                      .complete = true};
     QDOT_TRY(qdot_pool_check(r->pool));
     QDOT_TRY(qdot_rest_equations(r, &r->equations));
-    return find_unknowns(r);
+    r->energy = qdot_rest_value(s, qdot_list(s->pool, 0, NULL), qdot_mech_lagrangian(s));
+    status = qdot_pool_check(r->pool);
+    if (status == QDOT_EDOMAIN) { /* L has no value at rest: nothing is asked of it */
+        r->energy = QDOT_ZERO;
+        status = QDOT_OK;
+    }
+    return status == QDOT_OK ? find_unknowns(r) : status;
 }
 
 void
@@ -337,7 +347,10 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     else if (!r->complete)
         QDOT_TRY(search(r, bind, user, out));
     QDOT_TRY(qdot_rest_leave_out_twice(r, r->equations));
-    return qdot_rest_ranges(r);
+    QDOT_TRY(qdot_rest_ranges(r));
+    QDOT_TRY(qdot_rest_tips(r));
+    r->complete = r->complete && !r->unresolved;
+    return QDOT_OK;
 }
 
 static qdot_status

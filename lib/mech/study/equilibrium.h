@@ -8,7 +8,8 @@
  * (normal/solve/solve.h); the multipliers are unknowns like the coordinates. A coordinate that
  * occurs in none of them is free and left out. If they depend on time, they must hold at all
  * times. If exact solution fails, places are searched numerically, provided that every parameter
- * has a value; each place found so is proved to be an equilibrium (normal/solve/isolate.h).
+ * has a value; each place found so is proved to be an equilibrium (normal/solve/isolate.h). Where forces
+ * jump see equilibrium-corners.c; what is not searched there, equilibrium-kinks.c, makes the list incomplete.
  *
  * Stability. Linearised about a place, in the constraints' tangent space,
  *

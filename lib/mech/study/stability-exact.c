@@ -40,6 +40,70 @@ leading_sign(qdot_judgement *j, qdot_expr e, qdot_expr eps, int *sign)
     return qdot_pool_check(pool);
 }
 
+typedef struct {
+    qdot_judgement *j;
+    qdot_expr eps;
+    qdot_status status;
+    bool known;
+} one_side;
+
+/* a or b: the one that is chosen by the sign of u for small eps > 0; `e` itself where it is not known and u does not
+ * vanish with eps. */
+static qdot_expr
+chosen(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
+{
+    qdot_pool *pool = o->j->s->pool;
+    const qdot_expr zero = QDOT_ZERO;
+    qdot_expr there;
+    int sign;
+
+    if (o->status != QDOT_OK || u == QDOT_NIL || !qdot_expr_contains(pool, u, o->eps))
+        return e;
+    o->status = leading_sign(o->j, u, o->eps, &sign);
+    if (sign != 0 || o->status != QDOT_OK)
+        return sign > 0 ? a : sign < 0 ? b : e;
+    there = qdot_subs(pool, u, 1, &o->eps, &zero);
+    if (there == QDOT_NIL)
+        o->status = qdot_pool_check(pool);
+    else if (qdot_is_zero(pool, there, &o->j->facts))
+        o->known = false;
+    return e;
+}
+
+/* sign u, |u|, max, min, if(0 < u, a, b) as they are for small eps > 0. */
+static qdot_expr
+on_one_side(qdot_pool *pool, qdot_expr e, void *user)
+{
+    one_side *o = user;
+    uint32_t op = qdot_expr_node(pool, e)->op, n = qdot_expr_count(pool, e);
+    qdot_expr a = qdot_expr_arg(pool, e, 0), b, u;
+
+    if (op == QDOT_SIGN)
+        return chosen(o, e, a, QDOT_ONE, QDOT_MINUS_ONE);
+    if (op == QDOT_ABS)
+        return chosen(o, e, a, a, qdot_neg(pool, a));
+    if ((op == QDOT_MAX || op == QDOT_MIN) && n == 2) {
+        b = qdot_expr_arg(pool, e, 1);
+        u = qdot_sub(pool, a, b);
+        return op == QDOT_MAX ? chosen(o, e, u, a, b) : chosen(o, e, u, b, a);
+    }
+    if (op == QDOT_MAX || op == QDOT_MIN) {
+        for (uint32_t i = 1; i < n; i++) {
+            b = qdot_fun(pool, op, 2, (qdot_expr[]){a, qdot_expr_arg(pool, e, i)});
+            a = b == QDOT_NIL || qdot_expr_kind(pool, b) != QDOT_FUN ||
+                        qdot_expr_node(pool, b)->op != op
+                    ? b
+                    : on_one_side(pool, b, user);
+        }
+        return a;
+    }
+    if (op != QDOT_IF || qdot_expr_kind(pool, a) != QDOT_REL ||
+        qdot_expr_node(pool, a)->op == QDOT_EQ)
+        return e;
+    u = qdot_sub(pool, qdot_expr_arg(pool, a, 1), qdot_expr_arg(pool, a, 0));
+    return chosen(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
+}
+
 /* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +-
  * eps: also where H = 0, or where the force jumps. */
 static qdot_status
@@ -66,7 +130,14 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
         qdot_expr at = side == 0 ? qdot_add(pool, place, eps) : qdot_sub(pool, place, eps),
                   F = qdot_subs(pool, qdot_expr_arg(pool, j->judge->at_rest, 0), 1, &q, &at);
 
+        one_side o = {j, eps, QDOT_OK, true};
+
         QDOT_TRY(qdot_pool_check(pool));
+        F = qdot_walk_replace(pool, F, QDOT_FUN, on_one_side, &o);
+        if (o.status == QDOT_OK)
+            o.status = qdot_pool_check(pool);
+        if (o.status != QDOT_OK || !o.known)
+            return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
         QDOT_TRY(leading_sign(j, side == 0 ? qdot_neg(pool, F) : F, eps, &sign[side]));
     }
     if (sign[0] > 0 && sign[1] > 0)

@@ -1,0 +1,317 @@
+/* equilibrium-kinks.c -- forces that jump, as functions of signs; and kinks that the search does not resolve.
+ *
+ * The search for rests at corners (equilibrium-corners.c) knows jumps by signs. Others are written so:
+ *
+ *     max(a, b) = (a + b + |a - b|)/2,   |u|^-1 = sign(u)/u,
+ *     if(u > 0, A, B) = (A + B)/2 + sign(u) (A - B)/2.
+ *
+ * The last is done where A - B does not vanish with u (else nothing jumps) and the energy is continuous there. Where
+ * b >= 0 vanishes, forces with a root of b in the denominator have a direction but no value: at the tip of a cone,
+ * sqrt(x^2 + y^2). No rest is there if they point away from it, as at the end of a spring with a natural length.
+ */
+#include "expr/walk.h"
+#include "mech/dynamics/generic.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
+#include "mech/study/equilibrium-search.h"
+#include "mech/study/linear-motion.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
+
+enum { SAMPLES = 64 };
+
+static bool
+is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
+{
+    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
+}
+
+static bool
+holds_coordinate(const qdot_rest *r, qdot_expr e)
+{
+    return (qdot_mech_holds(r->s, e) & QDOT_HAS_COORD) != 0;
+}
+
+/* --- jumps as signs --------------------------------------------------------------------------- */
+
+/* u of a condition u > 0 or u >= 0; nil: it is another. */
+static qdot_expr
+condition_gap(qdot_pool *pool, qdot_expr condition)
+{
+    if (qdot_expr_kind(pool, condition) != QDOT_REL ||
+        qdot_expr_node(pool, condition)->op == QDOT_EQ)
+        return QDOT_NIL;
+    return qdot_sub(pool, qdot_expr_arg(pool, condition, 1),
+                    qdot_expr_arg(pool, condition, 0));
+}
+
+/* Whether e is proved to vanish wherever u does. */
+static qdot_status
+vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_solutions found;
+    qdot_expr x = QDOT_NIL;
+    qdot_status status;
+
+    *yes = e == QDOT_ZERO;
+    for (size_t i = 0; i < r->s->coordinates.n && x == QDOT_NIL; i++)
+        if (qdot_expr_contains(pool, u, r->s->coordinates.at[i]))
+            x = r->s->coordinates.at[i];
+    if (*yes || x == QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_solve(pool, u, x, &r->facts, &found);
+    *yes = status == QDOT_OK && found.complete && found.divisor.n == 0;
+    for (size_t i = 0; *yes && i < found.root.n; i++) {
+        qdot_expr room[QDOT_CONDITIONS_MOST], there;
+        qdot_facts facts =
+            qdot_facts_and(pool, &r->facts, found.root.at[i].condition, room);
+
+        there = qdot_subs(pool, e, 1, &x, &found.root.at[i].value);
+        *yes = found.root.at[i].value != x && there != QDOT_NIL &&
+               qdot_is_zero(pool, there, &facts);
+    }
+    qdot_solutions_clear(&found);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status != QDOT_EDOMAIN)
+        return status;
+    *yes = false;
+    return QDOT_OK;
+}
+
+/* Whether the energy is continuous where u = 0: what an if(...) by u chooses in it agrees there. */
+static qdot_status
+is_continuous(const qdot_rest *r, qdot_expr u, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    *yes = true;
+    QDOT_TRY(qdot_walk_begin(pool, r->energy, &w));
+    for (size_t i = 0; i < w.n && *yes && status == QDOT_OK; i++) {
+        qdot_expr gap;
+
+        if (!is_function(pool, w.at[i], QDOT_IF))
+            continue;
+        gap = condition_gap(pool, qdot_expr_arg(pool, w.at[i], 0));
+        if (gap == QDOT_NIL || (u != QDOT_NIL && gap != u) || !holds_coordinate(r, gap))
+            continue;
+        gap = qdot_sub(pool, qdot_expr_arg(pool, w.at[i], 1),
+                       qdot_expr_arg(pool, w.at[i], 2));
+        status = vanishes_with(r, gap,
+                               condition_gap(pool, qdot_expr_arg(pool, w.at[i], 0)), yes);
+    }
+    qdot_walk_end(&w);
+    return status;
+}
+
+typedef struct {
+    qdot_rest *r;
+    qdot_status status;
+} rewriting;
+
+static qdot_expr
+half(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_div(pool, e, qdot_expr_int(pool, 2));
+}
+
+/* max(a, b, ...) or min, by absolute values. */
+static qdot_expr
+extreme_by_size(qdot_pool *pool, qdot_expr e)
+{
+    bool max = is_function(pool, e, QDOT_MAX);
+    qdot_expr a = qdot_expr_arg(pool, e, 0);
+
+    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i++) {
+        qdot_expr b = qdot_expr_arg(pool, e, i),
+                  gap = qdot_fun1(pool, QDOT_ABS, qdot_sub(pool, a, b));
+
+        a = qdot_add(pool, a, b);
+        a = half(pool, max ? qdot_add(pool, a, gap) : qdot_sub(pool, a, gap));
+    }
+    return a;
+}
+
+static qdot_expr
+function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
+{
+    rewriting *w = user;
+    qdot_expr u, yes, no;
+    bool continuous, alike;
+
+    if (w->status != QDOT_OK || !holds_coordinate(w->r, e))
+        return e;
+    if (is_function(pool, e, QDOT_MAX) || is_function(pool, e, QDOT_MIN))
+        return extreme_by_size(pool, e);
+    if (!is_function(pool, e, QDOT_IF))
+        return e;
+    u = condition_gap(pool, qdot_expr_arg(pool, e, 0));
+    if (u != QDOT_NIL && !holds_coordinate(w->r, u))
+        return e;
+    if (u == QDOT_NIL) {
+        w->r->unresolved = true;
+        return e;
+    }
+    yes = qdot_expr_arg(pool, e, 1);
+    no = qdot_expr_arg(pool, e, 2);
+    w->status = vanishes_with(w->r, qdot_sub(pool, yes, no), u, &alike);
+    if (w->status != QDOT_OK || alike)
+        return e;
+    w->status = is_continuous(w->r, u, &continuous);
+    if (!continuous) {
+        w->r->unresolved = true;
+        return e;
+    }
+    u = qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no));
+    return half(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
+}
+
+/* A product with sign(u) u^k for |u|^k, k < 0 odd. */
+static qdot_expr
+product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
+{
+    uint32_t n = qdot_expr_count(pool, e);
+    qdot_expr product = e;
+
+    (void)user;
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        qdot_expr size = qdot_expr_arg(pool, e, i), u;
+        long k;
+
+        if (!is_function(pool, size, QDOT_ABS) ||
+            !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) || k >= 0 ||
+            k % 2 == 0)
+            continue;
+        u = qdot_expr_arg(pool, size, 0);
+        product = qdot_mul(pool, product, qdot_pow_int(pool, size, -k));
+        product = qdot_mul(pool, product, qdot_pow_int(pool, u, k));
+        product = qdot_mul(pool, product, qdot_fun1(pool, QDOT_SIGN, u));
+    }
+    return product;
+}
+
+qdot_status
+qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
+{
+    qdot_pool *pool = r->pool;
+    rewriting w = {r, QDOT_OK};
+    uint32_t n = qdot_expr_count(pool, list);
+    qdot_expr all = QDOT_NIL, by;
+
+    *out = list;
+    by = qdot_walk_replace(pool, list, QDOT_PROD, product_by_signs, NULL);
+    if (by != QDOT_NIL)
+        by = qdot_walk_replace(pool, by, QDOT_FUN, function_by_signs, &w);
+    QDOT_TRY(w.status);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (by == list)
+        return QDOT_OK;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_simplify(pool, qdot_expr_arg(pool, by, i), &r->facts);
+
+        all = qdot_rest_appended(pool, all, 1, &one);
+    }
+    *out = all;
+    return qdot_pool_check(pool);
+}
+
+/* --- tips ------------------------------------------------------------------------------------- */
+
+/* Whether a constraint keeps b from 0. */
+static bool
+is_kept_off(const qdot_rest *r, qdot_expr b)
+{
+    const qdot_expr zero = QDOT_ZERO;
+
+    for (size_t k = 0; k < r->s->constraints.n; k++) {
+        qdot_expr f = r->s->constraints.at[k].f,
+                  there = qdot_subs(r->pool, f, 1, &b, &zero);
+
+        if (there != QDOT_NIL && there != f && !holds_coordinate(r, there) &&
+            !qdot_is_zero(r->pool, there, &r->facts))
+            return true;
+    }
+    return false;
+}
+
+/* Whether b, not proved to be other than 0, may have a least value 0: no sample of it is negative. */
+static qdot_status
+may_touch_zero(const qdot_rest *r, qdot_expr b, bool *yes)
+{
+    *yes = (qdot_expr_node(r->pool, b)->sign & QDOT_NE0) == 0 &&
+           qdot_condition(r->pool, b, true, &r->facts) != QDOT_TRUE;
+    for (uint64_t seed = 1; *yes && seed <= SAMPLES; seed++) {
+        double value;
+
+        QDOT_TRY(qdot_generic_evaluate(
+            r->pool, 1, &b, &(qdot_generic_point){0, NULL, NULL, seed}, &value));
+        *yes = !(value < 0);
+    }
+    return QDOT_OK;
+}
+
+/* Whether the forces, which hold powers of b as of s^2, are proved to point away from b = 0 or grow without bound. */
+static bool
+points_away(const qdot_rest *r, qdot_expr b)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "(root)"), square, sum = QDOT_ZERO;
+    const qdot_expr zero = QDOT_ZERO;
+
+    qdot_symbol_domain(pool, s, QDOT_ZERO, true, QDOT_NIL, false);
+    square = qdot_pow_int(pool, s, 2);
+    for (size_t i = 0; i < r->s->coordinates.n; i++) {
+        qdot_expr slope = qdot_diff(pool, b, r->s->coordinates.at[i]),
+                  force = qdot_expr_arg(pool, r->forces, (uint32_t)i);
+
+        sum = qdot_add(pool, sum,
+                       qdot_mul(pool, slope, qdot_subs(pool, force, 1, &b, &square)));
+    }
+    sum = qdot_expand(pool, qdot_mul(pool, s, sum));
+    if (sum == QDOT_NIL)
+        return false;
+    sum = qdot_subs(pool, sum, 1, &s, &zero);
+    if (sum == QDOT_NIL)
+        return qdot_pool_check(pool) == QDOT_EDOMAIN;
+    return qdot_condition(pool, sum, false, &r->facts) == QDOT_TRUE;
+}
+
+qdot_status
+qdot_rest_tips(qdot_rest *r)
+{
+    qdot_pool *pool = r->pool;
+    bool continuous;
+    qdot_status status = is_continuous(r, QDOT_NIL, &continuous);
+    qdot_walk w;
+
+    r->unresolved = r->unresolved || !continuous;
+    QDOT_TRY(status);
+    QDOT_TRY(qdot_walk_begin(pool, r->forces, &w));
+    for (size_t i = 0; i < w.n && !r->unresolved && status == QDOT_OK; i++) {
+        uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD
+                         ? qdot_expr_count(pool, w.at[i])
+                         : 0;
+
+        for (uint32_t k = 1; k + 1 < n && !r->unresolved && status == QDOT_OK; k += 2) {
+            qdot_expr b = qdot_expr_arg(pool, w.at[i], k);
+            const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+            bool touches;
+
+            if (p == NULL || fmpz_is_one(fmpq_denref(p)) || fmpq_sgn(p) > 0 ||
+                fmpq_cmp_si(p, -1) < 0 || !holds_coordinate(r, b))
+                continue;
+            status = may_touch_zero(r, b, &touches);
+            if (status == QDOT_OK && touches && !is_kept_off(r, b))
+                r->unresolved = !(fmpz_equal_si(fmpq_denref(p), 2) && points_away(r, b));
+            if (status == QDOT_OK)
+                status = qdot_pool_check(pool);
+        }
+    }
+    qdot_walk_end(&w);
+    return status;
+}
