@@ -187,6 +187,7 @@ may_rest(qdot_rest *r, const qdot_rest_branch *b, qdot_expr *conditions, bool *y
     qdot_expr there = qdot_solve_without_turns(
                   pool, qdot_rest_put(r, b->whole == QDOT_NIL ? r->equations : b->whole, b->known)),
               room[QDOT_CONDITIONS_MOST];
+    qdot_expr energy = qdot_solve_without_turns(pool, qdot_rest_put(r, r->energy, b->known));
     qdot_facts facts;
     qdot_status status = qdot_pool_check(pool);
 
@@ -196,6 +197,8 @@ may_rest(qdot_rest *r, const qdot_rest_branch *b, qdot_expr *conditions, bool *y
                                           qdot_conditions_of_domain(pool, b->known, QDOT_NIL));
         *conditions = qdot_conditions_all(pool, *conditions,
                                           qdot_conditions_of_domain(pool, there, QDOT_NIL));
+        *conditions = qdot_conditions_all(pool, *conditions,
+                                          qdot_conditions_of_domain(pool, energy, QDOT_NIL));
         *conditions = qdot_conditions_at(pool, *conditions, 0, NULL, NULL, &r->facts);
         QDOT_TRY(qdot_pool_check(pool));
         *yes = *conditions != QDOT_FALSE;

@@ -154,16 +154,33 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
     return false;
 }
 
+/* Whether the energy has a value at the place x [searched]. */
+static qdot_status
+is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
+{
+    double value;
+
+    QDOT_TRY(qdot_generic_evaluate(r->pool, 1, &energy,
+                                   &(qdot_generic_point){r->searched, r->unknowns.at, x, 1}, &value));
+    *yes = !isnan(value);
+    return QDOT_OK;
+}
+
 static qdot_status
 add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user)
 {
     size_t n = r->searched;
-    qdot_expr *list = qdot_malloc((n + 1) * sizeof *list);
-    qdot_status status = list == NULL ? QDOT_ENOMEM : QDOT_OK;
+    qdot_expr *list = qdot_malloc((n + 1) * sizeof *list),
+              energy = bind == NULL ? r->energy : bind(user, r->energy);
+    qdot_status status = list == NULL ? QDOT_ENOMEM : qdot_pool_check(r->pool);
 
     for (size_t k = 0; k < places->n && status == QDOT_OK; k++) {
         qdot_equilibrium one = {.numeric = true};
+        bool defined;
 
+        status = is_defined(r, places->at + k * n, energy, &defined);
+        if (status != QDOT_OK || !defined)
+            continue;
         if (is_known(r, places->at + k * n, bind, user))
             continue;
         for (size_t i = 0; i < n; i++)
