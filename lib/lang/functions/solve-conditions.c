@@ -148,7 +148,7 @@ qdot_specials_clear(qdot_specials *s)
 }
 
 /* The values of one parameter at which the factor d of a divisor is 0: those that are values whatever the
- * other parameters are, by a parameter in which d is linear. */
+ * other parameters are, by a parameter in which d is linear or that stands alone in d. */
 static qdot_status
 zeros_of_divisor(qdot_pool *pool, qdot_expr d, const qdot_facts *facts,
                  qdot_specials *out)
@@ -165,7 +165,8 @@ zeros_of_divisor(qdot_pool *pool, qdot_expr d, const qdot_facts *facts,
             continue;
         slope = qdot_diff(pool, d, p);
         QDOT_TRY(qdot_pool_check(pool));
-        if (qdot_expr_rational(pool, slope) == NULL && d != p)
+        if (qdot_expr_rational(pool, slope) == NULL &&
+            qdot_expr_count(pool, atoms) > 1)
             continue;
         status = qdot_solve_inside(pool, d, p, QDOT_NIL, facts, &found);
         for (size_t k = 0; k < found.root.n && status == QDOT_OK; k++) {

@@ -51,6 +51,43 @@ domain_as_written(qdot_session *session, qdot_expr x)
                                qdot_conditions_of_divisors(pool, list, x));
 }
 
+/* The set and where f, as far as it does not hold x, is defined: decided. */
+static qdot_expr
+add_domain_of_parameters(qdot_pool *pool, qdot_expr set, qdot_expr f, qdot_expr x,
+                         const qdot_facts *facts)
+{
+    qdot_expr domain = qdot_conditions_of_domain(pool, f, QDOT_NIL),
+              room[QDOT_CONDITIONS_MOST], others = QDOT_NIL;
+    uint32_t n = domain == QDOT_NIL ? 0 : qdot_expr_count(pool, domain);
+    qdot_facts known = qdot_facts_and(pool, facts, set, room);
+
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, domain, i), x))
+            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, domain, i));
+    others = qdot_conditions_at(pool, others, 0, NULL, NULL, &known);
+    return qdot_conditions_all(pool, set, others);
+}
+
+/* The roots that exist for some parameters, with what these must fulfil. */
+static qdot_status
+keep_defined_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                        const qdot_facts *facts, qdot_solutions *found)
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < found->root.n; i++) {
+        qdot_root root = found->root.at[i];
+
+        root.condition =
+            add_domain_of_parameters(pool, root.condition, f, x, facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (root.condition != QDOT_FALSE)
+            found->root.at[kept++] = root;
+    }
+    found->root.n = kept;
+    return QDOT_OK;
+}
+
 /* --- one unknown ------------------------------------------------------------------------------------- */
 
 /* A list of solutions in the making. */
@@ -177,6 +214,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_inside(pool, f, x, domain, &facts, &found);
     complete = found.complete;
+    if (status == QDOT_OK)
+        status = keep_defined_parameters(pool, f, x, &facts, &found);
     if (status == QDOT_OK && complete)
         status = qdot_solve_specials(session, f, x, domain, &found, &specials);
     if (status == QDOT_OK)
