@@ -2,6 +2,7 @@
 #include "lang/session/momenta.h"
 
 #include "expr/walk.h"
+#include "mech/dynamics/quantity.h"
 #include "mech/study/hamilton.h"
 
 static const uint32_t moving = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
@@ -37,6 +38,15 @@ is_held(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr symbol)
     return false;
 }
 
+/* Whether the momentum of q is one of places and time alone, as where L is linear in q'. */
+static bool
+is_of_places(const qdot_session *s, qdot_expr q)
+{
+    const qdot_expr p = qdot_mech_momentum(s->scene, q);
+
+    return p != QDOT_NIL && !(holds(s, p) & (moving | QDOT_HAS_MOMENTUM));
+}
+
 bool
 qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
 {
@@ -46,14 +56,14 @@ qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
 
     for (uint32_t i = 0; i < n; i++)
         all |= holds(session, e[i]);
-    if (!(all & QDOT_HAS_MOMENTUM) || !(all & moving) || !is_related(scene))
+    if (!(all & QDOT_HAS_MOMENTUM) || !is_related(scene))
         return false;
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         const qdot_expr q = scene->coordinates.at[i];
 
         if (is_held(session, n, e, qdot_symbol_of(pool, QDOT_MOMENTUM, q)) &&
             (is_held(session, n, e, qdot_symbol_jet(pool, q, 1)) ||
-             is_held(session, n, e, qdot_symbol_jet(pool, q, 2))))
+             is_held(session, n, e, qdot_symbol_jet(pool, q, 2)) || is_of_places(session, q)))
             return true;
     }
     return false;

@@ -19,7 +19,8 @@ qdot_expr qdot_momenta_to_velocities(qdot_session *session, qdot_expr e);
  * stand in e and `symbol`, as p[x] for x'; else as it is: Routh's function keeps p[phi] for theta'. */
 qdot_expr qdot_momenta_for(qdot_session *session, qdot_expr e, qdot_expr symbol);
 
-/* Whether p[q] and q', or q'', of one coordinate stand in e [n]. */
+/* Whether p[q] and q', or q'', of one coordinate stand in e [n], or p[q] is a function of places: dL/dq' without velocities
+ * (a Lagrangian linear in q'). */
 bool qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e);
 
 #endif
