@@ -1958,6 +1958,7 @@ script_tests = \
 	tests/bad/solve-system-beyond.lag \
 	tests/bad/solve-system-count.lag \
 	tests/bad/solve-system-turns.lag \
+	tests/bad/spellings.sh \
 	tests/bad/start-abs.lag \
 	tests/bad/start-anywhere.lag \
 	tests/bad/start-contradictory.lag \
@@ -2392,6 +2393,7 @@ test_files = \
 	tests/bad/solve-system-beyond.out \
 	tests/bad/solve-system-count.out \
 	tests/bad/solve-system-turns.out \
+	tests/bad/spellings.out \
 	tests/bad/start-abs.out \
 	tests/bad/start-anywhere.out \
 	tests/bad/start-contradictory.out \

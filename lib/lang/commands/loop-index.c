@@ -127,7 +127,8 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
     qdot_session *s = c->session;
     const qdot_name *known = declared(s, k->text);
     const qdot_named_run *latest = s->runs.n > 0 ? &s->runs.at[s->runs.n - 1] : NULL;
-    qdot_text text = {0};
+    qdot_text text = {0}, with = {0};
+    const char *other;
 
     c->error_at = k->start;
     if (latest == NULL || known == NULL ||
@@ -135,7 +136,11 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
         (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
         return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
     }
-    qdot_text_format(&text, "{ run %s", latest->text);
+    qdot_text_format(&with, " with %s = ", k->text); /* what its run had of it */
+    other = qdot_text_status(&with) == QDOT_OK ? strstr(latest->text, qdot_text_str(&with)) : NULL;
+    qdot_text_clear(&with);
+    qdot_text_format(&text, "{ run %.*s", (int)(other ? (size_t)(other - latest->text) : strlen(latest->text)),
+                     latest->text);
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {
         for (last = first; last < to && last->kind != QDOT_TOKEN_END;)
             last++;
