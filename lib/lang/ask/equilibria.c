@@ -251,6 +251,9 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
         return QDOT_OK;
     if (all->complete) {
         qdot_text_add(&text, "there is no equilibrium");
+    } else if (all->pole != NULL && all->starts == 0 && all->unset == NULL) {
+        qdot_text_format(&text, "no equilibrium was found; there may be some: where the domain of `%.100s` ends these "
+                                "coordinates are singular, and rests there are not looked for", all->pole);
     } else if (all->unset != NULL) {
         qdot_text_format(&text, "there may be others: they cannot be solved for exactly, and numbers "
                                 "need a value of `%.100s`", all->unset);

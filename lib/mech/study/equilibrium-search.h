@@ -94,6 +94,10 @@ QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr eq
 /* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, qdot_expr *special);
+
+/* A coordinate whose open domain ends at a place that is singular in these coordinates alone (chart.h), where no rest is
+ * looked for; NULL: none. (equilibrium-special.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_pole(const qdot_rest *r, const char **pole);
 /* Rests at which every coordinate is 0, or half a turn of an angle, where that is proved.
  * (equilibrium-symmetric.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_symmetric(qdot_rest *r);

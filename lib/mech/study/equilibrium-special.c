@@ -1,8 +1,11 @@
 /* equilibrium-special.c -- values of parameters at which the listed rests are not those of the scene.
  *
  * Parameters are generic: x = b/a is listed without a condition a != 0. Such a divisor, if its sign is not
- * declared and no condition of the place excludes its zero, is told with the list. */
+ * declared and no condition of the place excludes its zero, is told with the list.
+ *
+ * 0 < theta < pi leaves out the poles of a sphere, where a rest may be: such an end of a chart is told too. */
 #include "expr/calculus.h"
+#include "mech/study/chart.h"
 #include "mech/study/equilibrium-search.h"
 #include "normal/refute/constant.h"
 #include "normal/solve/conditions.h"
@@ -79,4 +82,86 @@ qdot_rest_special(const qdot_rest *r, qdot_expr *special)
         if (!r->found.at[i].numeric)
             QDOT_TRY(add_divisors(r, &r->found.at[i], special));
     return qdot_pool_check(r->pool);
+}
+
+/* --- poles --------------------------------------------------------------------------------------- */
+
+/* Whether d is 0 at an open end of q's domain. */
+static bool
+is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
+{
+    const qdot_symbol *x = qdot_expr_symbol(pool, q);
+    const qdot_expr end[2] = {x->lo_open ? x->lo : QDOT_NIL, x->hi_open ? x->hi : QDOT_NIL};
+
+    for (int k = 0; k < 2; k++)
+        if (end[k] != QDOT_NIL && qdot_subs(pool, d, 1, &q, &end[k]) == QDOT_ZERO)
+            return true;
+    return false;
+}
+
+/* Whether the scene is regular where one group is replaced, or all, but for roots, which are smooth nowhere new. */
+static qdot_status
+is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
+{
+    const qdot_chart_groups one = {.at = all->at + g, .n = 1, .capacity = 1};
+    int ways = 2, *sign = qdot_calloc(all->n, sizeof *sign);
+    qdot_status status = sign ? QDOT_OK : QDOT_ENOMEM;
+
+    *regular = false;
+    for (size_t i = 0; i < all->n && sign != NULL; i++) {
+        sign[i] = 1;
+        ways = all->at[i].kind == QDOT_CHART_ROOT ? 1 : ways;
+    }
+    for (int k = 0; k < ways && status == QDOT_OK && !*regular; k++) {
+        qdot_chart chart = {0};
+
+        status = qdot_chart_make(s, k ? all : &one, sign, false, &chart);
+        *regular = status == QDOT_OK && chart.scene != NULL;
+        qdot_chart_clear(&chart);
+    }
+    qdot_free(sign);
+    return status;
+}
+
+static bool
+has_open_end(const qdot_scene *s)
+{
+    for (size_t i = 0; i < s->coordinates.n; i++) {
+        const qdot_symbol *x = qdot_expr_symbol(s->pool, s->coordinates.at[i]);
+
+        if ((x->lo != QDOT_NIL && x->lo_open) || (x->hi != QDOT_NIL && x->hi_open))
+            return true;
+    }
+    return false;
+}
+
+qdot_status
+qdot_rest_pole(const qdot_rest *r, const char **pole)
+{
+    qdot_chart_groups groups = {0};
+    qdot_status status;
+
+    *pole = NULL;
+    if (!has_open_end(r->s))
+        return QDOT_OK;
+    status = qdot_chart_find(r->s, false, &groups);
+    for (size_t g = 0; g < groups.n && status == QDOT_OK && *pole == NULL; g++) {
+        const qdot_chart_group *of = &groups.at[g];
+        const qdot_expr d = of->kind == QDOT_CHART_ROOT ? QDOT_ONE : qdot_chart_distance(r->s, of);
+
+        for (size_t i = 0; i < qdot_chart_size(of->kind) && *pole == NULL && d != QDOT_NIL && status == QDOT_OK; i++) {
+            const qdot_expr q = r->s->coordinates.at[of->index[i]];
+            bool regular = is_zero_at_end(r->pool, d, q);
+
+            if (regular)
+                status = is_regular(r->s, &groups, g, &regular);
+            if (regular && status == QDOT_OK)
+                *pole = qdot_expr_symbol(r->pool, q)->name;
+        }
+        if (status != QDOT_OK)
+            break;
+        status = qdot_pool_check(r->pool);
+    }
+    qdot_free(groups.at);
+    return status;
 }

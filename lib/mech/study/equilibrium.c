@@ -383,9 +383,11 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = judge(&r, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
+    if (status == QDOT_OK && r.found.n == 0)
+        status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;
     out->n = r.found.n;
-    out->complete = r.complete;
+    out->complete = r.complete && out->pole == NULL;
     out->recurs = r.recurs && r.found.n > 0;
     r.found.at = NULL;
     qdot_rest_end(&r);

@@ -32,6 +32,8 @@ typedef struct {
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */
     qdot_expr special;    /* a LIST of what values divide by: where one is 0 this is not the list; nil: none */
+    const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there;
+                           * asked where none was found elsewhere; NULL: none. The pool's */
     const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
 } qdot_equilibria;
 
