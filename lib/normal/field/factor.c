@@ -325,8 +325,8 @@ place(const index_of *index, const qdot_groups *out, slong gens, const ulong *ke
     for (slong v = 0; v < gens; v++)
         hash = (hash ^ key[v]) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29;
     for (size_t k = hash & (index->size - 1);; k = (k + 1) & (index->size - 1))
-        if (index->at[k] < 0 || memcmp(out->key + index->at[k] * gens, key,
-                                       (size_t)gens * sizeof *key) == 0)
+        if (index->at[k] < 0 || gens == 0 ||
+            memcmp(out->key + index->at[k] * gens, key, (size_t)gens * sizeof *key) == 0)
             return k;
 }
 
@@ -384,7 +384,8 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
             if (status != QDOT_OK)
                 break;
             at = index.at[slot] = out->n++;
-            memcpy(out->key + at * gens, key, (size_t)gens * sizeof *key);
+            if (gens > 0)
+                memcpy(out->key + at * gens, key, (size_t)gens * sizeof *key);
             fmpz_mpoly_init(out->poly + at, f->ctx);
         }
         /* within a group the order of the terms is that of p */
