@@ -1,6 +1,7 @@
 /* All zeros in a box: against zeros known beforehand, and what cannot be decided. */
 #include <setjmp.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "kit.h"
 

@@ -1,6 +1,8 @@
 /* test_gates.c -- branches that are not taken hold no switch, and need not be defined. */
 #include "scenes.h"
 
+#include <stdlib.h>
+
 #include "sim/model/gates.h"
 #include "sim/model/switch.h"
 
