@@ -27,6 +27,7 @@ library_sources = \
 	lib/expr/construct.c \
 	lib/expr/elementary.c \
 	lib/expr/expand.c \
+	lib/expr/list.c \
 	lib/expr/number.c \
 	lib/expr/order.c \
 	lib/expr/pool.c \
@@ -713,6 +714,7 @@ library_headers = \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
 	lib/expr/function.def \
+	lib/expr/list.h \
 	lib/expr/pool.h \
 	lib/expr/print-name.h \
 	lib/expr/print-parts.h \
@@ -1292,6 +1294,7 @@ unit_tests = \
 	tests/expr/test_calculus \
 	tests/expr/test_expand \
 	tests/expr/test_function \
+	tests/expr/test_list \
 	tests/expr/test_order \
 	tests/expr/test_pool \
 	tests/expr/test_print \

@@ -2,6 +2,7 @@
 #include "lang/functions/equilibria.h"
 
 #include "expr/calculus.h"
+#include "expr/list.h"
 #include "lang/answer/answer.h"
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
@@ -33,37 +34,24 @@ qdot_equilibria_find(qdot_session *session, qdot_equilibria *out)
 qdot_expr
 qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e)
 {
-    uint32_t n = qdot_expr_count(pool, e->equations),
-             m = e->range == QDOT_NIL ? 0 : qdot_expr_count(pool, e->range);
-    qdot_expr *all, list;
-
-    if (m == 0)
-        return e->equations;
-    all = qdot_malloc((n + m) * sizeof *all);
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < n + m; i++)
-        all[i] = i < n ? qdot_expr_arg(pool, e->equations, i) : qdot_expr_arg(pool, e->range, i - n);
-    list = qdot_list(pool, n + m, all);
-    qdot_free(all);
-    return list;
+    return e->range == QDOT_NIL ? e->equations
+                                : qdot_list_appended(pool, e->equations, qdot_expr_count(pool, e->range),
+                                                     qdot_expr_args(pool, e->range));
 }
 
 /* Those of a LIST that are equations: without the range of a band. */
 static qdot_expr
 equations_of(qdot_pool *pool, qdot_expr list)
 {
-    uint32_t n = qdot_expr_count(pool, list), kept = 0;
-    qdot_expr *all = qdot_malloc((n + 1) * sizeof *all);
+    qdot_expr equations = qdot_list(pool, 0, NULL);
 
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < n; i++)
-        if (qdot_expr_node(pool, qdot_expr_arg(pool, list, i))->op == QDOT_EQ)
-            all[kept++] = qdot_expr_arg(pool, list, i);
-    list = qdot_list(pool, kept, all);
-    qdot_free(all);
-    return list;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
+        qdot_expr one = qdot_expr_arg(pool, list, i);
+
+        if (qdot_expr_node(pool, one)->op == QDOT_EQ)
+            equations = qdot_list_appended(pool, equations, 1, &one);
+    }
+    return equations;
 }
 
 qdot_status

@@ -18,17 +18,10 @@ enum { LONGEST = 40, MOST_SPECIALS = 6 };
 static qdot_status
 print_condition(qdot_pool *pool, qdot_expr relation, qdot_text *text)
 {
-    qdot_expr right = qdot_expr_kind(pool, relation) == QDOT_REL
-                          ? qdot_expr_arg(pool, relation, 1)
-                          : QDOT_NIL;
-    bool nonzero = right != QDOT_NIL && qdot_expr_node(pool, relation)->op == QDOT_LT &&
-                   qdot_expr_arg(pool, relation, 0) == QDOT_ZERO &&
-                   qdot_expr_kind(pool, right) == QDOT_FUN &&
-                   qdot_expr_node(pool, right)->op == QDOT_ABS;
+    qdot_expr u = qdot_conditions_nonzero(pool, relation);
 
-    QDOT_TRY(qdot_print(pool, nonzero ? qdot_expr_arg(pool, right, 0) : relation,
-                        QDOT_PLAIN, text));
-    if (nonzero)
+    QDOT_TRY(qdot_print(pool, u != QDOT_NIL ? u : relation, QDOT_PLAIN, text));
+    if (u != QDOT_NIL)
         qdot_text_add(text, " != 0");
     return qdot_text_status(text);
 }
@@ -104,15 +97,11 @@ notice_conditions(qdot_session *session, qdot_expr x, const qdot_root *root,
 static qdot_expr
 relation_value(qdot_pool *pool, qdot_expr relation)
 {
-    qdot_expr right = qdot_expr_arg(pool, relation, 1), equal;
+    qdot_expr u = qdot_conditions_nonzero(pool, relation), equal;
 
-    if (qdot_expr_kind(pool, relation) != QDOT_REL ||
-        qdot_expr_node(pool, relation)->op != QDOT_LT ||
-        qdot_expr_arg(pool, relation, 0) != QDOT_ZERO ||
-        qdot_expr_kind(pool, right) != QDOT_FUN ||
-        qdot_expr_node(pool, right)->op != QDOT_ABS)
+    if (u == QDOT_NIL)
         return relation;
-    equal = qdot_rel(pool, QDOT_EQ, qdot_expr_arg(pool, right, 0), QDOT_ZERO);
+    equal = qdot_rel(pool, QDOT_EQ, u, QDOT_ZERO);
     return qdot_logic(pool, QDOT_NOT, 1, &equal);
 }
 

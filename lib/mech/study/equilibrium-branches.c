@@ -16,24 +16,7 @@
 
 enum { MOST_MEMBERS = 64 };
 
-/* --- lists ----------------------------------------------------------------------- */
-
-qdot_expr
-qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n, const qdot_expr *more)
-{
-    uint32_t old = list == QDOT_NIL ? 0 : qdot_expr_count(pool, list);
-    qdot_expr *all = qdot_malloc((old + n + 1) * sizeof *all);
-
-    if (all == NULL)
-        return qdot_pool_fail(pool);
-    for (uint32_t i = 0; i < old; i++)
-        all[i] = qdot_expr_arg(pool, list, i);
-    for (size_t i = 0; i < n; i++)
-        all[old + i] = more[i];
-    list = qdot_list(pool, (uint32_t)(old + n), all);
-    qdot_free(all);
-    return list;
-}
+/* --- values put in --------------------------------------------------------------- */
 
 qdot_expr
 qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
@@ -264,11 +247,11 @@ with_divisor_zero(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, 
     qdot_rest_branch next = *b;
 
     next.first = many ? qdot_expr_arg(pool, divisor, 0) : divisor;
-    next.equations = qdot_rest_appended(pool, equations, 1, &factor);
+    next.equations = qdot_list_appended(pool, equations, 1, &factor);
     for (uint32_t i = 1; i < n; i++) {
         qdot_expr one = qdot_expr_arg(pool, divisor, i);
 
-        next.equations = qdot_rest_appended(pool, next.equations, 1, &one);
+        next.equations = qdot_list_appended(pool, next.equations, 1, &one);
     }
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&r->todo, next);

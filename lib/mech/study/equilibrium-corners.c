@@ -115,8 +115,8 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
                 room[0] = side;
                 for (size_t k = 0; k < n; k++)
                     G[k] = with[k];
-                r->friction = qdot_rest_appended(pool, r->friction, 1, room);
-                r->slips = qdot_rest_appended(pool, r->slips, 1, &u);
+                r->friction = qdot_list_appended(pool, r->friction, 1, room);
+                r->slips = qdot_list_appended(pool, r->slips, 1, &u);
                 r->sliding = qdot_conditions_and(pool, r->sliding, when);
             }
             qdot_free(with);
@@ -159,7 +159,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
         if ((which >> k & 1) == 0)
             continue;
         back = push_back(r, count, G, side_symbol(pool, MOST_CORNERS + k), u[k], 0);
-        b.equations = qdot_rest_appended(pool, b.equations, 1, &u[k]);
+        b.equations = qdot_list_appended(pool, b.equations, 1, &u[k]);
         if (b.conditions != QDOT_FALSE && back != QDOT_NIL)
             b.conditions = qdot_conditions_and(pool, b.conditions,
                                                qdot_rel(pool, QDOT_LT, QDOT_ZERO, back));

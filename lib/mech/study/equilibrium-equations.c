@@ -75,7 +75,7 @@ at_time(qdot_rest *r, qdot_expr e, qdot_expr time, qdot_expr *list)
 
         one = qdot_simplify(r->pool, one, &r->facts);
         if (one != QDOT_NIL && one != QDOT_ZERO && !qdot_is_zero(r->pool, one, &r->facts))
-            *list = qdot_rest_appended(r->pool, *list, 1, &one);
+            *list = qdot_list_appended(r->pool, *list, 1, &one);
         e = qdot_diff(r->pool, e, QDOT_T);
         QDOT_TRY(qdot_pool_check(r->pool));
     }
@@ -91,7 +91,7 @@ qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations, qdot_expr *list)
         qdot_status status;
 
         if ((qdot_mech_holds(r->s, e) & QDOT_HAS_TIME) == 0) {
-            *list = qdot_rest_appended(r->pool, *list, 1, &e);
+            *list = qdot_list_appended(r->pool, *list, 1, &e);
             continue;
         }
         status = at_time(r, e, QDOT_ZERO, &with);

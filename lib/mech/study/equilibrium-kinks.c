@@ -16,6 +16,7 @@
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
 #include "normal/prove/decide.h"
+#include "normal/prove/rewrite.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
@@ -120,23 +121,6 @@ half(qdot_pool *pool, qdot_expr e)
     return qdot_div(pool, e, qdot_expr_int(pool, 2));
 }
 
-/* max(a, b, ...) or min, by absolute values. */
-static qdot_expr
-extreme_by_size(qdot_pool *pool, qdot_expr e)
-{
-    bool max = is_function(pool, e, QDOT_MAX);
-    qdot_expr a = qdot_expr_arg(pool, e, 0);
-
-    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i++) {
-        qdot_expr b = qdot_expr_arg(pool, e, i),
-                  gap = qdot_fun1(pool, QDOT_ABS, qdot_sub(pool, a, b));
-
-        a = qdot_add(pool, a, b);
-        a = half(pool, max ? qdot_add(pool, a, gap) : qdot_sub(pool, a, gap));
-    }
-    return a;
-}
-
 static qdot_expr
 function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 {
@@ -147,7 +131,7 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     if (w->status != QDOT_OK || !holds_coordinate(w->r, e))
         return e;
     if (is_function(pool, e, QDOT_MAX) || is_function(pool, e, QDOT_MIN))
-        return extreme_by_size(pool, e);
+        return qdot_rewrite_extreme(pool, e);
     if (!is_function(pool, e, QDOT_IF))
         return e;
     u = condition_gap(pool, qdot_expr_arg(pool, e, 0));
@@ -214,7 +198,7 @@ qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out)
     for (uint32_t i = 0; i < n; i++) {
         qdot_expr one = qdot_simplify(pool, qdot_expr_arg(pool, by, i), &r->facts);
 
-        all = qdot_rest_appended(pool, all, 1, &one);
+        all = qdot_list_appended(pool, all, 1, &one);
     }
     *out = all;
     return qdot_pool_check(pool);

@@ -34,7 +34,7 @@ append_range(qdot_rest *r, const qdot_equilibrium *all, qdot_expr u, qdot_expr e
                   others = qdot_subs(pool, all->equations, 1, &u, &band->lo);
 
         if (others != QDOT_NIL)
-            one.equations = qdot_rest_appended(pool, qdot_list(pool, 1, &at),
+            one.equations = qdot_list_appended(pool, qdot_list(pool, 1, &at),
                                                qdot_expr_count(pool, others),
                                                qdot_expr_args(pool, others));
     } else {

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/list.h"
 #include "expr/walk.h"
 #include "mech/scene/things.h"
 #include "mech/study/rest.h"
@@ -45,10 +46,6 @@ QDOT_MUST_CHECK qdot_status qdot_rest_begin(qdot_rest *r, qdot_scene *s);
 QDOT_MUST_CHECK qdot_status qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user,
                                            qdot_equilibria *out);
 void qdot_rest_end(qdot_rest *r);
-
-/* A LIST and n more; nil stands for the empty one. */
-qdot_expr qdot_rest_appended(qdot_pool *pool, qdot_expr list, size_t n,
-                             const qdot_expr *more);
 
 /* e with the values of equations u = value put in, all at once. */
 qdot_expr qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values);

@@ -67,7 +67,7 @@ add_divisors(const qdot_rest *r, const qdot_equilibrium *e, qdot_expr *special)
             if (!out)
                 status = is_excluded(r, e->exists, base, &out);
             if (!out && status == QDOT_OK)
-                *special = qdot_rest_appended(pool, *special, 1, &base);
+                *special = qdot_list_appended(pool, *special, 1, &base);
         }
     }
     qdot_walk_end(&w);

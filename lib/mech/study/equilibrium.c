@@ -63,7 +63,7 @@ places_alone(const qdot_rest *r, qdot_expr equations)
         qdot_expr one = qdot_expr_arg(r->pool, equations, k);
 
         if (qdot_expr_is_class(r->pool, qdot_expr_arg(r->pool, one, 0), QDOT_COORD))
-            list = qdot_rest_appended(r->pool, list, 1, &one);
+            list = qdot_list_appended(r->pool, list, 1, &one);
     }
     return list;
 }

@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "normal/field/field.h"
 #include "normal/field/prepare.h"
+#include "normal/prove/rewrite.h"
 #include "normal/prove/zero.h"
 #include "normal/refute/constant.h"
 
@@ -232,22 +233,6 @@ generator(substitutes *s, qdot_field *f, slong v)
     }
 }
 
-/* (x + y + |x - y|)/2 and so on. */
-static qdot_expr
-extreme(qdot_pool *pool, qdot_expr e, bool most)
-{
-    qdot_expr best = qdot_expr_arg(pool, e, 0);
-
-    for (uint32_t i = 1; i < qdot_expr_count(pool, e); i++) {
-        qdot_expr y = qdot_expr_arg(pool, e, i);
-        qdot_expr gap = qdot_fun1(pool, QDOT_ABS, qdot_sub(pool, best, y));
-
-        gap = most ? gap : qdot_neg(pool, gap);
-        best = qdot_mul(pool, QDOT_HALF, qdot_add(pool, qdot_add(pool, best, y), gap));
-    }
-    return best;
-}
-
 /* floor(u) = u - y, mod(u, m) = m y for m > 0, 0 <= y < 1; max and min. */
 static qdot_expr
 apart(qdot_pool *pool, qdot_expr e, void *user)
@@ -270,7 +255,7 @@ apart(qdot_pool *pool, qdot_expr e, void *user)
         stand_for(s, e, y);
         return qdot_mul(s->pool, m, y);
     case QDOT_MAX:
-    case QDOT_MIN: return extreme(pool, e, qdot_expr_node(s->pool, e)->op == QDOT_MAX);
+    case QDOT_MIN: return qdot_rewrite_extreme(pool, e);
     default: return QDOT_NIL;
     }
 }

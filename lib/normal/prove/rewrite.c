@@ -28,9 +28,10 @@ log_ratio(qdot_pool *pool, qdot_expr v)
     return half(pool, qdot_fun1(pool, QDOT_LOG, qdot_div(pool, up, down)));
 }
 
-static qdot_expr
-extreme(qdot_pool *pool, qdot_expr e, bool most)
+qdot_expr
+qdot_rewrite_extreme(qdot_pool *pool, qdot_expr e)
 {
+    bool most = qdot_expr_node(pool, e)->op == QDOT_MAX;
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr best = qdot_expr_arg(pool, e, 0);
 
@@ -116,8 +117,8 @@ function(qdot_pool *pool, qdot_expr e, bool exponentials)
     case QDOT_ACOSH: return area(pool, v, QDOT_MINUS_ONE);
     case QDOT_ATANH: return log_ratio(pool, v);
     case QDOT_ERFC: return qdot_sub(pool, QDOT_ONE, qdot_fun1(pool, QDOT_ERF, v));
-    case QDOT_MAX: return extreme(pool, e, true);
-    case QDOT_MIN: return extreme(pool, e, false);
+    case QDOT_MAX:
+    case QDOT_MIN: return qdot_rewrite_extreme(pool, e);
     case QDOT_MOD: return modulo(pool, v, qdot_expr_arg(pool, e, 1));
     case QDOT_FLOOR: return whole_part(pool, v);
     case QDOT_SINH:

@@ -18,6 +18,9 @@
 /* e rewritten, children first; nil on failure. */
 qdot_expr qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials);
 
+/* max(x, y, ...) or min by absolute values, as above; nil on failure. */
+qdot_expr qdot_rewrite_extreme(qdot_pool *pool, qdot_expr e);
+
 /* Whether an exponential occurs in e (or would, rewritten). */
 bool qdot_rewrite_has_exp(const qdot_pool *pool, qdot_expr e);
 

@@ -360,26 +360,36 @@ conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_exp
     return set;
 }
 
-qdot_expr
-qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
+/* What one part of f, which holds x (nil: any), adds to a set. */
+typedef qdot_expr conditions_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x);
+
+static qdot_expr
+conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_part *of_part)
 {
     qdot_expr set = QDOT_NIL;
     qdot_walk w;
 
     if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n; i++) {
-        qdot_expr node = w.at[i];
-
-        if (x != QDOT_NIL && !qdot_expr_contains(pool, node, x))
-            continue;
-        if (qdot_expr_kind(pool, node) == QDOT_FUN)
-            set = conditions_of_function(pool, set, node);
-        else if (qdot_expr_kind(pool, node) == QDOT_PROD)
-            set = conditions_of_powers(pool, set, node, x);
-    }
+    for (size_t i = 0; i < w.n; i++)
+        if (x == QDOT_NIL || qdot_expr_contains(pool, w.at[i], x))
+            set = of_part(pool, set, w.at[i], x);
     qdot_walk_end(&w);
     return set;
+}
+
+static qdot_expr
+domain_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
+{
+    if (qdot_expr_kind(pool, part) == QDOT_FUN)
+        return conditions_of_function(pool, set, part);
+    return qdot_expr_kind(pool, part) == QDOT_PROD ? conditions_of_powers(pool, set, part, x) : set;
+}
+
+qdot_expr
+qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
+{
+    return conditions_of_parts(pool, f, x, domain_of_part);
 }
 
 /* --- where it is divided -------------------------------------------------------------- */
@@ -406,31 +416,39 @@ conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
     }
 }
 
+static qdot_expr
+divisors_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
+{
+    if (qdot_expr_kind(pool, part) == QDOT_FUN)
+        return conditions_of_pole(pool, set, part);
+    if (qdot_expr_kind(pool, part) != QDOT_PROD)
+        return set;
+    for (uint32_t k = 1; k < qdot_expr_count(pool, part); k += 2) {
+        qdot_expr base = qdot_expr_arg(pool, part, k);
+        const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, part, k + 1));
+
+        if (q != NULL && fmpq_sgn(q) < 0 && (x == QDOT_NIL || qdot_expr_contains(pool, base, x)))
+            set = conditions_add_nonzero(pool, set, base);
+    }
+    return set;
+}
+
 qdot_expr
 qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
 {
-    qdot_expr set = QDOT_NIL;
-    qdot_walk w;
+    return conditions_of_parts(pool, f, x, divisors_of_part);
+}
 
-    if (qdot_walk_begin(pool, f, &w) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n; i++) {
-        qdot_expr node = w.at[i];
-        bool product = qdot_expr_kind(pool, node) == QDOT_PROD;
+qdot_expr
+qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation)
+{
+    qdot_expr right;
 
-        if (x != QDOT_NIL && !qdot_expr_contains(pool, node, x))
-            continue;
-        if (qdot_expr_kind(pool, node) == QDOT_FUN)
-            set = conditions_of_pole(pool, set, node);
-        for (uint32_t k = 1; product && k < qdot_expr_count(pool, node); k += 2) {
-            qdot_expr base = qdot_expr_arg(pool, node, k);
-            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, node, k + 1));
-
-            if (q != NULL && fmpq_sgn(q) < 0 &&
-                (x == QDOT_NIL || qdot_expr_contains(pool, base, x)))
-                set = conditions_add_nonzero(pool, set, base);
-        }
-    }
-    qdot_walk_end(&w);
-    return set;
+    if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op != QDOT_LT ||
+        qdot_expr_arg(pool, relation, 0) != QDOT_ZERO)
+        return QDOT_NIL;
+    right = qdot_expr_arg(pool, relation, 1);
+    return qdot_expr_kind(pool, right) == QDOT_FUN && qdot_expr_node(pool, right)->op == QDOT_ABS
+               ? qdot_expr_arg(pool, right, 0)
+               : QDOT_NIL;
 }

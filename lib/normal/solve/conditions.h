@@ -38,6 +38,8 @@ qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdo
 qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0. */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
+/* u, where the relation is 0 < |u|; else nil. */
+qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
 
 /* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than
  * that are left out. */

@@ -9,6 +9,20 @@
 
 /* --- at a state ----------------------------------------------------------------------- */
 
+/* |g_i - g| at time t and the state y with its component k (2n: none) at `to`; 0 where g_i is undefined there. */
+static qdot_status
+moved_by(qdot_watch *w, double t, const double *y, size_t k, double to, size_t i, double g, double *change)
+{
+    qdot_status status;
+
+    memcpy(w->in, y, 2 * w->n * sizeof *y);
+    if (k < 2 * w->n)
+        w->in[k] = to;
+    status = qdot_watch_value(w, t, w->moved);
+    *change = status == QDOT_OK ? fabs(w->moved[i] - g) : 0;
+    return status == QDOT_EDOMAIN || status == QDOT_ESINGULAR ? QDOT_OK : status;
+}
+
 qdot_status
 qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double least, size_t i,
                  double *noise)
@@ -21,19 +35,12 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
     g = w->moved[i];
     for (size_t k = 0; k <= 2 * w->n; k++) {
         double at = k < 2 * w->n ? y[k] : t,
-               to = at + by * copysign(fmax(least, fabs(at)), at);
-        qdot_status status;
+               to = at + by * copysign(fmax(least, fabs(at)), at), change;
 
         if (to == at)
             continue;
-        memcpy(w->in, y, 2 * w->n * sizeof *y);
-        if (k < 2 * w->n)
-            w->in[k] = to;
-        status = qdot_watch_value(w, k < 2 * w->n ? t : to, w->moved);
-        if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR)
-            continue;
-        QDOT_TRY(status);
-        *noise += fabs(w->moved[i] - g);
+        QDOT_TRY(moved_by(w, k < 2 * w->n ? t : to, y, k, to, i, g, &change));
+        *noise += change;
     }
     return QDOT_OK;
 }
@@ -66,17 +73,12 @@ qdot_watch_noise_of(qdot_watch *w, double t, const double *y, const double *by, 
     g = w->moved[i];
     for (size_t k = 0; k < 2 * w->n; k++) {
         const double h = 0x1p-20 * fmax(fabs(y[k]), by[k]);
-        qdot_status status;
+        double change;
 
         if (by[k] == 0)
             continue;
-        memcpy(w->in, y, 2 * w->n * sizeof *y);
-        w->in[k] += h;
-        status = qdot_watch_value(w, t, w->moved);
-        if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR)
-            continue;
-        QDOT_TRY(status);
-        *noise += fabs(w->moved[i] - g) * (4 * DBL_EPSILON * by[k] / h);
+        QDOT_TRY(moved_by(w, t, y, k, y[k] + h, i, g, &change));
+        *noise += change * (4 * DBL_EPSILON * by[k] / h);
     }
     return QDOT_OK;
 }

@@ -1,0 +1,28 @@
+/* test_list.c -- a list and more members. */
+#include "kit.h"
+
+#include "expr/list.h"
+
+static void
+members_stand_in_their_order(void **state)
+{
+    qdot_expr a = p.symbol[0], b = p.symbol[1], more[] = {b, a, b};
+    qdot_expr list = qdot_list_appended(p.pool, QDOT_NIL, 1, &a);
+
+    (void)state;
+    assert_int_equal(list, qdot_list(p.pool, 1, &a));
+    list = qdot_list_appended(p.pool, list, 3, more);
+    assert_int_equal(list, qdot_list(p.pool, 4, (qdot_expr[]){a, b, a, b}));
+    assert_int_equal(qdot_list_appended(p.pool, list, 0, NULL), list);
+    assert_int_equal(qdot_list_appended(p.pool, QDOT_NIL, 0, NULL), qdot_list(p.pool, 0, NULL));
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(members_stand_in_their_order),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
