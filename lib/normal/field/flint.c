@@ -231,7 +231,7 @@ typedef struct {
     qdot_error error; /* the last failure: of who asks, then of who answers */
 } worker;
 
-/* The one of this thread, and what ends it with this thread. */
+/* The one of this thread, and what ends it with this thread, which may have computed with FLINT itself. */
 static _Thread_local worker *mine;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_key_t key;
@@ -286,10 +286,8 @@ compute_for(void *user)
 }
 
 static void
-end(void *user)
+end(worker *w)
 {
-    worker *w = user;
-
     pthread_mutex_lock(&w->lock);
     w->state = ENDING;
     pthread_cond_signal(&w->changed);
@@ -305,13 +303,23 @@ static void
 forget(void)
 {
     mine = NULL;
-    (void)pthread_setspecific(key, NULL);
+}
+
+static void
+thread_ends(void *place)
+{
+    worker **its = place;
+
+    if (*its != NULL)
+        end(*its);
+    *its = NULL;
+    flint_cleanup();
 }
 
 static void
 make_key(void)
 {
-    (void)pthread_key_create(&key, end);
+    (void)pthread_key_create(&key, thread_ends);
     (void)pthread_atfork(NULL, NULL, forget);
 }
 
@@ -341,7 +349,7 @@ begin(void)
         (void)qdot_fail(QDOT_ENOMEM, "the system refuses a thread for exact computations");
         return NULL;
     }
-    (void)pthread_setspecific(key, w);
+    (void)pthread_setspecific(key, &mine);
     return w;
 }
 
@@ -377,7 +385,6 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
     pthread_mutex_unlock(&mine->lock);
 
     if (ended) {
-        (void)pthread_setspecific(key, NULL);
         end(mine);
         mine = NULL;
     }
