@@ -2132,6 +2132,7 @@ script_tests = \
 
 meta_tests = \
 	tests/meta/bootstrap.test \
+	tests/meta/ci.test \
 	tests/meta/circles.test \
 	tests/meta/editors.test \
 	tests/meta/embed.test \
