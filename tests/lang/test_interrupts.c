@@ -2,11 +2,9 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "talk.h"
+#include "own-folder.h"
 
 #include <pthread.h>
-#include <unistd.h>
-
-#define EXPORTED P_tmpdir "/qdot-interrupts.c"
 
 /* Scenes and statements that run, search, read or write; each short, for it is done once for every check. */
 static const struct {
@@ -56,7 +54,7 @@ static const struct {
     {"equations as functions",
      "param l > 0\ncoord a, b\nparticle p mass 1 at (l*sin(a), -l*cos(a))\n"
      "particle q mass 1 at (l*sin(a) + l*sin(2*a + b), -l*cos(a) - l*cos(2*a + b))\ngravity (0, -1)",
-     "export c eom to \"" EXPORTED "\""},
+     "export c eom to \"motion.c\""},
 };
 
 /* Carry out the statement with Ctrl-C at the n-th place, then once more; whether none was reached. */
@@ -112,14 +110,6 @@ it_may_come_between_checks(void **state)
     at_every_place("allocation", qdot_memory_press_at, 40);
 }
 
-static int
-remove_exported(void **state)
-{
-    (void)state;
-    (void)unlink(EXPORTED);
-    return 0;
-}
-
 static void *
 run_all(void *failed)
 {
@@ -128,7 +118,7 @@ run_all(void *failed)
         cmocka_unit_test(it_may_come_between_checks),
     };
 
-    *(int *)failed = cmocka_run_group_tests(tests, NULL, remove_exported);
+    *(int *)failed = cmocka_run_group_tests(tests, own_folder_enter, own_folder_leave);
     return NULL;
 }
 
