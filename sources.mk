@@ -696,6 +696,7 @@ library_headers = \
 	lib/base/file-lock.h \
 	lib/base/interrupt.h \
 	lib/base/items.h \
+	lib/base/memory-failure.h \
 	lib/base/memory.h \
 	lib/base/mpi.h \
 	lib/base/progress.h \

@@ -1,21 +1,32 @@
 /* memory.c -- every allocation of the library, so that any of them can be made to fail. */
 #include "base/memory.h"
 
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "base/memory-failure.h"
 #include "base/scope.h"
 
-static long fail_after = -1, press_after = -1;
+static atomic_bool ran_out; /* in any thread */
+static long fail_after = -1, fail_once_after = -1, press_after = -1;
 
 static void *
 checked(void *block, size_t size)
 {
-    if (block == NULL)
+    if (block == NULL) {
+        atomic_store(&ran_out, true);
         (void)qdot_fail(QDOT_ENOMEM, "out of memory (%zu bytes wanted)", size);
+    }
     return block;
+}
+
+bool
+qdot_memory_ran_out(void)
+{
+    return atomic_exchange(&ran_out, false);
 }
 
 static bool
@@ -23,6 +34,8 @@ must_fail(void)
 {
     if (press_after >= 0 && press_after-- == 0)
         qdot_interrupt_set();
+    if (fail_once_after >= 0 && fail_once_after-- == 0)
+        return true;
     if (fail_after < 0)
         return false;
     if (fail_after > 0) {
@@ -36,6 +49,15 @@ void
 qdot_memory_fail_at(long n)
 {
     fail_after = n;
+}
+
+long
+qdot_memory_fail_once_at(long n)
+{
+    const long left = fail_once_after;
+
+    fail_once_after = n;
+    return left;
 }
 
 void

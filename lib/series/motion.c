@@ -225,7 +225,7 @@ qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
         for (size_t k = from; k < m->entries.n; k++) {
             const qdot_motion_entry *x = m->entries.at + k;
 
-            if (m->program.rows.at[x->at].still != number)
+            if (m->program.rows.n > 0 /* none: its end fails */ && m->program.rows.at[x->at].still != number)
                 continue;
             add_product(b, x->at, lines[x->j].u, lines + x->i);
             if (x->i != x->j)

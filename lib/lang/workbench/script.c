@@ -10,6 +10,7 @@
 #include <time.h>
 
 #include "base/interrupt.h"
+#include "base/memory-failure.h"
 #include "base/progress.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/sheet.h"
@@ -225,6 +226,8 @@ statement(engine *x, size_t i)
         status = qdot_sheet_flush(x->session);
     else
         qdot_text_clear(&x->session->block);
+    if (qdot_memory_ran_out() && status == QDOT_OK) /* where it was not passed on, a part of the answer may be lost */
+        status = qdot_fail(QDOT_ENOMEM, "out of memory on the way: what was answered may be incomplete");
     if (status == QDOT_OK)
         return tell_unfinished(x->session, &x->tokens[i]);
     x->error_at = c.error_at;

@@ -97,8 +97,10 @@ add_fresh(qdot_chart *c, qdot_expr given, qdot_expr *q)
     qdot_text name = {0};
     qdot_status status = qdot_print(c->pool, given, QDOT_PLAIN, &name);
 
-    if (status == QDOT_OK)
+    if (status == QDOT_OK) {
         *q = qdot_symbol_get(c->pool, QDOT_COORD, qdot_text_str(&name));
+        status = qdot_pool_check(c->pool);
+    }
     qdot_text_clear(&name);
     QDOT_TRY(status);
     return qdot_vec_push(&c->fresh, ((qdot_chart_fresh){*q, given}));
