@@ -2,7 +2,8 @@
  * none the worse, the session can be used again, and every file is the old one or the whole new one.
  *
  * The n-th call fails, for some n of each script, for all n where QDOT_RELIABILITY is `long`; of calls that write,
- * for all n. `QDOT_RELIABILITY=long test_failures [SCRIPT...]` is the whole of these scripts, of all if there is none.
+ * for all n. `QDOT_RELIABILITY=long test_failures [SCRIPT...]` is the whole of these scripts, of all if there is none;
+ * `QDOT_RELIABILITY=97` every 97th.
  */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* RTLD_NEXT */
@@ -135,6 +136,15 @@ is_long(void)
     const char *form = getenv("QDOT_RELIABILITY");
 
     return form != NULL && strcmp(form, "long") == 0;
+}
+
+/* QDOT_RELIABILITY as a number: every so many-th allocation; else 0. */
+static long
+stride(void)
+{
+    const char *form = getenv("QDOT_RELIABILITY");
+
+    return form != NULL ? strtol(form, NULL, 10) : 0;
 }
 
 static void
@@ -362,7 +372,7 @@ fail_each(talk *k, const char *script, const char *statement, long *bad)
     long times = 0;
 
     assert_true(in_copy(k, script, statement, -1, usual));
-    for (long n = 0;; n += is_long() ? 1 : 3 + n) {
+    for (long n = 0;; n += is_long() ? 1 : stride() > 0 ? stride() : 3 + n) {
         found->left = -1;
         if (!in_copy(k, script, statement, n, found)) {
             times++;
@@ -452,7 +462,7 @@ static bool
 is_chosen(size_t i)
 {
     if (*chosen == NULL)
-        return is_long() || i % 4 == 0;
+        return is_long() || stride() > 0 || i % 4 == 0;
     for (char **one = chosen; *one != NULL; one++)
         if (strcmp(*one, scripts[i]) == 0)
             return true;
