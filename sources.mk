@@ -356,6 +356,7 @@ library_sources = \
 	lib/normal/solve/solve-factors.c \
 	lib/normal/solve/solve-inverse.c \
 	lib/normal/solve/solve-sort.c \
+	lib/normal/solve/solve-special.c \
 	lib/normal/solve/solve-system.c \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
@@ -954,6 +955,7 @@ library_headers = \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
 	lib/normal/solve/solutions.h \
+	lib/normal/solve/solve-special.h \
 	lib/normal/solve/solve-system.h \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
@@ -1342,6 +1344,7 @@ unit_tests = \
 	tests/normal/test_less \
 	tests/normal/test_simplify \
 	tests/normal/test_solve \
+	tests/normal/test_solve_special \
 	tests/normal/test_verdicts \
 	tests/normal/test_zeros \
 	tests/num/test_articulated \
@@ -1675,6 +1678,7 @@ script_tests = \
 	tests/script/solve-domains.lag \
 	tests/script/solve-line.lag \
 	tests/script/solve-numbers.lag \
+	tests/script/solve-parameters.lag \
 	tests/script/solve-special.lag \
 	tests/script/solve-system.lag \
 	tests/script/solve.lag \
@@ -1957,6 +1961,7 @@ script_tests = \
 	tests/bad/solve-far.lag \
 	tests/bad/solve-for-sum.lag \
 	tests/bad/solve-no-value.lag \
+	tests/bad/solve-no-values.lag \
 	tests/bad/solve-range.lag \
 	tests/bad/solve-reach.lag \
 	tests/bad/solve-system-beyond.lag \
@@ -2393,6 +2398,7 @@ test_files = \
 	tests/bad/solve-far.out \
 	tests/bad/solve-for-sum.out \
 	tests/bad/solve-no-value.out \
+	tests/bad/solve-no-values.out \
 	tests/bad/solve-range.out \
 	tests/bad/solve-reach.out \
 	tests/bad/solve-system-beyond.out \
@@ -2833,6 +2839,7 @@ test_files = \
 	tests/script/solve-domains.out \
 	tests/script/solve-line.out \
 	tests/script/solve-numbers.out \
+	tests/script/solve-parameters.out \
 	tests/script/solve-special.out \
 	tests/script/solve-system.out \
 	tests/script/solve.out \

@@ -26,7 +26,7 @@ class Entry:
 class Answer:
     def __init__(self):
         self.entries, self.notes = [], []
-        self.special = []                             # (relation of a parameter, the formulas that then solve; None: all)
+        self.special = []                             # ([(parameter, formula)], the entries there; None: every value)
         self.partial = self.none = self.every = self.turns = False
         self.error, self.hint, self.crash, self.status, self.output = None, None, None, 0, ""
 
@@ -71,6 +71,21 @@ def _equation(text, unknown, entry):
         entry.equations.append((unknown, text))
     else:
         raise Unreadable(text)
+
+
+def _special(where, sets, unknown):
+    """`for a = 0 and b = 1: x = V when C, x > 0`."""
+    at = [tuple(part.split(" = ", 1)) for part in where.split(" and ")]
+    if sets == "every value is a solution":
+        return at, None
+    entries = []
+    for part in _split(sets):
+        e = Entry(1, part)
+        text, _, when = part.partition(" when ")
+        e.exists = when or None
+        _equation(text, unknown, e)
+        entries.append(e)
+    return at, entries
 
 
 def ask(program, script, unknown=None, timeout=20):
@@ -121,10 +136,8 @@ def ask(program, script, unknown=None, timeout=20):
             words = o.get("text") or o.get("message") or ""
             exists = re.match(r"\w+ = (.*) exists (when .*)$", words) if o["kind"] == "notice" else None
             special = re.match(r"for (\w+ = [^:]*): (.*)$", words) if o["kind"] == "notice" else None
-            if special:
-                every = special[2] == "every value is a solution"
-                said.special.append((special[1], None if every else
-                                     [part.partition(" = ")[2].partition(" when ")[0] for part in _split(special[2])]))
+            if special and unknown is not None:
+                said.special.append(_special(special[1], special[2], unknown))
                 continue
             if exists:
                 pending.append((exists[1], exists[2]))

@@ -68,6 +68,25 @@ class Scene:
                 at[name] = value(formula, at)
             yield at
 
+    def edge_samples(self, count):
+        """Small and equal values of the parameters, where divisors vanish and roots meet."""
+        draw = random.Random(f"edges {self.kind} {self.seed} {self.index}")
+        out = []
+        for _ in range(20 * count if self.params else 0):
+            at = {}
+            for n, sign in self.params.items():
+                others = [v for o in at.values() for v in (o, o, -o, o ** 2, o ** 2 / 4, 1 / o if o else o)]
+                at[n] = draw.choice(others if others and draw.random() < 0.4 else
+                                    [mpmath.mpf(v) / 2 for v in (0, 0, 0, 2, -2, 1, -1, 4, -4, 6)])
+            both = [(value(bare(lo), at), value(bare(hi), at)) for _, lo, hi, _ in self.coords if lo and hi]
+            if all(v > 0 if self.params[n] == "> 0" else v < 0 if self.params[n] == "< 0" else True
+                   for n, v in at.items()) and all(lo < hi for lo, hi in both) and \
+                    all(value(a, at) is True for a in self.assume) and at not in out:
+                out.append(at)
+            if len(out) == count:
+                break
+        return out
+
     def full_potential(self):
         return " + ".join(p for p in [self.potential] + [f"{c}*abs({f})" for c, f in self.corners] if p)
 

@@ -151,7 +151,7 @@ def compare_roots(scene, said):
             of = " (of an interval)" if v in spans else ""
             missing(verdict, said, f"{x} = {mpmath.nstr(v, 12)} is missing at {short(at)}{of}")
             break
-    for at in scene.special_samples():
+    for at in [*scene.special_samples(), *scene.edge_samples(14)]:
         compare_special(verdict, scene, said, tree, x, at, known)
     for e, states in zip(said.entries, seen):
         if scene.params and not any(s == "root" for s, _, _ in states):
@@ -177,14 +177,23 @@ def compare_special(verdict, scene, said, tree, x, at, known):
                 listed.append(v)
             elif state != "idle":
                 verdict.add("condition", f"{e.text} [{e.words}] is none at {short(at)}")
-    for relation, formulas in said.special:
-        left, _, right = relation.partition(" = ")
-        if abs(value(left, at) - value(right, at)) > 1e-30:
+    sets = [e for e in said.entries if e.relations and not e.equations]
+    for where, entries in said.special:
+        sides = [(value(left, at), value(right, at)) for left, right in where]
+        if not all(abs(left - right) <= 1e-30 for left, right in sides):
             continue
-        every = every or formulas is None
-        for n in range(-8, 9):
-            listed += [Real.of(read(f), dict(at, n=mpmath.mpf(n))) for f in formulas or []]
+        every = every or entries is None
+        for e in entries or []:
+            for state, v in entry_states(e, scene, tree, x, at, lo, hi, known, scene.reach):
+                if state == "root":
+                    listed.append(v)
+                elif state != "idle":
+                    verdict.add("condition", f"special {e.text} is none at {short(at)}")
+            if e.relations and not e.equations:
+                sets.append(e)
     for v in [] if every else truth + spans:
+        if any(holds(e, dict(at, **{x: u})) for e in sets for u in (v, mpmath.nint(v * 720720) / 720720)):
+            continue
         if not any(abs(u - v) <= 1e-9 * (1 + abs(v)) or abs(wrap(u - v)) <= 1e-9 * (1 + abs(v)) for u in listed):
             missing(verdict, said, f"{x} = {mpmath.nstr(v, 12)} is missing at special {short(at)}")
             return

@@ -369,7 +369,7 @@ all_known(qdot_session *session, const qdot_assumed *f, const question *q)
     return (qdot_facts){f->relations.n, f->relations.at,
                         f->conditions.n, f->conditions.at,
                         f->motion && !f->stated ? 2 : 0,
-                        q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q)};
+                        q->passed.spoiled ? QDOT_NIL : passed_list(session, f, q), false};
 }
 
 /* Momenta on one side and velocities on the other, or in what is assumed: all in velocities. */

@@ -472,6 +472,19 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
 
 /* --- from a guess ------------------------------------------------------------------------------------------ */
 
+/* The set and the ends of the declared domain of x. */
+static qdot_expr
+add_declared(qdot_pool *pool, qdot_expr set, qdot_expr x)
+{
+    const qdot_window w = qdot_solve_window(pool, x, false);
+
+    if (w.lo != QDOT_NIL)
+        set = qdot_conditions_and(pool, set, qdot_rel(pool, w.lo_open ? QDOT_LT : QDOT_LE, w.lo, x));
+    if (w.hi != QDOT_NIL)
+        set = qdot_conditions_and(pool, set, qdot_rel(pool, w.hi_open ? QDOT_LT : QDOT_LE, x, w.hi));
+    return set;
+}
+
 qdot_status
 qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
                 const qdot_expr *unknowns, qdot_expr domain, bool list, qdot_expr *value)
@@ -492,13 +505,15 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
         QDOT_TRY(constant_of(&q, qdot_expr_arg(session->pool, unknowns[j], 1), &e));
         QDOT_TRY(double_of(&q, e, &guess[j]));
     }
+    for (uint32_t j = 0; j < n; j++)
+        domain = add_declared(session->pool, domain, qdot_expr_arg(session->pool, unknowns[j], 0));
     QDOT_TRY(qdot_zeros_near(session->pool, q.n, q.F, q.x, guess, &zeros));
     if (zeros.count > 0) {
         status = keep_defined(&q, domain, &zeros);
         if (status == QDOT_OK && zeros.count == 0) {
             (void)qdot_fail(QDOT_EFAILED,
-                            "where the zero that is reached lies, the equation as it is "
-                            "written is not defined");
+                            "the zero that is reached lies outside the declared domain, or where "
+                            "the equation as it is written is not defined");
             status = qdot_hint("another guess");
         }
         if (status == QDOT_OK)

@@ -51,43 +51,6 @@ domain_as_written(qdot_session *session, qdot_expr x)
                                qdot_conditions_of_divisors(pool, list, x));
 }
 
-/* The set and where f, as far as it does not hold x, is defined: decided. */
-static qdot_expr
-add_domain_of_parameters(qdot_pool *pool, qdot_expr set, qdot_expr f, qdot_expr x,
-                         const qdot_facts *facts)
-{
-    qdot_expr domain = qdot_conditions_of_domain(pool, f, QDOT_NIL),
-              room[QDOT_CONDITIONS_MOST], others = QDOT_NIL;
-    uint32_t n = domain == QDOT_NIL ? 0 : qdot_expr_count(pool, domain);
-    qdot_facts known = qdot_facts_and(pool, facts, set, room);
-
-    for (uint32_t i = 0; i < n; i++)
-        if (!qdot_expr_contains(pool, qdot_expr_arg(pool, domain, i), x))
-            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, domain, i));
-    others = qdot_conditions_at(pool, others, 0, NULL, NULL, &known);
-    return qdot_conditions_all(pool, set, others);
-}
-
-/* The roots that exist for some parameters, with what these must fulfil. */
-static qdot_status
-keep_defined_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x,
-                        const qdot_facts *facts, qdot_solutions *found)
-{
-    size_t kept = 0;
-
-    for (size_t i = 0; i < found->root.n; i++) {
-        qdot_root root = found->root.at[i];
-
-        root.condition =
-            add_domain_of_parameters(pool, root.condition, f, x, facts);
-        QDOT_TRY(qdot_pool_check(pool));
-        if (root.condition != QDOT_FALSE)
-            found->root.at[kept++] = root;
-    }
-    found->root.n = kept;
-    return QDOT_OK;
-}
-
 /* --- one unknown ------------------------------------------------------------------------------------- */
 
 /* A list of solutions in the making. */
@@ -115,7 +78,7 @@ solve_list_add(solve_list *l, qdot_solve_zero one)
 /* The exact roots to the list, with what their conditions are in notices. */
 static qdot_status
 add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
-          const qdot_specials *specials, solve_list *list)
+          solve_list *list)
 {
     qdot_pool *pool = session->pool;
 
@@ -127,8 +90,7 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
         QDOT_TRY(qdot_pool_check(pool));
         if (!list->constant)
             one.at = NAN;
-        QDOT_TRY(
-            qdot_solve_root_value(session, x, &found->root.at[i], specials, &one.value));
+        QDOT_TRY(qdot_solve_root_value(session, x, &found->root.at[i], &one.value));
         QDOT_TRY(qdot_vec_push(&list->at, one));
     }
     return QDOT_OK;
@@ -168,7 +130,8 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
     whole = whole && !holds_others(session, f, x);
     for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
-    rest = whole ? f : rest;
+    if (rest == QDOT_ONE) /* each factor alone is solved, all of them together are not */
+        rest = f;
     window = qdot_solve_window(pool, x, qdot_is_period(pool, 1, &rest, x, turn, &facts));
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
@@ -203,6 +166,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     qdot_status status;
     bool known = true, complete;
 
+    facts.exact = true;
     QDOT_TRY(is_symbol(session, x, "solve(a = b, x) takes a symbol for x"));
     if (f != QDOT_NIL)
         f = qdot_momenta_for(session, f, x);
@@ -215,11 +179,13 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     status = qdot_solve_inside(pool, f, x, domain, &facts, &found);
     complete = found.complete;
     if (status == QDOT_OK)
-        status = keep_defined_parameters(pool, f, x, &facts, &found);
+        status = qdot_solve_parameters(pool, f, x, &facts, &found);
     if (status == QDOT_OK && complete)
-        status = qdot_solve_specials(session, f, x, domain, &found, &specials);
+        status = qdot_solve_specials(pool, f, x, domain, &facts, &found, &specials);
     if (status == QDOT_OK)
-        status = add_exact(session, x, &found, &specials, &list);
+        status = qdot_solve_notice_specials(session, x, &specials);
+    if (status == QDOT_OK)
+        status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
         status = add_numbers(session, f, x, domain, &list, &found.recurs, &known);
     if (status == QDOT_OK && !known) {

@@ -242,7 +242,7 @@ append_place(qdot_rest *r, const place *p, qdot_expr conditions)
     QDOT_TRY(qdot_pool_check(r->pool));
     for (size_t i = 0; i < r->found.n; i++)
         if (r->found.at[i].equations == e.equations &&
-            qdot_conditions_join(r->pool, &r->found.at[i].exists, e.exists))
+            qdot_conditions_join(r->pool, &r->found.at[i].exists, e.exists, &r->facts))
             return qdot_pool_check(r->pool);
     if (r->found.n >= MOST_SOLUTIONS)
         return qdot_fail(QDOT_ELIMIT, "the scene has more than %d equilibria",

@@ -20,6 +20,9 @@ typedef struct {
     /* A LIST (or nil) of subexpressions that must be defined where sides are compared, though
      * they may have been simplified away: sqrt(x) for sqrt(x)^2, which is x. */
     qdot_expr defined;
+    /* Conditions hold for all values of the parameters, special ones too; else for generic ones: what is not 0 for all
+     * of them is not 0. */
+    bool exact;
 } qdot_facts;
 
 #endif

@@ -1,4 +1,4 @@
-/* positive.c -- drops the factors of known sign. */
+/* positive.c -- drops the factors of known sign, or those that are known not to be 0. */
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"
@@ -11,8 +11,12 @@
 
 enum { WORK = 1000000, PRODUCT_WORK = 100000, POINTS = 24 };
 
+/* What is asked of e: to be positive where no even power is 0; to be positive, or its zeros and sign; not to be 0. */
+typedef enum { POSITIVE_GENERIC, POSITIVE_EXACT, POSITIVE_NONZERO } question;
+
 typedef struct {
     qdot_pool *pool;
+    question asked;
     qdot_field *f;
     const qdot_facts *facts;
     size_t n_known;
@@ -139,9 +143,9 @@ sign_of(job *j, qdot_expr e)
         return 1;
     if ((sign & QDOT_NEG) == QDOT_NEG)
         return -1;
-    if ((sign & QDOT_GE0) != 0) /* where it is not 0, as with an even power */
+    if (j->asked == POSITIVE_GENERIC && (sign & QDOT_GE0) != 0) /* where it is not 0, as with an even power */
         return 1;
-    if ((sign & QDOT_LE0) != 0)
+    if (j->asked == POSITIVE_GENERIC && (sign & QDOT_LE0) != 0)
         return -1;
     if (j->n_known > 0 && is_of_known(j, e))
         return 1;
@@ -159,9 +163,9 @@ sign_of(job *j, qdot_expr e)
     return 0;
 }
 
-/* The factors of odd power of one polynomial. */
+/* The factors of one polynomial, below or above the line, on which the answer depends. */
 static qdot_status
-take(job *j, const fmpz_mpoly_t p)
+keep_factors(job *j, const fmpz_mpoly_t p, bool below)
 {
     qdot_field *f = j->f;
     qdot_factors factors;
@@ -171,18 +175,21 @@ take(job *j, const fmpz_mpoly_t p)
         j->sign = -j->sign;
     for (slong i = 0; i < factors.n && status == QDOT_OK; i++) {
         qdot_expr e = qdot_field_expr(f, factors.poly + i);
+        bool even = factors.exp[i] % 2 == 0, vanishes = j->asked != POSITIVE_GENERIC && !below;
         int sign = known_sign(j, factors.poly + i);
 
-        if (factors.exp[i] % 2 == 0) /* where it is not 0 */
+        if ((even && !vanishes) || (below && j->asked == POSITIVE_NONZERO))
             continue;
         if (e == QDOT_NIL)
             status = qdot_pool_check(j->pool);
         else if (sign == 0)
             sign = sign_of(j, e);
-        if (sign < 0)
+        if (sign < 0 && !even)
             j->sign = -j->sign;
         if (sign == 0 && status == QDOT_OK)
-            status = qdot_vec_push(&j->rest, e);
+            status = qdot_vec_push(&j->rest, even && j->asked == POSITIVE_EXACT
+                                                 ? qdot_pow_int(j->pool, e, 2)
+                                                 : e);
     }
     qdot_factor_clear(f, &factors);
     return status;
@@ -219,7 +226,10 @@ conclude(job *j)
     bool spent;
 
     if (j->rest.n == 0)
-        return j->sign > 0 ? QDOT_TRUE : QDOT_FALSE;
+        return j->sign > 0 || j->asked == POSITIVE_NONZERO ? QDOT_TRUE : QDOT_FALSE;
+    if (j->asked == POSITIVE_NONZERO)
+        return qdot_rel(pool, QDOT_LT, QDOT_ZERO,
+                        qdot_fun1(pool, QDOT_ABS, qdot_product(pool, j->rest.n, j->rest.at)));
     if (j->rest.n == 1) {
         rest = j->rest.at[0];
         return qdot_positive_without_minus(pool, j->sign > 0 ? rest : qdot_neg(pool, rest));
@@ -265,9 +275,9 @@ reduce_condition(void *user)
         if (fmpz_mpoly_is_zero(r.n, f.ctx)) {
             x->result = QDOT_FALSE;
         } else {
-            x->status = take(j, r.n);
+            x->status = keep_factors(j, r.n, false);
             if (x->status == QDOT_OK)
-                x->status = take(j, r.d);
+                x->status = keep_factors(j, r.d, true);
             if (x->status == QDOT_OK && qdot_field_goes(&f))
                 x->result = conclude(j);
         }
@@ -280,6 +290,22 @@ reduce_condition(void *user)
     qdot_free(j->rest.at);
 }
 
+static qdot_expr
+ask(struct asking *x, qdot_expr unknown)
+{
+    qdot_pool *pool = x->j.pool;
+    qdot_status status;
+
+    if (qdot_pool_failed(pool))
+        return QDOT_NIL;
+    status = qdot_flint_run(pool, reduce_condition, x);
+    if (status == QDOT_ELIMIT)
+        return unknown;
+    if (status != QDOT_OK || x->status != QDOT_OK)
+        return qdot_pool_fail(pool);
+    return x->result != QDOT_NIL ? x->result : unknown;
+}
+
 qdot_expr
 qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
               const qdot_expr *known)
@@ -288,16 +314,26 @@ qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
         .j = {.pool = pool, .facts = facts, .n_known = n, .known = known, .sign = 1},
         .e = e,
     };
-    qdot_status status;
 
-    if (qdot_pool_failed(pool))
-        return QDOT_NIL;
-    status = qdot_flint_run(pool, reduce_condition, &x);
-    if (status == QDOT_ELIMIT)
-        return qdot_positive_without_minus(pool, e);
-    if (status != QDOT_OK || x.status != QDOT_OK)
-        return qdot_pool_fail(pool);
-    return x.result != QDOT_NIL ? x.result : qdot_positive_without_minus(pool, e);
+    return ask(&x, qdot_positive_without_minus(pool, e));
+}
+
+qdot_expr
+qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    struct asking x = {
+        .j = {.pool = pool, .asked = POSITIVE_EXACT, .facts = facts, .sign = 1}, .e = e};
+
+    return ask(&x, qdot_positive_without_minus(pool, e));
+}
+
+qdot_expr
+qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+{
+    struct asking x = {
+        .j = {.pool = pool, .asked = POSITIVE_NONZERO, .facts = facts, .sign = 1}, .e = e};
+
+    return ask(&x, qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, e)));
 }
 
 qdot_expr

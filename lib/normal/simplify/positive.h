@@ -17,6 +17,13 @@
 qdot_expr qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
                         const qdot_expr *known);
 
+/* The same without a factor left out that may be 0: `0 < rest` where e > 0, `0 <= rest` where e >= 0, wherever e is
+ * defined. TRUE, FALSE: as they are of both. */
+qdot_expr qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+/* QDOT_TRUE, QDOT_FALSE (e is 0), or `0 < |rest|`, where e is not 0 - as far as it is defined: rest is the product of
+ * those factors of its numerator, each once, that may be 0. */
+qdot_expr qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+
 /* 0 < e, terms with a minus sign on the other side. */
 qdot_expr qdot_positive_without_minus(qdot_pool *pool, qdot_expr e);
 

@@ -12,6 +12,9 @@
 #include "normal/refute/constant.h"
 #include "normal/simplify/positive.h"
 
+/* Relations of a set are compared with each other where there are no more, and none of more operations. */
+enum { MOST_COMPARED = 6, LARGEST_COMPARED = 24 };
+
 /* --- one relation --------------------------------------------------------------------- */
 
 /* The relation `strict`, 0 < rest, with <= in place of < where it is weak. */
@@ -130,6 +133,59 @@ unfold(qdot_pool *pool, qdot_expr relation)
     return relation;
 }
 
+/* Whether gap is one of parameters whose special values do not count. */
+static bool
+is_taken_generic(const qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
+{
+    return (facts == NULL || !facts->exact) && qdot_is_generic(pool, gap);
+}
+
+/* u of a gap |u|, else nil. */
+static qdot_expr
+magnitude_of(const qdot_pool *pool, qdot_expr gap)
+{
+    return qdot_expr_kind(pool, gap) == QDOT_FUN && qdot_expr_node(pool, gap)->op == QDOT_ABS
+               ? qdot_expr_arg(pool, gap, 0)
+               : QDOT_NIL;
+}
+
+/* v - h^{-1}(0) for u = h(v), h monotone: 0 where u is; else u. */
+static qdot_expr
+argument_at_zero(qdot_pool *pool, qdot_expr u)
+{
+    qdot_fun_id inverse = qdot_expr_kind(pool, u) == QDOT_FUN && qdot_expr_count(pool, u) == 1
+                              ? inverse_of(qdot_expr_node(pool, u)->op)
+                              : QDOT_FUNCTION_KINDS;
+    qdot_expr at = inverse == QDOT_FUNCTION_KINDS ? QDOT_NIL : qdot_fun1(pool, inverse, QDOT_ZERO);
+
+    if (at == QDOT_NIL) { /* exp is never 0 */
+        if (qdot_pool_check(pool) != QDOT_OK && qdot_pool_check(pool) != QDOT_EDOMAIN)
+            return qdot_pool_fail(pool);
+        return u;
+    }
+    return is_value(pool, qdot_expr_node(pool, u)->op, at, QDOT_ZERO)
+               ? qdot_sub(pool, qdot_expr_arg(pool, u, 0), at)
+               : u;
+}
+
+/* 0 < gap or 0 <= gap in its shortest form. What holds coordinates is not factored. */
+static qdot_expr
+condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+{
+    qdot_expr u = magnitude_of(pool, gap), shortest;
+    bool generic = is_taken_generic(pool, gap, facts);
+
+    if (strict && u != QDOT_NIL && !generic)
+        return qdot_is_generic(pool, u) ? qdot_nonzero(pool, argument_at_zero(pool, u), facts)
+                                        : qdot_rel(pool, QDOT_LT, QDOT_ZERO, gap);
+    /* a factor that may be 0 at some place is not left out */
+    shortest = generic                      ? qdot_positive(pool, gap, facts, 0, NULL)
+               : qdot_is_generic(pool, gap) ? qdot_positive_exact(pool, gap, facts)
+                                            : number_apart(pool, qdot_positive_without_minus(pool, gap));
+    return shortest == QDOT_NIL ? QDOT_NIL
+                                : unfold(pool, strict ? shortest : weaken(pool, shortest));
+}
+
 qdot_expr
 qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
@@ -154,14 +210,11 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
         if (qdot_is_zero(pool, gap, facts))
             return strict ? QDOT_FALSE : QDOT_TRUE;
     }
-    if (is_proved(pool, QDOT_ZERO, gap, strict && !qdot_is_generic(pool, gap), facts))
+    if (is_proved(pool, QDOT_ZERO, gap, strict && !is_taken_generic(pool, gap, facts), facts))
         return QDOT_TRUE;
     if (is_proved(pool, gap, QDOT_ZERO, !strict, facts) || qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
-    /* a factor that may be 0 at some place is not left out */
-    gap = qdot_is_generic(pool, gap) ? qdot_positive(pool, gap, facts, 0, NULL)
-                                : number_apart(pool, qdot_positive_without_minus(pool, gap));
-    return gap == QDOT_NIL ? QDOT_NIL : unfold(pool, strict ? gap : weaken(pool, gap));
+    return condition_shorten(pool, gap, strict, facts);
 }
 
 /* --- sets ----------------------------------------------------------------------------- */
@@ -202,8 +255,16 @@ qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other)
     return set;
 }
 
+/* The set and u != 0, said as 0 < |u|. */
+static qdot_expr
+conditions_add_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
+{
+    return qdot_conditions_and(pool, set,
+                               qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
+}
+
 bool
-qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other)
+qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
 {
     qdot_expr a, b, sum;
 
@@ -220,10 +281,10 @@ qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other)
     sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
     if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
         return false;
-    if (qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
-        !qdot_is_generic(pool, a))
-        return false; /* a = 0 would be lost */
-    *set = QDOT_NIL;
+    *set = qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
+                   !is_taken_generic(pool, a, facts)
+               ? conditions_add_nonzero(pool, QDOT_NIL, qdot_positive_of(pool, a))
+               : QDOT_NIL;
     return true;
 }
 
@@ -278,6 +339,33 @@ relation_at(qdot_pool *pool, qdot_expr relation, size_t n, const qdot_expr *from
                           qdot_expr_node(pool, there)->op == QDOT_LT, facts);
 }
 
+/* The set and a relation; 0 < |u v| as u != 0 and v != 0, 0 < u^2 v as u != 0 and 0 < v. */
+static qdot_expr
+conditions_add_factors(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+{
+    qdot_expr u = relation == QDOT_NIL ? QDOT_NIL : qdot_conditions_nonzero(pool, relation), rest = QDOT_NIL;
+    bool nonzero = u != QDOT_NIL;
+
+    if (!nonzero && relation != QDOT_NIL && qdot_expr_kind(pool, relation) == QDOT_REL &&
+        qdot_expr_node(pool, relation)->op == QDOT_LT && qdot_expr_arg(pool, relation, 0) == QDOT_ZERO)
+        u = qdot_expr_arg(pool, relation, 1);
+    if (u == QDOT_NIL || qdot_expr_kind(pool, u) != QDOT_PROD)
+        return qdot_conditions_and(pool, set, relation);
+    rest = qdot_expr_arg(pool, u, 0);
+    for (uint32_t i = 1; i < qdot_expr_count(pool, u); i += 2) {
+        qdot_expr base = qdot_expr_arg(pool, u, i), exponent = qdot_expr_arg(pool, u, i + 1);
+        const fmpq *q = qdot_expr_rational(pool, exponent);
+
+        if (q != NULL && fmpq_sgn(q) > 0 && (nonzero || (fmpz_is_even(fmpq_numref(q)) && fmpz_is_one(fmpq_denref(q)))))
+            set = conditions_add_nonzero(pool, set, base);
+        else
+            rest = qdot_mul(pool, rest, qdot_pow(pool, base, exponent));
+    }
+    if (nonzero)
+        return qdot_expr_rational(pool, rest) != NULL ? set : conditions_add_nonzero(pool, set, rest);
+    return qdot_conditions_and(pool, set, qdot_rel(pool, QDOT_LT, QDOT_ZERO, rest));
+}
+
 qdot_expr
 qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *from,
                    const qdot_expr *to, const qdot_facts *facts)
@@ -290,7 +378,7 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
     for (uint32_t i = 0; i < m && left != QDOT_FALSE; i++) {
         qdot_facts known = qdot_facts_and(pool, facts, left, room);
 
-        left = qdot_conditions_and(
+        left = conditions_add_factors(
             pool, left,
             relation_at(pool, qdot_expr_arg(pool, set, i), n, from, to, &known));
         if (qdot_pool_failed(pool))
@@ -306,6 +394,114 @@ qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdot_expr *fr
             return QDOT_FALSE;
     }
     return left;
+}
+
+/* Whether a relation follows from the others of a set, without the i-th. */
+static bool
+follows(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool with_itself,
+        const qdot_facts *facts)
+{
+    qdot_expr others = QDOT_NIL, room[QDOT_CONDITIONS_MOST];
+    qdot_facts known;
+
+    for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++)
+        if (k != i || with_itself)
+            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, set, k));
+    known = qdot_facts_and(pool, facts, others, room);
+    return is_proved(pool, qdot_expr_arg(pool, relation, 0), qdot_expr_arg(pool, relation, 1),
+                     qdot_expr_node(pool, relation)->op == QDOT_LT, &known);
+}
+
+/* The set with `to` in the place of its i-th relation; TRUE: without it. */
+static qdot_expr
+conditions_replace(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
+{
+    qdot_expr all = QDOT_NIL;
+
+    for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++)
+        all = qdot_conditions_and(pool, all, k == i ? to : qdot_expr_arg(pool, set, k));
+    return all;
+}
+
+/* Whether the relations of a set are few and small enough to be compared with each other. */
+static bool
+is_small(const qdot_pool *pool, qdot_expr set)
+{
+    uint32_t n = set == QDOT_NIL || set == QDOT_FALSE ? 0 : qdot_expr_count(pool, set);
+    bool small = n > 1 && n <= MOST_COMPARED;
+
+    for (uint32_t i = 0; i < n && small; i++)
+        small = qdot_expr_size(pool, qdot_expr_arg(pool, set, i)) <= LARGEST_COMPARED;
+    return small;
+}
+
+/* Whether all relations of `some` are in the set. */
+static bool
+holds_all(qdot_pool *pool, qdot_expr set, qdot_expr some)
+{
+    bool all = some != QDOT_NIL && some != QDOT_FALSE;
+
+    for (uint32_t i = 0; all && i < qdot_expr_count(pool, some); i++)
+        all = qdot_conditions_and(pool, set, qdot_expr_arg(pool, some, i)) == set;
+    return all;
+}
+
+/* 0 <= g beside u != 0 for all factors u of g: 0 < g alone. */
+static qdot_expr
+conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
+{
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i), factors, rest = QDOT_NIL;
+
+        if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_node(pool, one)->op != QDOT_LE)
+            continue;
+        factors = conditions_add_factors(
+            pool, QDOT_NIL, qdot_nonzero(pool, qdot_positive_of(pool, one), facts));
+        if (!holds_all(pool, set, factors))
+            continue;
+        for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++) {
+            qdot_expr other = qdot_expr_arg(pool, set, k);
+
+            if (k == i)
+                other = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
+            else if (qdot_conditions_and(pool, factors, other) == factors)
+                continue;
+            rest = qdot_conditions_and(pool, rest, other);
+        }
+        set = rest;
+        i = UINT32_MAX; /* once more, from the first on */
+    }
+    return set;
+}
+
+qdot_expr
+qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
+{
+    if (!is_small(pool, set))
+        return set;
+    set = conditions_join_nonzero(pool, set, facts);
+    /* a <= b where a != b follows is a < b */
+    for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i), strict;
+
+        if (qdot_expr_kind(pool, one) != QDOT_REL ||
+            qdot_expr_node(pool, one)->op != QDOT_LE)
+            continue;
+        strict = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
+        if (follows(pool, set, i, strict, true, facts))
+            set = conditions_replace(pool, set, i, strict);
+    }
+    for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && qdot_expr_count(pool, set) > 1 &&
+                         i < qdot_expr_count(pool, set);) {
+        qdot_expr one = qdot_expr_arg(pool, set, i);
+
+        if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op != QDOT_EQ &&
+            follows(pool, set, i, one, false, facts))
+            set = conditions_replace(pool, set, i, QDOT_TRUE);
+        else
+            i++;
+    }
+    return set;
 }
 
 /* --- where a function is defined ------------------------------------------------------ */
@@ -394,14 +590,6 @@ qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x)
 
 /* --- where it is divided -------------------------------------------------------------- */
 
-/* The set and u != 0, said as 0 < |u|. */
-static qdot_expr
-conditions_add_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
-{
-    return qdot_conditions_and(pool, set,
-                               qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
-}
-
 static qdot_expr
 conditions_of_pole(qdot_pool *pool, qdot_expr set, qdot_expr node)
 {
@@ -442,13 +630,22 @@ qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x)
 qdot_expr
 qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation)
 {
-    qdot_expr right;
-
-    if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op != QDOT_LT ||
-        qdot_expr_arg(pool, relation, 0) != QDOT_ZERO)
-        return QDOT_NIL;
-    right = qdot_expr_arg(pool, relation, 1);
-    return qdot_expr_kind(pool, right) == QDOT_FUN && qdot_expr_node(pool, right)->op == QDOT_ABS
-               ? qdot_expr_arg(pool, right, 0)
+    return qdot_expr_kind(pool, relation) == QDOT_REL &&
+                   qdot_expr_node(pool, relation)->op == QDOT_LT &&
+                   qdot_expr_arg(pool, relation, 0) == QDOT_ZERO
+               ? magnitude_of(pool, qdot_expr_arg(pool, relation, 1))
                : QDOT_NIL;
+}
+
+qdot_expr
+qdot_conditions_unequal(qdot_pool *pool, qdot_expr u)
+{
+    qdot_expr sides, left, right;
+
+    if (qdot_expr_kind(pool, u) != QDOT_SUM)
+        return qdot_rel(pool, QDOT_LT, u, QDOT_ZERO);
+    sides = number_apart(pool, qdot_positive_without_minus(pool, u));
+    left = qdot_expr_arg(pool, sides, 0);
+    right = qdot_expr_arg(pool, sides, 1);
+    return qdot_expr_rational(pool, right) != NULL ? sides : qdot_rel(pool, QDOT_LT, right, left);
 }

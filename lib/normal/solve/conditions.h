@@ -15,7 +15,8 @@
 bool qdot_is_generic(const qdot_pool *pool, qdot_expr e);
 
 /* 0 < gap, or 0 <= gap if not strict: QDOT_TRUE, QDOT_FALSE if that is proved; else a relation, in its shortest
- * form. Parameters are generic: where 0 <= gap is proved of them, 0 < gap counts as true. Nil on failure. */
+ * form. Unless facts->exact parameters are generic: where 0 <= gap is proved of them, 0 < gap counts as true. Nil on
+ * failure. */
 qdot_expr qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts);
 
 /* The set and one more relation; the set and another set. */
@@ -23,10 +24,12 @@ qdot_expr qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation
 qdot_expr qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other);
 
 /* Two sets under either of which something holds, as one, *set; false: they are no one set. */
-bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other);
+bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts);
 
 /* The set with a < b for a <= b between parameters, which are generic. */
 qdot_expr qdot_conditions_generic(qdot_pool *pool, qdot_expr set);
+/* The set without those relations that follow from the others; a < b for a <= b where a != b follows. */
+qdot_expr qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts);
 
 /* The set with values put in for the symbols from [n], decided anew; a relation that is not defined there does
  * not hold. Relations that contradict each other: QDOT_FALSE. On failure nil, and the pool has failed. */
@@ -40,6 +43,8 @@ qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
 /* u, where the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
+/* A relation whose sides are those of u != 0, terms with a minus sign on the other side. */
+qdot_expr qdot_conditions_unequal(qdot_pool *pool, qdot_expr u);
 
 /* The facts with the relations of a set (nil: none) added; `room` [QDOT_CONDITIONS_MOST] holds them. More than
  * that are left out. */

@@ -37,6 +37,37 @@ one_case(qdot_solver *s, qdot_expr e, qdot_expr choice, qdot_expr to, qdot_expr 
     return qdot_solver_equation(s, there, qdot_conditions_and(s->pool, when, relation));
 }
 
+/* Those members of a family at which e, which is not as periodic, is 0: value + n period for the integers n that
+ * solve e = 0. */
+static qdot_status
+members_with(qdot_solver *s, qdot_expr e, const qdot_root *root, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr n = qdot_solve_integer(pool, 0),
+              value = qdot_add(pool, root->value, qdot_mul(pool, n, root->period)),
+              at = qdot_solve_without_turns(pool, qdot_subs(pool, e, 1, &s->x, &value));
+    qdot_solutions found = {.complete = true};
+    qdot_solver inner = {.pool = pool, .f = at, .x = n, .facts = s->facts, .out = &found,
+                         .depth = s->depth};
+    qdot_status status = qdot_pool_check(pool);
+
+    if (status == QDOT_OK)
+        status = qdot_solver_equation(&inner, at, QDOT_NIL);
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
+        qdot_expr k = found.root.at[i].value;
+        const fmpq *whole = qdot_expr_rational(pool, k);
+
+        if (whole == NULL)
+            s->out->complete = false;
+        else if (fmpz_is_one(fmpq_denref(whole)))
+            status = qdot_solver_add(s, qdot_add(pool, root->value, qdot_mul(pool, k, root->period)),
+                                     QDOT_NIL, qdot_conditions_all(pool, when, found.root.at[i].condition));
+    }
+    s->out->complete = s->out->complete && found.complete;
+    qdot_solutions_clear(&found);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
 /* Roots of u, at which sign u jumps: those at which e itself is proved to be 0. */
 static qdot_status
 at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
@@ -48,14 +79,16 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
 
     for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
         qdot_root *root = &found.root.at[i];
-        qdot_expr at = qdot_subs(s->pool, e, 1, &s->x, &root->value);
+        qdot_expr at = qdot_subs(s->pool, e, 1, &s->x, &root->value),
+                  all = qdot_conditions_all(s->pool, when, root->condition);
 
-        if (at == QDOT_NIL) {
+        if (root->period != QDOT_NIL && !qdot_is_period(s->pool, 1, &e, s->x, root->period, s->facts)) {
+            status = members_with(s, e, root, all);
+        } else if (at == QDOT_NIL) {
             status = qdot_pool_check(s->pool);
             status = status == QDOT_EDOMAIN ? QDOT_OK : status;
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
-            status = qdot_solver_add(s, root->value, root->period,
-                                     qdot_conditions_all(s->pool, when, root->condition));
+            status = qdot_solver_add(s, root->value, root->period, all);
         }
     }
     s->out->complete = s->out->complete && found.complete;

@@ -119,9 +119,12 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     qdot_solutions all;
     qdot_window window;
     bool angle = false;
-    qdot_status status = solve_where(pool, f, x, domain, facts, &all);
+    qdot_status status;
 
-    *out = (qdot_solutions){0};
+    *out = all = (qdot_solutions){0};
+    if (domain != QDOT_NIL) /* what holds in all of the declared domain of x is decided before roots are put in */
+        domain = qdot_conditions_at(pool, domain, 0, NULL, NULL, facts);
+    status = solve_where(pool, f, x, domain, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
     angle = angle && status == QDOT_OK && qdot_is_period(pool, 1, &f, x, turn, facts);

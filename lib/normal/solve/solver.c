@@ -23,8 +23,8 @@ qdot_solver_tidy(const qdot_solver *s, qdot_expr e)
 qdot_expr
 qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
 {
-    bool strict = gap != QDOT_NIL && qdot_is_generic(s->pool, gap) &&
-                  !qdot_is_constant(s->pool, gap); /* a number may be 0 */
+    bool strict = gap != QDOT_NIL && (s->facts == NULL || !s->facts->exact) &&
+                  qdot_is_generic(s->pool, gap) && !qdot_is_constant(s->pool, gap);
 
     return gap == QDOT_NIL ? QDOT_NIL : qdot_condition(s->pool, gap, strict, s->facts);
 }
@@ -163,7 +163,8 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     for (size_t i = 0; i < s->out->root.n; i++)
         if (s->out->root.at[i].members == root.members &&
             is_same(s, &s->out->root.at[i], root.value, period) &&
-            qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition))
+            qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition,
+                                 s->facts))
             return qdot_pool_check(s->pool);
     if (root.members != QDOT_NIL) /* the value itself may be none */
         return qdot_vec_push(&s->out->root, root);

@@ -28,7 +28,7 @@ bool qdot_solver_is_member(const qdot_solver *s, const qdot_root *family, qdot_e
 QDOT_MUST_CHECK qdot_status qdot_solver_divide(qdot_solver *s, qdot_expr d);
 /* e simplified (solver.c). */
 qdot_expr qdot_solver_tidy(const qdot_solver *s, qdot_expr e);
-/* 0 < gap as a condition (solver.c): 0 <= gap of a number, and where unknowns other than parameters occur. */
+/* 0 <= gap as a condition (solver.c); 0 < gap of generic parameters. */
 qdot_expr qdot_solver_positive(const qdot_solver *s, qdot_expr gap);
 
 /* g(x) = v for an elementary function g of one argument (solve-inverse.c). */
