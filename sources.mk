@@ -116,6 +116,7 @@ library_sources = \
 	lib/lang/functions/short-names.c \
 	lib/lang/functions/solve-conditions.c \
 	lib/lang/functions/solve-numbers.c \
+	lib/lang/functions/solve-system.c \
 	lib/lang/functions/solve.c \
 	lib/lang/functions/switch.c \
 	lib/lang/language/call.c \
@@ -258,7 +259,6 @@ library_sources = \
 	lib/mech/study/collision.c \
 	lib/mech/study/distance-ends.c \
 	lib/mech/study/equilibrium-bands.c \
-	lib/mech/study/equilibrium-branches.c \
 	lib/mech/study/equilibrium-corners.c \
 	lib/mech/study/equilibrium-curve.c \
 	lib/mech/study/equilibrium-equations.c \
@@ -351,13 +351,15 @@ library_sources = \
 	lib/normal/solve/linear.c \
 	lib/normal/solve/null-space.c \
 	lib/normal/solve/proportion.c \
+	lib/normal/solve/simultaneous-members.c \
+	lib/normal/solve/simultaneous-set.c \
+	lib/normal/solve/simultaneous.c \
 	lib/normal/solve/solutions.c \
 	lib/normal/solve/solve-cases.c \
 	lib/normal/solve/solve-factors.c \
 	lib/normal/solve/solve-inverse.c \
 	lib/normal/solve/solve-sort.c \
 	lib/normal/solve/solve-special.c \
-	lib/normal/solve/solve-system.c \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
 	lib/normal/solve/zeros-box.c \
@@ -783,6 +785,7 @@ library_headers = \
 	lib/lang/functions/short-names.h \
 	lib/lang/functions/solve-conditions.h \
 	lib/lang/functions/solve-numbers.h \
+	lib/lang/functions/solve-system.h \
 	lib/lang/functions/solve.h \
 	lib/lang/functions/switch.h \
 	lib/lang/language/closed-sum.h \
@@ -954,9 +957,9 @@ library_headers = \
 	lib/normal/solve/linear.h \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
+	lib/normal/solve/simultaneous.h \
 	lib/normal/solve/solutions.h \
 	lib/normal/solve/solve-special.h \
-	lib/normal/solve/solve-system.h \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
 	lib/normal/solve/zeros-parts.h \
@@ -1343,6 +1346,7 @@ unit_tests = \
 	tests/normal/test_half-plane \
 	tests/normal/test_less \
 	tests/normal/test_simplify \
+	tests/normal/test_simultaneous \
 	tests/normal/test_solve \
 	tests/normal/test_solve_special \
 	tests/normal/test_verdicts \
@@ -1493,6 +1497,7 @@ script_tests = \
 	tests/script/continue-orbit.lag \
 	tests/script/continue.lag \
 	tests/script/coordinates.lag \
+	tests/script/corners-of-two.lag \
 	tests/script/data-files.sh \
 	tests/script/declarations.lag \
 	tests/script/definitions.lag \
@@ -1680,6 +1685,7 @@ script_tests = \
 	tests/script/solve-numbers.lag \
 	tests/script/solve-parameters.lag \
 	tests/script/solve-special.lag \
+	tests/script/solve-system-sets.lag \
 	tests/script/solve-system.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
@@ -1957,7 +1963,6 @@ script_tests = \
 	tests/bad/singular-euler.lag \
 	tests/bad/singular-mass.lag \
 	tests/bad/solve-beyond.lag \
-	tests/bad/solve-curve.lag \
 	tests/bad/solve-far.lag \
 	tests/bad/solve-for-sum.lag \
 	tests/bad/solve-no-value.lag \
@@ -1966,7 +1971,6 @@ script_tests = \
 	tests/bad/solve-reach.lag \
 	tests/bad/solve-system-beyond.lag \
 	tests/bad/solve-system-count.lag \
-	tests/bad/solve-system-turns.lag \
 	tests/bad/spellings.sh \
 	tests/bad/start-abs.lag \
 	tests/bad/start-anywhere.lag \
@@ -2394,7 +2398,6 @@ test_files = \
 	tests/bad/singular-euler.out \
 	tests/bad/singular-mass.out \
 	tests/bad/solve-beyond.out \
-	tests/bad/solve-curve.out \
 	tests/bad/solve-far.out \
 	tests/bad/solve-for-sum.out \
 	tests/bad/solve-no-value.out \
@@ -2403,7 +2406,6 @@ test_files = \
 	tests/bad/solve-reach.out \
 	tests/bad/solve-system-beyond.out \
 	tests/bad/solve-system-count.out \
-	tests/bad/solve-system-turns.out \
 	tests/bad/spellings.out \
 	tests/bad/start-abs.out \
 	tests/bad/start-anywhere.out \
@@ -2633,6 +2635,7 @@ test_files = \
 	tests/script/continue-orbit.out \
 	tests/script/continue.out \
 	tests/script/coordinates.out \
+	tests/script/corners-of-two.out \
 	tests/script/data-files.out \
 	tests/script/declarations.out \
 	tests/script/definitions.out \
@@ -2841,6 +2844,7 @@ test_files = \
 	tests/script/solve-numbers.out \
 	tests/script/solve-parameters.out \
 	tests/script/solve-special.out \
+	tests/script/solve-system-sets.out \
 	tests/script/solve-system.out \
 	tests/script/solve.out \
 	tests/script/stability.out \

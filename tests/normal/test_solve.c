@@ -13,7 +13,6 @@
 #include "normal/simplify/positive.h"
 #include "normal/simplify/rationalize.h"
 #include "normal/solve/null-space.h"
-#include "normal/solve/solve-system.h"
 #include "normal/solve/solve.h"
 
 static const char *
@@ -113,50 +112,6 @@ what_is_beyond_it_is_said(void **state)
             QDOT_OK);
         assert_false(found.complete);
         qdot_solutions_clear(&found);
-    }
-}
-
-/* Systems: the solutions in order, and whether these are all. */
-static void
-systems_have_all_their_solutions(void **state)
-{
-    static const struct {
-        const char *f[3], *u[3], *solutions;
-        bool complete;
-    } systems[] = {
-        {{"x + y - 3", "x*y - 2"}, {"x", "y"}, "[[x = 1, y = 2], [x = 2, y = 1]]", true},
-        {{"x*y", "x + y - 1"}, {"x", "y"}, "[[x = 0, y = 1], [x = 1, y = 0]]", true},
-        {{"x*(x^2 + y^2) - x", "y*(x^2 + y^2) - 2*y"},
-         {"x", "y"},
-         "[[x = -1, y = 0], [x = 0, y = -sqrt(2)], [x = 0, y = 0], [x = 0, y = sqrt(2)], [x = 1, "
-         "y = 0]]",
-         true},
-        {{"x^2 + y^2 + z^2 - 3", "x - y", "y - z"},
-         {"x", "y", "z"},
-         "[[x = -1, y = -1, z = -1], [x = 1, y = 1, z = 1]]",
-         true},
-        {{"x*y - 1", "x + y"}, {"x", "y"}, "[]", true},
-        {{"1/x - y", "x - y"}, {"x", "y"}, "[[x = -1, y = -1], [x = 1, y = 1]]", true},
-        {{"(x - y)*x", "(x - y)*y"}, {"x", "y"}, NULL, false},
-        {{"x^5 - x + 1", "y - x"}, {"x", "y"}, NULL, false},
-        {{"sin(x) - 1/2", "x + y"}, {"x", "y"}, NULL, false},
-    };
-
-    (void)state;
-    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
-        qdot_expr f[3], u[3], list = QDOT_NIL;
-        size_t n = 0;
-        bool complete;
-
-        for (; n < 3 && systems[i].f[n] != NULL; n++) {
-            u[n] = text_read(pool, systems[i].u[n]);
-            f[n] = text_read(pool, systems[i].f[n]);
-        }
-        assert_int_equal(qdot_solve_system(pool, n, f, u, NULL, &list, &complete), QDOT_OK);
-        if (complete != systems[i].complete)
-            fail_msg("%s: complete is %d", systems[i].f[0], complete);
-        if (systems[i].solutions != NULL && strcmp(shown(list), systems[i].solutions) != 0)
-            fail_msg("%s: %s", systems[i].f[0], shown(list));
     }
 }
 
@@ -516,7 +471,6 @@ main(void)
         cmocka_unit_test_setup_teardown(roots_satisfy_their_equation, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(what_is_beyond_it_is_said, open_pool, close_pool),
-        cmocka_unit_test_setup_teardown(systems_have_all_their_solutions, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(an_identity_is_no_equation, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(roots_lie_in_the_declared_domain, open_pool,

@@ -21,6 +21,7 @@
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
+#include "lang/session/value-kind.h"
 #include "normal/refute/constant.h"
 
 /* --- expressions -------------------------------------------------------------------- */
@@ -175,9 +176,91 @@ answer_mixed(qdot_session *session, const char *name, qdot_expr list)
     return status;
 }
 
+/* [x = 1.25 ± 3e-17, y = 2], numbers of runs with their errors. */
+static qdot_status
+print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
+{
+    qdot_pool *pool = session->pool;
+
+    qdot_text_add(line, "[");
+    for (uint32_t i = 0; i < qdot_expr_count(pool, equations); i++) {
+        qdot_expr one = qdot_expr_arg(pool, equations, i), value = qdot_expr_arg(pool, one, 1);
+        double x, error;
+
+        qdot_text_add(line, i > 0 ? ", " : "");
+        if (!qdot_measured_occurs(session, value)) {
+            QDOT_TRY(qdot_formula(session, one, line));
+            continue;
+        }
+        QDOT_TRY(qdot_formula(session, qdot_expr_arg(pool, one, 0), line));
+        QDOT_TRY(qdot_session_number(session, value, &x, &error));
+        qdot_text_add(line, " = ");
+        qdot_number_text_known(line, x, error);
+    }
+    qdot_text_add(line, "]");
+    return qdot_text_status(line);
+}
+
+/* A LIST of equations: a point; as qdot_solve_system has them. */
+static bool
+is_point(const qdot_pool *pool, qdot_expr e)
+{
+    bool point = qdot_expr_kind(pool, e) == QDOT_LIST && qdot_expr_count(pool, e) > 0;
+
+    for (uint32_t i = 0; point && i < qdot_expr_count(pool, e); i++)
+        point = qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i));
+    return point;
+}
+
+static bool
+is_points(const qdot_pool *pool, qdot_expr e)
+{
+    bool points = qdot_expr_kind(pool, e) == QDOT_LIST && qdot_expr_count(pool, e) > 0;
+
+    for (uint32_t i = 0; points && i < qdot_expr_count(pool, e); i++)
+        points = is_point(pool, qdot_expr_arg(pool, e, i));
+    return points;
+}
+
+static qdot_status
+answer_point(qdot_session *session, const char *name, qdot_expr equations)
+{
+    qdot_text text = {0}, errors = {0};
+    qdot_status status = print_point(session, equations, &text);
+
+    if (status == QDOT_OK)
+        status = session->json ? qdot_answer_text(session, name, qdot_text_str(&text))
+                               : qdot_answer_numerals(session, name, false, &text, &errors);
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* Each of several points by its number. */
+static qdot_status
+answer_points(qdot_session *session, const char *name, qdot_expr list)
+{
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, list) && status == QDOT_OK; i++) {
+        qdot_text member = {0};
+
+        member_name(session, name, QDOT_NIL, i, &member);
+        status = qdot_text_status(&member);
+        if (status == QDOT_OK)
+            status = answer_point(session, qdot_text_str(&member),
+                                  qdot_expr_arg(session->pool, list, i));
+        qdot_text_clear(&member);
+    }
+    return status;
+}
+
 qdot_status
 qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
+    if (qdot_measured_occurs(session, value) && is_point(session->pool, value))
+        return answer_point(session, name, value);
+    if (qdot_measured_occurs(session, value) && is_points(session->pool, value))
+        return answer_points(session, name, value);
     if (qdot_measured_occurs(session, value) && is_mixed(session, value))
         return answer_mixed(session, name, value);
     if (qdot_measured_occurs(session, value))
@@ -260,6 +343,8 @@ print_one(qdot_cursor *c, qdot_text *line)
         return add_texts(session, value, line);
     if (!qdot_measured_occurs(session, value))
         return qdot_formula(session, value, line);
+    if (is_point(session->pool, value))
+        return print_point(session, value, line);
     digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {
         bool scalar = qdot_expr_is_scalar(session->pool, value);

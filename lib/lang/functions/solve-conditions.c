@@ -22,31 +22,29 @@ print_condition(qdot_pool *pool, qdot_expr relation, qdot_text *text)
     return qdot_print(pool, qdot_expr_arg(pool, sides, 1), QDOT_PLAIN, text);
 }
 
-/* The conditions of a root, each behind ` and `, the first behind `word`. */
-static qdot_status
-print_conditions(qdot_pool *pool, const char *word, const qdot_root *root, qdot_text *text)
+qdot_status
+qdot_solve_print_conditions(qdot_pool *pool, const char *word, qdot_expr conditions,
+                            qdot_text *text)
 {
-    uint32_t n = root->condition == QDOT_NIL ? 0 : qdot_expr_count(pool, root->condition);
+    uint32_t n = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
 
     for (uint32_t i = 0; i < n; i++) {
         qdot_text_add(text, i == 0 ? word : " and ");
-        QDOT_TRY(print_condition(pool, qdot_expr_arg(pool, root->condition, i), text));
+        QDOT_TRY(print_condition(pool, qdot_expr_arg(pool, conditions, i), text));
     }
     return qdot_text_status(text);
 }
 
-/* `x = V exists when C and D`, of a root that has conditions. */
-static qdot_status
-notice_conditions(qdot_session *session, qdot_expr x, const qdot_root *root)
+qdot_status
+qdot_solve_notice_conditions(qdot_session *session, qdot_expr solution, qdot_expr conditions)
 {
     qdot_pool *pool = session->pool;
     qdot_text text = {0};
-    qdot_status status =
-        qdot_print(pool, qdot_rel(pool, QDOT_EQ, x, root->value), QDOT_PLAIN, &text);
+    qdot_status status = qdot_print(pool, solution, QDOT_PLAIN, &text);
 
     if (status == QDOT_OK)
-        status = print_conditions(pool, " exists when ", root, &text);
-    if (status == QDOT_OK && root->condition != QDOT_NIL)
+        status = qdot_solve_print_conditions(pool, " exists when ", conditions, &text);
+    if (status == QDOT_OK && conditions != QDOT_NIL)
         status = qdot_answer_notice_once(session, "%s", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
@@ -74,7 +72,8 @@ qdot_solve_root_value(qdot_session *session, qdot_expr x, const qdot_root *root,
 
     *value = root->value;
     if (root->value != x)
-        return notice_conditions(session, x, root);
+        return qdot_solve_notice_conditions(session, qdot_rel(pool, QDOT_EQ, x, root->value),
+                                            root->condition);
     if (n == 0)
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     if (n > QDOT_CONDITIONS_MOST)
@@ -111,7 +110,7 @@ notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
         else if (root->condition == QDOT_NIL)
             qdot_text_add(&text, "every value is a solution");
         if (status == QDOT_OK)
-            status = print_conditions(pool, every ? "" : " when ", root, &text);
+            status = qdot_solve_print_conditions(pool, every ? "" : " when ", root->condition, &text);
     }
     if (status == QDOT_OK)
         status = qdot_text_status(&text);

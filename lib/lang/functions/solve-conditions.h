@@ -9,6 +9,7 @@
 #ifndef QDOT_LANG_SOLVE_CONDITIONS_H
 #define QDOT_LANG_SOLVE_CONDITIONS_H
 
+#include "base/text.h"
 #include "lang/session/session.h"
 #include "normal/solve/solve-special.h"
 
@@ -19,5 +20,15 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qd
 /* A root as a value: x, or the relations that say which x are roots; with a notice of its conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_session *session, qdot_expr x,
                                                   const qdot_root *root, qdot_expr *value);
+
+/* The conditions, ` and ` between them, the first behind `word`. */
+QDOT_MUST_CHECK qdot_status qdot_solve_print_conditions(qdot_pool *pool, const char *word,
+                                                        qdot_expr conditions,
+                                                        qdot_text *text);
+
+/* Tell `SOLUTION exists when C and D`, of one that has conditions. */
+QDOT_MUST_CHECK qdot_status qdot_solve_notice_conditions(qdot_session *session,
+                                                         qdot_expr solution,
+                                                         qdot_expr conditions);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "expr/calculus.h"
+#include "expr/list.h"
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
@@ -37,9 +38,8 @@ add_unknown(question *q, qdot_expr x)
 {
     char name[40];
 
-    if (qdot_expr_kind(q->session->pool, x) != QDOT_SYM || x <= QDOT_FALSE)
-        return qdot_fail(QDOT_ETYPE, "solve takes symbols as unknowns, not %s",
-                         qdot_value_kind_words(q->session->pool, x));
+    QDOT_TRY(qdot_value_kind_need_symbol(q->session->pool, x,
+                                         "solve takes symbols as unknowns, not %s"));
     if (q->n == MOST)
         return qdot_fail(QDOT_ELIMIT, "solve takes up to %d unknowns", MOST);
     if (qdot_expr_place(q->n, q->name, x) < q->n)
@@ -82,8 +82,7 @@ set_equation(question *q, size_t i, qdot_expr e)
 {
     qdot_pool *pool = q->session->pool;
 
-    if (qdot_value_kind_is_equation(pool, e))
-        e = qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
+    e = qdot_value_kind_difference(pool, e);
     QDOT_TRY(qdot_pool_check(pool));
     if (!qdot_expr_is_scalar(pool, e))
         return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
@@ -466,6 +465,73 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
     }
     if (status == QDOT_OK && *known)
         status = tell_doubts(&q, &zeros);
+    qdot_zeros_clear(&zeros);
+    return status;
+}
+
+/* The zeros as a LIST of LISTs u = number, and as numbers. */
+static qdot_status
+list_points(const question *q, const qdot_zeros *zeros, qdot_expr *list, double *at)
+{
+    qdot_pool *pool = q->session->pool;
+
+    *list = qdot_list(pool, 0, NULL);
+    for (size_t k = 0; k < zeros->count; k++) {
+        qdot_expr number[MOST], one;
+
+        QDOT_TRY(numbers_of(q, zeros, k, number));
+        for (size_t j = 0; j < q->n; j++) {
+            at[k * q->n + j] = zeros->at[k * q->n + j];
+            at[(zeros->count + k) * q->n + j] = zeros->radius[k * q->n + j];
+            number[j] = qdot_rel(pool, QDOT_EQ, q->name[j], number[j]);
+        }
+        one = qdot_list(pool, (uint32_t)q->n, number);
+        *list = qdot_list_appended(pool, *list, 1, &one);
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_expr *u,
+               qdot_expr domain, const qdot_window *window, qdot_expr *list, double **at,
+               size_t *count, bool *known)
+{
+    question q = {.session = session};
+    qdot_zeros_range range[MOST] = {0};
+    qdot_zeros zeros = {0};
+    qdot_status status = QDOT_OK;
+
+    *known = true;
+    *at = NULL;
+    for (size_t j = 0; j < n; j++)
+        QDOT_TRY(add_unknown(&q, u[j]));
+    for (size_t i = 0; i < n && *known; i++) {
+        status = set_equation(&q, i, f[i]);
+        *known = status != QDOT_EUNSET;
+        if (*known)
+            QDOT_TRY(status);
+    }
+    for (size_t j = 0; j < n && *known; j++) {
+        range[j] = (qdot_zeros_range){.lo_open = window[j].lo_open,
+                                      .hi_open = window[j].hi_open,
+                                      .turn = window[j].turn};
+        QDOT_TRY(bind_end(&q, window[j].lo, &range[j].lo, known));
+        QDOT_TRY(bind_end(&q, window[j].hi, &range[j].hi, known));
+    }
+    if (!*known)
+        return QDOT_OK;
+    status = qdot_zeros_find(session->pool, n, q.F, q.x, range, 0, &zeros);
+    *known = status == QDOT_OK && zeros.complete;
+    if (status == QDOT_EDOMAIN) /* an equation holds identically */
+        status = QDOT_OK;
+    if (status == QDOT_OK && *known)
+        status = keep_defined(&q, domain, &zeros);
+    *at = qdot_malloc((2 * zeros.count * n + 1) * sizeof **at);
+    if (status == QDOT_OK && *at == NULL)
+        status = QDOT_ENOMEM;
+    *count = zeros.count;
+    if (status == QDOT_OK && *known)
+        status = list_points(&q, &zeros, list, *at);
     qdot_zeros_clear(&zeros);
     return status;
 }

@@ -37,4 +37,13 @@ QDOT_MUST_CHECK qdot_status qdot_solve_line(qdot_session *session, qdot_expr f,
                                             qdot_solve_zeros *zeros, bool *known,
                                             bool *all);
 
+/* Every common zero of f [n] in the unknowns u [n] in their windows: *list, a LIST of LISTs u = number, and at
+ * [*count * n], its radius behind it [*count * n]; owned by the caller. *known: it is proved that there are no others;
+ * else none is given. */
+QDOT_MUST_CHECK qdot_status qdot_solve_box(qdot_session *session, size_t n,
+                                           const qdot_expr *f, const qdot_expr *u,
+                                           qdot_expr domain, const qdot_window *window,
+                                           qdot_expr *list, double **at, size_t *count,
+                                           bool *known);
+
 #endif

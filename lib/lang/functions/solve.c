@@ -10,31 +10,12 @@
 #include "lang/answer/answer.h"
 #include "lang/functions/solve-numbers.h"
 #include "lang/functions/solve-conditions.h"
+#include "lang/functions/solve-system.h"
 #include "lang/session/bind.h"
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "normal/refute/ball.h"
-#include "normal/solve/solve-system.h"
 #include "normal/solve/solve.h"
-
-enum { MOST = QDOT_SOLVE_UNKNOWNS };
-
-static qdot_status
-is_symbol(qdot_session *session, qdot_expr x, const char *message)
-{
-    if (qdot_expr_kind(session->pool, x) == QDOT_SYM && x > QDOT_FALSE)
-        return QDOT_OK;
-    return qdot_fail(QDOT_ETYPE, message, qdot_value_kind_words(session->pool, x));
-}
-
-/* left - right, or e itself. */
-static qdot_expr
-difference_of(qdot_pool *pool, qdot_expr e)
-{
-    return qdot_value_kind_is_equation(pool, e)
-               ? qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))
-               : e;
-}
 
 /* Where all that was written is defined, of what holds x (nil: anything): conditions. */
 static qdot_expr
@@ -159,7 +140,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
 {
     qdot_pool *pool = session->pool;
     qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr f = difference_of(pool, equation), domain, *values;
+    qdot_expr f = qdot_value_kind_difference(pool, equation), domain, *values;
     qdot_solutions found = {0};
     qdot_specials specials = {0};
     solve_list list = {.constant = true};
@@ -167,7 +148,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     bool known = true, complete;
 
     facts.exact = true;
-    QDOT_TRY(is_symbol(session, x, "solve(a = b, x) takes a symbol for x"));
+    QDOT_TRY(qdot_value_kind_need_symbol(pool, x, "solve(a = b, x) takes a symbol for x"));
     if (f != QDOT_NIL)
         f = qdot_momenta_for(session, f, x);
     QDOT_TRY(qdot_value_kind_check(pool, f));
@@ -215,91 +196,6 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     return status == QDOT_OK ? qdot_value_kind_check(pool, *value) : status;
 }
 
-/* --- several unknowns -------------------------------------------------------------------------------- */
-
-/* The solutions at which all that was written is defined, as far as that is decided. */
-static qdot_expr
-leave_out_undefined(qdot_session *session, uint32_t n, const qdot_expr *u, qdot_expr list)
-{
-    qdot_pool *pool = session->pool;
-    qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr domain = domain_as_written(session, QDOT_NIL), kept = QDOT_NIL;
-
-    if (domain == QDOT_NIL)
-        return list;
-    for (uint32_t i = 0; i < qdot_expr_count(pool, list); i++) {
-        qdot_expr one = qdot_expr_arg(pool, list, i), at[MOST];
-
-        for (uint32_t j = 0; j < n; j++)
-            at[j] = qdot_expr_arg(pool, qdot_expr_arg(pool, one, j), 1);
-        if (qdot_conditions_at(pool, domain, n, u, at, &facts) != QDOT_FALSE)
-            kept = qdot_conditions_and(pool, kept, one);
-    }
-    return kept == QDOT_NIL ? qdot_list(pool, 0, NULL) : kept;
-}
-
-/* solve([A = B, C = D], [x, y]): exactly; a list of lists of equations. */
-static qdot_status
-system_exactly(qdot_session *session, qdot_expr equations, qdot_expr unknowns,
-               qdot_expr *value)
-{
-    qdot_pool *pool = session->pool;
-    uint32_t n = qdot_expr_count(pool, unknowns);
-    qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr f[MOST], u[MOST];
-    bool complete;
-
-    if (n == 0 || n > MOST || qdot_expr_kind(pool, equations) != QDOT_LIST ||
-        qdot_expr_count(pool, equations) != n) {
-        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns, up to %d",
-                        MOST);
-        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x, y])");
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_expr e = qdot_expr_arg(pool, equations, i);
-
-        u[i] = qdot_expr_arg(pool, unknowns, i);
-        QDOT_TRY(is_symbol(session, u[i], "solve takes symbols as unknowns, not %s"));
-        f[i] = difference_of(pool, e);
-        QDOT_TRY(qdot_value_kind_check(pool, f[i]));
-        if (!qdot_expr_is_scalar(pool, f[i]))
-            return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
-                             qdot_value_kind_words(pool, e));
-    }
-    QDOT_TRY(qdot_solve_system(pool, n, f, u, &facts, value, &complete));
-    *value = leave_out_undefined(session, n, u, *value);
-    QDOT_TRY(qdot_pool_check(pool));
-    if (complete)
-        return QDOT_OK;
-    (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
-                    qdot_expr_count(pool, *value) > 0 ? " for all their solutions" : "");
-    return qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
-}
-
-/* solve([A = B, C = D], [x = 1, y = 2]) */
-static qdot_status
-system_near(qdot_session *session, qdot_expr equations, qdot_expr guesses,
-            qdot_expr *value)
-{
-    qdot_pool *pool = session->pool;
-    uint32_t n = qdot_expr_count(pool, guesses);
-    qdot_expr f[MOST], u[MOST];
-
-    if (qdot_expr_kind(pool, equations) != QDOT_LIST ||
-        qdot_expr_count(pool, equations) != n) {
-        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns");
-        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x = 1, y = 1])");
-    }
-    if (n > MOST)
-        return qdot_fail(QDOT_ELIMIT, "solve takes up to %d unknowns", MOST);
-    for (uint32_t i = 0; i < n; i++) {
-        f[i] = qdot_expr_arg(pool, equations, i);
-        u[i] = qdot_expr_arg(pool, guesses, i);
-    }
-    return qdot_solve_near(session, n, f, u, domain_as_written(session, QDOT_NIL), true,
-                           value);
-}
-
 /* --- the function ------------------------------------------------------------------------------------ */
 
 static bool
@@ -326,9 +222,11 @@ qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
         return qdot_hint("as in solve(cos(x) = x, x, 0..2)");
     }
     if (n == 2 && is_list_of_equations(pool, args[1]))
-        return system_near(session, args[0], args[1], value);
+        return qdot_solve_system_near(session, args[0], args[1],
+                                      domain_as_written(session, QDOT_NIL), value);
     if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)
-        return system_exactly(session, args[0], args[1], value);
+        return qdot_solve_system(session, args[0], args[1],
+                                 domain_as_written(session, QDOT_NIL), value);
     if (n == 2 && !qdot_value_kind_is_equation(pool, args[1]))
         return one_unknown(session, args[0], args[1], value);
     x = n == 4 ? args[1] : qdot_expr_arg(pool, args[1], 0);

@@ -2,7 +2,7 @@
  *
  *     solve(A = B, x)                             every value in the domain of x: exact; where no formula gives them
  *                                                 in numbers, if all are proved to be found
- *     solve([A = B, C = D], [x, y])               exactly, in several unknowns (normal/solve/solve-system.h)
+ *     solve([A = B, C = D], [x, y])               the same in several unknowns (solve-system.h)
  *     solve(A = B, x, a..b)                       every zero in a..b, in numbers
  *     solve(A = B, x = guess)                     the one that Newton's steps reach
  *     solve([A = B, C = D], [x = 1, y = 2])       the same in several unknowns

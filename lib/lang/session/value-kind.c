@@ -40,3 +40,19 @@ qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_kind(pool, e) == QDOT_REL && qdot_expr_node(pool, e)->op == QDOT_EQ;
 }
+
+qdot_expr
+qdot_value_kind_difference(qdot_pool *pool, qdot_expr e)
+{
+    return qdot_value_kind_is_equation(pool, e)
+               ? qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))
+               : e;
+}
+
+qdot_status
+qdot_value_kind_need_symbol(qdot_pool *pool, qdot_expr x, const char *message)
+{
+    return qdot_expr_kind(pool, x) == QDOT_SYM && x > QDOT_FALSE
+               ? QDOT_OK
+               : qdot_fail(QDOT_ETYPE, message, qdot_value_kind_words(pool, x));
+}

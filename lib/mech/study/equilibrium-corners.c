@@ -98,7 +98,7 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
             if (u == QDOT_NIL)
                 break;
             if (count == MOST_CORNERS) {
-                r->complete = false;
+                r->system.complete = false;
                 break;
             }
             with = qdot_malloc(n * sizeof *with);
@@ -134,7 +134,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
 {
     qdot_pool *pool = r->pool;
     uint32_t count = qdot_expr_count(pool, forces);
-    qdot_rest_branch b = {.equations = equations, .known = qdot_list(pool, 0, NULL),
+    qdot_simultaneous_branch b = {.equations = equations, .known = qdot_list(pool, 0, NULL),
                           .conditions = r->sliding};
     qdot_expr *G = qdot_malloc((count + 1) * sizeof *G);
     qdot_status status = QDOT_OK;
@@ -168,7 +168,7 @@ corner_branch(qdot_rest *r, qdot_expr equations, qdot_expr forces, const qdot_ex
     qdot_free(G);
     b.whole = b.equations;
     if (status == QDOT_OK && b.conditions != QDOT_FALSE)
-        status = qdot_vec_push(&r->todo, b);
+        status = qdot_vec_push(&r->system.todo, b);
     return status;
 }
 
@@ -185,11 +185,11 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
         n++;
     QDOT_TRY(qdot_pool_check(pool));
     if (n > MOST_CORNERS) {
-        r->complete = false;
+        r->system.complete = false;
         return QDOT_OK;
     }
     for (size_t k = 0; k < n; k++)
-        QDOT_TRY(qdot_vec_push(&r->unknowns, side_symbol(pool, MOST_CORNERS + k)));
+        QDOT_TRY(qdot_vec_push(&r->system.unknowns, side_symbol(pool, MOST_CORNERS + k)));
     for (unsigned which = 1; which < 1u << n; which++)
         QDOT_TRY(corner_branch(r, equations, forces, u, n, which));
     return QDOT_OK;

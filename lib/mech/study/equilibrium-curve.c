@@ -20,7 +20,7 @@ check_scene(qdot_equilibrium_curve *c)
         if (s->constraints.at[k].kind != QDOT_HOLONOMIC)
             return qdot_fail(QDOT_ETYPE, "equilibria are followed under holonomic constraints; "
                                          "this scene has others");
-    if ((qdot_mech_holds(s, c->rest.equations) & QDOT_HAS_TIME) != 0)
+    if ((qdot_mech_holds(s, c->rest.system.equations) & QDOT_HAS_TIME) != 0)
         return qdot_fail(QDOT_ETYPE, "the equations depend on time: there are no equilibria to "
                                      "follow");
     return QDOT_OK;
@@ -29,10 +29,10 @@ check_scene(qdot_equilibrium_curve *c)
 static qdot_status
 check_count(qdot_equilibrium_curve *c)
 {
-    const uint32_t equations = qdot_expr_count(c->pool, c->rest.equations);
+    const uint32_t equations = qdot_expr_count(c->pool, c->rest.system.equations);
 
-    c->n = c->rest.unknowns.n;
-    c->coordinates = c->rest.coordinates;
+    c->n = c->rest.system.unknowns.n;
+    c->coordinates = c->rest.system.places;
     if (c->coordinates == 0)
         return qdot_fail(QDOT_EFAILED, "the equations at rest hold no coordinate: %s",
                          equations == 0 ? "every place is an equilibrium"
@@ -105,8 +105,8 @@ static qdot_status
 fill_equations(qdot_equilibrium_curve *c)
 {
     for (size_t i = 0; i < c->n; i++) {
-        c->unknown[i] = c->rest.unknowns.at[i];
-        c->F[i] = c->bind(c->user, qdot_expr_arg(c->pool, c->rest.equations, (uint32_t)i));
+        c->unknown[i] = c->rest.system.unknowns.at[i];
+        c->F[i] = c->bind(c->user, qdot_expr_arg(c->pool, c->rest.system.equations, (uint32_t)i));
     }
     c->unknown[c->n] = c->parameter;
     QDOT_TRY(qdot_pool_check(c->pool));
@@ -118,7 +118,7 @@ fill_equations(qdot_equilibrium_curve *c)
         QDOT_TRY(bound(c, &q, q.lo, &c->lo[i]));
         QDOT_TRY(bound(c, &q, q.hi, &c->hi[i]));
         if (i < c->coordinates && isinf(c->lo[i]) && isinf(c->hi[i]))
-            c->angle[i] = qdot_rest_is_angle(&c->rest, c->unknown[i], c->rest.equations);
+            c->angle[i] = qdot_rest_is_angle(&c->rest, c->unknown[i], c->rest.system.equations);
     }
     return qdot_pool_check(c->pool);
 }
@@ -188,7 +188,7 @@ qdot_equilibrium_curve_begin(qdot_equilibrium_curve *c, qdot_scene *s, qdot_expr
     QDOT_TRY(check_count(c));
     QDOT_TRY(make_room(c));
     QDOT_TRY(fill_equations(c));
-    QDOT_TRY(qdot_judge_new(s, c->rest.equations, bind, user, &c->judge));
+    QDOT_TRY(qdot_judge_new(s, c->rest.system.equations, bind, user, &c->judge));
     c->judge->parameter = parameter;
     QDOT_TRY(qdot_stability_numbers_new(c->judge, &c->judge->numbers));
     QDOT_TRY(fill_motion(c));
@@ -259,6 +259,10 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
 
     *at = NULL;
     *count = 0;
+    rest.system.unknowns.at = NULL; /* the search appends to its own */
+    rest.system.unknowns.n = rest.system.unknowns.capacity = 0;
+    for (size_t i = 0; i < c->rest.system.unknowns.n && status == QDOT_OK; i++)
+        status = qdot_vec_push(&rest.system.unknowns, c->rest.system.unknowns.at[i]);
     if (status == QDOT_OK)
         status = qdot_rest_find(&rest, bind_all, &value, &unused);
     if (status == QDOT_OK) {
@@ -281,7 +285,6 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
         qdot_free(*at);
         *at = NULL;
     }
-    rest.unknowns.at = NULL; /* c's own */
     qdot_rest_end(&rest);
     return status;
 }

@@ -387,8 +387,8 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
 {
     problem p = {.pool = rest->pool,
                  .n = rest->searched,
-                 .coordinates = rest->coordinates,
-                 .u = rest->unknowns.at};
+                 .coordinates = rest->system.places,
+                 .u = rest->system.unknowns.at};
     gsl_error_handler_t *before = gsl_set_error_handler_off();
     qdot_isolate isolate;
     qdot_status status = problem_begin(&p, r);
@@ -413,10 +413,10 @@ qdot_rest_search(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     qdot_status status;
 
     *out = (qdot_places){0};
-    out->at = qdot_calloc((MOST + 1) * rest->unknowns.n + 1, sizeof *out->at);
+    out->at = qdot_calloc((MOST + 1) * rest->system.unknowns.n + 1, sizeof *out->at);
     status = out->at == NULL ? QDOT_ENOMEM : qdot_rest_exclude(rest, r, out);
     if (status == QDOT_OK && out->complete)
-        rest->complete = true;
+        rest->system.complete = true;
     else if (status == QDOT_OK)
         status = search_from_starts(rest, r, out);
     if (status != QDOT_OK)

@@ -23,17 +23,17 @@ is_constant(const qdot_pool *pool, qdot_expr e)
 static bool
 range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
 {
-    const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->unknowns.at[k]);
+    const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->system.unknowns.at[k]);
 
-    *range = (qdot_zeros_range){.group = k >= rest->coordinates};
-    if (k >= rest->coordinates)
+    *range = (qdot_zeros_range){.group = k >= rest->system.places};
+    if (k >= rest->system.places)
         return true;
     range->lo = q->lo;
     range->hi = q->hi;
     range->lo_open = q->lo_open;
     range->hi_open = q->hi_open;
     range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&
-                  qdot_rest_is_angle(rest, rest->unknowns.at[k], equations);
+                  qdot_rest_is_angle(rest, rest->system.unknowns.at[k], equations);
     return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
 }
 
@@ -63,7 +63,7 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
             return QDOT_OK;
     QDOT_TRY(qdot_pool_check(rest->pool));
     status =
-        qdot_zeros_find(rest->pool, n, r, rest->unknowns.at, range, budgets[n], &zeros);
+        qdot_zeros_find(rest->pool, n, r, rest->system.unknowns.at, range, budgets[n], &zeros);
     if (status == QDOT_ETYPE || status == QDOT_EDOMAIN) /* beyond it */
         return QDOT_OK;
     QDOT_TRY(status);

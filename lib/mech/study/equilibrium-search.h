@@ -8,36 +8,21 @@
 #include "expr/walk.h"
 #include "mech/scene/things.h"
 #include "mech/study/rest.h"
-#include "normal/field/facts.h"
-
-/* A branch of the search: equations still to solve, LISTs of the values known so far and of conditions (as
- * normal/solve/conditions.h has them), what is to be 0 before anything else: a divisor (nil: none), and the
- * equations from which the branch began (nil: those at rest). */
-typedef struct {
-    qdot_expr equations, known, conditions, first, whole;
-} qdot_rest_branch;
+#include "normal/solve/simultaneous.h"
 
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_facts facts;
-    qdot_expr equations; /* all of them, a LIST */
+    qdot_simultaneous system; /* the equations at rest; coordinates, then multipliers, then sides of jumps */
     qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
     qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
     qdot_expr slips;     /* a LIST: the u of each of these signs */
     qdot_expr energy;    /* L at rest */
     qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
-    qdot_vec(qdot_expr) unknowns; /* coordinates, then multipliers */
-    size_t coordinates;           /* of them */
-    size_t searched;              /* of them: with multipliers, without the signs of jumps */
-    qdot_vec(qdot_expr) period;   /* of each coordinate in the equations: QDOT_NIL until asked for,
-                                   * QDOT_FALSE where there is none */
-    qdot_vec(qdot_rest_branch) todo;
+    size_t searched; /* unknowns that are searched for in numbers: without the sides */
     qdot_vec(qdot_equilibrium) found;
-    uint64_t work; /* rest of the budget of exact solution, in operations */
-    bool complete;
     bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
-    bool recurs; /* an angle with one declared end: places of one turn */
 } qdot_rest;
 
 /* The equations at rest and their unknowns; ended in any case. Then all places of rest, to r->found, not
@@ -47,22 +32,15 @@ QDOT_MUST_CHECK qdot_status qdot_rest_find(qdot_rest *r, qdot_binder bind, void 
                                            qdot_equilibria *out);
 void qdot_rest_end(qdot_rest *r);
 
-/* e with the values of equations u = value put in, all at once. */
-qdot_expr qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values);
-
 /* Whether a full turn of u changes no equation. (equilibrium-members.c) */
 bool qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations);
 
-/* The least shift of the coordinate u after which all equations are what they were; nil: none is known.
+/* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike.
  * (equilibrium-members.c) */
-QDOT_MUST_CHECK qdot_status qdot_rest_period(qdot_rest *r, qdot_expr u, qdot_expr *period);
+bool qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period);
 
-/* Append the place of a branch without equations to r->found: all its members inside the declared domains, with
- * the conditions under which they exist. (equilibrium-members.c) */
-QDOT_MUST_CHECK qdot_status qdot_rest_emit(qdot_rest *r, const qdot_rest_branch *b);
-
-/* Solve all branches that are left to do, to r->found; r->complete: these are all.
- * (equilibrium-branches.c) */
+/* Solve all branches that are left to do, to r->found; r->system.complete: these are all.
+ * (equilibrium-members.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_solve(qdot_rest *r);
 
 /* The equations at rest, simplified, those that hold identically left out: a LIST.
@@ -86,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
 
 /* Remove places that belong to a listed family, or differ by full turns from one listed before.
  * (equilibrium-twice.c) */
-QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r, qdot_expr equations);
+QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
 
 /* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */

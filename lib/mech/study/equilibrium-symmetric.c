@@ -12,7 +12,7 @@ enum { MOST_COORDINATES = 6 };
 static bool
 hold_there(const qdot_rest *r, qdot_expr values)
 {
-    qdot_expr there = qdot_rest_put(r, r->equations, values);
+    qdot_expr there = qdot_simultaneous_put(r->pool, r->system.equations, values);
     bool hold = there != QDOT_NIL;
 
     for (uint32_t i = 0; hold && i < qdot_expr_count(r->pool, there); i++)
@@ -24,24 +24,24 @@ qdot_status
 qdot_rest_symmetric(qdot_rest *r)
 {
     qdot_pool *pool = r->pool;
-    size_t n = r->coordinates;
+    size_t n = r->system.places;
     unsigned angles = 0;
     qdot_expr at[MOST_COORDINATES], none = qdot_list(pool, 0, NULL);
 
-    if (n == 0 || n > MOST_COORDINATES || n < r->unknowns.n)
+    if (n == 0 || n > MOST_COORDINATES || n < r->system.unknowns.n)
         return QDOT_OK;
     for (size_t i = 0; i < n; i++)
-        if (qdot_rest_is_angle(r, r->unknowns.at[i], r->equations))
+        if (qdot_rest_is_angle(r, r->system.unknowns.at[i], r->system.equations))
             angles |= 1u << i;
     for (unsigned half = 0; half < 1u << n; half++) {
-        qdot_rest_branch b = {.equations = none};
+        qdot_simultaneous_branch b = {.equations = none};
         qdot_status status;
         bool hold;
 
         if ((half & ~angles) != 0)
             continue;
         for (size_t i = 0; i < n; i++)
-            at[i] = qdot_rel(pool, QDOT_EQ, r->unknowns.at[i], half >> i & 1 ? QDOT_PI : QDOT_ZERO);
+            at[i] = qdot_rel(pool, QDOT_EQ, r->system.unknowns.at[i], half >> i & 1 ? QDOT_PI : QDOT_ZERO);
         b.known = qdot_list(pool, (uint32_t)n, at);
         QDOT_TRY(qdot_pool_check(pool));
         hold = hold_there(r, b.known);
@@ -50,7 +50,7 @@ qdot_rest_symmetric(qdot_rest *r)
             continue;
         QDOT_TRY(status);
         if (hold)
-            QDOT_TRY(qdot_rest_emit(r, &b));
+            QDOT_TRY(qdot_simultaneous_emit(&r->system, &b));
     }
-    return QDOT_OK;
+    return qdot_rest_solve(r);
 }

@@ -27,15 +27,15 @@ find_unknowns(qdot_rest *r)
     qdot_scene *s = r->s;
 
     for (size_t i = 0; i < s->coordinates.n; i++)
-        if (qdot_expr_contains(r->pool, r->equations, s->coordinates.at[i]))
-            QDOT_TRY(qdot_vec_push(&r->unknowns, s->coordinates.at[i]));
-    r->coordinates = r->unknowns.n;
+        if (qdot_expr_contains(r->pool, r->system.equations, s->coordinates.at[i]))
+            QDOT_TRY(qdot_vec_push(&r->system.unknowns, s->coordinates.at[i]));
+    r->system.places = r->system.unknowns.n;
     for (size_t k = 0; k < s->constraints.n; k++)
-        if (qdot_expr_contains(r->pool, r->equations, s->constraints.at[k].multiplier))
-            QDOT_TRY(qdot_vec_push(&r->unknowns, s->constraints.at[k].multiplier));
-    r->searched = r->unknowns.n;
+        if (qdot_expr_contains(r->pool, r->system.equations, s->constraints.at[k].multiplier))
+            QDOT_TRY(qdot_vec_push(&r->system.unknowns, s->constraints.at[k].multiplier));
+    r->searched = r->system.unknowns.n;
     for (uint32_t k = 0; r->friction != QDOT_NIL && k < qdot_expr_count(r->pool, r->friction); k++)
-        QDOT_TRY(qdot_vec_push(&r->unknowns, qdot_expr_arg(r->pool, r->friction, k)));
+        QDOT_TRY(qdot_vec_push(&r->system.unknowns, qdot_expr_arg(r->pool, r->friction, k)));
     return QDOT_OK;
 }
 
@@ -43,12 +43,12 @@ static qdot_status
 begin_branch(qdot_rest *r, qdot_expr equations)
 {
     qdot_expr none = qdot_list(r->pool, 0, NULL);
-    qdot_rest_branch first = {
+    qdot_simultaneous_branch first = {
         .equations = equations, .known = none, .conditions = r->sliding, .whole = equations};
 
     QDOT_TRY(qdot_pool_check(r->pool));
     QDOT_TRY(qdot_rest_corners(r, equations));
-    return qdot_vec_push(&r->todo, first);
+    return qdot_vec_push(&r->system.todo, first);
 }
 
 /* --- for all times ------------------------------------------------------------------------- */
@@ -80,24 +80,24 @@ keep_lasting(qdot_rest *r)
     r->found.at = NULL;
     r->found.n = r->found.capacity = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_rest_branch b = {.known = places_alone(r, before[i].equations),
+        qdot_simultaneous_branch b = {.known = places_alone(r, before[i].equations),
                               .conditions = before[i].exists};
         size_t had = r->found.n, kept = had;
 
-        b.equations = qdot_rest_put(r, r->equations, b.known);
+        b.equations = qdot_simultaneous_put(r->pool, r->system.equations, b.known);
         status = qdot_pool_check(r->pool);
         if (status == QDOT_EDOMAIN)
             status = QDOT_OK;
         else if (status == QDOT_OK)
-            status = qdot_vec_push(&r->todo, b);
+            status = qdot_vec_push(&r->system.todo, b);
         if (status == QDOT_OK)
             status = qdot_rest_solve(r);
         for (size_t k = had; k < r->found.n; k++)
             if (!holds_time(r, places_alone(r, r->found.at[k].equations)))
                 r->found.at[kept++] = r->found.at[k];
         r->found.n = kept;
-        if (kept == had && qdot_expr_count(r->pool, b.known) < r->coordinates)
-            r->complete = false;
+        if (kept == had && qdot_expr_count(r->pool, b.known) < r->system.places)
+            r->system.complete = false;
     }
     qdot_free(before);
     return status;
@@ -116,7 +116,7 @@ unset(const qdot_rest *r, qdot_expr e)
         bool is_unknown = qdot_expr_is_class(r->pool, x, QDOT_CONST);
 
         for (size_t k = 0; k < r->searched; k++)
-            is_unknown |= r->unknowns.at[k] == x;
+            is_unknown |= r->system.unknowns.at[k] == x;
         if (is_unknown)
             continue;
         return qdot_expr_kind(r->pool, x) == QDOT_SYM
@@ -144,7 +144,7 @@ is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
             same = e != QDOT_NIL &&
                    qdot_generic_evaluate(
                        r->pool, 1, &e,
-                       &(qdot_generic_point){r->searched, r->unknowns.at, x, 1},
+                       &(qdot_generic_point){r->searched, r->system.unknowns.at, x, 1},
                        &off) == QDOT_OK &&
                    fabs(off) < 1e-7;
         }
@@ -161,7 +161,7 @@ is_defined(const qdot_rest *r, const double *x, qdot_expr energy, bool *yes)
     double value;
 
     QDOT_TRY(qdot_generic_evaluate(r->pool, 1, &energy,
-                                   &(qdot_generic_point){r->searched, r->unknowns.at, x, 1}, &value));
+                                   &(qdot_generic_point){r->searched, r->system.unknowns.at, x, 1}, &value));
     *yes = !isnan(value);
     return QDOT_OK;
 }
@@ -184,7 +184,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user
         if (is_known(r, places->at + k * n, bind, user))
             continue;
         for (size_t i = 0; i < n; i++)
-            list[i] = qdot_rel(r->pool, QDOT_EQ, r->unknowns.at[i],
+            list[i] = qdot_rel(r->pool, QDOT_EQ, r->system.unknowns.at[i],
                                qdot_generic_decimal(r->pool, places->at[k * n + i]));
         one.equations = qdot_list(r->pool, (uint32_t)n, list);
         status = qdot_pool_check(r->pool);
@@ -200,7 +200,7 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_pool *pool = r->pool;
     const size_t n = r->searched;
-    qdot_expr bound = bind == NULL ? r->equations : bind(user, r->equations), *e;
+    qdot_expr bound = bind == NULL ? r->system.equations : bind(user, r->system.equations), *e;
     qdot_places places;
     const char *name;
     qdot_status status;
@@ -263,7 +263,7 @@ is_alike(qdot_rest *r, const qdot_equilibrium *e, bool *yes)
 
         if (!holds_integer(r->pool, one))
             continue;
-        QDOT_TRY(qdot_rest_period(r, qdot_expr_arg(r->pool, one, 0), &period));
+        QDOT_TRY(qdot_simultaneous_period(&r->system, qdot_expr_arg(r->pool, one, 0), &period));
         *yes = period != QDOT_NIL;
     }
     return qdot_pool_check(r->pool);
@@ -303,7 +303,7 @@ static qdot_status
 judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 {
     qdot_judge *judge;
-    qdot_status status = qdot_judge_new(r->s, r->equations, bind, user, &judge);
+    qdot_status status = qdot_judge_new(r->s, r->system.equations, bind, user, &judge);
 
     if (status == QDOT_OK) {
         judge->forces = r->forces;
@@ -326,47 +326,50 @@ qdot_rest_begin(qdot_rest *r, qdot_scene *s)
 
     *r = (qdot_rest){.s = s,
                      .pool = s->pool,
-                     .facts = qdot_scene_facts(s),
-                     .work = WORK,
-                     .complete = true};
+                     .facts = qdot_scene_facts(s)};
+    r->system = (qdot_simultaneous){.pool = r->pool,
+                                    .facts = r->facts,
+                                    .alike = qdot_rest_moves_alike,
+                                    .user = s,
+                                    .work = WORK,
+                                    .complete = true};
     QDOT_TRY(qdot_pool_check(r->pool));
-    QDOT_TRY(qdot_rest_equations(r, &r->equations));
+    QDOT_TRY(qdot_rest_equations(r, &r->system.equations));
     r->energy = qdot_rest_value(s, qdot_list(s->pool, 0, NULL), qdot_mech_lagrangian(s));
     status = qdot_pool_check(r->pool);
     if (status == QDOT_EDOMAIN) { /* L has no value at rest: nothing is asked of it */
         r->energy = QDOT_ZERO;
         status = QDOT_OK;
     }
+    r->system.defined = r->energy;
     return status == QDOT_OK ? find_unknowns(r) : status;
 }
 
 void
 qdot_rest_end(qdot_rest *r)
 {
-    qdot_free(r->todo.at);
-    qdot_free(r->unknowns.at);
-    qdot_free(r->period.at);
+    qdot_simultaneous_clear(&r->system);
     qdot_free(r->found.at);
 }
 
 qdot_status
 qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    qdot_expr equations = r->equations;
-    bool lasting = holds_time(r, r->equations);
+    qdot_expr equations = r->system.equations;
+    bool lasting = holds_time(r, r->system.equations);
 
     if (lasting)
-        QDOT_TRY(qdot_rest_at_all_times(r, r->equations, &equations));
+        QDOT_TRY(qdot_rest_at_all_times(r, r->system.equations, &equations));
     QDOT_TRY(begin_branch(r, equations));
     QDOT_TRY(qdot_rest_solve(r));
     if (lasting)
         QDOT_TRY(keep_lasting(r));
-    else if (!r->complete)
+    else if (!r->system.complete)
         QDOT_TRY(search(r, bind, user, out));
-    QDOT_TRY(qdot_rest_leave_out_twice(r, r->equations));
+    QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
     QDOT_TRY(qdot_rest_tips(r));
-    r->complete = r->complete && !r->unresolved;
+    r->system.complete = r->system.complete && !r->unresolved;
     return QDOT_OK;
 }
 
@@ -387,8 +390,8 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;
     out->n = r.found.n;
-    out->complete = r.complete && out->pole == NULL;
-    out->recurs = r.recurs && r.found.n > 0;
+    out->complete = r.system.complete && out->pole == NULL;
+    out->recurs = r.system.recurs && r.found.n > 0;
     r.found.at = NULL;
     qdot_rest_end(&r);
     if (status != QDOT_OK)

@@ -89,6 +89,8 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
             status = status == QDOT_EDOMAIN ? QDOT_OK : status;
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
             status = qdot_solver_add(s, root->value, root->period, all);
+        } else if (!qdot_is_generic(s->pool, at)) { /* it is one where other unknowns make it so */
+            status = qdot_solver_divide(s, at);
         }
     }
     s->out->complete = s->out->complete && found.complete;

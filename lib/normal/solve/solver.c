@@ -495,14 +495,6 @@ is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind 
            a->pair == (uint32_t)sh->var[1] && (a->kind == sine || a->kind == cosine);
 }
 
-/* A factor without x: where it is 0 the set is another. */
-static qdot_status
-note_factor(qdot_solver *s, qdot_expr e)
-{
-    QDOT_TRY(qdot_pool_check(s->pool));
-    return qdot_is_generic(s->pool, e) ? qdot_solver_divide(s, e) : QDOT_OK;
-}
-
 static qdot_status
 one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
 {
@@ -513,8 +505,8 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
     status = shape_of(s, f, p, &sh);
     if (status != QDOT_OK)
         ;
-    else if (sh.n == 0) /* of parameters alone: where it is 0 every x is a root */
-        status = note_factor(s, qdot_field_expr(f, p));
+    else if (sh.n == 0) /* without x: where it is 0 every x is a root */
+        status = qdot_solver_divide(s, qdot_field_expr(f, p));
     else if (sh.n == 1)
         status = one_generator(s, f, &sh, when);
     else if (sh.n > 2)

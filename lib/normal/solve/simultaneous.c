@@ -1,13 +1,14 @@
-/* equilibrium-branches.c -- the equations at rest, solved one unknown at a time, factor by
- * factor; where a step divides, the divisor's zeros are a branch of their own. */
+/* simultaneous.c -- equations solved one unknown at a time, factor by factor; where a step divides, the divisor's zeros
+ * are a branch of their own. */
+#include "normal/solve/simultaneous.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/list.h"
 #include "expr/walk.h"
-#include "mech/scene/access.h"
-#include "mech/study/equilibrium-search.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
@@ -19,30 +20,41 @@ enum { MOST_MEMBERS = 64 };
 /* --- values put in --------------------------------------------------------------- */
 
 qdot_expr
-qdot_rest_put(const qdot_rest *r, qdot_expr e, qdot_expr values)
+qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
 {
-    uint32_t n = qdot_expr_count(r->pool, values);
+    uint32_t n = qdot_expr_count(pool, values);
     qdot_expr *from = qdot_malloc((2 * (size_t)n + 1) * sizeof *from);
 
     if (from == NULL)
-        return qdot_pool_fail(r->pool);
+        return qdot_pool_fail(pool);
     for (uint32_t i = 0; i < n; i++) {
-        from[i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 0);
-        from[n + i] = qdot_expr_arg(r->pool, qdot_expr_arg(r->pool, values, i), 1);
+        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, values, i), 0);
+        from[n + i] = qdot_expr_arg(pool, qdot_expr_arg(pool, values, i), 1);
     }
-    e = qdot_subs(r->pool, e, n, from, from + n);
+    e = qdot_subs(pool, e, n, from, from + n);
     qdot_free(from);
     return e;
 }
 
 static size_t
-holds_unknowns(const qdot_rest *r, qdot_expr e)
+holds_unknowns(const qdot_simultaneous *s, qdot_expr e)
 {
     size_t n = 0;
 
-    for (size_t i = 0; i < r->unknowns.n; i++)
-        n += qdot_expr_contains(r->pool, e, r->unknowns.at[i]);
+    for (size_t i = 0; i < s->unknowns.n; i++)
+        n += qdot_expr_contains(s->pool, e, s->unknowns.at[i]);
     return n;
+}
+
+/* Note that where d, if it is of parameters alone, is 0 the set may be another. */
+static qdot_status
+add_special(qdot_simultaneous *s, qdot_expr d)
+{
+    if (!qdot_is_generic(s->pool, d) || qdot_is_constant(s->pool, d) ||
+        (qdot_expr_node(s->pool, d)->sign & QDOT_NE0) != 0 ||
+        qdot_expr_place(s->special.n, s->special.at, d) < s->special.n)
+        return QDOT_OK;
+    return qdot_vec_push(&s->special, d);
 }
 
 /* --- one step of a branch ------------------------------------------------------------ */
@@ -50,28 +62,28 @@ holds_unknowns(const qdot_rest *r, qdot_expr e)
 /* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
  * divided by anything unknown; 2 linear; 3 else; 9 not there. */
 static int
-effort(const qdot_rest *r, qdot_expr factor, qdot_expr u)
+effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
 {
     qdot_expr slope;
 
-    if (!qdot_expr_contains(r->pool, factor, u))
+    if (!qdot_expr_contains(s->pool, factor, u))
         return 9;
-    if (holds_unknowns(r, factor) == 1)
+    if (holds_unknowns(s, factor) == 1)
         return 0;
-    slope = qdot_diff(r->pool, factor, u);
-    if (slope == QDOT_NIL || qdot_expr_contains(r->pool, slope, u))
+    slope = qdot_diff(s->pool, factor, u);
+    if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
         return 3;
-    return holds_unknowns(r, slope) == 0 ? 1 : 2;
+    return holds_unknowns(s, slope) == 0 ? 1 : 2;
 }
 
-/* The easiest unknown of a factor, multipliers before coordinates. */
+/* The easiest unknown of a factor, the last of them first. */
 static int
-easiest(const qdot_rest *r, qdot_expr factor, size_t *which)
+easiest(const qdot_simultaneous *s, qdot_expr factor, size_t *which)
 {
     int least = 9;
 
-    for (size_t i = r->unknowns.n; i-- > 0;) {
-        int one = effort(r, factor, r->unknowns.at[i]);
+    for (size_t i = s->unknowns.n; i-- > 0;) {
+        int one = effort(s, factor, s->unknowns.at[i]);
 
         if (one < least) {
             least = one;
@@ -83,12 +95,12 @@ easiest(const qdot_rest *r, qdot_expr factor, size_t *which)
 
 /* The branch with u = value put in everywhere. */
 static qdot_status
-with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
+with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
            qdot_expr value, qdot_expr conditions)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     qdot_expr equation = qdot_rel(pool, QDOT_EQ, u, value);
-    qdot_rest_branch next = {.equations = qdot_subs(pool, equations, 1, &u, &value),
+    qdot_simultaneous_branch next = {.equations = qdot_subs(pool, equations, 1, &u, &value),
                              .known = qdot_subs(pool, b->known, 1, &u, &value),
                              .conditions = qdot_conditions_all(pool, b->conditions, conditions),
                              .whole = b->whole};
@@ -108,7 +120,7 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     }
     if (next.conditions != QDOT_NIL && next.conditions != QDOT_FALSE)
-        next.conditions = qdot_conditions_at(pool, next.conditions, 1, &u, &value, &r->facts);
+        next.conditions = qdot_conditions_at(pool, next.conditions, 1, &u, &value, &s->facts);
     QDOT_TRY(qdot_pool_check(pool));
     if (next.conditions == QDOT_FALSE)
         return QDOT_OK;
@@ -122,20 +134,20 @@ with_value(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_ex
     next.known = qdot_list(pool, n + 1, known);
     qdot_free(known);
     QDOT_TRY(qdot_pool_check(pool));
-    return qdot_vec_push(&r->todo, next);
+    return qdot_vec_push(&s->todo, next);
 }
 
 /* How many members u = base + k period, k = 0, 1 ..., the circular functions of u in the equations take for
  * different: *members; 0: without end, or more than MOST_MEMBERS. */
 static qdot_status
-count_members(qdot_rest *r, qdot_expr u, qdot_expr period, long *members)
+count_members(qdot_simultaneous *s, qdot_expr u, qdot_expr period, long *members)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     qdot_expr two_pi = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
     qdot_walk w;
 
     *members = 1;
-    QDOT_TRY(qdot_walk_begin(pool, r->equations, &w));
+    QDOT_TRY(qdot_walk_begin(pool, s->equations, &w));
     for (size_t i = 0; i < w.n && *members > 0; i++) {
         qdot_expr turns;
         const fmpq *q;
@@ -145,7 +157,7 @@ count_members(qdot_rest *r, qdot_expr u, qdot_expr period, long *members)
             !qdot_expr_contains(pool, w.at[i], u))
             continue;
         turns = qdot_mul(pool, period, qdot_diff(pool, qdot_expr_arg(pool, w.at[i], 0), u));
-        turns = qdot_simplify(pool, qdot_div(pool, turns, two_pi), &r->facts);
+        turns = qdot_simplify(pool, qdot_div(pool, turns, two_pi), &s->facts);
         q = turns == QDOT_NIL ? NULL : qdot_expr_rational(pool, turns);
         if (q == NULL || fmpz_cmp_si(fmpq_denref(q), MOST_MEMBERS) > 0) {
             *members = 0;
@@ -165,25 +177,24 @@ count_members(qdot_rest *r, qdot_expr u, qdot_expr period, long *members)
  * u = base + (k + members n) period for each value of the sines; they lose their whole turns, and the integer n stays.
  * *done: false where there is no such number. */
 static qdot_status
-with_integer(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
+with_integer(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
              const qdot_root *root, bool *done)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, b->known));
     long members = 0;
     qdot_status status = QDOT_OK;
 
     *done = false;
-    if (qdot_expr_place(r->coordinates, r->unknowns.at, u) == r->coordinates ||
-        root->members != QDOT_NIL || qdot_solve_window(pool, u, false).lo != QDOT_NIL ||
-        qdot_solve_window(pool, u, false).hi != QDOT_NIL)
+    if (qdot_expr_place(s->places, s->unknowns.at, u) == s->places ||
+        root->members != QDOT_NIL)
         return QDOT_OK;
-    QDOT_TRY(count_members(r, u, root->period, &members));
+    QDOT_TRY(count_members(s, u, root->period, &members));
     for (long k = members; k-- > 0 && status == QDOT_OK;) {
         qdot_expr count = qdot_add(pool, qdot_expr_int(pool, k),
                                    qdot_mul(pool, qdot_expr_int(pool, members), n));
 
-        status = with_value(r, b, equations, u,
+        status = with_value(s, b, equations, u,
                             qdot_add(pool, root->value, qdot_mul(pool, count, root->period)),
                             root->condition);
     }
@@ -193,25 +204,25 @@ with_integer(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_
 
 /* One branch for each member of a family of u within the period of all equations in u. */
 static qdot_status
-with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr u,
+with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr u,
             const qdot_root *root)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     qdot_window window = qdot_solve_tighten(pool, u, root->members,
-                                            qdot_solve_window(pool, u, false), &r->facts);
+                                            qdot_solve_window(pool, u, false), &s->facts);
     qdot_expr period, ratio;
     long members = 0;
     bool done;
-    qdot_status status = qdot_rest_period(r, u, &period);
+    qdot_status status = qdot_simultaneous_period(s, u, &period);
 
     if (status == QDOT_OK && period != QDOT_NIL) {
-        ratio = qdot_simplify(pool, qdot_div(pool, period, root->period), &r->facts);
+        ratio = qdot_simplify(pool, qdot_div(pool, period, root->period), &s->facts);
         QDOT_TRY(qdot_pool_check(pool));
         if (!qdot_expr_to_int(pool, ratio, &members) || members > MOST_MEMBERS)
             members = 0;
     }
     for (long k = members; k-- > 0 && status == QDOT_OK;)
-        status = with_value(r, b, equations, u,
+        status = with_value(s, b, equations, u,
                             qdot_add(pool, root->value,
                                      qdot_mul(pool, qdot_expr_int(pool, k), root->period)),
                             qdot_conditions_all(pool, root->condition, root->members));
@@ -220,31 +231,31 @@ with_family(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_e
     if (window.lo != QDOT_NIL && window.hi != QDOT_NIL) {
         qdot_solutions inside = {.complete = true};
 
-        status = qdot_solve_members(pool, u, root, &window, &r->facts, &inside);
-        r->complete = r->complete && inside.complete;
+        status = qdot_solve_members(pool, u, root, &window, &s->facts, &inside);
+        s->complete = s->complete && inside.complete;
         for (size_t i = inside.root.n; i-- > 0 && status == QDOT_OK;)
-            status = with_value(r, b, equations, u, inside.root.at[i].value,
+            status = with_value(s, b, equations, u, inside.root.at[i].value,
                                 inside.root.at[i].condition);
         qdot_solutions_clear(&inside);
         return status;
     }
-    QDOT_TRY(with_integer(r, b, equations, u, root, &done));
+    QDOT_TRY(with_integer(s, b, equations, u, root, &done));
     if (done)
         return QDOT_OK;
-    r->complete = false; /* other equations differ from member to member, without end */
-    return with_value(r, b, equations, u, root->value,
+    s->complete = false; /* other equations differ from member to member, without end */
+    return with_value(s, b, equations, u, root->value,
                       qdot_conditions_all(pool, root->condition, root->members));
 }
 
 /* A branch in which all of a divisor (an expression, or a LIST of them) is 0. */
 static qdot_status
-with_divisor_zero(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, qdot_expr factor,
+with_divisor_zero(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr equations, qdot_expr factor,
                   qdot_expr divisor)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     bool many = qdot_expr_kind(pool, divisor) == QDOT_LIST;
     uint32_t n = many ? qdot_expr_count(pool, divisor) : 0;
-    qdot_rest_branch next = *b;
+    qdot_simultaneous_branch next = *b;
 
     next.first = many ? qdot_expr_arg(pool, divisor, 0) : divisor;
     next.equations = qdot_list_appended(pool, equations, 1, &factor);
@@ -254,69 +265,71 @@ with_divisor_zero(qdot_rest *r, const qdot_rest_branch *b, qdot_expr equations, 
         next.equations = qdot_list_appended(pool, next.equations, 1, &one);
     }
     QDOT_TRY(qdot_pool_check(pool));
-    return qdot_vec_push(&r->todo, next);
+    return qdot_vec_push(&s->todo, next);
 }
 
 static qdot_status
-with_root(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr u,
+with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr u,
           const qdot_root *root)
 {
-    qdot_rest_branch free;
+    qdot_simultaneous_branch free;
 
     if (root->period != QDOT_NIL)
-        return with_family(r, b, others, u, root);
+        return with_family(s, b, others, u, root);
     if (root->value != u)
-        return with_value(r, b, others, u, root->value, root->condition);
+        return with_value(s, b, others, u, root->value, root->condition);
     free = *b; /* every u under a condition */
     free.equations = others;
     free.first = QDOT_NIL;
-    free.conditions = qdot_conditions_all(r->pool, b->conditions, root->condition);
-    return free.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&r->todo, free);
+    free.conditions = qdot_conditions_all(s->pool, b->conditions, root->condition);
+    return free.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, free);
 }
 
 /* Each family of constants by its first member in the declared domain, and ascending. */
 static qdot_status
-order_families(qdot_rest *r, qdot_expr u, qdot_solutions *found)
+order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
 {
-    qdot_window window = qdot_solve_window(r->pool, u, true);
+    qdot_window window = qdot_solve_window(s->pool, u, true);
     bool any = false;
 
     for (size_t i = 0; i < found->root.n && !window.turn; i++) {
         qdot_root *root = &found->root.at[i];
         qdot_solutions members = {.complete = true};
 
-        if (root->period == QDOT_NIL || !qdot_is_constant(r->pool, root->value) ||
-            !qdot_is_constant(r->pool, root->period))
+        if (root->period == QDOT_NIL || !qdot_is_constant(s->pool, root->value) ||
+            !qdot_is_constant(s->pool, root->period))
             continue;
-        QDOT_TRY(qdot_solve_members(r->pool, u, root, &window, &r->facts, &members));
+        QDOT_TRY(qdot_solve_members(s->pool, u, root, &window, &s->facts, &members));
         if (members.root.n > 0)
             root->value = members.root.at[0].value;
         qdot_solutions_clear(&members);
         any = true;
     }
-    return any ? qdot_solve_sort(r->pool, found->root.n, found->root.at) : QDOT_OK;
+    return any ? qdot_solve_sort(s->pool, found->root.n, found->root.at) : QDOT_OK;
 }
 
 /* factor = 0 for its easiest unknown. */
 static qdot_status
-split(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr factor)
+split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others, qdot_expr factor)
 {
     qdot_solutions found;
     size_t which = 0;
     qdot_expr u;
     qdot_status status;
 
-    if (easiest(r, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
-        return QDOT_OK;
-    u = r->unknowns.at[which];
-    status = qdot_solve(r->pool, factor, u, &r->facts, &found);
-    r->complete = r->complete && found.complete;
+    if (easiest(s, factor, &which) == 9) /* no unknown: generic parameters, not 0 */
+        return add_special(s, factor);
+    u = s->unknowns.at[which];
+    status = qdot_solve(s->pool, factor, u, &s->facts, &found);
+    s->complete = s->complete && found.complete;
+    for (size_t i = 0; i < found.special.n && status == QDOT_OK; i++)
+        status = add_special(s, found.special.at[i]);
     if (status == QDOT_OK)
-        status = order_families(r, u, &found);
+        status = order_families(s, u, &found);
     for (size_t i = found.root.n; i-- > 0 && status == QDOT_OK;)
-        status = with_root(r, b, others, u, &found.root.at[i]);
+        status = with_root(s, b, others, u, &found.root.at[i]);
     for (size_t i = 0; i < found.divisor.n && status == QDOT_OK; i++)
-        status = with_divisor_zero(r, b, others, factor, found.divisor.at[i]);
+        status = with_divisor_zero(s, b, others, factor, found.divisor.at[i]);
     qdot_solutions_clear(&found);
     return status;
 }
@@ -325,58 +338,58 @@ split(qdot_rest *r, const qdot_rest_branch *b, qdot_expr others, qdot_expr facto
 
 /* Whether e, without unknowns and not proved to be 0, is another number than 0: else nothing is known. */
 static qdot_status
-is_never_zero(qdot_rest *r, qdot_expr e)
+is_never_zero(qdot_simultaneous *s, qdot_expr e)
 {
     qdot_decision d;
 
-    QDOT_TRY(qdot_decide_equal(r->pool, e, QDOT_ZERO, &r->facts, &d));
-    r->complete = r->complete && d.verdict == QDOT_REFUTED;
-    return QDOT_OK;
+    QDOT_TRY(qdot_decide_equal(s->pool, e, QDOT_ZERO, &s->facts, &d));
+    s->complete = s->complete && d.verdict == QDOT_REFUTED;
+    return add_special(s, e);
 }
 
 /* e = 0 without unknowns, with integers that count members of families: the branch for each integer that solves it. A
  * root with parameters is no integer for generic ones. */
 static qdot_status
-with_integers_solved(qdot_rest *r, const qdot_rest_branch *b, qdot_expr e)
+with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     qdot_expr n = qdot_solve_integer(pool, qdot_solve_integers(pool, e) - 1);
     qdot_solutions found;
-    qdot_status status = qdot_solve(pool, e, n, &r->facts, &found);
+    qdot_status status = qdot_solve(pool, e, n, &s->facts, &found);
 
-    r->complete = r->complete && found.complete;
+    s->complete = s->complete && found.complete;
     for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
         qdot_expr value = found.root.at[i].value, k;
-        qdot_rest_branch next = *b;
+        qdot_simultaneous_branch next = *b;
         double x;
 
         if (found.root.at[i].period != QDOT_NIL || value == n ||
             qdot_solve_integers(pool, value) > 0) {
-            r->complete = false;
+            s->complete = false;
             continue;
         }
         if (!qdot_is_constant(pool, value))
             continue;
         if (!qdot_ball_double(pool, value, NULL, NULL, &x) || fabs(x) > 1e9) {
-            r->complete = false;
+            s->complete = false;
             continue;
         }
         k = qdot_expr_int(pool, lround(x));
         if (fabs(x - (double)lround(x)) > 1e-6)
             continue;
-        if (!qdot_is_zero(pool, qdot_sub(pool, value, k), &r->facts)) {
-            r->complete = false;
+        if (!qdot_is_zero(pool, qdot_sub(pool, value, k), &s->facts)) {
+            s->complete = false;
             continue;
         }
         next.equations = qdot_subs(pool, b->equations, 1, &n, &k);
         next.known = qdot_subs(pool, b->known, 1, &n, &k);
         next.first = QDOT_NIL;
-        next.conditions = qdot_conditions_at(pool, b->conditions, 1, &n, &k, &r->facts);
+        next.conditions = qdot_conditions_at(pool, b->conditions, 1, &n, &k, &s->facts);
         status = qdot_pool_check(pool);
         if (status == QDOT_EDOMAIN)
             status = QDOT_OK;
         else if (status == QDOT_OK && next.conditions != QDOT_FALSE)
-            status = qdot_vec_push(&r->todo, next);
+            status = qdot_vec_push(&s->todo, next);
     }
     qdot_solutions_clear(&found);
     return status;
@@ -385,10 +398,10 @@ with_integers_solved(qdot_rest *r, const qdot_rest_branch *b, qdot_expr e)
 /* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
  * never 0. *integers: instead, it is 0 for some integers that count members of families; else nil. */
 static qdot_status
-choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
+choose(qdot_simultaneous *s, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
        bool *dead, qdot_expr *integers)
 {
-    qdot_pool *pool = r->pool;
+    qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
     qdot_expr *left = qdot_calloc(n + 1, sizeof *left), chosen = QDOT_NIL;
     int least = 10;
@@ -397,22 +410,22 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
 
     *dead = false;
     for (uint32_t i = 0; i < n && !*dead && status == QDOT_OK; i++) {
-        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &r->facts),
+        qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &s->facts),
                   list;
         int hardest = 0;
 
-        if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &r->facts))
+        if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &s->facts))
             continue;
         list = qdot_solve_factors(pool, e);
         if (list == QDOT_NIL)
             break;
-        *dead = holds_unknowns(r, e) == 0;
+        *dead = holds_unknowns(s, e) == 0;
         if (*dead && qdot_solve_integers(pool, e) > 0)
             *integers = e;
         else if (*dead)
-            status = is_never_zero(r, e);
+            status = is_never_zero(s, e);
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
-            int one = easiest(r, qdot_expr_arg(pool, list, k), &which);
+            int one = easiest(s, qdot_expr_arg(pool, list, k), &which);
 
             if (one < 9 && one > hardest)
                 hardest = one;
@@ -434,77 +447,88 @@ choose(qdot_rest *r, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
 
 /* A divisor that is to be 0 before anything else: its factors; nil: it is 0 already. */
 static qdot_status
-choose_divisor(qdot_rest *r, qdot_expr divisor, qdot_expr *factors, bool *dead)
+choose_divisor(qdot_simultaneous *s, qdot_expr divisor, qdot_expr *factors, bool *dead)
 {
-    qdot_pool *pool = r->pool;
-    qdot_expr e = qdot_simplify(pool, divisor, &r->facts);
+    qdot_pool *pool = s->pool;
+    qdot_expr e = qdot_simplify(pool, divisor, &s->facts);
 
     *factors = QDOT_NIL;
     *dead = false;
-    if (e == QDOT_NIL || e == QDOT_ZERO || qdot_is_zero(pool, e, &r->facts))
+    if (e == QDOT_NIL || e == QDOT_ZERO || qdot_is_zero(pool, e, &s->facts))
         return qdot_pool_check(pool);
     *factors = qdot_solve_factors(pool, e);
-    *dead = holds_unknowns(r, e) == 0;
+    *dead = holds_unknowns(s, e) == 0;
     QDOT_TRY(qdot_pool_check(pool));
     if (*dead && qdot_solve_integers(pool, e) > 0) { /* for which integers is not asked */
-        r->complete = false;
+        s->complete = false;
         return QDOT_OK;
     }
-    return *dead ? is_never_zero(r, e) : QDOT_OK;
+    return *dead ? is_never_zero(s, e) : QDOT_OK;
 }
 
 static qdot_status
-step(qdot_rest *r, const qdot_rest_branch *b)
+step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
 {
     qdot_expr factors = QDOT_NIL, others = b->equations, integers = QDOT_NIL;
     bool dead = false;
 
     QDOT_TRY(qdot_interrupt_check());
     if (b->first != QDOT_NIL)
-        QDOT_TRY(choose_divisor(r, b->first, &factors, &dead));
+        QDOT_TRY(choose_divisor(s, b->first, &factors, &dead));
     if (factors == QDOT_NIL && !dead)
-        QDOT_TRY(choose(r, b->equations, &factors, &others, &dead, &integers));
+        QDOT_TRY(choose(s, b->equations, &factors, &others, &dead, &integers));
     if (integers != QDOT_NIL)
-        return with_integers_solved(r, b, integers);
+        return with_integers_solved(s, b, integers);
     if (dead)
         return QDOT_OK;
     if (factors == QDOT_NIL)
-        return qdot_rest_emit(r, b);
-    for (uint32_t k = qdot_expr_count(r->pool, factors); k-- > 0;)
-        QDOT_TRY(split(r, b, others, qdot_expr_arg(r->pool, factors, k)));
+        return qdot_simultaneous_emit(s, b);
+    for (uint32_t k = qdot_expr_count(s->pool, factors); k-- > 0;)
+        QDOT_TRY(split(s, b, others, qdot_expr_arg(s->pool, factors, k)));
     return QDOT_OK;
 }
 
 /* Charge a step on these equations, whose factors and forms take more than their length; false when
  * the budget is spent. */
 static bool
-charge(qdot_rest *r, qdot_expr equations)
+charge(qdot_simultaneous *s, qdot_expr equations)
 {
-    uint64_t size = qdot_expr_size(r->pool, equations), work;
+    uint64_t size = qdot_expr_size(s->pool, equations), work;
 
-    if (size > r->work)
+    if (size > s->work)
         return false;
     work = 1 + size + size * size / 10;
-    if (work > r->work)
+    if (work > s->work)
         return false;
-    r->work -= work;
+    s->work -= work;
     return true;
 }
 
 qdot_status
-qdot_rest_solve(qdot_rest *r)
+qdot_simultaneous_solve(qdot_simultaneous *s)
 {
     qdot_status status = QDOT_OK;
 
-    while (status == QDOT_OK && r->todo.n > 0) {
-        qdot_rest_branch b = r->todo.at[--r->todo.n];
+    while (status == QDOT_OK && s->todo.n > 0) {
+        qdot_simultaneous_branch b = s->todo.at[--s->todo.n];
 
-        if (!charge(r, b.equations)) {
-            r->complete = false;
-            r->todo.n = 0;
+        if (!charge(s, b.equations)) {
+            s->complete = false;
+            s->todo.n = 0;
             break;
         }
-        status = step(r, &b);
+        status = step(s, &b);
     }
     return status;
+}
+
+void
+qdot_simultaneous_clear(qdot_simultaneous *s)
+{
+    qdot_free(s->unknowns.at);
+    qdot_free(s->period.at);
+    qdot_free(s->todo.at);
+    qdot_free(s->found.at);
+    qdot_free(s->special.at);
+    *s = (qdot_simultaneous){0};
 }

@@ -1,0 +1,410 @@
+/* solve-system.c -- several equations in several unknowns: their set of solutions, and what is told of it. */
+#include "lang/functions/solve-system.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "expr/calculus.h"
+#include "expr/list.h"
+#include "expr/walk.h"
+#include "lang/answer/answer.h"
+#include "lang/functions/solve-conditions.h"
+#include "lang/functions/solve-numbers.h"
+#include "lang/session/value-kind.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
+#include "normal/solve/simultaneous.h"
+#include "normal/solve/solve.h"
+#include "normal/solve/zeros.h"
+
+enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS };
+
+/* --- the question ------------------------------------------------------------------------------------ */
+
+typedef struct {
+    qdot_session *session;
+    qdot_pool *pool;
+    qdot_facts facts;
+    size_t n;
+    qdot_expr f[MOST], u[MOST];
+    qdot_expr domain;
+} question;
+
+static qdot_status
+read_question(question *q, qdot_expr equations, qdot_expr unknowns)
+{
+    qdot_pool *pool = q->pool;
+    uint32_t n = qdot_expr_count(pool, unknowns);
+
+    if (n == 0 || n > MOST || qdot_expr_kind(pool, equations) != QDOT_LIST ||
+        qdot_expr_count(pool, equations) != n) {
+        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns, up to %d",
+                        MOST);
+        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x, y])");
+    }
+    q->n = n;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr e = qdot_expr_arg(pool, equations, i);
+
+        q->u[i] = qdot_expr_arg(pool, unknowns, i);
+        QDOT_TRY(qdot_value_kind_need_symbol(pool, q->u[i],
+                                             "solve takes symbols as unknowns, not %s"));
+        if (qdot_expr_place(i, q->u, q->u[i]) < i)
+            return qdot_fail(QDOT_EINVAL, "`%.200s` stands twice",
+                             qdot_expr_symbol(pool, q->u[i])->name);
+        q->f[i] = qdot_value_kind_difference(pool, e);
+        QDOT_TRY(qdot_value_kind_check(pool, q->f[i]));
+        if (!qdot_expr_is_scalar(pool, q->f[i]))
+            return qdot_fail(QDOT_ETYPE, "solve takes equations between numbers, not %s",
+                             qdot_value_kind_words(pool, e));
+    }
+    return QDOT_OK;
+}
+
+/* --- special values of parameters ---------------------------------------------------------------------- */
+
+enum { MOST_SPECIALS = 6, LONGEST = 40 };
+
+/* A parameter with a value at which something divided by is 0. */
+typedef struct {
+    qdot_expr parameter, value;
+} zero;
+
+typedef struct {
+    zero at[MOST_SPECIALS];
+    size_t n;
+} zeros;
+
+/* The values of one parameter at which the factor d is 0: by a parameter in which d is linear, or that stands alone in
+ * it. */
+static qdot_status
+zeros_of_factor(const question *q, qdot_expr d, zeros *out)
+{
+    qdot_expr atoms = qdot_expr_atoms(q->pool, d, false);
+
+    QDOT_TRY(qdot_pool_check(q->pool));
+    for (uint32_t i = 0; i < qdot_expr_count(q->pool, atoms); i++) {
+        qdot_expr p = qdot_expr_arg(q->pool, atoms, i), slope;
+        qdot_solutions found = {0};
+        qdot_status status;
+
+        if (!qdot_expr_is_class(q->pool, p, QDOT_PARAM))
+            continue;
+        slope = qdot_diff(q->pool, d, p);
+        QDOT_TRY(qdot_pool_check(q->pool));
+        if (qdot_expr_rational(q->pool, slope) == NULL && qdot_expr_count(q->pool, atoms) > 1)
+            continue;
+        status = qdot_solve_inside(q->pool, d, p, QDOT_NIL, &q->facts, &found);
+        for (size_t k = 0; k < found.root.n && status == QDOT_OK && out->n < MOST_SPECIALS; k++)
+            if (found.root.at[k].condition == QDOT_NIL)
+                out->at[out->n++] = (zero){p, found.root.at[k].value};
+        qdot_solutions_clear(&found);
+        return status;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+find_zeros(const question *q, const qdot_simultaneous *set, zeros *out)
+{
+    out->n = 0;
+    for (size_t i = 0; i < set->special.n; i++) {
+        qdot_expr factors;
+
+        if (qdot_expr_size(q->pool, set->special.at[i]) > LONGEST)
+            continue;
+        factors = qdot_solve_factors(q->pool, set->special.at[i]);
+        QDOT_TRY(qdot_pool_check(q->pool));
+        for (uint32_t k = 0; k < qdot_expr_count(q->pool, factors); k++)
+            QDOT_TRY(zeros_of_factor(q, qdot_expr_arg(q->pool, factors, k), out));
+    }
+    return QDOT_OK;
+}
+
+/* Add to the conditions of each solution that its values are defined, at special values of parameters too; leave out
+ * those that follow from others. */
+static qdot_status
+add_definedness(const question *q, qdot_simultaneous *set)
+{
+    size_t kept = 0;
+
+    for (size_t k = 0; k < set->found.n; k++) {
+        qdot_simultaneous_solution one = set->found.at[k];
+        qdot_expr more = qdot_conditions_all(q->pool,
+                                             qdot_conditions_of_domain(q->pool, one.values, QDOT_NIL),
+                                             qdot_conditions_of_divisors(q->pool, one.values, QDOT_NIL));
+
+        more = qdot_conditions_at(q->pool, more, 0, NULL, NULL, &q->facts);
+        one.conditions = qdot_conditions_all(q->pool, one.conditions, more);
+        if (one.conditions != QDOT_NIL && one.conditions != QDOT_FALSE)
+            one.conditions = qdot_conditions_reduce(q->pool, one.conditions, &q->facts);
+        QDOT_TRY(qdot_pool_check(q->pool));
+        if (one.conditions != QDOT_FALSE)
+            set->found.at[kept++] = one;
+    }
+    set->found.n = kept;
+    return QDOT_OK;
+}
+
+/* Whether a solution at the special value is one of the generic ones, as they are there. */
+static bool
+is_generic_solution(const question *q, const qdot_simultaneous *generic,
+                    const zero *special, const qdot_simultaneous *there, size_t k)
+{
+    for (size_t i = 0; i < generic->found.n; i++) {
+        qdot_simultaneous_solution all = generic->found.at[i];
+        qdot_status status;
+
+        all.values = qdot_subs(q->pool, all.values, 1, &special->parameter, &special->value);
+        if (all.values != QDOT_NIL && all.conditions != QDOT_NIL)
+            all.conditions = qdot_conditions_at(q->pool, all.conditions, 1, &special->parameter,
+                                                &special->value, &q->facts);
+        status = qdot_pool_check(q->pool);
+        if (status != QDOT_OK && status != QDOT_EDOMAIN)
+            (void)qdot_pool_fail(q->pool);
+        if (status == QDOT_OK && all.conditions != QDOT_FALSE &&
+            qdot_simultaneous_lies_in(there, &there->found.at[k], &all))
+            return true;
+    }
+    return false;
+}
+
+/* `for a = 0: [x = 1, y = 2], [x = 2, y = 1]`, the solutions there, where one of them is not among the generic ones. */
+static qdot_status
+notice_special(const question *q, const zero *special, const qdot_simultaneous *there,
+               const qdot_simultaneous *generic)
+{
+    qdot_text text = {0};
+    bool other = !there->complete;
+    qdot_status status;
+
+    for (size_t k = 0; k < there->found.n && !other; k++)
+        other = !is_generic_solution(q, generic, special, there, k);
+    QDOT_TRY(qdot_pool_check(q->pool));
+    if (!other)
+        return QDOT_OK;
+    qdot_text_add(&text, "for ");
+    status = qdot_print(q->pool, qdot_rel(q->pool, QDOT_EQ, special->parameter, special->value),
+                        QDOT_PLAIN, &text);
+    if (!there->complete)
+        qdot_text_add(&text, " the solutions may be others");
+    for (size_t k = 0; k < there->found.n && there->complete && status == QDOT_OK; k++) {
+        qdot_text_add(&text, k == 0 ? ": " : ", ");
+        if (qdot_expr_count(q->pool, there->found.at[k].values) == 0)
+            qdot_text_add(&text, "all values are solutions");
+        else
+            status = qdot_print(q->pool, there->found.at[k].values, QDOT_PLAIN, &text);
+        if (status == QDOT_OK && there->found.at[k].conditions != QDOT_NIL) {
+            status = qdot_solve_print_conditions(q->pool, " when ", there->found.at[k].conditions, &text);
+        }
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(q->session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+/* The solutions where a parameter has a value at which something divided by is 0. */
+static qdot_status
+solve_special(const question *q, const zero *special, const qdot_simultaneous *generic)
+{
+    qdot_simultaneous there = {0};
+    qdot_expr f[MOST], domain;
+    qdot_status status;
+
+    for (size_t i = 0; i < q->n; i++)
+        f[i] = qdot_subs(q->pool, q->f[i], 1, &special->parameter, &special->value);
+    domain = qdot_conditions_at(q->pool, q->domain, 1, &special->parameter, &special->value,
+                                &q->facts);
+    status = qdot_pool_check(q->pool);
+    if (status == QDOT_EDOMAIN) /* the equations are not defined there */
+        return QDOT_OK;
+    QDOT_TRY(status);
+    status = qdot_simultaneous_all(q->pool, q->n, f, q->u, domain, &q->facts, &there);
+    if (status == QDOT_OK)
+        status = add_definedness(q, &there);
+    if (status == QDOT_OK)
+        status = notice_special(q, special, &there, generic);
+    qdot_simultaneous_clear(&there);
+    return status;
+}
+
+/* --- the answer ----------------------------------------------------------------------------------------- */
+
+/* `y may have any value of its domain in [x = y]`, of an unknown that neither the solution nor its conditions hold. */
+static qdot_status
+notice_free(const question *q, const qdot_simultaneous_solution *one)
+{
+    qdot_expr values = one->values;
+    qdot_text text = {0};
+    size_t free = 0;
+    qdot_status status = QDOT_OK;
+
+    for (size_t j = 0; j < q->n && status == QDOT_OK; j++) {
+        bool determined = false;
+
+        for (uint32_t i = 0; i < qdot_expr_count(q->pool, values) && !determined; i++)
+            determined = qdot_expr_arg(q->pool, qdot_expr_arg(q->pool, values, i), 0) == q->u[j];
+        if (determined ||
+            (one->conditions != QDOT_NIL && qdot_expr_contains(q->pool, one->conditions, q->u[j])))
+            continue;
+        qdot_text_add(&text, free++ == 0 ? "" : " and ");
+        status = qdot_print(q->pool, q->u[j], QDOT_PLAIN, &text);
+    }
+    if (status == QDOT_OK && free > 0) {
+        qdot_text_format(&text, " may have any value of %s in ", free == 1 ? "its domain" : "their domains");
+        status = qdot_print(q->pool, values, QDOT_PLAIN, &text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK && free > 0)
+        status = qdot_answer_notice_once(q->session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+static qdot_status
+answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value)
+{
+    zeros special;
+    qdot_status status = find_zeros(q, set, &special);
+
+    *value = qdot_list(q->pool, 0, NULL);
+    for (size_t i = 0; i < special.n && status == QDOT_OK; i++)
+        status = solve_special(q, &special.at[i], set);
+    for (size_t k = 0; k < set->found.n && status == QDOT_OK; k++) {
+        const qdot_simultaneous_solution *one = &set->found.at[k];
+
+        if (qdot_expr_count(q->pool, one->values) == 0)
+            status = qdot_fail(QDOT_EDOMAIN, "the equations hold for all values%s",
+                               one->conditions == QDOT_NIL ? "" : " at which they are defined");
+        if (status == QDOT_OK)
+            status = notice_free(q, one);
+        if (status == QDOT_OK)
+            status = qdot_solve_notice_conditions(q->session, one->values, one->conditions);
+        *value = qdot_list_appended(q->pool, *value, 1, &one->values);
+    }
+    if (status == QDOT_OK && set->recurs && set->found.n > 0)
+        status = qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
+                                                     "the declared domains each recurs after "
+                                                     "every whole turn");
+    return status == QDOT_OK ? qdot_pool_check(q->pool) : status;
+}
+
+/* The exact solution that lies at a zero within its error; nil: none. */
+static qdot_expr
+exact_at(const question *q, const qdot_simultaneous *set, const double *at, const double *radius)
+{
+    for (size_t k = 0; k < set->found.n; k++) {
+        qdot_expr values = set->found.at[k].values;
+        bool same = qdot_expr_count(q->pool, values) == q->n;
+
+        for (uint32_t j = 0; j < q->n && same; j++) {
+            double x;
+
+            same = qdot_ball_double(q->pool, qdot_expr_arg(q->pool, qdot_expr_arg(q->pool, values, j), 1),
+                                    NULL, NULL, &x) &&
+                   fabs(x - at[j]) <= 4 * radius[j] + 1e-15 * fabs(x);
+        }
+        if (same)
+            return values;
+    }
+    return QDOT_NIL;
+}
+
+/* In numbers, where these are proved to be all; else *known is false. */
+static qdot_status
+answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *value, bool *known)
+{
+    qdot_pool *pool = q->pool;
+    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), list = QDOT_NIL,
+              domain = q->domain;
+    qdot_window window[MOST];
+    double *at = NULL;
+    size_t count = 0, exact = 0;
+    bool recurs = false;
+    qdot_status status;
+
+    for (size_t i = 0; i < q->n; i++)
+        domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, q->f[i], QDOT_NIL));
+    for (size_t j = 0; j < q->n; j++) {
+        window[j] = qdot_solve_window(
+            pool, q->u[j], qdot_is_period(pool, q->n, q->f, q->u[j], turn, &q->facts));
+        recurs = recurs || window[j].recurs;
+    }
+    QDOT_TRY(qdot_pool_check(pool));
+    status = qdot_solve_box(q->session, q->n, q->f, q->u, domain, window, &list, &at, &count, known);
+    *value = qdot_list(pool, 0, NULL);
+    for (uint32_t k = 0; status == QDOT_OK && *known && k < qdot_expr_count(pool, list); k++) {
+        qdot_expr one = exact_at(q, set, at + k * q->n, at + (count + k) * q->n);
+
+        exact += one != QDOT_NIL;
+        one = one != QDOT_NIL ? one : qdot_expr_arg(pool, list, k);
+        *value = qdot_list_appended(pool, *value, 1, &one);
+    }
+    qdot_free(at);
+    if (status == QDOT_OK && *known && (exact < count || count == 0))
+        status = qdot_answer_notice(q->session, "no formula gives %s: found in numbers, proved to be all",
+                                    count == exact + 1 ? "this solution" : "these solutions");
+    if (status == QDOT_OK && *known && recurs && count > 0)
+        status = qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
+                                                     "the declared domains each recurs after "
+                                                     "every whole turn");
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
+
+qdot_status
+qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns, qdot_expr domain,
+                  qdot_expr *value)
+{
+    question q = {.session = session, .pool = session->pool,
+                  .facts = qdot_scene_facts(session->scene), .domain = domain};
+    qdot_simultaneous set = {0};
+    qdot_status status;
+    bool known = true;
+
+    QDOT_TRY(qdot_pool_check(q.pool));
+    QDOT_TRY(read_question(&q, equations, unknowns));
+    q.facts.exact = true;
+    status = qdot_simultaneous_all(q.pool, q.n, q.f, q.u, domain, &q.facts, &set);
+    if (status == QDOT_OK)
+        status = add_definedness(&q, &set);
+    if (status == QDOT_OK && set.complete)
+        status = answer_exactly(&q, &set, value);
+    else if (status == QDOT_OK)
+        status = answer_in_numbers(&q, &set, value, &known);
+    if (status == QDOT_OK && !known) {
+        (void)qdot_fail(QDOT_EFAILED, "these equations cannot be solved exactly%s",
+                        set.found.n > 0 ? " for all their solutions" : "");
+        status = qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
+    }
+    qdot_simultaneous_clear(&set);
+    return status;
+}
+
+/* --- from a guess ----------------------------------------------------------------------------------------- */
+
+qdot_status
+qdot_solve_system_near(qdot_session *session, qdot_expr equations, qdot_expr guesses,
+                       qdot_expr domain, qdot_expr *value)
+{
+    qdot_pool *pool = session->pool;
+    uint32_t n = qdot_expr_count(pool, guesses);
+    qdot_expr f[MOST], u[MOST];
+
+    if (qdot_expr_kind(pool, equations) != QDOT_LIST ||
+        qdot_expr_count(pool, equations) != n) {
+        (void)qdot_fail(QDOT_ETYPE, "solve takes as many equations as unknowns");
+        return qdot_hint("as in solve([x + y = 3, x*y = 2], [x = 1, y = 1])");
+    }
+    if (n > MOST)
+        return qdot_fail(QDOT_ELIMIT, "solve takes up to %d unknowns", MOST);
+    for (uint32_t i = 0; i < n; i++) {
+        f[i] = qdot_expr_arg(pool, equations, i);
+        u[i] = qdot_expr_arg(pool, guesses, i);
+    }
+    return qdot_solve_near(session, n, f, u, domain, true, value);
+}

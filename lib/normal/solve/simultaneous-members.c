@@ -1,0 +1,292 @@
+/* simultaneous-members.c -- a solved branch as solutions: periods of the unknowns, their members inside the declared
+ * domains, and the conditions under which each exists. */
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/simultaneous.h"
+#include "normal/solve/solve.h"
+
+enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16 };
+
+/* --- periods --------------------------------------------------------------------------- */
+
+/* Whether a shift of u by `period` changes none of the LIST of equations. */
+static bool
+is_period(const qdot_simultaneous *s, qdot_expr u, qdot_expr period, qdot_expr equations)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(s->pool, equations); i++) {
+        qdot_expr one = qdot_expr_arg(s->pool, equations, i);
+
+        if (!qdot_is_period(s->pool, 1, &one, u, period, &s->facts))
+            return false;
+    }
+    return true;
+}
+
+/* The rates c at which u occurs in circular functions, sin(c u + d), each once; false: one is not linear in u. */
+static bool
+circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
+{
+    qdot_pool *pool = s->pool;
+    bool linear = true;
+    qdot_walk w;
+
+    *n = 0;
+    if (qdot_walk_begin(pool, s->equations, &w) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return false;
+    }
+    for (size_t i = 0; i < w.n && linear; i++) {
+        uint32_t op = qdot_expr_node(pool, w.at[i])->op;
+        qdot_expr c;
+
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN || op > QDOT_COT ||
+            !qdot_expr_contains(pool, w.at[i], u))
+            continue;
+        c = qdot_diff(pool, qdot_expr_arg(pool, w.at[i], 0), u);
+        linear = c != QDOT_NIL && !qdot_expr_contains(pool, c, u) && *n < MOST_RATES;
+        if (linear && qdot_expr_place(*n, rate, c) == *n)
+            rate[(*n)++] = c;
+    }
+    qdot_walk_end(&w);
+    return linear && *n > 0;
+}
+
+/* 2 pi over the greatest rate of which all are whole multiples; nil: there is none. */
+static qdot_expr
+common_period(qdot_simultaneous *s, const qdot_expr *rate, size_t n)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr period = QDOT_NIL;
+    bool common = true;
+    fmpq_t unit;
+
+    fmpq_init(unit);
+    fmpq_one(unit);
+    for (size_t i = 1; i < n && common; i++) {
+        qdot_expr ratio = qdot_simplify(pool, qdot_div(pool, rate[i], rate[0]), &s->facts);
+        const fmpq *q = ratio == QDOT_NIL ? NULL : qdot_expr_rational(pool, ratio);
+
+        common = q != NULL;
+        if (common)
+            fmpq_gcd(unit, unit, q);
+    }
+    if (common)
+        period = qdot_div(pool, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
+                          qdot_mul(pool, qdot_expr_fmpq(pool, unit), rate[0]));
+    fmpq_clear(unit);
+    if (period != QDOT_NIL && qdot_expr_is_negative(pool, period))
+        period = qdot_neg(pool, period);
+    return period;
+}
+
+static qdot_status
+find_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr rate[MOST_RATES];
+    size_t rates;
+
+    *period = QDOT_FALSE;
+    if (circular_rates(s, u, rate, &rates)) {
+        qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
+                  least = common_period(s, rate, rates);
+
+        if (is_period(s, u, turn, s->equations))
+            *period = turn;
+        else if (least != QDOT_NIL && is_period(s, u, least, s->equations) &&
+                 (s->alike == NULL || s->alike(s->user, u, least)))
+            *period = least;
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
+{
+    size_t i = qdot_expr_place(s->places, s->unknowns.at, u);
+
+    *period = QDOT_NIL;
+    if (i == s->places)
+        return QDOT_OK;
+    while (s->period.n < s->places)
+        QDOT_TRY(qdot_vec_push(&s->period, QDOT_NIL));
+    if (s->period.at[i] == QDOT_NIL)
+        QDOT_TRY(find_period(s, u, &s->period.at[i]));
+    *period = s->period.at[i] == QDOT_FALSE ? QDOT_NIL : s->period.at[i];
+    return QDOT_OK;
+}
+
+/* --- solutions ------------------------------------------------------------------------- */
+
+/* Whether something in e is divided by a constant that is proved to be 0. */
+static bool
+divides_by_zero(const qdot_simultaneous *s, qdot_expr e)
+{
+    qdot_pool *pool = s->pool;
+    bool found = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return false;
+    }
+    for (size_t i = 0; i < w.n && !found; i++) {
+        qdot_expr node = w.at[i];
+        uint32_t n = qdot_expr_kind(pool, node) == QDOT_PROD ? qdot_expr_count(pool, node) : 0;
+
+        for (uint32_t k = 1; k + 1 < n && !found; k += 2) {
+            qdot_expr base = qdot_expr_arg(pool, node, k);
+            const fmpq *exponent = qdot_expr_rational(pool, qdot_expr_arg(pool, node, k + 1));
+
+            found = exponent != NULL && fmpq_sgn(exponent) < 0 &&
+                    (qdot_expr_node(pool, base)->sign & QDOT_NE0) == 0 &&
+                    qdot_is_constant(pool, base) && qdot_is_zero(pool, base, &s->facts);
+        }
+    }
+    qdot_walk_end(&w);
+    return found;
+}
+
+/* Whether the equations may be 0 there: they have values (that a numerator vanishes is not enough), and none is
+ * refuted; *conditions gets where all of it is defined. */
+static qdot_status
+may_solve(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr *conditions, bool *yes)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr whole = b->whole == QDOT_NIL ? s->equations : b->whole,
+              there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, whole, b->known)),
+              also = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, s->defined, b->known)),
+              room[QDOT_CONDITIONS_MOST];
+    qdot_facts facts;
+    qdot_status status = qdot_pool_check(pool);
+
+    *yes = status == QDOT_OK && !divides_by_zero(s, b->known);
+    if (*yes) {
+        *conditions = qdot_conditions_all(pool, *conditions,
+                                          qdot_conditions_of_domain(pool, b->known, QDOT_NIL));
+        *conditions = qdot_conditions_all(pool, *conditions,
+                                          qdot_conditions_of_domain(pool, there, QDOT_NIL));
+        *conditions = qdot_conditions_all(pool, *conditions,
+                                          qdot_conditions_of_domain(pool, also, QDOT_NIL));
+        *conditions = qdot_conditions_at(pool, *conditions, 0, NULL, NULL, &s->facts);
+        QDOT_TRY(qdot_pool_check(pool));
+        *yes = *conditions != QDOT_FALSE;
+    }
+    facts = qdot_facts_and(pool, &s->facts, *conditions, room);
+    for (uint32_t i = 0; *yes && i < qdot_expr_count(pool, there); i++) {
+        qdot_decision d;
+
+        if (qdot_expr_arg(pool, there, i) == QDOT_ZERO)
+            continue;
+        QDOT_TRY(
+            qdot_decide_equal(pool, qdot_expr_arg(pool, there, i), QDOT_ZERO, &facts, &d));
+        *yes = d.verdict != QDOT_REFUTED;
+        if (!*yes && qdot_solve_integers(pool, there) > 0) /* perhaps for some integers */
+            s->complete = false;
+    }
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* What a solution consists of while its unknowns get their members. */
+typedef struct {
+    qdot_expr *symbol, *value; /* [n] */
+    size_t n;
+    qdot_expr *equation; /* [n] symbol = member */
+} solution;
+
+static qdot_status
+append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
+{
+    qdot_simultaneous_solution one = {
+        .values = qdot_list(s->pool, (uint32_t)p->n, p->equation), .conditions = conditions};
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (s->found.n >= MOST_SOLUTIONS)
+        return qdot_fail(QDOT_ELIMIT, "there are more than %d solutions", MOST_SOLUTIONS);
+    return qdot_vec_push(&s->found, one);
+}
+
+/* How many integers count members already, of the unknowns before the i-th and in the values of all: each family has
+ * one of its own. */
+static unsigned
+integers_before(qdot_simultaneous *s, const solution *p, size_t i)
+{
+    unsigned a = qdot_solve_integers(s->pool, qdot_list(s->pool, (uint32_t)i, p->equation)),
+             b = qdot_solve_integers(s->pool, qdot_list(s->pool, (uint32_t)p->n, p->value));
+
+    return a > b ? a : b;
+}
+
+/* The members of the i-th unknown and of those behind it, inside their domains. */
+static qdot_status
+append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr conditions)
+{
+    qdot_pool *pool = s->pool;
+    qdot_solutions members = {.complete = true};
+    qdot_expr u, period, turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
+    qdot_window window;
+    qdot_status status;
+
+    if (i == p->n)
+        return append_solution(s, p, conditions);
+    u = p->symbol[i];
+    QDOT_TRY(qdot_simultaneous_period(s, u, &period));
+    window = qdot_solve_window(pool, u, period == turn);
+    window.integer = integers_before(s, p, i);
+    status = qdot_solve_members(pool, u, &(qdot_root){.value = p->value[i], .period = period}, &window,
+                                &s->facts, &members);
+    s->complete = s->complete && members.complete;
+    s->recurs = s->recurs || members.recurs;
+    for (size_t k = 0; k < members.root.n && status == QDOT_OK; k++) {
+        qdot_expr all = qdot_conditions_all(pool, conditions, members.root.at[k].condition);
+
+        if (members.root.at[k].condition != QDOT_NIL && all != QDOT_FALSE)
+            all = qdot_conditions_at(pool, all, 0, NULL, NULL, &s->facts);
+        p->equation[i] = qdot_rel(pool, QDOT_EQ, u, members.root.at[k].value);
+        status = qdot_pool_check(pool);
+        if (status == QDOT_OK && all != QDOT_FALSE)
+            status = append_members(s, p, i + 1, all);
+    }
+    qdot_solutions_clear(&members);
+    return status;
+}
+
+qdot_status
+qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
+{
+    qdot_pool *pool = s->pool;
+    size_t n = s->unknowns.n;
+    qdot_expr conditions = qdot_conditions_at(pool, b->conditions, 0, NULL, NULL, &s->facts),
+              room[QDOT_CONDITIONS_MOST];
+    qdot_facts facts;
+    solution p = {.symbol = qdot_malloc((3 * n + 1) * sizeof *p.symbol)};
+    qdot_status status = p.symbol == NULL ? QDOT_ENOMEM : qdot_pool_check(pool);
+    bool yes = false;
+
+    if (status == QDOT_OK && conditions != QDOT_FALSE)
+        status = may_solve(s, b, &conditions, &yes);
+    if (status != QDOT_OK || !yes) {
+        qdot_free(p.symbol);
+        return status;
+    }
+    facts = qdot_facts_and(pool, &s->facts, conditions, room);
+    p.value = p.symbol + n;
+    p.equation = p.value + n;
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < qdot_expr_count(pool, b->known); k++) {
+            qdot_expr one = qdot_expr_arg(pool, b->known, k);
+
+            if (qdot_expr_arg(pool, one, 0) != s->unknowns.at[i])
+                continue;
+            p.symbol[p.n] = s->unknowns.at[i];
+            p.value[p.n++] = qdot_simplify(pool, qdot_expr_arg(pool, one, 1), &facts);
+        }
+    status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = append_members(s, &p, 0, conditions);
+    qdot_free(p.symbol);
+    return status;
+}

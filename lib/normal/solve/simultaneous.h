@@ -1,0 +1,81 @@
+/* simultaneous.h -- the set of all real u with f_1(u) = 0, ..., f_m(u) = 0.
+ *
+ * A branch is equations that are left, values found so far and conditions. One step takes the equation that is easiest
+ * to solve; each of its factors is solved (solve.h) for its easiest unknown, and each root, put in everywhere, is a
+ * branch of the next step:
+ *
+ *     a root with conditions      the branch keeps them
+ *     what was divided by         its zeros are a branch of their own, so nothing is lost
+ *     a family u = v + n p        a member for each n that the other equations tell apart; where there is no such
+ *                                 number, the integer n stays, and what is left without unknowns is solved for it
+ *
+ * A branch without equations is put back into all of them. If none is refuted and all are defined there, it is a
+ * solution, listed member by member inside the declared domains (qdot_solve_members). An unknown that nothing determines
+ * is free: it does not stand among the values, but may in the others.
+ *
+ * Tests  tests/normal/test_simultaneous.c, tests/mech/test_equilibrium.c
+ */
+#ifndef QDOT_NORMAL_SIMULTANEOUS_H
+#define QDOT_NORMAL_SIMULTANEOUS_H
+
+#include "normal/field/facts.h"
+#include "normal/solve/solutions.h"
+
+typedef struct {
+    qdot_expr values;     /* a LIST of equations u = value, in the order of the unknowns */
+    qdot_expr conditions; /* a LIST of relations under which it exists; nil: always */
+} qdot_simultaneous_solution;
+
+/* What is left to solve: equations, LISTs of the values known so far and of conditions (conditions.h), what is to be 0
+ * before anything else: a divisor (nil: none), and the equations from which the branch began (nil: all). */
+typedef struct {
+    qdot_expr equations, known, conditions, first, whole;
+} qdot_simultaneous_branch;
+
+/* Equations, what is left to do, and the set of their solutions. The first fields are the caller's. */
+typedef struct {
+    qdot_pool *pool;
+    qdot_facts facts;
+    qdot_expr equations;            /* a LIST */
+    qdot_expr defined;              /* what must have a value at a solution, beside them */
+    qdot_vec(qdot_expr) unknowns;   /* solved for from the last on, if nothing is easier */
+    size_t places;                  /* the first of them, whose periods are looked for; the others have none */
+    /* Whether the caller takes members of a family with this period, other than a turn, for alike; NULL: it does. */
+    bool (*alike)(void *user, qdot_expr u, qdot_expr period);
+    void *user;
+    uint64_t work;                  /* rest of the budget, in operations */
+    qdot_vec(qdot_simultaneous_branch) todo;
+
+    qdot_vec(qdot_simultaneous_solution) found;
+    bool complete; /* so far these are all; true at first */
+    bool recurs;   /* an angle with one declared end: solutions of one turn */
+    qdot_vec(qdot_expr) special; /* of parameters alone: where one is 0 the set may be another */
+    qdot_vec(qdot_expr) period; /* of the first unknowns: nil until asked for, QDOT_FALSE where there is none */
+} qdot_simultaneous;
+
+/* Every solution of f [n] in the unknowns u [n] under `conditions` (nil: none), each once, ascending where all are
+ * constants. A coordinate is generic unless it is an unknown, and so is a parameter. facts may be NULL. *out is cleared by
+ * the caller in any case. Errors: QDOT_ENOMEM, QDOT_EINTR, QDOT_ELIMIT, the pool's. (simultaneous-set.c) */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_all(qdot_pool *pool, size_t n, const qdot_expr *f, const qdot_expr *u,
+                                                  qdot_expr conditions, const qdot_facts *facts,
+                                                  qdot_simultaneous *out);
+/* Whether the solution `one` lies in the family `all` (or is it, full turns away), where that exists. */
+bool qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_solution *one,
+                               const qdot_simultaneous_solution *all);
+
+/* Solve all branches that are left to do; their solutions are appended to s->found. More than 1024: QDOT_ELIMIT. Past
+ * the budget: not complete. */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_solve(qdot_simultaneous *s);
+void qdot_simultaneous_clear(qdot_simultaneous *s);
+
+/* e with the values of equations u = value put in, all at once. */
+qdot_expr qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values);
+
+/* The least shift of the unknown u after which all equations are what they were; nil: none is known. */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period);
+
+/* Append the solutions of a branch without equations: all its members inside the declared domains, with the conditions
+ * under which they exist. (simultaneous-members.c) */
+QDOT_MUST_CHECK qdot_status qdot_simultaneous_emit(qdot_simultaneous *s, const qdot_simultaneous_branch *b);
+
+#endif
