@@ -94,8 +94,8 @@ function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
     } else if (op == QDOT_ATAN2) {
         arb_srcptr v = b->value + index_of(b, e, 0), u = b->value + index_of(b, e, 1);
 
-        if (arb_contains_zero(v) && arb_contains_zero(u))
-            return false;
+        if (arb_contains_zero(v) && (arb_contains_zero(u) || (!arb_is_zero(v) && !arb_is_positive(u))))
+            return false; /* the origin, or both sides of the jump from pi to -pi */
         arb_atan2(y, v, u, prec);
     } else if (op == QDOT_MOD) {
         eval_mod(y, b->value + index_of(b, e, 0), b->value + index_of(b, e, 1), prec);

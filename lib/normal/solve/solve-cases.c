@@ -89,8 +89,9 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
             status = status == QDOT_EDOMAIN ? QDOT_OK : status;
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
             status = qdot_solver_add(s, root->value, root->period, all);
-        } else if (!qdot_is_generic(s->pool, at)) { /* it is one where other unknowns make it so */
-            status = qdot_solver_divide(s, at);
+        } else if (!qdot_is_generic(s->pool, at) || /* other unknowns may make it one */
+                   (root->period == QDOT_NIL && s->facts != NULL && s->facts->exact)) {
+            status = qdot_solver_add_where(s, root->value, at, all);
         }
     }
     s->out->complete = s->out->complete && found.complete;

@@ -123,6 +123,16 @@ zeros_of_linear(special_search *s, qdot_expr p, qdot_expr slope, qdot_expr rest,
                  : zeros_of_all(s, 2, (qdot_expr[]){slope, rest}, where);
 }
 
+/* Whether the zeros of d recur after a turn of p, in a domain without two ends: one turn of them is listed. */
+static bool
+recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
+{
+    const qdot_window w = qdot_solve_window(pool, p, false);
+
+    return (w.lo == QDOT_NIL || w.hi == QDOT_NIL) &&
+           qdot_is_period(pool, 1, &d, p, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), facts);
+}
+
 /* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its
  * slope, or in which it is linear. */
 static qdot_status
@@ -146,7 +156,8 @@ zeros_of_factor(special_search *s, qdot_expr d, uint32_t n, const qdot_expr *oth
         if (qdot_expr_rational(pool, slope) == NULL && qdot_expr_count(pool, atoms) > 1)
             continue;
         status = qdot_solve_inside(pool, d, p, QDOT_NIL, s->facts, &found);
-        if (status == QDOT_OK && (!found.complete || (found.root.n > 0 && found.root.at[0].value == p)))
+        if (status == QDOT_OK && (!found.complete || (found.root.n > 0 && (found.root.at[0].value == p ||
+                                                                          recurs(pool, d, p, s->facts)))))
             status = leave_open(s, d);
         for (size_t k = 0; k < found.root.n && status == QDOT_OK; k++)
             if (found.root.at[k].value != p)

@@ -173,6 +173,29 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     return yes ? qdot_vec_push(&s->out->root, root) : QDOT_OK;
 }
 
+/* Whether e can be 0 in whole regions of the parameters, as |a| - a is. */
+static bool
+vanishes_in_regions(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr atoms = qdot_expr_atoms(pool, e, false);
+    bool found = false;
+
+    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms) && !found; i++)
+        found = qdot_solver_choice(pool, e, qdot_expr_arg(pool, atoms, i)) != QDOT_NIL;
+    return found;
+}
+
+qdot_status
+qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr when)
+{
+    QDOT_TRY(qdot_pool_check(s->pool));
+    if (s->facts == NULL || !s->facts->exact || !qdot_is_generic(s->pool, e) || !vanishes_in_regions(s->pool, e))
+        return qdot_solver_divide(s, e);
+    when = qdot_conditions_and(s->pool, when, qdot_rel(s->pool, QDOT_LE, QDOT_ZERO, e));
+    return qdot_solver_add(s, value, QDOT_NIL,
+                           qdot_conditions_and(s->pool, when, qdot_rel(s->pool, QDOT_LE, e, QDOT_ZERO)));
+}
+
 /* --- polynomials in one thing ------------------------------------------------------ */
 
 typedef struct {
@@ -506,7 +529,7 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
     if (status != QDOT_OK)
         ;
     else if (sh.n == 0) /* without x: where it is 0 every x is a root */
-        status = qdot_solver_divide(s, qdot_field_expr(f, p));
+        status = qdot_solver_add_where(s, s->x, qdot_field_expr(f, p), when);
     else if (sh.n == 1)
         status = one_generator(s, f, &sh, when);
     else if (sh.n > 2)
