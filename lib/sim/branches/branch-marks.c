@@ -66,6 +66,33 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
     return status;
 }
 
+qdot_status
+qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_bracket *in, qdot_bifurcation *fold,
+                             double *other, qdot_bifurcation_answer *answer)
+{
+    const qdot_path *x = s->x;
+    qdot_bifurcation b = {.kind = QDOT_PITCHFORK, .y = qdot_calloc(2 * x->width, sizeof *b.y)};
+    qdot_bifurcation_answer found = QDOT_BIFURCATION_NONE;
+    qdot_status status = b.y ? QDOT_OK : QDOT_ENOMEM;
+    bool same;
+
+    if (status == QDOT_OK) {
+        b.error = b.y + x->width;
+        memcpy(b.y, fold->y, x->width * sizeof *b.y);
+        status = s->find(s->user, in, &b, other, &found);
+    }
+    same = status == QDOT_OK && found == QDOT_BIFURCATION_FOUND;
+    for (size_t i = 0; i <= x->n && same; i++)
+        same = fabs(b.y[i] - fold->y[i]) <= fold->error[i] + b.error[i];
+    if (same) {
+        memcpy(fold->y, b.y, 2 * x->width * sizeof *b.y);
+        fold->kind = b.kind;
+        *answer = QDOT_BIFURCATION_FOUND;
+    }
+    qdot_free(b.y);
+    return status;
+}
+
 /* The crossing to which the search leads from the point at `way` along the curve from a; false: none near. */
 static qdot_status
 find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, qdot_path_point *room,

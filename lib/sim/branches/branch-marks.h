@@ -19,6 +19,14 @@ void qdot_branch_turn_back(const qdot_path *x, double *y);
 QDOT_MUST_CHECK qdot_status qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b,
                                              double *other, size_t *mark);
 
+/* A fold that lies within `in` but is not located may be a crossing, at which the curve that has no part along p turns
+ * its tangent, too: where one is proved within the errors of *fold, that becomes it, with `other` the direction of the
+ * other curve, and *answer is QDOT_BIFURCATION_FOUND. */
+QDOT_MUST_CHECK qdot_status qdot_branch_fold_is_crossing(qdot_branch_search *s,
+                                                         const qdot_bifurcation_bracket *in,
+                                                         qdot_bifurcation *fold, double *other,
+                                                         qdot_bifurcation_answer *answer);
+
 /* Two crossings beside the kept point `place`, `way` along the curve or nearer; *both is false where they are not
  * told apart: then nothing is kept. */
 QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d,

@@ -144,6 +144,9 @@ widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point
             out->error[i] = fmax(out->error[i], sign[side] != 0 ? fabs(here->y[i] - out->y[i])
                                                                 : beyond / sqrt(x->weight[i]));
     }
+    if (out->kind == QDOT_FOLD) /* p has its extremum between these slopes, not at one of the places */
+        out->error[x->n] = fmax(out->error[x->n], fmax(fabs(sign[0]), fabs(sign[1])) * (in->to - in->from) /
+                                                      sqrt(x->weight[x->n]));
     in->changes = sign[0] * sign[1] < 0;
     in->stays = sign[0] * sign[1] > 0;
     in->jumps = out->kind == QDOT_PITCHFORK &&
@@ -192,6 +195,17 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     return status;
 }
 
+/* Whether the curve has this mark already and has not left its surroundings since: a crossing at which the curve
+ * turns is told by either sign. */
+static bool
+is_latest(const qdot_path *x, const qdot_branch *branch, const double *y, size_t mark)
+{
+    for (size_t k = branch->n; k-- > 0 && qdot_path_distance(x, branch->y + k * x->width, y) < first_step;)
+        if (branch->mark[k] == mark)
+            return true;
+    return false;
+}
+
 /* It is a point of the branch, too. Takes b->y and other. */
 static qdot_status
 mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *branch)
@@ -217,7 +231,7 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
     }
     qdot_branch_turn_back(x, b->y);
     status = qdot_branch_mark(s, b, other, &mark);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !is_latest(x, branch, here.y, mark))
         status = qdot_branch_add(x, branch, here.y, here.stability, mark);
     qdot_path_point_end(&here);
     return status;
@@ -265,13 +279,16 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
         s->over = QDOT_END_LOST;
     if (kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && in.stays)
         nothing = true; /* rounding turned the tangent of a curve that is upright there and goes on */
+    if (status == QDOT_OK && kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && !nothing && x->dips)
+        status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer);
     if (status == QDOT_OK && !nothing && !s->leapt && s->over != QDOT_END_REST) {
         if (answer != QDOT_BIFURCATION_FOUND) {
             b.kind = kind == QDOT_HALVING || (kind == QDOT_FOLD && in.changes) ? kind : QDOT_NOT_SIMPLE;
             b.frequency = 0;
             memcpy(b.y, guess, w * sizeof *guess);
         }
-        if (beside == NULL || qdot_path_distance(x, beside, b.y) >= 1e-4) {
+        if (beside == NULL || (x->dips && answer == QDOT_BIFURCATION_FOUND) ||
+            qdot_path_distance(x, beside, b.y) >= 1e-4) {
             status = mark_it(s, &b, other, branch);
             b.y = other = NULL;
         }

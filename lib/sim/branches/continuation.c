@@ -4,8 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. */
-static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4};
+#include "sim/branches/branch-marks.h"
+
+/* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
+ * direction: below, it has no part along p. */
+static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-6;
 enum { MOST_BRANCHES = 400 };
 
 void
@@ -194,9 +197,17 @@ follow_from(qdot_branch_search *s, const double *y)
 
 /* --- crossings ----------------------------------------------------------------------------- */
 
-/* A first point a beyond a crossing at y along `other`, times `way`, by a few lengths; false: none. */
+/* Whether a fold lies between them: it is not to be leapt over. */
 static bool
-leap(qdot_path *x, const double *y, const double *other, double way, qdot_path_point *start,
+turns_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a)
+{
+    return start->t[x->n] * a->t[x->n] < 0 && fabs(start->t[x->n]) * sqrt(x->weight[x->n]) > upright;
+}
+
+/* A first point a beyond a crossing at y along `other`, times `way`, by a few lengths, not `over` a fold unless that is
+ * said; false: none. */
+static bool
+leap(qdot_path *x, const double *y, const double *other, double way, bool over, qdot_path_point *start,
      qdot_path_point *a)
 {
     const size_t m = x->n + 1;
@@ -214,10 +225,49 @@ leap(qdot_path *x, const double *y, const double *other, double way, qdot_path_p
         for (size_t i = 0; i < m; i++)
             along += x->weight[i] * (a->y[i] - y[i]) * start->t[i];
         length = qdot_path_distance(x, a->y, y);
-        if (along > 0.9 * length && a->y[m - 1] >= x->least && a->y[m - 1] <= x->most)
+        if (along > 0.9 * length && a->y[m - 1] >= x->least && a->y[m - 1] <= x->most &&
+            (over || !turns_between(x, start, a)))
             return true;
     }
     return false;
+}
+
+/* A fold between the crossing `start` and a, which is too near to the crossing for a first step to end before it: to the
+ * arm. p is taken as quadratic between them for a guess. */
+static qdot_status
+add_fold_between(qdot_branch_search *s, const qdot_path_point *start, const qdot_path_point *a, qdot_branch *arm)
+{
+    qdot_path *x = s->x;
+    const size_t n = x->n, w = x->width;
+    const double length = qdot_path_distance(x, start->y, a->y), down = fabs(start->t[n]), up = fabs(a->t[n]),
+                 part = down / (down + up);
+    const qdot_bifurcation_bracket in = {.a = start, .to = length};
+    qdot_bifurcation b = {.kind = QDOT_FOLD, .y = qdot_calloc(2 * w, sizeof *b.y)};
+    qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
+    qdot_path_point here = {0};
+    size_t mark = 0;
+    qdot_status status = b.y ? qdot_path_point_begin(x, &here) : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        b.error = b.y + w;
+        for (size_t i = 0; i <= n; i++)
+            b.y[i] = start->y[i] + length * part * (start->t[i] + part / 2 * (a->t[i] - start->t[i]));
+        status = s->find(s->user, &in, &b, NULL, &answer);
+    }
+    if (status == QDOT_OK && answer == QDOT_BIFURCATION_FOUND && qdot_path_distance(x, start->y, b.y) < length) {
+        memcpy(here.y, b.y, w * sizeof *b.y);
+        status = x->judge(x, &here);
+        qdot_branch_turn_back(x, b.y);
+        if (status == QDOT_OK) {
+            status = qdot_branch_mark(s, &b, NULL, &mark);
+            b.y = NULL;
+        }
+        if (status == QDOT_OK)
+            status = qdot_branch_add(x, arm, here.y, here.stability, mark);
+    }
+    qdot_free(b.y);
+    qdot_path_point_end(&here);
+    return status;
 }
 
 /* One arm of the other curve; empty where there is none, or it is known. */
@@ -226,13 +276,14 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
            qdot_branch *arm)
 {
     qdot_path_point start = {0}, a = {0};
-    bool known = true;
+    bool known = true, over = false;
     qdot_status status = qdot_path_point_begin(s->x, &start);
 
     arm->end[1] = QDOT_END_RANGE;
     if (status == QDOT_OK)
         status = qdot_path_point_begin(s->x, &a);
-    if (status == QDOT_OK && leap(s->x, y, other, way, &start, &a)) {
+    if (status == QDOT_OK && (leap(s->x, y, other, way, false, &start, &a) ||
+                              (over = leap(s->x, y, other, way, true, &start, &a)))) {
         for (size_t i = 0; i < s->x->n; i++)
             if (a.y[i] < s->x->lo[i] || a.y[i] > s->x->hi[i])
                 arm->end[1] = QDOT_END_DOMAIN;
@@ -241,6 +292,8 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     }
     if (status == QDOT_OK && !known) {
         status = s->x->judge(s->x, &a);
+        if (status == QDOT_OK && over && s->x->dips)
+            status = add_fold_between(s, &start, &a, arm);
         if (status == QDOT_OK)
             status = qdot_branch_add(s->x, arm, a.y, a.stability, 0);
         if (status == QDOT_OK)

@@ -7,6 +7,9 @@
 #include "normal/solve/isolate.h"
 #include "tape/derivative.h"
 
+/* Steps that do not get shorter than this may be rounding. */
+static const double blurred = 1e-5;
+
 enum {
     STEPS = 30,
     MOST_PROVED = 40 /* unknowns: the proof needs n^2 expressions */
@@ -95,12 +98,11 @@ prove(qdot_newton *s, double *x, double *error)
 qdot_status
 qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
 {
-    double before = INFINITY;
+    double before = INFINITY, length = INFINITY;
 
     *found = false;
     for (int k = 0; k < STEPS; k++) {
-        const double length = step(s, x);
-
+        length = step(s, x);
         if (!(length < 1e3))
             return QDOT_OK;
         *found = length < 1e-9;
@@ -108,5 +110,9 @@ qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
             break;
         before = length;
     }
-    return *found ? prove(s, x, error) : QDOT_OK;
+    if (*found || length > blurred || s->n > MOST_PROVED)
+        return *found ? prove(s, x, error) : QDOT_OK;
+    QDOT_TRY(prove(s, x, error)); /* two zeros near each other: doubles leave it vague, balls may not */
+    *found = s->regular;
+    return QDOT_OK;
 }
