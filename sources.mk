@@ -1661,6 +1661,7 @@ script_tests = \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/resting.lag \
+	tests/script/rests-edges.lag \
 	tests/script/rests-of-parameters.lag \
 	tests/script/rests-under-friction.lag \
 	tests/script/rests.lag \
@@ -2819,6 +2820,7 @@ test_files = \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/resting.out \
+	tests/script/rests-edges.out \
 	tests/script/rests-of-parameters.out \
 	tests/script/rests-under-friction.out \
 	tests/script/rests.out \

@@ -236,6 +236,21 @@ answer_special(qdot_session *session, qdot_expr special)
     return status;
 }
 
+static qdot_status
+answer_jump(qdot_session *session, qdot_expr jump)
+{
+    qdot_text text = {0};
+    qdot_status status;
+
+    qdot_text_add(&text, "the energy jumps with ");
+    status = qdot_print(session->pool, jump, QDOT_PLAIN, &text);
+    qdot_text_add(&text, ": rests where it does are not looked for");
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 /* Tell that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
@@ -247,11 +262,16 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
     if (all->recurs)
         QDOT_TRY(qdot_answer_notice(session, "these are the places of one turn: within the declared "
                                              "domain each recurs after every whole turn"));
+    if (all->pole != NULL && all->n > 0)
+        QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: rests "
+                                             "there are not looked for", all->pole));
+    if (all->jump != QDOT_NIL)
+        QDOT_TRY(answer_jump(session, all->jump));
     if (all->complete && all->n > 0)
         return QDOT_OK;
     if (all->complete) {
         qdot_text_add(&text, "there is no equilibrium");
-    } else if (all->pole != NULL && all->starts == 0 && all->unset == NULL) {
+    } else if (all->pole != NULL && all->n == 0 && all->starts == 0 && all->unset == NULL) {
         qdot_text_format(&text, "no equilibrium was found; there may be some: where the domain of `%.100s` ends these "
                                 "coordinates are singular, and rests there are not looked for", all->pole);
     } else if (all->unset != NULL) {

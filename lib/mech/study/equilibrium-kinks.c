@@ -9,6 +9,8 @@
  * b >= 0 vanishes, forces with a root of b in the denominator have a direction but no value: at the tip of a cone,
  * sqrt(x^2 + y^2). No rest is there if they point away from it, as at the end of a spring with a natural length.
  */
+#include <math.h>
+
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
@@ -269,12 +271,9 @@ qdot_status
 qdot_rest_tips(qdot_rest *r)
 {
     qdot_pool *pool = r->pool;
-    bool continuous;
-    qdot_status status = is_continuous(r, QDOT_NIL, &continuous);
+    qdot_status status = QDOT_OK;
     qdot_walk w;
 
-    r->unresolved = r->unresolved || !continuous;
-    QDOT_TRY(status);
     QDOT_TRY(qdot_walk_begin(pool, r->forces, &w));
     for (size_t i = 0; i < w.n && !r->unresolved && status == QDOT_OK; i++) {
         uint32_t n = qdot_expr_kind(pool, w.at[i]) == QDOT_PROD
@@ -298,4 +297,148 @@ qdot_rest_tips(qdot_rest *r)
     }
     qdot_walk_end(&w);
     return status;
+}
+
+/* --- energies that jump ----------------------------------------------------------------------- */
+
+/* What the step from one value of a function to the next makes of the energy is to vanish where that is made. */
+static qdot_status
+steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above, qdot_expr u, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr step = qdot_sub(pool, qdot_subs(pool, r->energy, 1, &node, &above),
+                              qdot_subs(pool, r->energy, 1, &node, &below));
+
+    step = qdot_simplify(pool, step, &r->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    return vanishes_with(r, step, u, yes);
+}
+
+/* Append u of the relations in a condition, which changes only where one of them is 0. */
+static qdot_expr
+with_gaps(qdot_pool *pool, qdot_expr condition, qdot_expr list)
+{
+    if (qdot_expr_kind(pool, condition) == QDOT_REL) {
+        qdot_expr gap = qdot_sub(pool, qdot_expr_arg(pool, condition, 1), qdot_expr_arg(pool, condition, 0));
+
+        return qdot_list_appended(pool, list, 1, &gap);
+    }
+    for (uint32_t i = 0; i < qdot_expr_count(pool, condition); i++)
+        list = with_gaps(pool, qdot_expr_arg(pool, condition, i), list);
+    return list;
+}
+
+/* Whether the energy is continuous although the function `node` jumps; else to *zeros, what is 0 where it does. */
+static qdot_status
+jumps_by(const qdot_rest *r, qdot_expr node, qdot_expr *zeros, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    const qdot_expr a = qdot_expr_arg(pool, node, 0), m = qdot_symbol_get(pool, QDOT_FORMAL, "(step)");
+    qdot_expr at = a, b;
+    bool smooth = true;
+
+    *yes = false;
+    switch (qdot_expr_node(pool, node)->op) {
+    case QDOT_SIGN:
+        QDOT_TRY(steps_over(r, node, QDOT_MINUS_ONE, QDOT_ONE, a, &smooth));
+        break;
+    case QDOT_FLOOR: /* from m - 1 to m where a = m */
+        at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, a));
+        QDOT_TRY(steps_over(r, node, qdot_sub(pool, m, QDOT_ONE), m, qdot_sub(pool, a, m), &smooth));
+        break;
+    case QDOT_MOD: /* from b to 0 where a = m b */
+        b = qdot_expr_arg(pool, node, 1);
+        at = qdot_fun1(pool, QDOT_SIN, qdot_mul(pool, QDOT_PI, qdot_div(pool, a, b)));
+        QDOT_TRY(steps_over(r, node, b, QDOT_ZERO, qdot_sub(pool, a, qdot_mul(pool, m, b)), &smooth));
+        break;
+    case QDOT_IF:
+        b = condition_gap(pool, a);
+        if (b != QDOT_NIL)
+            QDOT_TRY(steps_over(r, node, qdot_expr_arg(pool, node, 2), qdot_expr_arg(pool, node, 1), b, &smooth));
+        else
+            smooth = qdot_expr_arg(pool, node, 1) == qdot_expr_arg(pool, node, 2);
+        if (!smooth)
+            *zeros = with_gaps(pool, a, *zeros);
+        *yes = !smooth;
+        return qdot_pool_check(pool);
+    default:
+        return QDOT_OK;
+    }
+    if (!smooth)
+        *zeros = qdot_list_appended(pool, *zeros, 1, &at);
+    *yes = !smooth;
+    return qdot_pool_check(pool);
+}
+
+/* Whether u != 0 is proved. */
+static bool
+never_zero(const qdot_rest *r, qdot_expr u, const qdot_facts *facts)
+{
+    return qdot_condition(r->pool, u, true, facts) == QDOT_TRUE ||
+           qdot_condition(r->pool, qdot_neg(r->pool, u), true, facts) == QDOT_TRUE;
+}
+
+/* Whether a place lies where one of these is 0; *may: that is not known. */
+static qdot_status
+lies_on(qdot_rest *r, const qdot_equilibrium *e, qdot_expr zeros, bool *yes, bool *may)
+{
+    qdot_pool *pool = r->pool;
+
+    *yes = *may = false;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, zeros) && !*yes; i++) {
+        qdot_expr u = qdot_rest_value(r->s, e->equations, qdot_expr_arg(pool, zeros, i)), room[QDOT_CONDITIONS_MOST];
+        const qdot_facts facts = qdot_facts_and(pool, &r->facts, e->exists, room);
+        qdot_decision d;
+
+        if (u == QDOT_NIL && qdot_pool_check(pool) == QDOT_EDOMAIN) {
+            *may = true;
+            continue;
+        }
+        QDOT_TRY(qdot_pool_check(pool));
+        if (e->numeric) {
+            double value;
+
+            QDOT_TRY(qdot_generic_evaluate(pool, 1, &u, &(qdot_generic_point){0, NULL, NULL, 1}, &value));
+            *may = *may || !(fabs(value) > 1e-9);
+            continue;
+        }
+        QDOT_TRY(qdot_decide_equal(pool, u, QDOT_ZERO, &facts, &d));
+        *yes = d.verdict == QDOT_PROVED;
+        *may = *may || (d.verdict != QDOT_PROVED && !never_zero(r, u, &facts));
+    }
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump)
+{
+    qdot_expr zeros = qdot_list(r->pool, 0, NULL);
+    qdot_status status = QDOT_OK;
+    size_t kept = 0;
+    qdot_walk w;
+
+    *jump = QDOT_NIL;
+    QDOT_TRY(qdot_walk_begin(r->pool, r->energy, &w));
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        bool yes = false;
+
+        if (qdot_expr_kind(r->pool, w.at[i]) == QDOT_FUN && holds_coordinate(r, w.at[i]))
+            status = jumps_by(r, w.at[i], &zeros, &yes);
+        if (yes && *jump == QDOT_NIL)
+            *jump = w.at[i];
+    }
+    qdot_walk_end(&w);
+    QDOT_TRY(status);
+    if (*jump == QDOT_NIL)
+        return QDOT_OK;
+    r->unresolved = true;
+    for (size_t i = 0; i < r->found.n; i++) {
+        bool on;
+
+        QDOT_TRY(lies_on(r, &r->found.at[i], zeros, &on, &r->found.at[i].may_jump));
+        if (!on)
+            r->found.at[kept++] = r->found.at[i];
+    }
+    r->found.n = kept;
+    return QDOT_OK;
 }

@@ -52,7 +52,7 @@ bound(const qdot_pool *pool, qdot_expr e, double otherwise)
 }
 
 static qdot_status
-problem_begin(problem *p, const qdot_expr *r)
+problem_begin(problem *p, const qdot_rest *rest, const qdot_expr *r)
 {
     size_t n = p->n;
 
@@ -87,12 +87,10 @@ problem_begin(problem *p, const qdot_expr *r)
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < n; i++) {
-        const qdot_symbol *q = qdot_expr_symbol(p->pool, p->u[i]);
-
-        p->lo[i] = bound(p->pool, q->lo, -INFINITY);
-        p->hi[i] = bound(p->pool, q->hi, INFINITY);
+        p->lo[i] = bound(p->pool, qdot_rest_domain_end(rest, i, 0), -INFINITY);
+        p->hi[i] = bound(p->pool, qdot_rest_domain_end(rest, i, 1), INFINITY);
     }
-    return QDOT_OK;
+    return qdot_pool_check(p->pool);
 }
 
 static void
@@ -391,7 +389,7 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
                  .u = rest->system.unknowns.at};
     gsl_error_handler_t *before = gsl_set_error_handler_off();
     qdot_isolate isolate;
-    qdot_status status = problem_begin(&p, r);
+    qdot_status status = problem_begin(&p, rest, r);
 
     out->reach = ranges[RANGES - 1];
     if (status == QDOT_OK)

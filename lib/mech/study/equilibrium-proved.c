@@ -19,6 +19,15 @@ is_constant(const qdot_pool *pool, qdot_expr e)
            (qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0;
 }
 
+qdot_expr
+qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which)
+{
+    const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->system.unknowns.at[k]);
+    qdot_expr end = which == 0 ? q->lo : q->hi;
+
+    return end == QDOT_NIL || rest->bind == NULL ? end : rest->bind(rest->user, end);
+}
+
 /* Where the k-th unknown is searched; false: its domain is not known in numbers. */
 static bool
 range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
@@ -28,8 +37,8 @@ range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range 
     *range = (qdot_zeros_range){.group = k >= rest->system.places};
     if (k >= rest->system.places)
         return true;
-    range->lo = q->lo;
-    range->hi = q->hi;
+    range->lo = qdot_rest_domain_end(rest, k, 0);
+    range->hi = qdot_rest_domain_end(rest, k, 1);
     range->lo_open = q->lo_open;
     range->hi_open = q->hi_open;
     range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&

@@ -22,6 +22,8 @@ typedef struct {
     qdot_expr sliding;   /* the conditions under which these forces hold and do not drive */
     size_t searched; /* unknowns that are searched for in numbers: without the sides */
     qdot_vec(qdot_equilibrium) found;
+    qdot_binder bind; /* values of parameters for numbers; may be NULL */
+    void *user;
     bool unresolved; /* there may be rests at kinks that were not searched: the list is not complete */
 } qdot_rest;
 
@@ -55,8 +57,12 @@ QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 /* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
-/* r->unresolved where forces have no value at the tip of a cone, or the energy jumps. (equilibrium-kinks.c) */
+/* r->unresolved where forces have no value at the tip of a cone. (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
+/* Remove places at which the energy jumps, as sign(x) does at 0: forces do not tell what it does to a body there. Where
+ * that is not known of a place it is marked. *jump: a function by which the energy jumps, with r->unresolved; nil: none.
+ * (equilibrium-kinks.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_jumps(qdot_rest *r, qdot_expr *jump);
 
 /* The equations without t that hold at a place at which those hold at all times. */
 QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equations,
@@ -96,6 +102,8 @@ typedef struct {
  * all. */
 QDOT_MUST_CHECK qdot_status qdot_rest_search(qdot_rest *rest, const qdot_expr *r,
                                              qdot_places *out);
+/* An end of the domain of the k-th unknown (0: the lower) with the values of parameters put in; nil: there is none. */
+qdot_expr qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which);
 /* Those that exclusion finds, added to *out; out->complete. (equilibrium-proved.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r,
                                               qdot_places *out);

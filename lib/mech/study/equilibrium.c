@@ -211,6 +211,12 @@ search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
                                        "friction they are regions, which are not searched for in "
                                        "numbers");
     name = unset(r, bound);
+    for (size_t k = 0; k < r->system.places && name == NULL; k++) /* what a domain ends at, too */
+        for (int which = 0; which < 2 && name == NULL; which++) {
+            qdot_expr end = qdot_rest_domain_end(r, k, which);
+
+            name = end == QDOT_NIL ? NULL : unset(r, end);
+        }
     if (name != NULL) {
         QDOT_TRY(qdot_rest_symmetric(r));
         out->unset = name;
@@ -279,6 +285,10 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     qdot_equilibrium one = *e;
     bool alike;
 
+    e->stability = QDOT_STABILITY_UNDECIDED;
+    e->stable_when = QDOT_NIL;
+    if (e->may_jump)
+        return QDOT_OK;
     if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
     QDOT_TRY(is_alike(r, e, &alike));
@@ -358,6 +368,8 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     qdot_expr equations = r->system.equations;
     bool lasting = holds_time(r, r->system.equations);
 
+    r->bind = bind;
+    r->user = user;
     if (lasting)
         QDOT_TRY(qdot_rest_at_all_times(r, r->system.equations, &equations));
     QDOT_TRY(begin_branch(r, equations));
@@ -369,6 +381,7 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
     QDOT_TRY(qdot_rest_tips(r));
+    QDOT_TRY(qdot_rest_leave_out_jumps(r, &out->jump));
     r->system.complete = r->system.complete && !r->unresolved;
     return QDOT_OK;
 }
@@ -386,11 +399,11 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = judge(&r, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
-    if (status == QDOT_OK && r.found.n == 0)
+    if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;
     out->n = r.found.n;
-    out->complete = r.system.complete && out->pole == NULL;
+    out->complete = r.system.complete && (out->pole == NULL || out->n > 0);
     out->recurs = r.system.recurs && r.found.n > 0;
     r.found.at = NULL;
     qdot_rest_end(&r);

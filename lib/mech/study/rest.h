@@ -21,6 +21,7 @@ typedef struct {
     qdot_stability stability;
     qdot_expr stable_when; /* STABLE, TO_FIRST_ORDER: a LIST of RELs; nil: always */
     bool numeric;
+    bool may_jump; /* the energy may jump there: nothing is said of its stability */
 } qdot_equilibrium;
 
 typedef struct {
@@ -32,8 +33,9 @@ typedef struct {
     double reach;         /* starts lay within +-reach if no domain is declared */
     size_t unproved;      /* starts that ended at an unproved zero within rounding */
     qdot_expr special;    /* a LIST of what values divide by: where one is 0 this is not the list; nil: none */
-    const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there;
-                           * asked where none was found elsewhere; NULL: none. The pool's */
+    const char *pole;     /* a coordinate whose open domain ends where the chart alone is singular: a rest may be there,
+                           * which is not looked for; NULL: none. The pool's */
+    qdot_expr jump;       /* a function by which the energy jumps: no rest is looked for where it does; nil: none */
     const char *unset;    /* a parameter whose value a numerical search needs; NULL: none. The pool's */
 } qdot_equilibria;
 

@@ -281,6 +281,7 @@ take_blocks(qdot_judgement *j)
 static qdot_status
 by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
 {
+    const qdot_judgement_point before = qdot_judgement_mark(j);
     qdot_dof dof;
     qdot_status status = qdot_linear_motion_about(j->s, e->equations, e->exists, &j->m);
 
@@ -298,6 +299,14 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(by_energy(j, e));
     if (j->judge->velocity_kink || j->judge->timed || !j->m.damped)
         return QDOT_OK;
+    if (e->stability == QDOT_STABLE && j->when.n > before.when && j->m.exact &&
+        !qdot_judgement_is_symmetric(j, j->m.n, j->m.Gamma, 1)) { /* gyroscopic terms may hold what no energy does */
+        qdot_judgement_back_to(j, before);
+        e->stability = QDOT_STABILITY_UNDECIDED;
+        QDOT_TRY(qdot_stability_by_roots(j, e));
+        if (e->stability == QDOT_STABILITY_UNDECIDED)
+            QDOT_TRY(by_energy(j, e));
+    }
     if (e->stability == QDOT_STABILITY_UNDECIDED)
         QDOT_TRY(by_falling(j, e));
     if (e->stability == QDOT_STABILITY_UNDECIDED)

@@ -173,8 +173,18 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
     how = QDOT_DEFINITE_UNKNOWN;
     if (potential && qdot_judgement_is_damping(j, x->n, x->Gamma))
         QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
-    if (how == QDOT_NEGATIVE_SOMEWHERE && !qdot_judgement_is_symmetric(j, x->n, x->Gamma, 1))
-        how = QDOT_DEFINITE_UNKNOWN; /* gyroscopic terms may hold it */
+    if (!qdot_judgement_is_symmetric(j, x->n, x->Gamma, 1)) {
+        if (how == QDOT_NEGATIVE_SOMEWHERE) /* gyroscopic terms may hold it, */
+            how = QDOT_DEFINITE_UNKNOWN;
+        if (how == QDOT_DEFINITE_CONDITIONAL && undamped && x->n == 2) { /* also where H is not definite */
+            qdot_judgement_back_to(j, before);
+            QDOT_TRY(undamped_pair(j, x, &how));
+            settle(j, before, how, BOUNDED, what);
+            if (*what != OPEN)
+                return QDOT_OK;
+            QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
+        }
+    }
     settle(j, before, how, BOUNDED, what);
     if (*what != OPEN || !undamped || x->n != 2)
         return QDOT_OK;
@@ -243,33 +253,48 @@ pick_block(const qdot_linear_motion *m, const size_t *of, size_t k, block *x)
     x->H = x->Gamma + x->n * x->n;
 }
 
-/* GROWS if one block does; else the least of what all do. */
+/* Whether one block grows, whatever others need: it is asked without their conditions. */
+static qdot_status
+one_grows(qdot_judgement *j, const size_t *of, size_t count, block *x, bool *yes)
+{
+    *yes = false;
+    for (size_t k = 0; k < count && !*yes; k++) {
+        const qdot_judgement_point before = qdot_judgement_mark(j);
+        motion one;
+
+        pick_block(&j->m, of, k, x);
+        QDOT_TRY(block_motion(j, x, &one));
+        *yes = one == GROWS;
+        if (!*yes)
+            qdot_judgement_back_to(j, before);
+        else
+            qdot_judgement_drop_conditions(j, before);
+    }
+    return QDOT_OK;
+}
+
+/* GROWS if one block does; else the least of what all do, under the conditions of all. */
 static qdot_status
 whole_motion(qdot_judgement *j, size_t *of, block *x, motion *all)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
     size_t count = number_blocks(&j->m, of);
     motion worst = DECAYS;
+    bool grows;
 
-    for (size_t k = 0; k < count; k++) {
-        const qdot_judgement_point here = qdot_judgement_mark(j);
+    QDOT_TRY(one_grows(j, of, count, x, &grows));
+    for (size_t k = 0; k < count && !grows; k++) {
         motion one;
 
         pick_block(&j->m, of, k, x);
         QDOT_TRY(block_motion(j, x, &one));
-        if (one == GROWS) { /* what other blocks need is of no account */
-            for (size_t i = here.claims; i < j->claims.n; i++)
-                j->claims.at[before.claims + i - here.claims] = j->claims.at[i];
-            j->claims.n -= here.claims - before.claims;
-            qdot_judgement_drop_conditions(j, before);
-            *all = GROWS;
-            return QDOT_OK;
-        }
+        if (one == GROWS) /* under the conditions of another: they contradict each other */
+            one = OPEN;
         worst = one > worst ? one : worst;
     }
     if (worst == OPEN)
         qdot_judgement_back_to(j, before);
-    *all = worst;
+    *all = grows ? GROWS : worst;
     return QDOT_OK;
 }
 
