@@ -1816,6 +1816,7 @@ script_tests = \
 	tests/bad/floquet-run.lag \
 	tests/bad/foreign-function.lag \
 	tests/bad/foreign-index.lag \
+	tests/bad/friction-along-velocity.lag \
 	tests/bad/function-body.lag \
 	tests/bad/function-kind.lag \
 	tests/bad/function-mutual.lag \
@@ -1883,6 +1884,7 @@ script_tests = \
 	tests/bad/missing-times.lag \
 	tests/bad/misspelled-option.lag \
 	tests/bad/misspelled-word.lag \
+	tests/bad/modes-at-corner.lag \
 	tests/bad/modes-at.lag \
 	tests/bad/modes-damped.lag \
 	tests/bad/modes-unstable.lag \
@@ -2251,6 +2253,7 @@ test_files = \
 	tests/bad/floquet-run.out \
 	tests/bad/foreign-function.out \
 	tests/bad/foreign-index.out \
+	tests/bad/friction-along-velocity.out \
 	tests/bad/function-body.out \
 	tests/bad/function-kind.out \
 	tests/bad/function-mutual.out \
@@ -2318,6 +2321,7 @@ test_files = \
 	tests/bad/missing-times.out \
 	tests/bad/misspelled-option.out \
 	tests/bad/misspelled-word.out \
+	tests/bad/modes-at-corner.out \
 	tests/bad/modes-at.out \
 	tests/bad/modes-damped.out \
 	tests/bad/modes-unstable.out \

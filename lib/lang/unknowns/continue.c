@@ -151,6 +151,26 @@ qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const
     return status;
 }
 
+/* Rests at the corner of a potential: `equilibria` lists them, no curve follows them. */
+static qdot_status
+tell_corners(qdot_session *session, qdot_equilibrium_curve *curve)
+{
+    qdot_text text = {0};
+    qdot_expr u;
+    qdot_status status;
+
+    QDOT_TRY(qdot_rest_corner(&curve->rest, &u));
+    if (u == QDOT_NIL)
+        return QDOT_OK;
+    qdot_text_add(&text, "forces jump where ");
+    status = qdot_print(session->pool, u, QDOT_PLAIN, &text);
+    qdot_text_add(&text, " = 0: rests that stay there are not followed; `equilibria` lists them");
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
 static qdot_status
 follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
 {
@@ -181,6 +201,8 @@ follow_equilibria(qdot_session *session, const qdot_continue_wish *w)
         status = qdot_rest_continuation_find(&curve, w->least, w->most, &found);
         status = qdot_continue_conclude(session, w, &b, status);
     }
+    if (status == QDOT_OK)
+        status = tell_corners(session, &curve);
     qdot_free(names);
     qdot_free(columns);
     qdot_continuation_clear(&found);

@@ -91,6 +91,9 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
     size_t count = 0;
 
     for (size_t i = 0; i < n; i++)
+        G[i] = qdot_rest_slips_by_signs(r, G[i]);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t i = 0; i < n; i++)
         for (;;) {
             qdot_expr u = next_jump(r, G[i], true, count, seen), from, side, when, room[1];
             qdot_expr *with;
@@ -110,7 +113,7 @@ qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G)
             for (size_t k = 0; k < n; k++)
                 with[k] = qdot_subs(pool, G[k], 1, &from, &side);
             when = qdot_rest_value(r->s, nowhere, push_back(r, n, with, side, u, 1));
-            when = qdot_condition(pool, when, true, &r->facts);
+            when = qdot_condition(pool, when, false, &r->facts); /* 0: there is no friction, and s is any */
             if (when != QDOT_FALSE && when != QDOT_NIL) { /* else it drives: it is 0 at rest */
                 room[0] = side;
                 for (size_t k = 0; k < n; k++)
@@ -193,4 +196,14 @@ qdot_rest_corners(qdot_rest *r, qdot_expr equations)
     for (unsigned which = 1; which < 1u << n; which++)
         QDOT_TRY(corner_branch(r, equations, forces, u, n, which));
     return QDOT_OK;
+}
+
+qdot_status
+qdot_rest_corner(qdot_rest *r, qdot_expr *u)
+{
+    qdot_expr equations;
+
+    QDOT_TRY(qdot_rest_by_signs(r, r->system.equations, &equations));
+    *u = next_jump(r, equations, false, 0, NULL);
+    return qdot_pool_check(r->pool);
 }

@@ -43,6 +43,15 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
         e[i] = qdot_simplify(r->pool, qdot_rest_value(s, nowhere, e[i]), &r->facts);
         status = qdot_pool_check(r->pool);
+        if (status == QDOT_EDOMAIN && i < n) { /* a force along v/|v|, as a rule */
+            const char *q = qdot_expr_symbol(r->pool, s->coordinates.at[i])->name;
+
+            (void)qdot_fail(QDOT_EDOMAIN, "the force along %.60s has no value at rest: division by zero", q);
+            (void)qdot_hint("dry friction of one coordinate is -mu*sign(%.60s'); along v/|v| of several it has no "
+                            "equilibria that could be listed",
+                            q);
+            break;
+        }
     }
     if (status == QDOT_OK)
         r->forces = qdot_list(r->pool, (uint32_t)n, e);

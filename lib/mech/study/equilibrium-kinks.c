@@ -157,21 +157,21 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     return half(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
-/* A product with sign(u) u^k for |u|^k, k < 0 odd. */
+/* A product with sign(u) u^k for |u|^k, k < 0 odd; slipping (a rest, or NULL): of velocities alone. */
 static qdot_expr
-product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
+product_by_signs(qdot_pool *pool, qdot_expr e, void *slipping)
 {
+    const qdot_rest *r = slipping;
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr product = e;
 
-    (void)user;
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr size = qdot_expr_arg(pool, e, i), u;
         long k;
 
         if (!is_function(pool, size, QDOT_ABS) ||
             !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) || k >= 0 ||
-            k % 2 == 0)
+            k % 2 == 0 || (r != NULL && (qdot_mech_holds(r->s, size) & QDOT_HAS_VELOCITY) == 0))
             continue;
         u = qdot_expr_arg(pool, size, 0);
         product = qdot_mul(pool, product, qdot_pow_int(pool, size, -k));
@@ -179,6 +179,52 @@ product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
         product = qdot_mul(pool, product, qdot_fun1(pool, QDOT_SIGN, u));
     }
     return product;
+}
+
+/* A product with sign(u) or nothing for sign(u)^k. */
+static qdot_expr
+product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
+{
+    qdot_expr product = e;
+
+    (void)user;
+    for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
+        qdot_expr sign = qdot_expr_arg(pool, e, i);
+        long k;
+
+        if (is_function(pool, sign, QDOT_SIGN) && qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) && k > 1)
+            product = qdot_mul(pool, product, qdot_pow_int(pool, sign, k % 2 - k));
+    }
+    return product;
+}
+
+/* if(u > 0, A, B) by the sign of u, where that holds velocities and is 0 at rest. */
+static qdot_expr
+slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
+{
+    const qdot_rest *r = user;
+    qdot_expr u = is_function(pool, e, QDOT_IF) ? condition_gap(pool, qdot_expr_arg(pool, e, 0)) : QDOT_NIL, yes, no;
+
+    if (u == QDOT_NIL || (qdot_mech_holds(r->s, u) & QDOT_HAS_VELOCITY) == 0 ||
+        qdot_rest_value(r->s, qdot_list(pool, 0, NULL), u) != QDOT_ZERO)
+        return e;
+    yes = qdot_expr_arg(pool, e, 1);
+    no = qdot_expr_arg(pool, e, 2);
+    return half(pool, qdot_add(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no)),
+                               qdot_add(pool, yes, no)));
+}
+
+qdot_expr
+qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr by = qdot_walk_replace(pool, force, QDOT_FUN, slip_by_sign, r);
+
+    if (by != QDOT_NIL)
+        by = qdot_walk_replace(pool, by, QDOT_PROD, product_by_signs, r);
+    if (by != QDOT_NIL && by != force)
+        by = qdot_expand(pool, by);
+    return by == QDOT_NIL ? by : qdot_walk_replace(pool, by, QDOT_PROD, product_of_signs, NULL);
 }
 
 qdot_status

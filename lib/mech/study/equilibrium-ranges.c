@@ -76,6 +76,10 @@ list_ranges(qdot_rest *r, const qdot_equilibrium *all, bool *done)
     }
     facts = qdot_facts_and(pool, &r->facts, exists, room);
     status = qdot_bands_find(pool, u, n, in, &facts, &bands, done);
+    if (status == QDOT_EDOMAIN) { /* a condition has no value somewhere: the region stays as it is */
+        *done = false;
+        status = QDOT_OK;
+    }
     if (bands.touched && r->s->coordinates.n > 1)
         *done = false;
     for (size_t i = 0; i < bands.at.n && *done; i++) /* a place in numbers would want numbers alone */

@@ -51,6 +51,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_equations(qdot_rest *r, qdot_expr *list);
 /* In the n forces G a symbol in -1 ... 1 for each sign of a velocity, where it holds: to r->friction.
  * (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_sides(qdot_rest *r, size_t n, qdot_expr *G);
+/* *u is 0 where the forces at rest jump by its sign; nil: none do so. (equilibrium-corners.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_corner(qdot_rest *r, qdot_expr *u);
 /* Branches to do for the places at which forces jump. (equilibrium-corners.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations);
 
@@ -59,6 +61,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
 /* r->unresolved where forces have no value at the tip of a cone. (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
+/* A force whose jumps by velocities, if(x' > 0, ...), x'/|x'|, are written as signs. (equilibrium-kinks.c) */
+qdot_expr qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force);
 /* Remove places at which the energy jumps, as sign(x) does at 0: forces do not tell what it does to a body there. Where
  * that is not known of a place it is marked. *jump: a function by which the energy jumps, with r->unresolved; nil: none.
  * (equilibrium-kinks.c) */

@@ -121,6 +121,11 @@ declared(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
         power = qdot_sub(pool, power,
                          qdot_mul(pool, qdot_mech_jet(s, i, 1), qdot_sub(pool, Q, F[i])));
         status = qdot_pool_check(pool);
+        if (status == QDOT_EDOMAIN) { /* x'/|x'| has no value at rest */
+            qdot_free(F);
+            *yes = false;
+            return QDOT_OK;
+        }
         *yes = *yes && status == QDOT_OK && (qdot_mech_holds(s, Q) & QDOT_HAS_TIME) == 0;
     }
     for (size_t i = 0; i < n && *yes; i++)

@@ -12,6 +12,8 @@
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/mass-matrix.h"
+#include "mech/dynamics/quantity.h"
+#include "mech/scene/access.h"
 #include "mech/study/linear-motion.h"
 #include "normal/inequality/less.h"
 #include "normal/simplify/positive.h"
@@ -58,6 +60,55 @@ check_masses(const job *j)
         return qdot_hint("declare only the coordinates that the scene uses");
     }
     return QDOT_OK;
+}
+
+/* Whether e jumps at the place: by a sign or an `if` that changes there. */
+static qdot_status
+jumps_there(const job *j, qdot_expr e, qdot_expr place, bool *yes)
+{
+    qdot_pool *pool = j->pool;
+    qdot_status status = QDOT_OK;
+    qdot_walk w;
+
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    for (size_t i = 0; i < w.n && !*yes && status == QDOT_OK; i++) {
+        uint32_t op = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN ? qdot_expr_node(pool, w.at[i])->op : QDOT_ABS;
+        qdot_expr u = op == QDOT_SIGN || op == QDOT_IF ? qdot_expr_arg(pool, w.at[i], 0) : QDOT_NIL;
+
+        if (u == QDOT_NIL || (qdot_mech_holds(j->s, u) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY)) == 0)
+            continue;
+        if (op == QDOT_IF && qdot_expr_kind(pool, u) != QDOT_REL)
+            continue;
+        if (op == QDOT_IF)
+            u = qdot_sub(pool, qdot_expr_arg(pool, u, 1), qdot_expr_arg(pool, u, 0));
+        *yes = is_zero(j, qdot_rest_value(j->s, place, u));
+        status = qdot_pool_check(pool);
+    }
+    qdot_walk_end(&w);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* At a corner, between two springs that act on one side each, or under dry friction there is no linear motion. */
+static qdot_status
+check_smooth(const job *j, qdot_expr place)
+{
+    qdot_scene *s = j->s;
+    bool jumps = false;
+
+    for (size_t i = 0; i < s->coordinates.n && !jumps; i++) {
+        qdot_expr e = qdot_mech_equation(s, s->coordinates.at[i]);
+
+        QDOT_TRY(jumps_there(j, e, place, &jumps));
+        for (size_t k = 0; k < s->coordinates.n && !jumps; k++) {
+            qdot_expr gap = qdot_sub(j->pool, qdot_expr_arg(j->pool, e, 0), qdot_expr_arg(j->pool, e, 1));
+
+            QDOT_TRY(jumps_there(j, qdot_diff(j->pool, gap, s->coordinates.at[k]), place, &jumps));
+        }
+    }
+    QDOT_TRY(qdot_pool_check(j->pool));
+    return jumps ? qdot_fail(QDOT_ETYPE, "the forces or their slopes jump at the equilibrium: there is no linear motion "
+                                         "about it, so it has no normal modes")
+                 : QDOT_OK;
 }
 
 static qdot_status
@@ -493,6 +544,8 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
         return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
     QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
     status = check_motion(&j);
+    if (status == QDOT_OK)
+        status = check_smooth(&j, equations);
     if (status == QDOT_OK && !numbers)
         status = exact(&j, &done);
     if (status == QDOT_OK && !done) {

@@ -47,8 +47,7 @@ typedef struct {
     bool known;
 } one_side;
 
-/* a or b: the one that is chosen by the sign of u for small eps > 0; `e` itself where it is not known and u does not
- * vanish with eps. */
+/* a or b: the one that is chosen by the sign of u for small eps > 0; where that is not known, o->known is false. */
 static qdot_expr
 chosen(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 {
@@ -65,7 +64,7 @@ chosen(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
     there = qdot_subs(pool, u, 1, &o->eps, &zero);
     if (there == QDOT_NIL)
         o->status = qdot_pool_check(pool);
-    else if (qdot_is_zero(pool, there, &o->j->facts))
+    else /* 0, or of either sign as the parameters are */
         o->known = false;
     return e;
 }

@@ -68,7 +68,7 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
 
 qdot_status
 qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_bracket *in, qdot_bifurcation *fold,
-                             double *other, qdot_bifurcation_answer *answer)
+                             double *other, qdot_bifurcation_answer *answer, bool *outside)
 {
     const qdot_path *x = s->x;
     qdot_bifurcation b = {.kind = QDOT_PITCHFORK, .y = qdot_calloc(2 * x->width, sizeof *b.y)};
@@ -84,6 +84,8 @@ qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_brack
     same = status == QDOT_OK && found == QDOT_BIFURCATION_FOUND;
     for (size_t i = 0; i <= x->n && same; i++)
         same = fabs(b.y[i] - fold->y[i]) <= fold->error[i] + b.error[i];
+    for (size_t i = 0; i < x->n && same; i++) /* on the end of an open domain: no place of the branch */
+        *outside = *outside || b.y[i] - b.error[i] <= x->lo[i] || b.y[i] + b.error[i] >= x->hi[i];
     if (same) {
         memcpy(fold->y, b.y, 2 * x->width * sizeof *b.y);
         fold->kind = b.kind;

@@ -21,11 +21,12 @@ QDOT_MUST_CHECK qdot_status qdot_branch_mark(qdot_branch_search *s, qdot_bifurca
 
 /* A fold that lies within `in` but is not located may be a crossing, at which the curve that has no part along p turns
  * its tangent, too: where one is proved within the errors of *fold, that becomes it, with `other` the direction of the
- * other curve, and *answer is QDOT_BIFURCATION_FOUND. */
+ * other curve, and *answer is QDOT_BIFURCATION_FOUND. *outside becomes true where it lies on the end of a domain. */
 QDOT_MUST_CHECK qdot_status qdot_branch_fold_is_crossing(qdot_branch_search *s,
                                                          const qdot_bifurcation_bracket *in,
                                                          qdot_bifurcation *fold, double *other,
-                                                         qdot_bifurcation_answer *answer);
+                                                         qdot_bifurcation_answer *answer,
+                                                         bool *outside);
 
 /* Two crossings beside the kept point `place`, `way` along the curve or nearer; *both is false where they are not
  * told apart: then nothing is kept. */

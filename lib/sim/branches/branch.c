@@ -111,14 +111,22 @@ add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path
         out->error[i] += (before != 0 && way < 1 ? way : 1) / sqrt(x->weight[i]);
 }
 
+/* Below, the value that changes its sign is rounding at that point: of a tangent that grows as the determinant falls. */
+static double
+rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *here)
+{
+    if (kind != QDOT_FOLD)
+        return doubtful * x->most_det;
+    return 100 * x->upright * fmax(1, fmin(fabs(x->most_det / here->det), 1e8));
+}
+
 /* Where it may lie, as far as signs are beyond rounding: widen in->from and in->to, also beyond the step
  * of `length`; errors by the places there. */
 static void
 widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
       qdot_bifurcation *out)
 {
-    const double level = out->kind == QDOT_FOLD ? 100 * x->upright : doubtful * x->most_det,
-                 middle = (in->from + in->to) / 2;
+    const double middle = (in->from + in->to) / 2;
     const double start = in->to - in->from;
     double sign[2] = {0, 0}, first[2] = {0, 0};
 
@@ -131,7 +139,7 @@ widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point
             const double f = value_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
 
             first[side] = first[side] == 0 ? f : first[side];
-            if (fabs(f) > level)
+            if (fabs(f) > rounding(x, out->kind, here))
                 sign[side] = f;
             else if (s < -beyond || s > length + beyond)
                 break;
@@ -280,7 +288,7 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
     if (kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && in.stays)
         nothing = true; /* rounding turned the tangent of a curve that is upright there and goes on */
     if (status == QDOT_OK && kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && !nothing && x->dips)
-        status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer);
+        status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer, &nothing);
     if (status == QDOT_OK && !nothing && !s->leapt && s->over != QDOT_END_REST) {
         if (answer != QDOT_BIFURCATION_FOUND) {
             b.kind = kind == QDOT_HALVING || (kind == QDOT_FOLD && in.changes) ? kind : QDOT_NOT_SIMPLE;
