@@ -1500,6 +1500,7 @@ script_tests = \
 	tests/script/corners-of-two.lag \
 	tests/script/data-files.sh \
 	tests/script/declarations.lag \
+	tests/script/definitions-anew.lag \
 	tests/script/definitions.lag \
 	tests/script/derive-styles.lag \
 	tests/script/derive.lag \
@@ -1667,6 +1668,7 @@ script_tests = \
 	tests/script/rests.lag \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
+	tests/script/run-members.lag \
 	tests/script/run.sh \
 	tests/script/save-sides.sh \
 	tests/script/saved-run.sh \
@@ -1729,6 +1731,10 @@ script_tests = \
 	tests/bad/acceleration-position.lag \
 	tests/bad/alone-word.lag \
 	tests/bad/animate.sh \
+	tests/bad/argument-differential.lag \
+	tests/bad/argument-function.lag \
+	tests/bad/argument-number.lag \
+	tests/bad/argument-reserved.lag \
 	tests/bad/as-number.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
@@ -2166,6 +2172,10 @@ test_files = \
 	tests/bad/acceleration-position.out \
 	tests/bad/alone-word.out \
 	tests/bad/animate.out \
+	tests/bad/argument-differential.out \
+	tests/bad/argument-function.out \
+	tests/bad/argument-number.out \
+	tests/bad/argument-reserved.out \
 	tests/bad/as-number.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
@@ -2643,6 +2653,7 @@ test_files = \
 	tests/script/corners-of-two.out \
 	tests/script/data-files.out \
 	tests/script/declarations.out \
+	tests/script/definitions-anew.out \
 	tests/script/definitions.out \
 	tests/script/derive-styles.out \
 	tests/script/derive.out \
@@ -2830,6 +2841,7 @@ test_files = \
 	tests/script/rests.out \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \
+	tests/script/run-members.out \
 	tests/script/run.out \
 	tests/script/save-sides.out \
 	tests/script/saved-run.out \

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "expr/tensor.h"
+#include "lang/answer/answer.h"
 #include "lang/commands/definition-parts.h"
 #include "lang/commands/statement-form.h"
 #include "lang/functions/builtin.h"
@@ -488,15 +489,36 @@ check_definition(assignment *a)
     return label != NULL ? tell_label(a, label) : QDOT_OK;
 }
 
-/* NAME(names) = EXPR of a function of the language is an equation of what is declared; with a name that
- * means nothing it was meant as a definition. */
+/* f(x) = E of a function of the user's, with declared names as its arguments, is an equation; it looks like a definition
+ * where these are the arguments it was defined with. */
+static qdot_status
+check_applied(const assignment *a, const qdot_name *known)
+{
+    const qdot_pool *pool = a->session->pool;
+    const uint32_t n = qdot_expr_count(pool, known->formals);
+    const qdot_token *k = a->name + 2;
+
+    for (uint32_t i = 0; i < n; i++, k += 2)
+        if (k >= a->equals || !qdot_token_is_word(k, qdot_expr_symbol(pool, qdot_expr_arg(pool, known->formals, i))->name))
+            return QDOT_OK;
+    return k == a->equals ? qdot_answer_notice(a->session,
+                                               "`%.100s` is a function already, so this is an equation; with an argument that "
+                                               "is not declared it would define `%.100s` anew",
+                                               known->name, known->name)
+                          : QDOT_OK;
+}
+
+/* NAME(names) = EXPR that is no definition: of a function of the language it is an equation of what is declared, and with a
+ * name that means nothing it was meant as a definition; NAME(pi) = ... of a name without a meaning is neither. */
 static qdot_status
 check_function(assignment *a)
 {
     const qdot_builtin *builtin = qdot_builtin_find(a->name->text);
+    const qdot_name *known = qdot_names_find(a->session->names, a->name->text);
+    const qdot_token *taken = NULL;
     bool unknown = false;
 
-    if (builtin == NULL || !qdot_token_is(a->name + 1, "("))
+    if (!qdot_token_is(a->name + 1, "("))
         return QDOT_OK;
     a->equals = qdot_statement_behind_bracket(a->name + 1);
     if (!qdot_token_is(a->equals, "="))
@@ -505,8 +527,16 @@ check_function(assignment *a)
         if (k->kind != QDOT_TOKEN_NAME || !(qdot_token_is(k + 1, ",") || qdot_token_is(k + 1, ")")))
             return QDOT_OK;
         unknown |= !qdot_cursor_knows(a->session, k->text);
+        taken = taken == NULL && !qdot_statement_is_free_argument(a->session, k->text) ? k : taken;
     }
-    if (!unknown)
+    if (known != NULL)
+        return known->kind == QDOT_NAME_FUNCTION ? check_applied(a, known) : QDOT_OK;
+    if (builtin == NULL && taken != NULL && !qdot_cursor_knows(a->session, a->name->text)) {
+        a->c->error_at = taken->start;
+        (void)qdot_fail(QDOT_ENAME, "`%.100s` is a word of the language: an argument has a name of its own", taken->text);
+        return qdot_hint("as in %.100s(s) = s^2", a->name->text);
+    }
+    if (builtin == NULL || !unknown)
         return QDOT_OK;
     read_right(a);
     write_renamed(a);

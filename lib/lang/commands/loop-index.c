@@ -7,6 +7,7 @@
 #include "lang/commands/statement-form.h"
 #include "lang/functions/quantity.h"
 #include "lang/language/token-text.h"
+#include "lang/source/source.h"
 
 /* --- where a declared symbol occurs ------------------------------------------------------- */
 
@@ -119,6 +120,57 @@ is_used(const qdot_session *s, const char *name, const qdot_token *from, const q
     return false;
 }
 
+/* The token behind NAME = VALUE of `with`, at its comma, the next option or the end. */
+static const qdot_token *
+behind_pair(const qdot_token *k)
+{
+    static const char *const options[] = {"tol", "digits", "method", "constraints", "as", "with"};
+
+    for (long depth = 0; k->kind != QDOT_TOKEN_END; k++) {
+        depth += qdot_token_bracket(k);
+        if (depth == 0 && qdot_token_is(k, ","))
+            return k;
+        for (size_t i = 0; i < sizeof options / sizeof *options && depth == 0; i++)
+            if (qdot_token_is_word(k, options[i]))
+                return k;
+    }
+    return k;
+}
+
+/* The limits and options of a run, those of `with` without a value of this name. */
+static void
+add_run_without(qdot_session *s, const qdot_token *k, const char *name, qdot_text *out)
+{
+    const qdot_token *from = k;
+
+    while (k->kind != QDOT_TOKEN_END) {
+        const char *before = " with ";
+        const qdot_token *next = k + 1;
+
+        if (!qdot_token_is_word(k, "with")) {
+            k++;
+            continue;
+        }
+        qdot_text_add(out, from < k ? " " : "");
+        qdot_token_text(s, from, k, out);
+        for (bool more = true; more;) {
+            const qdot_token *pair = next;
+
+            next = behind_pair(pair);
+            if (!qdot_token_is_word(pair, name) || !qdot_token_is(pair + 1, "=")) {
+                qdot_text_add(out, before);
+                qdot_token_text(s, pair, next, out);
+                before = ", ";
+            }
+            more = qdot_token_is(next, ",");
+            next += more;
+        }
+        from = k = next;
+    }
+    qdot_text_add(out, from < k ? " " : "");
+    qdot_token_text(s, from, k, out);
+}
+
 /* The error: the index at k occurs in none of the tokens [from, to). */
 static qdot_status
 fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const qdot_token *to,
@@ -127,8 +179,10 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
     qdot_session *s = c->session;
     const qdot_name *known = declared(s, k->text);
     const qdot_named_run *latest = s->runs.n > 0 ? &s->runs.at[s->runs.n - 1] : NULL;
-    qdot_text text = {0}, with = {0};
-    const char *other;
+    qdot_source *run = NULL;
+    qdot_text text = {0};
+    qdot_status status;
+    size_t at;
 
     c->error_at = k->start;
     if (latest == NULL || known == NULL ||
@@ -136,11 +190,14 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
         (void)qdot_fail(QDOT_EINVAL, "the index `%.200s` occurs nowhere in what is repeated", k->text);
         return qdot_hint("as in print %s^2 for %s = 1..3", k->text, k->text);
     }
-    qdot_text_format(&with, " with %s = ", k->text); /* what its run had of it */
-    other = qdot_text_status(&with) == QDOT_OK ? strstr(latest->text, qdot_text_str(&with)) : NULL;
-    qdot_text_clear(&with);
-    qdot_text_format(&text, "{ run %.*s", (int)(other ? (size_t)(other - latest->text) : strlen(latest->text)),
-                     latest->text);
+    status = qdot_source_new("a run", latest->text, strlen(latest->text), &run, &at);
+    if (status != QDOT_OK) {
+        qdot_source_free(run);
+        return status;
+    }
+    qdot_text_add(&text, "{ run");
+    add_run_without(s, run->tokens.at, k->text, &text); /* what its run had of it */
+    qdot_source_free(run);
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {
         for (last = first; last < to && last->kind != QDOT_TOKEN_END;)
             last++;

@@ -23,12 +23,15 @@ qdot_statement_behind_bracket(const qdot_token *open)
 
 /* --- definitions of functions --------------------------------------------------------- */
 
-/* Whether a name may stand for the argument of a function: pi, dtheta may not. */
-static bool
-is_free_argument(const qdot_session *session, const char *name)
+bool
+qdot_statement_is_free_argument(const qdot_session *session, const char *name)
 {
-    static const char *const reserved[] = {"pi", "true", "false", "and", "or", "not", "dt"};
+    static const char *const reserved[] = {"pi", "true", "false", "and", "or", "not", "dt", "lambda", "delta"};
+    const qdot_builtin *builtin = qdot_builtin_find(name);
     const qdot_name *q;
+
+    if (builtin != NULL && !(builtin->flags & QDOT_BUILTIN_SHORT))
+        return false;
 
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
         if (strcmp(name, reserved[i]) == 0)
@@ -59,6 +62,34 @@ is_declared(const qdot_session *session, const char *name)
            qdot_scene_has_label(session->scene, name);
 }
 
+/* Whether one of the names behind `name` in its bracket stands in the text behind the equation sign. */
+static bool
+is_of_arguments(const qdot_token *name, const qdot_token *equals)
+{
+    for (const qdot_token *k = equals + 1; k->kind != QDOT_TOKEN_END; k++)
+        for (const qdot_token *argument = name + 2; argument < equals; argument += 2)
+            if (k->kind == QDOT_TOKEN_NAME && strcmp(k->text, argument->text) == 0)
+                return true;
+    return false;
+}
+
+/* Whether NAME(names) = RIGHT, of a function of the user's, is an equation: a declared name stands in place of its own
+ * argument, or all are declared and the right side is of none of them, f(x) = 0. */
+static bool
+is_applied(const qdot_session *session, const qdot_name *known, const qdot_token *name, const qdot_token *equals)
+{
+    bool all = true, other = false;
+    uint32_t i = 0;
+
+    for (const qdot_token *k = name + 2; k < equals; k += 2, i++) {
+        const bool declared = is_declared(session, k->text);
+
+        all = all && declared;
+        other = other || (declared && !is_formal(session, known, i, k->text));
+    }
+    return other || (all && !is_of_arguments(name, equals));
+}
+
 /* NAME(names) = */
 static bool
 defines_function(const qdot_session *session, const qdot_token *name)
@@ -66,20 +97,18 @@ defines_function(const qdot_session *session, const qdot_token *name)
     const qdot_builtin *builtin = qdot_builtin_find(name->text);
     const qdot_name *known = qdot_names_find(session->names, name->text);
     const qdot_token *k = name + 2;
-    bool applied = false; /* to declared names that are not its own arguments */
 
     if (builtin != NULL && !(builtin->flags & QDOT_BUILTIN_SHORT) &&
         (known == NULL || known->kind != QDOT_NAME_UFUN))
         return false;
-    for (uint32_t i = 0;; i++, k += 2) {
-        if (k->kind != QDOT_TOKEN_NAME || !is_free_argument(session, k->text))
+    for (;; k += 2) {
+        if (k->kind != QDOT_TOKEN_NAME || !qdot_statement_is_free_argument(session, k->text))
             return false;
-        applied |= known != NULL && known->kind == QDOT_NAME_FUNCTION &&
-                   is_declared(session, k->text) && !is_formal(session, known, i, k->text);
         if (!qdot_token_is(k + 1, ","))
             break;
     }
-    return qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=") && !applied;
+    return qdot_token_is(k + 1, ")") && qdot_token_is(k + 2, "=") &&
+           !(known != NULL && known->kind == QDOT_NAME_FUNCTION && is_applied(session, known, name, k + 2));
 }
 
 /* NAME =, NAME[...] =, NAME(names) =. Behind a statement's word a bracket opens an

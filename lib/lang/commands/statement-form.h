@@ -21,12 +21,16 @@ typedef enum {
 
 /* The form of the statement that begins at `first`. NAME(args) = EXPR is a definition unless NAME is
  * a function of the language, an argument is no name that can be taken, or it is a function of the
- * user's with a declared name in place of its argument: f(u) = u^2, then f(x) = 0. */
+ * user's that is applied: a declared name stands in place of its argument (f(u) = u^2, then f(x) = x), or all its
+ * arguments are declared and the right side holds none of them (f(x) = x^2, then f(x) = 0). */
 qdot_form qdot_statement_form(const qdot_session *session, const qdot_token *first);
 
 /* Whether the statement's word at `name` is used as a name there: `run*2`, a user's own `scene`. */
 bool qdot_statement_is_name(const qdot_session *session, const qdot_token *name,
                             const qdot_statement *row);
+
+/* Whether a name may stand for the argument of a function: pi, sin, dtheta may not. */
+bool qdot_statement_is_free_argument(const qdot_session *session, const char *name);
 
 /* The token behind the bracket that opens at `open`; `open` itself if none closes it. */
 const qdot_token *qdot_statement_behind_bracket(const qdot_token *open);

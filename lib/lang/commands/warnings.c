@@ -133,6 +133,19 @@ tell_arguments(qdot_session *session, const qdot_name *f)
 }
 
 qdot_status
+qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
+{
+    const qdot_name *old = qdot_names_declared(session->names, entry->name);
+    const bool function = entry->kind == QDOT_NAME_FUNCTION;
+
+    if (old == NULL || old->kind != (function ? QDOT_NAME_VALUE : QDOT_NAME_FUNCTION) ||
+        (!function && entry->kind != QDOT_NAME_VALUE))
+        return QDOT_OK;
+    return qdot_answer_notice(session, "`%.100s` is a %s from here on, and no longer the %s of %.200s:%u", entry->name,
+                              function ? "function" : "value", function ? "value" : "function", old->file, old->line);
+}
+
+qdot_status
 qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 {
     qdot_session *session = c->session;

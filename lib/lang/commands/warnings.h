@@ -10,6 +10,8 @@
 QDOT_MUST_CHECK qdot_status qdot_warnings_definition(qdot_cursor *c,
                                                      const qdot_token *start,
                                                      const qdot_name *entry);
+/* A value in place of a function, or a function in place of a value, before it is declared. */
+QDOT_MUST_CHECK qdot_status qdot_warnings_anew(qdot_session *session, const qdot_name *entry);
 /* A potential, spring, force ... that was declared before in the same words, after it was added. */
 QDOT_MUST_CHECK qdot_status qdot_warnings_twice(qdot_session *session,
                                                 qdot_scene_kind kind);

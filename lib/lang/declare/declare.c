@@ -257,6 +257,7 @@ qdot_declare_name(qdot_cursor *c, const qdot_token *start, qdot_name *entry)
 
     c->error_at = start->start;
     place(c, start, entry);
+    QDOT_TRY(qdot_warnings_anew(c->session, entry));
     QDOT_TRY(qdot_names_declare(c->session->names, entry));
     return again ? QDOT_OK : qdot_warnings_definition(c, start, entry);
 }

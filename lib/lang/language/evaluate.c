@@ -129,14 +129,53 @@ takes_run(const qdot_machine *m, const qdot_postfix *code)
            !qdot_resolve_is_function(m->session, code->token->text);
 }
 
+/* `a` of a.( ) around this code; NULL: it is within none. */
+static const char *
+run_around(const qdot_machine *m, const qdot_postfix *code)
+{
+    const qdot_postfix *next = code + 1;
+
+    return next < m->program->list.at + m->program->list.n && next->op == QDOT_POSTFIX_MEMBER ? next->token->text
+                                                                                              : NULL;
+}
+
+static qdot_status
+check_run(const qdot_machine *m, const char *name)
+{
+    for (size_t i = 0; i < m->session->runs.n; i++)
+        if (strcmp(m->session->runs.at[i].name, name) == 0)
+            return QDOT_OK;
+    (void)qdot_fail(QDOT_ENAME, "there is no run `%s`", name);
+    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+}
+
+/* The run along which the top n values are read: theirs, or `a` of a.value(x, 2), a.max(x, 0..1). */
+static qdot_status
+run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
+{
+    const char *around = run_around(m, code);
+
+    *run = common_run(m, n);
+    if (around == NULL)
+        return QDOT_OK;
+    if (*run != NULL)
+        return qdot_machine_along_two(*run, around);
+    QDOT_TRY(check_run(m, around));
+    *run = around;
+    m->belongs = true;
+    return QDOT_OK;
+}
+
 /* max(e, a..b): the ends of the range stand last. */
 static qdot_status
 range(qdot_machine *m, const qdot_postfix *code)
 {
     const bool along = qdot_range_is_word(code->token->text);
-    const char *run = along ? common_run(m, code->n) : NULL;
+    const char *run = NULL;
     qdot_expr value;
 
+    if (along)
+        QDOT_TRY(run_to_read(m, code, code->n, &run));
     QDOT_TRY(qdot_machine_take(m, code->n));
     if (along)
         QDOT_TRY(qdot_range_value(m->session, run, code->token->text, code->n - 2,
@@ -147,6 +186,33 @@ range(qdot_machine *m, const qdot_postfix *code)
     return qdot_machine_push(m, value);
 }
 
+/* a.max(x): of what moves, the greatest value on the way. */
+static bool
+is_extremum(qdot_machine *m, const qdot_postfix *code)
+{
+    const uint32_t moves = QDOT_HAS_COORD | QDOT_HAS_VELOCITY;
+
+    return code->to == 0 && code->n == 1 && qdot_range_is_word(code->token->text) &&
+           qdot_expr_node(m->pool, qdot_machine_top(m, 1)->value)->holds & moves &&
+           !qdot_resolve_is_function(m->session, code->token->text);
+}
+
+/* Its operand is along the run around it. */
+static qdot_status
+extremum_along(qdot_machine *m, const qdot_postfix *code)
+{
+    const char *around = run_around(m, code);
+
+    if (around == NULL)
+        return QDOT_OK;
+    QDOT_TRY(check_run(m, around));
+    if (qdot_machine_top(m, 1)->run != NULL)
+        return qdot_machine_along_two(qdot_machine_top(m, 1)->run, around);
+    qdot_machine_top(m, 1)->run = around;
+    m->belongs = true;
+    return QDOT_OK;
+}
+
 static qdot_status
 call(qdot_machine *m, const qdot_postfix *code)
 {
@@ -155,7 +221,9 @@ call(qdot_machine *m, const qdot_postfix *code)
     qdot_expr value, over = QDOT_NIL;
 
     if (takes_run(m, code))
-        run = common_run(m, n);
+        QDOT_TRY(run_to_read(m, code, n, &run));
+    else if (is_extremum(m, code))
+        QDOT_TRY(extremum_along(m, code));
     m->labels.n = 0;
     QDOT_TRY(qdot_grow(&m->labels.at, &m->labels.capacity, n, sizeof *m->labels.at));
     for (size_t i = n; i > 0; i--)
@@ -291,15 +359,11 @@ member(qdot_machine *m, const char *run)
         m->belongs = false;
         return QDOT_OK;
     }
-    for (size_t i = 0; i < m->session->runs.n; i++)
-        if (strcmp(m->session->runs.at[i].name, run) == 0) {
-            if (qdot_machine_top(m, 1)->run != NULL)
-                return qdot_machine_along_two(qdot_machine_top(m, 1)->run, run);
-            qdot_machine_top(m, 1)->run = run;
-            return QDOT_OK;
-        }
-    qdot_fail(QDOT_ENAME, "there is no run `%s`", run);
-    return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
+    QDOT_TRY(check_run(m, run));
+    if (qdot_machine_top(m, 1)->run != NULL)
+        return qdot_machine_along_two(qdot_machine_top(m, 1)->run, run);
+    qdot_machine_top(m, 1)->run = run;
+    return QDOT_OK;
 }
 
 /* --- the loop ----------------------------------------------------------------------- */

@@ -372,6 +372,30 @@ first_coordinate(const qdot_session *s)
     return "x";
 }
 
+/* A name of that kind in what matched; NULL: there is none. */
+static const char *
+matched_name(const qdot_session *s, const qdot_match *m, qdot_name_kind kind)
+{
+    for (const qdot_token *k = m->from; k < m->to; k++) {
+        const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
+
+        if (known != NULL && known->kind == kind)
+            return known->name;
+    }
+    return NULL;
+}
+
+/* What an equation that matched is solved for: a coordinate that it holds, else a parameter, else the first coordinate. */
+static const char *
+unknown_of(const qdot_session *s, const qdot_match *m)
+{
+    const char *name = matched_name(s, m, QDOT_NAME_COORD);
+
+    if (name == NULL)
+        name = matched_name(s, m, QDOT_NAME_PARAM);
+    return name != NULL ? name : first_coordinate(s);
+}
+
 /* What `$...` at `line` stands for; returns the place behind it. */
 static const char *
 add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
@@ -382,8 +406,8 @@ add_placeholder(const qdot_cursor *c, const char *line, const qdot_match *m,
     size_t i = (size_t)(line[1 + skip] - '1');
     const qdot_name *name;
 
-    if (line[1] == 'q') {
-        qdot_text_add(out, first_coordinate(c->session));
+    if (line[1] == 'q' || line[1] == 'x') {
+        qdot_text_add(out, line[1] == 'x' ? unknown_of(c->session, m) : first_coordinate(c->session));
         return line + 2;
     }
     if (line[1] == 'g') {
