@@ -1512,6 +1512,7 @@ script_tests = \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
 	tests/script/digits.lag \
+	tests/script/disguised-floquet.sh \
 	tests/script/disguised-slopes.sh \
 	tests/script/disguised-studies.lag \
 	tests/script/disguised.lag \
@@ -1597,6 +1598,7 @@ script_tests = \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
 	tests/script/mass-in-time.lag \
+	tests/script/massless-orbits.sh \
 	tests/script/massless-slopes.sh \
 	tests/script/massless-studies.lag \
 	tests/script/massless.lag \
@@ -2667,6 +2669,7 @@ test_files = \
 	tests/script/digits.csv \
 	tests/script/digits.out \
 	tests/script/digits.txt \
+	tests/script/disguised-floquet.out \
 	tests/script/disguised-slopes.out \
 	tests/script/disguised-studies.out \
 	tests/script/disguised.out \
@@ -2768,6 +2771,7 @@ test_files = \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
 	tests/script/mass-in-time.out \
+	tests/script/massless-orbits.out \
 	tests/script/massless-slopes.out \
 	tests/script/massless-studies.out \
 	tests/script/massless.out \

@@ -76,12 +76,55 @@ a_state_without_a_way_is_refused(void **state)
     end(&f);
 }
 
+/* x' + 2 y' = 0 leaves x + 2 y = const: of four directions two, with or without a third coordinate without mass whose
+ * equation z - x = 0 fixes it and its velocity. */
+static void
+leaves_and_massless_ones_have_no_directions(void **state)
+{
+    double z[] = {0.3, 0.4, 0.1, -0.6, 0.3, 0.2}, N[36];
+    qdot_tangents x = {0};
+    qdot_expr q[3], f;
+    fixture own;
+    size_t count;
+
+    (void)state;
+    begin(&own);
+    q[0] = coordinate(&own, "x");
+    q[1] = coordinate(&own, "y");
+    q[2] = coordinate(&own, "z");
+    must(qdot_scene_particle(own.scene, "b", QDOT_ONE, pair(&own, q[0], q[1])));
+    f = qdot_sub(own.pool, q[2], q[0]);
+    must(qdot_scene_potential(own.scene, times(&own, QDOT_HALF, times(&own, f, f))));
+    f = qdot_add(own.pool, velocity(&own, q[0]), times(&own, qdot_expr_int(own.pool, 2), velocity(&own, q[1])));
+    must(qdot_scene_constraint(own.scene, "roll", f, QDOT_ZERO));
+    must(qdot_tangents_begin(&x, own.scene, &own.request, 0, NULL));
+    assert_int_equal(x.rows, 3);
+    assert_int_equal(x.leaves, 1);
+    must(qdot_tangents_settle(&x, 0, NULL, z));
+    near(z[2] - z[0], 0);
+    near(z[5] - z[3], 0);
+    count = qdot_tangents_basis(&x, N);
+    assert_int_equal(count, 2);
+    for (size_t k = 0; k < count; k++) {
+        const double *v = N + 6 * k;
+
+        near(v[0] + 2 * v[1], 0);
+        near(v[3] + 2 * v[4], 0);
+        near(v[2] - v[0], 0);
+        near(v[5] - v[3], 0);
+    }
+    assert_int_equal(x.rank, 3); /* what slopes of the start are projected by */
+    qdot_tangents_end(&x);
+    end(&own);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_come_to_the_constraints),
         cmocka_unit_test(a_state_without_a_way_is_refused),
+        cmocka_unit_test(leaves_and_massless_ones_have_no_directions),
     };
 
     return cmocka_run_group_tests_name("tangents", tests, NULL, NULL);

@@ -4,7 +4,6 @@
 #include "lang/session/measured.h"
 #include "lang/slopes/free-request.h"
 #include "lang/unknowns/find-parts.h"
-#include "sim/model/massless.h"
 
 typedef struct {
     const qdot_find *f;
@@ -85,7 +84,6 @@ qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
     qdot_session *session = f->c->session;
     guess x = {.f = f, .k = f->unknowns.n, .n = session->scene->coordinates.n};
     qdot_kept_values kept;
-    size_t determined;
     qdot_status status;
 
     r->found = false;
@@ -99,8 +97,6 @@ qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
         status = make_request(&x);
     qdot_session_restore_values(session, &kept);
     if (status == QDOT_OK)
-        status = qdot_massless_count(session->scene, &x.free, &determined);
-    if (status == QDOT_OK && determined == 0) /* not built for these */
         status = shoot(&x, r);
     qdot_request_free(&x.order);
     qdot_free(x.unknowns);

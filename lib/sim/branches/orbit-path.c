@@ -225,7 +225,9 @@ qdot_orbit_path_ask(qdot_orbit_path *x, size_t by)
 static bool
 fill_both(qdot_orbit_path *x, const double *y)
 {
-    const size_t by = x->by, count = x->K * x->c * x->c;
+    const size_t by = x->by, count = x->K * x->c * x->c, step = x->flow[by].m * width_of(x);
+    const qdot_flow_orbit o = orbit_of(x, y);
+    qdot_status status;
     bool good;
 
     qdot_orbit_path_ask(x, !by);
@@ -235,7 +237,9 @@ fill_both(qdot_orbit_path *x, const double *y)
     if (!good || !qdot_orbit_path_monodromy(x, y))
         return false;
     qdot_flow_errors(count, x->B, x->E);
-    return true;
+    status = qdot_flow_rounding(&x->flow[by], &o, x->slopes + step, 2 * step, x->sizes, x->E);
+    x->path.failure = qdot_grave(status);
+    return status == QDOT_OK;
 }
 
 /* How many multipliers are 1 whatever the orbit. */
@@ -324,13 +328,14 @@ make_room(qdot_orbit_path *x)
 {
     const size_t two = x->K * 2 * x->flow[0].m, factors = x->K * 4 * x->n * x->n;
 
-    x->values = qdot_calloc(two * (1 + width_of(x)) + 2 * factors + x->path.n + 1, sizeof *x->values);
+    x->values = qdot_calloc(two * (1 + width_of(x)) + 2 * factors + x->path.n + 1 + 2 * x->n, sizeof *x->values);
     if (!x->values)
         return QDOT_ENOMEM;
     x->slopes = x->values + two;
     x->B = x->slopes + two * width_of(x);
     x->E = x->B + factors;
     x->y = x->E + factors;
+    x->sizes = x->y + x->path.n + 1;
     return QDOT_OK;
 }
 
@@ -511,7 +516,10 @@ check(qdot_orbit_path *x)
 {
     qdot_scene *s = x->of.scene;
 
-    x->asymptotic = !qdot_floquet_is_lagrangian(s);
+    bool lagrangian;
+
+    QDOT_TRY(qdot_floquet_is_lagrangian(s, &lagrangian));
+    x->asymptotic = !lagrangian;
     QDOT_TRY(qdot_orbit_is_driven(s, x->of.request, &x->driven));
     if (!x->driven)
         QDOT_TRY(qdot_mech_energy_conserved(s, &x->conserved));
@@ -560,6 +568,7 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->angle = x->angle;
     QDOT_TRY(make_room(x));
     QDOT_TRY(make_first(x, size, y));
+    memcpy(x->sizes, size, 2 * x->n * sizeof *size);
     path->width = path->n + 1 + x->n + x->c;
     size[path->n] = of->most - of->least;
     for (size_t i = path->n + 1; i < path->width; i++)

@@ -64,6 +64,7 @@ typedef struct {
     double *y;                  /* [n + 1] where that was; */
     bool known;                 /* it was without failure */
     double *B, *E;              /* [K x c x c] */
+    double *sizes;              /* [2n] of the states of the first orbit */
     double *domain;             /* [2 path.n] of the unknowns: least, largest */
     bool *angle;                /* [path.n] none is one */
 } qdot_orbit_path;

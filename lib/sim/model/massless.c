@@ -105,16 +105,19 @@ constraints_hold(const qdot_scene *scene, size_t i)
 }
 
 qdot_status
-qdot_massless_count(qdot_scene *scene, const qdot_run_request *request, size_t *determined)
+qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_massless *x)
 {
     const size_t n = scene->coordinates.n;
     qdot_pool *pool = scene->pool;
     const qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
     bool *massless = qdot_calloc(n + 1, sizeof *massless);
 
-    *determined = 0;
-    if (massless == NULL)
+    *x = (qdot_massless){.equations = qdot_calloc(n + 1, sizeof *x->equations),
+                         .of_positions = qdot_calloc(n + 1, sizeof *x->of_positions)};
+    if (massless == NULL || x->equations == NULL || x->of_positions == NULL) {
+        qdot_free(massless);
         return QDOT_ENOMEM;
+    }
     for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++) {
         massless[i] = !constraints_hold(scene, i);
         for (size_t j = 0; j < n && massless[i]; j++)
@@ -126,8 +129,27 @@ qdot_massless_count(qdot_scene *scene, const qdot_run_request *request, size_t *
             const qdot_expr own = qdot_substitute(pool, qdot_expr_arg(pool, f, (uint32_t)i), request->n_values,
                                                   request->symbols, request->values);
 
-            *determined += own != QDOT_NIL && holds_any(scene, own, massless, 1) ? 1 : 2;
+            x->of_positions[x->n] = own != QDOT_NIL && !holds_any(scene, own, massless, 1);
+            x->equations[x->n++] = own;
         }
     qdot_free(massless);
     return qdot_pool_check(pool);
+}
+
+size_t
+qdot_massless_determines(const qdot_massless *x)
+{
+    size_t count = 0;
+
+    for (size_t c = 0; c < x->n; c++)
+        count += x->of_positions[c] ? 2 : 1;
+    return count;
+}
+
+void
+qdot_massless_clear(qdot_massless *x)
+{
+    qdot_free(x->equations);
+    qdot_free(x->of_positions);
+    *x = (qdot_massless){0};
 }

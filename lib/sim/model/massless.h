@@ -25,10 +25,19 @@
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
 
-/* How many of the values q, q' [2n] of a start these equations determine with the values of the request: one each, or
- * two where they hold no velocity of such coordinates. Before there is a plan; derives M and f. */
-QDOT_MUST_CHECK qdot_status qdot_massless_count(qdot_scene *scene, const qdot_run_request *request,
-                                                size_t *determined);
+/* Their equations 0 = G with the values of a request. One that holds a velocity of such coordinates determines a velocity;
+ * one of positions alone determines a position, and by its rate a velocity. */
+typedef struct {
+    size_t n;
+    qdot_expr *equations; /* [n] */
+    bool *of_positions;   /* [n] */
+} qdot_massless;
+
+/* Before there is a plan; derives M and f. Cleared in any case. */
+QDOT_MUST_CHECK qdot_status qdot_massless_of_scene(qdot_scene *scene, const qdot_run_request *request, qdot_massless *x);
+/* How many of the values q, q' [2n] of a start they determine. */
+size_t qdot_massless_determines(const qdot_massless *x);
+void qdot_massless_clear(qdot_massless *x);
 
 /* Of which kind the equation of coordinate i is, as a constraint. */
 qdot_constraint_kind qdot_massless_kind(const qdot_plan *p, size_t i);

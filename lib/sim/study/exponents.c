@@ -370,6 +370,17 @@ count_directions(const qdot_scene *s, size_t determined)
     return n;
 }
 
+static qdot_status
+count_determined(qdot_scene *scene, const qdot_run_request *request, size_t *determined)
+{
+    qdot_massless massless = {0};
+    const qdot_status status = qdot_massless_of_scene(scene, request, &massless);
+
+    *determined = qdot_massless_determines(&massless);
+    qdot_massless_clear(&massless);
+    return status;
+}
+
 qdot_status
 qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_exponents *x)
 {
@@ -377,7 +388,7 @@ qdot_exponents_find(qdot_scene *scene, const qdot_run_request *asked, qdot_expon
     qdot_run_request request = *asked;
     qdot_variation v = {0};
     size_t determined;
-    QDOT_TRY(qdot_massless_count(scene, asked, &determined));
+    QDOT_TRY(count_determined(scene, asked, &determined));
     const size_t k = x->spectrum ? count_directions(scene, determined) : 1;
     qdot_variation_by *by = qdot_calloc(k + 1, sizeof *by);
     char(*names)[24] = qdot_calloc(k + 1, sizeof *names);

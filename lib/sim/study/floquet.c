@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "mech/dynamics/integrated.h"
 #include "num/balance.h"
 #include "num/eigenvalues.h"
 #include "ode/scale.h"
@@ -227,16 +228,17 @@ check_period(orbit *o)
     return QDOT_OK;
 }
 
-bool
-qdot_floquet_is_lagrangian(const qdot_scene *s)
+qdot_status
+qdot_floquet_is_lagrangian(qdot_scene *s, bool *yes)
 {
-    for (size_t c = 0; c < s->constraints.n; c++)
-        if (s->constraints.at[c].kind != QDOT_HOLONOMIC)
-            return false;
+    bool plain = true;
+
+    *yes = s->dampers.n + s->dissipations.n + s->forces.n + s->torques.n == 0;
     for (size_t e = 0; e < s->events.n; e++)
-        if (s->events.at[e].targets.n > 0)
-            return false;
-    return s->dampers.n + s->dissipations.n + s->forces.n + s->torques.n == 0;
+        *yes = *yes && s->events.at[e].targets.n == 0;
+    for (size_t c = 0; c < s->constraints.n; c++)
+        plain = plain && s->constraints.at[c].kind == QDOT_HOLONOMIC;
+    return *yes && !plain ? qdot_mech_is_holonomic(s, yes) : QDOT_OK;
 }
 
 /* --- multipliers ----------------------------------------------------------------------------- */
@@ -379,11 +381,11 @@ fill_factors(orbit *o, double tol, double *B)
 static qdot_status
 find_multipliers(orbit *o, qdot_floquet *x)
 {
-    const bool free = qdot_floquet_is_lagrangian(o->scene);
     const size_t z = 2 * o->n;
     const qdot_flow_orbit of = {.K = o->K, .t0 = o->t0, .T = o->T, .first = o->states, .others = o->states + z};
-    bool driven, rests;
+    bool driven, rests, free;
 
+    QDOT_TRY(qdot_floquet_is_lagrangian(o->scene, &free));
     QDOT_TRY(fill_factors(o, qdot_flow_tolerance[1], o->E));
     QDOT_TRY(fill_factors(o, qdot_flow_tolerance[0], o->B));
     qdot_flow_errors(o->K * o->c * o->c, o->B, o->E);

@@ -56,8 +56,8 @@ QDOT_MUST_CHECK qdot_status qdot_floquet_find(qdot_scene *scene, qdot_run *run,
  * as above. Clear *x in any case. */
 QDOT_MUST_CHECK qdot_status qdot_floquet_of(size_t K, size_t k, const double *B, const double *E,
                                             size_t trivial, bool asymptotic, qdot_floquet *x);
-/* Whether only a Lagrangian and holonomic constraints move the scene. */
-bool qdot_floquet_is_lagrangian(const qdot_scene *scene);
+/* Whether only a Lagrangian and constraints that are holonomic, if in disguise, move the scene. */
+QDOT_MUST_CHECK qdot_status qdot_floquet_is_lagrangian(qdot_scene *scene, bool *yes);
 void qdot_floquet_clear(qdot_floquet *x);
 
 #endif

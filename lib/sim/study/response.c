@@ -429,8 +429,7 @@ qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *coun
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
     QDOT_TRY(settle(r, u, t));
-    *count = 2 * r->n - (r->tangents.tape != NULL ? r->tangents.rank : 0);
-    qdot_tangents_basis(&r->tangents, basis);
+    *count = qdot_tangents_basis(&r->tangents, basis);
     return QDOT_OK;
 }
 
@@ -440,7 +439,7 @@ qdot_status
 qdot_response_new(const qdot_response_of *of, qdot_response **out)
 {
     qdot_response *r = qdot_calloc(1, sizeof *r);
-    size_t determined;
+    qdot_massless massless = {0};
     qdot_status status;
 
     *out = r;
@@ -449,10 +448,9 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
     r->of = *of;
     r->pool = of->scene->pool;
     r->n = of->scene->coordinates.n;
-    status = qdot_massless_count(of->scene, of->request, &determined);
-    r->once = of->scene->constraints.n + determined == 0 || of->whole;
-    if (status == QDOT_OK && of->whole && determined > 0)
-        status = qdot_fail(QDOT_ENOTBUILT, "not built yet: orbits of scenes with a coordinate without mass");
+    status = qdot_massless_of_scene(of->scene, of->request, &massless);
+    r->once = of->scene->constraints.n + massless.n == 0 || of->whole;
+    qdot_massless_clear(&massless);
     if (status == QDOT_OK)
         status = make_room(r);
     for (size_t k = 0; k < of->k && status == QDOT_OK; k++)

@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "mech/dynamics/integrated.h"
+#include "sim/model/massless.h"
 #include "sim/model/substitute.h"
 
 /* Singular values below so much of the largest count as 0. */
@@ -18,75 +19,124 @@ static const double least_singular = 1e-9;
 static const double rounding = 4e-15, left = 1e-9;
 enum { STEPS = 30 };
 
-/* F as expressions [rows]. */
 static void
-write_conditions(qdot_scene *s, const qdot_run_request *r, qdot_expr *F)
+add_condition(qdot_scene *s, const qdot_run_request *r, qdot_expr f, bool of_positions, qdot_expr *F, size_t *rows)
 {
-    size_t row = 0;
-
-    for (size_t c = 0; c < s->constraints.n; c++) {
-        const qdot_constraint *of = &s->constraints.at[c];
-        qdot_expr f, mu;
-
-        if (of->kind == QDOT_ACCELERATION)
-            continue;
-        f = qdot_integrated_rate(s, c, &mu);
-        F[row++] = qdot_substitute(s->pool, f, r->n_values, r->symbols, r->values);
-        if (of->kind == QDOT_HOLONOMIC)
-            F[row++] = qdot_substitute(s->pool, qdot_ddt(s->pool, f), r->n_values, r->symbols, r->values);
-    }
+    F[(*rows)++] = qdot_substitute(s->pool, f, r->n_values, r->symbols, r->values);
+    if (of_positions)
+        F[(*rows)++] = qdot_substitute(s->pool, qdot_ddt(s->pool, f), r->n_values, r->symbols, r->values);
 }
 
-/* F and its slopes, from z, p, t. */
+/* F as expressions, of constraints and of coordinates without mass. */
+static void
+write_conditions(qdot_scene *s, const qdot_run_request *r, const qdot_massless *massless, qdot_expr *F, size_t *rows)
+{
+    qdot_expr mu;
+
+    *rows = 0;
+    for (size_t c = 0; c < s->constraints.n; c++)
+        if (s->constraints.at[c].kind != QDOT_ACCELERATION)
+            add_condition(s, r, qdot_integrated_rate(s, c, &mu), s->constraints.at[c].kind == QDOT_HOLONOMIC, F, rows);
+    for (size_t c = 0; c < massless->n; c++)
+        add_condition(s, r, massless->equations[c], massless->of_positions[c], F, rows);
+}
+
+/* Whether the motion never leaves the surface f = const in space to which a velocity constraint holds it, by itself
+ * or with the others together. */
 static qdot_status
-lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_expr *parameters)
+has_leaf(qdot_scene *s, size_t c, bool *yes)
+{
+    qdot_expr mu;
+
+    *yes = false;
+    if (s->constraints.at[c].kind != QDOT_VELOCITY)
+        return QDOT_OK;
+    *yes = qdot_integrated_of(s, c, &mu) != QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return *yes ? QDOT_OK : qdot_mech_is_holonomic(s, yes);
+}
+
+/* The slopes of such a surface by q, in the rows of F behind those of the conditions: df/dq_i' of the constraint. F there
+ * is 0, on whichever leaf the state is. */
+static qdot_status
+write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_expr *slopes)
 {
     const size_t n = x->z / 2, all = x->z + x->p;
-    qdot_expr *in = qdot_calloc(all + 1 + x->rows * (1 + all), sizeof *in), *const F = in + all + 1;
+
+    for (size_t c = 0; c < s->constraints.n; c++) {
+        bool leaf;
+        qdot_expr mu, f;
+
+        QDOT_TRY(has_leaf(s, c, &leaf));
+        if (!leaf)
+            continue;
+        f = qdot_integrated_rate(s, c, &mu);
+        for (size_t i = 0; i < n; i++)
+            slopes[x->leaves * all + i] =
+                qdot_substitute(s->pool, qdot_diff(s->pool, f, qdot_symbol_jet(s->pool, s->coordinates.at[i], 1)),
+                                r->n_values, r->symbols, r->values);
+        for (size_t i = n; i < all; i++)
+            slopes[x->leaves * all + i] = QDOT_ZERO;
+        x->leaves++;
+    }
+    return qdot_pool_check(s->pool);
+}
+
+/* F and its slopes, then those of the leaves, from z, p, t. Room: F [most], slopes [most x all]. */
+static qdot_status
+lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
+      const qdot_expr *parameters)
+{
+    const size_t n = x->z / 2, all = x->z + x->p, most = 2 * massless->n + 3 * s->constraints.n;
+    qdot_expr *in = qdot_calloc(2 * (all + 1) + most * (1 + all), sizeof *in), *const F = in + all + 1;
     qdot_status status = in ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < all && in; i++)
         in[i] = i < x->z ? qdot_symbol_jet(s->pool, s->coordinates.at[i % n], i >= n) : parameters[i - x->z];
     if (status == QDOT_OK) {
         in[all] = QDOT_T;
-        write_conditions(s, request, F);
+        write_conditions(s, request, massless, F, &x->rows);
         for (size_t k = 0; k < x->rows; k++)
             for (size_t i = 0; i < all; i++)
                 F[x->rows + k * all + i] = qdot_diff(s->pool, F[k], in[i]);
-        status = qdot_pool_check(s->pool);
+        status = write_leaves(x, s, request, F + x->rows * (1 + all));
     }
-    if (status == QDOT_OK)
-        status = qdot_tape_new(s->pool, all + 1, in, x->rows * (1 + all), F, &x->tape);
+    if (status == QDOT_OK && x->rows > 0)
+        status = qdot_tape_new(s->pool, all + 1, in, x->rows * (1 + all) + x->leaves * all, F, &x->tape);
     qdot_free(in);
     return status;
+}
+
+static qdot_status
+make_room(qdot_tangents *x)
+{
+    const size_t rows = x->rows + x->leaves, all = x->z + x->p, high = rows > x->z ? rows : x->z;
+
+    x->in = qdot_calloc(all + 1 + x->rows + rows * all + qdot_tape_work(x->tape) + 1, sizeof *x->in);
+    x->U = gsl_matrix_alloc(high, x->z);
+    x->V = gsl_matrix_alloc(x->z, x->z);
+    x->S = gsl_vector_alloc(x->z);
+    x->room = gsl_vector_alloc(x->z);
+    if (!x->in || !x->U || !x->V || !x->S || !x->room)
+        return QDOT_ENOMEM;
+    x->out = x->in + all + 1;
+    x->work = x->out + x->rows + rows * all;
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_tangents_begin(qdot_tangents *x, qdot_scene *scene, const qdot_run_request *request, size_t p,
                     const qdot_expr *parameters)
 {
-    const size_t z = 2 * scene->coordinates.n;
-    size_t high;
+    qdot_massless massless = {0};
+    qdot_status status;
 
-    *x = (qdot_tangents){.z = z, .p = p};
-    for (size_t c = 0; c < scene->constraints.n; c++)
-        x->rows += scene->constraints.at[c].kind == QDOT_HOLONOMIC  ? 2
-                   : scene->constraints.at[c].kind == QDOT_VELOCITY ? 1
-                                                                    : 0;
-    if (x->rows == 0)
-        return QDOT_OK;
-    QDOT_TRY(lower(x, scene, request, parameters));
-    high = x->rows > z ? x->rows : z;
-    x->in = qdot_calloc(z + p + 1 + x->rows * (1 + z + p) + qdot_tape_work(x->tape) + 1, sizeof *x->in);
-    x->U = gsl_matrix_alloc(high, z);
-    x->V = gsl_matrix_alloc(z, z);
-    x->S = gsl_vector_alloc(z);
-    x->room = gsl_vector_alloc(z);
-    if (!x->in || !x->U || !x->V || !x->S || !x->room)
-        return QDOT_ENOMEM;
-    x->out = x->in + z + p + 1;
-    x->work = x->out + x->rows * (1 + z + p);
-    return QDOT_OK;
+    *x = (qdot_tangents){.z = 2 * scene->coordinates.n, .p = p};
+    status = qdot_massless_of_scene(scene, request, &massless);
+    if (status == QDOT_OK && scene->constraints.n + massless.n > 0)
+        status = lower(x, scene, request, &massless, parameters);
+    qdot_massless_clear(&massless);
+    return status == QDOT_OK && x->rows > 0 ? make_room(x) : status;
 }
 
 void
@@ -101,23 +151,24 @@ qdot_tangents_end(qdot_tangents *x)
     *x = (qdot_tangents){0};
 }
 
-/* F and F_z = U S V^T at x->in. False: they are not finite. */
+/* F and F_z = U S V^T at x->in, with the slopes of leaves or without. False: they are not finite. */
 static bool
-decompose(qdot_tangents *x)
+decompose(qdot_tangents *x, bool leaves)
 {
+    const size_t rows = x->rows + (leaves ? x->leaves : 0), all = x->z + x->p;
     const double *const slopes = x->out + x->rows;
     gsl_error_handler_t *before = gsl_set_error_handler_off();
 
     qdot_tape_eval(x->tape, x->in, x->out, x->work);
     gsl_matrix_set_zero(x->U);
-    for (size_t k = 0; k < x->rows * (1 + x->z + x->p); k++)
+    for (size_t k = 0; k < x->rows + rows * all; k++)
         if (!isfinite(x->out[k])) {
             gsl_set_error_handler(before);
             return false;
         }
-    for (size_t k = 0; k < x->rows; k++)
+    for (size_t k = 0; k < rows; k++)
         for (size_t i = 0; i < x->z; i++)
-            gsl_matrix_set(x->U, k, i, slopes[k * (x->z + x->p) + i]);
+            gsl_matrix_set(x->U, k, i, slopes[k * all + i]);
     (void)gsl_linalg_SV_decomp(x->U, x->V, x->S, x->room);
     gsl_set_error_handler(before);
     for (x->rank = 0; x->rank < x->z; x->rank++)
@@ -175,7 +226,7 @@ qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, doubl
     x->in[x->z + x->p] = t;
     for (int step = 0; step < STEPS; step++, before = moved) {
         memcpy(x->in, state, x->z * sizeof *state);
-        if (!decompose(x))
+        if (!decompose(x, false))
             break;
         moved = subtract(x, x->out, state);
         if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && is_met(x))
@@ -200,12 +251,16 @@ qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope)
     (void)subtract(x, x->out, slope);
 }
 
-void
-qdot_tangents_basis(const qdot_tangents *x, double *basis)
+size_t
+qdot_tangents_basis(qdot_tangents *x, double *basis)
 {
+    const bool leaves = x->leaves > 0 && decompose(x, true);
     const size_t rank = x->tape != NULL ? x->rank : 0;
 
     for (size_t k = rank; k < x->z; k++)
         for (size_t i = 0; i < x->z; i++)
             basis[(k - rank) * x->z + i] = x->tape != NULL ? gsl_matrix_get(x->V, i, k) : i == k;
+    if (leaves) /* what was decomposed at the state stays for qdot_tangents_project */
+        (void)decompose(x, false);
+    return x->z - rank;
 }

@@ -1,10 +1,12 @@
 /* tangents.h -- states z = (q, q') on the constraints of a scene, and directions along these, in numbers.
  *
- *     F(z; p) = 0:   f and df/dt of holonomic constraints, f of those of velocities
+ *     F(z; p) = 0:   f and df/dt of holonomic constraints, f of those of velocities; the equations of coordinates without
+ *                    mass likewise (sim/model/massless.h)
  *     z <- z - F_z^+ F        until F = 0: the state of least change
  *     s <- s - F_z^+ (F_z s + F_p)       a slope of z by p, or by what moves the start (without F_p)
  *
- * F_z^+ by singular values. Without constraints nothing changes, and every direction is a tangent.
+ * A velocity constraint that is holonomic in disguise leaves the motion on a surface in space, its leaf: directions that
+ * end on another leaf stay there, and are none of the tangents. F_z^+ by singular values. Without constraints nothing changes, and every direction is a tangent.
  *
  * Source  Golub & Van Loan, Matrix Computations, 5.5.2.
  * Tests   tests/sim/test_tangents.c
@@ -19,7 +21,9 @@
 
 typedef struct {
     size_t z, p, rows, rank; /* 2n; parameters; of F; of F_z at the latest state */
-    qdot_tape *tape;         /* from z, p, t: F [rows], then F_z and F_p [rows x (z + p)]; NULL: no constraints */
+    size_t leaves;           /* constraints whose leaf is known */
+    qdot_tape *tape;         /* from z, p, t: F [rows], then F_z and F_p [rows x (z + p)], and those of the leaves
+                              * [leaves x (z + p)]; NULL: no constraints */
     double *in, *out, *work;
     gsl_matrix *U, *V;       /* of F_z at the latest state */
     gsl_vector *S, *room;
@@ -34,7 +38,7 @@ void qdot_tangents_end(qdot_tangents *x);
 QDOT_MUST_CHECK qdot_status qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, double *state);
 /* At the state settled last: make slope [2n] one along the constraints; by the parameter of that number, SIZE_MAX: by none. */
 void qdot_tangents_project(const qdot_tangents *x, size_t by, double *slope);
-/* At the state settled last: orthonormal tangents [count x 2n]; count = 2n - rank. */
-void qdot_tangents_basis(const qdot_tangents *x, double *basis);
+/* At the state settled last: orthonormal tangents [count x 2n], which lead to no other leaf; returns count. */
+size_t qdot_tangents_basis(qdot_tangents *x, double *basis);
 
 #endif

@@ -134,6 +134,16 @@ add_events(const qdot_variation *v)
 
 /* --- the start ---------------------------------------------------------------------------- */
 
+/* Whether the equation of a coordinate without mass determines coordinate i (its velocity). */
+static bool
+is_determined(const qdot_variation *v, bool velocity, size_t i)
+{
+    for (size_t c = 0; c < v->w; c++)
+        if (v->massless[c] == i && (velocity || v->of_positions[c]))
+            return true;
+    return false;
+}
+
 /* How many constraints hold coordinates (velocities: them too), and how many of these the start leaves
  * open. Where none holds coordinates none is open: what is not named is 0. */
 static void
@@ -146,15 +156,15 @@ count_open(const qdot_variation *v, bool velocities, size_t *held, size_t *open)
         *held += v->of->constraints.at[c].kind == QDOT_HOLONOMIC ||
                  (velocities && v->of->constraints.at[c].kind == QDOT_VELOCITY);
     for (size_t i = 0; i < v->n && *held > 0; i++)
-        *open += named && !named[i];
+        *open += named && !named[i] && !is_determined(v, velocities, i);
 }
 
 static bool
 starts_at_rest(const qdot_variation *v)
 {
     for (size_t i = 0; i < v->n; i++)
-        if (v->request->v0[i] != QDOT_ZERO || !v->request->v_named ||
-            v->request->v_named[i])
+        if (!is_determined(v, true, i) &&
+            (v->request->v0[i] != QDOT_ZERO || !v->request->v_named || v->request->v_named[i]))
             return false;
     return true;
 }
@@ -266,14 +276,11 @@ put_start(const qdot_variation *v)
             v->named[k * n + i] = k == 0 || open == 0 || r->q_named[i];
             v->named[all + k * n + i] = k == 0 || !r->v_named || r->v_named[i];
         }
-    for (size_t j = 0; j < 2 * all && v->w > 0; j++) /* equations of massless ones determine these alone */
-        v->named[j] = true;
-    for (size_t k = 0; k <= v->k; k++)
-        for (size_t c = 0; c < v->w; c++) {
-            v->named[all + k * n + v->massless[c]] = false;
-            if (v->of_positions[c] && k > 0)
-                v->named[k * n + v->massless[c]] = false;
-        }
+    for (size_t j = 0; j < 2 * all && v->w > 0; j++) { /* equations of massless ones determine these */
+        const size_t i = j % all % n;
+
+        v->named[j] = (v->m == 0 || v->named[j]) && !is_determined(v, j >= all, i);
+    }
 }
 
 /* Those of the request, and of slopes dz_i/ds that of z_i over that of s, where it is well below 1. */

@@ -304,16 +304,11 @@ find_massless(elimination *e)
     }
 }
 
-/* After a jump their velocities follow from their equations; beside constraints it is not told what a start solves for. */
+/* After a jump their velocities follow from their equations. */
 static qdot_status
 refuse_without_mass(const elimination *e)
 {
     const qdot_scene *s = e->v->of;
-
-    if (e->w > 0 && e->m > 0)
-        return qdot_fail(QDOT_ENOTBUILT,
-                         "not built yet: slopes of a scene with constraints and a coordinate without mass, %.100s",
-                         qdot_expr_symbol(e->pool, qdot_variation_jet(e->v, e->v->massless[0], 0))->name);
 
     for (size_t i = 0; i < s->events.n && e->w > 0; i++)
         if (s->events.at[i].targets.n > 0)
