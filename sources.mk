@@ -1508,6 +1508,7 @@ script_tests = \
 	tests/script/digits-events-file.sh \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
+	tests/script/digits-rounding.sh \
 	tests/script/digits-shown.sh \
 	tests/script/digits-start.lag \
 	tests/script/digits-table.lag \
@@ -2663,6 +2664,7 @@ test_files = \
 	tests/script/digits-events-file.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
+	tests/script/digits-rounding.out \
 	tests/script/digits-shown.out \
 	tests/script/digits-start.out \
 	tests/script/digits-table.out \

@@ -139,18 +139,37 @@ value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
 }
 
 qdot_status
-qdot_digits_text(qdot_session *session, qdot_expr e, int digits, double error,
-                 qdot_text *out)
+qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error, qdot_text *out)
 {
-    mpfr_t x;
+    const size_t before = out->n;
+    mpfr_t x, printed;
+    double rounding;
     qdot_status status;
 
     mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
+    mpfr_init2(printed, mpfr_get_prec(x));
     status = value_of(session, e, x);
     if (status == QDOT_OK)
-        status = write_real(x, digits, error, error == 0 && is_plain(session, e), out);
+        status = write_real(x, digits, *error, *error == 0 && is_plain(session, e), out);
+    if (status == QDOT_OK)
+        status = qdot_text_status(out);
+    if (status == QDOT_OK) {
+        (void)mpfr_set_str(printed, qdot_text_str(out) + before, 10, MPFR_RNDN);
+        mpfr_sub(printed, printed, x, MPFR_RNDA);
+        rounding = fabs(mpfr_get_d(printed, MPFR_RNDA));
+        if (*error > 0 && rounding > *error)
+            *error += rounding;
+    }
+    mpfr_clear(printed);
     mpfr_clear(x);
     return status;
+}
+
+qdot_status
+qdot_digits_text(qdot_session *session, qdot_expr e, int digits, double error,
+                 qdot_text *out)
+{
+    return qdot_digits_number(session, e, digits, &error, out);
 }
 
 qdot_status
@@ -181,14 +200,14 @@ add_member(qdot_session *session, qdot_expr e, int digits, qdot_text *values,
         quote = is_plain(session, e) ? "" : "\"";
         qdot_text_add(values, values->n > 0 ? "," : "");
         qdot_text_add(values, quote);
-        QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
+        QDOT_TRY(qdot_digits_number(session, e, digits, &error, values));
         qdot_text_add(values, quote);
         qdot_text_add(errors, errors->n > 0 ? "," : "");
         qdot_number_text_json(errors, error);
         return QDOT_OK;
     }
     qdot_text_add(values, values->n > 0 ? ", " : "");
-    QDOT_TRY(qdot_digits_text(session, e, digits, error, values));
+    QDOT_TRY(qdot_digits_number(session, e, digits, &error, values));
     if (isnan(error)) {
         qdot_text_add(values, " (error unknown)");
     } else if (error > 0) {

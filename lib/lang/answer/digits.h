@@ -16,6 +16,10 @@ int qdot_digits_of(qdot_session *session, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_digits_text(qdot_session *session, qdot_expr e,
                                              int digits, double error, qdot_text *out);
 
+/* The same; *error becomes that of what is printed, where the digits leave out more than it. */
+QDOT_MUST_CHECK qdot_status qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error,
+                                               qdot_text *out);
+
 /* {"kind":"number"}, {"kind":"numbers"}: e a number or a list of them, its numbers of runs
  * with so many digits. */
 QDOT_MUST_CHECK qdot_status qdot_digits_answer(qdot_session *session, const char *name,

@@ -206,16 +206,18 @@ static qdot_status
 add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occurrence *o,
          size_t k)
 {
+    double error = o->error;
+
     qdot_text_format(text, "%s[%zu]  t = ", o->event, k);
     if (digits > 0)
-        QDOT_TRY(qdot_digits_text(session, o->exact, digits, o->error, text));
+        QDOT_TRY(qdot_digits_number(session, o->exact, digits, &error, text));
     else
-        qdot_number_text_known(text, o->t, o->error);
-    if (isnan(o->error)) {
+        qdot_number_text_known(text, o->t, error);
+    if (isnan(error)) {
         qdot_text_add(text, " (error unknown)");
     } else {
         qdot_text_add(text, " ± ");
-        qdot_number_text_bound(text, o->error);
+        qdot_number_text_bound(text, error);
     }
     qdot_text_format(text, "  %s\n",
                      o->way > 0   ? "rising"
