@@ -46,6 +46,15 @@ qdot_watch_noise(qdot_watch *w, double t, const double *y, double by, double lea
 }
 
 qdot_status
+qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise)
+{
+    QDOT_TRY(qdot_watch_value(w, t, w->moved)); /* q'' too */
+    qdot_rounding_bounds(w->tape, w->in, NULL, w->raw, w->work);
+    *noise = fmin(w->raw[i], QDOT_WATCH_MOST) * (exact ? qdot_tape_two_rounding(w->two) * 0x1p53 : 1);
+    return QDOT_OK;
+}
+
+qdot_status
 qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i, double *noise)
 {
     double up, down;

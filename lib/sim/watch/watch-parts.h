@@ -187,6 +187,9 @@ QDOT_MUST_CHECK qdot_status qdot_watch_noise(qdot_watch *w, double t, const doub
                                              double by, double least, size_t i,
                                              double *noise);
 
+/* What rounding of its operations, in two doubles if `exact`, makes of g_i at the state in w->in. */
+QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool exact, size_t i, double *noise);
+
 /* What rounding of the state y [2n], of t, of the terms and of the operations of g_i may make of it. */
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);

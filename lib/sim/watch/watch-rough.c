@@ -203,6 +203,19 @@ qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i, int nod
     return seek_least(&x, t, sign * g[k]);
 }
 
+/* The sign just after the start of the part. A smooth function is 0 throughout or nowhere about a zero, however flat
+ * it is there: what is 0 beside the start is too small for its rounding. */
+static int
+first_sign(const qdot_watch *w, size_t i, int nodes)
+{
+    const double *g = w->samples + i * QDOT_WATCH_NODES;
+    int j = nodes - 1;
+
+    while (w->smooth[i] && j > 0 && g[j] == 0)
+        j--;
+    return qdot_watch_sign(g[j]);
+}
+
 qdot_status
 qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
 {
@@ -232,7 +245,7 @@ qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int no
             QDOT_TRY(qdot_watch_seek_least(w, p, i, nodes));
     }
     if (w->fresh[i]) {
-        w->first[i] = qdot_watch_sign(g[nodes - 1]);
+        w->first[i] = first_sign(w, i, nodes);
         w->fresh[i] = false;
     }
     w->now.g0[i] = p->at_end;

@@ -57,8 +57,8 @@ is_short(const qdot_watch *w, const qdot_watch_part *p)
     return fabs(p->b - p->a) <= fmax(65536 * DBL_EPSILON * t, w->shortest);
 }
 
-/* Whether function i is 0 at an end of the part, and at the node beside it, but not throughout: where the
- * part is not much longer than rounding a polynomial goes through the kink between. */
+/* Whether function i, which may have kinks, is 0 at an end of the part, and at the node beside it, but not
+ * throughout: where the part is not much longer than rounding a polynomial goes through the kink between. */
 static bool
 is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes)
 {
@@ -66,7 +66,7 @@ is_partly_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i, int node
     const bool start = w->now.on[i] && qdot_watch_zero(w, i) == 0 && g[nodes - 1] == 0,
                end = g[0] == 0 && p->at_end == 0;
 
-    return (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
+    return !w->smooth[i] && (start || end) && qdot_chebyshev_size(nodes, p->c) > 0;
 }
 
 /* The roots of function i on a part that is divided no further, `good` or too short for that. */
@@ -442,14 +442,19 @@ qdot_watch_measure(qdot_watch *w, const qdot_watch_reader *reader, double t, con
     return qdot_watch_value(w, t, w->g);
 }
 
-/* Whether g_i = g at a state is rounding. Where g_i jumps from there a rounding of the state changes it
- * as much as a larger change does: that tells nothing. */
+/* Whether g_i = g at a state is rounding, of its operations (in two doubles, if `exact`) or of the state. Where g_i
+ * jumps from there a rounding of the state changes it as much as a larger change does: that tells nothing. */
 static qdot_status
-is_rounding(qdot_watch *w, double t, const double *y, double least, size_t i, double g, bool *is)
+is_rounding(qdot_watch *w, double t, const double *y, double least, bool exact, size_t i, double g, bool *is)
 {
     double noise, more;
 
     *is = g == 0;
+    if (!*is) {
+        memcpy(w->in, y, 2 * w->n * sizeof *y);
+        QDOT_TRY(qdot_watch_operations(w, t, exact, i, &noise));
+        *is = fabs(g) <= noise;
+    }
     if (*is)
         return QDOT_OK;
     QDOT_TRY(qdot_watch_noise(w, t, y, DBL_EPSILON, least, i, &noise));
@@ -488,7 +493,7 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         if (exact && w->smooth[i] && met && i < known->left) {
             w->start.on[i] = fabs(g) <= negligible * known->residual[i];
         } else {
-            QDOT_TRY(is_rounding(w, t, y, known->least, i, g, &w->start.on[i]));
+            QDOT_TRY(is_rounding(w, t, y, known->least, exact && w->smooth[i], i, g, &w->start.on[i]));
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;
