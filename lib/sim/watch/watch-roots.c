@@ -138,26 +138,6 @@ narrow(qdot_watch *w, size_t i, int way, double t, qdot_watch_end *ends, bool *o
     return QDOT_OK;
 }
 
-/* Where between two neighbouring doubles the root is; the first may not have been evaluated. */
-static qdot_status
-refine(qdot_watch *w, qdot_watch_end *ends, qdot_root *root)
-{
-    const double step = fabs(ends[1].t - ends[0].t);
-    double noise, rise;
-
-    if (ends[0].g == 0) {
-        QDOT_TRY(qdot_watch_value_at(w, ends[0].t, w->g));
-        ends[0].g = w->g[root->function];
-        root->residual = fmax(root->residual, fabs(ends[0].g));
-    }
-    rise = fabs(ends[1].g) + fabs(ends[0].g);
-    QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
-    QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
-    root->late = step * (fabs(ends[1].g) / rise);
-    root->blur = noise < rise ? step * (noise / rise) : step;
-    return QDOT_OK;
-}
-
 /* The doubles beside the root between ends [2], as qdot_watch_cross. */
 static qdot_status
 locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, bool *found)
@@ -190,6 +170,41 @@ locate(qdot_watch *w, size_t i, int way, qdot_watch_end *ends, double guess, boo
         QDOT_TRY(narrow(w, i, way, lo, ends, &over));
         *found = !over || w->g[i] == 0;
     }
+    return QDOT_OK;
+}
+
+/* The slope of function i at t, by the part's polynomial. */
+static double
+slope_at(const qdot_watch_part *p, double t)
+{
+    double d[QDOT_WATCH_NODES];
+    const double length = p->b - p->a, x = 2 * (t - p->a) / length - 1;
+
+    qdot_chebyshev_derivative(p->n, p->c, d);
+    return qdot_chebyshev_at(p->n - 1, d, x) * (2 / length) * (p->from_zero ? (t - p->a) / length : 1);
+}
+
+/* Where between two neighbouring doubles the root is; the first may not have been evaluated. Where g moves less from
+ * one double of t to the next than the rounding of the state moves it, it is as far from there as that takes. */
+static qdot_status
+refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root *root)
+{
+    const double step = fabs(ends[1].t - ends[0].t);
+    const double slope = w->coarse ? 0 : fabs(slope_at(p, root->t));
+    double noise, rise;
+
+    if (ends[0].g == 0) {
+        QDOT_TRY(qdot_watch_value_at(w, ends[0].t, w->g));
+        ends[0].g = w->g[root->function];
+        root->residual = fmax(root->residual, fabs(ends[0].g));
+    }
+    rise = fabs(ends[1].g) + fabs(ends[0].g);
+    QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
+    QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
+    root->late = step * (fabs(ends[1].g) / rise);
+    root->blur = noise < rise ? step * (noise / rise) : step;
+    if (!qdot_watch_is_fine(w, root->function) && noise > root->blur * slope && slope > 0)
+        root->blur = fmin(noise / slope, fabs(p->b - p->a));
     return QDOT_OK;
 }
 
@@ -229,10 +244,10 @@ found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_w
                         .way = way,
                         .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
                         .exact = ends[1].g == 0};
-    if (root->exact)
+    if (root->exact && qdot_watch_is_fine(w, i))
         return QDOT_OK;
-    QDOT_TRY(refine(w, ends, root));
-    return is_pole(w, p, ends, root, &root->pole);
+    QDOT_TRY(refine(w, p, ends, root));
+    return root->exact ? QDOT_OK : is_pole(w, p, ends, root, &root->pole);
 }
 
 /* As qdot_watch_cross, by values as they are evaluated at present. */
@@ -242,17 +257,6 @@ cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, double guess, 
 {
     QDOT_TRY(locate(w, i, way, ends, guess, found));
     return *found ? found_between(w, p, i, way, ends, root) : QDOT_OK;
-}
-
-/* The slope of function i at t, by the part's polynomial. */
-static double
-slope_at(const qdot_watch_part *p, double t)
-{
-    double d[QDOT_WATCH_NODES];
-    const double length = p->b - p->a, x = 2 * (t - p->a) / length - 1;
-
-    qdot_chebyshev_derivative(p->n, p->c, d);
-    return qdot_chebyshev_at(p->n - 1, d, x) * (2 / length) * (p->from_zero ? (t - p->a) / length : 1);
 }
 
 /* As qdot_watch_cross, by values in two doubles: the guess is good, so the root is beside the next step of
