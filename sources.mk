@@ -1786,6 +1786,7 @@ script_tests = \
 	tests/bad/digits-node.lag \
 	tests/bad/digits-none.lag \
 	tests/bad/digits-outside.lag \
+	tests/bad/digits-start-impact.lag \
 	tests/bad/digits-tol.lag \
 	tests/bad/digits-treatment.lag \
 	tests/bad/digits-unset.lag \
@@ -2018,6 +2019,7 @@ script_tests = \
 	tests/bad/sweep-unknown.lag \
 	tests/bad/sweep-vector.lag \
 	tests/bad/sweep-with.lag \
+	tests/bad/switch-touched.lag \
 	tests/bad/taken-constraint.lag \
 	tests/bad/taken-nothing.lag \
 	tests/bad/text-compared.lag \
@@ -2227,6 +2229,7 @@ test_files = \
 	tests/bad/digits-node.out \
 	tests/bad/digits-none.out \
 	tests/bad/digits-outside.out \
+	tests/bad/digits-start-impact.out \
 	tests/bad/digits-tol.out \
 	tests/bad/digits-treatment.out \
 	tests/bad/digits-unset.out \
@@ -2459,6 +2462,7 @@ test_files = \
 	tests/bad/sweep-unknown.out \
 	tests/bad/sweep-vector.out \
 	tests/bad/sweep-with.out \
+	tests/bad/switch-touched.out \
 	tests/bad/taken-constraint.out \
 	tests/bad/taken-nothing.out \
 	tests/bad/text-compared.out \

@@ -166,6 +166,22 @@ qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expan
     }
 }
 
+void
+qdot_ode_taylor_rounding_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t, double *rounding)
+{
+    const qdot_ode_series *series = system->series;
+    const double s = fabs((t - step->t) / step->unit);
+
+    for (size_t i = 0; i < system->n; i++) {
+        const double *x = series->x + i * series->stride;
+        double rest = 0;
+
+        for (int k = step->order; k > QDOT_ODE_LEADING_MOST; k--)
+            rest = s * (rest + fabs(x[k]));
+        rounding[i] = DBL_EPSILON * rest * pow(s, QDOT_ODE_LEADING_MOST);
+    }
+}
+
 qdot_status
 qdot_ode_taylor_expand(const qdot_ode_system *system, int p, double t0, double h,
                        const double *y0)

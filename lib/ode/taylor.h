@@ -99,6 +99,9 @@ int qdot_ode_taylor_last_order(const qdot_ode_system *system, int p);
  * the first orders in two doubles. Not for systems with `following`. */
 void qdot_ode_taylor_evaluate_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
                                   double t_low, qdot_two *y);
+/* What rounding of the terms that are no two doubles may make of that, into rounding [n]. */
+void qdot_ode_taylor_rounding_two(const qdot_ode_system *system, const qdot_ode_expanded *step, double t,
+                                  double *rounding);
 void qdot_ode_taylor_evaluate(const qdot_ode_system *system, int p, double t0, double h,
                               double t, const double *y0, double *y);
 

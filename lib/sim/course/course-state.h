@@ -65,6 +65,7 @@ typedef struct qdot_course {
     size_t stopped_by; /* the event; SIZE_MAX: none */
     char reason[400];  /* why it ended early; "" */
     bool failed;       /* the reason is a failure, not an event's `stop` */
+    bool began_on;     /* it started on a zero of a function that is watched */
 } qdot_course;
 
 #endif

@@ -192,7 +192,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     /* nothing is left of one that is made once more */
     c->occurrences.n = c->ends.n = c->rests.n = 0;
     c->reason[0] = '\0';
-    c->failed = false;
+    c->failed = c->began_on = false;
     c->stopped_by = SIZE_MAX;
     if (status == QDOT_OK)
         status = loop(&x, y);

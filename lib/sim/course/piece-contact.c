@@ -199,6 +199,47 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
     return status;
 }
 
+/* --- where a run starts ---------------------------------------------------------------- */
+
+/* Whether an event sets velocities, and nothing else. */
+static bool
+sets_velocities(const qdot_piece *x, const qdot_staged_event *e)
+{
+    bool only = e->then && !e->stop;
+
+    for (size_t k = 0; k < e->changes; k++)
+        only &= e->targets[k] >= x->n / 2;
+    return only;
+}
+
+qdot_status
+qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets)
+{
+    const qdot_staged_event *e = &x->c->stage->events.at[i];
+    const int first = qdot_watch_first(qdot_piece_watch(x))[i];
+    double *old;
+    int way, behind = 0;
+    qdot_status status;
+
+    *meets = false;
+    if (e->way == 0 || !x->functions_on[i] || first != (int)x->direction * e->way || !sets_velocities(x, e))
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_way(x, i, &way));
+    if (way != first)
+        return QDOT_OK;
+    old = qdot_malloc(x->n * sizeof *old);
+    if (!old)
+        return QDOT_ENOMEM;
+    memcpy(old, x->start.y, x->n * sizeof *old);
+    status = qdot_piece_change(x, e, x->start.t, old, NULL, x->start.y, NULL);
+    if (status == QDOT_OK)
+        status = qdot_piece_way(x, i, &behind);
+    *meets = status == QDOT_OK && behind != first;
+    memcpy(x->start.y, old, x->n * sizeof *old);
+    qdot_free(old);
+    return qdot_grave(status);
+}
+
 /* --- after a change ------------------------------------------------------------------- */
 
 /* The contacts that a new state leaves end; c->reason if it is pushed into one. */

@@ -388,6 +388,8 @@ qdot_piece_act(qdot_piece *x, bool *over)
             qdot_piece_stop(x, true);
             break;
         }
+        if (w->kind == QDOT_WATCH_SURFACE && root->way == 0) /* side-search.c compares both sides */
+            continue;
         if (w->kind == QDOT_WATCH_SURFACE) {
             x->side[w->index] = w->inside == 0 ? root->way : w->beyond;
             if (w->inside != 0)

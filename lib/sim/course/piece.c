@@ -71,6 +71,15 @@ way_of(const qdot_piece *x, const qdot_root *root)
     return x->direction > 0 ? root->way : -root->way;
 }
 
+/* Whether the motion only touches a surface of places: if the equations jump there, with what they are on the other side
+ * it might go on as well. */
+static bool
+touches_place(const qdot_piece *x, const qdot_watched *w, const qdot_root *root)
+{
+    return root->way == 0 && root->within == 0 && w->kind == QDOT_WATCH_SURFACE && w->inside != 0
+           && w->index < qdot_switches_own(&x->c->stage->switches) && qdot_piece_is_of_places(x, w->index);
+}
+
 static bool
 is_occurrence(const qdot_piece *x, const qdot_root *root)
 {
@@ -80,7 +89,7 @@ is_occurrence(const qdot_piece *x, const qdot_root *root)
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
                                x->c->stage->events.at[w->index].way == way);
-    return root->way != 0 && root->way != w->inside && !root->stays;
+    return (root->way != 0 && root->way != w->inside && !root->stays) || touches_place(x, w, root);
 }
 
 static bool
@@ -220,20 +229,38 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
     return status;
 }
 
+/* The piece ends where it starts, by an event. */
+static qdot_status
+act_at_once(qdot_piece *x, double t0, const qdot_root *root)
+{
+    x->intent = QDOT_PIECE_ENDS;
+    x->t_act = t0;
+    QDOT_TRY(note(x, root));
+    return qdot_vec_push(&x->roots, *root);
+}
+
 /* Events with an action whose zero was reached at the start, or held until then, and is left at once
  * because another event has changed the state: bodies that touch, or roots that only rounding separates.
- * A zero onto which the change has put the motion does not count. */
+ * A zero onto which the change has put the motion does not count. Where a run starts: impacts on what it touches. */
 static qdot_status
 follow_at_once(qdot_piece *x, double t0)
 {
     const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const bool starts = x->c->tr.count == 1 && !x->start.jumped;
 
-    for (size_t i = 0; i < x->c->stage->events.n && x->start.jumped; i++) {
+    for (size_t i = 0; i < x->c->stage->events.n && (x->start.jumped || starts); i++) {
         const qdot_staged_event *e = &x->c->stage->events.at[i];
         int way;
+        bool meets;
         const qdot_root root = {
             .function = i, .t = t0, .way = first[i], .exact = true, .late = x->start.late};
 
+        if (starts) {
+            QDOT_TRY(qdot_piece_meets_at_start(x, i, &meets));
+            if (meets)
+                QDOT_TRY(act_at_once(x, t0, &root));
+            continue;
+        }
         if ((!e->stop && !e->then) || !x->untouched[i] || !x->touching[i] || first[i] == 0
             || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, &root))
             continue;
@@ -241,12 +268,8 @@ follow_at_once(qdot_piece *x, double t0)
         if (first[i] == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
             continue;
         QDOT_TRY(qdot_piece_way(x, i, &way));
-        if (way == 0)
-            continue;
-        x->intent = QDOT_PIECE_ENDS;
-        x->t_act = t0;
-        QDOT_TRY(note(x, &root));
-        QDOT_TRY(qdot_vec_push(&x->roots, root));
+        if (way != 0)
+            QDOT_TRY(act_at_once(x, t0, &root));
     }
     return QDOT_OK;
 }
@@ -440,7 +463,11 @@ search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots,
     }
 }
 
-/* The state at the root that ends the piece. */
+/* Below this part of its size the rounding of a state is lost in doubles: companions, which take the same steps, share
+ * it. */
+static const double unseen = 0x1p-64;
+
+/* The state at the root that ends the piece. Each companion is moved by its rounding, one either way. */
 static void
 read_root(qdot_piece *x)
 {
@@ -450,6 +477,10 @@ read_root(qdot_piece *x)
     qdot_piece_find_delay(x);
     qdot_ode_taylor_evaluate_two(x->reader.system, x->expanded, x->t_act, -x->direction * x->late,
                                  x->root);
+    qdot_ode_taylor_rounding_two(x->reader.system, x->expanded, x->t_act, x->y);
+    for (size_t i = 0; i < x->n; i++)
+        if (x->y[i] <= unseen * x->largest[i])
+            x->root[i] = qdot_two_add_double(x->root[i], x->c->early * x->y[i]);
 }
 
 static qdot_status
@@ -593,13 +624,16 @@ qdot_piece_begin(qdot_piece *x)
     }
     QDOT_TRY(widen_residuals(x));
     qdot_piece_low(x, x->y);
-    return qdot_watch_begin(
+    QDOT_TRY(qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
         &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual, x->y, x->largest,
                             !x->start.on_root  ? 0
                             : x->start.jumped ? x->c->stage->events.n
                                               : qdot_piece_mode(x)->m},
-        x->functions_on);
+        x->functions_on));
+    for (size_t i = 0; i < qdot_piece_mode(x)->m && x->c->tr.count == 1; i++)
+        x->c->began_on |= x->functions_on[i];
+    return QDOT_OK;
 }
 
 /* The first one begins the trajectory. */

@@ -231,6 +231,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
 /* In x->side: the pucks that are at rest where a piece starts; not `anew`: only those that have crept. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 
+/* (piece-contact.c) Where a run starts: whether it has met event i, on whose zero it starts and which the motion goes on
+ * to cross, the way that its statement says: an impact that turns it back. */
+QDOT_MUST_CHECK qdot_status qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets);
+
 /* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
  * one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);

@@ -425,6 +425,9 @@ follow(qdot_precise_side *s)
     const qdot_course *g = s->guide;
     size_t at = 0;
 
+    if (g->ends.n > 0 && g->ends.at[0].t == g->tr.t[0])
+        return qdot_fail(QDOT_ELIMIT, "`digits` does not follow an event that acts where the run starts: start with what "
+                                      "it makes of the velocities");
     mpfr_set(s->course->numbers.at[0], s->start.at[0], RN);
     for (size_t i = 0; i < g->tr.n; i++)
         mpfr_set(s->course->y[i], s->start.at[2 + i], RN);

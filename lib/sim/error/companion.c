@@ -196,7 +196,8 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         return status == QDOT_ENOMEM ? status : QDOT_OK;
     }
     /* a start on a surface, moved to its other side, meets it once more: the second time
-     * it stays on it; where what is only seen differs the first one is as good for states */
+     * it stays on it; so may what touches. Where what is only seen differs the first one is as good for states. A
+     * switch that is crossed here and not there is doubt of the run. */
     for (int tries = 0; tries < 2; tries++) {
         qdot_progress_begin(t0, goal(run), "error of the run");
         qdot_ode_meter_begin(meter, t0, goal(run));
@@ -204,7 +205,7 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
         if (qdot_grave(status) != QDOT_OK)
             break;
         *has = c->tr.count > 0;
-        if (!*has || met_the_same(run, c, false))
+        if (!*has || met_the_same(run, c, false) || (!run->course.began_on && run->stage.events.n == 0))
             break;
         if (tries == 0) {
             if (met_the_same(run, c, true)) {
