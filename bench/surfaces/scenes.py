@@ -419,4 +419,133 @@ def plates_scene(rng):
     return s, [x, y]
 
 
+def ball():
+    """The lines of one particle on x."""
+    return "coord x\nparticle p mass 1 at x\n"
+
+
+def movingwall_scene(rng):
+    """A ball between a wall at rest and one that comes or goes, elastic."""
+    L, u, v, T = num(rng, 1, 3, 2), num(rng, -0.2, 0.3, 2), num(rng, 0.5, 3, 2), num(rng, 2, 8, 2)
+    T = min(T, round(0.8*L/abs(u), 2)) if u < 0 else T
+    x, w, t = R(L)/2, R(v), mp.mpf(0)
+    while True:
+        hits = [d for d in ((-x/w, 0) if w < 0 else None, ((R(L) + R(u)*t - x)/(w - R(u)), 1) if w > R(u) else None) if d]
+        d, right = min(hits) if hits else (mp.inf, 0)
+        if t + d >= R(T):
+            d = R(T) - t
+            return (ball() + "event left: x = 0 falling then x' = -x'\nevent right: x = %s + %s*t rising then x' = 2*%s - x'\n"
+                    "start x = %s/2, x' = %s\nrun 0..%s\nvalue(x, %s)\nvalue(x', %s)\n" % (L, u, u, L, v, T, T, T)), [x + w*d, w]
+        x, t = x + w*d, t + d
+        w = 2*R(u) - w if right else -w
+
+
+def oblique_scene(rng):
+    """A ball thrown obliquely: each bounce takes e of one velocity and m of the other, both parameters."""
+    e, m, g = num(rng, 0.4, 0.95, 2), num(rng, 0.5, 1, 2), rng.choice([1, 9.81, 10])
+    a, b, T = num(rng, -2, 2, 2), num(rng, 1, 4, 2), num(rng, 0.3, 3, 2)
+    x, y, vx, vy, t = mp.mpf(0), mp.mpf(1), R(a), R(b), mp.mpf(0)
+    for _ in range(400):
+        d = (vy + mp.sqrt(vy*vy + 2*R(g)*y))/R(g)
+        if t + d >= R(T) or vy < mp.mpf(10)**-30 and y == 0:
+            d = R(T) - t
+            break
+        x, y, vy, t = x + vx*d, mp.mpf(0), -R(e)*(vy - R(g)*d), t + d
+        vx *= R(m)
+    rests = y == 0 and vy < mp.mpf(10)**-30
+    if rests:  # what the rest of the bounces leaves of vx depends on how many there are
+        return oblique_scene(rng)
+    return ("param e = %s, m = %s\ncoord x, y\nparticle p mass 1 at (x, y)\ngravity (0, -%s)\n"
+            "event floor: y = 0 falling then x' = m*x', y' = -e*y'\nstart x' = %s, y = 1, y' = %s\nrun 0..%s\n"
+            "value(x, %s)\nvalue(y, %s)\n" % (e, m, g, a, b, T, T, T)), [x + vx*d, y + vy*d - R(g)*d*d/2]
+
+
+def box_scene(rng):
+    """Two balls of different masses in a box, elastic."""
+    M, L, T = rng.choice([1, 2, 3, 7, 100]), num(rng, 1.5, 4, 2), num(rng, 3, 15, 2)
+    v, w = num(rng, -2, 2, 2), num(rng, -2, 2, 2)
+    x, y, V, W, t, m = R(L)/4, 3*R(L)/4, R(v), R(w), mp.mpf(0), R(M)
+    while True:
+        hits = [(mp.inf, 3)]
+        if V < 0:
+            hits.append((-x/V, 0))
+        if W > 0:
+            hits.append(((R(L) - y)/W, 1))
+        if V > W:
+            hits.append(((y - x)/(V - W), 2))
+        d, what = min(hits)
+        if t + d >= R(T):
+            d = R(T) - t
+            break
+        x, y, t = x + V*d, y + W*d, t + d
+        if what == 0:
+            V = -V
+        elif what == 1:
+            W = -W
+        else:
+            V, W = ((1 - m)*V + 2*m*W)/(1 + m), ((m - 1)*W + 2*V)/(1 + m)
+    return ("coord x, y\nparticle p mass 1 at x\nparticle q mass %s at y\nevent a: x = 0 falling then x' = -x'\n"
+            "event b: y = %s rising then y' = -y'\nevent c: y - x = 0 falling then x' = ((1 - %s)*x' + 2*%s*y')/(1 + %s), "
+            "y' = ((%s - 1)*y' + 2*x')/(1 + %s)\nstart x = %s/4, y = 3*%s/4, x' = %s, y' = %s\nrun 0..%s\nvalue(x, %s)\n"
+            "value(y, %s)\n" % (M, L, M, M, M, M, M, L, L, v, w, T, T, T)), [x + V*d, y + W*d]
+
+
+def startimpact_scene(rng):
+    """A ball that starts on the floor and moves into it."""
+    H, e, v, T = rng.choice([0, 0, 1, 7.3]), num(rng, 0.3, 1, 2), num(rng, 0.5, 4, 2), num(rng, 0.05, 2, 2)
+    y, w = bounce_ref(R(H), R(e)*R(v), R(e), mp.mpf(10), R(H), R(T))
+    return ("coord h\nparticle b mass 1 at h\ngravity -10\nevent floor: h = %s falling then h' = -%s*h'\n"
+            "start h = %s, h' = -%s\nrun 0..%s\nvalue(h, %s)\n" % (H, e, H, v, T, T)), [y]
+
+
+def atonce_scene(rng):
+    """A relay, and an event at its surface that changes the speed there."""
+    F, k, v, T = num(rng, 0.5, 3, 2), num(rng, 1, 1.3, 2), num(rng, 0.5, 2, 2), num(rng, 1, 8, 2)
+    x, w, s, t = mp.mpf(0), R(v), 1, mp.mpf(0)
+    while True:
+        d = 2*abs(w)/R(F)
+        if t + d >= R(T):
+            d = R(T) - t
+            break
+        t += d
+        w = -w*R(k)
+        s = -s
+    return (ball() + "force -%s*sign(x) on x\nevent e: x = 0 then x' = %s*x'\nstart x' = %s\nrun 0..%s\nvalue(x, %s)\n"
+            "value(x', %s)\n" % (F, k, v, T, T, T)), [w*d - s*R(F)*d*d/2, w - s*R(F)*d]
+
+
+def thenparam_scene(rng):
+    """Each bounce changes the gravity."""
+    q, T, h = num(rng, 0.7, 1, 2), num(rng, 1, 5, 2), num(rng, 0.3, 2, 2)
+    y, w, g, t = R(h), mp.mpf(0), mp.mpf(10), mp.mpf(0)
+    while True:
+        d = (w + mp.sqrt(w*w + 2*g*y))/g
+        if t + d >= R(T):
+            d = R(T) - t
+            break
+        y, w, t = mp.mpf(0), -(w - g*d), t + d
+        g *= R(q)
+    return ("param g = 10\ncoord h\nparticle b mass 1 at h\ngravity -g\nevent floor: h = 0 falling then h' = -h', g = %s*g\n"
+            "start h = %s\nrun 0..%s\nvalue(h, %s)\nvalue(h', %s)\n" % (q, h, T, T, T)), [y + w*d - g*d*d/2, w - g*d]
+
+
+def terminal_scene(rng):
+    """An event at the end of the run, and a stop."""
+    w, A, k = num(rng, 0.5, 3, 2), num(rng, 0.3, 2, 2), num(rng, -2, 2, 2)
+    if rng.random() < 0.5:
+        T = num(rng, 1, 9, 2)
+        return (ball() + "potential %s^2*x^2/2\nevent e: t = %s then x' = %s*x'\nstart x = %s\nrun 0..%s\nvalue(x, %s)\n"
+                "value(x', %s)\n" % (w, T, k, A, T, T, T)), [R(A)*mp.cos(R(w)*R(T)), -R(k)*R(A)*R(w)*mp.sin(R(w)*R(T))]
+    c = num(rng, -0.9, 0.9, 2)
+    return (ball() + "potential %s^2*x^2/2\nevent e: x = %s*%s rising stop\nstart x = %s\nrun 0..100\ne[1]\n"
+            % (w, c, A, A)), [(2*mp.pi - mp.acos(R(c)))/R(w)]
+
+
+def third_scene(rng):
+    """A place reached with neither velocity nor force: a crossing of third order."""
+    a = num(rng, 0.5, 3, 2)
+    return (ball() + "force 6*(t - %s) on x\nevent e: x = 0 rising\nstart x = -(%s)^3, x' = 3*(%s)^2\nrun 0..%s + 1\ne[1]\n"
+            % (a, a, a, a)), [R(a)]
+
+
 KINDS = {name[:-6]: kind for name, kind in list(globals().items()) if name.endswith("_scene")}
