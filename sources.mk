@@ -1664,6 +1664,7 @@ script_tests = \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
+	tests/script/resting-walls-with-kinks.lag \
 	tests/script/resting.lag \
 	tests/script/rests-edges.lag \
 	tests/script/rests-of-parameters.lag \
@@ -2844,6 +2845,7 @@ test_files = \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
+	tests/script/resting-walls-with-kinks.out \
 	tests/script/resting.out \
 	tests/script/rests-edges.out \
 	tests/script/rests-of-parameters.out \

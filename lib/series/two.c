@@ -335,9 +335,52 @@ double
 qdot_tape_two_rounding(const qdot_tape_two *t)
 {
     for (const qdot_program_step *i = t->program->steps.at; i->op != QDOT_T_END; i++)
-        if (i->zero > QDOT_OP_SQRT)
+        if (i->zero > QDOT_OP_SQRT && i->zero < QDOT_OP_ABS)
             return 0x1p-66;
     return 0x1p-98;
+}
+
+/* Where the step stands that switches; 0: on the border of two sides. */
+static int64_t
+side_of(const qdot_tape_two *t, const qdot_program_step *i)
+{
+    const qdot_two a = place(t, i->x)[0], b = place(t, i->y)[0];
+    qdot_two u;
+
+    switch (i->zero) {
+    case QDOT_OP_ABS:
+    case QDOT_OP_SIGN: u = a; break;
+    case QDOT_OP_MIN:
+    case QDOT_OP_MAX:
+    case QDOT_OP_LT:
+    case QDOT_OP_LE:
+    case QDOT_OP_EQ: u = qdot_two_sub(a, b); break;
+    case QDOT_OP_MOD:
+    case QDOT_OP_FLOOR: {
+        const qdot_two q = i->zero == QDOT_OP_MOD ? qdot_two_div(a, b) : a, whole = whole_part(q);
+
+        if (!(fabs(whole.hi) < 0x1p62))
+            return 0;
+        return qdot_two_sub(q, whole).hi == 0 ? 0 : 2 * (int64_t)whole.hi + 1;
+    }
+    default: return 1;
+    }
+    return (u.hi > 0) - (u.hi < 0);
+}
+
+uint64_t
+qdot_tape_two_sides(const qdot_tape_two *t)
+{
+    uint64_t sides = 1;
+
+    for (const qdot_program_step *i = t->program->steps.at; i->op != QDOT_T_END; i++) {
+        const int64_t side = side_of(t, i);
+
+        if (side == 0)
+            return 0;
+        sides = (sides ^ (uint64_t)side) * 0x100000001b3u;
+    }
+    return sides | 1;
 }
 
 void

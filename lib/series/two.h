@@ -32,6 +32,10 @@ const qdot_two *qdot_tape_two_output(const qdot_tape_two *t, size_t i);
 /* The relative error of an operation: more where there are functions (num/two.h). */
 double qdot_tape_two_rounding(const qdot_tape_two *t);
 
+/* On which sides what switches was at order 0 last: abs and sign by their argument, min, max and comparisons by the
+ * difference, floor and mod by the integer. A number that is another one on other sides; 0: on the border of two. */
+uint64_t qdot_tape_two_sides(const qdot_tape_two *t);
+
 /* Order k of all that is computed, orders below k being there: 0 first. Never fails; NaN
  * and inf as IEEE 754 has them, where one of two doubles is. */
 void qdot_tape_two_order(qdot_tape_two *t, int k);

@@ -56,6 +56,7 @@ struct qdot_watch {
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
     bool fine;            /* values of those within the step are in two doubles at present */
+    bool steady;          /* what switches in the functions has the same sides on the part at hand, as far as is seen */
     bool coarse;          /* and are not to be: beside a jump or kink */
     size_t m, n;             /* functions; coordinates */
     bool accelerations;
@@ -125,11 +126,19 @@ typedef enum {
     QDOT_PART_START_FAR  /* likewise, as long as w->cut says */
 } qdot_watch_verdict;
 
+/* Whether two doubles tell more of function i than one. What jumps or has a kink there is a matter of its values as
+ * doubles are; and the run ends at the last state that is within a bound as a double. */
+static inline bool
+qdot_watch_has_two(const qdot_watch *w, size_t i)
+{
+    return w->coordinate[i] == SIZE_MAX && (w->smooth[i] || w->steady);
+}
+
 /* Whether values of function i are in two doubles at present. */
 static inline bool
 qdot_watch_is_fine(const qdot_watch *w, size_t i)
 {
-    return w->fine && w->wants[i] && w->smooth[i] && !w->now.blurred[i];
+    return w->fine && w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i];
 }
 
 /* Of a function that is 0 where the part at hand starts: its value there, as its values are given. */

@@ -310,7 +310,7 @@ qdot_watch_cross(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, dou
                  qdot_watch_end *ends, qdot_root *root, bool *found)
 {
     const bool others = w->fine; /* are evaluated so on this part */
-    const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && w->smooth[i] && qdot_watch_can_two(w);
+    const bool two = !qdot_watch_is_fine(w, i) && !w->coarse && qdot_watch_has_two(w, i) && qdot_watch_can_two(w);
     const qdot_watch_end wide[2] = {ends[0], ends[1]};
     qdot_watch_end near[2] = {wide[0], wide[1]};
     qdot_root again;

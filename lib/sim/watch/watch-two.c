@@ -29,33 +29,40 @@ make_two(qdot_watch *w)
 /* The sizes of values that two doubles hold: beyond, one of them overflows or underflows. */
 static const double least_of_two = 1 / QDOT_WATCH_MOST, most_of_two = QDOT_WATCH_MOST;
 
-/* What jumps or has a kink is a matter of its values as doubles are. */
 static bool
 is_of_two(const qdot_watch *w, size_t i)
 {
     const double size = fabs(qdot_tape_two_output(w->two, i)[0].hi);
 
-    return w->wants[i] && w->smooth[i] && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
+    return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && size >= least_of_two && size <= most_of_two;
 }
 
-/* Whether a smooth function is 0 in two doubles: as a double it may be rounding, or too small a number. */
+/* Whether a function is 0 in two doubles: as a double it may be rounding, or too small a number. */
 static bool
 is_nothing(const qdot_watch *w, size_t i)
 {
-    return w->wants[i] && w->smooth[i] && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
+    return w->wants[i] && qdot_watch_has_two(w, i) && !w->now.blurred[i] && qdot_tape_two_output(w->two, i)[0].hi == 0;
+}
+
+static void
+evaluate_two(qdot_watch *w, double t, const qdot_two *y)
+{
+    for (size_t k = 0; k < 2 * w->n; k++)
+        *qdot_tape_two_input(w->two, k) = y[k];
+    *qdot_tape_two_input(w->two, 2 * w->n) = (qdot_two){t, 0};
+    qdot_tape_two_order(w->two, 0);
 }
 
 static qdot_status
-value_two(qdot_watch *w, double t, const qdot_two *y, double *g)
+value_two(qdot_watch *w, double t, const qdot_two *y, bool start, double *g)
 {
     bool rest = false;
 
-    for (size_t k = 0; k < 2 * w->n; k++) {
-        *qdot_tape_two_input(w->two, k) = y[k];
+    for (size_t k = 0; k < 2 * w->n; k++)
         w->in[k] = y[k].hi;
-    }
-    *qdot_tape_two_input(w->two, 2 * w->n) = (qdot_two){t, 0};
-    qdot_tape_two_order(w->two, 0);
+    evaluate_two(w, t, y);
+    if (start)
+        w->steady = qdot_tape_two_sides(w->two) != 0;
     for (size_t i = 0; i < w->m; i++)
         rest = rest || !is_of_two(w, i);
     if (rest)
@@ -79,7 +86,7 @@ qdot_watch_value_two(qdot_watch *w, double t, double *g)
 {
     QDOT_TRY(make_two(w));
     QDOT_TRY(w->reader.read_two(t, w->state_two, w->reader.user));
-    QDOT_TRY(value_two(w, t, w->state_two, g));
+    QDOT_TRY(value_two(w, t, w->state_two, false, g));
     for (size_t i = 0; i < w->m; i++)
         if (w->now.offset[i] != 0 && is_of_two(w, i))
             g[i] = difference(qdot_tape_two_output(w->two, i)[0], w->now.offset[i]);
@@ -94,12 +101,36 @@ qdot_watch_value_at_start(qdot_watch *w, double t, const double *y, const double
         w->wants[i] = true;
     for (size_t k = 0; k < 2 * w->n; k++)
         w->state_two[k] = qdot_two_add_double((qdot_two){y[k], 0}, low ? low[k] : 0);
-    return value_two(w, t, w->state_two, g);
+    return value_two(w, t, w->state_two, true, g);
+}
+
+/* Whether what switches has the same sides at the ends of the part and between: w->steady. */
+static qdot_status
+find_sides(qdot_watch *w, const qdot_watch_part *p)
+{
+    enum { PLACES = 4 };
+    uint64_t sides = 0;
+
+    QDOT_TRY(make_two(w));
+    w->steady = true;
+    for (int k = 0; k <= PLACES && w->steady; k++) {
+        const double t = k == PLACES ? p->b : p->a + (p->b - p->a) * k / PLACES;
+        uint64_t here;
+
+        QDOT_TRY(w->reader.read_two(t, w->state_two, w->reader.user));
+        evaluate_two(w, t, w->state_two);
+        here = qdot_tape_two_sides(w->two);
+        w->steady = here != 0 && (k == 0 || here == sides);
+        sides = here;
+    }
+    return QDOT_OK;
 }
 
 qdot_status
 qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any)
 {
+    bool sought = false;
+
     *any = false;
     if (!qdot_watch_can_two(w))
         return QDOT_OK;
@@ -113,13 +144,17 @@ qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *a
     for (size_t i = 0; i < w->m; i++) {
         double size = 0;
 
-        if (!w->live[i] || !w->smooth[i] || w->now.blurred[i])
+        if (!w->live[i] || w->coordinate[i] != SIZE_MAX || w->now.blurred[i])
             continue;
         w->moved[i] = fmin(w->moved[i], w->g[i]);
         for (int j = 0; j < nodes; j++)
             size = fmax(size, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j]));
-        if (w->now.on[i] || (w->moved[i] <= most_of_two && size < small * w->moved[i]))
-            w->wants[i] = true;
+        w->wants[i] = w->now.on[i] || (w->moved[i] <= most_of_two && size < small * w->moved[i]);
+        if (w->wants[i] && !w->smooth[i] && !sought) {
+            QDOT_TRY(find_sides(w, p));
+            sought = true;
+        }
+        w->wants[i] = w->wants[i] && qdot_watch_has_two(w, i);
         *any = *any || w->wants[i];
     }
     return QDOT_OK;
@@ -129,7 +164,7 @@ qdot_status
 qdot_watch_rate(qdot_watch *w, double t, const double *y, const double *low, const double *rates,
                 const double *fast, size_t i, double *rate, double *noise)
 {
-    const bool exact = w->reader.read_two && !w->accelerations && w->smooth[i];
+    const bool exact = w->reader.read_two && !w->accelerations && qdot_watch_has_two(w, i);
     const double h = exact ? 0x1p-40 : 0x1p-20;
     double *there = qdot_malloc((2 * w->n + 1) * sizeof *there), g = 0;
     qdot_status status = there ? QDOT_OK : QDOT_ENOMEM;

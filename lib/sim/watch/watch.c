@@ -157,7 +157,7 @@ look_at_part(qdot_watch *w, qdot_watch_part *p,
     int nodes = w->nodes;
     bool good;
 
-    w->fine = false;
+    w->fine = w->steady = false;
     for (size_t i = 0; i < w->m; i++) {
         w->wants[i] = false;
         w->noise[i] = NAN;
@@ -490,15 +490,15 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         const double g = w->start.g0[i];
         const bool met = known->residual && known->residual[i] >= 0;
 
-        if (exact && w->smooth[i] && met && i < known->left) {
+        if (exact && qdot_watch_has_two(w, i) && met && i < known->left) {
             w->start.on[i] = fabs(g) <= negligible * known->residual[i];
         } else {
             QDOT_TRY(is_rounding(w, t, y, known->least, exact && w->smooth[i], i, g, &w->start.on[i]));
             w->start.on[i] = w->start.on[i] || (met && fabs(g) <= 4 * known->residual[i]);
         }
         w->start.blurred[i] = false;
-        w->start.sharp[i] = exact && w->smooth[i];
-        w->start.offset[i] = w->start.on[i] && exact && w->smooth[i] ? g : 0;
+        w->start.sharp[i] = exact && qdot_watch_has_two(w, i);
+        w->start.offset[i] = w->start.on[i] && exact && qdot_watch_has_two(w, i) ? g : 0;
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
     }
@@ -554,7 +554,7 @@ qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound)
 {
     w->coordinate[i] = coordinate;
     w->bound[i] = bound;
-    w->smooth[i] = false; /* the run ends at the last state that is within it as a double */
+    w->smooth[i] = false;
     w->all_bounds = true;
     for (size_t k = 0; k < w->m; k++)
         w->all_bounds = w->all_bounds && w->coordinate[k] != SIZE_MAX;
