@@ -1688,6 +1688,7 @@ script_tests = \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
 	tests/script/solve-domains.lag \
+	tests/script/solve-joined-exponentials.lag \
 	tests/script/solve-line.lag \
 	tests/script/solve-numbers.lag \
 	tests/script/solve-parameters.lag \
@@ -1979,6 +1980,7 @@ script_tests = \
 	tests/bad/solve-beyond.lag \
 	tests/bad/solve-far.lag \
 	tests/bad/solve-for-sum.lag \
+	tests/bad/solve-guess-outside.lag \
 	tests/bad/solve-no-value.lag \
 	tests/bad/solve-no-values.lag \
 	tests/bad/solve-range.lag \
@@ -2422,6 +2424,7 @@ test_files = \
 	tests/bad/solve-beyond.out \
 	tests/bad/solve-far.out \
 	tests/bad/solve-for-sum.out \
+	tests/bad/solve-guess-outside.out \
 	tests/bad/solve-no-value.out \
 	tests/bad/solve-no-values.out \
 	tests/bad/solve-range.out \
@@ -2870,6 +2873,7 @@ test_files = \
 	tests/script/slow-margin.out \
 	tests/script/solution-sets.out \
 	tests/script/solve-domains.out \
+	tests/script/solve-joined-exponentials.out \
 	tests/script/solve-line.out \
 	tests/script/solve-numbers.out \
 	tests/script/solve-parameters.out \

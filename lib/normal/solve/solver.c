@@ -518,10 +518,23 @@ is_pair(const qdot_field *f, const shape *sh, qdot_gen_kind sine, qdot_gen_kind 
            a->pair == (uint32_t)sh->var[1] && (a->kind == sine || a->kind == cosine);
 }
 
+/* Whether generators of x in p are exponentials: as a product, exp(x - a) exp(x) is exp(2 x - a), a generator less. */
+static bool
+holds_exponential(const qdot_field *f, const shape *sh)
+{
+    for (size_t i = 0; i < sh->n && i < 2; i++)
+        if (qdot_expr_kind(f->pool, f->gen[sh->var[i]].expr) == QDOT_FUN &&
+            qdot_expr_node(f->pool, f->gen[sh->var[i]].expr)->op == QDOT_EXP)
+            return true;
+    return false;
+}
+
+/* A factor of the numerator of `whole`. */
 static qdot_status
-one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
+one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr whole, qdot_expr when)
 {
     qdot_status status;
+    qdot_expr e;
     shape sh;
 
     QDOT_TRY(qdot_interrupt_check());
@@ -532,6 +545,8 @@ one_factor(qdot_solver *s, qdot_field *f, const fmpz_mpoly_t p, qdot_expr when)
         status = qdot_solver_add_where(s, s->x, qdot_field_expr(f, p), when);
     else if (sh.n == 1)
         status = one_generator(s, f, &sh, when);
+    else if (holds_exponential(f, &sh) && (e = qdot_field_expr(f, p)) != whole)
+        status = qdot_solver_equation(s, e, when);
     else if (sh.n > 2)
         s->out->complete = false;
     else if (is_pair(f, &sh, QDOT_GEN_SIN, QDOT_GEN_COS))
@@ -564,7 +579,7 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
         } else if (qdot_field_goes(&f)) {
             status = qdot_factor(&f, &factors, r.n);
             for (slong i = 0; i < factors.n && status == QDOT_OK; i++)
-                status = one_factor(s, &f, factors.poly + i, when);
+                status = one_factor(s, &f, factors.poly + i, e, when);
             qdot_factor_clear(&f, &factors);
         }
         qdot_ratio_clear(&f, &r);
