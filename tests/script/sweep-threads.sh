@@ -13,17 +13,19 @@ done
 cmp of-1 of-2 && cmp of-1 of-5 && wc -l <of-1 | tr -d ' '
 grep -q '"failed"' of-5 && echo 'some failed'
 echo '# workers are killed again and again'
-qdot -q --json scene.lag -e "$good threads 3" >of-killed 2>&1 &
+more='sweep th1 = -3..3 count 60, th2 = 0..3 count 10 run 0..20 tol 1e-9 : th2, max(abs(th1)), flip[1] as m'
+qdot -q --json scene.lag -e "$more threads 1" >of-one 2>&1
+qdot -q --json scene.lag -e "$more threads 3" >of-killed 2>&1 &
 pid=$!
 while kill -0 $pid 2>/dev/null && [ "${kills:-0}" -lt 4 ]; do
     victim=$(cut -d ' ' -f 1 /proc/$pid/task/$pid/children 2>/dev/null)
     [ -n "$victim" ] && kill -9 $victim 2>/dev/null && kills=$((${kills:-0} + 1))
-    sleep 0.05
+    sleep 0.02
 done
 wait $pid
 grep -v 'process that made the run has ended' of-killed | sort >a
-sort of-1 | grep -F -x -f a | wc -l | tr -d ' ' >b
-[ "$(wc -l <a | tr -d ' ')" -ge 32 ] && [ "$(cat b)" = "$(wc -l <a | tr -d ' ')" ] && echo 'the rows are the same'
+sort of-one | grep -F -x -f a | wc -l | tr -d ' ' >b
+[ "$(wc -l <a | tr -d ' ')" -ge 592 ] && [ "$(cat b)" = "$(wc -l <a | tr -d ' ')" ] && echo 'the rows are the same'
 [ ! -e /proc/$$/task/$$/children ] || [ "${kills:-0}" -gt 0 ] || echo 'none was there to kill'
 echo '# Ctrl-C keeps what is done'
 sed -i.old 's/ stop$//' scene.lag
