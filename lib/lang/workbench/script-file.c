@@ -2,7 +2,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/memory-failure.h"
 #include "base/ranks.h"
 #include "lang/answer/answer.h"
 #include "lang/workbench/script.h"
@@ -24,7 +23,6 @@ int
 qdot_script_run_text(qdot_session *session, const char *name, const char *text,
                      size_t length)
 {
-    (void)qdot_memory_ran_out();
     return exit_status(session, qdot_script_carry_out(session, name, text, length));
 }
 
@@ -92,10 +90,7 @@ int
 qdot_script_run_file(qdot_session *session, const char *path)
 {
     bool opened;
-    qdot_status status;
-
-    (void)qdot_memory_ran_out();
-    status = qdot_script_carry_out_file(session, path, &opened);
+    qdot_status status = qdot_script_carry_out_file(session, path, &opened);
 
     if (status != QDOT_OK && !opened)
         qdot_answer_error(session, NULL, 0);

@@ -593,6 +593,7 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
     qdot_status status = qdot_source_new(name, text, length, &x.source, &x.error_at);
     size_t outer = qdot_undo_text_begin(session);
 
+    (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
     if (status == QDOT_OK) {
         x.tokens = x.source->tokens.at;
         x.n = x.source->tokens.n;
