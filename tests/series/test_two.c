@@ -4,6 +4,7 @@
 #include "series/operations.h"
 
 #include <math.h>
+#include <stdint.h>
 
 #include "series/precise.h"
 #include "series/two.h"
@@ -203,6 +204,44 @@ changed_is_as_evaluated(void **state)
     qdot_pool_free(f.pool);
 }
 
+/* The sides at the first input x, the others as they are (x = t = 1/4 in coefficient). */
+static uint64_t
+sides_at(qdot_tape_two *two, qdot_two x)
+{
+    for (size_t i = 0; i < INPUTS; i++)
+        qdot_tape_two_input(two, i)[0] = i == 0 ? x : (qdot_two){coefficient(i, 0).hi, 0};
+    qdot_tape_two_order(two, 0);
+    return qdot_tape_two_sides(two);
+}
+
+static void
+sides_are_those_of_what_switches(void **state)
+{
+    qdot_tape_two *two;
+    qdot_tape *tape;
+    fixture f;
+    uint64_t above, below;
+
+    (void)state;
+    switching(&f);
+    f.n = 0;
+    push(&f, apply(&f, QDOT_ABS, qdot_sub(f.pool, f.in[2], f.in[0])));
+    push(&f, apply(&f, QDOT_FLOOR, qdot_mul(f.pool, f.in[0], qdot_expr_int(f.pool, 3))));
+    assert_int_equal(qdot_tape_new(f.pool, INPUTS, f.in, f.n, f.out, &tape), QDOT_OK);
+    assert_int_equal(qdot_tape_two_new(tape, 0, 3, &two), QDOT_OK);
+    above = sides_at(two, (qdot_two){0.3, 0});
+    below = sides_at(two, (qdot_two){0.2, 0});
+    assert_true(above != below && above != 0 && below != 0);
+    assert_true(sides_at(two, (qdot_two){0.31, 0}) == above);
+    assert_true(sides_at(two, (qdot_two){0.4, 0}) != above); /* another integer */
+    assert_true(sides_at(two, (qdot_two){0.25, 0}) == 0);
+    assert_true(sides_at(two, (qdot_two){0.25, 0x1p-60}) == above); /* a double would not tell */
+    assert_true(sides_at(two, (qdot_two){0.25, -0x1p-60}) == below);
+    qdot_tape_two_free(two);
+    qdot_tape_free(tape);
+    qdot_pool_free(f.pool);
+}
+
 int
 main(void)
 {
@@ -211,6 +250,7 @@ main(void)
         cmocka_unit_test(every_value_is_that_of_MPFR),
         cmocka_unit_test(what_switches_has_no_series),
         cmocka_unit_test(changed_is_as_evaluated),
+        cmocka_unit_test(sides_are_those_of_what_switches),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
