@@ -321,7 +321,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
 {
     qdot_pool *pool = q->pool;
     qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), list = QDOT_NIL,
-              domain = q->domain;
+              all = qdot_list(pool, (uint32_t)q->n, q->f), domain = q->domain;
     qdot_window window[MOST];
     double *at = NULL;
     size_t count = 0, exact = 0;
@@ -332,7 +332,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
         domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, q->f[i], QDOT_NIL));
     for (size_t j = 0; j < q->n; j++) {
         window[j] = qdot_solve_window(
-            pool, q->u[j], qdot_is_period(pool, q->n, q->f, q->u[j], turn, &q->facts));
+            pool, q->u[j], qdot_is_period(pool, all, q->u[j], turn, &q->facts));
         recurs = recurs || window[j].recurs;
     }
     QDOT_TRY(qdot_pool_check(pool));

@@ -113,7 +113,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
     if (rest == QDOT_ONE) /* each factor alone is solved, all of them together are not */
         rest = f;
-    window = qdot_solve_window(pool, x, qdot_is_period(pool, 1, &rest, x, turn, &facts));
+    window = qdot_solve_window(pool, x, qdot_is_period(pool, rest, x, turn, &facts));
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
     domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));

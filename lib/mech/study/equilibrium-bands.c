@@ -107,7 +107,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     }
     /* of an equation with a period one turn alone is listed */
     if (*all && !l->turn && found.root.n > 0 && (u->lo == QDOT_NIL || u->hi == QDOT_NIL))
-        *all = !qdot_is_period(l->pool, 1, &g, l->u,
+        *all = !qdot_is_period(l->pool, g, l->u,
                                qdot_mul(l->pool, qdot_expr_int(l->pool, 2), QDOT_PI), l->facts);
     qdot_solutions_clear(&found);
     if (!*all)
@@ -434,7 +434,7 @@ qdot_bands_find(qdot_pool *pool, qdot_expr u, size_t n, const qdot_expr *relatio
     if (!alone)
         return by_slopes(&l, out, found);
     l.turn = symbol->lo == QDOT_NIL && symbol->hi == QDOT_NIL &&
-             qdot_is_period(pool, n, l.g, u, turn, facts);
+             qdot_is_period(pool, qdot_list(pool, (uint32_t)n, l.g), u, turn, facts);
     QDOT_TRY(qdot_pool_check(pool));
     return by_zeros(&l, out, found);
 }

@@ -10,9 +10,8 @@ enum { MOST_PLACES = 1024 };
 bool
 qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
 {
-    return qdot_is_period(r->pool, qdot_expr_count(r->pool, equations),
-                          qdot_expr_args(r->pool, equations), u,
-                          qdot_mul(r->pool, qdot_expr_int(r->pool, 2), QDOT_PI), &r->facts);
+    return qdot_is_period(r->pool, equations, u, qdot_mul(r->pool, qdot_expr_int(r->pool, 2), QDOT_PI),
+                          &r->facts);
 }
 
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike. */
@@ -29,11 +28,11 @@ qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period)
             return false;
         gap = qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
                        qdot_expr_arg(s->pool, equation, 1));
-        if (gap == QDOT_NIL || !qdot_is_period(s->pool, 1, &gap, u, period, &facts))
+        if (gap == QDOT_NIL || !qdot_is_period(s->pool, gap, u, period, &facts))
             return false;
     }
     for (size_t k = 0; k < s->constraints.n; k++)
-        if (!qdot_is_period(s->pool, 1, &s->constraints.at[k].f, u, period, &facts))
+        if (!qdot_is_period(s->pool, s->constraints.at[k].f, u, period, &facts))
             return false;
     return true;
 }

@@ -12,19 +12,6 @@ enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16 };
 
 /* --- periods --------------------------------------------------------------------------- */
 
-/* Whether a shift of u by `period` changes none of the LIST of equations. */
-static bool
-is_period(const qdot_simultaneous *s, qdot_expr u, qdot_expr period, qdot_expr equations)
-{
-    for (uint32_t i = 0; i < qdot_expr_count(s->pool, equations); i++) {
-        qdot_expr one = qdot_expr_arg(s->pool, equations, i);
-
-        if (!qdot_is_period(s->pool, 1, &one, u, period, &s->facts))
-            return false;
-    }
-    return true;
-}
-
 /* The rates c at which u occurs in circular functions, sin(c u + d), each once; false: one is not linear in u. */
 static bool
 circular_rates(qdot_simultaneous *s, qdot_expr u, qdot_expr *rate, size_t *n)
@@ -94,9 +81,9 @@ find_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period)
         qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI),
                   least = common_period(s, rate, rates);
 
-        if (is_period(s, u, turn, s->equations))
+        if (qdot_is_period(s->pool, s->equations, u, turn, &s->facts))
             *period = turn;
-        else if (least != QDOT_NIL && is_period(s, u, least, s->equations) &&
+        else if (least != QDOT_NIL && qdot_is_period(s->pool, s->equations, u, least, &s->facts) &&
                  (s->alike == NULL || s->alike(s->user, u, least)))
             *period = least;
     }

@@ -36,8 +36,7 @@ is_free_angle(const qdot_simultaneous *s, qdot_expr u)
     const qdot_symbol *x = qdot_expr_symbol(s->pool, u);
 
     return x->lo == QDOT_NIL && x->hi == QDOT_NIL &&
-           qdot_is_period(s->pool, qdot_expr_count(s->pool, s->equations),
-                          qdot_expr_args(s->pool, s->equations), u,
+           qdot_is_period(s->pool, s->equations, u,
                           qdot_mul(s->pool, qdot_expr_int(s->pool, 2), QDOT_PI), &s->facts);
 }
 

@@ -81,23 +81,24 @@ qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_wind
 }
 
 bool
-qdot_is_period(qdot_pool *pool, size_t n, const qdot_expr *f, qdot_expr x, qdot_expr period,
-               const qdot_facts *facts)
+qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period, const qdot_facts *facts)
 {
+    const bool list = e != QDOT_NIL && qdot_expr_kind(pool, e) == QDOT_LIST;
+    const uint32_t n = e == QDOT_NIL ? 0 : list ? qdot_expr_count(pool, e) : 1;
     qdot_expr shifted = qdot_add(pool, x, period);
 
-    for (size_t i = 0; i < n; i++) {
-        qdot_expr there;
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr f = list ? qdot_expr_arg(pool, e, i) : e, there;
 
-        if (!qdot_expr_contains(pool, f[i], x))
+        if (!qdot_expr_contains(pool, f, x))
             continue;
-        there = qdot_subs(pool, f[i], 1, &x, &shifted);
+        there = qdot_subs(pool, f, 1, &x, &shifted);
         if (there == QDOT_NIL && qdot_pool_check(pool) != QDOT_EDOMAIN)
             (void)qdot_pool_fail(pool);
-        if (there == QDOT_NIL || !qdot_is_zero(pool, qdot_sub(pool, there, f[i]), facts))
+        if (there == QDOT_NIL || !qdot_is_zero(pool, qdot_sub(pool, there, f), facts))
             return false;
     }
-    return true;
+    return e != QDOT_NIL;
 }
 
 qdot_expr

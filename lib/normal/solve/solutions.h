@@ -40,8 +40,8 @@ typedef struct {
  * turn of its domain, -pi < x <= pi if it has none. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
 
-/* Whether a shift of x by `period` changes none of f [n], by proof. */
-bool qdot_is_period(qdot_pool *pool, size_t n, const qdot_expr *f, qdot_expr x, qdot_expr period,
+/* Whether a shift of x by `period` changes nothing in e, an expression or a LIST, by proof. */
+bool qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period,
                     const qdot_facts *facts);
 
 /* The window and what conditions in x that are linear in it say of its ends, where these are constants. */

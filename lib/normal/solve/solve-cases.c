@@ -82,7 +82,7 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
         qdot_expr at = qdot_subs(s->pool, e, 1, &s->x, &root->value),
                   all = qdot_conditions_all(s->pool, when, root->condition);
 
-        if (root->period != QDOT_NIL && !qdot_is_period(s->pool, 1, &e, s->x, root->period, s->facts)) {
+        if (root->period != QDOT_NIL && !qdot_is_period(s->pool, e, s->x, root->period, s->facts)) {
             status = members_with(s, e, root, all);
         } else if (at == QDOT_NIL) {
             status = qdot_pool_check(s->pool);

@@ -130,7 +130,7 @@ recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
     const qdot_window w = qdot_solve_window(pool, p, false);
 
     return (w.lo == QDOT_NIL || w.hi == QDOT_NIL) &&
-           qdot_is_period(pool, 1, &d, p, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), facts);
+           qdot_is_period(pool, d, p, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), facts);
 }
 
 /* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its

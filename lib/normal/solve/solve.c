@@ -127,7 +127,7 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     status = solve_where(pool, f, x, domain, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
-    angle = angle && status == QDOT_OK && qdot_is_period(pool, 1, &f, x, turn, facts);
+    angle = angle && status == QDOT_OK && qdot_is_period(pool, f, x, turn, facts);
     window = qdot_solve_window(pool, x, angle);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);

@@ -134,7 +134,7 @@ of_all_members(const qdot_solver *s, qdot_expr when, qdot_expr period, qdot_expr
         qdot_expr one = qdot_expr_arg(pool, when, i),
                   gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
 
-        if (qdot_is_period(pool, 1, &gap, s->x, period, s->facts))
+        if (qdot_is_period(pool, gap, s->x, period, s->facts))
             all = qdot_conditions_and(pool, all, one);
         else
             *each = qdot_conditions_and(pool, *each, one);
