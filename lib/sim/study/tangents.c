@@ -222,7 +222,8 @@ qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, doubl
 
     if (x->tape == NULL)
         return QDOT_OK;
-    memcpy(x->in + x->z, parameters, x->p * sizeof *parameters);
+    for (size_t i = 0; i < x->p; i++)
+        x->in[x->z + i] = parameters[i];
     x->in[x->z + x->p] = t;
     for (int step = 0; step < STEPS; step++, before = moved) {
         memcpy(x->in, state, x->z * sizeof *state);
