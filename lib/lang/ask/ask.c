@@ -201,24 +201,14 @@ print_point(qdot_session *session, qdot_expr equations, qdot_text *line)
     return qdot_text_status(line);
 }
 
-/* A LIST of equations: a point; as qdot_solve_system has them. */
-static bool
-is_point(const qdot_pool *pool, qdot_expr e)
-{
-    bool point = qdot_expr_kind(pool, e) == QDOT_LIST && qdot_expr_count(pool, e) > 0;
-
-    for (uint32_t i = 0; point && i < qdot_expr_count(pool, e); i++)
-        point = qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i));
-    return point;
-}
-
+/* Whether e is a LIST of points, each a LIST of equations, as qdot_solve_system has them. */
 static bool
 is_points(const qdot_pool *pool, qdot_expr e)
 {
     bool points = qdot_expr_kind(pool, e) == QDOT_LIST && qdot_expr_count(pool, e) > 0;
 
     for (uint32_t i = 0; points && i < qdot_expr_count(pool, e); i++)
-        points = is_point(pool, qdot_expr_arg(pool, e, i));
+        points = qdot_value_kind_are_equations(pool, qdot_expr_arg(pool, e, i));
     return points;
 }
 
@@ -257,7 +247,7 @@ answer_points(qdot_session *session, const char *name, qdot_expr list)
 qdot_status
 qdot_ask_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
-    if (qdot_measured_occurs(session, value) && is_point(session->pool, value))
+    if (qdot_measured_occurs(session, value) && qdot_value_kind_are_equations(session->pool, value))
         return answer_point(session, name, value);
     if (qdot_measured_occurs(session, value) && is_points(session->pool, value))
         return answer_points(session, name, value);
@@ -343,7 +333,7 @@ print_one(qdot_cursor *c, qdot_text *line)
         return add_texts(session, value, line);
     if (!qdot_measured_occurs(session, value))
         return qdot_formula(session, value, line);
-    if (is_point(session->pool, value))
+    if (qdot_value_kind_are_equations(session->pool, value))
         return print_point(session, value, line);
     digits = qdot_digits_of(session, value);
     for (uint32_t i = 0;; i++) {

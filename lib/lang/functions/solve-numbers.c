@@ -538,19 +538,6 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
 
 /* --- from a guess ------------------------------------------------------------------------------------------ */
 
-/* The set and the ends of the declared domain of x. */
-static qdot_expr
-add_declared(qdot_pool *pool, qdot_expr set, qdot_expr x)
-{
-    const qdot_window w = qdot_solve_window(pool, x, false);
-
-    if (w.lo != QDOT_NIL)
-        set = qdot_conditions_and(pool, set, qdot_rel(pool, w.lo_open ? QDOT_LT : QDOT_LE, w.lo, x));
-    if (w.hi != QDOT_NIL)
-        set = qdot_conditions_and(pool, set, qdot_rel(pool, w.hi_open ? QDOT_LT : QDOT_LE, x, w.hi));
-    return set;
-}
-
 qdot_status
 qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
                 const qdot_expr *unknowns, qdot_expr domain, bool list, qdot_expr *value)
@@ -571,8 +558,12 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
         QDOT_TRY(constant_of(&q, qdot_expr_arg(session->pool, unknowns[j], 1), &e));
         QDOT_TRY(double_of(&q, e, &guess[j]));
     }
-    for (uint32_t j = 0; j < n; j++)
-        domain = add_declared(session->pool, domain, qdot_expr_arg(session->pool, unknowns[j], 0));
+    for (uint32_t j = 0; j < n; j++) {
+        const qdot_window declared = qdot_solve_window(session->pool, q.name[j], false);
+
+        domain = qdot_conditions_all(session->pool, domain,
+                                     qdot_window_relations(session->pool, &declared, q.name[j]));
+    }
     QDOT_TRY(qdot_zeros_near(session->pool, q.n, q.F, q.x, guess, &zeros));
     if (zeros.count > 0) {
         status = keep_defined(&q, domain, &zeros);

@@ -267,6 +267,14 @@ notice_free(const question *q, const qdot_simultaneous_solution *one)
 }
 
 static qdot_status
+notice_turns(const question *q)
+{
+    return qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
+                                               "the declared domains each recurs after "
+                                               "every whole turn");
+}
+
+static qdot_status
 answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value)
 {
     zeros special;
@@ -288,9 +296,7 @@ answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value
         *value = qdot_list_appended(q->pool, *value, 1, &one->values);
     }
     if (status == QDOT_OK && set->recurs && set->found.n > 0)
-        status = qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
-                                                     "the declared domains each recurs after "
-                                                     "every whole turn");
+        status = notice_turns(q);
     return status == QDOT_OK ? qdot_pool_check(q->pool) : status;
 }
 
@@ -320,8 +326,7 @@ static qdot_status
 answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *value, bool *known)
 {
     qdot_pool *pool = q->pool;
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), list = QDOT_NIL,
-              all = qdot_list(pool, (uint32_t)q->n, q->f), domain = q->domain;
+    qdot_expr list = QDOT_NIL, all = qdot_list(pool, (uint32_t)q->n, q->f), domain = q->domain;
     qdot_window window[MOST];
     double *at = NULL;
     size_t count = 0, exact = 0;
@@ -331,8 +336,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
     for (size_t i = 0; i < q->n; i++)
         domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, q->f[i], QDOT_NIL));
     for (size_t j = 0; j < q->n; j++) {
-        window[j] = qdot_solve_window(
-            pool, q->u[j], qdot_is_period(pool, all, q->u[j], turn, &q->facts));
+        window[j] = qdot_solve_window(pool, q->u[j], qdot_is_angle(pool, all, q->u[j], &q->facts));
         recurs = recurs || window[j].recurs;
     }
     QDOT_TRY(qdot_pool_check(pool));
@@ -350,9 +354,7 @@ answer_in_numbers(const question *q, const qdot_simultaneous *set, qdot_expr *va
         status = qdot_answer_notice(q->session, "no formula gives %s: found in numbers, proved to be all",
                                     count == exact + 1 ? "this solution" : "these solutions");
     if (status == QDOT_OK && *known && recurs && count > 0)
-        status = qdot_answer_notice_once(q->session, "these are the solutions of one turn: within "
-                                                     "the declared domains each recurs after "
-                                                     "every whole turn");
+        status = notice_turns(q);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 

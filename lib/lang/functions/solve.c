@@ -99,8 +99,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
 {
     qdot_pool *pool = session->pool;
     qdot_facts facts = qdot_scene_facts(session->scene);
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), factors,
-              rest = QDOT_ONE;
+    qdot_expr factors, rest = QDOT_ONE;
     qdot_solve_zeros zeros = {0};
     qdot_window window;
     qdot_status status;
@@ -113,7 +112,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
     if (rest == QDOT_ONE) /* each factor alone is solved, all of them together are not */
         rest = f;
-    window = qdot_solve_window(pool, x, qdot_is_period(pool, rest, x, turn, &facts));
+    window = qdot_solve_window(pool, x, qdot_is_angle(pool, rest, x, &facts));
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
     domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
@@ -198,17 +197,6 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
 
 /* --- the function ------------------------------------------------------------------------------------ */
 
-static bool
-is_list_of_equations(const qdot_pool *pool, qdot_expr e)
-{
-    uint32_t n = qdot_expr_kind(pool, e) == QDOT_LIST ? qdot_expr_count(pool, e) : 0;
-
-    for (uint32_t i = 0; i < n; i++)
-        if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i)))
-            return false;
-    return n > 0;
-}
-
 qdot_status
 qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
                 qdot_expr *value)
@@ -221,7 +209,7 @@ qdot_solve_call(qdot_session *session, uint32_t n, const qdot_expr *args,
                         "solve takes one equation and one unknown, then a range");
         return qdot_hint("as in solve(cos(x) = x, x, 0..2)");
     }
-    if (n == 2 && is_list_of_equations(pool, args[1]))
+    if (n == 2 && qdot_value_kind_are_equations(pool, args[1]))
         return qdot_solve_system_near(session, args[0], args[1],
                                       domain_as_written(session, QDOT_NIL), value);
     if (n == 2 && qdot_expr_kind(pool, args[1]) == QDOT_LIST)

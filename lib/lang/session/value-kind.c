@@ -41,6 +41,17 @@ qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e)
     return qdot_expr_kind(pool, e) == QDOT_REL && qdot_expr_node(pool, e)->op == QDOT_EQ;
 }
 
+bool
+qdot_value_kind_are_equations(const qdot_pool *pool, qdot_expr e)
+{
+    const uint32_t n = qdot_expr_kind(pool, e) == QDOT_LIST ? qdot_expr_count(pool, e) : 0;
+
+    for (uint32_t i = 0; i < n; i++)
+        if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i)))
+            return false;
+    return n > 0;
+}
+
 qdot_expr
 qdot_value_kind_difference(qdot_pool *pool, qdot_expr e)
 {

@@ -12,6 +12,8 @@ const char *qdot_value_kind_words(const qdot_pool *pool, qdot_expr e);
 QDOT_MUST_CHECK qdot_status qdot_value_kind_give(qdot_pool *pool, qdot_expr made,
                                                  qdot_expr *value);
 bool qdot_value_kind_is_equation(const qdot_pool *pool, qdot_expr e);
+/* Whether e is a LIST of equations, at least one. */
+bool qdot_value_kind_are_equations(const qdot_pool *pool, qdot_expr e);
 /* Left - right of an equation; else e itself. */
 qdot_expr qdot_value_kind_difference(qdot_pool *pool, qdot_expr e);
 /* Fails with the message, whose %s becomes the kind of x, if x is no symbol. */

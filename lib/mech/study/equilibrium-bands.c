@@ -107,8 +107,7 @@ exact_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     }
     /* of an equation with a period one turn alone is listed */
     if (*all && !l->turn && found.root.n > 0 && (u->lo == QDOT_NIL || u->hi == QDOT_NIL))
-        *all = !qdot_is_period(l->pool, g, l->u,
-                               qdot_mul(l->pool, qdot_expr_int(l->pool, 2), QDOT_PI), l->facts);
+        *all = !qdot_is_angle(l->pool, g, l->u, l->facts);
     qdot_solutions_clear(&found);
     if (!*all)
         l->points = had;

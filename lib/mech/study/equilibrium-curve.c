@@ -118,7 +118,7 @@ fill_equations(qdot_equilibrium_curve *c)
         QDOT_TRY(bound(c, &q, q.lo, &c->lo[i]));
         QDOT_TRY(bound(c, &q, q.hi, &c->hi[i]));
         if (i < c->coordinates && isinf(c->lo[i]) && isinf(c->hi[i]))
-            c->angle[i] = qdot_rest_is_angle(&c->rest, c->unknown[i], c->rest.system.equations);
+            c->angle[i] = qdot_is_angle(c->pool, c->rest.system.equations, c->unknown[i], &c->rest.facts);
     }
     return qdot_pool_check(c->pool);
 }

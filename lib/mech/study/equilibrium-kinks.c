@@ -347,7 +347,8 @@ qdot_rest_tips(qdot_rest *r)
 
 /* --- energies that jump ----------------------------------------------------------------------- */
 
-/* What the step from one value of a function to the next makes of the energy is to vanish where that is made. */
+/* Where u = 0 the value of the function `node` steps from `below` to `above`. *yes: the energy does not, for what the
+ * step changes it by vanishes there. */
 static qdot_status
 steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above, qdot_expr u, bool *yes)
 {

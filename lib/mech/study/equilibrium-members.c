@@ -7,13 +7,6 @@
 
 enum { MOST_PLACES = 1024 };
 
-bool
-qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations)
-{
-    return qdot_is_period(r->pool, equations, u, qdot_mul(r->pool, qdot_expr_int(r->pool, 2), QDOT_PI),
-                          &r->facts);
-}
-
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike. */
 bool
 qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period)

@@ -144,7 +144,7 @@ find_angles(problem *p, const qdot_rest *rest)
 
     for (size_t k = 0; k < p->coordinates; k++)
         p->angle[k] = isinf(p->lo[k]) && isinf(p->hi[k]) &&
-                      qdot_rest_is_angle(rest, p->u[k], equations);
+                      qdot_is_angle(rest->pool, equations, p->u[k], &rest->facts);
     return qdot_pool_check(p->pool);
 }
 

@@ -42,7 +42,7 @@ range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range 
     range->lo_open = q->lo_open;
     range->hi_open = q->hi_open;
     range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&
-                  qdot_rest_is_angle(rest, rest->system.unknowns.at[k], equations);
+                  qdot_is_angle(rest->pool, equations, rest->system.unknowns.at[k], &rest->facts);
     return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
 }
 

@@ -34,9 +34,6 @@ QDOT_MUST_CHECK qdot_status qdot_rest_find(qdot_rest *r, qdot_binder bind, void 
                                            qdot_equilibria *out);
 void qdot_rest_end(qdot_rest *r);
 
-/* Whether a full turn of u changes no equation. (equilibrium-members.c) */
-bool qdot_rest_is_angle(const qdot_rest *r, qdot_expr u, qdot_expr equations);
-
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike.
  * (equilibrium-members.c) */
 bool qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period);
@@ -59,7 +56,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 /* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
-/* r->unresolved where forces have no value at the tip of a cone. (equilibrium-kinks.c) */
+/* Sets r->unresolved where there is the tip of a cone, sqrt(x^2 + y^2), at which forces have no value.
+ * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);
 /* A force whose jumps by velocities, if(x' > 0, ...), x'/|x'|, are written as signs. (equilibrium-kinks.c) */
 qdot_expr qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force);

@@ -31,7 +31,7 @@ qdot_rest_symmetric(qdot_rest *r)
     if (n == 0 || n > MOST_COORDINATES || n < r->system.unknowns.n)
         return QDOT_OK;
     for (size_t i = 0; i < n; i++)
-        if (qdot_rest_is_angle(r, r->system.unknowns.at[i], r->system.equations))
+        if (qdot_is_angle(pool, r->system.equations, r->system.unknowns.at[i], &r->facts))
             angles |= 1u << i;
     for (unsigned half = 0; half < 1u << n; half++) {
         qdot_simultaneous_branch b = {.equations = none};

@@ -133,14 +133,13 @@ unfold(qdot_pool *pool, qdot_expr relation)
     return relation;
 }
 
-/* Whether gap is one of parameters whose special values do not count. */
-static bool
-is_taken_generic(const qdot_pool *pool, qdot_expr gap, const qdot_facts *facts)
+bool
+qdot_is_taken_generic(const qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    return (facts == NULL || !facts->exact) && qdot_is_generic(pool, gap);
+    return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e);
 }
 
-/* u of a gap |u|, else nil. */
+/* u, where the gap is |u|: 0 < |u| says that u is not 0. Else nil. */
 static qdot_expr
 magnitude_of(const qdot_pool *pool, qdot_expr gap)
 {
@@ -173,7 +172,7 @@ static qdot_expr
 condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
     qdot_expr u = magnitude_of(pool, gap), shortest;
-    bool generic = is_taken_generic(pool, gap, facts);
+    bool generic = qdot_is_taken_generic(pool, gap, facts);
 
     if (strict && u != QDOT_NIL && !generic)
         return qdot_is_generic(pool, u) ? qdot_nonzero(pool, argument_at_zero(pool, u), facts)
@@ -210,7 +209,7 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
         if (qdot_is_zero(pool, gap, facts))
             return strict ? QDOT_FALSE : QDOT_TRUE;
     }
-    if (is_proved(pool, QDOT_ZERO, gap, strict && !is_taken_generic(pool, gap, facts), facts))
+    if (is_proved(pool, QDOT_ZERO, gap, strict && !qdot_is_taken_generic(pool, gap, facts), facts))
         return QDOT_TRUE;
     if (is_proved(pool, gap, QDOT_ZERO, !strict, facts) || qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
@@ -282,7 +281,7 @@ qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdo
     if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
         return false;
     *set = qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
-                   !is_taken_generic(pool, a, facts)
+                   !qdot_is_taken_generic(pool, a, facts)
                ? conditions_add_nonzero(pool, QDOT_NIL, qdot_positive_of(pool, a))
                : QDOT_NIL;
     return true;

@@ -36,8 +36,7 @@ is_free_angle(const qdot_simultaneous *s, qdot_expr u)
     const qdot_symbol *x = qdot_expr_symbol(s->pool, u);
 
     return x->lo == QDOT_NIL && x->hi == QDOT_NIL &&
-           qdot_is_period(s->pool, s->equations, u,
-                          qdot_mul(s->pool, qdot_expr_int(s->pool, 2), QDOT_PI), &s->facts);
+           qdot_is_angle(s->pool, s->equations, u, &s->facts);
 }
 
 /* Whether the conditions are proved to hold at the solution `one`, where that exists. */
@@ -198,19 +197,21 @@ alias_symbol(qdot_pool *pool, qdot_expr u)
 }
 
 static qdot_expr
+renamed(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *from, const qdot_expr *to)
+{
+    return e == QDOT_NIL || e == QDOT_FALSE ? e : qdot_subs(pool, e, n, from, to);
+}
+
+static qdot_expr
 named(const alias *a, qdot_expr e)
 {
-    return e == QDOT_NIL || e == QDOT_FALSE
-               ? e
-               : qdot_subs(a->pool, e, a->n, a->symbol, a->name);
+    return renamed(a->pool, e, a->n, a->symbol, a->name);
 }
 
 static qdot_expr
 aliased(const alias *a, qdot_expr e)
 {
-    return e == QDOT_NIL || e == QDOT_FALSE
-               ? e
-               : qdot_subs(a->pool, e, a->n, a->name, a->symbol);
+    return renamed(a->pool, e, a->n, a->name, a->symbol);
 }
 
 /* The facts of the aliases, in room [relations + conditions]. */

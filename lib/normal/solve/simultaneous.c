@@ -104,8 +104,6 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
                              .known = qdot_subs(pool, b->known, 1, &u, &value),
                              .conditions = qdot_conditions_all(pool, b->conditions, conditions),
                              .whole = b->whole};
-    uint32_t n = qdot_expr_count(pool, b->known);
-    qdot_expr *known;
 
     if (qdot_solve_integers(pool, value) > 0) { /* counts members of a family */
         next.equations = qdot_solve_without_turns(pool, next.equations);
@@ -125,14 +123,7 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
     if (next.conditions == QDOT_FALSE)
         return QDOT_OK;
     /* unknowns stand on the left of `known`, so they stay */
-    known = qdot_malloc((n + 1) * sizeof *known);
-    if (known == NULL)
-        return QDOT_ENOMEM;
-    for (uint32_t i = 0; i < n; i++)
-        known[i] = qdot_expr_arg(pool, next.known, i);
-    known[n] = equation;
-    next.known = qdot_list(pool, n + 1, known);
-    qdot_free(known);
+    next.known = qdot_list_appended(pool, next.known, 1, &equation);
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&s->todo, next);
 }

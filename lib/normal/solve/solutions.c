@@ -101,6 +101,12 @@ qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period, cons
     return e != QDOT_NIL;
 }
 
+bool
+qdot_is_angle(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts)
+{
+    return qdot_is_period(pool, e, x, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), facts);
+}
+
 qdot_expr
 qdot_solve_integer(qdot_pool *pool, unsigned k)
 {
@@ -176,12 +182,10 @@ typedef struct {
 
 /* --- one value ------------------------------------------------------------------------- */
 
-/* The conditions and that `value` lies in the window. */
-static qdot_expr
-conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
-       const qdot_facts *facts)
+qdot_expr
+qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value)
 {
-    qdot_expr room[QDOT_CONDITIONS_MOST], relations = QDOT_NIL;
+    qdot_expr relations = QDOT_NIL;
 
     if (w->lo != QDOT_NIL)
         relations = qdot_conditions_and(
@@ -189,6 +193,16 @@ conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_wi
     if (w->hi != QDOT_NIL)
         relations = qdot_conditions_and(
             pool, relations, qdot_rel(pool, w->hi_open ? QDOT_LT : QDOT_LE, value, w->hi));
+    return relations;
+}
+
+/* The conditions and that `value` lies in the window. */
+static qdot_expr
+conditions_inside(qdot_pool *pool, qdot_expr set, qdot_expr value, const qdot_window *w,
+       const qdot_facts *facts)
+{
+    qdot_expr room[QDOT_CONDITIONS_MOST], relations = qdot_window_relations(pool, w, value);
+
     if (relations == QDOT_NIL || relations == QDOT_FALSE || set == QDOT_FALSE)
         return relations == QDOT_FALSE ? QDOT_FALSE : set;
     /* the value's own conditions decide more: decided together, contradictions found */

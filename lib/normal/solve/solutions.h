@@ -40,9 +40,14 @@ typedef struct {
  * turn of its domain, -pi < x <= pi if it has none. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
 
+/* That a value lies in the window: a set of conditions; nil: the window has no end. */
+qdot_expr qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value);
+
 /* Whether a shift of x by `period` changes nothing in e, an expression or a LIST, by proof. */
 bool qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period,
                     const qdot_facts *facts);
+/* Whether a full turn of x changes nothing in it. */
+bool qdot_is_angle(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
 
 /* The window and what conditions in x that are linear in it say of its ends, where these are constants. */
 qdot_window qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions,

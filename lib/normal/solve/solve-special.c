@@ -130,7 +130,7 @@ recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
     const qdot_window w = qdot_solve_window(pool, p, false);
 
     return (w.lo == QDOT_NIL || w.hi == QDOT_NIL) &&
-           qdot_is_period(pool, d, p, qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI), facts);
+           qdot_is_angle(pool, d, p, facts);
 }
 
 /* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its
@@ -246,50 +246,56 @@ equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
     return QDOT_NIL;
 }
 
-/* A root that exists only where two sides are equal is left out if it is another root there, -sqrt(a) for a <= 0. */
+/* Whether a root that exists only where two sides are equal, -sqrt(a) for a <= 0, is one of `found` there. */
+static qdot_status
+is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_solutions *found, const qdot_root *root,
+            bool *yes)
+{
+    qdot_expr equal = equality_in(pool, root->condition, facts), gap;
+    qdot_specials out = {0};
+    special_search s = {.pool = pool, .x = x, .facts = facts, .found = found, .where = QDOT_NIL, .out = &out};
+    qdot_status status = qdot_pool_check(pool);
+
+    *yes = equal != QDOT_NIL;
+    if (*yes && status == QDOT_OK) {
+        gap = qdot_positive_of(pool, equal);
+        status = zeros_of_all(&s, 1, &gap, QDOT_NIL);
+    }
+    for (size_t k = 0; k < s.at.n && *yes && status == QDOT_OK; k++) {
+        qdot_expr from[MOST_TOGETHER], to[MOST_TOGETHER];
+        size_t n = sides_of(pool, s.at.at[k], from, to);
+        qdot_root there = *root;
+
+        there.value = qdot_subs(pool, root->value, n, from, to);
+        there.condition = qdot_conditions_at(pool, root->condition, n, from, to, facts);
+        status = qdot_pool_check(pool);
+        *yes = there.condition == QDOT_FALSE || is_among(&s, found, n, from, to, &there);
+    }
+    *yes = *yes && out.open.n == 0;
+    qdot_free(s.at.at);
+    qdot_specials_clear(&out);
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+/* Leave out roots that are other ones wherever they exist. */
 static qdot_status
 leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_solutions *found)
 {
     for (size_t i = 0; found->root.n > 1 && i < found->root.n;) {
-        qdot_root root = found->root.at[i];
-        qdot_expr equal = equality_in(pool, root.condition, facts), gap;
-        qdot_solutions others = *found;
-        qdot_specials out = {0};
-        special_search s = {.pool = pool, .x = x, .facts = facts, .found = &others,
-                            .where = QDOT_NIL, .out = &out};
-        bool twice = equal != QDOT_NIL;
-        qdot_status status = qdot_pool_check(pool);
+        const qdot_root root = found->root.at[i];
+        const size_t behind = found->root.n - i - 1;
+        bool point;
+        qdot_status status;
 
-        found->root.at[i] = found->root.at[others.root.n - 1];
-        others.root.n--;
-        if (twice && status == QDOT_OK) {
-            gap = qdot_positive_of(pool, equal);
-            status = zeros_of_all(&s, 1, &gap, QDOT_NIL);
-        }
-        for (size_t k = 0; k < s.at.n && twice && status == QDOT_OK; k++) {
-            qdot_expr from[MOST_TOGETHER], to[MOST_TOGETHER];
-            size_t n = sides_of(pool, s.at.at[k], from, to);
-            qdot_root there = root;
-
-            there.value = qdot_subs(pool, root.value, n, from, to);
-            there.condition = qdot_conditions_at(pool, root.condition, n, from, to, facts);
-            status = qdot_pool_check(pool);
-            twice = there.condition == QDOT_FALSE || is_among(&s, &others, n, from, to, &there);
-        }
-        twice = twice && out.open.n == 0;
-        found->root.at[others.root.n] = found->root.at[i];
-        found->root.at[i] = root;
-        if (twice) {
-            memmove(found->root.at + i, found->root.at + i + 1,
-                    (found->root.n - i - 1) * sizeof *found->root.at);
-            found->root.n--;
-        } else {
-            i++;
-        }
-        qdot_free(s.at.at);
-        qdot_specials_clear(&out);
-        if (status != QDOT_EDOMAIN)
-            QDOT_TRY(status);
+        memmove(found->root.at + i, found->root.at + i + 1, behind * sizeof root);
+        found->root.n--;
+        status = is_point_of(pool, x, facts, found, &root, &point);
+        if (status == QDOT_OK && point)
+            continue;
+        memmove(found->root.at + i + 1, found->root.at + i, behind * sizeof root);
+        found->root.at[i++] = root;
+        found->root.n++;
+        QDOT_TRY(status);
     }
     return QDOT_OK;
 }

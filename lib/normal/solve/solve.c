@@ -115,7 +115,6 @@ qdot_status
 qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
                   const qdot_facts *facts, qdot_solutions *out)
 {
-    qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
     qdot_solutions all;
     qdot_window window;
     bool angle = false;
@@ -127,7 +126,7 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     status = solve_where(pool, f, x, domain, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
-    angle = angle && status == QDOT_OK && qdot_is_period(pool, f, x, turn, facts);
+    angle = angle && status == QDOT_OK && qdot_is_angle(pool, f, x, facts);
     window = qdot_solve_window(pool, x, angle);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);

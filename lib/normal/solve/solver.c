@@ -23,8 +23,8 @@ qdot_solver_tidy(const qdot_solver *s, qdot_expr e)
 qdot_expr
 qdot_solver_positive(const qdot_solver *s, qdot_expr gap)
 {
-    bool strict = gap != QDOT_NIL && (s->facts == NULL || !s->facts->exact) &&
-                  qdot_is_generic(s->pool, gap) && !qdot_is_constant(s->pool, gap);
+    bool strict = gap != QDOT_NIL && qdot_is_taken_generic(s->pool, gap, s->facts) &&
+                  !qdot_is_constant(s->pool, gap);
 
     return gap == QDOT_NIL ? QDOT_NIL : qdot_condition(s->pool, gap, strict, s->facts);
 }
