@@ -514,6 +514,18 @@ qdot_answer_notice(qdot_session *session, const char *format, ...)
 }
 
 qdot_status
+qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_print(session->pool, e, QDOT_PLAIN, &text);
+
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, format, qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
 qdot_answer_notice_once(qdot_session *session, const char *format, ...)
 {
     char message[NOTICE], *copy;

@@ -62,7 +62,9 @@ QDOT_MUST_CHECK qdot_status qdot_answer_in_file(qdot_session *session, const cha
 /* {"kind":"notice"}: `notice: MESSAGE` (printf). */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char *format,
                                                ...) QDOT_PRINTF(2, 3);
-/* The same, unless this session has already given this notice. */
+/* The same with %s for e, printed plain. */
+QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
+/* A notice, unless this session has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,
                                                     const char *format, ...)
     QDOT_PRINTF(2, 3);

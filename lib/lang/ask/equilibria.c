@@ -236,21 +236,6 @@ answer_special(qdot_session *session, qdot_expr special)
     return status;
 }
 
-static qdot_status
-answer_jump(qdot_session *session, qdot_expr jump)
-{
-    qdot_text text = {0};
-    qdot_status status;
-
-    qdot_text_add(&text, "the energy jumps with ");
-    status = qdot_print(session->pool, jump, QDOT_PLAIN, &text);
-    qdot_text_add(&text, ": rests where it does are not looked for");
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
-}
-
 /* Tell that there is no equilibrium, or that the list may be incomplete. */
 static qdot_status
 answer_rest(qdot_session *session, const qdot_equilibria *all)
@@ -266,7 +251,8 @@ answer_rest(qdot_session *session, const qdot_equilibria *all)
         QDOT_TRY(qdot_answer_notice(session, "where the domain of `%.100s` ends these coordinates are singular: rests "
                                              "there are not looked for", all->pole));
     if (all->jump != QDOT_NIL)
-        QDOT_TRY(answer_jump(session, all->jump));
+        QDOT_TRY(qdot_answer_notice_of(
+            session, "the energy jumps with %s: rests where it does are not looked for", all->jump));
     if (all->complete && all->n > 0)
         return QDOT_OK;
     if (all->complete) {

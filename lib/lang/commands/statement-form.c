@@ -32,7 +32,6 @@ qdot_statement_is_free_argument(const qdot_session *session, const char *name)
 
     if (builtin != NULL && !(builtin->flags & QDOT_BUILTIN_SHORT))
         return false;
-
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
         if (strcmp(name, reserved[i]) == 0)
             return false;

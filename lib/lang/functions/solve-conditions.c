@@ -120,26 +120,13 @@ notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
     return status;
 }
 
-/* `where a = 0 the solutions may be others` */
-static qdot_status
-notice_open(qdot_session *session, qdot_expr equation)
-{
-    qdot_text text = {0};
-    qdot_status status = qdot_print(session->pool, equation, QDOT_PLAIN, &text);
-
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "where %s the solutions may be others",
-                                    qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
-}
-
 qdot_status
 qdot_solve_notice_specials(qdot_session *session, qdot_expr x, const qdot_specials *specials)
 {
     for (size_t i = 0; i < specials->at.n; i++)
         QDOT_TRY(notice_special(session, x, &specials->at.at[i]));
     for (size_t i = 0; i < specials->open.n; i++)
-        QDOT_TRY(notice_open(session, specials->open.at[i]));
+        QDOT_TRY(qdot_answer_notice_of(session, "where %s the solutions may be others",
+                                       specials->open.at[i]));
     return QDOT_OK;
 }

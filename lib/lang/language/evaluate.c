@@ -149,6 +149,19 @@ check_run(const qdot_machine *m, const char *name)
     return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
 }
 
+/* The top value is one along a run. */
+static qdot_status
+put_along(qdot_machine *m, const char *run)
+{
+    qdot_slot *top = qdot_machine_top(m, 1);
+
+    QDOT_TRY(check_run(m, run));
+    if (top->run != NULL)
+        return qdot_machine_along_two(top->run, run);
+    top->run = run;
+    return QDOT_OK;
+}
+
 /* The run along which the top n values are read: theirs, or `a` of a.value(x, 2), a.max(x, 0..1). */
 static qdot_status
 run_to_read(qdot_machine *m, const qdot_postfix *code, size_t n, const char **run)
@@ -205,10 +218,7 @@ extremum_along(qdot_machine *m, const qdot_postfix *code)
 
     if (around == NULL)
         return QDOT_OK;
-    QDOT_TRY(check_run(m, around));
-    if (qdot_machine_top(m, 1)->run != NULL)
-        return qdot_machine_along_two(qdot_machine_top(m, 1)->run, around);
-    qdot_machine_top(m, 1)->run = around;
+    QDOT_TRY(put_along(m, around));
     m->belongs = true;
     return QDOT_OK;
 }
@@ -359,11 +369,7 @@ member(qdot_machine *m, const char *run)
         m->belongs = false;
         return QDOT_OK;
     }
-    QDOT_TRY(check_run(m, run));
-    if (qdot_machine_top(m, 1)->run != NULL)
-        return qdot_machine_along_two(qdot_machine_top(m, 1)->run, run);
-    qdot_machine_top(m, 1)->run = run;
-    return QDOT_OK;
+    return put_along(m, run);
 }
 
 /* --- the loop ----------------------------------------------------------------------- */

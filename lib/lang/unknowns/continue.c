@@ -155,20 +155,14 @@ qdot_continue_conclude(qdot_session *session, const qdot_continue_wish *w, const
 static qdot_status
 tell_corners(qdot_session *session, qdot_equilibrium_curve *curve)
 {
-    qdot_text text = {0};
     qdot_expr u;
-    qdot_status status;
 
     QDOT_TRY(qdot_rest_corner(&curve->rest, &u));
-    if (u == QDOT_NIL)
-        return QDOT_OK;
-    qdot_text_add(&text, "forces jump where ");
-    status = qdot_print(session->pool, u, QDOT_PLAIN, &text);
-    qdot_text_add(&text, " = 0: rests that stay there are not followed; `equilibria` lists them");
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return u == QDOT_NIL ? QDOT_OK
+                         : qdot_answer_notice_of(session,
+                                                 "forces jump where %s = 0: rests that stay there are not "
+                                                 "followed; `equilibria` lists them",
+                                                 u);
 }
 
 static qdot_status
