@@ -378,7 +378,7 @@ qdot_tape_two_sides(const qdot_tape_two *t)
 
         if (side == 0)
             return 0;
-        sides = (sides ^ (uint64_t)side) * 0x100000001b3u;
+        sides = (sides ^ (uint64_t)side) * 0x100000001b3u; /* as the hash of Fowler, Noll and Vo */
     }
     return sides | 1;
 }

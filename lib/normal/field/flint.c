@@ -231,7 +231,8 @@ typedef struct {
     qdot_error error; /* the last failure: of who asks, then of who answers */
 } worker;
 
-/* The one of this thread, and what ends it with this thread, which may have computed with FLINT itself. */
+/* This thread's worker. When the thread ends, the destructor of the key ends the worker and frees what FLINT has cached
+ * for the thread itself. */
 static _Thread_local worker *mine;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static pthread_key_t key;

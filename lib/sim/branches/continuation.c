@@ -197,7 +197,7 @@ follow_from(qdot_branch_search *s, const double *y)
 
 /* --- crossings ----------------------------------------------------------------------------- */
 
-/* Whether a fold lies between them: it is not to be leapt over. */
+/* Whether p turns back between the crossing `start` and a, which leaps over a fold then. */
 static bool
 turns_between(const qdot_path *x, const qdot_path_point *start, const qdot_path_point *a)
 {
