@@ -326,6 +326,18 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     return positive_on_box(pool, s);
 }
 
+/* Whether 0 < d may follow from 0 < |u|, of gap |u|: d holds |u|, or is a multiple of u. */
+static bool
+is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *facts)
+{
+    qdot_expr ratio;
+
+    if (qdot_expr_contains(pool, d, gap))
+        return true;
+    ratio = qdot_shortest(pool, qdot_div(pool, d, qdot_expr_arg(pool, gap, 0)), facts);
+    return ratio == QDOT_NIL || qdot_expr_rational(pool, ratio) != NULL;
+}
+
 /* From a condition u < v: d is a positive multiple of v - u, or not less than it. */
 static bool
 proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
@@ -339,6 +351,9 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
         sharp = qdot_expr_node(pool, c)->op == QDOT_LT;
         gap = qdot_sub(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0));
         if (strict && !sharp)
+            continue;
+        if (qdot_expr_kind(pool, gap) == QDOT_FUN && qdot_expr_node(pool, gap)->op == QDOT_ABS &&
+            !is_of_nonzero(pool, d, gap, facts))
             continue;
         rest = qdot_sub(pool, d, gap);
         if (qdot_is_zero(pool, rest, facts) || proved(pool, rest, false, facts))
@@ -438,12 +453,32 @@ refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return QDOT_OK;
 }
 
+/* Whether gap is |u| and u is seen on both sides of 0, without conditions: in a box of declared domains u is then 0
+ * somewhere too, or jumps, and 0 < |u| is not tried any further. */
+static qdot_status
+has_both_signs(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts, bool *yes)
+{
+    qdot_decision above = {.verdict = QDOT_UNDECIDED}, below = {.verdict = QDOT_UNDECIDED};
+    qdot_expr u;
+
+    *yes = false;
+    if (qdot_expr_kind(pool, gap) != QDOT_FUN || qdot_expr_node(pool, gap)->op != QDOT_ABS ||
+        (facts != NULL && facts->n_conditions > 0))
+        return QDOT_OK;
+    u = qdot_expr_arg(pool, gap, 0);
+    QDOT_TRY(refute(pool, QDOT_ZERO, u, false, facts, &above));
+    if (above.verdict == QDOT_REFUTED)
+        QDOT_TRY(refute(pool, u, QDOT_ZERO, false, facts, &below));
+    *yes = below.verdict == QDOT_REFUTED;
+    return QDOT_OK;
+}
+
 static qdot_status
 decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
        const qdot_facts *facts, qdot_decision *d)
 {
     qdot_expr gap, at;
-    bool holds;
+    bool holds, given_up = false;
 
     *d = (qdot_decision){.verdict = QDOT_UNDECIDED};
     if (left == QDOT_NIL || right == QDOT_NIL)
@@ -461,7 +496,9 @@ decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     /* a division by zero on the way proves nothing */
     QDOT_TRY(qdot_grave(qdot_pool_check(pool)));
     QDOT_TRY(refute(pool, left, right, strict, facts, d));
-    if (d->verdict != QDOT_UNDECIDED)
+    if (d->verdict == QDOT_UNDECIDED && gap != QDOT_NIL && strict)
+        QDOT_TRY(has_both_signs(pool, gap, facts, &given_up));
+    if (d->verdict != QDOT_UNDECIDED || given_up)
         return QDOT_OK;
     QDOT_TRY(
         qdot_inequality(pool, qdot_sub(pool, right, left), strict, facts, &holds, &at));
