@@ -1687,11 +1687,13 @@ script_tests = \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
+	tests/script/solve-bounded-families.lag \
 	tests/script/solve-domains.lag \
 	tests/script/solve-joined-exponentials.lag \
 	tests/script/solve-line.lag \
 	tests/script/solve-numbers.lag \
 	tests/script/solve-parameters.lag \
+	tests/script/solve-ranges.lag \
 	tests/script/solve-special.lag \
 	tests/script/solve-system-sets.lag \
 	tests/script/solve-system.lag \
@@ -2872,11 +2874,13 @@ test_files = \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solution-sets.out \
+	tests/script/solve-bounded-families.out \
 	tests/script/solve-domains.out \
 	tests/script/solve-joined-exponentials.out \
 	tests/script/solve-line.out \
 	tests/script/solve-numbers.out \
 	tests/script/solve-parameters.out \
+	tests/script/solve-ranges.out \
 	tests/script/solve-special.out \
 	tests/script/solve-system-sets.out \
 	tests/script/solve-system.out \

@@ -1,6 +1,7 @@
 /* Solving: against roots known beforehand, by putting them back, and in numbers. */
 #include <setjmp.h>
 #include <math.h>
+#include <string.h>
 
 #include "kit.h"
 
@@ -464,6 +465,78 @@ denominators_do_not_matter(void **state)
     qdot_free(basis);
 }
 
+/* f, the ends of the window, whether it is open below; the roots with their conditions behind "|", "?": not all. */
+static const struct {
+    const char *f, *lo, *hi;
+    bool open;
+    const char *roots;
+} ranges[] = {
+    {"max(x, 0)", "-1", "1", false, "x |[x >= -1, x <= 0]"},
+    {"max(x, 0)", "0", "1", false, "0"},
+    {"max(x, 0)", "0", "1", true, ""},
+    {"max(x, 0)", "1", "2", false, ""},
+    {"abs(x) + abs(x - 1) - 1", "0", "2", true, "x |[x > 0, x <= 1]"},
+    {"floor(x) - 1", "0", "3", false, "x |[x >= 1, x < 2]"},
+    {"max(x, 0)*(x - 3)", "-1", "4", false, "3; x |[x >= -1, x <= 0]"},
+    {"max(sin(x), 0)", "-4", "4", false, "x |[sin(x) <= 0, x >= -4, x <= 4]"},
+    {"max(x, 0)*(exp(x) - 3*x)", "-1", "4", false, "x |[x >= -1, x <= 0]?"},
+    {"abs(x) - 1", "-3", "3", false, "?"},
+    {"x^2 - 1", "-3", "3", false, "?"},
+};
+
+/* Ranges of x that solve an equation have the ends that they must have, and points in them are not listed. */
+static void
+ranges_of_roots_have_exact_ends(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        qdot_expr f = text_read(pool, ranges[i].f), x = text_read(pool, "x");
+        const qdot_window window = {.lo = text_read(pool, ranges[i].lo),
+                                    .hi = text_read(pool, ranges[i].hi),
+                                    .lo_open = ranges[i].open};
+        qdot_solutions found;
+        qdot_text all = {0};
+
+        assert_int_equal(qdot_solve_ranges(pool, f, x, QDOT_NIL, &window, &found), QDOT_OK);
+        for (size_t k = 0; k < found.root.n; k++) {
+            qdot_text_add(&all, k > 0 ? "; " : "");
+            qdot_text_add(&all, shown(found.root.at[k].value));
+            if (found.root.at[k].condition != QDOT_NIL) {
+                qdot_text_add(&all, " |");
+                qdot_text_add(&all, shown(found.root.at[k].condition));
+            }
+        }
+        qdot_text_add(&all, found.complete ? "" : "?");
+        if (strcmp(qdot_text_str(&all), ranges[i].roots) != 0)
+            fail_msg("%s: %s, expected %s", ranges[i].f, qdot_text_str(&all), ranges[i].roots);
+        qdot_text_clear(&all);
+        qdot_solutions_clear(&found);
+    }
+}
+
+/* Of a family whose value lies between bounds for all parameters only members that can lie inside are listed. */
+static void
+families_are_bounded_by_intervals(void **state)
+{
+    const qdot_window window = {.lo = QDOT_ZERO, .hi = text_read(pool, "8")};
+    const qdot_root family = {text_read(pool, "acos(c)"), QDOT_NIL, text_read(pool, "2*pi"), QDOT_NIL},
+                    free = {text_read(pool, "c"), QDOT_NIL, text_read(pool, "2*pi"), QDOT_NIL};
+    qdot_solutions found = {.complete = true};
+    qdot_expr x = text_read(pool, "x");
+
+    (void)state;
+    assert_int_equal(qdot_solve_members(pool, x, &family, &window, NULL, &found), QDOT_OK);
+    assert_int_equal(found.root.n, 2); /* acos c, and acos c + 2 pi where it is below 8 */
+    assert_true(found.complete);
+    assert_ptr_equal((void *)(uintptr_t)found.root.at[0].condition, (void *)(uintptr_t)QDOT_NIL);
+    assert_true(found.root.at[1].condition != QDOT_NIL);
+    qdot_solutions_clear(&found);
+    found.complete = true;
+    assert_int_equal(qdot_solve_members(pool, x, &free, &window, NULL, &found), QDOT_OK);
+    assert_false(found.complete); /* c has no bounds */
+    qdot_solutions_clear(&found);
+}
+
 int
 main(void)
 {
@@ -478,6 +551,8 @@ main(void)
         cmocka_unit_test_setup_teardown(roots_are_real_or_say_when, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(divisors_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(whole_turns_are_left_out, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(ranges_of_roots_have_exact_ends, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(families_are_bounded_by_intervals, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_lie_where_all_is_defined, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(special_parameters_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(unsolved_factors_are_listed, open_pool, close_pool),

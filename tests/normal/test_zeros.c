@@ -428,10 +428,35 @@ bounds_hold(void **state)
     }
 }
 
+/* Ranges of zeros that are known are not searched: the others are found, where else the search would be ended. */
+static void
+known_ranges_are_not_searched(void **state)
+{
+    qdot_expr x = text_read(pool, "x"), F = text_read(pool, "max(x, 0)*(cos(x) - x)"),
+              inside = qdot_rel(pool, QDOT_LE, x, QDOT_ZERO);
+    qdot_zeros_range range = {.lo = text_read(pool, "-2"), .hi = text_read(pool, "5")};
+    qdot_expr set = qdot_list(pool, 1, &inside);
+    qdot_zeros z;
+
+    (void)state;
+    assert_int_equal(qdot_zeros_find(pool, 1, &F, &x, &range, 0, &z), QDOT_OK);
+    assert_true(z.exhausted);
+    qdot_zeros_clear(&z);
+    range.held = qdot_list(pool, 1, &set);
+    assert_int_equal(qdot_zeros_find(pool, 1, &F, &x, &range, 0, &z), QDOT_OK);
+    assert_false(z.exhausted);
+    assert_int_equal(z.count, 1);
+    assert_true(fabs(z.at[0] - 0.7390851332151607) < 1e-15);
+    assert_int_equal(z.doubts, 1); /* the end of the range */
+    assert_true(fabs(z.doubt[0]) < 1e-12 && z.reach[0] < 1e-12);
+    qdot_zeros_clear(&z);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(known_ranges_are_not_searched, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(all_zeros_are_found_and_proved, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(growth_excludes_only_what_has_no_zeros, open_pool,

@@ -10,12 +10,14 @@
 #include "expr/walk.h"
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
+#include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "lang/session/measured.h"
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
 #include "normal/refute/enclosure.h"
+#include "normal/solve/solve.h"
 #include "normal/solve/zeros.h"
 #include "num/lu.h"
 #include "tape/constant.h"
@@ -370,18 +372,114 @@ find_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range,
     return status;
 }
 
+/* An exact solution as a number with its error. */
+static qdot_status
+number_of_root(const question *q, qdot_expr root, qdot_expr *number)
+{
+    double at, radius;
+    bool simple = true;
+    qdot_zeros one = {.n = 1, .at = &at, .radius = &radius, .simple = &simple, .count = 1};
+
+    QDOT_TRY(qdot_session_number(q->session, root, &at, &radius));
+    return numbers_of(q, &one, 0, number);
+}
+
+/* A range of x under conditions in the unknown's symbol, as relations in its name. */
+static qdot_status
+value_of_range(const question *q, const qdot_root *range, qdot_expr *value)
+{
+    qdot_root named = *range;
+
+    named.value = q->name[0];
+    if (named.condition != QDOT_NIL)
+        named.condition = qdot_subs(q->session->pool, named.condition, 1, q->x, q->name);
+    QDOT_TRY(qdot_pool_check(q->session->pool));
+    return qdot_solve_root_value(q->session, q->name[0], &named, value);
+}
+
+/* The conditions of the domain in the unknown's symbol, with values put in. */
+static qdot_expr
+bound_domain(const question *q, qdot_expr domain)
+{
+    qdot_pool *pool = q->session->pool;
+
+    if (domain == QDOT_NIL || domain == QDOT_FALSE)
+        return domain;
+    domain = qdot_session_bind(q->session, qdot_subs(pool, domain, q->n, q->name, q->x));
+    return domain == QDOT_NIL ? QDOT_NIL : qdot_measured_as_rationals(q->session, domain);
+}
+
+/* Where whole ranges of x are solutions: these, to the list. *rest: other zeros must be searched, outside the ranges
+ * in range->held; else the others are in the list too. */
+static qdot_status
+add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_expr *list, bool *rest)
+{
+    qdot_pool *pool = q->session->pool;
+    const qdot_window window = {
+        .lo = range->lo, .hi = range->hi, .lo_open = range->lo_open, .hi_open = range->hi_open};
+    qdot_solutions found = {0};
+    qdot_status status;
+    bool points = true;
+
+    domain = bound_domain(q, domain);
+    QDOT_TRY(qdot_pool_check(pool));
+    status = qdot_solve_ranges(pool, q->F[0], q->x[0], domain, &window, &found);
+    for (size_t i = 0; i < found.root.n; i++) {
+        const qdot_root *root = &found.root.at[i];
+
+        points = points && (root->value == q->x[0] ||
+                            (root->condition == QDOT_NIL && qdot_is_constant(pool, root->value)));
+    }
+    *rest = !points || !found.complete || q->measured;
+    range->held = QDOT_NIL;
+    for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
+        const qdot_root *root = &found.root.at[i];
+        qdot_expr value;
+
+        if (root->value != q->x[0] && *rest)
+            continue;
+        if (root->value == q->x[0] && root->condition != QDOT_NIL)
+            range->held = range->held == QDOT_NIL ? qdot_list(pool, 1, &root->condition)
+                                                  : qdot_list_appended(pool, range->held, 1, &root->condition);
+        status = root->value == q->x[0] ? value_of_range(q, root, &value)
+                                        : number_of_root(q, root->value, &value);
+        if (status == QDOT_OK)
+            *list = qdot_list_appended(pool, *list, 1, &value);
+    }
+    qdot_solutions_clear(&found);
+    return status == QDOT_OK ? qdot_value_kind_check(pool, *list) : status;
+}
+
+/* The zeros in the range, numbers, to the list; with what is not proved in notices. */
+static qdot_status
+add_zeros(question *q, qdot_expr domain, const qdot_zeros_range *range, qdot_expr *list)
+{
+    qdot_zeros zeros = {0};
+    qdot_status status = find_zeros(q, domain, range, &zeros);
+
+    for (size_t k = 0; k < zeros.count && status == QDOT_OK; k++) {
+        qdot_expr number;
+
+        status = numbers_of(q, &zeros, k, &number);
+        if (status == QDOT_OK)
+            *list = qdot_list_appended(q->session->pool, *list, 1, &number);
+    }
+    if (status == QDOT_OK)
+        status = tell_doubts(q, &zeros);
+    qdot_zeros_clear(&zeros);
+    return status;
+}
+
 qdot_status
 qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr domain,
                  const qdot_expr *ends, qdot_expr *value)
 {
     question q = {.session = session};
     const qdot_symbol *symbol;
-    qdot_expr lo, hi, declared[2], *numbers;
+    qdot_expr lo, hi, list = qdot_list(session->pool, 0, NULL);
     qdot_zeros_range range = {0};
-    qdot_zeros zeros = {0};
-    qdot_status status;
+    bool rest;
     double a, b;
-    bool open[2];
 
     QDOT_TRY(add_unknown(&q, x));
     QDOT_TRY(set_equation(&q, 0, equation));
@@ -390,29 +488,14 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
     QDOT_TRY(double_of(&q, lo, &a));
     QDOT_TRY(double_of(&q, hi, &b));
     symbol = qdot_expr_symbol(session->pool, x);
-    declared[0] = symbol->lo;
-    declared[1] = symbol->hi;
-    open[0] = symbol->lo_open;
-    open[1] = symbol->hi_open;
     range.lo = a <= b ? lo : hi;
     range.hi = a <= b ? hi : lo;
-    QDOT_TRY(narrow_end(&q, declared[0], open[0], false, &range.lo, &range.lo_open));
-    QDOT_TRY(narrow_end(&q, declared[1], open[1], true, &range.hi, &range.hi_open));
-    status = find_zeros(&q, domain, &range, &zeros);
-    numbers = qdot_malloc((zeros.count + 1) * sizeof *numbers);
-    if (status == QDOT_OK && numbers == NULL)
-        status = QDOT_ENOMEM;
-    for (size_t k = 0; k < zeros.count && status == QDOT_OK; k++)
-        status = numbers_of(&q, &zeros, k, &numbers[k]);
-    if (status == QDOT_OK)
-        status = qdot_value_kind_give(
-            session->pool, qdot_list(session->pool, (uint32_t)zeros.count, numbers),
-            value);
-    if (status == QDOT_OK)
-        status = tell_doubts(&q, &zeros);
-    qdot_free(numbers);
-    qdot_zeros_clear(&zeros);
-    return status;
+    QDOT_TRY(narrow_end(&q, symbol->lo, symbol->lo_open, false, &range.lo, &range.lo_open));
+    QDOT_TRY(narrow_end(&q, symbol->hi, symbol->hi_open, true, &range.hi, &range.hi_open));
+    QDOT_TRY(add_ranges(&q, domain, &range, &list, &rest));
+    if (rest)
+        QDOT_TRY(add_zeros(&q, domain, &range, &list));
+    return qdot_value_kind_give(session->pool, list, value);
 }
 
 /* --- over the whole domain -------------------------------------------------------------------------------- */

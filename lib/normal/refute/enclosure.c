@@ -531,6 +531,12 @@ qdot_enclosure_size(const qdot_enclosure *s)
     return s->count;
 }
 
+size_t
+qdot_enclosure_count(const qdot_enclosure *s)
+{
+    return s->m;
+}
+
 /* --- translation ---------------------------------------------------------------------------------- */
 
 /* The doubles around a rational. */

@@ -8,6 +8,7 @@
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
+#include "normal/refute/enclosure.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solutions.h"
 
@@ -38,13 +39,14 @@ qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
     return (qdot_window){qdot_neg(pool, QDOT_PI), QDOT_PI, true, false, true, false, 0};
 }
 
-/* Whether the end a is nearer than b (nil: none): above it for a lower end. */
+/* Whether the end a leaves less than b (nil: none): above it for a lower end; or at it, which does not belong to a. */
 static bool
-is_tighter(qdot_pool *pool, qdot_expr a, qdot_expr b, bool lower, const qdot_facts *facts)
+is_tighter(qdot_pool *pool, qdot_expr a, bool open, qdot_expr b, bool b_open, bool lower,
+           const qdot_facts *facts)
 {
     qdot_expr gap = b == QDOT_NIL ? QDOT_NIL : lower ? qdot_sub(pool, a, b) : qdot_sub(pool, b, a);
 
-    return b == QDOT_NIL || qdot_condition(pool, gap, true, facts) == QDOT_TRUE;
+    return b == QDOT_NIL || qdot_condition(pool, gap, !open || b_open, facts) == QDOT_TRUE;
 }
 
 qdot_window
@@ -67,11 +69,11 @@ qdot_solve_tighten(qdot_pool *pool, qdot_expr x, qdot_expr conditions, qdot_wind
         c = qdot_expr_rational(pool, slope);
         if (end == QDOT_NIL || !qdot_is_constant(pool, end))
             continue;
-        if (fmpq_sgn(c) > 0 && is_tighter(pool, end, w.lo, true, facts)) {
+        if (fmpq_sgn(c) > 0 && is_tighter(pool, end, open, w.lo, w.lo_open, true, facts)) {
             w.lo = end;
             w.lo_open = open;
             w.turn = w.recurs = false;
-        } else if (fmpq_sgn(c) < 0 && is_tighter(pool, end, w.hi, false, facts)) {
+        } else if (fmpq_sgn(c) < 0 && is_tighter(pool, end, open, w.hi, w.hi_open, false, facts)) {
             w.hi = end;
             w.hi_open = open;
             w.turn = w.recurs = false;
@@ -274,6 +276,87 @@ members_add_between(const members *m, double first, double last)
     return QDOT_OK;
 }
 
+/* --- families whose values are bounded ---- */
+
+/* Bounds of a constant, or of the declared end of a symbol; the whole line if it has none. */
+static qdot_status
+bounds_of_end(qdot_pool *pool, qdot_expr end, qdot_interval *to)
+{
+    qdot_enclosure *bounds;
+    qdot_status status;
+
+    *to = qdot_interval_whole;
+    if (end == QDOT_NIL)
+        return QDOT_OK;
+    status = qdot_enclosure_new(pool, 1, &end, 0, NULL, &bounds);
+    if (status == QDOT_ETYPE)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    qdot_enclosure_eval(bounds, to, false);
+    if (qdot_enclosure_get(bounds, 0)->state == QDOT_ENCLOSURE_WHOLE)
+        *to = qdot_enclosure_get(bounds, 0)->y;
+    qdot_enclosure_free(bounds);
+    return QDOT_OK;
+}
+
+/* Bounds of e [m] over the declared domains of all symbols in them; the whole line where there are none. */
+static qdot_status
+bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval *to)
+{
+    qdot_expr atoms = qdot_expr_atoms(pool, qdot_list(pool, (uint32_t)m, e), true),
+              x[QDOT_ENCLOSURE_MOST];
+    qdot_interval X[QDOT_ENCLOSURE_MOST];
+    qdot_enclosure *bounds;
+    qdot_status status;
+    size_t n = 0;
+
+    for (size_t i = 0; i < m; i++)
+        to[i] = qdot_interval_whole;
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr a = qdot_expr_arg(pool, atoms, i);
+        qdot_interval lo, hi;
+
+        if (qdot_expr_is_class(pool, a, QDOT_CONST))
+            continue;
+        if (n == QDOT_ENCLOSURE_MOST || qdot_expr_kind(pool, a) != QDOT_SYM)
+            return QDOT_OK;
+        QDOT_TRY(bounds_of_end(pool, qdot_expr_symbol(pool, a)->lo, &lo));
+        QDOT_TRY(bounds_of_end(pool, qdot_expr_symbol(pool, a)->hi, &hi));
+        X[n] = (qdot_interval){lo.lo, hi.hi};
+        x[n++] = a;
+    }
+    status = qdot_enclosure_new(pool, m, e, n, x, &bounds);
+    if (status == QDOT_ETYPE)
+        return QDOT_OK;
+    QDOT_TRY(status);
+    qdot_enclosure_eval(bounds, X, false);
+    for (size_t i = 0; i < m; i++)
+        to[i] = qdot_enclosure_get(bounds, i)->y;
+    qdot_enclosure_free(bounds);
+    return QDOT_OK;
+}
+
+/* Members between two ends that are so many periods away, as intervals bound them; *bounded: these are not too many. */
+static qdot_status
+members_add_bounded(const members *m, bool *bounded)
+{
+    qdot_expr e[2] = {m->window->lo, m->window->hi};
+    qdot_interval to[2];
+
+    for (int i = 0; i < 2; i++)
+        e[i] = qdot_div(m->pool, qdot_sub(m->pool, e[i], m->root->value), m->root->period);
+    QDOT_TRY(qdot_pool_check(m->pool));
+    QDOT_TRY(bounds_over_domains(m->pool, 2, e, to));
+    *bounded = to[1].hi - to[0].lo <= 2 * MOST_PERIODS;
+    for (double k = ceil(to[0].lo); k <= floor(to[1].hi) && *bounded; k++) {
+        bool inside = k > to[0].hi && k < to[1].lo;
+
+        QDOT_TRY(members_add_value(m, members_value(m, (long)k), inside ? &window_whole : m->window));
+    }
+    return QDOT_OK;
+}
+
 /* Members from `first` on in one direction, until one is proved to lie beyond the end. */
 static qdot_status
 members_add_outward(const members *m, long first, long direction)
@@ -345,6 +428,7 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
     const qdot_window w = qdot_solve_tighten(pool, x, root->members, *window, facts);
     const members m = {pool, x, root, &w, facts, out};
     double first, last;
+    bool bounded;
 
     out->recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
     if (root->period == QDOT_NIL)
@@ -360,6 +444,9 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
         return members_add_family(&m);
     if (w.turn)
         return members_add_turn(&m);
+    QDOT_TRY(members_add_bounded(&m, &bounded));
+    if (bounded)
+        return QDOT_OK;
     QDOT_TRY(members_add_outward(&m, 0, 1));
     return members_add_outward(&m, -1, -1);
 }

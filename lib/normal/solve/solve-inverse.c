@@ -125,6 +125,25 @@ in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
     }
 }
 
+/* floor(u) = v: v <= u < v + 1 for an integer v. */
+static qdot_status
+whole_part(qdot_solver *s, qdot_expr u, qdot_expr v, qdot_expr when)
+{
+    qdot_pool *pool = s->pool;
+    const fmpq *number = qdot_expr_rational(pool, v);
+
+    if (number == NULL) {
+        s->out->complete = false;
+        return QDOT_OK;
+    }
+    if (!fmpz_is_one(fmpq_denref(number)))
+        return QDOT_OK;
+    when = qdot_conditions_and(pool, when, qdot_rel(pool, QDOT_LE, v, u));
+    when = qdot_conditions_and(pool, when,
+                               qdot_rel(pool, QDOT_LT, u, qdot_add(pool, v, QDOT_ONE)));
+    return qdot_solver_add(s, s->x, QDOT_NIL, when);
+}
+
 qdot_status
 qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
 {
@@ -140,6 +159,8 @@ qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
 
     if (h == QDOT_SIN || h == QDOT_COS)
         return circular(s, h == QDOT_SIN, u, v, when);
+    if (h == QDOT_FLOOR)
+        return whole_part(s, u, v, when);
     when = in_range_of(s, h, when, v);
     QDOT_TRY(qdot_pool_check(pool));
     if (when == QDOT_FALSE)

@@ -111,6 +111,125 @@ qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts 
     return qdot_pool_check(pool);
 }
 
+/* --- ranges of x ---------------------------------------------------------------------- */
+
+/* Whether f may be constant in pieces: |u|, sign, max, min, if or floor of x. */
+static qdot_status
+has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
+{
+    qdot_walk w;
+
+    *yes = qdot_solver_choice(pool, f, x) != QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_walk_begin(pool, f, &w));
+    for (size_t i = 0; i < w.n && !*yes; i++)
+        *yes = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
+               qdot_expr_node(pool, w.at[i])->op == QDOT_FLOOR &&
+               qdot_expr_contains(pool, w.at[i], x);
+    qdot_walk_end(&w);
+    return QDOT_OK;
+}
+
+/* The conditions that say more than where the ends of x are. */
+static qdot_expr
+conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
+{
+    uint32_t n = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
+    qdot_expr left = QDOT_NIL;
+
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr one = qdot_expr_arg(pool, conditions, i);
+        const qdot_window w =
+            qdot_solve_tighten(pool, x, qdot_list(pool, 1, &one), (qdot_window){0}, NULL);
+
+        if (w.lo == QDOT_NIL && w.hi == QDOT_NIL)
+            left = qdot_conditions_and(pool, left, one);
+    }
+    return left;
+}
+
+/* Every x in the window that fulfils the conditions: a range, one point, or nothing. */
+static qdot_status
+add_range(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window *window,
+          qdot_solutions *out)
+{
+    const qdot_window w = qdot_solve_tighten(pool, x, conditions, *window, NULL);
+    qdot_root one = {x, conditions_beside_ends(pool, x, conditions), QDOT_NIL, QDOT_NIL};
+    bool open = w.lo_open || w.hi_open;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (w.lo != QDOT_NIL && w.hi != QDOT_NIL) {
+        qdot_expr length = qdot_sub(pool, w.hi, w.lo);
+
+        if (qdot_condition(pool, length, open, NULL) == QDOT_FALSE)
+            return QDOT_OK;
+        if (qdot_is_zero(pool, length, NULL)) {
+            one.condition = qdot_conditions_at(pool, one.condition, 1, &x, &w.lo, NULL);
+            one.value = w.lo;
+            QDOT_TRY(qdot_pool_check(pool));
+            return one.condition == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&out->root, one);
+        }
+    }
+    if (w.lo != QDOT_NIL)
+        one.condition = qdot_conditions_and(
+            pool, one.condition, qdot_rel(pool, w.lo_open ? QDOT_LT : QDOT_LE, w.lo, x));
+    if (w.hi != QDOT_NIL)
+        one.condition = qdot_conditions_and(
+            pool, one.condition, qdot_rel(pool, w.hi_open ? QDOT_LT : QDOT_LE, x, w.hi));
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_vec_push(&out->root, one);
+}
+
+/* Remove points that belong to a listed range. */
+static void
+leave_out_points(qdot_pool *pool, qdot_expr x, qdot_solutions *out)
+{
+    size_t kept = 0;
+
+    for (size_t i = 0; i < out->root.n; i++) {
+        const qdot_root one = out->root.at[i];
+        bool inside = false;
+
+        for (size_t k = 0; k < out->root.n && one.value != x && !inside; k++)
+            inside = out->root.at[k].value == x &&
+                     qdot_conditions_at(pool, out->root.at[k].condition, 1, &x, &one.value,
+                                        NULL) == QDOT_NIL;
+        if (!inside)
+            out->root.at[kept++] = one;
+    }
+    out->root.n = kept;
+}
+
+qdot_status
+qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
+                  const qdot_window *window, qdot_solutions *out)
+{
+    qdot_solutions all = {0};
+    qdot_status status;
+    bool pieces, ranges = false;
+
+    *out = (qdot_solutions){0};
+    QDOT_TRY(has_pieces(pool, f, x, &pieces));
+    if (!pieces)
+        return QDOT_OK;
+    status = solve_where(pool, f, x, domain, NULL, &all);
+    for (size_t i = 0; i < all.root.n && !ranges; i++)
+        ranges = all.root.at[i].value == x;
+    out->complete = all.complete && ranges;
+    for (size_t i = 0; i < all.root.n && ranges && status == QDOT_OK; i++) {
+        const qdot_root *root = &all.root.at[i];
+
+        status = root->value == x
+                     ? add_range(pool, x, qdot_conditions_reduce(pool, root->condition, NULL), window, out)
+                     : qdot_solve_members(pool, x, root, window, NULL, out);
+    }
+    qdot_solutions_clear(&all);
+    QDOT_TRY(status);
+    leave_out_points(pool, x, out);
+    QDOT_TRY(qdot_pool_check(pool));
+    return qdot_solve_sort(pool, out->root.n, out->root.at);
+}
+
 qdot_status
 qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
                   const qdot_facts *facts, qdot_solutions *out)

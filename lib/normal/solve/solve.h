@@ -33,6 +33,13 @@ QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
 
+/* Of f with kinks or steps, of x and constants alone: the ranges of x in the window that solve f = 0, each a root x
+ * with its conditions, and the other roots there. `domain` as above. Nothing, not complete, where no range of x,
+ * inside the window or not, solves it. */
+QDOT_MUST_CHECK qdot_status qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                                              qdot_expr domain, const qdot_window *window,
+                                              qdot_solutions *out);
+
 /* The factors of f that hold x and that qdot_solve does not solve completely; a LIST. *all: f has no others. */
 QDOT_MUST_CHECK qdot_status qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                                 const qdot_facts *facts, qdot_expr *list,

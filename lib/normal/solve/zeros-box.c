@@ -312,6 +312,25 @@ is_covered(const qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
+/* Whether X lies in a range of zeros. */
+static bool
+is_held(const qdot_zeros_system *s, const qdot_interval *X)
+{
+    for (size_t k = 0; k < s->ranges; k++) {
+        bool inside = true;
+
+        qdot_enclosure_eval(s->held[k], X, false);
+        for (size_t i = 0; i < qdot_enclosure_count(s->held[k]) && inside; i++) {
+            const qdot_enclosure_value *v = qdot_enclosure_get(s->held[k], i);
+
+            inside = v->state == QDOT_ENCLOSURE_WHOLE && v->y.lo > 0;
+        }
+        if (inside)
+            return true;
+    }
+    return false;
+}
+
 static void
 ball(size_t n, const qdot_zero_place *place, qdot_interval *to)
 {
@@ -472,7 +491,7 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
         image at_m;
         bool noisy, settled;
 
-        if (is_covered(s, X))
+        if (is_covered(s, X) || is_held(s, X))
             return QDOT_OK;
         evaluate(s, X, f);
         if (f->nowhere || f->zero_free || is_excluded_by_others(s, X))

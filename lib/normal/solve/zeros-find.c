@@ -10,7 +10,8 @@ enum {
     MOST = QDOT_ZEROS_MOST_UNKNOWNS,
 
     NEARBY = 4000,
-    PLACES = 20
+    PLACES = 20,
+    MOST_RELATIONS = 24
 };
 
 /* Evaluations for n unknowns, where nothing else is said; of more nodes than SHORT each counts more. */
@@ -44,6 +45,38 @@ read_ranges(qdot_zeros_task *t)
             t->bounds[j].hi = t->bounds[j].lo; /* empty, or one point */
     }
     return qdot_pool_check(t->pool);
+}
+
+/* The gaps b - a of the relations a < b of each range of zeros. */
+static qdot_status
+read_held(qdot_zeros_task *t)
+{
+    qdot_expr held = t->n == 1 ? t->range[0].held : QDOT_NIL;
+
+    for (uint32_t k = 0; held != QDOT_NIL && k < qdot_expr_count(t->pool, held); k++) {
+        qdot_expr set = qdot_expr_arg(t->pool, held, k), gap[MOST_RELATIONS];
+        size_t m = 0;
+        qdot_enclosure *gaps;
+
+        if (qdot_expr_count(t->pool, set) > MOST_RELATIONS)
+            continue;
+        for (uint32_t i = 0; i < qdot_expr_count(t->pool, set); i++) {
+            qdot_expr one = qdot_expr_arg(t->pool, set, i), left = qdot_expr_arg(t->pool, one, 0),
+                      right = qdot_expr_arg(t->pool, one, 1);
+
+            if ((left == t->range[0].lo && right == t->x[0]) ||
+                (left == t->x[0] && right == t->range[0].hi)) /* boxes lie between the ends */
+                continue;
+            gap[m++] = qdot_sub(t->pool, right, left);
+        }
+        QDOT_TRY(qdot_pool_check(t->pool));
+        QDOT_TRY(qdot_enclosure_new(t->pool, m, gap, 1, t->x, &gaps));
+        if (qdot_vec_push(&t->held, gaps) != QDOT_OK) {
+            qdot_enclosure_free(gaps);
+            return QDOT_ENOMEM;
+        }
+    }
+    return QDOT_OK;
 }
 
 /* --- systems ---------------------------------------------------------------------------------------- */
@@ -300,6 +333,8 @@ search_system(qdot_zeros_task *t, size_t k)
     bool beyond = false, wild;
 
     QDOT_TRY(qdot_zeros_system_begin(&core, t->pool, t->n, t->f[k], t->x));
+    core.held = t->held.at;
+    core.ranges = t->held.n;
     qdot_zeros_chart_at(t->pool, t->n, t->x, t->range, t->bounds, 0, &chart);
     status = search_core(t, k, &core, &chart.box, false);
     wild = t->n == 1 && qdot_zeros_is_wild(t->pool, t->n, t->f[k], t->x, t->range);
@@ -426,6 +461,8 @@ qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *
     t.budget = budget == 0 ? usual[n] : budget;
     status = read_ranges(&t);
     if (status == QDOT_OK)
+        status = read_held(&t);
+    if (status == QDOT_OK)
         status = split(&t);
     for (size_t k = 0; k < t.systems && status == QDOT_OK; k++)
         status = search_system(&t, k);
@@ -433,6 +470,9 @@ qdot_zeros_find(qdot_pool *pool, size_t n, const qdot_expr *F, const qdot_expr *
         status = find_simple(&t);
     if (status == QDOT_OK)
         status = give(&t, out);
+    for (size_t k = 0; k < t.held.n; k++)
+        qdot_enclosure_free(t.held.at[k]);
+    qdot_free(t.held.at);
     qdot_free(t.found.at);
     qdot_free(t.doubt.at);
     if (status != QDOT_OK)
