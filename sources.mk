@@ -718,6 +718,7 @@ library_headers = \
 	lib/expr/calculus.h \
 	lib/expr/expr.h \
 	lib/expr/function.def \
+	lib/expr/function.h \
 	lib/expr/list.h \
 	lib/expr/pool.h \
 	lib/expr/print-name.h \

@@ -1,5 +1,6 @@
 /* elementary.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/pool.h"
 
 #include <string.h>
@@ -39,8 +40,8 @@ plain(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
                             qdot_sign_of_function(pool, id, args));
 }
 
-static bool
-is_fun(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
+bool
+qdot_expr_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
 {
     return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == id;
 }
@@ -186,7 +187,7 @@ circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
     fmpq_t c, twelve;
     qdot_expr rest, e = QDOT_NIL;
 
-    if (id <= QDOT_TAN && is_fun(pool, x, inverse_of[id - QDOT_SIN]))
+    if (id <= QDOT_TAN && qdot_expr_is_function(pool, x, inverse_of[id - QDOT_SIN]))
         return arg0(pool, x);
     if (x != QDOT_ZERO && !(NODE(pool, x)->touches & NODE(pool, QDOT_PI)->touches))
         return without_pi(pool, id, x);
@@ -257,9 +258,9 @@ hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
                                           QDOT_SINH,  QDOT_COSH,  QDOT_TANH};
     bool inverse = id >= QDOT_ASINH, even = id == QDOT_COSH;
 
-    if (is_fun(pool, x, partner[id - QDOT_SINH]) && id != QDOT_ACOSH)
+    if (qdot_expr_is_function(pool, x, partner[id - QDOT_SINH]) && id != QDOT_ACOSH)
         return arg0(pool, x);
-    if (id == QDOT_ACOSH && is_fun(pool, x, QDOT_COSH))
+    if (id == QDOT_ACOSH && qdot_expr_is_function(pool, x, QDOT_COSH))
         return qdot_fun1(pool, QDOT_ABS, arg0(pool, x));
     if (x == QDOT_ZERO && id != QDOT_ACOSH)
         return even ? QDOT_ONE : QDOT_ZERO;
@@ -287,11 +288,11 @@ exponential(qdot_pool *pool, qdot_expr x)
 {
     if (x == QDOT_ZERO)
         return QDOT_ONE;
-    if (is_fun(pool, x, QDOT_LOG))
+    if (qdot_expr_is_function(pool, x, QDOT_LOG))
         return arg0(pool, x);
     if (NODE(pool, x)->kind == QDOT_PROD &&
         NODE(pool, x)->n == 3 && /* exp(k log a) = a^k */
-        ARGS(pool, x)[2] == QDOT_ONE && is_fun(pool, ARGS(pool, x)[1], QDOT_LOG))
+        ARGS(pool, x)[2] == QDOT_ONE && qdot_expr_is_function(pool, ARGS(pool, x)[1], QDOT_LOG))
         return qdot_pow(pool, arg0(pool, ARGS(pool, x)[1]), ARGS(pool, x)[0]);
     return plain(pool, QDOT_EXP, 1, &x);
 }
@@ -320,7 +321,7 @@ logarithm(qdot_pool *pool, qdot_expr x)
     if (v != NULL && qdot_rational_sgn(v) <= 0)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN,
                                 "log is defined for positive numbers only");
-    if (is_fun(pool, x, QDOT_EXP))
+    if (qdot_expr_is_function(pool, x, QDOT_EXP))
         return arg0(pool, x);
     return plain(pool, QDOT_LOG, 1, &x);
 }
@@ -514,7 +515,7 @@ qdot_hold(qdot_pool *pool, qdot_expr e)
     if (!qdot_pool_is_scalar(pool, e))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "hold takes numbers");
     if (NODE(pool, e)->kind != QDOT_SUM && NODE(pool, e)->kind != QDOT_PROD &&
-        !is_fun(pool, e, QDOT_LOG))
+        !qdot_expr_is_function(pool, e, QDOT_LOG))
         return e;
     if (NODE(pool, e)->kind == QDOT_PROD &&
         qdot_rational_sgn(NUMBER(pool, arg0(pool, e))) < 0)

@@ -1,6 +1,8 @@
 /* test_function.c -- elementary functions: special values, parity, inverse pairs, domains. */
 #include "kit.h"
 
+#include "expr/function.h"
+
 static qdot_expr
 call(qdot_fun_id id, qdot_expr x)
 {
@@ -216,6 +218,22 @@ names_are_found(void **state)
     assert_false(qdot_fun_find("sine", &id));
 }
 
+static void
+a_node_is_one_function_or_none(void **state)
+{
+    qdot_expr x = qdot_symbol_get(p.pool, QDOT_FORMAL, "x");
+
+    (void)state;
+    assert_true(qdot_expr_is_function(p.pool, call(QDOT_ABS, x), QDOT_ABS));
+    assert_false(qdot_expr_is_function(p.pool, call(QDOT_ABS, x), QDOT_SIGN));
+    assert_false(qdot_expr_is_function(p.pool, x, QDOT_ABS));
+    /* a sum and a product with numbers for operations that are some function's */
+    for (int id = 0; id < QDOT_FUNCTION_COUNT; id++) {
+        assert_false(qdot_expr_is_function(p.pool, qdot_add(p.pool, x, QDOT_ONE), (qdot_fun_id)id));
+        assert_false(qdot_expr_is_function(p.pool, qdot_mul(p.pool, x, x), (qdot_fun_id)id));
+    }
+}
+
 int
 main(void)
 {
@@ -231,6 +249,7 @@ main(void)
         MOVED_TEST(a_decided_condition_chooses),
         MOVED_TEST(what_is_held_stays_whole),
         MOVED_TEST(names_are_found),
+        MOVED_TEST(a_node_is_one_function_or_none),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,6 +11,7 @@
  */
 #include <math.h>
 
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
@@ -24,12 +25,6 @@
 #include "normal/solve/solve.h"
 
 enum { SAMPLES = 64 };
-
-static bool
-is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
-}
 
 static bool
 holds_coordinate(const qdot_rest *r, qdot_expr e)
@@ -98,7 +93,7 @@ is_continuous(const qdot_rest *r, qdot_expr u, bool *yes)
     for (size_t i = 0; i < w.n && *yes && status == QDOT_OK; i++) {
         qdot_expr gap;
 
-        if (!is_function(pool, w.at[i], QDOT_IF))
+        if (!qdot_expr_is_function(pool, w.at[i], QDOT_IF))
             continue;
         gap = condition_gap(pool, qdot_expr_arg(pool, w.at[i], 0));
         if (gap == QDOT_NIL || (u != QDOT_NIL && gap != u) || !holds_coordinate(r, gap))
@@ -132,9 +127,9 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 
     if (w->status != QDOT_OK || !holds_coordinate(w->r, e))
         return e;
-    if (is_function(pool, e, QDOT_MAX) || is_function(pool, e, QDOT_MIN))
+    if (qdot_expr_is_function(pool, e, QDOT_MAX) || qdot_expr_is_function(pool, e, QDOT_MIN))
         return qdot_rewrite_extreme(pool, e);
-    if (!is_function(pool, e, QDOT_IF))
+    if (!qdot_expr_is_function(pool, e, QDOT_IF))
         return e;
     u = condition_gap(pool, qdot_expr_arg(pool, e, 0));
     if (u != QDOT_NIL && !holds_coordinate(w->r, u))
@@ -169,7 +164,7 @@ product_by_signs(qdot_pool *pool, qdot_expr e, void *slipping)
         qdot_expr size = qdot_expr_arg(pool, e, i), u;
         long k;
 
-        if (!is_function(pool, size, QDOT_ABS) ||
+        if (!qdot_expr_is_function(pool, size, QDOT_ABS) ||
             !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) || k >= 0 ||
             k % 2 == 0 || (r != NULL && (qdot_mech_holds(r->s, size) & QDOT_HAS_VELOCITY) == 0))
             continue;
@@ -192,7 +187,8 @@ product_of_signs(qdot_pool *pool, qdot_expr e, void *user)
         qdot_expr sign = qdot_expr_arg(pool, e, i);
         long k;
 
-        if (is_function(pool, sign, QDOT_SIGN) && qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) && k > 1)
+        if (qdot_expr_is_function(pool, sign, QDOT_SIGN) &&
+            qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) && k > 1)
             product = qdot_mul(pool, product, qdot_pow_int(pool, sign, k % 2 - k));
     }
     return product;
@@ -203,7 +199,9 @@ static qdot_expr
 slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
 {
     const qdot_rest *r = user;
-    qdot_expr u = is_function(pool, e, QDOT_IF) ? condition_gap(pool, qdot_expr_arg(pool, e, 0)) : QDOT_NIL, yes, no;
+    qdot_expr u = qdot_expr_is_function(pool, e, QDOT_IF) ? condition_gap(pool, qdot_expr_arg(pool, e, 0))
+                                                          : QDOT_NIL,
+              yes, no;
 
     if (u == QDOT_NIL || (qdot_mech_holds(r->s, u) & QDOT_HAS_VELOCITY) == 0 ||
         qdot_rest_value(r->s, qdot_list(pool, 0, NULL), u) != QDOT_ZERO)

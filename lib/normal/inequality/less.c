@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/field/flint.h"
@@ -352,8 +353,7 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
         gap = qdot_sub(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0));
         if (strict && !sharp)
             continue;
-        if (qdot_expr_kind(pool, gap) == QDOT_FUN && qdot_expr_node(pool, gap)->op == QDOT_ABS &&
-            !is_of_nonzero(pool, d, gap, facts))
+        if (qdot_expr_is_function(pool, gap, QDOT_ABS) && !is_of_nonzero(pool, d, gap, facts))
             continue;
         rest = qdot_sub(pool, d, gap);
         if (qdot_is_zero(pool, rest, facts) || proved(pool, rest, false, facts))
@@ -462,8 +462,7 @@ has_both_signs(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts, bool *ye
     qdot_expr u;
 
     *yes = false;
-    if (qdot_expr_kind(pool, gap) != QDOT_FUN || qdot_expr_node(pool, gap)->op != QDOT_ABS ||
-        (facts != NULL && facts->n_conditions > 0))
+    if (!qdot_expr_is_function(pool, gap, QDOT_ABS) || (facts != NULL && facts->n_conditions > 0))
         return QDOT_OK;
     u = qdot_expr_arg(pool, gap, 0);
     QDOT_TRY(refute(pool, QDOT_ZERO, u, false, facts, &above));

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
 #include "normal/prove/prove.h"
@@ -12,27 +13,21 @@
 enum { LEAVES = 4, SIGNS = 3, NODES = 24, LINKS = SIGNS * LEAVES };
 
 static bool
-is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
-}
-
-static bool
 is_extreme(const qdot_pool *pool, qdot_expr e)
 {
-    return is_function(pool, e, QDOT_MAX) || is_function(pool, e, QDOT_MIN);
+    return qdot_expr_is_function(pool, e, QDOT_MAX) || qdot_expr_is_function(pool, e, QDOT_MIN);
 }
 
 static bool
 is_signed(const qdot_pool *pool, qdot_expr e)
 {
-    return is_function(pool, e, QDOT_ABS) || is_function(pool, e, QDOT_SIGN);
+    return qdot_expr_is_function(pool, e, QDOT_ABS) || qdot_expr_is_function(pool, e, QDOT_SIGN);
 }
 
 static bool
 is_told_apart(const qdot_pool *pool, qdot_expr e)
 {
-    return is_extreme(pool, e) || is_signed(pool, e) || is_function(pool, e, QDOT_IF);
+    return is_extreme(pool, e) || is_signed(pool, e) || qdot_expr_is_function(pool, e, QDOT_IF);
 }
 
 /* --- signs of products ------------------------------------------------------------------ */
@@ -55,7 +50,7 @@ sign_of_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
 static qdot_expr
 signs_apart(qdot_pool *pool, qdot_expr e, void *user)
 {
-    bool sign = is_function(pool, e, QDOT_SIGN);
+    bool sign = qdot_expr_is_function(pool, e, QDOT_SIGN);
     qdot_expr x, result = QDOT_ONE;
 
     (void)user;
@@ -242,14 +237,14 @@ add_node(struct cases *c, qdot_expr e)
         return QDOT_OK;
     }
     c->node[c->n++] = e;
-    if (is_function(pool, e, QDOT_IF))
+    if (qdot_expr_is_function(pool, e, QDOT_IF))
         return add_condition(c, qdot_expr_arg(pool, e, 0));
     if (is_extreme(pool, e)) {
         for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++)
             if (!is_extreme(pool, qdot_expr_arg(pool, e, i)))
                 add_leaf(c, qdot_expr_arg(pool, e, i));
     } else {
-        add_sign(c, qdot_expr_arg(pool, e, 0), is_function(pool, e, QDOT_SIGN));
+        add_sign(c, qdot_expr_arg(pool, e, 0), qdot_expr_is_function(pool, e, QDOT_SIGN));
     }
     return QDOT_OK;
 }
@@ -406,7 +401,7 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
             return x;
         }
         if (best == SIZE_MAX ||
-            (is_function(c->pool, e, QDOT_MAX) ? rank[at] > rank[best]
+            (qdot_expr_is_function(c->pool, e, QDOT_MAX) ? rank[at] > rank[best]
                                                : rank[at] < rank[best]))
             best = at;
     }
@@ -428,12 +423,12 @@ put_in(struct cases *c, const size_t *order, const int *sign)
 
         if (is_extreme(pool, e)) {
             c->to[k] = chosen(c, e, k, rank);
-        } else if (is_function(pool, e, QDOT_IF)) {
+        } else if (qdot_expr_is_function(pool, e, QDOT_IF)) {
             u = qdot_expr_arg(pool, e, holds_in(c, u, sign) ? 1 : 2);
             c->to[k] = qdot_subs(pool, u, k, c->node, c->to);
         } else {
             s = sign_in(c, u, sign);
-            c->to[k] = is_function(pool, e, QDOT_SIGN) ? qdot_expr_int(pool, s)
+            c->to[k] = qdot_expr_is_function(pool, e, QDOT_SIGN) ? qdot_expr_int(pool, s)
                        : s == 0                        ? QDOT_ZERO
                        : s > 0                         ? u
                                                        : qdot_neg(pool, u);
@@ -451,7 +446,7 @@ has_no_branches(const struct cases *c)
     if (qdot_walk_begin_n(c->pool, 2, c->side, &w) != QDOT_OK)
         return false;
     for (size_t i = 0; i < w.n; i++)
-        none &= !is_function(c->pool, w.at[i], QDOT_IF);
+        none &= !qdot_expr_is_function(c->pool, w.at[i], QDOT_IF);
     qdot_walk_end(&w);
     return none;
 }

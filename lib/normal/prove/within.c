@@ -2,13 +2,8 @@
 #include "normal/prove/within.h"
 
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/walk.h"
-
-static bool
-is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
-}
 
 /* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */
 static bool
@@ -86,17 +81,17 @@ within_values(qdot_pool *pool, qdot_expr e, void *user)
     (void)user;
     if (qdot_expr_kind(pool, e) != QDOT_FUN)
         return QDOT_NIL;
-    if (is_function(pool, e, QDOT_ATAN2))
+    if (qdot_expr_is_function(pool, e, QDOT_ATAN2))
         return angle_of(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1));
     x = qdot_expr_arg(pool, e, 0);
     if (qdot_expr_kind(pool, x) != QDOT_FUN)
         return QDOT_NIL;
     u = qdot_expr_arg(pool, x, 0);
-    if ((is_function(pool, e, QDOT_ACOS) && is_function(pool, x, QDOT_COS) &&
+    if ((qdot_expr_is_function(pool, e, QDOT_ACOS) && qdot_expr_is_function(pool, x, QDOT_COS) &&
          lies_within(pool, u, 0, 2)) ||
-        (is_function(pool, e, QDOT_ASIN) && is_function(pool, x, QDOT_SIN) &&
+        (qdot_expr_is_function(pool, e, QDOT_ASIN) && qdot_expr_is_function(pool, x, QDOT_SIN) &&
          lies_within(pool, u, -1, 1)) ||
-        (is_function(pool, e, QDOT_ATAN) && is_function(pool, x, QDOT_TAN) &&
+        (qdot_expr_is_function(pool, e, QDOT_ATAN) && qdot_expr_is_function(pool, x, QDOT_TAN) &&
          lies_within(pool, u, -1, 1)))
         return u;
     return QDOT_NIL;

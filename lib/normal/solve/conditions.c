@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"
@@ -143,7 +144,7 @@ qdot_is_taken_generic(const qdot_pool *pool, qdot_expr e, const qdot_facts *fact
 static qdot_expr
 magnitude_of(const qdot_pool *pool, qdot_expr gap)
 {
-    return qdot_expr_kind(pool, gap) == QDOT_FUN && qdot_expr_node(pool, gap)->op == QDOT_ABS
+    return qdot_expr_is_function(pool, gap, QDOT_ABS)
                ? qdot_expr_arg(pool, gap, 0)
                : QDOT_NIL;
 }

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
@@ -123,8 +124,7 @@ has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_walk_begin(pool, f, &w));
     for (size_t i = 0; i < w.n && !*yes; i++)
-        *yes = qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
-               qdot_expr_node(pool, w.at[i])->op == QDOT_FLOOR &&
+        *yes = qdot_expr_is_function(pool, w.at[i], QDOT_FLOOR) &&
                qdot_expr_contains(pool, w.at[i], x);
     qdot_walk_end(&w);
     return QDOT_OK;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "sim/model/layer.h"
 
@@ -24,12 +25,6 @@ qdot_gates_moves(const qdot_pool *pool, qdot_expr e)
             & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_TIME
                | QDOT_HAS_MULTIPLIER))
            != 0;
-}
-
-bool
-qdot_gates_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == id;
 }
 
 static qdot_gate_kind
@@ -114,10 +109,10 @@ add_pairs(finder *f, qdot_expr e, qdot_gate_kind kind)
 
     if (kind == QDOT_GATE_RELATION)
         return add_pair(f, qdot_sub(pool, a, qdot_expr_arg(pool, e, 1)), false);
-    if (kind == QDOT_GATE_VALUE && qdot_gates_is_function(pool, e, QDOT_MOD))
+    if (kind == QDOT_GATE_VALUE && qdot_expr_is_function(pool, e, QDOT_MOD))
         return add_pair(f, qdot_div(pool, a, qdot_expr_arg(pool, e, 1)), true);
     if (kind == QDOT_GATE_VALUE)
-        return add_pair(f, a, qdot_gates_is_function(pool, e, QDOT_FLOOR));
+        return add_pair(f, a, qdot_expr_is_function(pool, e, QDOT_FLOOR));
     for (uint32_t i = 0; i < n && kind == QDOT_GATE_EXTREME; i++)
         for (uint32_t j = i + 1; j < n; j++)
             QDOT_TRY(add_pair(f, qdot_sub(pool, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, j)),

@@ -56,7 +56,6 @@ typedef struct {
 
 /* Whether a node switches by itself, where what it is of moves. */
 bool qdot_gates_is_switch(const qdot_pool *pool, qdot_expr e);
-bool qdot_gates_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id);
 /* Whether it holds what changes along a run. */
 bool qdot_gates_moves(const qdot_pool *pool, qdot_expr e);
 /* u or -u, whichever prints without a sign in front; *turned: it is -u. */

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/function.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
 #include "mech/dynamics/energy.h"
@@ -65,11 +66,11 @@ add_atom(qdot_switches *s, qdot_expr e)
     QDOT_TRY(qdot_vec_push(&s->atoms, e));
     if (qdot_expr_kind(pool, e) == QDOT_REL)
         return add_surface(s, qdot_sub(pool, a, b), false);
-    if (qdot_gates_is_function(pool, e, QDOT_ABS) || qdot_gates_is_function(pool, e, QDOT_SIGN))
+    if (qdot_expr_is_function(pool, e, QDOT_ABS) || qdot_expr_is_function(pool, e, QDOT_SIGN))
         return add_surface(s, a, false);
-    if (qdot_gates_is_function(pool, e, QDOT_FLOOR))
+    if (qdot_expr_is_function(pool, e, QDOT_FLOOR))
         return add_surface(s, a, true);
-    if (qdot_gates_is_function(pool, e, QDOT_MOD))
+    if (qdot_expr_is_function(pool, e, QDOT_MOD))
         return add_surface(s, qdot_div(pool, a, b), true);
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = i + 1; j < n; j++)
