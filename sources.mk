@@ -362,6 +362,7 @@ library_sources = \
 	lib/normal/solve/solve-special.c \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
+	lib/normal/solve/special-values.c \
 	lib/normal/solve/zeros-box.c \
 	lib/normal/solve/zeros-exact.c \
 	lib/normal/solve/zeros-far.c \
@@ -963,6 +964,7 @@ library_headers = \
 	lib/normal/solve/solve-special.h \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
+	lib/normal/solve/special-values.h \
 	lib/normal/solve/zeros-parts.h \
 	lib/normal/solve/zeros-task.h \
 	lib/normal/solve/zeros.h \

@@ -121,12 +121,30 @@ notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
 }
 
 qdot_status
+qdot_solve_notice_open(qdot_session *session, qdot_expr where)
+{
+    qdot_text text = {0};
+    qdot_status status = QDOT_OK;
+
+    for (uint32_t i = 0; i < qdot_expr_count(session->pool, where) && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i == 0 ? "" : " and ");
+        status = qdot_print(session->pool, qdot_expr_arg(session->pool, where, i), QDOT_PLAIN, &text);
+    }
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "where %s the solutions may be others",
+                                    qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
 qdot_solve_notice_specials(qdot_session *session, qdot_expr x, const qdot_specials *specials)
 {
     for (size_t i = 0; i < specials->at.n; i++)
         QDOT_TRY(notice_special(session, x, &specials->at.at[i]));
     for (size_t i = 0; i < specials->open.n; i++)
-        QDOT_TRY(qdot_answer_notice_of(session, "where %s the solutions may be others",
-                                       specials->open.at[i]));
+        QDOT_TRY(qdot_solve_notice_open(session, qdot_list(session->pool, 1, &specials->open.at[i])));
     return QDOT_OK;
 }

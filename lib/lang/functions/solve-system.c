@@ -16,6 +16,7 @@
 #include "normal/refute/ball.h"
 #include "normal/solve/simultaneous.h"
 #include "normal/solve/solve.h"
+#include "normal/solve/special-values.h"
 #include "normal/solve/zeros.h"
 
 enum { MOST = QDOT_ZEROS_MOST_UNKNOWNS };
@@ -64,63 +65,7 @@ read_question(question *q, qdot_expr equations, qdot_expr unknowns)
 
 /* --- special values of parameters ---------------------------------------------------------------------- */
 
-enum { MOST_SPECIALS = 6, LONGEST = 40 };
-
-/* A parameter with a value at which something divided by is 0. */
-typedef struct {
-    qdot_expr parameter, value;
-} zero;
-
-typedef struct {
-    zero at[MOST_SPECIALS];
-    size_t n;
-} zeros;
-
-/* The values of one parameter at which the factor d is 0: by a parameter in which d is linear, or that stands alone in
- * it. */
-static qdot_status
-zeros_of_factor(const question *q, qdot_expr d, zeros *out)
-{
-    qdot_expr atoms = qdot_expr_atoms(q->pool, d, false);
-
-    QDOT_TRY(qdot_pool_check(q->pool));
-    for (uint32_t i = 0; i < qdot_expr_count(q->pool, atoms); i++) {
-        qdot_expr p = qdot_expr_arg(q->pool, atoms, i), slope;
-        qdot_solutions found = {0};
-        qdot_status status;
-
-        if (!qdot_expr_is_class(q->pool, p, QDOT_PARAM))
-            continue;
-        slope = qdot_diff(q->pool, d, p);
-        QDOT_TRY(qdot_pool_check(q->pool));
-        if (qdot_expr_rational(q->pool, slope) == NULL && qdot_expr_count(q->pool, atoms) > 1)
-            continue;
-        status = qdot_solve_inside(q->pool, d, p, QDOT_NIL, &q->facts, &found);
-        for (size_t k = 0; k < found.root.n && status == QDOT_OK && out->n < MOST_SPECIALS; k++)
-            if (found.root.at[k].condition == QDOT_NIL)
-                out->at[out->n++] = (zero){p, found.root.at[k].value};
-        qdot_solutions_clear(&found);
-        return status;
-    }
-    return QDOT_OK;
-}
-
-static qdot_status
-find_zeros(const question *q, const qdot_simultaneous *set, zeros *out)
-{
-    out->n = 0;
-    for (size_t i = 0; i < set->special.n; i++) {
-        qdot_expr factors;
-
-        if (qdot_expr_size(q->pool, set->special.at[i]) > LONGEST)
-            continue;
-        factors = qdot_solve_factors(q->pool, set->special.at[i]);
-        QDOT_TRY(qdot_pool_check(q->pool));
-        for (uint32_t k = 0; k < qdot_expr_count(q->pool, factors); k++)
-            QDOT_TRY(zeros_of_factor(q, qdot_expr_arg(q->pool, factors, k), out));
-    }
-    return QDOT_OK;
-}
+enum { MOST_SPECIALS = 6 };
 
 /* Add to the conditions of each solution that its values are defined, at special values of parameters too; leave out
  * those that follow from others. */
@@ -147,19 +92,21 @@ add_definedness(const question *q, qdot_simultaneous *set)
     return QDOT_OK;
 }
 
-/* Whether a solution at the special value is one of the generic ones, as they are there. */
+/* Whether a solution at the special values is one of the generic ones, as they are there. */
 static bool
-is_generic_solution(const question *q, const qdot_simultaneous *generic,
-                    const zero *special, const qdot_simultaneous *there, size_t k)
+is_generic_solution(const question *q, const qdot_simultaneous *generic, qdot_expr where,
+                    const qdot_simultaneous *there, size_t k)
 {
+    qdot_expr from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
+    size_t n = qdot_special_sides(q->pool, where, from, to);
+
     for (size_t i = 0; i < generic->found.n; i++) {
         qdot_simultaneous_solution all = generic->found.at[i];
         qdot_status status;
 
-        all.values = qdot_subs(q->pool, all.values, 1, &special->parameter, &special->value);
+        all.values = qdot_subs(q->pool, all.values, n, from, to);
         if (all.values != QDOT_NIL && all.conditions != QDOT_NIL)
-            all.conditions = qdot_conditions_at(q->pool, all.conditions, 1, &special->parameter,
-                                                &special->value, &q->facts);
+            all.conditions = qdot_conditions_at(q->pool, all.conditions, n, from, to, &q->facts);
         status = qdot_pool_check(q->pool);
         if (status != QDOT_OK && status != QDOT_EDOMAIN)
             (void)qdot_pool_fail(q->pool);
@@ -172,21 +119,22 @@ is_generic_solution(const question *q, const qdot_simultaneous *generic,
 
 /* `for a = 0: [x = 1, y = 2], [x = 2, y = 1]`, the solutions there, where one of them is not among the generic ones. */
 static qdot_status
-notice_special(const question *q, const zero *special, const qdot_simultaneous *there,
+notice_special(const question *q, qdot_expr where, const qdot_simultaneous *there,
                const qdot_simultaneous *generic)
 {
     qdot_text text = {0};
     bool other = !there->complete;
-    qdot_status status;
+    qdot_status status = QDOT_OK;
 
     for (size_t k = 0; k < there->found.n && !other; k++)
-        other = !is_generic_solution(q, generic, special, there, k);
+        other = !is_generic_solution(q, generic, where, there, k);
     QDOT_TRY(qdot_pool_check(q->pool));
     if (!other)
         return QDOT_OK;
-    qdot_text_add(&text, "for ");
-    status = qdot_print(q->pool, qdot_rel(q->pool, QDOT_EQ, special->parameter, special->value),
-                        QDOT_PLAIN, &text);
+    for (uint32_t i = 0; i < qdot_expr_count(q->pool, where) && status == QDOT_OK; i++) {
+        qdot_text_add(&text, i == 0 ? "for " : " and ");
+        status = qdot_print(q->pool, qdot_expr_arg(q->pool, where, i), QDOT_PLAIN, &text);
+    }
     if (!there->complete)
         qdot_text_add(&text, " the solutions may be others");
     for (size_t k = 0; k < there->found.n && there->complete && status == QDOT_OK; k++) {
@@ -207,18 +155,18 @@ notice_special(const question *q, const zero *special, const qdot_simultaneous *
     return status;
 }
 
-/* The solutions where a parameter has a value at which something divided by is 0. */
+/* The solutions where parameters have values at which something divided by is 0. */
 static qdot_status
-solve_special(const question *q, const zero *special, const qdot_simultaneous *generic)
+solve_special(const question *q, qdot_expr where, const qdot_simultaneous *generic)
 {
     qdot_simultaneous there = {0};
-    qdot_expr f[MOST], domain;
+    qdot_expr f[MOST], domain, from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
+    size_t n = qdot_special_sides(q->pool, where, from, to);
     qdot_status status;
 
     for (size_t i = 0; i < q->n; i++)
-        f[i] = qdot_subs(q->pool, q->f[i], 1, &special->parameter, &special->value);
-    domain = qdot_conditions_at(q->pool, q->domain, 1, &special->parameter, &special->value,
-                                &q->facts);
+        f[i] = qdot_subs(q->pool, q->f[i], n, from, to);
+    domain = qdot_conditions_at(q->pool, q->domain, n, from, to, &q->facts);
     status = qdot_pool_check(q->pool);
     if (status == QDOT_EDOMAIN) /* the equations are not defined there */
         return QDOT_OK;
@@ -227,8 +175,26 @@ solve_special(const question *q, const zero *special, const qdot_simultaneous *g
     if (status == QDOT_OK)
         status = add_definedness(q, &there);
     if (status == QDOT_OK)
-        status = notice_special(q, special, &there, generic);
+        status = notice_special(q, where, &there, generic);
     qdot_simultaneous_clear(&there);
+    return status;
+}
+
+/* Tell the solutions at special values; of those past the bound, and of divisors that are not solved, that the
+ * solutions there may be others. */
+static qdot_status
+solve_specials(const question *q, const qdot_simultaneous *set)
+{
+    qdot_special_values values = {0};
+    qdot_status status = qdot_special_values_add(q->pool, set->special.n, set->special.at, QDOT_NIL,
+                                                 &q->facts, &values);
+
+    for (size_t i = 0; i < values.at.n && status == QDOT_OK; i++)
+        status = i < MOST_SPECIALS ? solve_special(q, values.at.at[i], set)
+                                   : qdot_solve_notice_open(q->session, values.at.at[i]);
+    for (size_t i = 0; i < values.open.n && status == QDOT_OK; i++)
+        status = qdot_solve_notice_open(q->session, qdot_list(q->pool, 1, &values.open.at[i]));
+    qdot_special_values_clear(&values);
     return status;
 }
 
@@ -277,12 +243,9 @@ notice_turns(const question *q)
 static qdot_status
 answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value)
 {
-    zeros special;
-    qdot_status status = find_zeros(q, set, &special);
+    qdot_status status = solve_specials(q, set);
 
     *value = qdot_list(q->pool, 0, NULL);
-    for (size_t i = 0; i < special.n && status == QDOT_OK; i++)
-        status = solve_special(q, &special.at[i], set);
     for (size_t k = 0; k < set->found.n && status == QDOT_OK; k++) {
         const qdot_simultaneous_solution *one = &set->found.at[k];
 

@@ -10,10 +10,10 @@
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
+#include "normal/solve/special-values.h"
 
-/* Divisors of more operations, more special values, and values special for those of more than so many, are not looked
- * at. */
-enum { LONGEST = 60, MOST_SPECIALS = 24, MOST_TOGETHER = 3 };
+/* More special values are not looked at. */
+enum { MOST_SPECIALS = 24 };
 
 void
 qdot_specials_clear(qdot_specials *s)
@@ -39,7 +39,7 @@ conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
     return set;
 }
 
-/* --- zeros of divisors ----------------------------------------------------------------- */
+/* --- the search ------------------------------------------------------------------------- */
 
 /* A set at values of parameters, special for it or not, whose special values are looked for. */
 typedef struct {
@@ -49,154 +49,16 @@ typedef struct {
     const qdot_solutions *found;
     qdot_expr where; /* nil: at all values */
     qdot_specials *out;
-    qdot_vec(qdot_expr) at; /* LISTs of equations parameter = value, where a divisor is 0 */
 } special_search;
 
-static qdot_status zeros_of_all(special_search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
-
-/* The sides of the equations of a LIST (nil: none). */
-static size_t
-sides_of(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot_expr *to)
-{
-    uint32_t n = where == QDOT_NIL ? 0 : qdot_expr_count(pool, where);
-
-    for (uint32_t i = 0; i < n; i++) {
-        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, where, i), 0);
-        to[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, where, i), 1);
-    }
-    return n;
-}
-
-/* The set may be another one where d = 0. */
+/* The set may be another one where the equation holds. */
 static qdot_status
-leave_open(special_search *s, qdot_expr d)
+leave_open(special_search *s, qdot_expr equation)
 {
-    qdot_expr equation = qdot_rel(s->pool, QDOT_EQ, d, QDOT_ZERO);
-
     QDOT_TRY(qdot_pool_check(s->pool));
     return qdot_expr_place(s->out->open.n, s->out->open.at, equation) < s->out->open.n
                ? QDOT_OK
                : qdot_vec_push(&s->out->open, equation);
-}
-
-/* p = value where also the other divisors d [n] are 0. */
-static qdot_status
-zero_at(special_search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
-        qdot_expr where)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr there[2], equation = qdot_rel(pool, QDOT_EQ, p, value);
-    uint32_t had = where == QDOT_NIL ? 0 : qdot_expr_count(pool, where);
-    qdot_expr all = QDOT_NIL;
-
-    if (had + 1 > MOST_TOGETHER)
-        return leave_open(s, qdot_sub(pool, p, value));
-    for (uint32_t i = 0; i < had; i++) { /* what was said of others, with this value in it */
-        qdot_expr one = qdot_expr_arg(pool, where, i);
-
-        all = qdot_conditions_and(
-            pool, all,
-            qdot_rel(pool, QDOT_EQ, qdot_expr_arg(pool, one, 0),
-                     qdot_simplify(pool, qdot_subs(pool, qdot_expr_arg(pool, one, 1), 1, &p, &value),
-                                   s->facts)));
-    }
-    all = qdot_conditions_and(pool, all, equation);
-    for (uint32_t i = 0; i < n; i++)
-        there[i] = qdot_subs(pool, d[i], 1, &p, &value);
-    if (qdot_pool_failed(pool)) {
-        qdot_status status = qdot_pool_check(pool);
-
-        return status == QDOT_EDOMAIN ? QDOT_OK : status;
-    }
-    return zeros_of_all(s, n, there, all);
-}
-
-/* d = s p + r, whose slope s may be 0: p = -r/s, or s = 0 = r. */
-static qdot_status
-zeros_of_linear(special_search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
-                const qdot_expr *d, qdot_expr where)
-{
-    QDOT_TRY(zero_at(s, p,
-                     qdot_simplify(s->pool, qdot_neg(s->pool, qdot_div(s->pool, rest, slope)), s->facts),
-                     n, d, where));
-    return n > 0 ? leave_open(s, slope)
-                 : zeros_of_all(s, 2, (qdot_expr[]){slope, rest}, where);
-}
-
-/* Whether the zeros of d recur after a turn of p, in a domain without two ends: one turn of them is listed. */
-static bool
-recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
-{
-    const qdot_window w = qdot_solve_window(pool, p, false);
-
-    return (w.lo == QDOT_NIL || w.hi == QDOT_NIL) &&
-           qdot_is_angle(pool, d, p, facts);
-}
-
-/* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its
- * slope, or in which it is linear. */
-static qdot_status
-zeros_of_factor(special_search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdot_expr where)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr atoms = qdot_expr_atoms(pool, d, false), linear = QDOT_NIL, zero = QDOT_ZERO;
-
-    QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
-        qdot_expr p = qdot_expr_arg(pool, atoms, i), slope;
-        qdot_solutions found = {0};
-        qdot_status status;
-
-        if (!qdot_expr_is_class(pool, p, QDOT_PARAM))
-            continue;
-        slope = qdot_diff(pool, d, p);
-        QDOT_TRY(qdot_pool_check(pool));
-        if (linear == QDOT_NIL && !qdot_expr_contains(pool, slope, p))
-            linear = p;
-        if (qdot_expr_rational(pool, slope) == NULL && qdot_expr_count(pool, atoms) > 1)
-            continue;
-        status = qdot_solve_inside(pool, d, p, QDOT_NIL, s->facts, &found);
-        if (status == QDOT_OK && (!found.complete || (found.root.n > 0 && (found.root.at[0].value == p ||
-                                                                          recurs(pool, d, p, s->facts)))))
-            status = leave_open(s, d);
-        for (size_t k = 0; k < found.root.n && status == QDOT_OK; k++)
-            if (found.root.at[k].value != p)
-                status = zero_at(s, p, found.root.at[k].value, n, others, where);
-        qdot_solutions_clear(&found);
-        return status;
-    }
-    if (linear == QDOT_NIL)
-        return leave_open(s, d);
-    return zeros_of_linear(s, linear, qdot_diff(pool, d, linear),
-                           qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
-}
-
-/* Values of parameters at which all of d [n] are 0; n = 0: those of `where`. */
-static qdot_status
-zeros_of_all(special_search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
-{
-    qdot_pool *pool = s->pool;
-    qdot_expr factors, first;
-
-    if (n == 0)
-        return qdot_expr_place(s->at.n, s->at.at, where) < s->at.n ? QDOT_OK
-                                                                   : qdot_vec_push(&s->at, where);
-    first = qdot_simplify(pool, d[0], s->facts);
-    QDOT_TRY(qdot_pool_check(pool));
-    if (first == QDOT_ZERO)
-        return zeros_of_all(s, n - 1, d + 1, where);
-    if ((qdot_expr_node(pool, first)->sign & QDOT_NE0) != 0)
-        return QDOT_OK;
-    if (qdot_is_constant(pool, first))
-        return qdot_is_zero(pool, first, s->facts) ? zeros_of_all(s, n - 1, d + 1, where)
-                                                   : qdot_pool_check(pool);
-    if (!qdot_expr_is_scalar(pool, first) || qdot_expr_size(pool, first) > LONGEST)
-        return leave_open(s, first);
-    factors = qdot_solve_factors(pool, first);
-    QDOT_TRY(qdot_pool_check(pool));
-    for (uint32_t k = 0; k < qdot_expr_count(pool, factors); k++)
-        QDOT_TRY(zeros_of_factor(s, qdot_expr_arg(pool, factors, k), n - 1, d + 1, where));
-    return QDOT_OK;
 }
 
 /* --- sets there ------------------------------------------------------------------------ */
@@ -239,7 +101,7 @@ equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
         qdot_expr one = qdot_expr_arg(pool, set, i), room[QDOT_CONDITIONS_MOST];
         qdot_facts all = qdot_facts_and(pool, facts, set, room);
 
-        if (qdot_expr_node(pool, one)->op == QDOT_LE && qdot_expr_size(pool, one) <= LONGEST &&
+        if (qdot_expr_node(pool, one)->op == QDOT_LE && qdot_expr_size(pool, one) <= QDOT_SPECIAL_LONGEST &&
             qdot_condition(pool, qdot_positive_of(pool, one), true, &all) == QDOT_FALSE)
             return one;
     }
@@ -252,18 +114,18 @@ is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_so
             bool *yes)
 {
     qdot_expr equal = equality_in(pool, root->condition, facts), gap;
-    qdot_specials out = {0};
-    special_search s = {.pool = pool, .x = x, .facts = facts, .found = found, .where = QDOT_NIL, .out = &out};
+    qdot_special_values values = {0};
+    const special_search s = {.pool = pool, .x = x, .facts = facts, .found = found};
     qdot_status status = qdot_pool_check(pool);
 
     *yes = equal != QDOT_NIL;
     if (*yes && status == QDOT_OK) {
         gap = qdot_positive_of(pool, equal);
-        status = zeros_of_all(&s, 1, &gap, QDOT_NIL);
+        status = qdot_special_values_add(pool, 1, &gap, QDOT_NIL, facts, &values);
     }
-    for (size_t k = 0; k < s.at.n && *yes && status == QDOT_OK; k++) {
-        qdot_expr from[MOST_TOGETHER], to[MOST_TOGETHER];
-        size_t n = sides_of(pool, s.at.at[k], from, to);
+    for (size_t k = 0; k < values.at.n && *yes && status == QDOT_OK; k++) {
+        qdot_expr from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
+        size_t n = qdot_special_sides(pool, values.at.at[k], from, to);
         qdot_root there = *root;
 
         there.value = qdot_subs(pool, root->value, n, from, to);
@@ -271,9 +133,8 @@ is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_so
         status = qdot_pool_check(pool);
         *yes = there.condition == QDOT_FALSE || is_among(&s, found, n, from, to, &there);
     }
-    *yes = *yes && out.open.n == 0;
-    qdot_free(s.at.at);
-    qdot_specials_clear(&out);
+    *yes = *yes && values.open.n == 0;
+    qdot_special_values_clear(&values);
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
@@ -374,8 +235,8 @@ static qdot_status
 solve_at(special_search *s, qdot_expr where)
 {
     qdot_pool *pool = s->pool;
-    qdot_expr from[MOST_TOGETHER], to[MOST_TOGETHER];
-    size_t n = sides_of(pool, where, from, to);
+    qdot_expr from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
+    size_t n = qdot_special_sides(pool, where, from, to);
     qdot_special one = {.where = where};
     special_search next = *s;
     qdot_status status;
@@ -399,11 +260,10 @@ solve_at(special_search *s, qdot_expr where)
         status = qdot_solve_parameters(pool, next.f, s->x, s->facts, &one.set);
     if (status == QDOT_OK && !one.set.complete) {
         for (size_t i = 0; i < n && status == QDOT_OK; i++)
-            status = leave_open(s, qdot_sub(pool, from[i], to[i]));
+            status = leave_open(s, qdot_rel(pool, QDOT_EQ, qdot_sub(pool, from[i], to[i]), QDOT_ZERO));
     } else if (status == QDOT_OK) {
         next.found = &one.set;
         next.where = where;
-        memset(&next.at, 0, sizeof next.at);
         if (!is_told(s, n, from, to, &one.set) && qdot_pool_check(pool) == QDOT_OK) {
             status = qdot_vec_push(&s->out->at, one);
             return status == QDOT_OK ? search_specials(&next) : status; /* out owns the set */
@@ -418,23 +278,22 @@ static qdot_status
 search_specials(special_search *s)
 {
     const qdot_solutions *set = s->found;
-    qdot_status status = QDOT_OK;
+    qdot_special_values values = {0};
+    qdot_status status = qdot_special_values_add(s->pool, set->special.n, set->special.at, s->where,
+                                                 s->facts, &values);
 
-    for (size_t i = 0; i < set->special.n && status == QDOT_OK; i++) {
-        qdot_expr d = set->special.at[i], list[QDOT_CONDITIONS_MOST];
-        uint32_t n = qdot_expr_kind(s->pool, d) == QDOT_LIST ? qdot_expr_count(s->pool, d) : 0;
+    for (size_t i = 0; i < values.open.n && status == QDOT_OK; i++)
+        status = leave_open(s, values.open.at[i]);
+    for (size_t i = 0; i < values.at.n && status == QDOT_OK; i++) {
+        qdot_expr where = values.at.at[i];
 
-        for (uint32_t k = 0; k < n && k < 2; k++)
-            list[k] = qdot_expr_arg(s->pool, d, k);
-        status = n > 2 ? leave_open(s, qdot_expr_arg(s->pool, d, 0))
-                       : zeros_of_all(s, n == 0 ? 1 : n, n == 0 ? &d : list, s->where);
-    }
-    for (size_t i = 0; i < s->at.n && status == QDOT_OK; i++)
         status = s->out->at.n < MOST_SPECIALS
-                     ? solve_at(s, s->at.at[i])
-                     : leave_open(s, qdot_positive_of(s->pool, qdot_expr_arg(s->pool, s->at.at[i], 0)));
-    qdot_free(s->at.at);
-    memset(&s->at, 0, sizeof s->at);
+                     ? solve_at(s, where)
+                     : leave_open(s, qdot_rel(s->pool, QDOT_EQ,
+                                              qdot_positive_of(s->pool, qdot_expr_arg(s->pool, where, 0)),
+                                              QDOT_ZERO));
+    }
+    qdot_special_values_clear(&values);
     return status;
 }
 

@@ -1,0 +1,189 @@
+/* special-values.c -- values of parameters at which divisors of a solution are 0. */
+#include "normal/solve/special-values.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/constant.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
+
+typedef struct {
+    qdot_pool *pool;
+    const qdot_facts *facts;
+    qdot_special_values *out;
+} search;
+
+void
+qdot_special_values_clear(qdot_special_values *v)
+{
+    qdot_free(v->at.at);
+    qdot_free(v->open.at);
+    *v = (qdot_special_values){0};
+}
+
+size_t
+qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot_expr *to)
+{
+    uint32_t n = where == QDOT_NIL ? 0 : qdot_expr_count(pool, where);
+
+    for (uint32_t i = 0; i < n; i++) {
+        from[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, where, i), 0);
+        to[i] = qdot_expr_arg(pool, qdot_expr_arg(pool, where, i), 1);
+    }
+    return n;
+}
+
+static qdot_status zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
+
+/* The zeros of d are not known. */
+static qdot_status
+leave_open(search *s, qdot_expr d)
+{
+    qdot_expr equation = qdot_rel(s->pool, QDOT_EQ, d, QDOT_ZERO);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_expr_place(s->out->open.n, s->out->open.at, equation) < s->out->open.n
+               ? QDOT_OK
+               : qdot_vec_push(&s->out->open, equation);
+}
+
+/* p = value where also the other divisors d [n] are 0. */
+static qdot_status
+zero_at(search *s, qdot_expr p, qdot_expr value, uint32_t n, const qdot_expr *d,
+        qdot_expr where)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr there[2], equation = qdot_rel(pool, QDOT_EQ, p, value);
+    uint32_t had = where == QDOT_NIL ? 0 : qdot_expr_count(pool, where);
+    qdot_expr all = QDOT_NIL;
+
+    if (had + 1 > QDOT_SPECIAL_TOGETHER)
+        return leave_open(s, qdot_sub(pool, p, value));
+    for (uint32_t i = 0; i < had; i++) { /* what was said of others, with this value in it */
+        qdot_expr one = qdot_expr_arg(pool, where, i);
+
+        all = qdot_conditions_and(
+            pool, all,
+            qdot_rel(pool, QDOT_EQ, qdot_expr_arg(pool, one, 0),
+                     qdot_simplify(pool, qdot_subs(pool, qdot_expr_arg(pool, one, 1), 1, &p, &value),
+                                   s->facts)));
+    }
+    all = qdot_conditions_and(pool, all, equation);
+    for (uint32_t i = 0; i < n; i++)
+        there[i] = qdot_subs(pool, d[i], 1, &p, &value);
+    if (qdot_pool_failed(pool)) {
+        qdot_status status = qdot_pool_check(pool);
+
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    }
+    return zeros_of_all(s, n, there, all);
+}
+
+/* d = s p + r, whose slope s may be 0: p = -r/s, or s = 0 = r. */
+static qdot_status
+zeros_of_linear(search *s, qdot_expr p, qdot_expr slope, qdot_expr rest, uint32_t n,
+                const qdot_expr *d, qdot_expr where)
+{
+    QDOT_TRY(zero_at(s, p,
+                     qdot_simplify(s->pool, qdot_neg(s->pool, qdot_div(s->pool, rest, slope)), s->facts),
+                     n, d, where));
+    return n > 0 ? leave_open(s, slope)
+                 : zeros_of_all(s, 2, (qdot_expr[]){slope, rest}, where);
+}
+
+/* Whether the zeros of d recur after a turn of p, in a domain without two ends: one turn of them is listed. */
+static bool
+recurs(qdot_pool *pool, qdot_expr d, qdot_expr p, const qdot_facts *facts)
+{
+    const qdot_window w = qdot_solve_window(pool, p, false);
+
+    return (w.lo == QDOT_NIL || w.hi == QDOT_NIL) && qdot_is_angle(pool, d, p, facts);
+}
+
+/* One irreducible factor d is 0, and the others [n]: by a parameter that stands alone in it, or with a number as its
+ * slope, or in which it is linear. */
+static qdot_status
+zeros_of_factor(search *s, qdot_expr d, uint32_t n, const qdot_expr *others, qdot_expr where)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr atoms = qdot_expr_atoms(pool, d, false), linear = QDOT_NIL, zero = QDOT_ZERO;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
+        qdot_expr p = qdot_expr_arg(pool, atoms, i), slope;
+        qdot_solutions found = {0};
+        qdot_status status;
+
+        if (!qdot_expr_is_class(pool, p, QDOT_PARAM))
+            continue;
+        slope = qdot_diff(pool, d, p);
+        QDOT_TRY(qdot_pool_check(pool));
+        if (linear == QDOT_NIL && !qdot_expr_contains(pool, slope, p))
+            linear = p;
+        if (qdot_expr_rational(pool, slope) == NULL && qdot_expr_count(pool, atoms) > 1)
+            continue;
+        status = qdot_solve_inside(pool, d, p, QDOT_NIL, s->facts, &found);
+        if (status == QDOT_OK && (!found.complete || (found.root.n > 0 && (found.root.at[0].value == p ||
+                                                                          recurs(pool, d, p, s->facts)))))
+            status = leave_open(s, d);
+        for (size_t k = 0; k < found.root.n && status == QDOT_OK; k++)
+            if (found.root.at[k].value != p)
+                status = zero_at(s, p, found.root.at[k].value, n, others, where);
+        qdot_solutions_clear(&found);
+        return status;
+    }
+    if (linear == QDOT_NIL)
+        return leave_open(s, d);
+    return zeros_of_linear(s, linear, qdot_diff(pool, d, linear),
+                           qdot_subs(pool, d, 1, &linear, &zero), n, others, where);
+}
+
+/* Values of parameters at which all of d [n] are 0; n = 0: those of `where`. */
+static qdot_status
+zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr factors, first;
+
+    if (n == 0)
+        return qdot_expr_place(s->out->at.n, s->out->at.at, where) < s->out->at.n ? QDOT_OK
+                                                                   : qdot_vec_push(&s->out->at, where);
+    first = qdot_simplify(pool, d[0], s->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    if (first == QDOT_ZERO)
+        return zeros_of_all(s, n - 1, d + 1, where);
+    if ((qdot_expr_node(pool, first)->sign & QDOT_NE0) != 0)
+        return QDOT_OK;
+    if (qdot_is_constant(pool, first))
+        return qdot_is_zero(pool, first, s->facts) ? zeros_of_all(s, n - 1, d + 1, where)
+                                                   : qdot_pool_check(pool);
+    if (!qdot_expr_is_scalar(pool, first) || qdot_expr_size(pool, first) > QDOT_SPECIAL_LONGEST)
+        return leave_open(s, first);
+    factors = qdot_solve_factors(pool, first);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t k = 0; k < qdot_expr_count(pool, factors); k++)
+        QDOT_TRY(zeros_of_factor(s, qdot_expr_arg(pool, factors, k), n - 1, d + 1, where));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_special_values_add(qdot_pool *pool, size_t n, const qdot_expr *special, qdot_expr where,
+                        const qdot_facts *facts, qdot_special_values *out)
+{
+    search s = {.pool = pool, .facts = facts, .out = out};
+
+    for (size_t i = 0; i < n; i++) {
+        qdot_expr d = special[i], list[2] = {d, QDOT_NIL};
+        uint32_t m = qdot_expr_kind(pool, d) == QDOT_LIST ? qdot_expr_count(pool, d) : 0;
+
+        for (uint32_t k = 0; k < m && k < 2; k++)
+            list[k] = qdot_expr_arg(pool, d, k);
+        if (m > 2)
+            QDOT_TRY(leave_open(&s, list[0]));
+        else
+            QDOT_TRY(zeros_of_all(&s, m == 0 ? 1 : m, list, where));
+    }
+    return QDOT_OK;
+}

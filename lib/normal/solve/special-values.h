@@ -1,0 +1,35 @@
+/* special-values.h -- values of parameters at which divisors of a solution are 0: the solutions there are to be looked
+ * for anew.
+ *
+ *     a b - 1:      a = 1/b
+ *     [a, b - c]:   a = 0 and b = c, where both are 0
+ *
+ * Tests  tests/normal/test_solve_special.c
+ */
+#ifndef QDOT_NORMAL_SPECIAL_VALUES_H
+#define QDOT_NORMAL_SPECIAL_VALUES_H
+
+#include "base/memory.h"
+#include "normal/field/facts.h"
+
+/* Equations of one place; operations of a divisor that is looked at. */
+enum { QDOT_SPECIAL_TOGETHER = 3, QDOT_SPECIAL_LONGEST = 60 };
+
+typedef struct {
+    qdot_vec(qdot_expr) at;   /* LISTs of equations parameter = value */
+    qdot_vec(qdot_expr) open; /* equations in parameters where divisors are 0 that were not solved */
+} qdot_special_values;
+
+void qdot_special_values_clear(qdot_special_values *v);
+
+/* Add to out where `special` [n] are 0, each by itself, of a LIST all its members; these are of parameters alone, with
+ * the values of `where` (a LIST of equations, nil: none) put in, which are said again. */
+QDOT_MUST_CHECK qdot_status qdot_special_values_add(qdot_pool *pool, size_t n,
+                                                    const qdot_expr *special, qdot_expr where,
+                                                    const qdot_facts *facts,
+                                                    qdot_special_values *out);
+
+/* The sides of the equations of a LIST (nil: none), from and to [QDOT_SPECIAL_TOGETHER]; how many. */
+size_t qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot_expr *to);
+
+#endif
