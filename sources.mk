@@ -3000,6 +3000,7 @@ other_files = \
 	bench/solutions/run \
 	bench/solutions/scene.py \
 	bench/solutions/search.py \
+	bench/solutions/systems.py \
 	bench/solutions/verdict.py \
 	bench/stiff \
 	bench/surfaces/nested \
