@@ -345,6 +345,7 @@ library_sources = \
 	lib/normal/simplify/rationalize.c \
 	lib/normal/simplify/simplify.c \
 	lib/normal/solve/antiderivative.c \
+	lib/normal/solve/condition-forms.c \
 	lib/normal/solve/conditions.c \
 	lib/normal/solve/cramer.c \
 	lib/normal/solve/isolate.c \
@@ -953,6 +954,7 @@ library_headers = \
 	lib/normal/simplify/rationalize.h \
 	lib/normal/simplify/simplify.h \
 	lib/normal/solve/antiderivative.h \
+	lib/normal/solve/condition-forms.h \
 	lib/normal/solve/conditions.h \
 	lib/normal/solve/cramer.h \
 	lib/normal/solve/isolate.h \
@@ -1344,6 +1346,7 @@ unit_tests = \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
 	tests/normal/test_antiderivative \
+	tests/normal/test_condition_forms \
 	tests/normal/test_decide \
 	tests/normal/test_flint \
 	tests/normal/test_half-plane \

@@ -218,6 +218,25 @@ qdot_positive_without_minus(qdot_pool *pool, qdot_expr e)
     return qdot_rel(pool, QDOT_LT, left, right);
 }
 
+/* Leave out a factor |v| beside v: it is never negative, and 0 where v is. */
+static void
+leave_out_magnitudes(job *j)
+{
+    qdot_pool *pool = j->pool;
+
+    for (size_t i = 0; i < j->rest.n;) {
+        qdot_expr e = j->rest.at[i], v = QDOT_NIL;
+
+        if (qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == QDOT_ABS)
+            v = qdot_expr_arg(pool, e, 0);
+        if (v != QDOT_NIL && (qdot_expr_place(j->rest.n, j->rest.at, v) < j->rest.n ||
+                              qdot_expr_place(j->rest.n, j->rest.at, qdot_neg(pool, v)) < j->rest.n))
+            j->rest.at[i] = j->rest.at[--j->rest.n];
+        else
+            i++;
+    }
+}
+
 static qdot_expr
 conclude(job *j)
 {
@@ -225,6 +244,7 @@ conclude(job *j)
     qdot_expr rest;
     bool spent;
 
+    leave_out_magnitudes(j);
     if (j->rest.n == 0)
         return j->sign > 0 || j->asked == POSITIVE_NONZERO ? QDOT_TRUE : QDOT_FALSE;
     if (j->asked == POSITIVE_NONZERO)

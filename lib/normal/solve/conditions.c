@@ -12,6 +12,7 @@
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/positive.h"
+#include "normal/solve/condition-forms.h"
 
 /* Relations of a set are compared with each other where there are no more, and none of more operations. */
 enum { MOST_COMPARED = 6, LARGEST_COMPARED = 24 };
@@ -135,9 +136,9 @@ unfold(qdot_pool *pool, qdot_expr relation)
 }
 
 bool
-qdot_is_taken_generic(const qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
+qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
-    return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e);
+    return (facts == NULL || !facts->exact) && qdot_is_generic(pool, e) && !qdot_vanishes_in_regions(pool, e);
 }
 
 /* u, where the gap is |u|: 0 < |u| says that u is not 0. Else nil. */
@@ -186,8 +187,8 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
                                 : unfold(pool, strict ? shortest : weaken(pool, shortest));
 }
 
-qdot_expr
-qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+static qdot_expr
+condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
     uint8_t sign;
 
@@ -215,6 +216,42 @@ qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *fa
     if (is_proved(pool, gap, QDOT_ZERO, !strict, facts) || qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
     return condition_shorten(pool, gap, strict, facts);
+}
+
+/* The condition by the squares of its sides, s > t as s^2 > t^2; nil: it has none, or they may hold where s or t is not
+ * defined. */
+static qdot_expr
+condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+{
+    qdot_expr squared = qdot_condition_squared(pool, gap), relation, domain;
+
+    if (squared == QDOT_NIL)
+        return QDOT_NIL;
+    relation = condition_decide(pool, squared, strict, facts);
+    if (relation == QDOT_NIL || relation == QDOT_FALSE)
+        return relation;
+    domain = qdot_conditions_of_domain(pool, gap, QDOT_NIL);
+    for (uint32_t i = 0; domain != QDOT_NIL && i < qdot_expr_count(pool, domain); i++) {
+        qdot_expr one = qdot_expr_arg(pool, domain, i);
+
+        if (!is_proved(pool, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1),
+                       qdot_expr_node(pool, one)->op == QDOT_LT, facts))
+            return QDOT_NIL;
+    }
+    return relation;
+}
+
+qdot_expr
+qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
+{
+    qdot_expr plain = qdot_condition_without_magnitude(pool, gap, strict),
+              relation = condition_decide(pool, plain == QDOT_NIL ? gap : plain, strict, facts), by_squares;
+
+    if (relation == QDOT_NIL || qdot_expr_kind(pool, relation) != QDOT_REL)
+        return relation;
+    by_squares = condition_by_squares(pool, qdot_positive_of(pool, relation),
+                                      qdot_expr_node(pool, relation)->op == QDOT_LT, facts);
+    return qdot_pool_failed(pool) ? QDOT_NIL : by_squares == QDOT_NIL ? relation : by_squares;
 }
 
 /* --- sets ----------------------------------------------------------------------------- */
@@ -298,7 +335,7 @@ qdot_conditions_generic(qdot_pool *pool, qdot_expr set)
         qdot_expr one = qdot_expr_arg(pool, set, i);
 
         if (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op == QDOT_LE &&
-            qdot_is_generic(pool, one))
+            qdot_is_taken_generic(pool, qdot_positive_of(pool, one), NULL))
             one = qdot_rel(pool, QDOT_LT, qdot_expr_arg(pool, one, 0),
                            qdot_expr_arg(pool, one, 1));
         all = qdot_conditions_and(pool, all, one);

@@ -14,8 +14,9 @@
 /* Whether only parameters, momenta and functions of them occur in e: what is generic. */
 bool qdot_is_generic(const qdot_pool *pool, qdot_expr e);
 
-/* Whether e is one of generic parameters whose special values do not count: facts->exact makes them count. */
-bool qdot_is_taken_generic(const qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
+/* Whether e is one of generic parameters whose special values do not count: facts->exact makes them count; those at
+ * which |a| - a is 0 are a region, and count. */
+bool qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* 0 < gap, or 0 <= gap if not strict: QDOT_TRUE, QDOT_FALSE if that is proved; else a relation, in its shortest
  * form. Unless facts->exact parameters are generic: where 0 <= gap is proved of them, 0 < gap counts as true. Nil on

@@ -60,6 +60,8 @@ qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_so
     qdot_pool *pool = s->pool;
     uint32_t m = qdot_expr_count(pool, all->values);
     bool inside = m <= qdot_expr_count(pool, one->values);
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    const qdot_facts facts = qdot_facts_and(pool, &s->facts, one->conditions, room);
 
     for (uint32_t k = 0; k < m && inside; k++) {
         qdot_expr u = qdot_expr_arg(pool, qdot_expr_arg(pool, all->values, k), 0),
@@ -72,7 +74,7 @@ qdot_simultaneous_lies_in(const qdot_simultaneous *s, const qdot_simultaneous_so
                 (void)qdot_pool_fail(pool);
             return false;
         }
-        inside = there != u && (d == QDOT_ZERO || qdot_is_zero(pool, d, &s->facts) ||
+        inside = there != u && (d == QDOT_ZERO || qdot_is_zero(pool, d, &facts) ||
                                 (is_turns(s, d) && is_free_angle(s, u)));
     }
     if (inside && all->conditions != QDOT_NIL && all->conditions != one->conditions)

@@ -1,0 +1,163 @@
+/* condition-forms.c -- gaps with magnitudes and roots. */
+#include "normal/solve/condition-forms.h"
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+
+enum { MOST_CHOICES = 4, LARGEST = 80 };
+
+/* A node of e that is one of several expressions, |u|, sign u, max or min: these, other [2]; else nil. */
+static qdot_expr
+find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++) {
+        uint32_t op = qdot_expr_node(pool, w.at[i])->op, n = qdot_expr_count(pool, w.at[i]);
+        qdot_expr u;
+
+        if (qdot_expr_kind(pool, w.at[i]) != QDOT_FUN || n == 0)
+            continue;
+        u = qdot_expr_arg(pool, w.at[i], 0);
+        if (op != QDOT_ABS && op != QDOT_SIGN && ((op != QDOT_MAX && op != QDOT_MIN) || n != 2))
+            continue;
+        found = w.at[i];
+        other[0] = op == QDOT_SIGN ? QDOT_ONE : u;
+        other[1] = op == QDOT_ABS    ? qdot_neg(pool, u)
+                   : op == QDOT_SIGN ? QDOT_MINUS_ONE
+                                     : qdot_expr_arg(pool, found, 1);
+    }
+    qdot_walk_end(&w);
+    return found;
+}
+
+static bool
+vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
+{
+    qdot_expr other[2], choice = find_choice(pool, e, other);
+
+    if (choice == QDOT_NIL)
+        return depth > 0 && qdot_expand(pool, e) == QDOT_ZERO;
+    for (int k = 0; k < 2 && depth < MOST_CHOICES; k++) {
+        qdot_expr there = qdot_subs(pool, e, 1, &choice, &other[k]);
+
+        if (there == QDOT_NIL) {
+            qdot_status status = qdot_pool_check(pool);
+
+            if (status != QDOT_OK && status != QDOT_EDOMAIN)
+                (void)qdot_pool_fail(pool);
+        } else if (vanishes_by_choice(pool, there, depth + 1)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool
+qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e)
+{
+    return e != QDOT_NIL && qdot_expr_size(pool, e) <= LARGEST && vanishes_by_choice(pool, e, 0);
+}
+
+/* The first |v| in e; nil: there is none. */
+static qdot_expr
+find_magnitude(qdot_pool *pool, qdot_expr e)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
+        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && qdot_expr_node(pool, w.at[i])->op == QDOT_ABS)
+            found = w.at[i];
+    qdot_walk_end(&w);
+    return found;
+}
+
+qdot_expr
+qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
+{
+    qdot_expr magnitude, v, rest, slope, zero = QDOT_ZERO, one = QDOT_ONE;
+    bool same, opposite;
+    const fmpq *k;
+
+    if (gap == QDOT_NIL || qdot_expr_kind(pool, gap) != QDOT_SUM)
+        return QDOT_NIL;
+    magnitude = find_magnitude(pool, gap);
+    if (magnitude == QDOT_NIL)
+        return QDOT_NIL;
+    v = qdot_expr_arg(pool, magnitude, 0);
+    rest = qdot_subs(pool, gap, 1, &magnitude, &zero);
+    slope = qdot_expand(pool, qdot_sub(pool, qdot_subs(pool, gap, 1, &magnitude, &one), rest));
+    if (rest == QDOT_NIL || slope == QDOT_NIL) {
+        if (qdot_pool_check(pool) != QDOT_EDOMAIN)
+            (void)qdot_pool_fail(pool);
+        return QDOT_NIL;
+    }
+    k = qdot_expr_rational(pool, slope);
+    if (k == NULL || qdot_expand(pool, qdot_sub(pool, gap, qdot_add(pool, rest, qdot_mul(pool, slope, magnitude)))) !=
+                         QDOT_ZERO)
+        return QDOT_NIL;
+    same = qdot_expand(pool, qdot_sub(pool, rest, qdot_mul(pool, slope, v))) == QDOT_ZERO;
+    opposite = qdot_expand(pool, qdot_add(pool, rest, qdot_mul(pool, slope, v))) == QDOT_ZERO;
+    if (!same && !opposite)
+        return QDOT_NIL;
+    if (fmpq_sgn(k) > 0) /* k |v| + k v, k |v| - k v: never negative */
+        return !strict ? QDOT_ONE : same ? v : qdot_neg(pool, v);
+    return strict ? QDOT_MINUS_ONE : opposite ? v : qdot_neg(pool, v);
+}
+
+static bool
+holds_square_root(qdot_pool *pool, qdot_expr e)
+{
+    bool found = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return false;
+    }
+    for (size_t i = 0; i < w.n && !found; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2) {
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k + 1));
+
+            found = found || (q != NULL && fmpz_equal_si(fmpq_denref(q), 2));
+        }
+    qdot_walk_end(&w);
+    return found;
+}
+
+qdot_expr
+qdot_condition_squared(qdot_pool *pool, qdot_expr gap)
+{
+    qdot_expr part[2] = {QDOT_ZERO, QDOT_ZERO};
+    uint32_t n, terms = 0;
+
+    if (gap == QDOT_NIL || qdot_expr_kind(pool, gap) != QDOT_SUM || qdot_expr_size(pool, gap) > LARGEST ||
+        !holds_square_root(pool, gap))
+        return QDOT_NIL;
+    n = qdot_expr_count(pool, gap);
+    for (uint32_t i = 0; i < n; i += i == 0 ? 1 : 2) { /* c0, c1, t1, ... */
+        qdot_expr term = qdot_expr_arg(pool, gap, i);
+        bool minus;
+
+        if (i > 0)
+            term = qdot_mul(pool, term, qdot_expr_arg(pool, gap, i + 1));
+        if (term == QDOT_ZERO)
+            continue;
+        if (term == QDOT_NIL)
+            return QDOT_NIL;
+        minus = qdot_expr_is_negative(pool, term);
+        if (minus)
+            term = qdot_neg(pool, term);
+        if (term == QDOT_NIL || (qdot_expr_node(pool, term)->sign & QDOT_GE0) == 0 || part[minus] != QDOT_ZERO)
+            return QDOT_NIL;
+        part[minus] = term;
+        terms++;
+    }
+    return terms == 2 ? qdot_sub(pool, qdot_pow_int(pool, part[0], 2), qdot_pow_int(pool, part[1], 2)) : QDOT_NIL;
+}

@@ -1,0 +1,24 @@
+/* condition-forms.h -- gaps g of conditions 0 < g and 0 <= g that hold magnitudes and roots, as simpler ones.
+ *
+ *     v - |v|      is 0 where v >= 0 and negative elsewhere
+ *     s - t        has the sign of s^2 - t^2, s and t not negative
+ *
+ * Tests  tests/normal/test_condition_forms.c
+ */
+#ifndef QDOT_NORMAL_CONDITION_FORMS_H
+#define QDOT_NORMAL_CONDITION_FORMS_H
+
+#include "expr/expr.h"
+
+/* Whether e may be 0 in whole regions, as |a| - a is: with other values of |u|, sign u, max, min put in, it is 0
+ * identically. */
+bool qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e);
+
+/* Of a gap k v - k |v| or k v + k |v|, k a number: v or -v, which is positive where the gap is (`strict`), not negative
+ * where the gap is not; QDOT_ONE: always so, QDOT_MINUS_ONE: never. Nil: the gap is of no such form. */
+qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict);
+
+/* s^2 - t^2 for a gap s - t with a square root in it, s and t nowhere negative; else nil. */
+qdot_expr qdot_condition_squared(qdot_pool *pool, qdot_expr gap);
+
+#endif
