@@ -261,6 +261,7 @@ library_sources = \
 	lib/mech/study/equilibrium-bands.c \
 	lib/mech/study/equilibrium-corners.c \
 	lib/mech/study/equilibrium-curve.c \
+	lib/mech/study/equilibrium-ends.c \
 	lib/mech/study/equilibrium-equations.c \
 	lib/mech/study/equilibrium-kinks.c \
 	lib/mech/study/equilibrium-members.c \

@@ -166,6 +166,35 @@ roots_of_radicals_body(kit *k)
 }
 TEST(roots_of_radicals)
 
+/* The end of a condition belongs to it where a place is a rest there that no other entry lists. */
+static void
+ends_of_conditions_body(kit *k)
+{
+    static const struct {
+        const char *V, *exists, *when; /* of the last place */
+        size_t n;
+        qdot_stability stability;
+    } rows[] = {
+        {"x^3/3 - (s - 1)*x", "[s >= 1]", "[s > 1]", 2, QDOT_STABLE},
+        {"x^4/4 - (s - 1)*x^2/2", "[s > 1]", "nil", 3, QDOT_STABLE}, /* at s = 1: x = 0, which is listed */
+        {"(s - 1)*x^3/3 - x", "[s > 1]", "nil", 2, QDOT_STABLE},     /* at s = 1 there is none */
+        {"sin(x) - s*x", "[s <= 1]", "[s < 1]", 2, QDOT_STABLE},
+    };
+    qdot_equilibria r;
+
+    coords(k, "x");
+    (void)qdot_symbol_get(k->pool, QDOT_PARAM, "s");
+    for (int i = 0; i < 4; i++) {
+        must(qdot_scene_lagrangian(k->scene, E(k, "x'^2/2 - (%s)", rows[i].V)));
+        find(k, &r, rows[i].n);
+        assert_string_equal(show(k, r.at[r.n - 1].exists), rows[i].exists);
+        assert_string_equal(show(k, r.at[r.n - 1].stable_when), rows[i].when);
+        assert_int_equal(r.at[r.n - 1].stability, rows[i].stability);
+        qdot_equilibria_clear(&r);
+    }
+}
+TEST(ends_of_conditions)
+
 static void
 what_no_formula_gives_is_found_in_numbers_body(kit *k)
 {
@@ -411,6 +440,7 @@ main(void)
         cmocka_unit_test(gyroscopic_stabilisation),
         cmocka_unit_test(flat_bottoms),
         cmocka_unit_test(roots_of_radicals),
+        cmocka_unit_test(ends_of_conditions),
         cmocka_unit_test(what_no_formula_gives_is_found_in_numbers),
         cmocka_unit_test(rest_lasts_for_all_times),
         cmocka_unit_test(multipliers_change_at_rest),

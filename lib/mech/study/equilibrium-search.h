@@ -74,6 +74,10 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
 
+/* a <= b in place of a condition a < b of parameters, for places judged already, where the place is one for a = b too and
+ * no other is the same there. (equilibrium-ends.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r);
+
 /* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.
  * (equilibrium-special.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_special(const qdot_rest *r, qdot_expr *special);

@@ -399,6 +399,8 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = judge(&r, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
+    if (status == QDOT_OK && !first_only)
+        status = qdot_rest_ends(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;

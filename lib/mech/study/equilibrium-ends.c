@@ -1,0 +1,248 @@
+/* equilibrium-ends.c -- places that exist at the end of their condition too.
+ *
+ * Places are searched for generic parameters: x = sqrt(a) exists when a > 0. Where the condition's two sides are equal,
+ * a = 0, the values are put in: if they are proved to solve the equations at rest there, inside the declared domains, and
+ * no other place is the same one, the condition becomes a >= 0. What is judged of its stability stays what holds for
+ * a > 0. */
+#include "expr/calculus.h"
+#include "expr/list.h"
+#include "mech/study/equilibrium-search.h"
+#include "normal/prove/decide.h"
+#include "normal/simplify/positive.h"
+#include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
+#include "normal/solve/solve.h"
+
+/* Conditions of more operations, and of more factors, are left as they are. */
+enum { LONGEST = 40, MOST_FACTORS = 4 };
+
+/* A place where one parameter p has a value. */
+typedef struct {
+    qdot_rest *r;
+    size_t place;
+    qdot_expr p, value;
+    qdot_expr others; /* its other conditions there */
+    qdot_facts facts; /* with them; exact */
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+} end;
+
+/* An answer is no for what has no value there; other failures stay. */
+static bool
+is_undefined(qdot_pool *pool)
+{
+    const qdot_status status = qdot_pool_check(pool);
+
+    if (status != QDOT_OK && status != QDOT_EDOMAIN)
+        (void)qdot_pool_fail(pool);
+    return status != QDOT_OK;
+}
+
+static qdot_expr
+at_end(const end *e, qdot_expr what)
+{
+    return qdot_subs(e->r->pool, what, 1, &e->p, &e->value);
+}
+
+/* Whether every expression of a LIST is proved to be 0 and to have a value. */
+static bool
+are_zero(const end *e, qdot_expr list)
+{
+    qdot_pool *pool = e->r->pool;
+    bool all = qdot_conditions_at(pool, qdot_conditions_of_domain(pool, list, QDOT_NIL), 0, NULL, NULL,
+                                  &e->facts) == QDOT_NIL;
+
+    all = !is_undefined(pool) && all;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, list) && all; i++)
+        all = qdot_is_zero(pool, qdot_expr_arg(pool, list, i), &e->facts);
+    return all;
+}
+
+/* Whether the values lie in the declared domains. */
+static bool
+are_inside(const end *e, qdot_expr values)
+{
+    qdot_pool *pool = e->r->pool;
+    bool inside = true;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, values) && inside; i++) {
+        qdot_expr one = qdot_expr_arg(pool, values, i), v = qdot_expr_arg(pool, one, 1);
+        const qdot_symbol *u = qdot_expr_symbol(pool, qdot_expr_arg(pool, one, 0));
+        qdot_expr lo = u->lo == QDOT_NIL ? QDOT_NIL : at_end(e, u->lo),
+                  hi = u->hi == QDOT_NIL ? QDOT_NIL : at_end(e, u->hi);
+        bool lo_open = u->lo_open, hi_open = u->hi_open;
+
+        if (lo != QDOT_NIL)
+            inside = qdot_condition(pool, qdot_sub(pool, v, lo), lo_open, &e->facts) == QDOT_TRUE;
+        if (inside && hi != QDOT_NIL)
+            inside = qdot_condition(pool, qdot_sub(pool, hi, v), hi_open, &e->facts) == QDOT_TRUE;
+    }
+    return inside;
+}
+
+/* Whether another place, where it is proved to exist, has these values. */
+static bool
+is_listed(const end *e, qdot_expr values)
+{
+    const qdot_rest *r = e->r;
+    const qdot_simultaneous_solution one = {values, e->others};
+    bool listed = false;
+
+    for (size_t j = 0; j < r->found.n && !listed; j++) {
+        qdot_simultaneous_solution all = {.conditions = QDOT_NIL};
+
+        if (j == e->place || r->found.at[j].numeric || r->found.at[j].range != QDOT_NIL)
+            continue;
+        all.values = at_end(e, r->found.at[j].equations);
+        if (is_undefined(r->pool) || !qdot_simultaneous_lies_in(&r->system, &one, &all))
+            continue;
+        listed = qdot_conditions_at(r->pool, r->found.at[j].exists, 1, &e->p, &e->value, &e->facts) == QDOT_NIL;
+        listed = !is_undefined(r->pool) && listed;
+    }
+    return listed;
+}
+
+typedef enum { IS_NONE, IS_LISTED, IS_NEW } verdict;
+
+/* What the k-th place is where p, as the root says, makes both sides of its i-th condition equal. */
+static verdict
+judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root)
+{
+    qdot_expr value = root->value;
+    qdot_pool *pool = r->pool;
+    const qdot_equilibrium *place = &r->found.at[k];
+    end e = {.r = r, .place = k, .p = p, .value = value};
+    qdot_facts exact = r->facts;
+    qdot_expr values, there, others = root->condition;
+
+    exact.exact = true;
+    for (uint32_t n = 0; n < qdot_expr_count(pool, place->exists); n++)
+        if (n != i)
+            others = qdot_conditions_and(pool, others, qdot_expr_arg(pool, place->exists, n));
+    e.others = qdot_conditions_at(pool, others, 1, &p, &value, &exact);
+    if (is_undefined(pool) || e.others == QDOT_FALSE) /* it does not exist there by these */
+        return IS_LISTED;
+    e.facts = qdot_facts_and(pool, &exact, e.others, e.room);
+    values = at_end(&e, place->equations);
+    if (is_undefined(pool) || !are_inside(&e, values))
+        return IS_NONE;
+    there = qdot_list_appended(pool, at_end(&e, r->system.equations), 0, NULL);
+    there = qdot_solve_without_turns(pool, qdot_simultaneous_put(pool, there, values));
+    if (is_undefined(pool) || !are_zero(&e, there))
+        return IS_NONE;
+    (void)qdot_simultaneous_put(pool, at_end(&e, r->system.defined), values);
+    if (is_undefined(pool))
+        return IS_NONE;
+    return is_listed(&e, values) ? IS_LISTED : IS_NEW;
+}
+
+/* The same for all values of a parameter at which one factor is 0; IS_NONE where these are not known. */
+static qdot_status
+judge_factor(qdot_rest *r, size_t k, uint32_t i, qdot_expr factor, verdict *out)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr atoms = qdot_expr_atoms(pool, factor, false);
+
+    *out = IS_NONE;
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t n = 0; n < qdot_expr_count(pool, atoms) && *out == IS_NONE; n++) {
+        qdot_expr p = qdot_expr_arg(pool, atoms, n), slope;
+        qdot_solutions zero = {0};
+        qdot_status status;
+        bool known;
+
+        if (!qdot_expr_is_class(pool, p, QDOT_PARAM))
+            continue;
+        slope = qdot_diff(pool, factor, p);
+        if (slope == QDOT_NIL || (qdot_expr_node(pool, slope)->sign & QDOT_NE0) == 0) /* monotone: one zero at most */
+            continue;
+        status = qdot_solve(pool, factor, p, &r->facts, &zero);
+        known = status == QDOT_OK && zero.complete && zero.root.n == 1 && zero.root.at[0].period == QDOT_NIL &&
+                zero.root.at[0].value != p;
+        if (known)
+            *out = judge_end(r, k, i, p, &zero.root.at[0]);
+        qdot_solutions_clear(&zero);
+        if (status != QDOT_EDOMAIN)
+            QDOT_TRY(status);
+        if (known)
+            break;
+    }
+    return qdot_pool_check(pool);
+}
+
+/* Whether the k-th place exists wherever both sides of its i-th condition are equal, and is listed nowhere else at some
+ * of these values. */
+static qdot_status
+exists_at_end(qdot_rest *r, size_t k, uint32_t i, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr relation = qdot_expr_arg(pool, r->found.at[k].exists, i), gap, factors;
+    verdict all = IS_LISTED;
+
+    *yes = false;
+    if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op != QDOT_LT ||
+        !qdot_is_generic(pool, relation) || qdot_expr_size(pool, relation) > LONGEST ||
+        qdot_conditions_nonzero(pool, relation) != QDOT_NIL)
+        return QDOT_OK;
+    gap = qdot_simplify(pool, qdot_positive_of(pool, relation), &r->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    factors = qdot_solve_factors(pool, gap);
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t n = 0; n < qdot_expr_count(pool, factors) && all != IS_NONE; n++) {
+        verdict one = IS_NONE;
+
+        if (n < MOST_FACTORS)
+            QDOT_TRY(judge_factor(r, k, i, qdot_expr_arg(pool, factors, n), &one));
+        all = one == IS_LISTED ? all : one;
+    }
+    *yes = all == IS_NEW;
+    return QDOT_OK;
+}
+
+/* The list with a <= b in place of the i-th relation a < b. */
+static qdot_expr
+weakened(qdot_pool *pool, qdot_expr list, uint32_t i)
+{
+    qdot_expr all = QDOT_NIL;
+
+    for (uint32_t n = 0; n < qdot_expr_count(pool, list); n++) {
+        qdot_expr one = qdot_expr_arg(pool, list, n);
+
+        all = qdot_conditions_and(pool, all,
+                                  n == i ? qdot_rel(pool, QDOT_LE, qdot_expr_arg(pool, one, 0),
+                                                    qdot_expr_arg(pool, one, 1))
+                                         : one);
+    }
+    return all;
+}
+
+qdot_status
+qdot_rest_ends(qdot_rest *r)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr *exists = qdot_malloc((r->found.n + 1) * sizeof *exists);
+    qdot_status status = exists == NULL ? QDOT_ENOMEM : QDOT_OK;
+
+    for (size_t k = 0; k < r->found.n && status == QDOT_OK; k++) {
+        qdot_equilibrium *e = &r->found.at[k];
+        uint32_t n = e->exists == QDOT_NIL ? 0 : qdot_expr_count(pool, e->exists);
+
+        exists[k] = e->exists;
+        if (e->numeric || e->range != QDOT_NIL || qdot_solve_integers(pool, e->equations) > 0)
+            continue;
+        for (uint32_t i = 0; i < n && status == QDOT_OK; i++) {
+            qdot_expr strict = qdot_expr_arg(pool, e->exists, i);
+            bool yes;
+
+            status = exists_at_end(r, k, i, &yes);
+            if (status != QDOT_OK || !yes)
+                continue;
+            exists[k] = weakened(pool, exists[k], i);
+            if (e->stability != QDOT_STABILITY_UNDECIDED)
+                e->stable_when = qdot_conditions_and(pool, e->stable_when, strict);
+        }
+    }
+    for (size_t k = 0; k < r->found.n && status == QDOT_OK; k++)
+        r->found.at[k].exists = exists[k];
+    qdot_free(exists);
+    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+}
