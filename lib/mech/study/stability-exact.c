@@ -9,17 +9,19 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
 
 /* --- one degree of freedom, either side ------------------------------------------------- */
 
-/* The first derivative by eps that is not 0 at eps = 0 of e: its sign, 0 where that is not
- * known. */
+/* The first derivative by eps that is not 0 at eps = 0 of e, *leading (nil: none is known), and its sign, 0 where that
+ * is not known. */
 static qdot_status
-leading_sign(qdot_judgement *j, qdot_expr e, qdot_expr eps, int *sign)
+leading_term(qdot_judgement *j, qdot_expr e, qdot_expr eps, qdot_expr *leading, int *sign)
 {
     qdot_pool *pool = j->s->pool;
     qdot_expr zero = QDOT_ZERO;
 
+    *leading = QDOT_NIL;
     *sign = 0;
     for (int k = 0; k <= 7; k++) {
         qdot_expr value = qdot_simplify(pool, qdot_subs(pool, e, 1, &eps, &zero), &j->facts),
@@ -33,6 +35,7 @@ leading_sign(qdot_judgement *j, qdot_expr e, qdot_expr eps, int *sign)
             down = qdot_positive(pool, qdot_neg(pool, value), &j->facts, j->known.n,
                                  j->known.at);
             *sign = up == QDOT_TRUE ? 1 : down == QDOT_TRUE ? -1 : 0;
+            *leading = value;
             return qdot_pool_check(pool);
         }
         e = qdot_diff(pool, e, eps);
@@ -53,12 +56,12 @@ chosen(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 {
     qdot_pool *pool = o->j->s->pool;
     const qdot_expr zero = QDOT_ZERO;
-    qdot_expr there;
+    qdot_expr there, leading;
     int sign;
 
     if (o->status != QDOT_OK || u == QDOT_NIL || !qdot_expr_contains(pool, u, o->eps))
         return e;
-    o->status = leading_sign(o->j, u, o->eps, &sign);
+    o->status = leading_term(o->j, u, o->eps, &leading, &sign);
     if (sign != 0 || o->status != QDOT_OK)
         return sign > 0 ? a : sign < 0 ? b : e;
     there = qdot_subs(pool, u, 1, &o->eps, &zero);
@@ -103,6 +106,26 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
     return chosen(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
 }
 
+/* Stable where both are positive: always, or under conditions on parameters. */
+static qdot_status
+by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back)
+{
+    const qdot_judgement_point before = qdot_judgement_mark(j);
+    bool possible = qdot_is_generic(j->s->pool, back[0]) && qdot_is_generic(j->s->pool, back[1]);
+
+    for (int side = 0; side < 2 && possible; side++) {
+        qdot_expr answer;
+
+        QDOT_TRY(qdot_judgement_ask(j, back[side], &answer));
+        possible = answer != QDOT_FALSE;
+    }
+    if (possible)
+        e->stability = QDOT_STABLE;
+    else
+        qdot_judgement_back_to(j, before);
+    return QDOT_OK;
+}
+
 /* The potential of one coordinate rises on either side, or falls on one, by the force at q0 +-
  * eps: also where H = 0, or where the force jumps. */
 static qdot_status
@@ -112,6 +135,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], mass, up,
               eps = qdot_symbol_get(pool, QDOT_FORMAL, "epsilon"), place;
+    qdot_expr back[2]; /* positive where the force pushes back */
     int sign[2];
 
     if (qdot_expr_count(pool, e->equations) != 1 || qdot_expr_count(pool, j->judge->at_rest) != 1)
@@ -137,11 +161,11 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
             o.status = qdot_pool_check(pool);
         if (o.status != QDOT_OK || !o.known)
             return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
-        QDOT_TRY(leading_sign(j, side == 0 ? qdot_neg(pool, F) : F, eps, &sign[side]));
+        QDOT_TRY(leading_term(j, side == 0 ? qdot_neg(pool, F) : F, eps, &back[side], &sign[side]));
     }
-    if (sign[0] > 0 && sign[1] > 0)
-        e->stability = QDOT_STABLE;
-    else if ((sign[0] < 0 || sign[1] < 0) && !j->judge->velocity_kink)
+    if ((sign[0] > 0 || back[0] != QDOT_NIL) && (sign[1] > 0 || back[1] != QDOT_NIL) && sign[0] >= 0 && sign[1] >= 0)
+        return by_sides_when(j, e, back);
+    if ((sign[0] < 0 || sign[1] < 0) && !j->judge->velocity_kink)
         e->stability = QDOT_UNSTABLE;
     return QDOT_OK;
 }
