@@ -506,6 +506,7 @@ library_sources = \
 	lib/sim/branches/branch.c \
 	lib/sim/branches/continuation.c \
 	lib/sim/branches/dips.c \
+	lib/sim/branches/fold-guess.c \
 	lib/sim/branches/newton.c \
 	lib/sim/branches/orbit-bifurcation.c \
 	lib/sim/branches/orbit-continuation.c \
@@ -1101,6 +1102,7 @@ library_headers = \
 	lib/sim/branches/branch.h \
 	lib/sim/branches/continuation.h \
 	lib/sim/branches/dips.h \
+	lib/sim/branches/fold-guess.h \
 	lib/sim/branches/newton.h \
 	lib/sim/branches/orbit-bifurcation.h \
 	lib/sim/branches/orbit-continuation.h \

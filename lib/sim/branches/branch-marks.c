@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/branches/fold-guess.h"
+
 /* Bifurcations of one kind within this distance are one, if they are located no better; beside their errors where
  * they are proved. */
 static const double together = 1e-6, rounded = 1e-11;
@@ -92,6 +94,35 @@ qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_brack
         *answer = QDOT_BIFURCATION_FOUND;
     }
     qdot_free(b.y);
+    return status;
+}
+
+qdot_status
+qdot_branch_fold_beside(qdot_branch_search *s, const qdot_bifurcation_bracket *in, qdot_bifurcation *b)
+{
+    static const double apart[] = {3e-3, 1e-2, 1e-3, 3e-2, 1e-4};
+    const size_t w = s->x->width;
+    qdot_bifurcation fold = {.y = qdot_calloc(2 * w, sizeof *fold.y)};
+    qdot_bifurcation_answer one = QDOT_BIFURCATION_NONE;
+    qdot_status status = fold.y ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < sizeof apart / sizeof *apart && status == QDOT_OK && one != QDOT_BIFURCATION_FOUND; k++) {
+        bool turns;
+
+        fold.kind = QDOT_FOLD;
+        fold.error = fold.y + w;
+        memcpy(fold.y, b->y, w * sizeof *fold.y);
+        status = qdot_fold_guess(s->x, in->a, b->y, apart[k], fold.y, &turns);
+        if (status == QDOT_OK && turns)
+            status = s->find(s->user, in, &fold, NULL, &one);
+        if (one == QDOT_BIFURCATION_FOUND && !(qdot_path_distance(s->x, b->y, fold.y) < 3 * apart[k]))
+            one = QDOT_BIFURCATION_NONE;
+    }
+    if (status == QDOT_OK && one == QDOT_BIFURCATION_FOUND) {
+        memcpy(b->y, fold.y, 2 * w * sizeof *b->y);
+        b->kind = QDOT_FOLD;
+    }
+    qdot_free(fold.y);
     return status;
 }
 

@@ -27,6 +27,10 @@ QDOT_MUST_CHECK qdot_status qdot_branch_fold_is_crossing(qdot_branch_search *s,
                                                          qdot_bifurcation *fold, double *other,
                                                          qdot_bifurcation_answer *answer,
                                                          bool *outside);
+/* A fold on the curve from in->a, which leads to the crossing b, near that on either side: b becomes it, if one is
+ * proved. */
+QDOT_MUST_CHECK qdot_status qdot_branch_fold_beside(qdot_branch_search *s, const qdot_bifurcation_bracket *in,
+                                                    qdot_bifurcation *b);
 
 /* Two crossings beside the kept point `place`, `way` along the curve or nearer; *both is false where they are not
  * told apart: then nothing is kept. */

@@ -289,6 +289,8 @@ locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifu
         nothing = true; /* rounding turned the tangent of a curve that is upright there and goes on */
     if (status == QDOT_OK && kind == QDOT_FOLD && answer == QDOT_BIFURCATION_NONE && !nothing && x->dips)
         status = qdot_branch_fold_is_crossing(s, &in, &b, other, &answer, &nothing);
+    if (status == QDOT_OK && x->dips && kind == QDOT_FOLD && b.kind != QDOT_FOLD && answer == QDOT_BIFURCATION_FOUND)
+        status = qdot_branch_fold_beside(s, &in, &b);
     if (status == QDOT_OK && !nothing && !s->leapt && s->over != QDOT_END_REST) {
         if (answer != QDOT_BIFURCATION_FOUND) {
             b.kind = kind == QDOT_HALVING || (kind == QDOT_FOLD && in.changes) ? kind : QDOT_NOT_SIMPLE;

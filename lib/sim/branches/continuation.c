@@ -8,7 +8,7 @@
 
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
  * direction: below, it has no part along p. */
-static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-6;
+static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-8;
 enum { MOST_BRANCHES = 400 };
 
 void
@@ -232,29 +232,28 @@ leap(qdot_path *x, const double *y, const double *other, double way, bool over, 
     return false;
 }
 
-/* A fold between the crossing `start` and a, which is too near to the crossing for a first step to end before it: to the
- * arm. p is taken as quadratic between them for a guess. */
+/* A fold beside the crossing `start` on the curve through a: too near to the crossing for a first step to end before it.
+ * To the arm. */
 static qdot_status
-add_fold_between(qdot_branch_search *s, const qdot_path_point *start, const qdot_path_point *a, qdot_branch *arm)
+add_fold_beside(qdot_branch_search *s, const qdot_path_point *start, const qdot_path_point *a, qdot_branch *arm)
 {
     qdot_path *x = s->x;
     const size_t n = x->n, w = x->width;
-    const double length = qdot_path_distance(x, start->y, a->y), down = fabs(start->t[n]), up = fabs(a->t[n]),
-                 part = down / (down + up);
-    const qdot_bifurcation_bracket in = {.a = start, .to = length};
-    qdot_bifurcation b = {.kind = QDOT_FOLD, .y = qdot_calloc(2 * w, sizeof *b.y)};
-    qdot_bifurcation_answer answer = QDOT_BIFURCATION_NONE;
+    qdot_bifurcation b = {.kind = QDOT_NOT_SIMPLE, .y = qdot_calloc(2 * w, sizeof *b.y)};
     qdot_path_point here = {0};
+    qdot_bifurcation_bracket in = {.a = &here, .to = qdot_path_distance(x, start->y, a->y)};
     size_t mark = 0;
     qdot_status status = b.y ? qdot_path_point_begin(x, &here) : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         b.error = b.y + w;
-        for (size_t i = 0; i <= n; i++)
-            b.y[i] = start->y[i] + length * part * (start->t[i] + part / 2 * (a->t[i] - start->t[i]));
-        status = s->find(s->user, &in, &b, NULL, &answer);
+        memcpy(b.y, start->y, w * sizeof *b.y);
+        qdot_path_point_copy(x, a, &here);
+        for (size_t i = 0; i <= n; i++) /* back to the crossing */
+            here.t[i] = -here.t[i];
+        status = qdot_branch_fold_beside(s, &in, &b);
     }
-    if (status == QDOT_OK && answer == QDOT_BIFURCATION_FOUND && qdot_path_distance(x, start->y, b.y) < length) {
+    if (status == QDOT_OK && b.kind == QDOT_FOLD) {
         memcpy(here.y, b.y, w * sizeof *b.y);
         status = x->judge(x, &here);
         qdot_branch_turn_back(x, b.y);
@@ -293,7 +292,7 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
     if (status == QDOT_OK && !known) {
         status = s->x->judge(s->x, &a);
         if (status == QDOT_OK && over && s->x->dips)
-            status = add_fold_between(s, &start, &a, arm);
+            status = add_fold_beside(s, &start, &a, arm);
         if (status == QDOT_OK)
             status = qdot_branch_add(s->x, arm, a.y, a.stability, 0);
         if (status == QDOT_OK)

@@ -2,6 +2,7 @@
 #include "sim/branches/newton.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "normal/solve/isolate.h"
@@ -95,8 +96,9 @@ prove(qdot_newton *s, double *x, double *error)
     return QDOT_OK;
 }
 
-qdot_status
-qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
+/* Step from x until rounding moves it; prove what that is. */
+static qdot_status
+iterate(qdot_newton *s, double *x, double *error, bool *found)
 {
     double before = INFINITY, length = INFINITY;
 
@@ -115,4 +117,29 @@ qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
     QDOT_TRY(prove(s, x, error)); /* two zeros near each other: doubles leave it vague, balls may not */
     *found = s->regular;
     return QDOT_OK;
+}
+
+qdot_status
+qdot_newton_solve(qdot_newton *s, double *x, double *error, bool *found)
+{
+    const size_t n = s->n;
+    double *start = qdot_malloc((2 * n + 1) * sizeof *start), *start_error = start + n;
+    qdot_status status = start ? QDOT_OK : QDOT_ENOMEM;
+
+    *found = s->regular = false;
+    if (status == QDOT_OK) {
+        memcpy(start, x, n * sizeof *x);
+        status = iterate(s, x, error, found);
+    }
+    if (status == QDOT_OK && !s->regular && n <= MOST_PROVED) { /* rounding may have led away from a good guess */
+        memset(s->step, 0, n * sizeof *s->step);
+        status = prove(s, start, start_error);
+        if (status == QDOT_OK && s->regular) {
+            *found = true;
+            memcpy(x, start, n * sizeof *x);
+            memcpy(error, start_error, n * sizeof *error);
+        }
+    }
+    qdot_free(start);
+    return status;
 }

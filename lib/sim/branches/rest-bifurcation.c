@@ -9,7 +9,7 @@
 #include "tape/derivative.h"
 
 /* Of a direction of unit length: below, it has no part along p. Below, of the entries of Gamma: no damping. */
-static const double upright = 1e-6, undamped = 1e-9;
+static const double upright = 1e-8, undamped = 1e-9;
 /* --- systems ------------------------------------------------------------------------------ */
 
 /* The k-th unknown of a kind that is none of the scene. */
