@@ -1,14 +1,17 @@
 /* simultaneous-members.c -- a solved branch as solutions: periods of the unknowns, their members inside the declared
  * domains, and the conditions under which each exists. */
+#include <math.h>
+
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/simultaneous.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16 };
+enum { MOST_SOLUTIONS = 1024, MOST_RATES = 16, MOST_LISTED = 64 };
 
 /* --- periods --------------------------------------------------------------------------- */
 
@@ -185,15 +188,68 @@ typedef struct {
 } solution;
 
 static qdot_status
-append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
+push_solution(qdot_simultaneous *s, qdot_expr values, qdot_expr conditions)
 {
-    qdot_simultaneous_solution one = {
-        .values = qdot_list(s->pool, (uint32_t)p->n, p->equation), .conditions = conditions};
-
     QDOT_TRY(qdot_pool_check(s->pool));
     if (s->found.n >= MOST_SOLUTIONS)
         return qdot_fail(QDOT_ELIMIT, "there are more than %d solutions", MOST_SOLUTIONS);
-    return qdot_vec_push(&s->found, one);
+    return qdot_vec_push(&s->found, ((qdot_simultaneous_solution){.values = values, .conditions = conditions}));
+}
+
+/* Bounds of the integer n by conditions a n + b > 0 with constants a and b, in doubles and a little too wide; false: it
+ * has not both. */
+static bool
+integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, double *lo, double *hi)
+{
+    qdot_pool *pool = s->pool;
+    uint32_t count = conditions == QDOT_NIL ? 0 : qdot_expr_count(pool, conditions);
+    qdot_expr zero = QDOT_ZERO;
+
+    *lo = -INFINITY;
+    *hi = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        qdot_expr one = qdot_expr_arg(pool, conditions, i), gap, slope;
+        double a, b;
+
+        if (qdot_expr_kind(pool, one) != QDOT_REL || !qdot_expr_contains(pool, one, n))
+            continue;
+        gap = qdot_sub(pool, qdot_expr_arg(pool, one, 1), qdot_expr_arg(pool, one, 0));
+        slope = qdot_diff(pool, gap, n);
+        gap = qdot_subs(pool, gap, 1, &n, &zero);
+        if (slope == QDOT_NIL || gap == QDOT_NIL || !qdot_is_constant(pool, slope) || !qdot_is_constant(pool, gap) ||
+            !qdot_ball_double(pool, slope, NULL, NULL, &a) || !qdot_ball_double(pool, gap, NULL, NULL, &b) || a == 0)
+            continue;
+        if (a > 0)
+            *lo = fmax(*lo, ceil(-b / a - 1e-6));
+        else
+            *hi = fmin(*hi, floor(-b / a + 1e-6));
+    }
+    return isfinite(*lo) && isfinite(*hi) && *hi - *lo < MOST_LISTED;
+}
+
+/* A solution; where conditions bound an integer in it on both sides, one for each value of that. */
+static qdot_status
+append_solution(qdot_simultaneous *s, const solution *p, qdot_expr conditions)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr values = qdot_list(pool, (uint32_t)p->n, p->equation), n;
+    double lo = 0, hi = 0;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    if (conditions == QDOT_NIL || qdot_solve_integers(pool, values) != 1)
+        return push_solution(s, values, conditions);
+    n = qdot_solve_integer(pool, 0);
+    if (!qdot_expr_contains(pool, values, n) || !integer_bounds(s, conditions, n, &lo, &hi))
+        return push_solution(s, values, conditions);
+    for (double k = lo; k <= hi; k++) {
+        qdot_expr number = qdot_expr_int(pool, (long)k),
+                  there = qdot_conditions_at(pool, conditions, 1, &n, &number, &s->facts);
+
+        QDOT_TRY(qdot_pool_check(pool));
+        if (there != QDOT_FALSE)
+            QDOT_TRY(push_solution(s, qdot_subs(pool, values, 1, &n, &number), there));
+    }
+    return QDOT_OK;
 }
 
 /* How many integers count members already, of the unknowns before the i-th and in the values of all: each family has
