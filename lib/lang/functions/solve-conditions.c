@@ -124,17 +124,10 @@ qdot_status
 qdot_solve_notice_open(qdot_session *session, qdot_expr where)
 {
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_status status = qdot_solve_print_conditions(session->pool, "where ", where, &text);
 
-    for (uint32_t i = 0; i < qdot_expr_count(session->pool, where) && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i == 0 ? "" : " and ");
-        status = qdot_print(session->pool, qdot_expr_arg(session->pool, where, i), QDOT_PLAIN, &text);
-    }
     if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "where %s the solutions may be others",
-                                    qdot_text_str(&text));
+        status = qdot_answer_notice(session, "%s the solutions may be others", qdot_text_str(&text));
     qdot_text_clear(&text);
     return status;
 }
