@@ -604,6 +604,7 @@ library_sources = \
 	lib/sim/model/equations.c \
 	lib/sim/model/gates.c \
 	lib/sim/model/layer.c \
+	lib/sim/model/massless-jump.c \
 	lib/sim/model/massless.c \
 	lib/sim/model/momenta.c \
 	lib/sim/model/parameter-states.c \
@@ -1183,6 +1184,7 @@ library_headers = \
 	lib/sim/model/equations.h \
 	lib/sim/model/gates.h \
 	lib/sim/model/layer.h \
+	lib/sim/model/massless-jump.h \
 	lib/sim/model/massless.h \
 	lib/sim/model/momenta.h \
 	lib/sim/model/parameter-states.h \
@@ -1608,6 +1610,7 @@ script_tests = \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
 	tests/script/mass-in-time.lag \
+	tests/script/massless-jumps.sh \
 	tests/script/massless-orbits.sh \
 	tests/script/massless-slopes.sh \
 	tests/script/massless-studies.lag \
@@ -2792,6 +2795,7 @@ test_files = \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
 	tests/script/mass-in-time.out \
+	tests/script/massless-jumps.out \
 	tests/script/massless-orbits.out \
 	tests/script/massless-slopes.out \
 	tests/script/massless-studies.out \

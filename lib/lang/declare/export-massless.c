@@ -5,6 +5,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
+#include "sim/model/massless-jump.h"
 
 static qdot_expr
 jet(const qdot_scene *s, size_t i, uint32_t order)
@@ -25,26 +26,23 @@ is_massless(const qdot_scene *s, const qdot_expr *M, size_t i)
     return true;
 }
 
-static qdot_status
-refuse_jumps(const qdot_scene *s)
+/* Whether f holds no velocity of such coordinates. */
+static bool
+is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
-    for (size_t k = 0; k < s->events.n; k++)
-        if (s->events.at[k].targets.n > 0)
-            return qdot_fail(QDOT_ENOTBUILT,
-                             "not built yet: exports of the event %.100s of a scene with a coordinate without mass",
-                             s->events.at[k].name);
-    return QDOT_OK;
+    for (size_t j = 0; j < s->coordinates.n; j++)
+        if (massless[j] && qdot_expr_contains(s->pool, f, jet(s, j, 1)))
+            return false;
+    return true;
 }
 
 /* The rate of f_i that holds accelerations. */
 static qdot_expr
 rate_of(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
-    bool velocity = false;
+    const qdot_expr rate = qdot_ddt(s->pool, f);
 
-    for (size_t j = 0; j < s->coordinates.n; j++)
-        velocity = velocity || (massless[j] && qdot_expr_contains(s->pool, f, jet(s, j, 1)));
-    return velocity ? qdot_ddt(s->pool, f) : qdot_ddt(s->pool, qdot_ddt(s->pool, f));
+    return is_of_positions(s, massless, f) ? qdot_ddt(s->pool, rate) : rate;
 }
 
 /* Row i by that rate. accelerations [n], zeros [n] */
@@ -78,8 +76,6 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
         accelerations[i] = jet(scene, i, 2);
         accelerations[n + i] = QDOT_ZERO;
     }
-    if (status == QDOT_OK && *any)
-        status = refuse_jumps(scene);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (massless[i]) {
             put_rate(scene, accelerations, accelerations + n, rate_of(scene, massless, f[i]), M + i * n, f + i);
@@ -87,5 +83,67 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
         }
     qdot_free(massless);
     qdot_free(accelerations);
+    return status;
+}
+
+/* --- events ------------------------------------------------------------------------------- */
+
+/* What of (q, q') is no longer what it was, as targets and values of `own`. */
+static qdot_status
+put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after, qdot_event *own)
+{
+    const size_t n = s->coordinates.n;
+
+    for (size_t k = 0; k < event->targets.n; k++)
+        if (qdot_expr_is_class(s->pool, event->targets.at[k], QDOT_PARAM)) {
+            QDOT_TRY(qdot_vec_push(&own->targets, event->targets.at[k]));
+            QDOT_TRY(qdot_vec_push(&own->values, event->values.at[k]));
+        }
+    for (size_t i = 0; i < 2 * n; i++)
+        if (after[i] != jet(s, i % n, i >= n)) {
+            QDOT_TRY(qdot_vec_push(&own->targets, jet(s, i % n, i >= n)));
+            QDOT_TRY(qdot_vec_push(&own->values, after[i]));
+        }
+    return QDOT_OK;
+}
+
+/* The equations of coordinates without mass into rows, whose room this is. */
+static qdot_status
+find_rows(qdot_scene *s, qdot_massless_rows *rows, qdot_expr *G, size_t *coordinate, bool *of_positions, bool *massless)
+{
+    const size_t n = s->coordinates.n;
+    const qdot_expr mass = qdot_mech_numeric_mass(s), forcing = qdot_mech_numeric_forcing(s);
+
+    QDOT_TRY(qdot_pool_check(s->pool));
+    for (size_t i = 0; i < n; i++)
+        massless[i] = is_massless(s, qdot_expr_args(s->pool, mass), i);
+    for (size_t i = 0; i < n; i++)
+        if (massless[i]) {
+            G[rows->w] = qdot_expr_arg(s->pool, forcing, (uint32_t)i);
+            of_positions[rows->w] = is_of_positions(s, massless, G[rows->w]);
+            coordinate[rows->w++] = i;
+        }
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_export_event_with_massless(qdot_scene *scene, const qdot_event *event, qdot_event *own)
+{
+    const size_t n = scene->coordinates.n;
+    qdot_expr *room = qdot_calloc(3 * n + 1, sizeof *room);
+    size_t *coordinate = qdot_calloc(n + 1, sizeof *coordinate);
+    bool *flags = qdot_calloc(2 * n + 1, sizeof *flags);
+    qdot_massless_rows rows = {.G = room, .coordinate = coordinate, .of_positions = flags};
+    qdot_status status = room != NULL && coordinate != NULL && flags != NULL
+                             ? find_rows(scene, &rows, room, coordinate, flags, flags + n)
+                             : QDOT_ENOMEM;
+
+    if (status == QDOT_OK)
+        status = qdot_massless_jump(scene, event, &rows, room + n);
+    if (status == QDOT_OK)
+        status = put_changed(scene, event, room + n, own);
+    qdot_free(room);
+    qdot_free(coordinate);
+    qdot_free(flags);
     return status;
 }

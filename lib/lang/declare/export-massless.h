@@ -14,8 +14,11 @@
 
 #include "mech/scene/scene.h"
 
-/* M [n x n], f [n]; *any: there are such coordinates. QDOT_ENOTBUILT: an event sets values, which then would have to be
- * followed by their velocities. */
+/* M [n x n], f [n]; *any: there are such coordinates. */
 QDOT_MUST_CHECK qdot_status qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any);
+
+/* What an event puts, with what follows from it by their equations (sim/model/massless-jump.h), as targets and values of
+ * `own`; its lists are the caller's, to be freed in any case. */
+QDOT_MUST_CHECK qdot_status qdot_export_event_with_massless(qdot_scene *scene, const qdot_event *event, qdot_event *own);
 
 #endif

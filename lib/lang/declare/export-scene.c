@@ -35,7 +35,8 @@ typedef struct {
     expressions heads, bodies; /* functions and their values */
     expressions held;          /* [m] left - right of the constraints, on the sides of the switches */
     expressions equations, slopes, energy, positions, events, u;
-    qdot_vec(expressions) effects; /* of each event */
+    qdot_vec(qdot_event) acts;     /* of each event: what it puts, and the values as written */
+    qdot_vec(expressions) effects; /* these values */
     qdot_vec(int) orders;
     qdot_vec(qdot_export_surface) surface;
     qdot_vec(char *) texts; /* of the surfaces, of the ends of domains */
@@ -340,10 +341,19 @@ events(description *d)
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *e = &s->events.at[i];
         expressions effect = {0};
+        qdot_event act = {0};
         qdot_status status = push(d, &d->events, qdot_sub(s->pool, e->left, e->right));
 
-        for (size_t k = 0; k < e->values.n && status == QDOT_OK; k++)
-            status = push(d, &effect, e->values.at[k]);
+        if (status == QDOT_OK && e->targets.n > 0)
+            status = qdot_export_event_with_massless(d->scene, e, &act);
+        for (size_t k = 0; k < act.values.n && status == QDOT_OK; k++)
+            status = push(d, &effect, act.values.at[k]);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&d->acts, act);
+        if (status != QDOT_OK) {
+            qdot_free(act.targets.at);
+            qdot_free(act.values.at);
+        }
         if (status == QDOT_OK)
             status = qdot_vec_push(&d->effects, effect);
         if (status != QDOT_OK) {
@@ -409,10 +419,10 @@ all_parameters(description *d)
     QDOT_TRY(find_parameters(d, &d->u));
     for (size_t i = 0; i < d->effects.n; i++)
         QDOT_TRY(find_parameters(d, &d->effects.at[i]));
-    for (size_t i = 0; i < s->events.n; i++)
-        for (size_t k = 0; k < s->events.at[i].targets.n; k++)
-            if (qdot_expr_is_class(s->pool, s->events.at[i].targets.at[k], QDOT_PARAM))
-                QDOT_TRY(add_parameter(d, s->events.at[i].targets.at[k]));
+    for (size_t i = 0; i < d->acts.n; i++)
+        for (size_t k = 0; k < d->acts.at[i].targets.n; k++)
+            if (qdot_expr_is_class(s->pool, d->acts.at[i].targets.at[k], QDOT_PARAM))
+                QDOT_TRY(add_parameter(d, d->acts.at[i].targets.at[k]));
     d->x.k = d->parameters.n;
     d->x.parameters = d->values.at;
     return QDOT_OK;
@@ -563,15 +573,15 @@ lower_events(description *d)
     const qdot_scene *s = d->scene;
     size_t next = 0;
 
-    for (size_t i = 0; i < s->events.n; i++)
-        for (size_t k = 0; k < s->events.at[i].targets.n; k++)
-            QDOT_TRY(qdot_vec_push(&d->targets, target(d, s->events.at[i].targets.at[k])));
+    for (size_t i = 0; i < d->acts.n; i++)
+        for (size_t k = 0; k < d->acts.at[i].targets.n; k++)
+            QDOT_TRY(qdot_vec_push(&d->targets, target(d, d->acts.at[i].targets.at[k])));
     for (size_t i = 0; i < s->events.n; i++) {
         const qdot_event *from = &s->events.at[i];
         qdot_export_event e = {.name = from->name,
                                .way = from->way,
                                .stop = from->stop,
-                               .n_targets = from->targets.n,
+                               .n_targets = d->acts.at[i].targets.n,
                                .targets = d->targets.at + next};
 
         next += e.n_targets;
@@ -616,12 +626,17 @@ clear(description *d)
         qdot_free(d->effects.at[i].at);
     for (size_t i = 0; i < d->event.n; i++)
         qdot_tape_free((qdot_tape *)d->event.at[i].effect);
+    for (size_t i = 0; i < d->acts.n; i++) {
+        qdot_free(d->acts.at[i].targets.at);
+        qdot_free(d->acts.at[i].values.at);
+    }
     for (size_t i = 0; i < d->texts.n; i++)
         qdot_free(d->texts.at[i]);
     qdot_switches_clear(&d->switches);
     qdot_free(d->texts.at);
     qdot_free(d->orders.at);
     qdot_free(d->surface.at);
+    qdot_free(d->acts.at);
     qdot_free(d->effects.at);
     qdot_free(d->event.at);
     qdot_free(d->targets.at);

@@ -19,7 +19,8 @@ typedef struct {
     qdot_scene *of, *scene;          /* borrowed; owned */
     const qdot_run_request *request; /* borrowed */
     size_t n, m, k;                  /* coordinates, constraints held, directions */
-    size_t w;                        /* equations of coordinates without mass that are held (sim/model/massless.h) */
+    size_t n_massless;               /* equations of coordinates without mass (sim/model/massless.h) */
+    size_t w;                        /* of these, those held: all or none */
     qdot_expr *G;                    /* [n] of them, 0 = G, without numbers */
     size_t *massless;                /* [n] of which coordinates they are */
     bool *of_positions;              /* [n] whether such an equation holds no velocity of these */

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "expr/calculus.h"
 #include "mech/dynamics/integrated.h"
+#include "sim/model/massless-jump.h"
 #include "tape/constant.h"
 
 /* A value of a start that is off by more has been moved. */
@@ -55,32 +56,21 @@ add_constraints(const qdot_variation *v)
     return QDOT_OK;
 }
 
-/* What `then` makes of component i of (q, q'). */
-static qdot_expr
-value_after(const qdot_variation *v, const qdot_event *event, size_t i)
-{
-    const qdot_expr z = qdot_variation_jet(v, i % v->n, i >= v->n);
-
-    for (size_t j = 0; j < event->targets.n; j++)
-        if (event->targets.at[j] == z)
-            return event->values.at[j];
-    return z;
-}
-
-/* The event with the saltation of y. Room: z [2n] for (q, q') before it, after [3n] for (q, q', q'')
- * after it as expressions of the state before. */
+/* The event with the saltation of y. Room: z [2n] for (q, q') before it, put [2n] for what becomes of them, after [3n] for
+ * (q, q', q'') after it with numbers; expressions of the state before. */
 static qdot_status
-add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z,
+add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z, qdot_expr *put,
               qdot_expr *after, qdot_event *own)
 {
+    const qdot_massless_rows rows = {v->n_massless, v->G, v->massless, v->of_positions};
     qdot_pool *pool = v->of->pool;
     const qdot_expr g = qdot_sub(pool, event->left, event->right);
     const size_t n = v->n;
 
+    QDOT_TRY(qdot_massless_jump(v->of, event, &rows, put));
     for (size_t i = 0; i < 2 * n; i++) {
         z[i] = qdot_variation_jet(v, i % n, i >= n);
-        after[i] = qdot_variation_with_motion(
-            v, qdot_variation_with_numbers(v, value_after(v, event, i)));
+        after[i] = qdot_variation_with_motion(v, qdot_variation_with_numbers(v, put[i]));
         QDOT_TRY(qdot_vec_push(&own->targets, z[i]));
         QDOT_TRY(qdot_vec_push(&own->values, after[i]));
     }
@@ -93,7 +83,7 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z,
             pool, qdot_neg(pool, qdot_div(pool, slope, qdot_variation_rate(v, g))));
 
         for (size_t i = 0; i < 2 * n; i++) {
-            const qdot_expr h = value_after(v, event, i);
+            const qdot_expr h = put[i];
             const qdot_expr along =
                 qdot_sub(pool, qdot_variation_rate(v, h), after[n + i]);
 
@@ -111,7 +101,7 @@ add_saltation(const qdot_variation *v, const qdot_event *event, qdot_expr *z,
 static qdot_status
 add_events(const qdot_variation *v)
 {
-    qdot_expr *room = qdot_malloc((5 * v->n + 1) * sizeof *room);
+    qdot_expr *room = qdot_malloc((7 * v->n + 1) * sizeof *room);
     qdot_status status = room ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < v->of->events.n && status == QDOT_OK; i++) {
@@ -122,7 +112,7 @@ add_events(const qdot_variation *v)
             continue;
         own.left = qdot_variation_with_numbers(v, event->left);
         own.right = qdot_variation_with_numbers(v, event->right);
-        status = add_saltation(v, event, room, room + 2 * v->n, &own);
+        status = add_saltation(v, event, room, room + 2 * v->n, room + 4 * v->n, &own);
         if (status == QDOT_OK)
             status = qdot_scene_event(v->scene, &own);
         qdot_free(own.targets.at);

@@ -304,20 +304,6 @@ find_massless(elimination *e)
     }
 }
 
-/* After a jump their velocities follow from their equations. */
-static qdot_status
-refuse_without_mass(const elimination *e)
-{
-    const qdot_scene *s = e->v->of;
-
-    for (size_t i = 0; i < s->events.n && e->w > 0; i++)
-        if (s->events.at[i].targets.n > 0)
-            return qdot_fail(QDOT_ENOTBUILT,
-                             "not built yet: slopes through the event %.100s of a scene with a coordinate without mass",
-                             s->events.at[i].name);
-    return QDOT_OK;
-}
-
 /* The rates of their equations that hold q''. */
 static qdot_status
 prepare_massless(elimination *e, size_t *pivot)
@@ -391,7 +377,6 @@ prepare(elimination *e)
         e->f[i] = qdot_variation_with_numbers(v, qdot_expr_arg(pool, f, (uint32_t)i));
     QDOT_TRY(qdot_pool_check(pool));
     find_massless(e);
-    QDOT_TRY(refuse_without_mass(e));
     status = factor(pool, n, e->L, &pivot);
     if (status == QDOT_OK)
         status = prepare_massless(e, &pivot);
@@ -572,6 +557,7 @@ make(elimination *e, qdot_expr *b)
     QDOT_TRY(prepare(e));
     QDOT_TRY(solve_motion(e));
     QDOT_TRY(solve_slopes(e, b));
+    e->v->n_massless = e->w;
     e->v->w = e->held ? e->w : 0;
     return qdot_variation_write(e->v, b);
 }

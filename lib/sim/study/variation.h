@@ -15,7 +15,7 @@
  *
  *     y to Dh + (dh/dt - F+) dt,   dt = -Dg/(dg/dt),   F+ = (q', q'') after it
  *
- * (saltation). Numbers of the request are put in exactly: the new scene has no parameters.
+ * (saltation); velocities without mass follow from their equations (sim/model/massless-jump.h). Numbers of the request are put in exactly: the new scene has no parameters.
  *
  * Tests  tests/sim/test_variation.c, tests/script/sensitivity.sh
  */

@@ -1,0 +1,165 @@
+/* massless-jump.c -- what `then` does not put, from the equations of coordinates without mass. */
+#include "sim/model/massless-jump.h"
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/solve/linear.h"
+
+typedef struct {
+    const qdot_scene *scene;
+    const qdot_event *event;
+    const qdot_massless_rows *rows;
+    qdot_pool *pool;
+    size_t n_from;
+    qdot_expr *from,
+        *to; /* [n_from] q, q' and the parameters that the event puts, and what they are behind it */
+    qdot_expr *R, *x;      /* [w] equations and their unknowns, */
+    size_t *place;         /* [w] which are these of q, q' */
+    qdot_expr *A, *b, *at; /* [w x w], [w], [w] A x = b */
+} jump;
+
+static qdot_expr
+behind(const jump *j, qdot_expr e)
+{
+    return e == QDOT_NIL ? e : qdot_subs(j->pool, e, j->n_from, j->from, j->to);
+}
+
+/* Of the first n equations R = 0. */
+static qdot_status
+write_linear(const jump *j, size_t n)
+{
+    for (size_t c = 0; c < n; c++) {
+        qdot_expr rest = j->R[c];
+
+        for (size_t k = 0; k < n; k++) {
+            const qdot_expr slope = qdot_diff(j->pool, j->R[c], j->x[k]),
+                            zero = QDOT_ZERO;
+
+            QDOT_TRY(qdot_pool_check(j->pool));
+            for (size_t i = 0; i < n; i++)
+                if (qdot_expr_contains(j->pool, slope, j->x[i]))
+                    return qdot_fail(
+                        QDOT_ENOTBUILT,
+                        "not built yet: what follows behind the event %.100s from an "
+                        "equation that is "
+                        "not linear in %.100s%s",
+                        j->event->name,
+                        qdot_expr_symbol(j->pool,
+                                         j->scene->coordinates
+                                             .at[j->place[i] % j->scene->coordinates.n])
+                            ->name,
+                        j->place[i] < j->scene->coordinates.n ? "" : "'");
+            j->A[c * n + k] = behind(j, slope);
+            rest = rest == QDOT_NIL ? rest : qdot_subs(j->pool, rest, 1, &j->x[k], &zero);
+        }
+        j->b[c] = qdot_neg(j->pool, behind(j, rest));
+    }
+    return qdot_pool_check(j->pool);
+}
+
+/* The first n unknowns from as many equations. */
+static qdot_status
+solve_for(const jump *j, size_t n)
+{
+    const qdot_facts facts = qdot_scene_facts(j->scene);
+    bool same = true;
+    uint32_t pivot;
+    qdot_status status;
+
+    for (size_t c = 0; c < n; c++)
+        same = same && behind(j, j->R[c]) == j->R[c];
+    if (same)
+        return qdot_pool_check(j->pool);
+    QDOT_TRY(write_linear(j, n));
+    status = qdot_solve_linear(j->pool, (uint32_t)n, j->A, j->b, j->at, &pivot, &facts);
+    if (status == QDOT_ESINGULAR)
+        return qdot_fail(status,
+                         "behind the event %.100s the equations of coordinates without "
+                         "mass determine nothing",
+                         j->event->name);
+    QDOT_TRY(status);
+    for (size_t c = 0; c < n; c++)
+        j->to[j->place[c]] = j->at[c];
+    return QDOT_OK;
+}
+
+static size_t
+add_unknown(const jump *j, size_t n, qdot_expr R, size_t place)
+{
+    j->R[n] = R;
+    j->place[n] = place;
+    j->x[n] = j->from[place];
+    return n + 1;
+}
+
+/* q, q' as `then` has them. */
+static void
+put_event(jump *j)
+{
+    const size_t n = j->scene->coordinates.n;
+    const qdot_event *event = j->event;
+
+    for (size_t i = 0; i < 2 * n; i++)
+        j->from[i] = j->to[i] =
+            qdot_symbol_jet(j->pool, j->scene->coordinates.at[i % n], i >= n);
+    j->n_from = 2 * n;
+    for (size_t k = 0; k < event->targets.n; k++) {
+        size_t i = 0;
+
+        while (i < 2 * n && j->from[i] != event->targets.at[k])
+            i++;
+        if (i == 2 * n)
+            j->from[i = j->n_from++] = event->targets.at[k];
+        j->to[i] = event->values.at[k];
+    }
+}
+
+static qdot_status
+follow(jump *j)
+{
+    const qdot_massless_rows *rows = j->rows;
+    const size_t n = j->scene->coordinates.n;
+    size_t count = 0;
+
+    put_event(j);
+    QDOT_TRY(qdot_pool_check(j->pool));
+    for (size_t c = 0; c < rows->w; c++)
+        if (rows->of_positions[c])
+            count = add_unknown(j, count, rows->G[c], rows->coordinate[c]);
+    QDOT_TRY(solve_for(j, count));
+    count = 0;
+    for (size_t c = 0; c < rows->w; c++)
+        count = add_unknown(
+            j, count, rows->of_positions[c] ? qdot_ddt(j->pool, rows->G[c]) : rows->G[c],
+            n + rows->coordinate[c]);
+    QDOT_TRY(qdot_pool_check(j->pool));
+    return solve_for(j, count);
+}
+
+qdot_status
+qdot_massless_jump(const qdot_scene *scene, const qdot_event *event,
+                   const qdot_massless_rows *rows, qdot_expr *after)
+{
+    const size_t n = scene->coordinates.n, w = rows->w, most = 2 * n + event->targets.n;
+    jump j = {.scene = scene, .event = event, .rows = rows, .pool = scene->pool};
+    qdot_expr *room = qdot_calloc(2 * most + w * w + 4 * w + 1, sizeof *room);
+    qdot_status status = QDOT_ENOMEM;
+
+    j.place = qdot_calloc(w + 1, sizeof *j.place);
+    if (room != NULL && j.place != NULL) {
+        j.from = room;
+        j.to = j.from + most;
+        j.R = j.to + most;
+        j.x = j.R + w;
+        j.b = j.x + w;
+        j.at = j.b + w;
+        j.A = j.at + w;
+        status = follow(&j);
+    }
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
+        after[i] = j.to[i];
+    qdot_free(room);
+    qdot_free(j.place);
+    return status;
+}
