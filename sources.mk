@@ -1547,6 +1547,7 @@ script_tests = \
 	tests/script/event-parameters.lag \
 	tests/script/event-powers.lag \
 	tests/script/event-roots.lag \
+	tests/script/event-slopes.sh \
 	tests/script/event-spans.lag \
 	tests/script/event-stays.lag \
 	tests/script/event-storms.sh \
@@ -2718,6 +2719,7 @@ test_files = \
 	tests/script/event-parameters.out \
 	tests/script/event-powers.out \
 	tests/script/event-roots.out \
+	tests/script/event-slopes.out \
 	tests/script/event-spans.out \
 	tests/script/event-stays.out \
 	tests/script/event-storms.out \

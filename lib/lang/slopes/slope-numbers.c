@@ -10,6 +10,9 @@
 #include "lang/session/runs.h"
 #include "sim/study/extremum.h"
 
+/* An event of which the time is known worse than this is read so little before it. */
+static const double most_back = 1e-8;
+
 /* An expression of the scene with slopes at a time, as a number. */
 static qdot_status
 at_time(qdot_slopes *s, qdot_expr e, qdot_expr time, qdot_expr *value)
@@ -69,27 +72,48 @@ slope_of_value(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k,
     return qdot_pool_check(pool);
 }
 
+/* Where the slope of an event's time is read: at it, or just before it where it changes the state. */
+static double
+read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
+{
+    const qdot_run_report *report = qdot_run_get_report(s->run);
+    const double back = fmax(fmax(1, fabs(m->value)) * 4 * DBL_EPSILON, fmin(2 * m->error, most_back));
+
+    return event->targets.n == 0 ? m->value : m->value - copysign(back, report->t1 - report->t0);
+}
+
+/* The slope -Dg/(dg/dt), an expression of the scene with slopes, from where it is read to where g = 0, which is known to
+ * its error: it is off by as much as it changes in between. */
+static qdot_status
+add_way_to_event(qdot_slopes *s, const qdot_measured *m, qdot_expr of, qdot_expr time, double way, qdot_expr *slope)
+{
+    qdot_pool *pool = s->session->pool;
+    qdot_expr rate;
+
+    QDOT_TRY(at_time(s, qdot_ddt(pool, of), time, &rate));
+    *slope = qdot_add(pool, *slope, qdot_mul(pool, rate, qdot_measured_new(s->session, way, m->error)));
+    return qdot_pool_check(pool);
+}
+
 static qdot_status
 slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
     const qdot_event *event = qdot_scene_find_event(s->session->scene, m->origin.event);
-    qdot_expr g, time, up, down;
+    qdot_expr g, Dg, dg, time, up, down;
 
     if (event == NULL)
         return qdot_fail(QDOT_ENAME, "there is no event %.100s any more",
                          m->origin.event);
     g = qdot_sub(pool, event->left, event->right);
-    /* just before it, where it changes the state */
-    time = m->digits > 0 ? m->exact
-           : event->targets.n > 0
-               ? qdot_measured_rational(pool, m->value - fmax(1, fabs(m->value)) * 4 *
-                                                             DBL_EPSILON)
-               : qdot_measured_rational(pool, m->value);
-    QDOT_TRY(at_time(s, qdot_variation_of(&s->variation, g, k), time, &up));
-    QDOT_TRY(at_time(s, qdot_variation_rate(&s->variation, g), time, &down));
+    Dg = qdot_variation_of(&s->variation, g, k);
+    dg = qdot_variation_rate(&s->variation, g);
+    time = m->digits > 0 ? m->exact : qdot_measured_rational(pool, read_at(s, m, event));
+    QDOT_TRY(at_time(s, Dg, time, &up));
+    QDOT_TRY(at_time(s, dg, time, &down));
     *slope = qdot_neg(pool, qdot_div(pool, up, down));
-    return qdot_pool_check(pool);
+    return add_way_to_event(s, m, qdot_neg(pool, qdot_div(pool, Dg, dg)), time,
+                            m->digits > 0 ? 0 : m->value - read_at(s, m, event), slope);
 }
 
 /* max, min: De where e is largest or least. */
