@@ -1713,6 +1713,7 @@ script_tests = \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
+	tests/script/start-errors.sh \
 	tests/script/start-exact.lag \
 	tests/script/start-mass.lag \
 	tests/script/state-rounding.sh \
@@ -2902,6 +2903,7 @@ test_files = \
 	tests/script/solve.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
+	tests/script/start-errors.out \
 	tests/script/start-exact.out \
 	tests/script/start-mass.out \
 	tests/script/state-rounding.out \

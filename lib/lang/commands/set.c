@@ -250,6 +250,34 @@ tell_parameters(qdot_session *session, const char *name, const qdot_run_report *
     return QDOT_OK;
 }
 
+/* Keep how far the companions of the run ended from where it did: runs from there go on with its error. */
+static qdot_status
+keep_errors(qdot_session *session, const qdot_named_run *named)
+{
+    const qdot_run_report *report = qdot_run_get_report(named->run);
+    double *apart = qdot_calloc(4 * report->n + 1, sizeof *apart);
+    bool known;
+    qdot_status status = apart != NULL ? qdot_run_end_apart(named->run, apart, &known) : QDOT_ENOMEM;
+
+    session->start_errors.n = 0;
+    if (status == QDOT_OK && !known)
+        status = qdot_answer_notice(session, "the start is taken as exact: errors of runs from it do not hold "
+                                    "that of %.100s",
+                                    named->name);
+    for (size_t i = 0; status == QDOT_OK && known && i < 2 * report->n; i++) {
+        const bool velocity = i >= report->n;
+        const qdot_expr z = qdot_symbol_jet(session->pool, report->coordinates[i % report->n], velocity);
+        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, z);
+
+        if (at < session->start_symbols.n)
+            status = qdot_vec_push(&session->start_errors,
+                                   ((qdot_start_error){z, session->start_values.at[at],
+                                                       {apart[i], apart[2 * report->n + i]}}));
+    }
+    qdot_free(apart);
+    return status == QDOT_OK ? qdot_pool_check(session->pool) : status;
+}
+
 static qdot_status
 start_from_run(qdot_cursor *c)
 {
@@ -282,6 +310,7 @@ start_from_run(qdot_cursor *c)
         QDOT_TRY(qdot_session_start(session, v, v0));
     }
     session->start_exactly = exactly;
+    QDOT_TRY(keep_errors(session, run));
     return tell_parameters(session, run->name, report);
 }
 

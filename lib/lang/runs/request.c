@@ -18,6 +18,7 @@ qdot_request_free(qdot_request *o)
     qdot_free(o->q_named.at);
     qdot_free(o->v_named.at);
     qdot_free(o->scales);
+    qdot_free(o->apart);
 }
 
 static qdot_expr
@@ -59,6 +60,35 @@ order_start(qdot_session *session, qdot_request *o)
         QDOT_TRY(qdot_vec_push(&o->v0, v0));
     }
     return QDOT_OK;
+}
+
+/* How far companions start from the start, of values that are still those of `start RUN`. */
+static qdot_status
+put_errors(const qdot_session *session, qdot_request *o)
+{
+    const size_t n = session->scene->coordinates.n;
+    bool any = false;
+
+    if (session->start_errors.n == 0)
+        return QDOT_OK;
+    o->apart = qdot_calloc(4 * n + 1, sizeof *o->apart);
+    if (o->apart == NULL)
+        return QDOT_ENOMEM;
+    for (size_t k = 0; k < session->start_errors.n; k++) {
+        const qdot_start_error *e = &session->start_errors.at[k];
+        const size_t at = qdot_expr_place(session->start_symbols.n, session->start_symbols.at, e->symbol);
+
+        if (at == session->start_symbols.n || session->start_values.at[at] != e->value)
+            continue;
+        for (size_t i = 0; i < 2 * n; i++)
+            if (qdot_symbol_jet(session->pool, session->scene->coordinates.at[i % n], i >= n) == e->symbol) {
+                o->apart[i] = e->apart[0];
+                o->apart[2 * n + i] = e->apart[1];
+                any = any || e->apart[0] != 0 || e->apart[1] != 0;
+            }
+    }
+    o->request.apart = any ? o->apart : NULL;
+    return qdot_pool_check(session->pool);
 }
 
 /* Whether an event sets it, in a run. */
@@ -121,6 +151,7 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
     QDOT_TRY(follow_events(session, o));
     QDOT_TRY(qdot_value_check_assumed(session));
     QDOT_TRY(order_start(session, o));
+    QDOT_TRY(put_errors(session, o));
     QDOT_TRY(qdot_scales_of_run(session, &o->scales));
     o->request.n_values = o->values.symbols.n;
     o->request.symbols = o->values.symbols.at;

@@ -10,7 +10,7 @@ typedef struct {
     qdot_pairs values;
     qdot_vec(qdot_expr) q0, v0;
     qdot_vec(bool) q_named, v_named;
-    double *scales;
+    double *scales, *apart;
     qdot_run_request request;
 } qdot_request;
 

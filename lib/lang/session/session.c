@@ -65,6 +65,7 @@ qdot_session_free(qdot_session *session)
     qdot_free(session->start_symbols.at);
     qdot_free(session->start_open.at);
     qdot_free(session->start_values.at);
+    qdot_free(session->start_errors.at);
     qdot_free(session->held.at);
     qdot_free(session->scale_symbols.at);
     qdot_free(session->scale_values.at);

@@ -71,6 +71,12 @@ typedef struct {
     qdot_expr before; /* its value of `set` or `start`; nil: none */
 } qdot_held;
 
+/* A value of `start RUN`, and how far both companions of that run ended from it (qdot_run_end_apart). */
+typedef struct {
+    qdot_expr symbol, value;
+    double apart[2];
+} qdot_start_error;
+
 /* What is written to a terminal that shows colours. */
 typedef enum { QDOT_COLOURS_ANSWERS = 1, QDOT_COLOURS_ERRORS = 2 } qdot_colours;
 
@@ -100,6 +106,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     qdot_vec(qdot_expr) start_open; /* of these, while `find` changes others: constraints may change them */
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
+    qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`, of values that are still those */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
     qdot_vec(qdot_row_table *) tables; /* of many runs; shared likewise */

@@ -9,7 +9,8 @@ qdot_undo_part(qdot_session *s, qdot_undo_state *state, int k)
 #define PART(list) {&(list).at, &(list).n, &(list).capacity, sizeof *(list).at}
     const qdot_scene_part own[QDOT_UNDO_PARTS - QDOT_SCENE_PARTS] = {
         PART(s->set_symbols),  PART(s->set_values),    PART(s->start_symbols),
-        PART(s->start_values), PART(s->scale_symbols), PART(s->scale_values),
+        PART(s->start_values), PART(s->start_errors),  PART(s->scale_symbols),
+        PART(s->scale_values),
         PART(s->history),      PART(s->history_over),  PART(s->runs),
         PART(s->tables),       PART(state->names),
     };

@@ -124,7 +124,7 @@ qdot_reset(qdot_cursor *c)
     if (initial) {
         c->session->start_symbols.n = 0;
         c->session->start_exactly = false;
-        c->session->start_values.n = 0;
+        c->session->start_values.n = c->session->start_errors.n = 0;
         return QDOT_OK;
     }
     if (scale) {

@@ -16,6 +16,7 @@ struct qdot_run {
     double *start;        /* [2n] y at t0 */
     double *start_low;    /* [2n] the exact start less y */
     double *units;        /* [2n] by which companions are moved (sim/model/still.h) */
+    double *apart;        /* [2 x 2n] that of the request, with states; NULL: the start is exact */
     double *difference;   /* [2n] estimates of the errors of the end state; NaN: unknown */
     size_t factored;      /* number of matrices factored by the integration */
     double t0, t1;        /* as requested */

@@ -93,6 +93,20 @@ count(const qdot_course *c, size_t event)
 /* Of the run's work, which is known: what a companion may take before it leads anywhere. */
 static const double of_whole = 0.1;
 
+/* y [2n], and low of a run in two doubles, by as much aside as the start is in error. */
+static void
+move_by_error(const qdot_run *run, size_t number, double by, double *y, double *low)
+{
+    const size_t n = 2 * run->plan->n;
+
+    for (size_t i = 0; i < n && run->apart != NULL; i++) {
+        const double sum = low[i] + by * run->apart[number * n + i], to = y[i] + sum;
+
+        low[i] = sum - (to - y[i]);
+        y[i] = to;
+    }
+}
+
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
@@ -105,14 +119,18 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     memcpy(low, run->start_low, n * sizeof *low);
     qdot_companion_beside(run->units, n, run->start, number, run->report.tol, y,
                           run->leading ? low : NULL);
+    move_by_error(run, number, 1, y, low);
     if (system->project) { /* along what solutions may do */
         double by;
 
         QDOT_TRY(system->project(t0, y, NULL, &by, system->user));
     }
     /* a bound that the start is on stays where it is */
-    if (qdot_domains_outside(&run->stage.domains, y))
+    if (qdot_domains_outside(&run->stage.domains, y)) {
         memcpy(y, run->start, n * sizeof *y);
+        memcpy(low, run->start_low, n * sizeof *low);
+        move_by_error(run, number, -1, y, low);
+    }
     return QDOT_OK;
 }
 
@@ -218,6 +236,9 @@ follow_so(qdot_run *run, size_t number, const qdot_companion_plan *by, qdot_ode_
             meter->spent = *spent;
         }
         memcpy(y, run->start, n * sizeof *y);
+        if (run->apart != NULL)
+            memcpy(y + n, run->start_low, n * sizeof *y);
+        move_by_error(run, number, 1, y, y + n);
     }
     qdot_free(y);
     if (first.tr.count > 0 && qdot_grave(status) == QDOT_OK
@@ -383,6 +404,33 @@ end_of(qdot_run *run, const qdot_course *other, double *t, double *y, bool *know
     qdot_trajectory_close(cursor);
     *known = status == QDOT_OK;
     return qdot_grave(status);
+}
+
+qdot_status
+qdot_run_end_apart(qdot_run *run, double *apart, bool *known)
+{
+    const qdot_trajectory *tr = &run->course.tr;
+    const size_t n = tr->n;
+    const qdot_course *others[] = {&run->companion, &run->twin};
+    double t;
+
+    *known = false;
+    if (run->chart != NULL || run->precise != NULL || tr->count == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_twin(run));
+    if (!qdot_run_comparable(run) || !qdot_run_covered(run, tr->t[tr->count - 1]))
+        return QDOT_OK;
+    *known = true;
+    for (size_t c = 0; c < (run->has_twin ? 2u : 1u) && *known; c++) {
+        *known = others[c]->stopped_by == run->course.stopped_by;
+        if (*known)
+            QDOT_TRY(end_of(run, others[c], &t, apart + c * n, known));
+        for (size_t i = 0; i < n && *known; i++)
+            apart[c * n + i] -= tr->y[(tr->count - 1) * n + i];
+    }
+    for (size_t i = 0; i < n && !run->has_twin; i++) /* the other side */
+        apart[n + i] = -apart[i];
+    return QDOT_OK;
 }
 
 qdot_status

@@ -36,6 +36,8 @@ typedef struct {
                                      (sim/ensemble/ensemble.h) */
     bool by_clock;                /* the time is a coordinate of the scene (sim/run/collide.h) */
     bool no_drifts;               /* what is conserved is not looked for: nobody reads the report */
+    const double *apart;          /* [2 x 2n] how far the run's two companions start from it, each in q and q', where the
+                                     start has an error (qdot_run_end_apart); NULL: it is exact */
 } qdot_run_request;
 
 #endif

@@ -218,6 +218,15 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 
+/* Companions of ensembles start beside exact values alone. */
+static qdot_status
+check_exact(const qdot_run_request *request)
+{
+    return request->lanes && request->apart != NULL
+               ? qdot_fail(QDOT_ENOTBUILT, "not built yet: ensembles from a start with an error")
+               : QDOT_OK;
+}
+
 /* What has no equations of its own for coordinates without mass. */
 static qdot_status
 check_massless(const qdot_plan *p, const qdot_run_request *request)
@@ -282,6 +291,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(derive(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
     QDOT_TRY(check_massless(p, request));
+    QDOT_TRY(check_exact(request));
     QDOT_TRY(qdot_plan_check_geometric(p, scene, request->treatment));
     if (scene->constraints.n + p->n_massless > 0)
         return constrain(p, scene, request);

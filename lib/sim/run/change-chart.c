@@ -142,7 +142,7 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     other.q0 = q0;
     other.v0 = q0 + n;
     other.q_named = other.v_named = NULL;
-    other.scales = NULL;
+    other.scales = other.apart = NULL;
     if (status == QDOT_OK)
         status = by->make(x->chart.scene, &other, run);
     qdot_free(q0);

@@ -306,6 +306,7 @@ make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
     other.v0 = a->start + a->n;
     other.q_named = other.v_named = NULL;
     other.scales = a->scales;
+    other.apart = NULL;
     other.tol = fmin(other.tol, by_series ? tight : tight_by_points);
     other.by_clock = other.no_drifts = true;
     QDOT_TRY(qdot_pool_check(c->pool));

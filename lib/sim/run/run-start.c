@@ -47,6 +47,23 @@ read_start(qdot_run *run, const qdot_run_request *request)
     return QDOT_OK;
 }
 
+/* How far companions start from it. */
+static qdot_status
+read_apart(qdot_run *run, const qdot_run_request *request)
+{
+    const size_t n = run->plan->n, named = n - request->n_states;
+
+    if (request->apart == NULL)
+        return QDOT_OK;
+    run->apart = qdot_calloc(4 * n + 1, sizeof *run->apart);
+    if (run->apart == NULL)
+        return QDOT_ENOMEM;
+    for (size_t part = 0; part < 4; part++) /* q and q' of the first, then of the second */
+        for (size_t i = 0; i < named; i++)
+            run->apart[part * n + i] = request->apart[part * named + i];
+    return QDOT_OK;
+}
+
 static qdot_status
 check_springs(const qdot_run *run, const qdot_scene *scene)
 {
@@ -104,6 +121,7 @@ qdot_status
 qdot_run_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(read_start(run, request));
+    QDOT_TRY(read_apart(run, request));
     QDOT_TRY(check_springs(run, scene));
     QDOT_TRY(settle_start(run, scene, request, &run->stage.domains));
     return check_start(run);

@@ -62,6 +62,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->start);
     qdot_free(run->start_low);
     qdot_free(run->units);
+    qdot_free(run->apart);
     qdot_free(run->difference);
     qdot_free(run->reason);
     qdot_text_clear(&run->notice);
@@ -278,11 +279,11 @@ show_states(qdot_run *run, qdot_companion *companion)
     return qdot_grave(status);
 }
 
-/* Whether nothing is met on the way, and nothing can divide the run into pieces. */
+/* Whether nothing is met on the way, and nothing can divide the run into pieces, of a run from an exact start. */
 static bool
 is_alone(const qdot_run *run)
 {
-    return run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
+    return run->apart == NULL && run->stage.events.n == 0 && run->stage.switches.surfaces.n == 0;
 }
 
 /* Whether nothing changes the motion on the way: events are only seen. */
@@ -650,6 +651,8 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
     return status;
 }
 
+static const char start_as_exact[] = "the error of the run that the start was taken from is not in that of this run";
+
 qdot_status
 qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
@@ -668,6 +671,10 @@ qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
     if (status == QDOT_ENOMEM) { /* of a run that was to be made once more */
         qdot_run_free(*out);
         *out = NULL;
+    }
+    if (status == QDOT_OK && asked->apart && (!(*out)->apart || asked->digits)) {
+        qdot_text_add(qdot_run_next_notice(*out), start_as_exact);
+        status = qdot_text_status(&(*out)->notice);
     }
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;

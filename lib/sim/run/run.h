@@ -31,6 +31,11 @@ size_t qdot_run_bytes(const qdot_run *run); /* memory of the stored points, abou
 const qdot_run_report *qdot_run_get_report(const qdot_run *run);
 double qdot_run_requested_end(const qdot_run *run); /* the second limit, reached or not */
 
+/* How far both companions of the run end from where it ends, apart [2 x 2n] like report->q, then report->v: by this much
+ * companions of a run from there start aside, so that its error holds that of this one. *known: false where their ends say
+ * nothing of it (other coordinates, `digits`, unknown errors). */
+QDOT_MUST_CHECK qdot_status qdot_run_end_apart(qdot_run *run, double *apart, bool *known);
+
 /* Any expressions [m] of the scene (coordinates, velocities, accelerations, t, parameters)
  * along the run at times [k], ascending or not: values [k*m] row by row, as accurate as the run;
  * errors [k*m] (NULL: not wanted) from the companion run, NaN unknown. Constants of the run are

@@ -311,6 +311,7 @@ qdot_variation_request(const qdot_variation *v)
     r.exactly = false;
     r.no_drifts = true;
     r.scales = v->scales;
+    r.apart = NULL; /* slopes are those of a motion from exactly there */
     r.n_values = 0;
     r.symbols = r.values = NULL;
     r.method = strcmp(r.method, "radau") == 0 ? r.method : "auto"; /* others may not fit */
