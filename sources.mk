@@ -1492,6 +1492,7 @@ script_tests = \
 	tests/script/chart-coordinates.lag \
 	tests/script/chart-roots.lag \
 	tests/script/charts.lag \
+	tests/script/check-branches.lag \
 	tests/script/check-conserved.lag \
 	tests/script/check-words.lag \
 	tests/script/check.lag \
@@ -2661,6 +2662,7 @@ test_files = \
 	tests/script/chart-coordinates.out \
 	tests/script/chart-roots.out \
 	tests/script/charts.out \
+	tests/script/check-branches.out \
 	tests/script/check-conserved.out \
 	tests/script/check-words.out \
 	tests/script/check.out \

@@ -31,9 +31,19 @@ static qdot_status
 decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, comparison how,
                const qdot_facts *known, qdot_decision *decision)
 {
-    return how == EQUAL ? qdot_decide_equal(session->pool, left, right, known, decision)
-                        : qdot_decide_less(session->pool, left, right, how == LESS, known,
-                                           decision);
+    qdot_pool *pool = session->pool;
+    qdot_expr a, b;
+
+    if (how != EQUAL)
+        return qdot_decide_less(pool, left, right, how == LESS, known, decision);
+    QDOT_TRY(qdot_decide_equal(pool, left, right, known, decision));
+    if (decision->verdict != QDOT_UNDECIDED)
+        return QDOT_OK;
+    /* with the branches that what is assumed decides */
+    a = qdot_known_signs(pool, left, known);
+    b = qdot_known_signs(pool, right, known);
+    QDOT_TRY(qdot_pool_check(pool));
+    return a == left && b == right ? QDOT_OK : qdot_decide_equal(pool, a, b, known, decision);
 }
 
 /* A text, or a verdict of stability(...): equal to itself alone. */

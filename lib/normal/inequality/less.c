@@ -536,7 +536,7 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return status == QDOT_ELIMIT ? QDOT_OK : status != QDOT_OK ? status : x.status;
 }
 
-/* --- |u| and sign u where conditions say which sign u has --------------------------- */
+/* --- |u|, sign u and if where conditions decide them --------------------------------- */
 
 /* The facts without the conditions that contain `node`: asked about what such a condition says, they would ask
  * about the node again, without end. Conditions are copied to `left` [facts->n_conditions]. */
@@ -555,32 +555,85 @@ facts_without(const qdot_pool *pool, const qdot_facts *facts, qdot_expr node, qd
 
 /* u or -u for |u|, 1 or -1 for sign u, where the facts decide the sign of u; nil: they do not. */
 static qdot_expr
-known_sign_node(qdot_pool *pool, qdot_expr node, void *user)
+known_sign(qdot_pool *pool, qdot_expr node, const qdot_facts *facts)
+{
+    const bool sign = qdot_expr_node(pool, node)->op == QDOT_SIGN;
+    const qdot_expr u = qdot_expr_arg(pool, node, 0);
+    qdot_decision above, below;
+
+    if (qdot_decide_less(pool, QDOT_ZERO, u, sign, facts, &above) != QDOT_OK ||
+        qdot_decide_less(pool, u, QDOT_ZERO, sign, facts, &below) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    if (above.verdict == QDOT_PROVED)
+        return sign ? QDOT_ONE : u;
+    if (below.verdict == QDOT_PROVED)
+        return sign ? QDOT_MINUS_ONE : qdot_neg(pool, u);
+    return QDOT_NIL;
+}
+
+/* 1: a comparison is proved to hold, -1: that it does not, 0: neither. */
+static int
+known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
+{
+    const uint32_t op = qdot_expr_node(pool, c)->op;
+    const qdot_expr a = qdot_expr_arg(pool, c, 0), b = qdot_expr_arg(pool, c, 1);
+    qdot_decision is, is_not;
+
+    if (op == QDOT_EQ)
+        return 0;
+    if (qdot_decide_less(pool, a, b, op == QDOT_LT, facts, &is) != QDOT_OK ||
+        qdot_decide_less(pool, b, a, op != QDOT_LT, facts, &is_not) != QDOT_OK) {
+        (void)qdot_pool_fail(pool);
+        return 0;
+    }
+    return is.verdict == QDOT_PROVED ? 1 : is_not.verdict == QDOT_PROVED ? -1 : 0;
+}
+
+/* The same of the condition of an if. */
+static int
+known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
+{
+    const uint32_t op = qdot_expr_node(pool, c)->op;
+    int least = 1, most = -1;
+
+    if (c == QDOT_TRUE || c == QDOT_FALSE)
+        return c == QDOT_TRUE ? 1 : -1;
+    if (qdot_expr_kind(pool, c) == QDOT_REL)
+        return known_relation(pool, c, facts);
+    if (qdot_expr_kind(pool, c) != QDOT_LOGIC)
+        return 0;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, c); i++) {
+        const int one = known_condition(pool, qdot_expr_arg(pool, c, i), facts);
+
+        least = one < least ? one : least;
+        most = one > most ? one : most;
+    }
+    return op == QDOT_NOT ? -least : op == QDOT_AND ? least : most;
+}
+
+static qdot_expr
+known_node(qdot_pool *pool, qdot_expr node, void *user)
 {
     const qdot_facts *facts = user;
-    uint32_t op = qdot_expr_node(pool, node)->op;
-    qdot_decision above, below;
+    const uint32_t op = qdot_expr_node(pool, node)->op;
     qdot_facts rest;
-    qdot_expr u, *left;
-    bool asked;
+    qdot_expr *left, known = QDOT_NIL;
 
-    if (qdot_expr_kind(pool, node) != QDOT_FUN || (op != QDOT_ABS && op != QDOT_SIGN))
+    if (qdot_expr_kind(pool, node) != QDOT_FUN || (op != QDOT_ABS && op != QDOT_SIGN && op != QDOT_IF))
         return QDOT_NIL;
     left = qdot_malloc(facts->n_conditions * sizeof *left);
     if (left == NULL)
         return qdot_pool_fail(pool);
     rest = facts_without(pool, facts, node, left);
-    u = qdot_expr_arg(pool, node, 0);
-    asked = qdot_decide_less(pool, QDOT_ZERO, u, op == QDOT_SIGN, &rest, &above) == QDOT_OK &&
-            qdot_decide_less(pool, u, QDOT_ZERO, op == QDOT_SIGN, &rest, &below) == QDOT_OK;
+    if (op == QDOT_IF) {
+        const int is = known_condition(pool, qdot_expr_arg(pool, node, 0), &rest);
+
+        known = is == 0 ? QDOT_NIL : qdot_known_signs(pool, qdot_expr_arg(pool, node, is > 0 ? 1 : 2), facts);
+    } else {
+        known = known_sign(pool, node, &rest);
+    }
     qdot_free(left);
-    if (!asked)
-        return qdot_pool_fail(pool);
-    if (above.verdict == QDOT_PROVED)
-        return op == QDOT_ABS ? u : QDOT_ONE;
-    if (below.verdict == QDOT_PROVED)
-        return op == QDOT_ABS ? qdot_neg(pool, u) : QDOT_MINUS_ONE;
-    return QDOT_NIL;
+    return known;
 }
 
 qdot_expr
@@ -588,5 +641,5 @@ qdot_known_signs(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
 {
     if (e == QDOT_NIL || facts == NULL || facts->n_conditions == 0)
         return e;
-    return qdot_walk_map(pool, e, known_sign_node, (void *)(uintptr_t)facts);
+    return qdot_walk_map(pool, e, known_node, (void *)(uintptr_t)facts);
 }
