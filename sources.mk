@@ -1599,6 +1599,7 @@ script_tests = \
 	tests/script/integrable.lag \
 	tests/script/json-run.sh \
 	tests/script/json.lag \
+	tests/script/jumps-on-switches.lag \
 	tests/script/jumps.sh \
 	tests/script/kept-files.sh \
 	tests/script/labels.lag \
@@ -2787,6 +2788,7 @@ test_files = \
 	tests/script/integrable.out \
 	tests/script/json-run.out \
 	tests/script/json.out \
+	tests/script/jumps-on-switches.out \
 	tests/script/jumps.out \
 	tests/script/kept-files.out \
 	tests/script/labels.out \

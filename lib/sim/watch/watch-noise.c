@@ -1,5 +1,6 @@
 /* watch-noise.c -- what rounding makes of the watched functions. */
 #include "sim/watch/watch-parts.h"
+#include "sim/watch/watch.h"
 
 #include <float.h>
 #include <math.h>

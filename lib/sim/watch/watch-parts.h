@@ -203,10 +203,6 @@ QDOT_MUST_CHECK qdot_status qdot_watch_operations(qdot_watch *w, double t, bool 
 QDOT_MUST_CHECK qdot_status qdot_watch_rounding(qdot_watch *w, double t, const double *y, size_t i,
                                                 double *noise);
 
-/* What changes of the components of the state y [2n] by 4 roundings of by [2n] make of g_i. */
-QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
-                                                const double *by, size_t i, double *noise);
-
 /* What the rounding of the change of the state y [2n] since the start of the step makes of g_i. */
 QDOT_MUST_CHECK qdot_status qdot_watch_noise_two(qdot_watch *w, double t, const double *y, size_t i,
                                                  double *noise);

@@ -1,5 +1,6 @@
 /* watch-two.c -- the watched functions in sums of two doubles, where a double cannot tell their sign. */
 #include "sim/watch/watch-parts.h"
+#include "sim/watch/watch.h"
 
 #include <float.h>
 #include <math.h>

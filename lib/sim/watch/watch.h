@@ -103,6 +103,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_rate(qdot_watch *w, double t, const doubl
                                             const double *rates, const double *fast, size_t i,
                                             double *rate, double *noise);
 
+/* What changes of the components of the state y [2n] by 4 roundings of by [2n] make of g_i. */
+QDOT_MUST_CHECK qdot_status qdot_watch_noise_of(qdot_watch *w, double t, const double *y,
+                                                const double *by, size_t i, double *noise);
+
 /* All g [m] at a state, and their signs [m]; on [m], unless NULL: whether they are 0 but for rounding of a
  * state whose components have been as large as `largest` [2n]. */
 QDOT_MUST_CHECK qdot_status qdot_watch_look(qdot_watch *w, double t, const double *y,
