@@ -1499,6 +1499,7 @@ script_tests = \
 	tests/script/collisions.lag \
 	tests/script/components.lag \
 	tests/script/conserved.lag \
+	tests/script/constant-steps-behind-events.lag \
 	tests/script/constraint-ends.sh \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-hidden.sh \
@@ -2670,6 +2671,7 @@ test_files = \
 	tests/script/collisions.out \
 	tests/script/components.out \
 	tests/script/conserved.out \
+	tests/script/constant-steps-behind-events.out \
 	tests/script/constraint-ends.out \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-hidden.out \

@@ -23,6 +23,9 @@ static const double aim = 0.5, safe = 0.9, most_growth = 5;
  * of a window is so much longer than that of the one before. */
 static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
 
+/* What is left of a way by no more than this part of it is rounding of times. */
+static const double sliver = 1e-12;
+
 /* Differences of states below this, relative to max(1, |y_i|), are rounding. */
 static const double rounding = 8 * DBL_EPSILON;
 
@@ -238,8 +241,8 @@ try_lengths(run *r, lengths *l)
 {
     const double distance = fabs(r->t1 - r->t), t0 = r->t;
 
-    for (int k = 0; fabs(r->t - t0) < distance && goes_on(l, k); k++) {
-        const double h = fmin(r->h, distance - fabs(r->t - t0));
+    for (int k = 0; fabs(r->t - t0) < distance * (1 - sliver) && goes_on(l, k); k++) {
+        const double whole = r->h, h = fmin(whole, distance - fabs(r->t - t0));
         double ratio;
         const qdot_status status = measure(r, r->direction * h, &ratio);
 
@@ -258,6 +261,8 @@ try_lengths(run *r, lengths *l)
         r->t += r->direction * h;
         if (r->h < most_growth * h) /* else the tolerance did not limit it */
             note(l, r->h);
+        else if (h < whole) /* cut at the end */
+            r->h = fmax(r->h, whole);
     }
     return QDOT_OK;
 }
@@ -372,7 +377,7 @@ static qdot_status
 advance(run *r, bool *stop)
 {
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
-    const bool last = r->h >= rest * (1 - 1e-12);
+    const bool last = r->h >= rest * (1 - sliver);
     const double h = last ? rest : r->h;
     const bool look = (r->length > 0 || r->result->stats.steps % measured == 0)
                       && !(r->options->h_fixed > 0);
