@@ -526,6 +526,7 @@ library_sources = \
 	lib/sim/course/piece-contact.c \
 	lib/sim/course/piece-end.c \
 	lib/sim/course/piece-enter.c \
+	lib/sim/course/piece-fade.c \
 	lib/sim/course/piece-layer.c \
 	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
@@ -554,6 +555,7 @@ library_sources = \
 	lib/sim/error/companion.c \
 	lib/sim/error/constraint-corners.c \
 	lib/sim/error/distance.c \
+	lib/sim/error/faded.c \
 	lib/sim/error/failure.c \
 	lib/sim/error/horizon.c \
 	lib/sim/error/noise.c \
@@ -675,6 +677,7 @@ library_sources = \
 	lib/sim/study/workprecision.c \
 	lib/sim/watch/watch-ends.c \
 	lib/sim/watch/watch-exclusion.c \
+	lib/sim/watch/watch-fade.c \
 	lib/sim/watch/watch-noise.c \
 	lib/sim/watch/watch-resolution.c \
 	lib/sim/watch/watch-roots.c \
@@ -1141,6 +1144,7 @@ library_headers = \
 	lib/sim/error/companion.h \
 	lib/sim/error/constraint-corners.h \
 	lib/sim/error/distance.h \
+	lib/sim/error/faded.h \
 	lib/sim/error/failure.h \
 	lib/sim/error/horizon.h \
 	lib/sim/error/noise.h \
@@ -1512,6 +1516,7 @@ script_tests = \
 	tests/script/coordinates.lag \
 	tests/script/corners-of-two.lag \
 	tests/script/data-files.sh \
+	tests/script/decayed-events.sh \
 	tests/script/declarations.lag \
 	tests/script/definitions-anew.lag \
 	tests/script/definitions.lag \
@@ -2684,6 +2689,7 @@ test_files = \
 	tests/script/coordinates.out \
 	tests/script/corners-of-two.out \
 	tests/script/data-files.out \
+	tests/script/decayed-events.out \
 	tests/script/declarations.out \
 	tests/script/definitions-anew.out \
 	tests/script/definitions.out \

@@ -226,16 +226,22 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
-/* What the end of the run leaves open. */
+/* Where the run, or its end, leaves open whether events occur; faded [n]. */
 static qdot_status
-add_open(qdot_run *run, qdot_text *text)
+add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
 {
     const char *name = "";
     bool undecided;
 
+    for (size_t k = 0; k < n; k++)
+        qdot_event_print_faded(run, &faded[k], text);
     for (size_t k = 0; name; k++) {
+        bool told = false;
+
         QDOT_TRY(qdot_run_event_at_end(run, k, &name, &undecided));
-        if (undecided)
+        for (size_t i = 0; name && i < n; i++)
+            told = told || strcmp(faded[i].event, name) == 0;
+        if (undecided && !told)
             qdot_text_format(text,
                              "%s  at the end of the run its sides are equal within their errors: "
                              "whether it occurs there is not known\n",
@@ -271,14 +277,21 @@ qdot_event_list(qdot_cursor *c)
     qdot_named_run *run;
     qdot_text text = {0};
     event_counts counts = {0};
+    const qdot_run_faded *faded;
     qdot_status status = QDOT_OK;
-    size_t n;
+    size_t n, n_faded;
 
     QDOT_TRY(qdot_cursor_expect_end(c));
     if (session->runs.n == 0)
         return list_declared(session);
     QDOT_TRY(qdot_runs_find(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
+    QDOT_TRY(qdot_run_faded_events(run->run, &faded, &n_faded));
+    for (size_t i = 0; i < n_faded && session->json; i++)
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "from t = %.4g on the sides of the event %s are equal within their errors: whether "
+                                    "it occurs there is not known",
+                                    faded[i].from, faded[i].event));
     if (session->json && n > 0)
         return qdot_run_get_report(run->run)->digits > 0
                    ? list_exact(session, run->run, list, n)
@@ -293,8 +306,9 @@ qdot_event_list(qdot_cursor *c)
     }
     qdot_free(counts.at);
     if (n == 0)
-        qdot_text_format(&text, "no event occurred in %s\n", run->name);
+        qdot_text_format(&text, n_faded > 0 ? "no event is known to have occurred in %s\n" : "no event occurred in %s\n",
+                         run->name);
     if (status == QDOT_OK)
-        status = add_open(run->run, &text);
+        status = add_open(run->run, faded, n_faded, &text);
     return qdot_answer_written(session, "events", status, &text);
 }

@@ -24,6 +24,36 @@ qdot_event_digits(const qdot_run *run, const qdot_run_occurrence *o)
     return o->exact == QDOT_NIL ? 0 : qdot_run_get_report(run)->digits;
 }
 
+void
+qdot_event_print_faded(const qdot_run *run, const qdot_run_faded *faded, qdot_text *text)
+{
+    qdot_text_format(text, "%s  from t = %.4g ", faded->event, faded->from);
+    if (faded->to == qdot_run_get_report(run)->t1)
+        qdot_text_add(text, "on");
+    else
+        qdot_text_format(text, "to %.4g", faded->to);
+    qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known\n");
+}
+
+/* Error: occurrence k of n is not known. */
+static qdot_status
+unknown(const qdot_named_run *named, const char *name, long k, size_t n)
+{
+    const qdot_run_faded *list;
+    size_t count;
+
+    QDOT_TRY(qdot_run_faded_events(named->run, &list, &count));
+    (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name, k, n, n == 1 ? "" : "s",
+                    named->name);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(list[i].event, name) == 0)
+            (void)qdot_fail(QDOT_EDOMAIN,
+                            "%s[%ld]: %zu occurrence%s of the event %s known in %s: from t = %.4g on its sides are "
+                            "equal within their errors",
+                            name, k, n, n == 1 ? "" : "s", n == 1 ? "is" : "are", named->name, list[i].from);
+    return qdot_hint("`events` lists them");
+}
+
 qdot_status
 qdot_event_time(qdot_session *session, const char *run, const char *name, long k,
                 qdot_expr *value)
@@ -57,9 +87,7 @@ qdot_event_time(qdot_session *session, const char *run, const char *name, long k
     if (status == QDOT_OK && k == 0) {
         *value = qdot_list(session->pool, (uint32_t)all.n, all.at);
     } else if (status == QDOT_OK && (k < 1 || (size_t)k > all.n)) {
-        (void)qdot_fail(QDOT_EDOMAIN, "%s[%ld]: the event occurred %zu time%s in %s", name,
-                        k, all.n, all.n == 1 ? "" : "s", named->name);
-        status = qdot_hint("`events` lists them");
+        status = unknown(named, name, k, all.n);
     } else if (status == QDOT_OK) {
         *value = all.at[k - 1];
     }

@@ -31,6 +31,8 @@ typedef struct {
     qdot_row_table *table;
     size_t beyond;    /* points past the horizon of their run */
     size_t failed;
+    size_t n_lost; /* runs whose crossings are not known from a time on, */
+    double lost;   /* the last such time */
 } poincare;
 
 /* --- reading ---------------------------------------------------------------------------- */
@@ -203,7 +205,7 @@ find_points(qdot_cursor *c, poincare *p, qdot_run *run, const double *swept)
 {
     const size_t m = p->columns.at.n;
     qdot_expr *exprs = qdot_calloc(m, sizeof *exprs);
-    qdot_section s = {0};
+    qdot_section s = {.lost = NAN};
     qdot_status status = exprs ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t i = 0; i < m && status == QDOT_OK; i++) {
@@ -221,6 +223,10 @@ find_points(qdot_cursor *c, poincare *p, qdot_run *run, const double *swept)
                                    &s);
     if (status == QDOT_OK)
         status = add_points(p, run, swept, &s);
+    if (!isnan(s.lost)) {
+        p->n_lost++;
+        p->lost = s.lost;
+    }
     qdot_section_clear(&s);
     qdot_free(exprs);
     return status;
@@ -332,6 +338,15 @@ tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
                                     "each is one of a motion near by, and only their distribution "
                                     "is known",
                                     p->beyond));
+    if (p->n_lost > 0 && p->sweep == NULL)
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "from t = %.4g on crossings cannot be told from rounding: they are not known",
+                                    p->lost));
+    else if (p->n_lost > 0)
+        QDOT_TRY(qdot_answer_notice(session,
+                                    "in %zu of the runs crossings cannot be told from rounding from some time on: "
+                                    "they are not known",
+                                    p->n_lost));
     if (!session->json) {
         qdot_text_format(&text, "%s: %zu point%s", t->name, t->rows - p->failed,
                          t->rows - p->failed == 1 ? "" : "s");

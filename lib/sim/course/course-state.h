@@ -14,6 +14,13 @@ typedef struct {
     double within, bend, blur; /* of a touch, as in qdot_root */
 } qdot_occurrence;
 
+/* From here to there the function of an event was within the rounding of the run, below which it had decayed: whether
+ * the event occurs is not known. */
+typedef struct {
+    size_t event;
+    double from, to;
+} qdot_course_faded;
+
 /* What ended a piece. */
 typedef struct {
     size_t piece, function; /* index of the piece; of the function watched in its mode */
@@ -59,6 +66,7 @@ typedef struct qdot_course {
     qdot_vec(qdot_ode_system) systems;   /* by mode */
     qdot_vec(qdot_watch *) watches;      /* by mode */
     qdot_vec(qdot_occurrence) occurrences;
+    qdot_vec(qdot_course_faded) faded; /* of each event in order of time */
     qdot_vec(qdot_course_end) ends; /* in order of time; one piece may have several at one time */
     qdot_vec(qdot_course_rest) rests;
     qdot_vec(qdot_course_chatter) chatters;

@@ -190,7 +190,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_status status = make_room(&x);
 
     /* nothing is left of one that is made once more */
-    c->occurrences.n = c->ends.n = c->rests.n = 0;
+    c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
     c->reason[0] = '\0';
     c->failed = c->began_on = false;
     c->stopped_by = SIZE_MAX;
@@ -261,6 +261,7 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->systems.at);
     qdot_free(c->watches.at);
     qdot_free(c->occurrences.at);
+    qdot_free(c->faded.at);
     qdot_free(c->ends.at);
     qdot_free(c->rests.at);
     for (size_t i = 0; i < c->chatters.n; i++)

@@ -1,6 +1,8 @@
 /* crossings.c -- the roots of a function along a course that is stored. */
 #include "sim/course/crossings.h"
 
+#include <math.h>
+
 #include "sim/watch/watch.h"
 
 typedef struct {
@@ -15,6 +17,7 @@ typedef struct {
     int before; /* that at the end of the piece before, which tells whether a zero at the start of the
                    next is a root; 0: unknown, or the state jumped */
     qdot_crossings *out;
+    double lost; /* since then they are not known; NaN: they are */
 } search;
 
 static qdot_status
@@ -48,7 +51,14 @@ search_step(search *s, qdot_watch *w, size_t k, bool last)
     const qdot_root *roots;
     size_t n;
 
-    QDOT_TRY(qdot_watch_step(w, tr->t[k + 1], tr->y + (k + 1) * tr->n, last, NULL, &roots, &n));
+    const qdot_status status =
+        qdot_watch_step(w, tr->t[k + 1], tr->y + (k + 1) * tr->n, last, NULL, &roots, &n);
+
+    if (status == QDOT_EFAILED) { /* rounding is all there is to see */
+        s->lost = tr->t[k];
+        return QDOT_OK;
+    }
+    QDOT_TRY(status);
     if (qdot_watch_first(w)[0] != 0)
         s->sign = qdot_watch_first(w)[0];
     for (size_t i = 0; i < n; i++) {
@@ -84,6 +94,7 @@ search_piece(search *s)
                                 s->c->touch_tol, &s->watches[mode]));
         w = s->watches[mode];
     }
+    qdot_watch_may_fade(w, 0, !qdot_sliding_is(&s->c->stage->switches, s->c->stage->modes.at[mode]->side));
     QDOT_TRY(qdot_watch_begin(w, &reader, tr->t[k], tr->y + k * tr->n,
                               &(qdot_watch_known){0, &s->before, NULL, NULL, NULL, 0}, &on));
     s->sign = 0;
@@ -91,24 +102,32 @@ search_piece(search *s)
         if (s->direction * (tr->t[k] - s->limits[1]) > 0)
             return QDOT_OK;
         QDOT_TRY(search_step(s, w, k, k + 1 == last && (final || jumps)));
+        if (!isnan(s->lost))
+            return QDOT_OK;
         qdot_watch_take(w);
+        s->lost = qdot_watch_faded_since(w, 0);
+        if (!isnan(s->lost))
+            return QDOT_OK;
     }
     s->before = jumps ? 0 : s->sign;
     return QDOT_OK;
 }
 
 qdot_status
-qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdot_crossings *out)
+qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdot_crossings *out, double *lost)
 {
     const qdot_trajectory *tr = &c->tr;
-    search s = {.c = c, .g = g, .limits = limits, .out = out};
+    search s = {.c = c, .g = g, .limits = limits, .out = out, .lost = NAN};
     qdot_status status;
 
     s.direction = qdot_trajectory_is_backward(tr) ? -1 : 1;
     s.watches = qdot_calloc(c->systems.n + 1, sizeof *s.watches);
     status = s.watches ? qdot_trajectory_open(tr, qdot_course_systems(c), &s.cursor) : QDOT_ENOMEM;
-    for (; s.piece < tr->pieces.n && status == QDOT_OK; s.piece++)
+    for (; s.piece < tr->pieces.n && status == QDOT_OK && isnan(s.lost); s.piece++)
         status = search_piece(&s);
+    while (!isnan(s.lost) && out->n > 0 && s.direction * (out->at[out->n - 1].t - s.lost) >= 0)
+        out->n--;
+    *lost = s.lost;
     qdot_trajectory_close(s.cursor);
     for (size_t i = 0; i < c->systems.n && s.watches; i++)
         qdot_watch_free(s.watches[i]);

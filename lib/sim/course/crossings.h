@@ -20,9 +20,10 @@ typedef struct {
 typedef qdot_vec(qdot_crossing) qdot_crossings;
 
 /* Append the roots of g from limits[0] up to, but not at, limits[1], in the order of the course; an
- * end of the course is within. Errors: QDOT_EDOMAIN where g is undefined, those of reading,
+ * end of the course is within. *lost: from then on they are not known, for g has decayed below the rounding of the
+ * course or cannot be resolved; NaN: they all are. Errors: QDOT_EDOMAIN where g is undefined, those of reading,
  * QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_crossings_find(const qdot_course *c, qdot_expr g,
-                                                const double *limits, qdot_crossings *out);
+                                                const double *limits, qdot_crossings *out, double *lost);
 
 #endif

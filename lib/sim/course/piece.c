@@ -575,9 +575,8 @@ accepted(double t, const double *y, bool *stop, void *user)
         qdot_watch_pass(qdot_piece_watch(x), t, y);
         return QDOT_OK;
     }
-    x->noted = x->c->occurrences.n;
     qdot_watch_take(qdot_piece_watch(x));
-    return QDOT_OK;
+    return qdot_piece_take_faded(x, t);
 }
 
 /* --- the piece ------------------------------------------------------------------------ */
@@ -634,6 +633,7 @@ qdot_piece_begin(qdot_piece *x)
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
     QDOT_TRY(widen_residuals(x));
+    qdot_piece_let_fade(x);
     qdot_piece_low(x, x->y);
     QDOT_TRY(qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,

@@ -77,6 +77,13 @@ qdot_run_report_is_beyond(const qdot_run_report *r, double t)
     return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* of a NaN: false */
 }
 
+/* Between these times the function of an event is within its error of 0, having decayed: whether it occurs there is not
+ * known. */
+typedef struct {
+    const char *event;
+    double from, to;
+} qdot_run_faded;
+
 /* An event that occurred. */
 typedef struct {
     const char *event;

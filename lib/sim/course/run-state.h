@@ -30,7 +30,8 @@ struct qdot_run {
     qdot_vec(qdot_run_part) parts;
     qdot_run_report report;
     qdot_vec(qdot_run_occurrence) occurrences;
-    bool occurrence_errors; /* the errors of the occurrences have been found */
+    qdot_vec(qdot_run_faded) faded;
+    bool occurrence_errors; /* both are complete, with errors */
     bool by_clock, no_drifts; /* of the request */
     bool hidden;            /* the run has passed over something: no error is known */
     bool singular;          /* no step was small enough at its end, for a singularity there */

@@ -6,6 +6,7 @@
 #include "ode/companion.h"
 #include "sim/digits/digits.h"
 #include "sim/error/companion.h"
+#include "sim/error/faded.h"
 #include "sim/error/partner.h"
 #include "sim/error/touches.h"
 #include "sim/run/run.h"
@@ -88,6 +89,36 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
+/* run->faded; occurrences of an event within a stretch to the end are none that is known, and are left out. */
+static qdot_status
+leave_out_faded(qdot_run *run)
+{
+    const qdot_course *c = &run->course;
+    const double end = c->tr.count > 0 ? c->tr.t[c->tr.count - 1] : 0, direction = run->t1 < run->t0 ? -1 : 1;
+
+    run->faded.n = 0;
+    for (size_t k = 0; k < c->faded.n; k++)
+        if (c->faded.at[k].to != end)
+            QDOT_TRY(qdot_vec_push(&run->faded,
+                                   ((qdot_run_faded){run->stage.events.at[c->faded.at[k].event].name,
+                                                     c->faded.at[k].from, c->faded.at[k].to})));
+    for (size_t e = 0; e < run->stage.events.n; e++) {
+        double from;
+        size_t n = 0;
+
+        QDOT_TRY(qdot_faded_find(run, e, &from));
+        if (isnan(from))
+            continue;
+        QDOT_TRY(qdot_vec_push(&run->faded, ((qdot_run_faded){run->stage.events.at[e].name, from, end})));
+        for (size_t i = 0; i < run->occurrences.n; i++)
+            if (strcmp(run->occurrences.at[i].event, run->stage.events.at[e].name) != 0
+                || direction * (run->occurrences.at[i].t - from) < 0)
+                run->occurrences.at[n++] = run->occurrences.at[i];
+        run->occurrences.n = n;
+    }
+    return QDOT_OK;
+}
+
 /* run->occurrences, by the companions. */
 static qdot_status
 find_errors(qdot_run *run)
@@ -105,6 +136,8 @@ find_errors(qdot_run *run)
         status = qdot_touches_look(run, i, widths, NULL);
     if (status == QDOT_OK)
         status = compare_occurrences(run, sorted, sorted + 1, widths);
+    if (status == QDOT_OK)
+        status = leave_out_faded(run);
     qdot_free(widths);
     for (size_t i = 0; i < 3; i++) {
         qdot_free(sorted[i].first);
@@ -129,5 +162,16 @@ qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
     run->occurrence_errors = true;
     *list = run->occurrences.at;
     *n = run->occurrences.n;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_run_faded_events(qdot_run *run, const qdot_run_faded **list, size_t *n)
+{
+    const qdot_run_occurrence *occurrences;
+
+    QDOT_TRY(qdot_run_occurrences(run, &occurrences, n));
+    *list = run->faded.at;
+    *n = run->faded.n;
     return QDOT_OK;
 }

@@ -23,6 +23,7 @@ typedef struct {
     const qdot_course *course;
     qdot_crossings at;
     double *t; /* their times */
+    double lost;
     qdot_reader reader;
 } side;
 
@@ -42,7 +43,7 @@ qdot_section_clear(qdot_section *s)
     qdot_free(s->t_errors);
     qdot_free(s->values);
     qdot_free(s->errors);
-    *s = (qdot_section){0};
+    *s = (qdot_section){.lost = NAN};
 }
 
 /* --- a side --------------------------------------------------------------------------- */
@@ -52,7 +53,7 @@ find_crossings(section *x, side *s, const double *limits)
 {
     size_t n = 0;
 
-    QDOT_TRY(qdot_crossings_find(s->course, x->of->g, limits, &s->at));
+    QDOT_TRY(qdot_crossings_find(s->course, x->of->g, limits, &s->at, &s->lost));
     for (size_t i = 0; i < s->at.n; i++)
         if (x->of->way == 0 || s->at.at[i].way == x->of->way)
             s->at.at[n++] = s->at.at[i];
@@ -234,6 +235,8 @@ find_between(qdot_run *run, const qdot_section_of *of, const double *limits, qdo
             break;
         }
     }
+    if (status == QDOT_OK && !isnan(x.sides[0].lost))
+        s->lost = x.sides[0].lost;
     if (status == QDOT_OK)
         status = add_rows(&x, s);
     for (size_t i = 0; i < 3; i++) {
@@ -266,7 +269,7 @@ find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qd
         end = in.turns ? qdot_in_chart_end(&in, from, limits[1]) : limits[1];
         status = find_between(run, &(qdot_section_of){in.exprs[of->m], of->way, of->m, in.exprs, NULL},
                               (double[]){from, end}, s);
-        if (end == limits[1])
+        if (end == limits[1] || !isnan(s->lost))
             break;
         from = end;
     }

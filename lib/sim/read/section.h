@@ -25,9 +25,10 @@ typedef struct {
     size_t n, m;     /* crossings, in the order of the run; numbers of each */
     double *t, *t_errors;    /* [n] */
     double *values, *errors; /* [n x m] NaN: undefined there; its error is unknown */
+    double lost; /* from then on crossings are not known (sim/course/crossings.h); NaN: all are */
 } qdot_section;
 
-/* Start from {0}; clear it in any case. QDOT_EDOMAIN: g is undefined somewhere; QDOT_ENOTBUILT: a run
+/* Start from {.lost = NAN}; clear it in any case. QDOT_EDOMAIN: g is undefined somewhere; QDOT_ENOTBUILT: a run
  * with `digits`. */
 QDOT_MUST_CHECK qdot_status qdot_section_find(qdot_run *run, const qdot_section_of *of,
                                               qdot_section *s);

@@ -58,6 +58,7 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->exact);
     qdot_stage_clear(&run->stage);
     qdot_free(run->occurrences.at);
+    qdot_free(run->faded.at);
     qdot_free(run->doubt);
     qdot_free(run->start);
     qdot_free(run->start_low);

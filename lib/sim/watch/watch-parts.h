@@ -96,6 +96,13 @@ struct qdot_watch {
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
+    /* Functions that decay (watch-fade.c). */
+    bool *may_fade;  /* [m] */
+    bool *fading;    /* [m] within its rounding all through this step */
+    int *faded;      /* [m] and through so many steps before it, in a row, */
+    double *faded_since; /* [m] from then on */
+    double *most;    /* [m] the largest |g| at the ends of steps so far */
+    double *sizes_of_state; /* [2n] scratch */
     int nodes;       /* number that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
     double *fitted;  /* [m x QDOT_WATCH_NODES] polynomials through these at .. */
@@ -187,6 +194,14 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, c
 /* Set w->wants [m] of functions that, sampled on the part, are so small, or start on a zero, that doubles do not
  * tell their signs; *any: whether there is one. */
 QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any);
+
+/* --- functions that decay (watch-fade.c) ---------------------------------------------- */
+
+/* See which functions stay within their rounding all through the step to (t, y), w->final at its end; whether there is
+ * nothing of function i to be searched for in it; the step is taken. */
+QDOT_MUST_CHECK qdot_status qdot_watch_find_fading(qdot_watch *w, double t, const double *y);
+bool qdot_watch_has_faded(const qdot_watch *w, size_t i);
+void qdot_watch_take_fading(qdot_watch *w);
 
 /* --- their rounding (watch-noise.c) ------------------------------------------------- */
 

@@ -374,10 +374,10 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
     else
         qdot_watch_bound(w, step);
     qdot_polynomial_bounds_begin(&w->bounds, NULL);
+    QDOT_TRY(qdot_watch_find_fading(w, t, y));
     for (size_t i = 0; i < w->m; i++) {
-        w->live[i] = w->start.on[i] ||
-                     qdot_watch_sign(w->final[i]) != w->start.sign[i] ||
-                     !is_far(w, i, t, y, step);
+        w->live[i] = !qdot_watch_has_faded(w, i)
+                     && (w->start.on[i] || qdot_watch_sign(w->final[i]) != w->start.sign[i] || !is_far(w, i, t, y, step));
         any |= w->live[i];
         w->first_noise[i] = NAN;
         w->fresh[i] = true;
@@ -390,6 +390,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         QDOT_TRY(qdot_watch_end_on_zero(w, t));
     for (size_t i = 0; i < w->m; i++)
         if (!w->live[i]) {
+            if (qdot_watch_has_faded(w, i))
+                w->now.sign[i] = qdot_watch_sign(w->final[i]);
             w->now.g0[i] = w->final[i];
             w->now.on[i] = w->now.blurred[i] = w->now.sharp[i] = false;
             w->now.offset[i] = 0;
@@ -427,6 +429,7 @@ void
 qdot_watch_take(qdot_watch *w)
 {
     copy_state(w, &w->start, &w->now);
+    qdot_watch_take_fading(w);
     w->least = 0;
     memcpy(w->y, w->in, 2 * w->n * sizeof *w->y);
     w->t = w->in[2 * w->n];
@@ -501,6 +504,7 @@ qdot_watch_begin(qdot_watch *w, const qdot_watch_reader *reader, double t, const
         w->start.offset[i] = w->start.on[i] && exact && qdot_watch_has_two(w, i) ? g : 0;
         w->start.sign[i] = w->start.on[i] ? known->before[i] : qdot_watch_sign(g);
         on[i] = w->start.on[i];
+        w->faded[i] = 0;
     }
     return QDOT_OK;
 }
@@ -590,11 +594,11 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 2 * work + 13 * m +
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 4 * n + 2 * work + 15 * m +
                                  3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
                              sizeof *at);
-    int *signs = qdot_calloc(5 * m + 1, sizeof *signs);
-    bool *flags = qdot_calloc(11 * m + 1, sizeof *flags);
+    int *signs = qdot_calloc(6 * m + 1, sizeof *signs);
+    bool *flags = qdot_calloc(13 * m + 1, sizeof *flags);
 
     w->in = at;
     w->first = signs;
@@ -625,10 +629,14 @@ make_room(qdot_watch *w)
     w->fine_end = w->ends + (DEEPEST + 2) * m;
     w->start.offset = w->fine_end + m;
     w->now.offset = w->start.offset + m;
+    w->most = w->now.offset + m;
+    w->faded_since = w->most + m;
+    w->sizes_of_state = w->faded_since + m;
     w->start.sign = signs + m;
     w->now.sign = signs + 2 * m;
     w->n_extrema = signs + 3 * m;
     w->n_fitted = signs + 4 * m;
+    w->faded = signs + 5 * m;
     w->fresh = flags + m;
     w->start.on = flags + 2 * m;
     w->now.on = flags + 3 * m;
@@ -639,6 +647,8 @@ make_room(qdot_watch *w)
     w->start.sharp = flags + 8 * m;
     w->now.sharp = flags + 9 * m;
     w->wants = flags + 10 * m;
+    w->may_fade = flags + 11 * m;
+    w->fading = flags + 12 * m;
     return QDOT_OK;
 }
 

@@ -47,6 +47,11 @@ void qdot_watch_free(qdot_watch *w);
 /* Declare that g_i is coordinate - bound: a step far from the bound is not searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
+/* Whether nothing but occurrences is sought of g_i, and where it has decayed and stays within the rounding of the state
+ * these are not sought: not unless that is said. Since when it has; NaN: it has not. */
+void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
+double qdot_watch_faded_since(const qdot_watch *w, size_t i);
+
 /* What is known at the start of a piece. */
 typedef struct {
     double least;           /* lower bound for |components| in estimates of rounding: 0, or 1 if

@@ -1,0 +1,65 @@
+/* piece-fade.c -- events whose function has decayed below the rounding of the run: they are not sought there. */
+#include <math.h>
+
+#include "sim/course/piece.h"
+
+void
+qdot_piece_let_fade(qdot_piece *x)
+{
+    const qdot_stage *s = x->c->stage;
+    const qdot_mode *m = qdot_piece_mode(x);
+    const bool held = qdot_sliding_is(&s->switches, x->side); /* what is held at 0 has not decayed */
+
+    for (size_t i = 0; i < m->m; i++) {
+        const qdot_watched *w = &m->watched[i];
+
+        if (w->kind == QDOT_WATCH_EVENT && !s->events.at[w->index].then && !s->events.at[w->index].stop)
+            qdot_watch_may_fade(qdot_piece_watch(x), i, !held && !x->options->leading);
+    }
+}
+
+/* The last stretch of an event, if it began then; else NULL. */
+static qdot_course_faded *
+stretch_since(qdot_course *c, size_t event, double since)
+{
+    for (size_t k = c->faded.n; k-- > 0;)
+        if (c->faded.at[k].event == event)
+            return c->faded.at[k].from == since ? &c->faded.at[k] : NULL;
+    return NULL;
+}
+
+/* What was found of an event since then is rounding. */
+static void
+forget_since(qdot_piece *x, size_t event, double since)
+{
+    size_t n = 0;
+
+    for (size_t k = 0; k < x->c->occurrences.n; k++)
+        if (x->c->occurrences.at[k].event != event || x->direction * (x->c->occurrences.at[k].t - since) < 0)
+            x->c->occurrences.at[n++] = x->c->occurrences.at[k];
+    x->c->occurrences.n = n;
+}
+
+qdot_status
+qdot_piece_take_faded(qdot_piece *x, double t)
+{
+    const qdot_mode *m = qdot_piece_mode(x);
+
+    for (size_t i = 0; i < m->m && m->watched[i].kind == QDOT_WATCH_EVENT; i++) {
+        const size_t event = m->watched[i].index;
+        const double since = qdot_watch_faded_since(qdot_piece_watch(x), i);
+        qdot_course_faded *known;
+
+        if (isnan(since))
+            continue;
+        known = stretch_since(x->c, event, since);
+        if (known) {
+            known->to = t;
+            continue;
+        }
+        forget_since(x, event, since);
+        QDOT_TRY(qdot_vec_push(&x->c->faded, ((qdot_course_faded){event, since, t})));
+    }
+    x->noted = x->c->occurrences.n;
+    return QDOT_OK;
+}

@@ -1,0 +1,191 @@
+/* faded.c -- from when on the function of an event stays within its error of 0. */
+#include "sim/error/faded.h"
+
+#include <math.h>
+
+#include "sim/course/reader.h"
+#include "sim/error/companion.h"
+#include "sim/error/distance.h"
+
+typedef struct {
+    qdot_expr function;
+    qdot_reading of;
+    qdot_reader reader;
+    qdot_distance *distance;
+    size_t n;  /* occurrences of the event */
+    double *t; /* [n + 2] the start of the run, they, its end */
+    double *errors; /* [n + 2] of the times; NaN: the companions do not meet it */
+    double size, tol; /* of g over the run; of the run */
+} look;
+
+static void
+close_look(look *l)
+{
+    qdot_distance_free(l->distance);
+    qdot_reader_clear(&l->reader);
+    qdot_tape_free(l->of.tape);
+    qdot_free(l->t);
+    qdot_free(l->errors);
+}
+
+static qdot_status
+open_look(qdot_run *run, size_t event, look *l)
+{
+    const qdot_course *c = &run->course;
+
+    l->t = qdot_calloc(c->occurrences.n + 2, sizeof *l->t);
+    l->errors = qdot_calloc(c->occurrences.n + 2, sizeof *l->errors);
+    if (!l->t || !l->errors)
+        return QDOT_ENOMEM;
+    l->t[0] = c->tr.t[0];
+    for (size_t i = 0; i < c->occurrences.n; i++)
+        if (c->occurrences.at[i].event == event) {
+            l->t[++l->n] = c->occurrences.at[i].t;
+            l->errors[l->n] = run->occurrences.at[i].error;
+        }
+    l->tol = run->report.tol;
+    l->t[l->n + 1] = c->tr.t[c->tr.count - 1];
+    l->function = run->stage.events.at[event].function;
+    QDOT_TRY(qdot_reader_lower(run->plan, 1, &l->function, &l->of));
+    QDOT_TRY(qdot_reader_init(&l->reader, &l->of, c));
+    return qdot_distance_new(run, &l->of, &l->distance);
+}
+
+/* Whether g is known to differ from 0 at t by more than `least`; also where its error is not known. */
+static qdot_status
+is_seen(look *l, double t, double least, bool *seen)
+{
+    double g, error = NAN;
+    qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t, &g);
+
+    if (status == QDOT_OK)
+        status = qdot_distance_at(l->distance, t, &g, &error);
+    *seen = status != QDOT_OK || !(fabs(g) <= fmax(2 * error, least)) || g == 0;
+    return qdot_reader_has_nothing(status) ? QDOT_OK : status;
+}
+
+/* The size that g has had at most, at some times. */
+static qdot_status
+find_size(look *l)
+{
+    enum { PLACES = 64 };
+
+    for (int k = 0; k <= PLACES; k++) {
+        double g;
+        const qdot_status status =
+            qdot_reader_at(&l->reader, SIZE_MAX, l->t[0] + (l->t[l->n + 1] - l->t[0]) * k / PLACES, &g);
+
+        if (status == QDOT_OK)
+            l->size = fmax(l->size, fabs(g));
+        else if (!qdot_reader_has_nothing(status))
+            return status;
+    }
+    return QDOT_OK;
+}
+
+/* Whether all runs meet occurrence k within that part of what lies between it and its neighbours; of the start and the
+ * end of the run they do. */
+static bool
+is_met(const look *l, size_t k, double part)
+{
+    const double before = k > 0 ? fabs(l->t[k] - l->t[k - 1]) : INFINITY,
+                 behind = k < l->n ? fabs(l->t[k + 1] - l->t[k]) : before;
+
+    return l->errors[k] <= part * fmin(before, behind);
+}
+
+/* What is not seen between occurrences k - 1 and k, whatever the companions say: where these have not met one of them
+ * the tolerance. */
+static double
+least_seen(const look *l, size_t k)
+{
+    static const double near = 0.1;
+
+    return is_met(l, k - 1, near) && is_met(l, k, near) ? 0 : l->tol * l->size;
+}
+
+/* The last of some times between occurrences k - 1 and k at which it is seen; NaN: there is none. */
+static qdot_status
+last_seen(look *l, size_t k, double *t)
+{
+    enum { PLACES = 8 };
+    const double a = l->t[k - 1], b = l->t[k];
+
+    *t = NAN;
+    for (int i = PLACES; i-- > 1 && isnan(*t);) {
+        const double at = a + (b - a) * i / PLACES;
+        bool seen;
+
+        QDOT_TRY(is_seen(l, at, least_seen(l, k), &seen));
+        if (seen)
+            *t = at;
+    }
+    return QDOT_OK;
+}
+
+/* It is seen at *a, and nowhere from *b on: halve the time between until it is small. */
+static qdot_status
+narrow(look *l, double least, double small, double *a, double *b)
+{
+    while (fabs(*b - *a) > small) {
+        const double middle = *a + (*b - *a) / 2;
+        bool seen;
+
+        if (middle == *a || middle == *b)
+            break;
+        QDOT_TRY(is_seen(l, middle, least, &seen));
+        *(seen ? a : b) = middle;
+    }
+    return QDOT_OK;
+}
+
+static qdot_status
+find(look *l, double *from)
+{
+    static const double sure = 1e-3;
+    size_t k = l->n + 1; /* the stretch from t[k - 1] to t[k] */
+    double seen = NAN, start, left;
+
+    QDOT_TRY(find_size(l));
+    for (; k > 0; k--) {
+        QDOT_TRY(last_seen(l, k, &seen));
+        if (isnan(seen) && k > 1 && is_met(l, k - 1, sure))
+            seen = l->t[k - 1];
+        if (!isnan(seen))
+            break;
+    }
+    if (k == 0 || k > l->n) /* never, or until the end */
+        return QDOT_OK;
+    start = l->t[k];
+    left = fabs(l->t[l->n + 1] - start);
+    QDOT_TRY(narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
+    /* a crossing at the very end is within the error as long before it as behind */
+    if (left > 2 * fabs(l->t[k] - seen))
+        *from = start;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_faded_find(qdot_run *run, size_t event, double *from)
+{
+    const qdot_course *c = &run->course;
+    const qdot_staged_event *e = &run->stage.events.at[event];
+    const double end = c->tr.t[c->tr.count - 1];
+    look l = {0};
+    qdot_status status = QDOT_OK;
+
+    *from = NAN;
+    for (size_t k = 0; k < c->faded.n; k++)
+        if (c->faded.at[k].event == event && c->faded.at[k].to == end)
+            *from = c->faded.at[k].from;
+    if (!isnan(*from) || e->then || e->stop || c->tr.count < 2)
+        return QDOT_OK;
+    QDOT_TRY(qdot_run_twin(run));
+    if (!qdot_run_comparable(run))
+        return QDOT_OK;
+    status = open_look(run, event, &l);
+    if (status == QDOT_OK && l.n > 0)
+        status = find(&l, from);
+    close_look(&l);
+    return status;
+}
