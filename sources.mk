@@ -1685,6 +1685,7 @@ script_tests = \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
+	tests/script/resting-beside-switches.lag \
 	tests/script/resting-walls-with-kinks.lag \
 	tests/script/resting.lag \
 	tests/script/rests-edges.lag \
@@ -2878,6 +2879,7 @@ test_files = \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
+	tests/script/resting-beside-switches.out \
 	tests/script/resting-walls-with-kinks.out \
 	tests/script/resting.out \
 	tests/script/rests-edges.out \

@@ -16,6 +16,8 @@ static const double trial = 1e-3;
 /* What a contact may leave out: the height of the bounces to come, beside the place. Lower ones are lost in its
  * rounding. */
 static const double least_height = DBL_EPSILON / 8;
+/* Four times the height of a flight whose apex is told from the place. */
+static const double apart = 64 * DBL_EPSILON;
 /* A speed above this is none of rest. */
 static const double fastest = 1e-4;
 
@@ -44,7 +46,7 @@ direction(qdot_piece *x, size_t mode, size_t free, double *d, double *size)
 }
 
 /* Whether `then` at the start with its velocities less `speed` d/|d| gives them back, turned about by
- * 0 ... 1 times that speed. */
+ * 0 ... 1 times that speed, and leaves the place where it is. */
 static qdot_status
 is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double size, double speed,
           bool *yes)
@@ -52,6 +54,7 @@ is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double siz
     const size_t n = x->n / 2;
     double *old = qdot_malloc(2 * x->n * sizeof *old), *y = old + x->n, back = 0, aside = 0;
     double scale = 1;
+    bool stays = true;
     qdot_status status = old ? QDOT_OK : QDOT_ENOMEM;
 
     *yes = false;
@@ -68,7 +71,9 @@ is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double siz
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         aside = fmax(aside, fabs(y[n + i] - old[n + i] - back * d[i] / size));
-    *yes = status == QDOT_OK && aside <= alike * speed + roundings * DBL_EPSILON * scale
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        stays = stays && fabs(y[i] - old[i]) <= roundings * DBL_EPSILON * fmax(fabs(old[i]), x->largest[i]);
+    *yes = stays && status == QDOT_OK && aside <= alike * speed + roundings * DBL_EPSILON * scale
            && back >= speed * (1 - 1e-6) - alike * scale
            && back <= 2 * speed * (1 + 1e-6) + alike * scale;
     qdot_free(old);
@@ -170,6 +175,22 @@ enter(qdot_piece *x, size_t surface, double *moved, bool *can)
     return qdot_grave(status);
 }
 
+/* That of the bounces to come on an event, beside the place. Where something switches between one and the next, as at an
+ * apex, a piece starts there, which must see that it is off the wall: so the flights before were higher than this. */
+static double
+lowest(const qdot_piece *x, size_t event)
+{
+    const qdot_piece_repeat *own = NULL;
+
+    for (size_t i = 0; i < x->repeats.n; i++)
+        if (x->repeats.at[i].kind == QDOT_WATCH_EVENT && x->repeats.at[i].index == event)
+            own = &x->repeats.at[i];
+    for (size_t i = 0; i < x->repeats.n && own && own->ratio < 1; i++)
+        if (x->repeats.at[i].kind == QDOT_WATCH_SURFACE && fabs(own->last - x->repeats.at[i].last) < own->interval)
+            return apart / (1 - own->ratio);
+    return least_height;
+}
+
 qdot_status
 qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, bool *soon)
 {
@@ -189,7 +210,7 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
         status = size_of_place(x, surface, &noise);
     height = moved * left;
     if (status == QDOT_OK && *lasts
-        && (moved > fastest || height > least_height * noise)) {
+        && (moved > fastest || height > lowest(x, event) * noise)) {
         *lasts = false;
         *soon = moved <= fastest || left > 0;
         x->side[surface] = 0;
@@ -238,6 +259,16 @@ qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets)
     memcpy(x->start.y, old, x->n * sizeof *old);
     qdot_free(old);
     return qdot_grave(status);
+}
+
+bool
+qdot_piece_meets_again(const qdot_piece *x, size_t i)
+{
+    const qdot_staged_event *e = &x->c->stage->events.at[i];
+    const int way = (int)x->direction * e->way;
+
+    return e->then && way != 0 && x->functions_on[i] && x->touching[i] && x->left[i] == -way
+           && qdot_watch_first(qdot_piece_watch(x))[i] == way && x->signs[i] != -way && !qdot_piece_just_noted(x, i);
 }
 
 /* --- after a change ------------------------------------------------------------------- */

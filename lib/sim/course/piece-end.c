@@ -170,6 +170,27 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     return QDOT_OK;
 }
 
+/* Whether an event that may come to rest is met between the switches w: these come ever faster because its contact does,
+ * as the apex of each bounce under drag; it decides. */
+static bool
+is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
+{
+    const qdot_piece_repeat *own = NULL;
+
+    for (size_t i = 0; i < x->repeats.n && w->kind == QDOT_WATCH_SURFACE; i++)
+        if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
+            own = &x->repeats.at[i];
+    for (size_t i = 0; i < x->repeats.n && own; i++) {
+        const qdot_piece_repeat *r = &x->repeats.at[i];
+
+        if (r->kind == QDOT_WATCH_EVENT && r->interval > 0 && fabs(t - r->last) <= own->interval
+            && (qdot_contacts_surface(&x->c->stage->switches, r->index, 1) != SIZE_MAX
+                || qdot_contacts_surface(&x->c->stage->switches, r->index, -1) != SIZE_MAX))
+            return true;
+    }
+    return false;
+}
+
 /* What ended a piece, in words. */
 static void
 name_end(const qdot_piece *x, const qdot_watched *w, qdot_text *to)
@@ -412,7 +433,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         rests = rests_in_run(x, w, root->way, &led);
         if (status == QDOT_OK && (led ? rests : fast) && !*over && w->kind == QDOT_WATCH_EVENT)
             status = come_to_rest(x, w, root->way, led ? 0 : left, &fast);
-        fast = fast && !led;
+        fast = fast && !led && !is_between_contacts(x, w, t);
         if (fast && !*over)
             say_accumulated(x, w, t, left);
         if (status == QDOT_OK && !*over && (fast || has_too_many_to_come(x, w, t))) {

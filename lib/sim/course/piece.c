@@ -248,15 +248,17 @@ follow_at_once(qdot_piece *x, double t0)
     const int *first = qdot_watch_first(qdot_piece_watch(x));
     const bool starts = x->c->tr.count == 1 && !x->start.jumped;
 
-    for (size_t i = 0; i < x->c->stage->events.n && (x->start.jumped || starts); i++) {
+    for (size_t i = 0; i < x->c->stage->events.n; i++) {
         const qdot_staged_event *e = &x->c->stage->events.at[i];
         int way;
         bool meets;
         const qdot_root root = {
             .function = i, .t = t0, .way = first[i], .exact = true, .late = x->start.late};
 
-        if (starts) {
-            QDOT_TRY(qdot_piece_meets_at_start(x, i, &meets));
+        if (starts || !x->start.jumped) {
+            meets = !starts && qdot_piece_meets_again(x, i);
+            if (starts)
+                QDOT_TRY(qdot_piece_meets_at_start(x, i, &meets));
             if (meets)
                 QDOT_TRY(act_at_once(x, t0, &root));
             continue;

@@ -238,6 +238,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 /* (piece-contact.c) Where a run starts: whether it has met event i, on whose zero it starts and which the motion goes on
  * to cross, the way that its statement says: an impact that turns it back. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets);
+/* Where a piece starts at a switch: whether the motion has left the zero of event i, which changes the state, by less
+ * than rounding, and goes on to its other side. */
+bool qdot_piece_meets_again(const qdot_piece *x, size_t i);
 
 /* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
  * one. */

@@ -5,8 +5,8 @@
 
 #include "sim/model/substitute.h"
 
-/* Whether an event sets velocities only, and is a place at rest: u of q. One that moves does work, of
- * which the drift of the energy does not know. */
+/* Whether an event sets velocities, and perhaps coordinates, only, and is a place at rest: u of q. One that moves does
+ * work, of which the drift of the energy does not know. */
 static bool
 may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {
@@ -19,9 +19,11 @@ may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
         || (qdot_expr_node(scene->pool, u)->holds & others))
         return false;
     for (size_t i = 0; i < event->targets.n; i++) {
-        if (!(qdot_expr_node(scene->pool, event->targets.at[i])->holds & QDOT_HAS_VELOCITY))
+        const uint32_t holds = qdot_expr_node(scene->pool, event->targets.at[i])->holds;
+
+        if (!(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_COORD)))
             return false;
-        changes |= event->values.at[i] != event->targets.at[i];
+        changes |= (holds & QDOT_HAS_VELOCITY) && event->values.at[i] != event->targets.at[i];
     }
     return changes;
 }
