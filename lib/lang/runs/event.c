@@ -226,6 +226,24 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
+/* JSON: notices of where it is not known whether events occur. */
+static qdot_status
+tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
+{
+    qdot_status status = QDOT_OK;
+
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        qdot_text text = {0};
+
+        qdot_event_print_faded(run, &faded[i], &text);
+        status = qdot_text_status(&text);
+        if (status == QDOT_OK)
+            status = qdot_answer_notice(session, "%.*s", (int)text.n - 1, qdot_text_str(&text));
+        qdot_text_clear(&text);
+    }
+    return status;
+}
+
 /* Where the run, or its end, leaves open whether events occur; faded [n]. */
 static qdot_status
 add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
@@ -287,11 +305,8 @@ qdot_event_list(qdot_cursor *c)
     QDOT_TRY(qdot_runs_find(session, NULL, &run));
     QDOT_TRY(qdot_run_occurrences(run->run, &list, &n));
     QDOT_TRY(qdot_run_faded_events(run->run, &faded, &n_faded));
-    for (size_t i = 0; i < n_faded && session->json; i++)
-        QDOT_TRY(qdot_answer_notice(session,
-                                    "from t = %.4g on the sides of the event %s are equal within their errors: whether "
-                                    "it occurs there is not known",
-                                    faded[i].from, faded[i].event));
+    if (session->json)
+        QDOT_TRY(tell_faded(session, run->run, faded, n_faded));
     if (session->json && n > 0)
         return qdot_run_get_report(run->run)->digits > 0
                    ? list_exact(session, run->run, list, n)

@@ -7,8 +7,8 @@
  * sliding is (sim/model/sliding.h), with the reaction as its share; u is a surface of the switches behind
  * those of the equations, one for each side that it may be met from.
  *
- * It is what the event means only if `then` is an impact on a smooth wall: it sets velocities alone, by
- * a change along M^-1 du/dq that turns du/dt about, to at most its size, and leaves a motion with du/dt
+ * It is what the event means only if `then` is an impact on a smooth wall: it sets velocities, and coordinates to
+ * what they are there (y = 0, y' = -e*y'), but nothing else, by a change along M^-1 du/dq that turns du/dt about, to at most its size, and leaves a motion with du/dt
  * = 0 as it is; and u is of q alone. Anything else ends the run as before.
  *
  * Tests  tests/script/resting.lag
