@@ -13,9 +13,10 @@ typedef struct {
     qdot_reader reader;
     qdot_distance *distance;
     size_t n;  /* occurrences of the event */
-    double *t; /* [n + 2] the start of the run, they, its end */
+    double *t; /* [n + 2] the start of the run, they, and the end of what is looked at */
     double *errors; /* [n + 2] of the times; NaN: the companions do not meet it */
     double size, tol; /* of g over the run; of the run */
+    double end;       /* of the run */
 } look;
 
 static void
@@ -28,8 +29,9 @@ close_look(look *l)
     qdot_free(l->errors);
 }
 
+/* Up to the time `end`. */
 static qdot_status
-open_look(qdot_run *run, size_t event, look *l)
+open_look(qdot_run *run, size_t event, double end, look *l)
 {
     const qdot_course *c = &run->course;
 
@@ -44,7 +46,8 @@ open_look(qdot_run *run, size_t event, look *l)
             l->errors[l->n] = run->occurrences.at[i].error;
         }
     l->tol = run->report.tol;
-    l->t[l->n + 1] = c->tr.t[c->tr.count - 1];
+    l->t[l->n + 1] = end;
+    l->end = c->tr.t[c->tr.count - 1];
     l->function = run->stage.events.at[event].function;
     QDOT_TRY(qdot_reader_lower(run->plan, 1, &l->function, &l->of));
     QDOT_TRY(qdot_reader_init(&l->reader, &l->of, c));
@@ -157,7 +160,7 @@ find(look *l, double *from)
     if (k == 0 || k > l->n) /* never, or until the end */
         return QDOT_OK;
     start = l->t[k];
-    left = fabs(l->t[l->n + 1] - start);
+    left = fabs(l->end - start);
     QDOT_TRY(narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
     /* a crossing at the very end is within the error as long before it as behind */
     if (left > 2 * fabs(l->t[k] - seen))
@@ -178,12 +181,12 @@ qdot_faded_find(qdot_run *run, size_t event, double *from)
     for (size_t k = 0; k < c->faded.n; k++)
         if (c->faded.at[k].event == event && c->faded.at[k].to == end)
             *from = c->faded.at[k].from;
-    if (!isnan(*from) || e->then || e->stop || c->tr.count < 2)
+    if (e->then || e->stop || c->tr.count < 2)
         return QDOT_OK;
     QDOT_TRY(qdot_run_twin(run));
     if (!qdot_run_comparable(run))
         return QDOT_OK;
-    status = open_look(run, event, &l);
+    status = open_look(run, event, isnan(*from) ? end : *from, &l);
     if (status == QDOT_OK && l.n > 0)
         status = find(&l, from);
     close_look(&l);
