@@ -346,6 +346,7 @@ library_sources = \
 	lib/normal/simplify/rationalize.c \
 	lib/normal/simplify/simplify.c \
 	lib/normal/solve/antiderivative.c \
+	lib/normal/solve/assumptions.c \
 	lib/normal/solve/condition-forms.c \
 	lib/normal/solve/conditions.c \
 	lib/normal/solve/cramer.c \
@@ -960,6 +961,7 @@ library_headers = \
 	lib/normal/simplify/rationalize.h \
 	lib/normal/simplify/simplify.h \
 	lib/normal/solve/antiderivative.h \
+	lib/normal/solve/assumptions.h \
 	lib/normal/solve/condition-forms.h \
 	lib/normal/solve/conditions.h \
 	lib/normal/solve/cramer.h \
@@ -1355,6 +1357,7 @@ unit_tests = \
 	tests/mech/test_scenes \
 	tests/mech/test_stability \
 	tests/normal/test_antiderivative \
+	tests/normal/test_assumptions \
 	tests/normal/test_condition_forms \
 	tests/normal/test_decide \
 	tests/normal/test_flint \
@@ -1709,6 +1712,7 @@ script_tests = \
 	tests/script/signs.lag \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
+	tests/script/solve-assumed.lag \
 	tests/script/solve-bounded-families.lag \
 	tests/script/solve-domains.lag \
 	tests/script/solve-joined-exponentials.lag \
@@ -2904,6 +2908,7 @@ test_files = \
 	tests/script/six.awk \
 	tests/script/slow-margin.out \
 	tests/script/solution-sets.out \
+	tests/script/solve-assumed.out \
 	tests/script/solve-bounded-families.out \
 	tests/script/solve-domains.out \
 	tests/script/solve-joined-exponentials.out \

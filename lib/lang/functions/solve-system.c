@@ -14,6 +14,7 @@
 #include "lang/session/value-kind.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/ball.h"
+#include "normal/solve/assumptions.h"
 #include "normal/solve/simultaneous.h"
 #include "normal/solve/solve.h"
 #include "normal/solve/special-values.h"
@@ -325,16 +326,25 @@ qdot_status
 qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns, qdot_expr domain,
                   qdot_expr *value)
 {
-    question q = {.session = session, .pool = session->pool,
-                  .facts = qdot_scene_facts(session->scene), .domain = domain};
+    question q = {.session = session, .pool = session->pool};
+    const qdot_facts scene = qdot_scene_facts(session->scene);
+    qdot_assumptions assumed = {0};
     qdot_simultaneous set = {0};
     qdot_status status;
     bool known = true;
 
     QDOT_TRY(qdot_pool_check(q.pool));
     QDOT_TRY(read_question(&q, equations, unknowns));
+    status = qdot_assumptions_read(q.pool, &scene, unknowns, &assumed);
+    for (size_t i = 0; i < q.n; i++)
+        q.f[i] = qdot_assumptions_put(q.pool, &assumed, q.f[i]);
+    q.domain = qdot_conditions_all(q.pool, qdot_assumptions_put(q.pool, &assumed, domain), assumed.domain);
+    q.facts = assumed.facts;
     q.facts.exact = true;
-    status = qdot_simultaneous_all(q.pool, q.n, q.f, q.u, domain, &q.facts, &set);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(q.pool);
+    if (status == QDOT_OK)
+        status = qdot_simultaneous_all(q.pool, q.n, q.f, q.u, q.domain, &q.facts, &set);
     if (status == QDOT_OK)
         status = add_definedness(&q, &set);
     if (status == QDOT_OK && set.complete)
@@ -347,6 +357,7 @@ qdot_solve_system(qdot_session *session, qdot_expr equations, qdot_expr unknowns
         status = qdot_hint("in numbers, from a guess: solve([...], [x = 1, y = 2])");
     }
     qdot_simultaneous_clear(&set);
+    qdot_assumptions_clear(&assumed);
     return status;
 }
 

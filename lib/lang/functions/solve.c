@@ -15,6 +15,7 @@
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
 #include "normal/refute/ball.h"
+#include "normal/solve/assumptions.h"
 #include "normal/solve/solve.h"
 
 /* Where all that was written is defined, of what holds x (nil: anything): conditions. */
@@ -95,10 +96,9 @@ holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
 /* Where no formula gives all roots: the factors that are left, in numbers. *known: these are all. */
 static qdot_status
 add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
-            solve_list *list, bool *recurs, bool *known)
+            const qdot_facts *facts, solve_list *list, bool *recurs, bool *known)
 {
     qdot_pool *pool = session->pool;
-    qdot_facts facts = qdot_scene_facts(session->scene);
     qdot_expr factors, rest = QDOT_ONE;
     qdot_solve_zeros zeros = {0};
     qdot_window window;
@@ -106,17 +106,18 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
     bool whole, all = true;
     size_t exact;
 
-    QDOT_TRY(qdot_solve_unsolved(pool, f, x, &facts, &factors, &whole));
+    QDOT_TRY(qdot_solve_unsolved(pool, f, x, facts, &factors, &whole));
     whole = whole && !holds_others(session, f, x);
     for (uint32_t i = 0; i < qdot_expr_count(pool, factors) && !whole; i++)
         rest = qdot_mul(pool, rest, qdot_expr_arg(pool, factors, i));
     if (rest == QDOT_ONE) /* each factor alone is solved, all of them together are not */
         rest = f;
-    window = qdot_solve_window(pool, x, qdot_is_angle(pool, rest, x, &facts));
+    domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
+    window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
+    if (qdot_is_angle(pool, rest, x, facts))
+        window = qdot_window_turn(pool, window);
     QDOT_TRY(qdot_pool_check(pool));
     *recurs = *recurs || window.recurs;
-    domain = qdot_conditions_all(pool, domain, qdot_conditions_of_domain(pool, f, x));
-    window = qdot_solve_tighten(pool, x, domain, window, &facts);
     if (!whole) /* a zero of these factors may be one of a divisor */
         domain =
             qdot_conditions_all(pool, domain, qdot_conditions_of_divisors(pool, f, x));
@@ -138,7 +139,8 @@ static qdot_status
 one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
 {
     qdot_pool *pool = session->pool;
-    qdot_facts facts = qdot_scene_facts(session->scene);
+    const qdot_facts scene = qdot_scene_facts(session->scene);
+    qdot_assumptions assumed = {0};
     qdot_expr f = qdot_value_kind_difference(pool, equation), domain, *values;
     qdot_solutions found = {0};
     qdot_specials specials = {0};
@@ -146,7 +148,6 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     qdot_status status;
     bool known = true, complete;
 
-    facts.exact = true;
     QDOT_TRY(qdot_value_kind_need_symbol(pool, x, "solve(a = b, x) takes a symbol for x"));
     if (f != QDOT_NIL)
         f = qdot_momenta_for(session, f, x);
@@ -156,18 +157,25 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
                          qdot_value_kind_words(pool, equation));
     domain = domain_as_written(session, x);
     QDOT_TRY(qdot_pool_check(pool));
-    status = qdot_solve_inside(pool, f, x, domain, &facts, &found);
+    status = qdot_assumptions_read(pool, &scene, qdot_list(pool, 1, &x), &assumed);
+    assumed.facts.exact = true;
+    f = qdot_assumptions_put(pool, &assumed, f);
+    domain = qdot_conditions_all(pool, qdot_assumptions_put(pool, &assumed, domain), assumed.domain);
+    if (status == QDOT_OK)
+        status = qdot_pool_check(pool);
+    if (status == QDOT_OK)
+        status = qdot_solve_inside(pool, f, x, domain, &assumed.facts, &found);
     complete = found.complete;
     if (status == QDOT_OK)
-        status = qdot_solve_parameters(pool, f, x, &facts, &found);
+        status = qdot_solve_parameters(pool, f, x, &assumed.facts, &found);
     if (status == QDOT_OK && complete)
-        status = qdot_solve_specials(pool, f, x, domain, &facts, &found, &specials);
+        status = qdot_solve_specials(pool, f, x, domain, &assumed.facts, &found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
     if (status == QDOT_OK)
         status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
-        status = add_numbers(session, f, x, domain, &list, &found.recurs, &known);
+        status = add_numbers(session, f, x, domain, &assumed.facts, &list, &found.recurs, &known);
     if (status == QDOT_OK && !known) {
         (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
                         found.root.n > 0 ? " for every x" : "");
@@ -192,6 +200,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     qdot_free(list.at.at);
     qdot_specials_clear(&specials);
     qdot_solutions_clear(&found);
+    qdot_assumptions_clear(&assumed);
     return status == QDOT_OK ? qdot_value_kind_check(pool, *value) : status;
 }
 

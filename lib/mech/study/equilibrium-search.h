@@ -8,12 +8,14 @@
 #include "expr/walk.h"
 #include "mech/scene/things.h"
 #include "mech/study/rest.h"
+#include "normal/solve/assumptions.h"
 #include "normal/solve/simultaneous.h"
 
 typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_facts facts;
+    qdot_assumptions assumed; /* of coordinates and parameters; facts borrows of it */
     qdot_simultaneous system; /* the equations at rest; coordinates, then multipliers, then sides of jumps */
     qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
     qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */

@@ -9,6 +9,7 @@
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
 #include "mech/study/stability.h"
+#include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
 /* What exact solution may take before it gives way to numbers: scenes of books take some
@@ -334,9 +335,12 @@ qdot_rest_begin(qdot_rest *r, qdot_scene *s)
 {
     qdot_status status;
 
-    *r = (qdot_rest){.s = s,
-                     .pool = s->pool,
-                     .facts = qdot_scene_facts(s)};
+    const qdot_facts facts = qdot_scene_facts(s);
+
+    *r = (qdot_rest){.s = s, .pool = s->pool};
+    QDOT_TRY(qdot_assumptions_read(s->pool, &facts, qdot_list(s->pool, (uint32_t)s->coordinates.n, s->coordinates.at),
+                                   &r->assumed));
+    r->facts = r->assumed.facts;
     r->system = (qdot_simultaneous){.pool = r->pool,
                                     .facts = r->facts,
                                     .alike = qdot_rest_moves_alike,
@@ -359,6 +363,7 @@ void
 qdot_rest_end(qdot_rest *r)
 {
     qdot_simultaneous_clear(&r->system);
+    qdot_assumptions_clear(&r->assumed);
     qdot_free(r->found.at);
 }
 
@@ -386,6 +391,49 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     return QDOT_OK;
 }
 
+/* An angle's places are listed for one turn of its declared domain: what is assumed of it cannot choose among them. */
+static qdot_status
+need_declared_angles(qdot_rest *r)
+{
+    for (size_t k = 0; k < r->system.places; k++) {
+        const qdot_expr u = r->system.unknowns.at[k];
+        qdot_expr period;
+
+        if (!qdot_expr_contains(r->pool, r->assumed.domain, u))
+            continue;
+        QDOT_TRY(qdot_simultaneous_period(&r->system, u, &period));
+        if (period == QDOT_NIL)
+            continue;
+        (void)qdot_fail(QDOT_EFAILED, "equilibria recur in %s, whose domain is assumed, not declared",
+                        qdot_expr_symbol(r->pool, u)->name);
+        return qdot_hint("declare it, as in coord %s > 0", qdot_expr_symbol(r->pool, u)->name);
+    }
+    return QDOT_OK;
+}
+
+/* Keep the places that lie where coordinates are assumed to be. */
+static qdot_status
+keep_assumed(qdot_rest *r)
+{
+    size_t kept = 0;
+
+    if (r->assumed.domain == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(need_declared_angles(r));
+    for (size_t i = 0; i < r->found.n; i++) {
+        qdot_equilibrium one = r->found.at[i];
+        qdot_expr domain = qdot_conditions_at(
+            r->pool, qdot_simultaneous_put(r->pool, r->assumed.domain, one.equations), 0, NULL, NULL, &r->facts);
+
+        QDOT_TRY(qdot_pool_check(r->pool));
+        one.exists = qdot_conditions_all(r->pool, one.exists, domain);
+        if (one.exists != QDOT_FALSE)
+            r->found.at[kept++] = one;
+    }
+    r->found.n = kept;
+    return qdot_pool_check(r->pool);
+}
+
 static qdot_status
 find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
@@ -401,6 +449,8 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
         status = qdot_rest_special(&r, &out->special);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_ends(&r);
+    if (status == QDOT_OK)
+        status = keep_assumed(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);
     out->at = r.found.at;

@@ -21,22 +21,29 @@ static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_op
 /* --- windows --------------------------------------------------------------------------- */
 
 qdot_window
-qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
+qdot_window_turn(qdot_pool *pool, qdot_window w)
 {
-    const qdot_symbol *symbol = qdot_expr_symbol(pool, x);
     qdot_expr turn = qdot_mul(pool, qdot_expr_int(pool, 2), QDOT_PI);
-    qdot_window w = window_whole;
 
-    if (symbol != NULL)
-        w = (qdot_window){symbol->lo, symbol->hi, symbol->lo_open, symbol->hi_open, false,
-                          false, 0};
-    if (!angle || (w.lo != QDOT_NIL && w.hi != QDOT_NIL))
+    if (w.lo != QDOT_NIL && w.hi != QDOT_NIL)
         return w;
     if (w.lo != QDOT_NIL)
         return (qdot_window){w.lo, qdot_add(pool, w.lo, turn), w.lo_open, !w.lo_open, false, true, 0};
     if (w.hi != QDOT_NIL)
         return (qdot_window){qdot_sub(pool, w.hi, turn), w.hi, !w.hi_open, w.hi_open, false, true, 0};
     return (qdot_window){qdot_neg(pool, QDOT_PI), QDOT_PI, true, false, true, false, 0};
+}
+
+qdot_window
+qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
+{
+    const qdot_symbol *symbol = qdot_expr_symbol(pool, x);
+    qdot_window w = window_whole;
+
+    if (symbol != NULL)
+        w = (qdot_window){symbol->lo, symbol->hi, symbol->lo_open, symbol->hi_open, false,
+                          false, 0};
+    return angle ? qdot_window_turn(pool, w) : w;
 }
 
 /* Whether the end a leaves less than b (nil: none): above it for a lower end; or at it, which does not belong to a. */

@@ -36,9 +36,10 @@ typedef struct {
     unsigned integer; /* which integer counts the members of a family, see qdot_solve_integer */
 } qdot_window;
 
-/* The declared domain of x. An angle (f changes nothing in a full turn of x) without two declared ends gets one
- * turn of its domain, -pi < x <= pi if it has none. */
+/* The declared domain of x; of an angle (f changes nothing in a full turn of x) one turn of it. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
+/* One turn of a window that has not two ends, -pi < x <= pi if it has none. */
+qdot_window qdot_window_turn(qdot_pool *pool, qdot_window w);
 
 /* That a value lies in the window: a set of conditions; nil: the window has no end. */
 qdot_expr qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr value);

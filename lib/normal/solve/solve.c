@@ -246,7 +246,9 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
     angle = angle && status == QDOT_OK && qdot_is_angle(pool, f, x, facts);
-    window = qdot_solve_window(pool, x, angle);
+    window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
+    if (angle)
+        window = qdot_window_turn(pool, window);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     out->complete = all.complete;

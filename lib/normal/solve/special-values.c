@@ -13,6 +13,7 @@ typedef struct {
     qdot_pool *pool;
     const qdot_facts *facts;
     qdot_special_values *out;
+    qdot_expr where; /* the values that were given */
 } search;
 
 void
@@ -147,6 +148,8 @@ zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where)
     qdot_pool *pool = s->pool;
     qdot_expr factors, first;
 
+    if (n == 0 && where == s->where) /* 0 at all values in question: none is special */
+        return QDOT_OK;
     if (n == 0)
         return qdot_expr_place(s->out->at.n, s->out->at.at, where) < s->out->at.n ? QDOT_OK
                                                                    : qdot_vec_push(&s->out->at, where);
@@ -172,7 +175,7 @@ qdot_status
 qdot_special_values_add(qdot_pool *pool, size_t n, const qdot_expr *special, qdot_expr where,
                         const qdot_facts *facts, qdot_special_values *out)
 {
-    search s = {.pool = pool, .facts = facts, .out = out};
+    search s = {.pool = pool, .facts = facts, .out = out, .where = where};
 
     for (size_t i = 0; i < n; i++) {
         qdot_expr d = special[i], list[2] = {d, QDOT_NIL};

@@ -1,0 +1,30 @@
+/* assumptions.h -- what is assumed, as a search of solutions reads it.
+ *
+ *     a = b      of parameters: the value of one of them, which is put in
+ *     x > 0      of an unknown: part of its domain
+ *
+ * Tests  tests/normal/test_assumptions.c
+ */
+#ifndef QDOT_NORMAL_ASSUMPTIONS_H
+#define QDOT_NORMAL_ASSUMPTIONS_H
+
+#include "base/memory.h"
+#include "normal/field/facts.h"
+
+typedef struct {
+    qdot_facts facts;               /* without the inequalities of unknowns; borrows `others` */
+    qdot_expr domain;               /* these: a set of conditions (conditions.h); nil: none */
+    qdot_vec(qdot_expr) from, to;   /* parameters and their values, which hold none of these parameters */
+    qdot_vec(qdot_expr) others;
+} qdot_assumptions;
+
+/* Read the facts for a search of the unknowns, a LIST. An equation that has several solutions, or one that depends on
+ * whether a parameter is 0, gives no value. *a is cleared by the caller in any case. */
+QDOT_MUST_CHECK qdot_status qdot_assumptions_read(qdot_pool *pool, const qdot_facts *facts, qdot_expr unknowns,
+                                                  qdot_assumptions *a);
+void qdot_assumptions_clear(qdot_assumptions *a);
+
+/* e (nil stays nil) with the values put in. */
+qdot_expr qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e);
+
+#endif
