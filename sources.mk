@@ -1928,6 +1928,7 @@ script_tests = \
 	tests/bad/modes-at-corner.lag \
 	tests/bad/modes-at.lag \
 	tests/bad/modes-damped.lag \
+	tests/bad/modes-no-equilibrium.lag \
 	tests/bad/modes-unstable.lag \
 	tests/bad/modes-without-mass.lag \
 	tests/bad/momentum-index.lag \
@@ -2372,6 +2373,7 @@ test_files = \
 	tests/bad/modes-at-corner.out \
 	tests/bad/modes-at.out \
 	tests/bad/modes-damped.out \
+	tests/bad/modes-no-equilibrium.out \
 	tests/bad/modes-unstable.out \
 	tests/bad/modes-without-mass.out \
 	tests/bad/momentum-index.out \

@@ -16,6 +16,8 @@
 #include "mech/scene/access.h"
 #include "mech/study/linear-motion.h"
 #include "normal/inequality/less.h"
+#include "normal/prove/decide.h"
+#include "normal/refute/ball.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/rationalize.h"
 #include "normal/simplify/simplify.h"
@@ -38,6 +40,12 @@ static bool
 is_zero(const job *j, qdot_expr e)
 {
     return e == QDOT_ZERO || qdot_is_zero(j->pool, e, &j->facts);
+}
+
+static qdot_expr
+with_values(const job *j, qdot_expr e)
+{
+    return j->bind == NULL || e == QDOT_NIL ? e : j->bind(j->user, e);
 }
 
 /* A coordinate without mass has no oscillation: its row of M is 0. */
@@ -109,6 +117,51 @@ check_smooth(const job *j, qdot_expr place)
     return jumps ? qdot_fail(QDOT_ETYPE, "the forces or their slopes jump at the equilibrium: there is no linear motion "
                                          "about it, so it has no normal modes")
                  : QDOT_OK;
+}
+
+/* |e| at the place, |slope| max(1, |q|) summed over the coordinates q: what an error of 1 in the place makes of it. */
+static bool
+is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
+{
+    double sum = 0;
+
+    for (size_t k = 0; k < j->s->coordinates.n; k++) {
+        const qdot_expr q = j->s->coordinates.at[k];
+        double slope = 0, at = 0;
+
+        if (qdot_ball_double(j->pool, with_values(j, qdot_rest_value(j->s, place, qdot_diff(j->pool, e, q))), NULL, NULL,
+                             &slope) &&
+            qdot_ball_double(j->pool, with_values(j, qdot_rest_value(j->s, place, q)), NULL, NULL, &at))
+            sum += fabs(slope) * fmax(1, fabs(at));
+    }
+    return fabs(value) <= 1e-6 * sum;
+}
+
+/* Modes are about a place where nothing is pushed; forces of multipliers are not judged. */
+static qdot_status
+check_rests(const job *j, qdot_expr place)
+{
+    for (size_t i = 0; i < j->s->coordinates.n; i++) {
+        const qdot_expr equation = qdot_mech_equation(j->s, j->s->coordinates.at[i]);
+        qdot_expr gap = qdot_sub(j->pool, qdot_expr_arg(j->pool, equation, 0), qdot_expr_arg(j->pool, equation, 1)),
+                  there;
+        qdot_decision decision;
+        bool pulled = false;
+
+        for (size_t k = 0; k < j->s->constraints.n; k++)
+            pulled = pulled || qdot_expr_contains(j->pool, gap, j->s->constraints.at[k].multiplier);
+        if (pulled)
+            continue;
+        there = with_values(j, qdot_rest_value(j->s, place, gap));
+        QDOT_TRY(qdot_pool_check(j->pool));
+        QDOT_TRY(qdot_decide_equal(j->pool, there, QDOT_ZERO, &j->facts, &decision));
+        if (decision.verdict != QDOT_REFUTED || is_within_rounding(j, gap, place, decision.left))
+            continue;
+        (void)qdot_fail(QDOT_EINVAL, "that is no equilibrium: the equation of %s does not hold at rest there",
+                        qdot_expr_symbol(j->pool, j->s->coordinates.at[i])->name);
+        return qdot_hint("modes at equilibria[1]");
+    }
+    return qdot_pool_check(j->pool);
 }
 
 static qdot_status
@@ -281,8 +334,7 @@ order_in_numbers(const job *j, qdot_expr a, qdot_expr b)
     double v[2];
 
     for (int k = 0; k < 2; k++)
-        if (j->bind != NULL)
-            pair[k] = j->bind(j->user, pair[k]);
+        pair[k] = with_values(j, pair[k]);
     if (pair[0] == QDOT_NIL || pair[1] == QDOT_NIL ||
         qdot_generic_evaluate(j->pool, 2, pair, NULL, v) != QDOT_OK)
         return 1;
@@ -412,8 +464,7 @@ values(const job *j, size_t n, const qdot_expr *e, double *out)
     qdot_expr *bound;
     qdot_status status;
 
-    if (list != QDOT_NIL && j->bind != NULL)
-        list = j->bind(j->user, list);
+    list = with_values(j, list);
     QDOT_TRY(qdot_pool_check(pool));
     atoms = qdot_expr_atoms(pool, list, true);
     QDOT_TRY(qdot_pool_check(pool));
@@ -543,7 +594,9 @@ qdot_modes_about(qdot_scene *s, qdot_expr equations, bool numbers, qdot_binder b
     if (!holonomic)
         return qdot_fail(QDOT_ETYPE, "normal modes need holonomic constraints");
     QDOT_TRY(qdot_linear_motion_about(s, equations, QDOT_NIL, &j.m));
-    status = check_motion(&j);
+    status = check_rests(&j, equations);
+    if (status == QDOT_OK)
+        status = check_motion(&j);
     if (status == QDOT_OK)
         status = check_smooth(&j, equations);
     if (status == QDOT_OK && !numbers)
