@@ -1717,6 +1717,7 @@ script_tests = \
 	tests/script/solve-domains.lag \
 	tests/script/solve-joined-exponentials.lag \
 	tests/script/solve-line.lag \
+	tests/script/solve-numbers-parameters.lag \
 	tests/script/solve-numbers.lag \
 	tests/script/solve-parameters.lag \
 	tests/script/solve-ranges.lag \
@@ -2915,6 +2916,7 @@ test_files = \
 	tests/script/solve-domains.out \
 	tests/script/solve-joined-exponentials.out \
 	tests/script/solve-line.out \
+	tests/script/solve-numbers-parameters.out \
 	tests/script/solve-numbers.out \
 	tests/script/solve-parameters.out \
 	tests/script/solve-ranges.out \

@@ -133,6 +133,18 @@ qdot_solve_notice_open(qdot_session *session, qdot_expr where)
 }
 
 qdot_status
+qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions)
+{
+    qdot_text text = {0};
+    qdot_status status = qdot_solve_print_conditions(session->pool, words, conditions, &text);
+
+    if (status == QDOT_OK && conditions != QDOT_NIL)
+        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
+}
+
+qdot_status
 qdot_solve_notice_specials(qdot_session *session, qdot_expr x, const qdot_specials *specials)
 {
     for (size_t i = 0; i < specials->at.n; i++)

@@ -20,6 +20,9 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qd
 /* Tell `where a = 0 the solutions may be others`, of a LIST of equations that hold there. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_expr where);
 
+/* Tell the words and then the conditions (nil: nothing), of all solutions. */
+QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
+
 /* A root as a value: x, or the relations that say which x are roots; with a notice of its conditions. */
 QDOT_MUST_CHECK qdot_status qdot_solve_root_value(qdot_session *session, qdot_expr x,
                                                   const qdot_root *root, qdot_expr *value);

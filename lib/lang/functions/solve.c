@@ -65,14 +65,19 @@ add_exact(qdot_session *session, qdot_expr x, const qdot_solutions *found,
     qdot_pool *pool = session->pool;
 
     for (size_t i = 0; i < found->root.n; i++) {
-        qdot_solve_zero one = {.value = found->root.at[i].value, .at = NAN};
+        const qdot_root *root = &found->root.at[i];
+        qdot_solve_zero one = {.value = root->value, .at = NAN};
 
+        if (root->value == x && root->condition != QDOT_NIL && !qdot_expr_contains(pool, root->condition, x)) {
+            QDOT_TRY(qdot_solve_notice_all(session, "every value is a solution when ", root->condition));
+            continue;
+        }
         list->constant =
             list->constant && qdot_ball_double(pool, one.value, NULL, NULL, &one.at);
         QDOT_TRY(qdot_pool_check(pool));
         if (!list->constant)
             one.at = NAN;
-        QDOT_TRY(qdot_solve_root_value(session, x, &found->root.at[i], &one.value));
+        QDOT_TRY(qdot_solve_root_value(session, x, root, &one.value));
         QDOT_TRY(qdot_vec_push(&list->at, one));
     }
     return QDOT_OK;
@@ -134,6 +139,27 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
     return status;
 }
 
+/* What parameters make of zeros that were found in numbers: other sets at special values, conditions. */
+static qdot_status
+notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain, const qdot_facts *facts,
+                  const qdot_solutions *found)
+{
+    qdot_pool *pool = session->pool;
+    qdot_expr set = qdot_conditions_at(pool, qdot_solve_conditions(pool, domain, f, x), 0, NULL, NULL, facts);
+    qdot_specials specials = {0};
+    qdot_status status;
+
+    set = qdot_conditions_reduce(pool, set, facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    status = qdot_solve_specials(pool, f, x, domain, facts, found, &specials);
+    if (status == QDOT_OK)
+        status = qdot_solve_notice_specials(session, x, &specials);
+    if (status == QDOT_OK)
+        status = qdot_solve_notice_all(session, "solutions exist when ", set);
+    qdot_specials_clear(&specials);
+    return status;
+}
+
 /* solve(a = b, x), solve(e, x) of e = 0: the values of x, a list. */
 static qdot_status
 one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *value)
@@ -155,7 +181,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (!qdot_expr_is_scalar(pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(pool, equation));
-    domain = domain_as_written(session, x);
+    domain = domain_as_written(session, QDOT_NIL);
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_assumptions_read(pool, &scene, qdot_list(pool, 1, &x), &assumed);
     assumed.facts.exact = true;
@@ -176,6 +202,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
         status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
         status = add_numbers(session, f, x, domain, &assumed.facts, &list, &found.recurs, &known);
+    if (status == QDOT_OK && !complete && known)
+        status = notice_parameters(session, f, x, domain, &assumed.facts, &found);
     if (status == QDOT_OK && !known) {
         (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
                         found.root.n > 0 ? " for every x" : "");

@@ -161,14 +161,22 @@ leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_sol
     return QDOT_OK;
 }
 
+qdot_expr
+qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr x)
+{
+    qdot_expr set = conditions_without(pool, QDOT_NIL, domain, x);
+
+    set = conditions_without(pool, set, qdot_conditions_of_domain(pool, f, QDOT_NIL), x);
+    return conditions_without(pool, set, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
+}
+
 qdot_status
 qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
                       qdot_solutions *found)
 {
-    qdot_expr of_equation = conditions_without(pool, QDOT_NIL, qdot_conditions_of_domain(pool, f, QDOT_NIL), x);
+    const qdot_expr of_equation = qdot_solve_conditions(pool, QDOT_NIL, f, x);
     size_t kept = 0;
 
-    of_equation = conditions_without(pool, of_equation, qdot_conditions_of_divisors(pool, f, QDOT_NIL), x);
     for (size_t i = 0; i < found->root.n; i++) {
         qdot_root root = found->root.at[i];
         qdot_expr value = root.period == QDOT_NIL

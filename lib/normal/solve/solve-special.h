@@ -24,6 +24,9 @@ typedef struct {
 
 void qdot_specials_clear(qdot_specials *s);
 
+/* That f and what was written, whose conditions `domain` holds (nil: none), are defined in their parts without x. */
+qdot_expr qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr x);
+
 /* Add to the conditions of each root that its value is defined, and f in its parts without x; leave out those that
  * follow from others, and roots without any values of the parameters. */
 QDOT_MUST_CHECK qdot_status qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x,
