@@ -350,6 +350,7 @@ library_sources = \
 	lib/normal/solve/condition-forms.c \
 	lib/normal/solve/conditions.c \
 	lib/normal/solve/cramer.c \
+	lib/normal/solve/definedness.c \
 	lib/normal/solve/isolate.c \
 	lib/normal/solve/linear.c \
 	lib/normal/solve/null-space.c \
@@ -1722,6 +1723,7 @@ script_tests = \
 	tests/script/solve-parameters.lag \
 	tests/script/solve-ranges.lag \
 	tests/script/solve-special.lag \
+	tests/script/solve-system-parameters.lag \
 	tests/script/solve-system-sets.lag \
 	tests/script/solve-system.lag \
 	tests/script/solve.lag \
@@ -2921,6 +2923,7 @@ test_files = \
 	tests/script/solve-parameters.out \
 	tests/script/solve-ranges.out \
 	tests/script/solve-special.out \
+	tests/script/solve-system-parameters.out \
 	tests/script/solve-system-sets.out \
 	tests/script/solve-system.out \
 	tests/script/solve.out \

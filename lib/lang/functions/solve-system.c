@@ -156,9 +156,11 @@ notice_special(const question *q, qdot_expr where, const qdot_simultaneous *ther
     return status;
 }
 
+static qdot_status solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where, size_t *told);
+
 /* The solutions where parameters have values at which something divided by is 0. */
 static qdot_status
-solve_special(const question *q, qdot_expr where, const qdot_simultaneous *generic)
+solve_special(const question *q, qdot_expr where, const qdot_simultaneous *generic, size_t *told)
 {
     qdot_simultaneous there = {0};
     qdot_expr f[MOST], domain, from[QDOT_SPECIAL_TOGETHER], to[QDOT_SPECIAL_TOGETHER];
@@ -177,22 +179,24 @@ solve_special(const question *q, qdot_expr where, const qdot_simultaneous *gener
         status = add_definedness(q, &there);
     if (status == QDOT_OK)
         status = notice_special(q, where, &there, generic);
+    if (status == QDOT_OK && there.complete)
+        status = solve_specials(q, &there, where, told);
     qdot_simultaneous_clear(&there);
     return status;
 }
 
-/* Tell the solutions at special values; of those past the bound, and of divisors that are not solved, that the
- * solutions there may be others. */
+/* Tell the solutions at special values, those of a set at `where` (nil: at all values); of those past the bound, and of
+ * divisors that are not solved, that the solutions there may be others. */
 static qdot_status
-solve_specials(const question *q, const qdot_simultaneous *set)
+solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where, size_t *told)
 {
     qdot_special_values values = {0};
-    qdot_status status = qdot_special_values_add(q->pool, set->special.n, set->special.at, QDOT_NIL,
+    qdot_status status = qdot_special_values_add(q->pool, set->special.n, set->special.at, where,
                                                  &q->facts, &values);
 
     for (size_t i = 0; i < values.at.n && status == QDOT_OK; i++)
-        status = i < MOST_SPECIALS ? solve_special(q, values.at.at[i], set)
-                                   : qdot_solve_notice_open(q->session, values.at.at[i]);
+        status = (*told)++ < MOST_SPECIALS ? solve_special(q, values.at.at[i], set, told)
+                                           : qdot_solve_notice_open(q->session, values.at.at[i]);
     for (size_t i = 0; i < values.open.n && status == QDOT_OK; i++)
         status = qdot_solve_notice_open(q->session, qdot_list(q->pool, 1, &values.open.at[i]));
     qdot_special_values_clear(&values);
@@ -244,7 +248,8 @@ notice_turns(const question *q)
 static qdot_status
 answer_exactly(const question *q, const qdot_simultaneous *set, qdot_expr *value)
 {
-    qdot_status status = solve_specials(q, set);
+    size_t told = 0;
+    qdot_status status = solve_specials(q, set, QDOT_NIL, &told);
 
     *value = qdot_list(q->pool, 0, NULL);
     for (size_t k = 0; k < set->found.n && status == QDOT_OK; k++) {

@@ -26,6 +26,8 @@ qdot_expr qdot_condition(qdot_pool *pool, qdot_expr gap, bool strict, const qdot
 /* The set and one more relation; the set and another set. */
 qdot_expr qdot_conditions_and(qdot_pool *pool, qdot_expr set, qdot_expr relation);
 qdot_expr qdot_conditions_all(qdot_pool *pool, qdot_expr set, qdot_expr other);
+/* The set and u != 0, said as 0 < |u|. */
+qdot_expr qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u);
 
 /* Two sets under either of which something holds, as one, *set; false: they are no one set. */
 bool qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts);
@@ -41,9 +43,10 @@ qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdo
                              const qdot_expr *to, const qdot_facts *facts);
 
 /* The conditions under which every part of f that holds x (nil: every part) is defined: of bases of roots, logarithms
- * and inverse functions. Denominators and poles are not among them. */
+ * and inverse functions. Denominators and poles are not among them. (definedness.c) */
 qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
-/* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0. */
+/* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
+ * (definedness.c) */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);
 /* u, where the relation is 0 < |u|; else nil. */
 qdot_expr qdot_conditions_nonzero(const qdot_pool *pool, qdot_expr relation);
