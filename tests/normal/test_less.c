@@ -14,6 +14,7 @@
 #include "expr/print.h"
 
 #include "normal/inequality/less.h"
+#include "normal/inequality/real-zeros.h"
 #include "number.h"
 #include "pairs.h"
 
@@ -195,10 +196,80 @@ random_inequalities_are_never_wrong(void **state)
     assert_true(proved > wanted / 10 && refuted > wanted / 5 && open < wanted / 5);
 }
 
+/* A polynomial without double zeros: random coefficients, or factors c x - d with zeros that are close or equal to 0. */
+static void
+random_polynomial(fmpz_poly_t p, flint_rand_t random)
+{
+    fmpz_poly_t q, g;
+
+    fmpz_poly_init(q);
+    fmpz_poly_init(g);
+    fmpz_poly_randtest_not_zero(p, random, 1 + (slong)n_randint(random, 9), 1 + n_randint(random, 40));
+    for (slong n = (slong)n_randint(random, 8); n > 0; n--) {
+        slong c = (slong)n_randint(random, 5) - 2, d = 1L << n_randint(random, 40);
+
+        fmpz_poly_set_coeff_si(q, 0, -c * d - (slong)n_randint(random, 2));
+        fmpz_poly_set_coeff_si(q, 1, d);
+        fmpz_poly_mul(p, p, q);
+    }
+    fmpz_poly_derivative(q, p);
+    fmpz_poly_gcd(g, p, q);
+    if (!fmpz_poly_is_zero(q))
+        fmpz_poly_div(p, p, g);
+    fmpz_poly_clear(q);
+    fmpz_poly_clear(g);
+}
+
+/* Counted a second way, by Sturm's sequence; each ball holds a change of sign or a zero, and there are fractions between. */
+static void
+real_zeros_are_all(void **state)
+{
+    flint_rand_t random;
+    fmpz_poly_t p;
+    fmpq_t x, y;
+
+    (void)state;
+    flint_randinit(random);
+    fmpz_poly_init(p);
+    fmpq_init(x);
+    fmpq_init(y);
+    for (int i = 0; i < 2000; i++) {
+        slong bits = i % 2 == 0 ? 24 : 96, n;
+        arb_ptr zero;
+
+        random_polynomial(p, random);
+        n = qdot_real_zeros(p, bits, &zero);
+        assert_int_equal(n, fmpz_poly_num_real_roots(p));
+        for (slong k = 0; k <= n && n > 0; k++) {
+            qdot_between_zeros(x, k > 0 ? zero + k - 1 : NULL, k < n ? zero + k : NULL);
+            fmpz_poly_evaluate_fmpq(y, p, x);
+            assert_int_not_equal(fmpq_sgn(y), 0);
+            assert_true(k == 0 || arb_rel_accuracy_bits(zero + k - 1) >= bits - 2);
+            if (k > 0) {
+                arb_t value;
+
+                arb_init(value);
+                arb_fmpz_poly_evaluate_arb(value, p, zero + k - 1, 4096);
+                assert_true(arb_contains_zero(value));
+                arb_set_fmpq(value, x, 4096);
+                assert_true(arb_lt(zero + k - 1, value));
+                arb_clear(value);
+            }
+        }
+        if (zero != NULL)
+            _arb_vec_clear(zero, fmpz_poly_degree(p));
+    }
+    fmpq_clear(x);
+    fmpq_clear(y);
+    fmpz_poly_clear(p);
+    flint_randclear(random);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(real_zeros_are_all),
         cmocka_unit_test(random_inequalities_are_never_wrong)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);

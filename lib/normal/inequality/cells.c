@@ -342,6 +342,13 @@ put_in(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
     qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
 
+/* With one symbol expressions are evaluated at zeros, with more of them only between zeros. */
+static slong
+bits_needed(const cells *c)
+{
+    return c->n == 1 ? 96 : 24;
+}
+
 /* The zeros of what stands in a level, over the points chosen. */
 static slong
 zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
@@ -364,7 +371,7 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     *room = fmpz_poly_degree(product);
     *zeros = NULL;
     n = charge(c, 20 * (1 + *room) * (1 + *room) * (1 + fmpz_poly_max_limbs(product)))
-            ? qdot_real_zeros(product, zeros)
+            ? qdot_real_zeros(product, bits_needed(c), zeros)
             : -1;
     fmpz_poly_clear(p);
     fmpz_poly_clear(product);
@@ -485,7 +492,7 @@ look_at_zeros(cells *c)
 
         put_in(c, p, c->zero.at + i, 0);
         room = fmpz_poly_degree(p);
-        n = qdot_real_zeros(p, &zero);
+        n = qdot_real_zeros(p, bits_needed(c), &zero);
         c->touches |= n < 0;
         for (slong k = 0; k < n && !c->touches; k++) {
             c->touches = may_be_zero(c, zero + k, c->zero.at + i);

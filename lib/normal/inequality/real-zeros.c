@@ -1,4 +1,7 @@
-/* real-zeros.c -- encloses all complex zeros in balls and keeps the real ones. */
+/* real-zeros.c -- halves intervals until Descartes' rule of signs leaves one zero in each.
+ *
+ * Collins and Akritas, Polynomial real root isolation using Descarte's rule of signs (SYMSAC 1976) 272.
+ */
 #include "normal/inequality/real-zeros.h"
 
 #include <stdbool.h>
@@ -6,9 +9,262 @@
 
 #include <flint/fmpq_poly.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 
 enum { MOST_DEGREE = 160 };
+/* Words that one call may change when it shifts polynomials: some seconds. */
+#define MOST_WORK 4000000000.0
+
+/* --- intervals that hold one zero ------------------------------------------------------- */
+
+/* p, scaled, over 0 < t < 1 with x = (number + t) 2^(scale - depth). */
+typedef struct {
+    fmpz_poly_t p;
+    fmpz_t number;
+    slong depth;
+} part;
+
+typedef struct {
+    part *stack; /* the leftmost is the last */
+    size_t n, room;
+    slong scale;
+    bool minus; /* the zeros are those of p(-x) */
+    double work;
+    arb_ptr zero; /* [degree]; balls whose ends are those of the intervals, or exact */
+    slong found;
+} isolation;
+
+/* How often the signs of the coefficients change; two says "two or more". */
+static int
+sign_changes(const fmpz_poly_t p)
+{
+    int before = 0, changes = 0;
+
+    for (slong i = 0; i <= fmpz_poly_degree(p) && changes < 2; i++) {
+        int sign = fmpz_sgn(p->coeffs + i);
+
+        changes += sign * before < 0;
+        before = sign != 0 ? sign : before;
+    }
+    return changes;
+}
+
+/* Descartes: no zero with 0 < t < 1 for 0, one for 1, at most two or more for 2. */
+static int
+most_zeros(isolation *s, const fmpz_poly_t p)
+{
+    slong n = fmpz_poly_degree(p);
+    fmpz_poly_t q;
+    fmpz_t one;
+    int changes;
+
+    fmpz_poly_init(q);
+    fmpz_init_set_si(one, 1);
+    fmpz_poly_reverse(q, p, n + 1);
+    fmpz_poly_taylor_shift(q, q, one);
+    s->work += (double)n * (double)n * (1 + (double)fmpz_poly_max_limbs(q));
+    changes = sign_changes(q);
+    fmpz_clear(one);
+    fmpz_poly_clear(q);
+    return changes;
+}
+
+/* A zero in [from, from + width], times 2^(scale - depth). */
+static void
+isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
+{
+    arb_ptr to = s->zero + s->found++;
+
+    arb_set_fmpz(to, from);
+    arb_mul_2exp_si(to, to, 1);
+    if (!exact) {
+        arb_add_ui(to, to, 1, ARF_PREC_EXACT);
+        mag_one(arb_radref(to));
+    }
+    arb_mul_2exp_si(to, to, s->scale - depth - 1);
+    if (s->minus)
+        arb_neg(to, to);
+}
+
+static part *
+isolation_push(isolation *s, const fmpz_poly_t p, const fmpz_t number, slong depth)
+{
+    part *to;
+
+    if (s->n == s->room) {
+        part *more = qdot_realloc(s->stack, (2 * s->room + 16) * sizeof *more);
+
+        if (more == NULL)
+            return NULL;
+        s->stack = more;
+        s->room = 2 * s->room + 16;
+    }
+    to = &s->stack[s->n++];
+    fmpz_poly_init(to->p);
+    fmpz_poly_set(to->p, p);
+    fmpz_init_set(to->number, number);
+    to->depth = depth;
+    return to;
+}
+
+/* p(t/2) 2^degree. */
+static void
+halve_argument(fmpz_poly_t p)
+{
+    slong n = fmpz_poly_degree(p);
+
+    for (slong i = 0; i < n; i++)
+        fmpz_mul_2exp(p->coeffs + i, p->coeffs + i, (ulong)(n - i));
+    fmpz_poly_primitive_part(p, p);
+}
+
+/* Both halves of the last part of the stack, and a zero between them. */
+static bool
+isolation_split(isolation *s)
+{
+    part *last = &s->stack[s->n - 1], *left;
+    fmpz_poly_t half;
+    fmpz_t one, number;
+    bool zero, good;
+
+    fmpz_poly_init(half);
+    fmpz_init_set_si(one, 1);
+    fmpz_init(number);
+    halve_argument(last->p);
+    fmpz_poly_set(half, last->p);
+    fmpz_poly_taylor_shift(last->p, last->p, one);
+    s->work += (double)fmpz_poly_degree(half) * (double)fmpz_poly_degree(half) *
+               (1 + (double)fmpz_poly_max_limbs(last->p));
+    fmpz_mul_2exp(number, last->number, 1);
+    fmpz_add_ui(last->number, number, 1);
+    last->depth++;
+    zero = fmpz_is_zero(last->p->coeffs);
+    if (zero) {
+        isolation_keep(s, last->number, last->depth, true);
+        fmpz_poly_shift_right(last->p, last->p, 1);
+    }
+    left = isolation_push(s, half, number, last->depth);
+    good = left != NULL;
+    fmpz_clear(number);
+    fmpz_clear(one);
+    fmpz_poly_clear(half);
+    return good;
+}
+
+/* The positive zeros of p, p(0) != 0. */
+static bool
+isolate_positive(isolation *s, const fmpz_poly_t p)
+{
+    fmpz_t bound, zero;
+    bool good;
+
+    s->n = 0;
+    fmpz_init(bound);
+    fmpz_init(zero);
+    fmpz_poly_bound_roots(bound, p);
+    s->scale = (slong)fmpz_bits(bound);
+    good = isolation_push(s, p, zero, 0) != NULL;
+    for (slong i = 1; good && i <= fmpz_poly_degree(p); i++)
+        fmpz_mul_2exp(s->stack[0].p->coeffs + i, s->stack[0].p->coeffs + i, (ulong)(i * s->scale));
+    while (s->n > 0) {
+        part *last = &s->stack[s->n - 1];
+        int most = good ? most_zeros(s, last->p) : 0;
+
+        good = good && s->work < MOST_WORK && !qdot_interrupt_flag;
+        if (most == 2 && good) {
+            good = isolation_split(s);
+            continue;
+        }
+        if (most == 1 && good)
+            isolation_keep(s, last->number, last->depth, false);
+        fmpz_poly_clear(last->p);
+        fmpz_clear(last->number);
+        s->n--;
+    }
+    fmpz_clear(zero);
+    fmpz_clear(bound);
+    return good;
+}
+
+/* --- zeros to many digits ----------------------------------------------------------------- */
+
+/* The sign of p at a binary fraction. */
+static int
+sign_at(const fmpz_poly_t p, const arf_t at)
+{
+    arb_t x, v;
+    int sign = 2;
+
+    arb_init(x);
+    arb_init(v);
+    arb_set_arf(x, at);
+    for (slong prec = 64; sign == 2; prec *= 2) {
+        if (prec > 4096) { /* it vanishes there, it seems: exactly */
+            arb_fmpz_poly_evaluate_arb_horner(v, p, x, ARF_PREC_EXACT);
+            sign = arf_sgn(arb_midref(v));
+            break;
+        }
+        arb_fmpz_poly_evaluate_arb_horner(v, p, x, prec);
+        if (arb_is_zero(v) || !arb_contains_zero(v))
+            sign = arf_sgn(arb_midref(v));
+    }
+    arb_clear(x);
+    arb_clear(v);
+    return sign;
+}
+
+/* The zero in an interval of the isolation, which is halved until its width is below 2^-bits of the zero. */
+static void
+halve(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
+{
+    arf_t lo, hi, middle, width;
+    int left;
+
+    if (arb_is_exact(isolated)) {
+        arb_set(zero, isolated);
+        return;
+    }
+    arf_init(lo);
+    arf_init(hi);
+    arf_init(middle);
+    arf_init(width);
+    arb_get_lbound_arf(lo, isolated, ARF_PREC_EXACT);
+    arb_get_ubound_arf(hi, isolated, ARF_PREC_EXACT);
+    left = sign_at(p, lo);
+    if (left == 0) { /* another zero: the slope says what lies beyond */
+        fmpz_poly_t slope;
+
+        fmpz_poly_init(slope);
+        fmpz_poly_derivative(slope, p);
+        left = sign_at(slope, lo);
+        fmpz_poly_clear(slope);
+    }
+    for (;;) {
+        int sign;
+
+        arf_sub(width, hi, lo, 64, ARF_RND_UP);
+        arf_mul_2exp_si(width, width, bits);
+        if ((arf_cmpabs(width, lo) <= 0 || arf_cmpabs(width, hi) <= 0) && arf_sgn(lo) * arf_sgn(hi) > 0)
+            break;
+        arf_add(middle, lo, hi, ARF_PREC_EXACT, ARF_RND_DOWN);
+        arf_mul_2exp_si(middle, middle, -1);
+        sign = sign_at(p, middle);
+        if (sign != left)
+            arf_set(hi, middle);
+        if (sign == left || sign == 0)
+            arf_set(lo, middle);
+        if (sign == 0)
+            break;
+    }
+    arb_set_interval_arf(zero, lo, hi, arf_bits(lo) + arf_bits(hi) + bits + 64);
+    arf_clear(lo);
+    arf_clear(hi);
+    arf_clear(middle);
+    arf_clear(width);
+}
+
+/* --- all ------------------------------------------------------------------------------------ */
 
 static int
 by_middle(const void *a, const void *b)
@@ -17,32 +273,45 @@ by_middle(const void *a, const void *b)
 }
 
 slong
-qdot_real_zeros(const fmpz_poly_t p, arb_ptr *zeros)
+qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros)
 {
-    slong degree = fmpz_poly_degree(p), n = 0;
-    bool apart = false;
-    acb_ptr all;
+    slong degree = fmpz_poly_degree(p);
+    isolation s = {0};
+    bool good = true, apart = false;
+    fmpz_poly_t q;
 
     *zeros = NULL;
     if (degree <= 0)
         return 0;
     if (degree > MOST_DEGREE)
         return -1;
-    all = _acb_vec_init(degree);
     *zeros = _arb_vec_init(degree);
-    for (slong prec = 96; prec <= 1536 && !apart; prec *= 4) {
-        arb_fmpz_poly_complex_roots(all, p, 0, prec);
-        n = 0;
-        for (slong i = 0; i < degree; i++)
-            if (acb_is_real(all + i))
-                arb_set(*zeros + n++, acb_realref(all + i));
-        qsort(*zeros, (size_t)n, sizeof **zeros, by_middle);
-        apart = true;
-        for (slong i = 0; i + 1 < n; i++)
-            apart &= !arb_overlaps(*zeros + i, *zeros + i + 1);
+    s.zero = _arb_vec_init(degree);
+    fmpz_poly_init(q);
+    fmpz_poly_set(q, p);
+    if (fmpz_is_zero(q->coeffs)) {
+        fmpz_poly_shift_right(q, q, 1);
+        s.found = 1; /* 0 itself */
     }
-    _acb_vec_clear(all, degree);
-    return apart ? n : -1;
+    for (int i = 0; i < 2 && good; i++) {
+        s.minus = i == 1;
+        if (s.minus)
+            for (slong k = 1; k <= fmpz_poly_degree(q); k += 2)
+                fmpz_neg(q->coeffs + k, q->coeffs + k);
+        good = isolate_positive(&s, q);
+    }
+    qsort(s.zero, (size_t)s.found, sizeof *s.zero, by_middle);
+    for (; good && !apart && bits <= 1536; bits *= 4) {
+        apart = true;
+        for (slong i = 0; i < s.found; i++)
+            halve(*zeros + i, s.zero + i, p, bits);
+        for (slong i = 0; i + 1 < s.found; i++)
+            apart &= arb_lt(*zeros + i, *zeros + i + 1) != 0;
+    }
+    fmpz_poly_clear(q);
+    _arb_vec_clear(s.zero, degree);
+    qdot_free(s.stack);
+    return good && apart ? s.found : -1;
 }
 
 void
@@ -56,9 +325,9 @@ qdot_between_zeros(fmpq_t x, arb_srcptr a, arb_srcptr b)
     arf_init(t);
     fmpz_init(n);
     if (a != NULL)
-        arb_get_ubound_arf(lo, a, 128);
+        arb_get_ubound_arf(lo, a, ARF_PREC_EXACT);
     if (b != NULL)
-        arb_get_lbound_arf(hi, b, 128);
+        arb_get_lbound_arf(hi, b, ARF_PREC_EXACT);
     for (slong k = 0;; k++) {
         if (a != NULL) {
             arf_mul_2exp_si(t, lo, k);
