@@ -1569,6 +1569,7 @@ script_tests = \
 	tests/script/export.sh \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
+	tests/script/families-parameter-ends.lag \
 	tests/script/family-ends.lag \
 	tests/script/far-away.lag \
 	tests/script/far-sides.lag \
@@ -2752,6 +2753,7 @@ test_files = \
 	tests/script/export.out \
 	tests/script/factor.out \
 	tests/script/fall.out \
+	tests/script/families-parameter-ends.out \
 	tests/script/family-ends.out \
 	tests/script/far-away.out \
 	tests/script/far-sides.out \

@@ -533,7 +533,36 @@ families_are_bounded_by_intervals(void **state)
     qdot_solutions_clear(&found);
     found.complete = true;
     assert_int_equal(qdot_solve_members(pool, x, &free, &window, NULL, &found), QDOT_OK);
-    assert_false(found.complete); /* c has no bounds */
+    assert_int_equal(found.root.n, 1); /* c has no bounds: the family with both ends as conditions */
+    assert_string_equal(shown(found.root.at[0].value), "c + 2*pi*n");
+    assert_string_equal(shown(found.root.at[0].condition), "[c + 2*pi*n >= 0, c + 2*pi*n <= 8]");
+    assert_true(found.complete);
+    qdot_solutions_clear(&found);
+}
+
+/* A family of constants between ends that are parameters is not followed member by member. */
+static void
+families_with_ends_that_are_parameters(void **state)
+{
+    const qdot_root family = {text_read(pool, "pi/2"), QDOT_NIL, text_read(pool, "2*pi"), QDOT_NIL};
+    qdot_solutions found = {.complete = true};
+    qdot_expr x = text_read(pool, "x"), a = text_read(pool, "a");
+    qdot_window window = {.lo = QDOT_ZERO, .hi = a};
+
+    (void)state;
+    assert_int_equal(qdot_solve_members(pool, x, &family, &window, NULL, &found), QDOT_OK);
+    assert_int_equal(found.root.n, 1);
+    assert_true(found.complete);
+    assert_true(qdot_expr_contains(pool, found.root.at[0].value, qdot_solve_integer(pool, 0)));
+    qdot_solutions_clear(&found);
+    found.complete = true;
+    qdot_symbol_domain(pool, x, QDOT_NIL, false, a, true);
+    window = qdot_solve_window(pool, x, true);
+    assert_true(window.recurs);
+    assert_int_equal(qdot_solve_members(pool, x, &family, &window, NULL, &found), QDOT_OK);
+    assert_int_equal(found.root.n, 1); /* below a, not of one turn below it */
+    assert_int_equal(qdot_expr_count(pool, found.root.at[0].condition), 1);
+    assert_false(found.recurs);
     qdot_solutions_clear(&found);
 }
 
@@ -553,6 +582,7 @@ main(void)
         cmocka_unit_test_setup_teardown(whole_turns_are_left_out, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(ranges_of_roots_have_exact_ends, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(families_are_bounded_by_intervals, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(families_with_ends_that_are_parameters, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_lie_where_all_is_defined, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(special_parameters_are_listed, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(unsolved_factors_are_listed, open_pool, close_pool),

@@ -291,7 +291,7 @@ order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
             !qdot_is_constant(s->pool, root->period))
             continue;
         QDOT_TRY(qdot_solve_members(s->pool, u, root, &window, &s->facts, &members));
-        if (members.root.n > 0)
+        if (members.root.n > 0 && qdot_is_constant(s->pool, members.root.at[0].value)) /* no family */
             root->value = members.root.at[0].value;
         qdot_solutions_clear(&members);
         any = true;

@@ -12,7 +12,7 @@
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solutions.h"
 
-/* More members than these are given as a family; a family whose ends depend on parameters is followed so many
+/* More members than these are given as a family; one whose ends depend on parameters, where it may reach so many
  * periods to either side. */
 enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16 };
 
@@ -364,25 +364,25 @@ members_add_bounded(const members *m, bool *bounded)
     return QDOT_OK;
 }
 
-/* Members from `first` on in one direction, until one is proved to lie beyond the end. */
-static qdot_status
-members_add_outward(const members *m, long first, long direction)
+/* Whether the member `k` periods away is proved to lie beyond the end in that direction. */
+static bool
+is_beyond(const members *m, long k)
 {
     const qdot_window *w = m->window;
-    qdot_expr end = direction > 0 ? w->hi : w->lo;
+    qdot_expr value = members_value(m, k),
+              gap = k > 0 ? qdot_sub(m->pool, w->hi, value) : qdot_sub(m->pool, value, w->lo);
 
-    for (long k = first; labs(k) <= MOST_PERIODS; k += direction) {
-        qdot_expr value = members_value(m, k), gap, within;
+    return qdot_condition(m->pool, gap, k > 0 ? w->hi_open : w->lo_open, m->facts) == QDOT_FALSE;
+}
 
-        gap = direction > 0 ? qdot_sub(m->pool, end, value) : qdot_sub(m->pool, value, end);
-        within = qdot_condition(m->pool, gap, direction > 0 ? w->hi_open : w->lo_open, m->facts);
-        QDOT_TRY(qdot_pool_check(m->pool));
-        if (within == QDOT_FALSE)
-            return QDOT_OK;
-        QDOT_TRY(members_add_value(m, value, w));
-    }
-    m->out->complete = false;
-    return QDOT_OK;
+/* Members of up to MOST_PERIODS to either side; the farthest are beyond the ends. */
+static qdot_status
+members_add_outward(const members *m)
+{
+    for (long direction = 1; direction >= -1; direction -= 2)
+        for (long k = direction > 0 ? 0 : -1; labs(k) < MOST_PERIODS && !(k != 0 && is_beyond(m, k)); k += direction)
+            QDOT_TRY(members_add_value(m, members_value(m, k), m->window));
+    return qdot_pool_check(m->pool);
 }
 
 /* As many members as make a turn, whichever turn they lie in. */
@@ -432,30 +432,38 @@ qdot_status
 qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qdot_window *window,
                    const qdot_facts *facts, qdot_solutions *out)
 {
-    const qdot_window w = qdot_solve_tighten(pool, x, root->members, *window, facts);
+    qdot_window w = qdot_solve_tighten(pool, x, root->members, *window, facts);
     const members m = {pool, x, root, &w, facts, out};
+    const bool recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
     double first, last;
     bool bounded;
 
-    out->recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
     if (root->period == QDOT_NIL)
         return members_add_value(&m, root->value, root->value == x ? &window_whole : &w);
     if (w.lo == QDOT_NIL || w.hi == QDOT_NIL)
         return members_add_family(&m);
-    if (periods_to(&m, w.lo, &first) && periods_to(&m, w.hi, &last))
-        return fabs(last - first) <= MOST_MEMBERS
-                   ? members_add_between(&m, fmin(first, last), fmax(first, last))
-                   : members_add_family(&m);
+    if (periods_to(&m, w.lo, &first) && periods_to(&m, w.hi, &last) && fabs(last - first) <= MOST_MEMBERS) {
+        out->recurs = recurs;
+        return members_add_between(&m, fmin(first, last), fmax(first, last));
+    }
     QDOT_TRY(qdot_pool_check(pool));
-    if (!qdot_is_constant(pool, root->period))
-        return members_add_family(&m);
-    if (w.turn)
+    if (w.turn && qdot_is_constant(pool, root->period))
         return members_add_turn(&m);
-    QDOT_TRY(members_add_bounded(&m, &bounded));
-    if (bounded)
-        return QDOT_OK;
-    QDOT_TRY(members_add_outward(&m, 0, 1));
-    return members_add_outward(&m, -1, -1);
+    if (qdot_is_constant(pool, root->period)) {
+        QDOT_TRY(members_add_bounded(&m, &bounded));
+        if (bounded) {
+            out->recurs = recurs;
+            return QDOT_OK;
+        }
+        if (!w.recurs && is_beyond(&m, MOST_PERIODS) && is_beyond(&m, -MOST_PERIODS))
+            return members_add_outward(&m);
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    if (w.recurs) { /* all turns */
+        w = qdot_solve_window(pool, x, false);
+        w.integer = window->integer;
+    }
+    return members_add_family(&m);
 }
 
 void
