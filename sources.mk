@@ -1717,6 +1717,7 @@ script_tests = \
 	tests/script/solve-assumed.lag \
 	tests/script/solve-bounded-families.lag \
 	tests/script/solve-domains.lag \
+	tests/script/solve-fast-growth.lag \
 	tests/script/solve-joined-exponentials.lag \
 	tests/script/solve-line.lag \
 	tests/script/solve-numbers-parameters.lag \
@@ -2918,6 +2919,7 @@ test_files = \
 	tests/script/solve-assumed.out \
 	tests/script/solve-bounded-families.out \
 	tests/script/solve-domains.out \
+	tests/script/solve-fast-growth.out \
 	tests/script/solve-joined-exponentials.out \
 	tests/script/solve-line.out \
 	tests/script/solve-numbers-parameters.out \

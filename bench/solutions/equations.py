@@ -370,7 +370,9 @@ def without_formula(s, d):
              (f"(x^3 - {m}*x + 1)*(x^2 - {k})", "0"), (f"(x^3 + x + {q})*(x - a)", "0"), ("log(x)^2", f"x + {p}"),
              ("x^7 - x + 1", f"{q}"), (f"sqrt(x^2 + 1)", f"exp(x)/{m}"), ("exp(x)", f"{m}*x^2/(1 + x^2)"),
              (f"x^6 - {m}*x^3", f"{p}*x"), ("x*exp(-abs(x))", f"1/{m}"), ("1/x + x^3", f"{q}"),
-             ("max(x, 1)", f"exp(x)/{m}"), ("x*sin(x)", f"{p}"), ("tan(x)", "x")]
+             ("max(x, 1)", f"exp(x)/{m}"), ("x*sin(x)", f"{p}"), ("tan(x)", "x"),
+             ("exp(exp(x))", f"x + {m}"), (f"exp(-exp(x))", f"x/{m}"), ("cosh(exp(x))", f"x^2 + {k}"),
+             ("x*log(x)", f"-1/{m}"), ("sqrt(x)*log(x)", f"-1/{k}"), ("x*log(x)^2", f"1/{m}"), ("x*exp(1/x)", f"{m}")]
     s.lhs, s.rhs = pick(s, forms)
     signs(s, d, s.lhs, s.rhs)
     s.turn = s.lhs.startswith("sin(x)^3")

@@ -209,7 +209,8 @@ write_terms(unsigned *seed, char *text, size_t size)
 {
     static const char *const tops[] = {"", "*exp(x)", "*exp(-x)", "*exp(2*x)", "*exp(-x^2/2)",
                                        "*exp(sqrt(x))", "*log(x)", "*log(x)^2", "*sinh(x/2)",
-                                       "*exp(x - 3*log(2)*x)", "*tanh(x)", "*atan(x)"},
+                                       "*exp(x - 3*log(2)*x)", "*tanh(x)", "*atan(x)",
+                                       "*exp(exp(x/3))", "*exp(-exp(x))", "*(x + 1)^(x/2)", "*x^(1/x)"},
                       *const powers[] = {"1", "x", "x^2", "x^3", "sqrt(x)", "1/x", "x^5", "x^(2/3)"},
                       *const waves[] = {"", "", "", "*sin(x)", "*cos(3*x)", "*(2 + cos(x))"};
     int n = 2 + next_random(seed) % 3;
@@ -220,7 +221,7 @@ write_terms(unsigned *seed, char *text, size_t size)
 
         snprintf(text + length, size - length, "%s%u*%s%s%s", i > 0 ? next_random(seed) % 2 ? " - " : " + " : "",
                  1 + next_random(seed) % 9, powers[next_random(seed) % 8],
-                 tops[next_random(seed) % 12], waves[next_random(seed) % 6]);
+                 tops[next_random(seed) % 16], waves[next_random(seed) % 6]);
     }
 }
 
@@ -260,6 +261,31 @@ growth_excludes_only_what_has_no_zeros(void **state)
         qdot_enclosure_free(bounds);
     }
     assert_true(bounded > SUMS / 2);
+}
+
+/* Near 0, where they or their slopes have no bounds, these keep away from what they are compared with. */
+static void
+growth_excludes_zeros_beside_a_place(void **state)
+{
+    static const struct {
+        const char *f;
+        size_t zeros;
+        bool proved;
+    } rows[] = {{"r^r - 2", 1, true},          {"r^r - 1/2", 0, true},           {"r^r - 9/10", 2, true},
+                {"r*log(r) + 1/10", 2, true},  {"sqrt(r)*log(r) + 1/10", 2, true}, {"r*log(r)^2 - 1/10", 3, true},
+                {"exp(exp(r)) - r - 9", 1, true}, {"r^(1/r) - 6/5", 2, true},    {"r^r - 1", 1, false}};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        qdot_expr f = text_read(pool, rows[i].f), r = text_read(pool, "r");
+        qdot_zeros_range range = {.lo = QDOT_ZERO, .lo_open = true, .hi = QDOT_NIL, .held = QDOT_NIL};
+        qdot_zeros found;
+
+        assert_int_equal(qdot_zeros_find(pool, 1, &f, &r, &range, 0, &found), QDOT_OK);
+        if (found.count != rows[i].zeros || found.complete != rows[i].proved)
+            fail_msg("%s: %zu zeros, complete %d", rows[i].f, found.count, found.complete);
+        qdot_zeros_clear(&found);
+    }
 }
 
 /* What cannot be decided is said: a place in doubt, the far away, the budget. */
@@ -461,6 +487,7 @@ main(void)
                                         close_pool),
         cmocka_unit_test_setup_teardown(growth_excludes_only_what_has_no_zeros, open_pool,
                                         close_pool),
+        cmocka_unit_test_setup_teardown(growth_excludes_zeros_beside_a_place, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(what_is_not_proved_is_said, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(crossings_of_random_lines_are_found, open_pool,

@@ -22,7 +22,8 @@ typedef struct {
     } term[TERMS];
 } far_scale;
 
-/* A function that is m S(x), m in bounds, for all x >= R. */
+/* A function that is m S(x), m in bounds, for all x >= R; bounds without one end, beyond 0, where it grows faster than any S,
+ * as exp(exp(x)) and x^x do. */
 typedef struct {
     qdot_interval bounds;
     far_scale scale;
@@ -179,23 +180,34 @@ form_constant(qdot_interval c)
     return (far_form){.bounds = c, .known = isfinite(c.lo) && isfinite(c.hi)};
 }
 
+static bool
+is_bounded(const far_form *f)
+{
+    return isfinite(f->bounds.lo) && isfinite(f->bounds.hi);
+}
+
 static far_form
 form_checked(far_form f)
 {
-    f.known = f.known && isfinite(f.bounds.lo) && isfinite(f.bounds.hi);
+    f.known = f.known && (is_bounded(&f) || (f.bounds.lo > 0 && isfinite(f.bounds.lo)) ||
+                          (f.bounds.hi < 0 && isfinite(f.bounds.hi)));
     return f;
 }
 
 static qdot_interval
 form_range(const far_task *t, const far_form *f)
 {
-    return qdot_interval_product(f->bounds, scale_range(t, &f->scale), false);
+    return is_bounded(f) ? qdot_interval_product(f->bounds, scale_range(t, &f->scale), false) : qdot_interval_whole;
 }
 
 static far_form
 form_product(const far_task *t, far_form f, const far_form *g)
 {
+    const bool bounded = is_bounded(&f) && is_bounded(g);
+
     f.known = f.known && g->known && scale_multiply(t->pool, &f.scale, &g->scale, 1, 1);
+    if (!bounded && (!(f.bounds.lo > 0 || f.bounds.hi < 0) || !(g->bounds.lo > 0 || g->bounds.hi < 0)))
+        return form_unknown;
     f.bounds = qdot_interval_product(f.bounds, g->bounds, false);
     return form_checked(f);
 }
@@ -239,7 +251,9 @@ form_sum(const far_task *t, const far_form *f, const far_form *g)
     growth = scale_growth(&ratio);
     if (growth > 0)
         return form_sum(t, g, f);
-    if (growth < 0)
+    if (growth < 0 && !is_bounded(g)) /* no smaller than that scale, perhaps larger */
+        other = other.lo > 0 ? (qdot_interval){0, INFINITY} : (qdot_interval){-INFINITY, 0};
+    else if (growth < 0)
         other = qdot_interval_product(other, scale_range(t, &ratio), false);
     sum.bounds = qdot_interval_sum(f->bounds, other);
     return form_checked(sum);
@@ -277,9 +291,33 @@ is_power_of_x(const far_task *t, qdot_expr e, qdot_expr *rate, long *exponent)
     return *rate != QDOT_NIL && !qdot_expr_contains(pool, *rate, x) && *exponent > 0;
 }
 
-/* exp(by u), `by` a constant. */
+/* exp(u) for u that has one sign and grows no slower than x, |u| >= c x: it is exp(c x) or more, or exp(-c x) or less. */
 static far_form
-form_exp(const far_task *t, qdot_expr u, qdot_expr by)
+form_exp_of_fast(const far_task *t, const far_form *u)
+{
+    const far_scale x = {.power = UNIT};
+    far_scale slower = {0};
+    const double least = u->bounds.lo > 0 ? u->bounds.lo : -u->bounds.hi;
+    double most, rate;
+    far_form f = {.known = true};
+
+    if (!u->known || !(least > 0) || !scale_multiply(t->pool, &slower, &x, 1, 1) ||
+        !scale_multiply(t->pool, &slower, &u->scale, -1, 1) || scale_growth(&slower) > 0)
+        return form_unknown;
+    most = scale_growth(&slower) == 0 ? 1 : scale_bound(t, &slower); /* of x/S */
+    rate = least / most * (1 - 1e-9);
+    if (!(rate > 0))
+        return form_unknown;
+    rate = fmin(rate, 1e6);
+    f.bounds = u->bounds.lo > 0 ? (qdot_interval){1, INFINITY} : (qdot_interval){0, 1};
+    f.known = scale_add_term(t->pool, &f.scale, UNIT,
+                             qdot_expr_of_double(t->pool, u->bounds.lo > 0 ? rate : -rate));
+    return form_checked(f);
+}
+
+/* exp(by u), `by` a constant, part by part. */
+static far_form
+form_exp_of_parts(const far_task *t, qdot_expr u, qdot_expr by)
 {
     qdot_pool *pool = t->pool;
     bool sum = qdot_expr_kind(pool, u) == QDOT_SUM;
@@ -307,6 +345,19 @@ form_exp(const far_task *t, qdot_expr u, qdot_expr by)
     f.bounds = qdot_interval_rising(exp, rest);
     f.bounds.lo = fmax(f.bounds.lo, 0);
     return form_checked(f);
+}
+
+/* exp(by u), `by` a constant. */
+static far_form
+form_exp(const far_task *t, qdot_expr u, qdot_expr by)
+{
+    const far_form f = form_exp_of_parts(t, u, by), factor = form_constant(qdot_zeros_constant(t->pool, by));
+    far_form all;
+
+    if (f.known)
+        return f;
+    all = form_product(t, *form_at(t, u), &factor);
+    return form_exp_of_fast(t, &all);
 }
 
 /* log u = log m + power log x + sum of rate x^exponent. */
@@ -402,6 +453,23 @@ form_function(const far_task *t, qdot_expr e)
     }
 }
 
+/* base^exponent = exp(exponent log base), x in both. */
+static far_form
+form_of_both(const far_task *t, const far_form *base, const far_form *exponent)
+{
+    const far_form log_base = form_log(t, base);
+    far_form u;
+
+    if (log_base.nowhere || !log_base.known || !exponent->known)
+        return log_base.nowhere ? form_nowhere : form_unknown;
+    u = form_product(t, *exponent, &log_base);
+    if (u.known && is_bounded(&u) && scale_growth(&u.scale) <= 0)
+        return form_checked(
+            (far_form){.known = true, .bounds = qdot_interval_within(
+                                          qdot_interval_rising(exp, form_range(t, &u)), 0, INFINITY)});
+    return form_exp_of_fast(t, &u);
+}
+
 static far_form
 form_of_product(const far_task *t, qdot_expr e)
 {
@@ -416,8 +484,9 @@ form_of_product(const far_task *t, qdot_expr e)
 
         if (rational != NULL)
             factor = form_power(t, form_at(t, base), rational);
-        else if (qdot_expr_contains(pool, base, t->x) ||
-                 !(qdot_zeros_constant(pool, base).lo > 0))
+        else if (qdot_expr_contains(pool, base, t->x))
+            factor = form_of_both(t, form_at(t, base), form_at(t, exponent));
+        else if (!(qdot_zeros_constant(pool, base).lo > 0))
             factor = form_unknown;
         else
             factor = form_exp(t, exponent, qdot_fun1(pool, QDOT_LOG, base));

@@ -12,7 +12,8 @@
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros-parts.h"
 
-enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100 };
+/* MOST_GROWN: places that are asked about by the growth of terms. */
+enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100, MOST_GROWN = 32 };
 
 /* --- exact candidates ------------------------------------------------------------------------------- */
 
@@ -346,6 +347,54 @@ decide_by_bits(qdot_zeros_system *s, qdot_interval X)
     return status;
 }
 
+/* --- where f is not defined, or has no slope ---- */
+
+/* Whether f(at) is not defined, or another number than 0. */
+static qdot_status
+is_no_zero(const qdot_zeros_system *s, qdot_expr at, bool *yes)
+{
+    qdot_expr value = qdot_subs(s->pool, s->f[0], 1, s->x, &at);
+    qdot_interval y;
+
+    *yes = value == QDOT_NIL;
+    if (*yes) {
+        qdot_status status = qdot_pool_check(s->pool);
+
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    }
+    y = qdot_zeros_constant(s->pool, value);
+    *yes = y.lo > 0 || y.hi < 0;
+    return qdot_pool_check(s->pool);
+}
+
+/* Whether f has no zeros within X, by the growth of f(c + 1/u) for large u and -u, c a number in X or beside it: so
+ * x log(x) and x^x are bounded near 0. */
+static qdot_status
+exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
+{
+    qdot_pool *pool = s->pool;
+    const double beside = X.hi - X.lo;
+    qdot_expr c = qdot_zeros_candidate(pool, (qdot_interval){X.lo - beside, X.hi + beside}, 0), to, g;
+    qdot_interval at;
+
+    *excluded = false;
+    if (c == QDOT_NIL)
+        return qdot_pool_check(pool);
+    at = qdot_zeros_constant(pool, c);
+    to = qdot_add(pool, c, qdot_pow_int(pool, s->x[0], -1));
+    g = qdot_simplify(pool, qdot_subs(pool, s->f[0], 1, s->x, &to), NULL); /* terms that cancel do not grow */
+    if (g == QDOT_NIL)
+        return qdot_pool_check(pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_last_error()->status;
+    QDOT_TRY(is_no_zero(s, c, excluded));
+    for (int sign = -1; sign <= 1 && *excluded; sign += 2) {
+        double width = sign > 0 ? X.hi - at.lo : at.hi - X.lo, R;
+
+        QDOT_TRY(qdot_zeros_far(pool, g, s->x[0], sign, &R));
+        *excluded = width * (1 + 1e-9) <= 1 / R;
+    }
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
 {
@@ -376,6 +425,8 @@ qdot_zeros_decide_doubts(qdot_zeros_system *s, qdot_expr ends)
             if (status == QDOT_OK)
                 status = decide_exactly(s, near, false, X, &decided);
         }
+        if (status == QDOT_OK && !decided && i < MOST_GROWN && isfinite(X.lo) && isfinite(X.hi))
+            status = exclude_by_growth(s, X, &decided);
         if (status == QDOT_OK && !decided && isfinite(X.lo) && isfinite(X.hi))
             status = decide_by_bits(s, X);
         else if (status == QDOT_OK && !decided)
