@@ -1700,6 +1700,7 @@ script_tests = \
 	tests/script/routh.lag \
 	tests/script/routhian-named.lag \
 	tests/script/run-members.lag \
+	tests/script/run-numbers.lag \
 	tests/script/run.sh \
 	tests/script/save-sides.sh \
 	tests/script/saved-run.sh \
@@ -2901,6 +2902,7 @@ test_files = \
 	tests/script/routh.out \
 	tests/script/routhian-named.out \
 	tests/script/run-members.out \
+	tests/script/run-numbers.out \
 	tests/script/run.out \
 	tests/script/save-sides.out \
 	tests/script/saved-run.out \

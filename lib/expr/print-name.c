@@ -346,10 +346,35 @@ static const struct {
                     {"]", "", "", "</mrow>"}},
 };
 
+/* A symbol that stands for a number, such as `-1.5e-9#3`: what stands before the #, in brackets where it has a sign or
+ * would stand beside another number without a sign between. */
+static void
+number_name(const char *name, size_t length, qdot_style style, qdot_text *out)
+{
+    const bool brackets = style != QDOT_PLAIN || *name == '-';
+    const char *power = memchr(name, 'e', length), *const times = style == QDOT_LATEX     ? " \\cdot 10^{"
+                                                                 : style == QDOT_MATHML ? "</mn><mo>·</mo><msup><mn>10</mn><mn>"
+                                                                                        : NULL;
+    const bool mathml = style == QDOT_MATHML;
+
+    qdot_text_add(out, !brackets ? "" : mathml ? "<mrow><mo>(</mo><mn>" : "(");
+    if (power == NULL || times == NULL) {
+        qdot_text_add_n(out, name, length);
+    } else {
+        qdot_text_add_n(out, name, (size_t)(power - name));
+        qdot_text_add(out, times);
+        power += power[1] == '+' ? 2 : 1;
+        qdot_text_add_n(out, power, length - (size_t)(power - name));
+        qdot_text_add(out, mathml ? "</mn></msup>" : "}");
+    }
+    qdot_text_add(out, !brackets ? "" : !mathml ? ")" : power != NULL ? "<mo>)</mo></mrow>" : "</mn><mo>)</mo></mrow>");
+}
+
 void
 qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
+    const char *mark = s->class == QDOT_FORMAL ? strchr(s->name, '#') : NULL;
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
     bool of_coordinate = s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL ||
@@ -357,6 +382,10 @@ qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_tex
 
     if (s->class == QDOT_WORDS && style == QDOT_MATHML) {
         escape(s->name, out);
+        return;
+    }
+    if (mark != NULL) {
+        number_name(s->name, (size_t)(mark - s->name), style, out);
         return;
     }
     if (style == QDOT_PLAIN || s->class == QDOT_WORDS) {

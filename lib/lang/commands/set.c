@@ -152,10 +152,8 @@ read_function(qdot_cursor *c, qdot_expr *symbol, qdot_expr *body)
 }
 
 /* `= VALUE`, an expression of parameters. */
-/* Numbers of runs in the value become rationals; what they make it is off by is kept, for who writes it
- * down (lang/declare/session-file). */
-static qdot_status
-keep_measured(qdot_session *session, qdot_expr *value)
+qdot_status
+qdot_set_keep_measured(qdot_session *session, qdot_expr *value)
 {
     const bool measured = qdot_measured_occurs(session, *value);
     qdot_measured m = {0};
@@ -178,7 +176,7 @@ qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
     QDOT_TRY(qdot_cursor_expect_op(c, "="));
     start = c->at;
     QDOT_TRY(qdot_read_scalar(c, value));
-    QDOT_TRY(keep_measured(c->session, value));
+    QDOT_TRY(qdot_set_keep_measured(c->session, value));
     if (qdot_expr_node(c->session->pool, *value)->holds & (motion | QDOT_HAS_TIME)) {
         c->error_at = start->start;
         return qdot_fail(QDOT_ETYPE,

@@ -9,6 +9,9 @@
 QDOT_MUST_CHECK qdot_status qdot_set_read_parameter(qdot_cursor *c, qdot_expr *symbol);
 QDOT_MUST_CHECK qdot_status qdot_set_read_jet(qdot_cursor *c, qdot_expr *jet);
 QDOT_MUST_CHECK qdot_status qdot_set_read_constant(qdot_cursor *c, qdot_expr *value);
+/* Numbers of runs in a value become rationals; what they make it is off by is kept, for who writes it
+ * down (lang/declare/session-file). */
+QDOT_MUST_CHECK qdot_status qdot_set_keep_measured(qdot_session *session, qdot_expr *value);
 /* QDOT_ENAME: there is no `what` of this name; a hint at the one that may have been meant. */
 QDOT_MUST_CHECK qdot_status qdot_set_unknown(const qdot_session *session,
                                              const char *what, const char *name);

@@ -9,6 +9,7 @@
 
 #include "expr/tensor.h"
 #include "expr/walk.h"
+#include "lang/commands/set.h"
 #include "lang/commands/statement.h"
 #include "lang/commands/value-check.h"
 #include "lang/commands/warnings.h"
@@ -133,6 +134,7 @@ begins_with_bound(const qdot_cursor *c)
 static qdot_status
 read_item(qdot_cursor *c, bool valued, item *x)
 {
+    qdot_status status = QDOT_OK;
     bool less, strict;
 
     if (c->at->kind != QDOT_TOKEN_NAME && c->at->kind != QDOT_TOKEN_NUMBER &&
@@ -168,9 +170,13 @@ read_item(qdot_cursor *c, bool valued, item *x)
             return qdot_hint("start %s = ... gives its initial value", x->name);
         }
         c->at++;
-        QDOT_TRY(qdot_read_scalar(c, &x->value));
+        c->session->declares = false; /* numbers of runs as `set` takes them, with their errors */
+        status = qdot_read_scalar(c, &x->value);
+        c->session->declares = true;
+        if (status == QDOT_OK)
+            status = qdot_set_keep_measured(c->session, &x->value);
     }
-    return QDOT_OK;
+    return status;
 }
 
 /* A sign also applies to the bare names before it: `param m, L > 0`. */

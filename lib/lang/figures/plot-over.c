@@ -7,6 +7,7 @@
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
+#include "lang/session/measured.h"
 #include "lang/session/member.h"
 
 enum { FIRST_POINTS = 401 };
@@ -50,6 +51,7 @@ fill_curve(qdot_session *session, const variable *v, qdot_expr e, qdot_plot_curv
     double s[FIRST_POINTS];
 
     QDOT_TRY(qdot_member_refuse(session, e));
+    e = qdot_measured_as_rationals(session, e);
     e = qdot_session_bind(session, qdot_subs(pool, e, 1, &v->symbol, &x));
     QDOT_TRY(qdot_pool_check(pool));
     QDOT_TRY(qdot_tape_new(pool, 1, &x, 1, &e, &one->tape));

@@ -8,6 +8,7 @@
 #include "lang/language/hints.h"
 #include "lang/session/bind.h"
 #include "lang/session/held.h"
+#include "lang/session/measured.h"
 #include "lang/session/member.h"
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
@@ -26,8 +27,8 @@ read_expression(qdot_cursor *c, qdot_parse_extent extent, course along, qdot_exp
     if (status == QDOT_OK)
         status = qdot_evaluate(c, &program, value, over, run);
     qdot_free(program.list.at);
-    if (status == QDOT_OK && c->session->declares) { /* a scene is declared in velocities */
-        *value = qdot_momenta_to_velocities(c->session, *value);
+    if (status == QDOT_OK && c->session->declares) { /* a scene is declared in velocities, with exact numbers */
+        *value = qdot_momenta_to_velocities(c->session, qdot_measured_as_rationals(c->session, *value));
         status = qdot_value_kind_check(c->session->pool, *value);
     } else if (status == QDOT_OK && c->session->held.n > 0) {
         *value = along == MOTION ? qdot_held_parameters(c->session, *value)

@@ -3,9 +3,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
+#include "base/text.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "tape/constant.h"
 
 qdot_expr
 qdot_measured_rational(qdot_pool *pool, double x)
@@ -17,13 +20,48 @@ qdot_measured_rational(qdot_pool *pool, double x)
     return qdot_expr_of_double(pool, x);
 }
 
+/* The number as formulas show it: every digit that it was asked with, or as few as read back as the same double. */
+static void
+write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
+{
+    const mpfr_prec_t bits = (mpfr_prec_t)(3.33 * m->digits) + 64;
+    char *text = NULL;
+    int digits = 15;
+    mpfr_t x;
+
+    if (m->digits > 0) {
+        mpfr_init2(x, bits);
+        if (qdot_constant_real(session->pool, m->exact, x) == QDOT_OK &&
+            mpfr_asprintf(&text, "%.*Rg", m->digits, x) > 0)
+            qdot_text_add(out, text);
+        if (text != NULL)
+            mpfr_free_str(text);
+        mpfr_clear(x);
+        if (text != NULL)
+            return;
+    }
+    for (; digits < 17; digits++) {
+        char shown[40];
+
+        snprintf(shown, sizeof shown, "%.*g", digits, m->value);
+        if (strtod(shown, NULL) == m->value)
+            break;
+    }
+    qdot_text_double(out, m->value + 0.0, digits);
+}
+
+/* The symbol's name: the number, and behind # one that no other symbol has, which is not printed. */
 qdot_expr
 qdot_measured_add(qdot_session *session, qdot_measured m)
 {
-    char name[40];
+    qdot_text name = {0};
 
-    snprintf(name, sizeof name, "value#%zu", session->measured.n + 1);
-    m.symbol = qdot_symbol_get(session->pool, QDOT_FORMAL, name);
+    write_number(session, &m, &name);
+    qdot_text_format(&name, "#%zu", session->measured.n + 1);
+    m.symbol = qdot_text_status(&name) == QDOT_OK
+                   ? qdot_symbol_get(session->pool, QDOT_FORMAL, qdot_text_str(&name))
+                   : qdot_pool_fail(session->pool);
+    qdot_text_clear(&name);
     if (m.symbol == QDOT_NIL)
         return QDOT_NIL;
     return qdot_vec_push(&session->measured, m) == QDOT_OK

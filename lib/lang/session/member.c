@@ -27,7 +27,7 @@ static qdot_expr
 make(qdot_session *session, const char *run, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
-    bool plain = qdot_expr_kind(pool, e) == QDOT_SYM;
+    bool plain = qdot_expr_kind(pool, e) == QDOT_SYM && strchr(qdot_expr_symbol(pool, e)->name, '#') == NULL;
     qdot_member m = {.value = e};
     qdot_text name = {0}, text = {0};
     qdot_status status;
