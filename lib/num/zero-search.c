@@ -15,6 +15,8 @@ static const double farther = 1.6;
 /* Where J is nearly singular, the first step is no longer than first_reach, in units of the unknowns, and each one after
  * a whole step no longer than `reaching` times that. */
 static const double first_reach = 0.1, reaching = 4;
+/* How strongly |F| shortens the steps of a search at first. */
+static const double damping = 0.01;
 /* Steps; halvings of one; steps in which |F| must halve; searches besides the first. */
 enum { MOST_STEPS = 60, MOST_HALVINGS = 24, PATIENCE = 8, TRIES = 8 };
 
@@ -40,8 +42,11 @@ walk_along(qdot_zero_search *s, bool *gone)
         if (!moved)
             break;
         QDOT_TRY(s->p->at(s->u, s->f, s->error, NULL, s->p->user));
-        *gone = qdot_zero_norm(s, s->f) < size /* not of a NaN */
-                || qdot_zero_take_step(s, s->f, s->trial) < (1 - part / 4) * s->length;
+        if (s->damping == 0)
+            *gone = qdot_zero_is_predicted(s, s->f, part);
+        else
+            *gone = qdot_zero_norm(s, s->f) < size /* not of a NaN */
+                    || qdot_zero_take_step(s, s->f, s->trial) < (1 - part / 4) * s->length;
     }
     if (*gone)
         memcpy(s->r->u, s->u, n * sizeof *s->u);
@@ -57,10 +62,11 @@ descend_once(qdot_zero_search *s)
 
     QDOT_TRY(qdot_zero_evaluate(s));
     r->answer = QDOT_ZERO_NOWHERE;
+    s->gave_up = false;
     if (isnan(r->f[0]))
         return QDOT_OK;
     qdot_zero_choose_units(s);
-    s->reach = s->p->unit != NULL ? INFINITY : first_reach; /* units are of a good guess */
+    s->reach = s->p->unit != NULL && s->damping > 0 ? INFINITY : first_reach; /* units are of a good guess */
     s->strongest = 0;
     s->order = 1;
     s->has_last = false;
@@ -77,6 +83,7 @@ descend_once(qdot_zero_search *s)
         gone = !qdot_zero_step_is_nothing(s) || !qdot_zero_is_zero(s);
         if (gone && step % PATIENCE == 0) {
             gone = size < before / 2;
+            s->gave_up = !gone;
             before = size;
         }
         if (gone)
@@ -107,13 +114,23 @@ copy_result(const qdot_zero_search *s, const qdot_zero_result *from, qdot_zero_r
     memcpy(to->f_error, from->f_error, m * sizeof *to->f_error);
 }
 
-/* A search, and whether it led to a zero that is wanted. */
+/* A search, and whether it led to a zero that is wanted. One that crept, its steps shortened by |F| where J is nearly
+ * singular, goes on with steps that grow while the slopes tell F behind them; if these lead nowhere either, it ends
+ * where it had crept to. */
 static qdot_status
-search_once(qdot_zero_search *s, bool *done)
+search_once(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
 {
     const qdot_zero_problem *p = s->p;
 
     QDOT_TRY(descend_once(s));
+    if (s->gave_up && s->r->answer == QDOT_ZERO_NONE && !p->once) {
+        copy_result(s, s->r, crept);
+        s->damping = 0;
+        QDOT_TRY(descend_once(s));
+        s->damping = damping;
+        if (s->r->answer != QDOT_ZERO_FOUND)
+            copy_result(s, crept, s->r);
+    }
     *done = s->r->answer == QDOT_ZERO_FOUND;
     return *done && p->wanted ? p->wanted(s->r->u, s->r->rank, done, p->user) : QDOT_OK;
 }
@@ -139,11 +156,15 @@ qdot_status
 qdot_zero_descend(qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m;
-    double *guess = qdot_calloc(3 * n + 3 * m + 1, sizeof *guess), *unit_f = guess + 3 * n + 2 * m;
+    double *guess = qdot_calloc(5 * (n + m) + 1, sizeof *guess), *unit_f = guess + 5 * n + 4 * m;
     qdot_zero_result best = {.u = guess + n,
                              .error = guess + 2 * n,
                              .f = guess + 3 * n,
-                             .f_error = guess + 3 * n + m};
+                             .f_error = guess + 3 * n + m},
+                     crept = {.u = best.f + 2 * m,
+                              .error = best.f + 2 * m + n,
+                              .f = best.f + 2 * m + 2 * n,
+                              .f_error = best.f + 3 * m + 2 * n};
     uint64_t drawn = 1;
     bool done = false;
     qdot_status status;
@@ -151,7 +172,7 @@ qdot_zero_descend(qdot_zero_search *s)
     if (guess == NULL)
         return QDOT_ENOMEM;
     memcpy(guess, s->r->u, n * sizeof *guess);
-    status = search_once(s, &done);
+    status = search_once(s, &crept, &done);
     copy_result(s, s->r, &best);
     memcpy(unit_f, s->unit_f, m * sizeof *unit_f);
     for (int k = 1; k <= TRIES && status == QDOT_OK && !done && !s->p->once; k++) {
@@ -163,7 +184,7 @@ qdot_zero_descend(qdot_zero_search *s)
                                 guess[j] + s->unit[j] * pow(farther, k) / 40 *
                                                ((double)(drawn >> 33) / 1073741824.0 - 1));
         }
-        status = search_once(s, &done);
+        status = search_once(s, &crept, &done);
         if (is_better(s, unit_f, &best))
             copy_result(s, s->r, &best);
     }
@@ -206,7 +227,7 @@ allocate(qdot_zero_search *s)
 qdot_status
 qdot_zero_find(const qdot_zero_problem *p, qdot_zero_result *r)
 {
-    qdot_zero_search s = {.p = p, .r = r};
+    qdot_zero_search s = {.p = p, .r = r, .damping = damping};
     const bool between = p->n == 1 && p->m == 1 && p->low != NULL && p->high != NULL &&
                          isfinite(p->low[0]) && isfinite(p->high[0]);
     gsl_error_handler_t *before = gsl_set_error_handler_off();

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Singular values below so much of the largest count as 0; how strongly |F| shortens steps. */
-static const double least_singular = 1e-8, damping = 0.01;
+/* Singular values below so much of the largest count as 0. */
+static const double least_singular = 1e-8;
 /* Of the unit of a function: with a larger error hardly anything moves it, its slopes are rounding; it counts by this error then. */
 static const double finest = 1e-10;
 /* Unknowns whose change by themselves changes F by less than this part of it do not move F. */
@@ -110,6 +110,23 @@ qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step)
     return sqrt(sum);
 }
 
+/* Whether F has changed from r->f to f along `part` of the step at least half as much towards 0 as its slopes say. */
+bool
+qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part)
+{
+    const double size = qdot_zero_norm(s, s->r->f);
+    double sum = 0;
+
+    for (size_t i = 0; i < s->p->m; i++) {
+        double to = s->r->f[i];
+
+        for (size_t j = 0; j < s->p->n; j++)
+            to += part * s->slope[i * s->p->n + j] * s->step[j];
+        sum += to / s->unit_f[i] * (to / s->unit_f[i]);
+    }
+    return size - qdot_zero_norm(s, f) > 0.5 * (size - sqrt(sum));
+}
+
 /* Whether F is 0 within its errors and rounding. */
 bool
 qdot_zero_is_within_errors(const qdot_zero_search *s, const double *f, const double *error)
@@ -163,12 +180,17 @@ qdot_zero_find_step(qdot_zero_search *s)
         s->r->rank++;
     s->mu = 0;
     (void)qdot_zero_take_step(s, s->r->f, s->whole);
-    s->mu = damping * fmin(size * size, 1) * most * most;
+    s->mu = s->damping * fmin(size * size, 1) * most * most;
     s->length = qdot_zero_take_step(s, s->r->f, s->step);
     while (s->length > s->reach && s->mu < s->strongest * s->strongest && s->r->rank > 0 &&
            gsl_vector_get(s->singular, s->r->rank - 1) < nearly_singular * s->strongest) {
         s->mu = fmax(2 * s->mu, 1e-6 * s->strongest * s->strongest);
         s->length = qdot_zero_take_step(s, s->r->f, s->step);
+    }
+    if (s->damping == 0 && s->length > s->reach) {
+        for (size_t j = 0; j < n; j++)
+            s->step[j] *= s->reach / s->length;
+        s->length = s->reach;
     }
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < m; i++) {

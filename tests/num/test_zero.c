@@ -62,6 +62,39 @@ a_family_gives_the_near_solution(void **state)
     assert_true(fabs(u[0] - 1.6) < 0.1 && fabs(u[1] - 1.2) < 0.1);
 }
 
+/* An oscillator's x(1) = -0.38, x'(2) = -0.04 by its start: linear, with the zero 400 units from the guess along the
+ * direction that hardly moves F there. */
+static qdot_status
+oscillator_at(const double *u, double *f, double *error, double *slope, void *user)
+{
+    const double *omega = user, w = *omega, all[4] = {cos(w), sin(w) / w, -w * sin(2 * w), cos(2 * w)};
+    const double goal[2] = {-0.38, -0.04};
+
+    for (size_t i = 0; i < 2; i++) {
+        f[i] = all[2 * i] * u[0] + all[2 * i + 1] * u[1] - goal[i];
+        error[i] = 1e-15;
+    }
+    if (slope != NULL)
+        memcpy(slope, all, sizeof all);
+    return QDOT_OK;
+}
+
+static void
+a_far_zero_along_a_weak_direction(void **state)
+{
+    double omega = 1.62, u[2] = {0.02, -0.49}, error[2], f[2], f_error[2];
+    const qdot_zero_problem p = {.n = 2, .m = 2, .at = oscillator_at, .user = &omega};
+    qdot_zero_result r = {.u = u, .error = error, .f = f, .f_error = f_error};
+    const double a = cos(omega), b = sin(omega) / omega, c = -omega * sin(2 * omega), d = cos(2 * omega);
+
+    (void)state;
+    assert_int_equal(qdot_zero_find(&p, &r), QDOT_OK);
+    assert_int_equal(r.answer, QDOT_ZERO_FOUND);
+    assert_true(fabs(u[0] - (-0.38 * d + 0.04 * b) / (a * d - b * c)) <= error[0]);
+    assert_true(fabs(u[1] - (-0.04 * a + 0.38 * c) / (a * d - b * c)) <= error[1]);
+    assert_true(error[0] < 1e-11);
+}
+
 /* sin 8u = 0 from 4 on; 10 pi/8 is not wanted, and is the answer where no other zero can be had. */
 static qdot_status
 sine_at(const double *u, double *f, double *error, double *slope, void *user)
@@ -352,6 +385,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(zeros_of_square_and_tall_systems),
+        cmocka_unit_test(a_far_zero_along_a_weak_direction),
         cmocka_unit_test(a_zero_that_is_not_wanted),
         cmocka_unit_test(what_is_not_known_is_no_zero),
         cmocka_unit_test(a_zero_that_may_be_anywhere),
