@@ -1713,6 +1713,7 @@ script_tests = \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
 	tests/script/signs.lag \
+	tests/script/slope-units.sh \
 	tests/script/slow-margin.lag \
 	tests/script/solution-sets.lag \
 	tests/script/solve-assumed.lag \
@@ -2916,6 +2917,7 @@ test_files = \
 	tests/script/several.out \
 	tests/script/signs.out \
 	tests/script/six.awk \
+	tests/script/slope-units.out \
 	tests/script/slow-margin.out \
 	tests/script/solution-sets.out \
 	tests/script/solve-assumed.out \

@@ -10,7 +10,7 @@
 #include "lang/session/runs.h"
 #include "sim/study/extremum.h"
 
-/* An event of which the time is known worse than this is read so little before it. */
+/* An event of which the time is known worse than this part of the run's times is read so little before it. */
 static const double most_back = 1e-8;
 
 /* An expression of the scene with slopes at a time, as a number. */
@@ -77,21 +77,25 @@ static double
 read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
 {
     const qdot_run_report *report = qdot_run_get_report(s->run);
-    const double back = fmax(fmax(1, fabs(m->value)) * 4 * DBL_EPSILON, fmin(2 * m->error, most_back));
+    const double latest = fmax(fabs(report->t0), fabs(report->t1)),
+                 back = fmax(latest * 4 * DBL_EPSILON, fmin(2 * m->error, latest * most_back));
 
     return event->targets.n == 0 ? m->value : m->value - copysign(back, report->t1 - report->t0);
 }
 
-/* The slope -Dg/(dg/dt), an expression of the scene with slopes, from where it is read to where g = 0, which is known to
- * its error: it is off by as much as it changes in between. */
+/* The slope -Dg/(dg/dt) of an event's time, with up = Dg and down = dg/dt at the time where it is read: from there to
+ * where g = 0, which is known to its error, it changes by as much as d/dt says. */
 static qdot_status
-add_way_to_event(qdot_slopes *s, const qdot_measured *m, qdot_expr of, qdot_expr time, double way, qdot_expr *slope)
+add_way_to_event(qdot_slopes *s, qdot_expr rate_up, qdot_expr rate_down, qdot_expr time, qdot_expr way,
+                 qdot_expr up, qdot_expr down, qdot_expr *slope)
 {
     qdot_pool *pool = s->session->pool;
-    qdot_expr rate;
+    qdot_expr by_up, by_down;
 
-    QDOT_TRY(at_time(s, qdot_ddt(pool, of), time, &rate));
-    *slope = qdot_add(pool, *slope, qdot_mul(pool, rate, qdot_measured_new(s->session, way, m->error)));
+    QDOT_TRY(at_time(s, rate_up, time, &by_up)); /* each by itself: the quotient may be 0/0 elsewhere */
+    QDOT_TRY(at_time(s, rate_down, time, &by_down));
+    by_down = qdot_div(pool, qdot_mul(pool, up, by_down), qdot_mul(pool, down, down));
+    *slope = qdot_add(pool, *slope, qdot_mul(pool, way, qdot_sub(pool, by_down, qdot_div(pool, by_up, down))));
     return qdot_pool_check(pool);
 }
 
@@ -100,7 +104,7 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
 {
     qdot_pool *pool = s->session->pool;
     const qdot_event *event = qdot_scene_find_event(s->session->scene, m->origin.event);
-    qdot_expr g, Dg, dg, time, up, down;
+    qdot_expr g, Dg, dg, time, up, down, way;
 
     if (event == NULL)
         return qdot_fail(QDOT_ENAME, "there is no event %.100s any more",
@@ -112,8 +116,8 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     QDOT_TRY(at_time(s, Dg, time, &up));
     QDOT_TRY(at_time(s, dg, time, &down));
     *slope = qdot_neg(pool, qdot_div(pool, up, down));
-    return add_way_to_event(s, m, qdot_neg(pool, qdot_div(pool, Dg, dg)), time,
-                            m->digits > 0 ? 0 : m->value - read_at(s, m, event), slope);
+    way = qdot_measured_new(s->session, m->digits > 0 ? 0 : m->value - read_at(s, m, event), m->error);
+    return add_way_to_event(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
 }
 
 /* max, min: De where e is largest or least. */

@@ -85,16 +85,21 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
     const qdot_trajectory *tr = &run->course.tr;
     const size_t N = tr->n / 2;
     const double most = largest_of(tr, N, n);
-    double largest = 0;
+    double largest = 0, least_asked = INFINITY;
 
     for (size_t i = 0; i < n; i++) {
         const double A = size_along(tr, N + i);
 
         found[n + i] = found[i] > 0 && is_resolved(run, N + i, A, most) ? decade(A) : 0;
-        if (request->scales && request->scales[n + i] > 0)
+        if (request->scales && request->scales[n + i] > 0) {
             found[n + i] = request->scales[n + i];
-        largest = fmax(largest, found[n + i]);
+            least_asked = fmin(least_asked, found[n + i]);
+        } else {
+            largest = fmax(largest, found[n + i]);
+        }
     }
+    if (largest == 0 && least_asked < INFINITY) /* it says little of others, such as slopes beside the motion */
+        largest = fmin(least_asked, 1);
     for (size_t i = 0; i < n; i++)
         if (found[i] > 0 && found[n + i] == 0)
             found[n + i] = largest;
