@@ -65,8 +65,8 @@ make_reference(qdot_scene *scene, const qdot_run_request *request, reference *r,
     precise.digits = REFERENCE_DIGITS;
     precise.tol = reference_tol;
     status = qdot_run_new(scene, &precise, &run);
-    if ((scene->constraints.n > 0 && (status == QDOT_ENOTBUILT || status == QDOT_ESINGULAR)) ||
-        (run == NULL && status == QDOT_EFAILED)) { /* digits do not follow it: abs(x)^1.5 */
+    if (status == QDOT_ENOTBUILT || (scene->constraints.n > 0 && status == QDOT_ESINGULAR) ||
+        (run == NULL && status == QDOT_EFAILED)) { /* digits do not follow it: abs(x)^1.5, a coordinate without mass */
         precise.digits = 0;
         status = qdot_run_new(scene, &precise, &run);
     }
