@@ -280,6 +280,7 @@ qdot_constraints_tell_disguise(qdot_session *session, size_t before)
         QDOT_TRY(status);
         if (i.decision.verdict != QDOT_PROVED)
             continue;
+        qdot_text_add(&text, c->label == NULL ? "constraint " : "");
         print_constraint(c, &text);
         qdot_text_add(&text, " is holonomic in disguise");
         if (i.integral != QDOT_NIL) {

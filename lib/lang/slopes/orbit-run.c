@@ -24,6 +24,14 @@ is_within_error(const qdot_named_run *named, double off)
     return off <= fmin(inexact, qdot_run_get_report(named->run)->scaled_error);
 }
 
+/* How an orbit is found, by a coordinate of this scene. */
+static qdot_status
+hint_to_find_one(const qdot_session *session)
+{
+    return qdot_hint("find %.80s = 1, T = 2 such that returns after T",
+                     qdot_expr_symbol(session->pool, session->scene->coordinates.at[0])->name);
+}
+
 qdot_status
 qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
 {
@@ -59,7 +67,7 @@ qdot_orbit_run_find(qdot_session *session, qdot_named_run **orbit)
         (void)qdot_fail(QDOT_EINVAL,
                         "no run ends where it began: %.80s is %.3g off in %.80s",
                         latest->name, first, qdot_expr_symbol(session->pool, at)->name);
-    return qdot_hint("find x = 1, T = 2 such that returns after T");
+    return hint_to_find_one(session);
 }
 
 qdot_status
@@ -75,5 +83,5 @@ qdot_orbit_run_named(qdot_session *session, const char *name, qdot_named_run **o
     if (off <= QDOT_FLOQUET_CLOSED || is_within_error(*orbit, off))
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "%s does not end where it began: it is %.3g off", name, off);
-    return qdot_hint("find x = 1, T = 2 such that returns after T");
+    return hint_to_find_one(session);
 }
