@@ -1762,6 +1762,7 @@ script_tests = \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
 	tests/script/units.sh \
+	tests/script/value-poles.sh \
 	tests/script/values.lag \
 	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
@@ -2966,6 +2967,7 @@ test_files = \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
 	tests/script/units.out \
+	tests/script/value-poles.out \
 	tests/script/values.out \
 	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \

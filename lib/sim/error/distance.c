@@ -23,6 +23,10 @@ static const double jump = 32;
 /* Points that tell what the companions are off by near t. */
 enum { near_points = 3 };
 
+/* What the companions are off by nearby, in units of what they are off by at t and of the value: beyond both the
+ * expression may be singular there, and states tell more. */
+static const double poor = 1e3, poor_part = 1e-8;
+
 /* The least error assumed for a companion, as a fraction of the run's. */
 static const double least_share = 1.0 / 32;
 
@@ -278,21 +282,108 @@ look_around(qdot_distance *d, size_t piece, size_t k, double *own)
     return QDOT_OK;
 }
 
+/* At point s: what the run is off by from the middle of the companions into apart [n], these from each other into
+ * between [n]. *there: all have a state. y [n] is room. */
+static qdot_status
+compare_states(qdot_distance *d, size_t piece, double s, double *y, double *apart, double *between, bool *there)
+{
+    const size_t n = 2 * d->own.courses->n;
+    qdot_status status = qdot_reader_at(&d->own, piece, s, d->work);
+
+    memcpy(y, d->own.courses->in, n * sizeof *y);
+    for (size_t k = 0; k < 2 && status == QDOT_OK; k++) {
+        const size_t pieces = (k == 0 ? &d->run->companion : &d->run->twin)->tr.pieces.n;
+
+        status = qdot_reader_at(d->others + k, piece < pieces ? piece : pieces - 1, s, d->work);
+    }
+    *there = status == QDOT_OK;
+    for (size_t i = 0; i < n && *there; i++) {
+        const double a = d->others[0].courses->in[i], b = d->others[1].courses->in[i];
+
+        apart[i] = y[i] - (2 * a + b) / 3;
+        between[i] = a - b;
+    }
+    return qdot_reader_has_nothing(status) ? QDOT_OK : status;
+}
+
+/* How far the expressions at t change if the state is off by `by` [n], a part of which counts; most [m] is the largest so
+ * far. y: the state at t, which the reader keeps. */
+static qdot_status
+move_state(qdot_distance *d, double t, const double *y, const double *by, double part, const double *values,
+           double *most)
+{
+    const size_t n = 2 * d->own.courses->n;
+    double *in = d->own.courses->in, *moved = d->work;
+
+    for (size_t i = 0; i < n; i++)
+        in[i] = y[i] + by[i];
+    QDOT_TRY(qdot_reader_evaluate(&d->own, t, moved));
+    for (size_t j = 0; j < d->m; j++)
+        most[j] = fmax(most[j], isfinite(moved[j]) ? part * fabs(moved[j] - values[j]) : INFINITY);
+    return QDOT_OK;
+}
+
+/* The same as look_around by what the companions' states are off by nearby, carried over to t: of an expression that is
+ * singular at a point nearby, such as 1/y at a bounce, own [m] is that at most. here [m]: what they are off by at t. */
+static qdot_status
+limit_by_states(qdot_distance *d, size_t piece, size_t k, double t, const double *values, const double *here,
+                double *own)
+{
+    const qdot_trajectory *tr = &d->run->course.tr;
+    const size_t first = tr->pieces.at[piece].first, last = qdot_trajectory_last_of(tr, piece);
+    const size_t n = 2 * d->own.courses->n, from = k > first + QDOT_DISTANCE_POINTS ? k - QDOT_DISTANCE_POINTS : first;
+    double *y, *room, *apart, *between, *most;
+    bool is_poor = false;
+    qdot_status status = QDOT_OK;
+
+    for (size_t j = 0; j < d->m; j++)
+        is_poor = is_poor || (own[j] > poor * here[j] && own[j] > poor_part * fabs(values[j]));
+    if (!is_poor || d->n_others < 2 || d->own.n_courses > 1)
+        return QDOT_OK;
+    y = qdot_calloc(4 * n + d->m + 1, sizeof *y);
+    if (!y)
+        return QDOT_ENOMEM;
+    room = y + n;
+    apart = room + n;
+    between = apart + n;
+    most = between + n;
+    for (size_t s = from; s <= last && s <= k + QDOT_DISTANCE_POINTS && status == QDOT_OK; s++) {
+        bool there;
+
+        status = compare_states(d, piece, tr->t[s], room, apart, between, &there);
+        if (status == QDOT_OK)
+            status = qdot_reader_at(&d->own, piece, t, d->work);
+        memcpy(y, d->own.courses->in, n * sizeof *y);
+        if (status == QDOT_OK && there)
+            status = move_state(d, t, y, between, 2.0 / 3, values, most);
+        if (status == QDOT_OK && there)
+            status = move_state(d, t, y, apart, d->share, values, most);
+    }
+    for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
+        own[j] = fmin(own[j], fmax(here[j], most[j]));
+    qdot_free(y);
+    return qdot_reader_has_nothing(status) ? QDOT_OK : status;
+}
+
 qdot_status
 qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
 {
     const qdot_trajectory *tr = &d->run->course.tr;
     const size_t k = qdot_trajectory_locate(tr, t, 0), piece = qdot_trajectory_piece_of(tr, k);
     const bool chatters = d->own.n_courses == 1 && qdot_chatters_at(&d->run->course, t);
-    double *own = qdot_malloc((d->m + 1) * sizeof *own);
+    double *own = qdot_malloc((2 * d->m + 1) * sizeof *own), *here = own + d->m;
     qdot_status status = own ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK)
         status = compare(d, piece, t, values, out, own);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK) {
+        memcpy(here, own, d->m * sizeof *here);
         status = look_around(d, piece, k, own);
+    }
+    if (status == QDOT_OK)
+        status = limit_by_states(d, piece, k, t, values, here, own);
     for (size_t j = 0; j < d->m && status == QDOT_OK; j++)
         out[j] = isnan(out[j]) ? NAN : qdot_companion_bound(out[j], own[j]);
     if (status == QDOT_OK && (d->over || chatters))

@@ -19,9 +19,12 @@
  * other: it is 32 times all that is nearer. At most QDOT_DISTANCE_POINTS; a window cut short by the end of the
  * piece is not used if the other is whole.
  *
+ * Where that is far more than c(t) and than a small part of g(t), g may be singular at a stored point, as 1/y is at a bounce:
+ * then c(s) is at most 2/3 |g(y(t) + y*_1(s) - y*_2(s)) - g(y(t))|, and alike for the share of d.
+ *
  * Added is what oscillations that a stiff method has gone over may make of g (oscillations.h).
  *
- * Tests  tests/script/inner-times.sh
+ * Tests  tests/script/inner-times.sh, tests/script/value-poles.sh
  */
 #ifndef QDOT_SIM_DISTANCE_H
 #define QDOT_SIM_DISTANCE_H
