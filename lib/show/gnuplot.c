@@ -105,6 +105,7 @@ spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
     sigemptyset(&usual);
     sigaddset(&usual, SIGINT);
     sigaddset(&usual, SIGPIPE);
+    sigaddset(&usual, SIGXFSZ);
     if (failed == 0)
         failed = posix_spawnattr_setsigdefault(attributes, &usual);
     if (failed == 0)

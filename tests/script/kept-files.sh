@@ -10,7 +10,6 @@ qdot -q scene.lag -e 'save session to "good.lag"' >/dev/null
 cp good.lag before.lag
 (
     ulimit -f 0
-    trap '' XFSZ
     qdot -q scene.lag -e 'start x = 2' -e 'save session to "good.lag"' 2>&1
 ) | grep error:
 cmp good.lag before.lag && echo 'it is as it was'
