@@ -1407,6 +1407,7 @@ unit_tests = \
 	tests/ode/test_trajectory \
 	tests/ode/test_written \
 	tests/reliability/test_failures \
+	tests/reliability/test_single-failures \
 	tests/series/test_lanes-code \
 	tests/series/test_lanes-motion \
 	tests/series/test_lanes \
@@ -2664,6 +2665,7 @@ test_files = \
 	tests/ode/failing.h \
 	tests/ode/problems.h \
 	tests/own-folder.h \
+	tests/reliability/scripts.h \
 	tests/sanitized.h \
 	tests/script/abbreviate.out \
 	tests/script/accel-large-coefficients.out \

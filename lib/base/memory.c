@@ -11,7 +11,8 @@
 #include "base/scope.h"
 
 static atomic_bool ran_out; /* in any thread */
-static long fail_after = -1, fail_once_after = -1, press_after = -1;
+static long fail_after = -1, fail_once_after = -1, visit_after = -1;
+static void (*visit)(void);
 
 static void *
 checked(void *block, size_t size)
@@ -32,8 +33,8 @@ qdot_memory_ran_out(void)
 static bool
 must_fail(void)
 {
-    if (press_after >= 0 && press_after-- == 0)
-        qdot_interrupt_set();
+    if (visit_after >= 0 && visit_after-- == 0)
+        visit();
     if (fail_once_after >= 0 && fail_once_after-- == 0)
         return true;
     if (fail_after < 0)
@@ -61,9 +62,16 @@ qdot_memory_fail_once_at(long n)
 }
 
 void
+qdot_memory_visit_at(long n, void (*who)(void))
+{
+    visit = who;
+    visit_after = n;
+}
+
+void
 qdot_memory_press_at(long n)
 {
-    press_after = n;
+    qdot_memory_visit_at(n, qdot_interrupt_set);
 }
 
 /* What was allocated, noted in the scope; NULL: not even that. */

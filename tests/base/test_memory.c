@@ -6,6 +6,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "base/memory-failure.h"
 #include "base/memory.h"
 
 static void
@@ -35,6 +36,33 @@ copies_of_text_end_where_told(void **state)
     assert_string_equal(part, "th");
     qdot_free(whole);
     qdot_free(part);
+}
+
+static int visits;
+
+static void
+visit(void)
+{
+    if (++visits == 1)
+        qdot_memory_visit_at(1, visit); /* not of the next, of the one after it */
+    else
+        (void)qdot_memory_fail_once_at(0); /* of this one */
+}
+
+static void
+an_allocation_is_visited_before_it_is_made(void **state)
+{
+    (void)state;
+    visits = 0;
+    qdot_memory_visit_at(2, visit);
+    for (int n = 0; n < 7; n++) {
+        char *block = qdot_malloc(1);
+
+        assert_int_equal(visits, n < 2 ? 0 : n < 4 ? 1 : 2);
+        assert_int_equal(block == NULL, n == 4);
+        qdot_free(block);
+    }
+    qdot_memory_visit_at(-1, NULL);
 }
 
 /* Each way to allocate, with the failure put before, at and after it. */
@@ -185,6 +213,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(size_0_gives_a_block),
         cmocka_unit_test(copies_of_text_end_where_told),
+        cmocka_unit_test(an_allocation_is_visited_before_it_is_made),
         cmocka_unit_test(the_nth_allocation_and_all_after_it_fail),
         cmocka_unit_test(a_vector_keeps_what_was_pushed),
         cmocka_unit_test(a_failed_push_changes_nothing),
