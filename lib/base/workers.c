@@ -267,7 +267,8 @@ qdot_hand_drop(qdot_crew *c, qdot_hand *h)
 
 /* --- here ----------------------------------------------------------------------------- */
 
-/* A chunk for an idle worker, if there is one. That a worker is dead shows when it is read. */
+/* A chunk for an idle worker, if there is one. That a worker is dead shows when it is read; one that cannot be told what
+ * to do would be waited for without end. */
 static void
 feed(qdot_crew *c, worker *w)
 {
@@ -276,8 +277,8 @@ feed(qdot_crew *c, worker *w)
     if (w->hand.n > 0 || w->answer < 0)
         return;
     r = qdot_hand_out(c, &w->hand, chunk_seconds, MOST_CHUNK);
-    if (r.count > 0)
-        (void)write_all(w->ask, &r, sizeof r);
+    if (r.count > 0 && !write_all(w->ask, &r, sizeof r))
+        kill(w->pid, SIGKILL);
 }
 
 /* A worker has died: what it had not answered is done again, by another in its place. */

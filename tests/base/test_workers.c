@@ -1,10 +1,15 @@
-/* test_workers.c -- items divided among processes, some of which die. */
+/* test_workers.c -- items divided among processes, some of which die or cannot be told what to do. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* RTLD_NEXT */
+#endif
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
 
+#include <dlfcn.h>
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +20,20 @@
 #include "base/workers.h"
 
 enum { ITEMS = 300 };
+
+static long writes_left = -1; /* of this process, until one fails; negative: none does */
+static pid_t writer;
+
+/* In place of that of the C library. */
+ssize_t
+write(int fd, const void *bytes, size_t n)
+{
+    if (writes_left >= 0 && getpid() == writer && writes_left-- == 0) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return ((__typeof__(&write))dlsym(RTLD_NEXT, "write"))(fd, bytes, n);
+}
 
 typedef struct {
     size_t squares[ITEMS], answers, lost;
@@ -95,6 +114,23 @@ a_worker_that_dies_costs_one_item(void **state)
 }
 
 static void
+a_worker_that_cannot_be_told_is_replaced(void **state)
+{
+    (void)state;
+    writer = getpid();
+    for (long n = 0; n < 5; n++) {
+        world w = {.deadly = ITEMS, .once = ITEMS};
+
+        writes_left = n;
+        assert_int_equal(run(&w, 2, 1), QDOT_OK);
+        assert_true(writes_left < 0);
+        for (size_t k = 1; k < ITEMS; k++)
+            assert_int_equal(w.squares[k], k * k);
+    }
+    writes_left = -1;
+}
+
+static void
 work_ends_early(void **state)
 {
     world w = {.deadly = ITEMS, .once = ITEMS, .stop_after = 20};
@@ -114,6 +150,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_items_are_answered_once),
         cmocka_unit_test(a_worker_that_dies_costs_one_item),
+        cmocka_unit_test(a_worker_that_cannot_be_told_is_replaced),
         cmocka_unit_test(work_ends_early),
     };
 
