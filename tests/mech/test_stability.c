@@ -1,8 +1,10 @@
 /* What is said of stability is proved: a table of motions, each with what is true of it. */
 #include "kit.h"
 
+#include "base/memory-failure.h"
 #include "mech/scene/scene.h"
 #include "mech/study/equilibrium.h"
+#include "mech/study/lyapunov.h"
 
 typedef struct {
     const char *coordinates, *L;
@@ -59,6 +61,28 @@ JUDGED(a_trap, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + 3*(x*y' - y*x')/2 - z^2 + x^2
 JUDGED(a_trap_too_weak, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + (x*y' - y*x')/2 - z^2 + x^2/2 + y^2/2", NULL, NULL, QDOT_UNSTABLE})
 JUDGED(three_damped_by_one, {"x y z", "(x'^2 + y'^2 + z'^2)/2 - x^2 - y^2 - z^2 - x*y - y*z/2", "-x' + z/9", "x", QDOT_STABLE})
 
+/* Each allocation on the way fails alone: an answer, or none, and the next question is answered. */
+static void
+an_energy_law_without_memory_body(kit *k)
+{
+    qdot_energy_law law;
+    long n = 0;
+
+    coords(k, "x y");
+    must(qdot_scene_lagrangian(k->scene, E(k, "(x'^2 + y'^2)/2 - x^2/2 - y^2")));
+    torque(k, "-x'", "x");
+    for (long left = -1; left < 0; n++) {
+        (void)qdot_memory_fail_once_at(n);
+        if (qdot_energy_law_of(k->scene, &law) != QDOT_OK)
+            assert_int_equal(law, QDOT_ENERGY_UNKNOWN);
+        left = qdot_memory_fail_once_at(-1);
+    }
+    assert_true(n > 3);
+    must(qdot_energy_law_of(k->scene, &law));
+    assert_int_equal(law, QDOT_ENERGY_USED);
+}
+TEST(an_energy_law_without_memory)
+
 int
 main(void)
 {
@@ -73,6 +97,7 @@ main(void)
         cmocka_unit_test(a_circulating_force),  cmocka_unit_test(a_flutter),
         cmocka_unit_test(a_circulating_force_that_does_not_matter), cmocka_unit_test(a_trap),
         cmocka_unit_test(a_trap_too_weak),      cmocka_unit_test(three_damped_by_one),
+        cmocka_unit_test(an_energy_law_without_memory),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

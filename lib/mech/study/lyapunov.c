@@ -113,7 +113,7 @@ declared(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
     qdot_expr *F = qdot_calloc(n + 1, sizeof *F), power = QDOT_ZERO;
     qdot_status status = F == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    *yes = true;
+    *yes = status == QDOT_OK;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         qdot_expr Q = qdot_force_declared(s, i);
 
