@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,12 +39,14 @@ lock_whole(const char *path, int fd, bool *gone)
 qdot_status
 qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
 {
+    char *behind = realpath(path, NULL); /* links to one file have one lock */
     qdot_text name = {0};
     int failed = 0;
     bool gone = true;
 
     *lock = (qdot_file_lock){.fd = -1};
-    qdot_text_format(&name, "%s.lock", path);
+    qdot_text_format(&name, "%s.lock", behind != NULL ? behind : path);
+    free(behind);
     if (qdot_text_status(&name) != QDOT_OK) {
         qdot_text_clear(&name);
         return QDOT_ENOMEM;

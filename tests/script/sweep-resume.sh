@@ -37,6 +37,8 @@ long='sweep th1 = -3..3 count 4000 run 0..30 tol 1e-12 : th2'
 qdot -q scene.lag -e "$long threads 1 resume \"two.h5\"" >/dev/null 2>&1 &
 until [ -f two.h5 ]; do sleep 0.05; done
 qdot -q scene.lag -e "$long resume \"two.h5\"" 2>&1
+ln -s two.h5 link.h5
+qdot -q scene.lag -e "$long resume \"link.h5\"" 2>&1 | head -1
 kill -KILL $!
 wait $! 2>/dev/null
-ls two.h5*
+ls two.h5* link.h5*
