@@ -140,18 +140,20 @@ tell_json(qdot_fit *f)
 
     for (size_t i = 0; i < k; i++)
         QDOT_TRY(qdot_answer_number(f->session, f->unknowns.names.at[i].label, f->u[i], f->error[i]));
-    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, 0));
+    QDOT_TRY(qdot_answer_number(f->session, "chi^2", f->found.chi2, NAN)); /* it errs as the residuals do */
     QDOT_TRY(qdot_answer_number(f->session, "degrees of freedom", (double)f->freedom, 0));
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
-        double *none = qdot_calloc(k, sizeof *none);
+        double *unknown = qdot_calloc(k, sizeof *unknown);
 
+        for (size_t j = 0; j < k && unknown != NULL; j++)
+            unknown[j] = NAN;
         qdot_text_truncate(&name, 0);
         qdot_text_format(&name, "covariance[%s]", f->unknowns.names.at[i].label);
-        status = none ? qdot_text_status(&name) : QDOT_ENOMEM;
+        status = unknown ? qdot_text_status(&name) : QDOT_ENOMEM;
         if (status == QDOT_OK)
             status = qdot_answer_numbers(f->session, qdot_text_str(&name), k,
-                                         f->found.covariance + i * k, none);
-        qdot_free(none);
+                                         f->found.covariance + i * k, unknown);
+        qdot_free(unknown);
     }
     qdot_text_clear(&name);
     return status;
