@@ -138,6 +138,41 @@ qdot_piece_carry(qdot_piece *x)
     }
 }
 
+/* Rounding and making up move a start by less than this part of its components' sizes. */
+static const double most_aside = 1e-9;
+
+/* The sizes [n] of the components where the piece starts: so far, and what their rates make of its time. */
+static qdot_status
+find_sizes(qdot_piece *x, double *size)
+{
+    QDOT_TRY(qdot_piece_rates(x, x->mode, size));
+    for (size_t i = 0; i < x->n; i++)
+        size[i] = fmax(x->largest[i], fabs(x->start.t) * fabs(size[i]));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_piece_widen_residuals(qdot_piece *x)
+{
+    const double *g;
+
+    if (!x->put_aside)
+        return QDOT_OK;
+    QDOT_TRY(find_sizes(x, x->y));
+    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
+        double off, noise;
+
+        if (!qdot_piece_mode(x)->watched[i].velocity || !(x->residual[i] >= 0))
+            continue;
+        QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
+        off = fabs(g[i]);
+        QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), x->start.t, x->start.y, x->y, i, &noise));
+        if (off <= noise * (most_aside / (4 * DBL_EPSILON)))
+            x->residual[i] = fmax(x->residual[i], off);
+    }
+    return QDOT_OK;
+}
+
 /* --- corners of constraints ---------------------------------------------------------- */
 
 /* With a larger residual a state does not keep the constraints of both sides. */

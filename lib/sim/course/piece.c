@@ -583,32 +583,6 @@ accepted(double t, const double *y, bool *stop, void *user)
 
 /* --- the piece ------------------------------------------------------------------------ */
 
-/* Rounding and making up move a start by less than this part of its components' sizes. */
-static const double most_aside = 1e-9;
-
-/* A start that rounding, or qdot_piece_make_up, has moved off its surfaces is on them still; one that a jump has put
- * elsewhere, by an event or by another switch inside u, is not. */
-static qdot_status
-widen_residuals(qdot_piece *x)
-{
-    const double *g;
-
-    if (!x->put_aside)
-        return QDOT_OK;
-    for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
-        double off, noise;
-
-        if (!qdot_piece_mode(x)->watched[i].velocity || !(x->residual[i] >= 0))
-            continue;
-        QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
-        off = fabs(g[i]);
-        QDOT_TRY(qdot_watch_noise_of(qdot_piece_watch(x), x->start.t, x->start.y, x->largest, i, &noise));
-        if (off <= noise * (most_aside / (4 * DBL_EPSILON)))
-            x->residual[i] = fmax(x->residual[i], off);
-    }
-    return QDOT_OK;
-}
-
 /* The watch at the start of a piece. */
 qdot_status
 qdot_piece_begin(qdot_piece *x)
@@ -634,7 +608,7 @@ qdot_piece_begin(qdot_piece *x)
         memcpy(x->step.y, y, x->n * sizeof *y);
         QDOT_TRY(qdot_trajectory_open(&x->step, x->reader.system, &x->cursor));
     }
-    QDOT_TRY(widen_residuals(x));
+    QDOT_TRY(qdot_piece_widen_residuals(x));
     qdot_piece_let_fade(x);
     qdot_piece_low(x, x->y);
     QDOT_TRY(qdot_watch_begin(

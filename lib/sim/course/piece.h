@@ -156,6 +156,10 @@ QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
  * mode. */
 void qdot_piece_carry(qdot_piece *x);
 
+/* A start that rounding, or qdot_piece_make_up, has moved off its surfaces is on them still; one that a jump has put
+ * elsewhere, by an event or by another switch inside u, is not. After x->reader is set. */
+QDOT_MUST_CHECK qdot_status qdot_piece_widen_residuals(qdot_piece *x);
+
 /* Whether an event was recorded within about a double of t before the end of the piece. */
 bool qdot_piece_just_noted(const qdot_piece *x, size_t event);
 
