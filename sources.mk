@@ -1520,6 +1520,7 @@ script_tests = \
 	tests/script/continue.lag \
 	tests/script/coordinates.lag \
 	tests/script/corners-of-two.lag \
+	tests/script/cradle-by-methods.lag \
 	tests/script/data-files.sh \
 	tests/script/decayed-events.sh \
 	tests/script/declarations.lag \
@@ -1692,6 +1693,8 @@ script_tests = \
 	tests/script/report.sh \
 	tests/script/reset.lag \
 	tests/script/resting-beside-switches.lag \
+	tests/script/resting-by-methods.lag \
+	tests/script/resting-together-by-methods.lag \
 	tests/script/resting-walls-with-kinks.lag \
 	tests/script/resting.lag \
 	tests/script/rests-edges.lag \
@@ -2705,6 +2708,7 @@ test_files = \
 	tests/script/continue.out \
 	tests/script/coordinates.out \
 	tests/script/corners-of-two.out \
+	tests/script/cradle-by-methods.out \
 	tests/script/data-files.out \
 	tests/script/decayed-events.out \
 	tests/script/declarations.out \
@@ -2897,6 +2901,8 @@ test_files = \
 	tests/script/report.out \
 	tests/script/reset.out \
 	tests/script/resting-beside-switches.out \
+	tests/script/resting-by-methods.out \
+	tests/script/resting-together-by-methods.out \
 	tests/script/resting-walls-with-kinks.out \
 	tests/script/resting.out \
 	tests/script/rests-edges.out \

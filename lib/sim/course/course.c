@@ -176,6 +176,14 @@ loop(qdot_piece *x, const double *y0)
     return status;
 }
 
+static void
+forget_chatters(qdot_course *c)
+{
+    for (size_t i = 0; i < c->chatters.n; i++)
+        qdot_free(c->chatters.at[i].along);
+    c->chatters.n = 0;
+}
+
 qdot_status
 qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                 const qdot_ode_options *options, double t0, double t1, const double *y)
@@ -191,6 +199,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
 
     /* nothing is left of one that is made once more */
     c->occurrences.n = c->faded.n = c->ends.n = c->rests.n = 0;
+    forget_chatters(c);
     c->reason[0] = '\0';
     c->failed = c->began_on = false;
     c->stopped_by = SIZE_MAX;
@@ -264,8 +273,7 @@ qdot_course_clear(qdot_course *c)
     qdot_free(c->faded.at);
     qdot_free(c->ends.at);
     qdot_free(c->rests.at);
-    for (size_t i = 0; i < c->chatters.n; i++)
-        qdot_free(c->chatters.at[i].along);
+    forget_chatters(c);
     qdot_free(c->chatters.at);
     *c = (qdot_course){0};
 }

@@ -16,10 +16,17 @@ static const double trial = 1e-3;
 /* What a contact may leave out: the height of the bounces to come, beside the place. Lower ones are lost in its
  * rounding. */
 static const double least_height = DBL_EPSILON / 8;
+/* And beside the place as it is: what is known of a state within a step of a method without series. The search of a
+ * step tells heights above a sixth of that from rounding. */
+static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
+/* The flights of a companion, which rests where the run does, are at most so many times as high. */
+static const double led = 16;
 /* Four times the height of a flight whose apex is told from the place. */
 static const double apart = 64 * DBL_EPSILON;
 /* A speed above this is none of rest. */
 static const double fastest = 1e-4;
+/* And one above this part of the speeds so far is none of a low bounce. */
+static const double slow = 1e-2;
 
 /* --- whether the event is an impact on a smooth wall ---------------------------------- */
 
@@ -46,10 +53,10 @@ direction(qdot_piece *x, size_t mode, size_t free, double *d, double *size)
 }
 
 /* Whether `then` at the start with its velocities less `speed` d/|d| gives them back, turned about by
- * 0 ... 1 times that speed, and leaves the place where it is. */
+ * 0 ... 1 times that speed, its *share, and leaves the place where it is. */
 static qdot_status
 is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double size, double speed,
-          bool *yes)
+          double *share, bool *yes)
 {
     const size_t n = x->n / 2;
     double *old = qdot_malloc(2 * x->n * sizeof *old), *y = old + x->n, back = 0, aside = 0;
@@ -76,12 +83,13 @@ is_impact(qdot_piece *x, const qdot_staged_event *e, const double *d, double siz
     *yes = stays && status == QDOT_OK && aside <= alike * speed + roundings * DBL_EPSILON * scale
            && back >= speed * (1 - 1e-6) - alike * scale
            && back <= 2 * speed * (1 + 1e-6) + alike * scale;
+    *share = speed > 0 ? back / speed - 1 : 0;
     qdot_free(old);
     return qdot_grave(status);
 }
 
 static qdot_status
-is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, bool *yes)
+is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, double *share, bool *yes)
 {
     const qdot_staged_event *e = &x->c->stage->events.at[event];
     double *d = qdot_malloc((x->n + 1) * sizeof *d), size;
@@ -89,9 +97,9 @@ is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, bool *yes)
 
     *yes = status == QDOT_OK && size > 0 && isfinite(size);
     if (*yes)
-        status = is_impact(x, e, d, size, 0, yes);
+        status = is_impact(x, e, d, size, 0, share, yes);
     if (status == QDOT_OK && *yes)
-        status = is_impact(x, e, d, size, trial, yes);
+        status = is_impact(x, e, d, size, trial, share, yes);
     qdot_free(d);
     return qdot_grave(status);
 }
@@ -117,33 +125,70 @@ size_of_place(qdot_piece *x, size_t surface, double *size)
 
 /* --- where one begins ----------------------------------------------------------------- */
 
-/* The start moves along d [n], M^-1 du/dq times a number, until the row of that order of the surface is kept: an
- * impulse of the contact, so that what other forces conserve stays. *moved at least its largest change, relative
- * to max(1, |component|). */
-static qdot_status
-move_onto(qdot_piece *x, size_t surface, int order, const double *d, double *moved)
+/* The bounce that a contact at the start leaves out. */
+typedef struct {
+    double off[2]; /* u, u' */
+    double pull;   /* u'' without the contact, against u' */
+    double share;  /* of u' that the next impact leaves */
+    double size;   /* of the terms of u */
+    double moved;  /* by how much the start changes, relative to max(1, |component|) */
+    double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
+} skipped;
+
+/* |u| at most on the way, and how long that and all bounces behind it take. */
+static double
+height(const skipped *s)
 {
-    const size_t n = x->n / 2;
-    double *slopes = qdot_malloc((n + 1) * sizeof *slopes), *y = x->start.y + (size_t)order * n, value, rise = 0;
-    qdot_status status = slopes ? qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y,
-                                                          surface, order, &value, slopes)
-                                : QDOT_ENOMEM;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++)
-        rise += slopes[i] * d[i];
-    for (size_t i = 0; i < n && status == QDOT_OK && rise != 0; i++) {
-        const double by = value / rise * d[i];
-
-        *moved = fmax(*moved, fabs(by) / fmax(1, fabs(y[i])));
-        y[i] -= by;
-    }
-    qdot_free(slopes);
-    return status;
+    return fabs(s->off[0]) + (s->off[1] != 0 ? s->off[1] * s->off[1] / (2 * s->pull) : 0);
 }
 
-/* Enter the contact at the start of the piece; *moved by how much that is off it. */
+static double
+duration(const skipped *s)
+{
+    return s->off[1] != 0 ? 2 * fabs(s->off[1]) / (s->pull * fmax(0, 1 - s->share)) : 0;
+}
+
+/* The start moves along s->along until the row of that order of the surface is kept: an impulse of the contact, so that
+ * what other forces conserve stays. */
 static qdot_status
-enter(qdot_piece *x, size_t surface, double *moved, bool *can)
+move_onto(qdot_piece *x, size_t surface, int order, skipped *s)
+{
+    const size_t n = x->n / 2;
+    double *slopes = s->along + n, *y = x->start.y + (size_t)order * n;
+
+    QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y, surface, order,
+                                     &s->off[order], slopes));
+    for (size_t i = 0; i < n && isfinite(s->pull); i++) {
+        const double by = s->off[order] * s->along[i];
+
+        s->moved = fmax(s->moved, fabs(by) / fmax(1, fabs(y[i])));
+        y[i] -= by;
+    }
+    return QDOT_OK;
+}
+
+/* Fill s->along and s->pull by d [n], q'' of the contact less that without. */
+static qdot_status
+find_pull(qdot_piece *x, size_t surface, const double *d, skipped *s)
+{
+    const size_t n = x->n / 2;
+    double value, rise = 0;
+
+    QDOT_TRY(qdot_sliding_rows_value(&qdot_piece_mode(x)->held, n, x->start.t, x->start.y, surface, 1, &value,
+                                     s->along + n));
+    for (size_t i = 0; i < n; i++) {
+        rise += s->along[n + i] * d[i];
+        s->size += fabs(s->along[n + i] * x->start.y[i]);
+    }
+    for (size_t i = 0; i < n; i++)
+        s->along[i] = d[i] / rise;
+    s->pull = rise != 0 ? fabs(rise) : INFINITY;
+    return QDOT_OK;
+}
+
+/* Enter the contact at the start of the piece; what that leaves out. */
+static qdot_status
+enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
     const size_t free = x->mode, n = x->n;
     double *kept = qdot_malloc((2 * n + 1) * sizeof *kept), *d = kept + n, size = 0, rest = 0;
@@ -154,17 +199,18 @@ enter(qdot_piece *x, size_t surface, double *moved, bool *can)
         return status;
     memcpy(kept, x->start.y, n * sizeof *kept);
     x->side[surface] = QDOT_SIDE_SLIDES;
-    *moved = 0;
     status = qdot_piece_enter(x);
     if (status == QDOT_OK)
         status = direction(x, x->mode, free, d, &size);
-    for (int order = 0; order < 2 && status == QDOT_OK && size > 0 && isfinite(size); order++)
-        status = move_onto(x, surface, order, d, moved);
+    if (status == QDOT_OK && size > 0 && isfinite(size))
+        status = find_pull(x, surface, d, s);
+    for (int order = 0; order < 2 && status == QDOT_OK && s->pull > 0; order++)
+        status = move_onto(x, surface, order, s);
     if (status == QDOT_OK)
         status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, n / 2, x->start.t, x->start.y, &rest);
-    *moved = fmax(*moved, rest);
-    if (status == QDOT_OK && isfinite(*moved))
-        status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free,
+    s->moved = fmax(s->moved, rest);
+    if (status == QDOT_OK && isfinite(s->moved))
+        status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free, &s->share,
                                 can);
     if (status != QDOT_OK || !*can) {
         memcpy(x->start.y, kept, n * sizeof *kept);
@@ -191,33 +237,88 @@ lowest(const qdot_piece *x, size_t event)
     return least_height;
 }
 
+/* Whether the bounces to come, within the time `left`, may be left out. By a method without series they are where the
+ * next one is not told from rounding, if they end. */
+static qdot_status
+may_rest(qdot_piece *x, size_t surface, double left, const skipped *s, bool *may)
+{
+    const size_t event = x->c->stage->switches.surfaces.at[surface].event;
+    double place;
+
+    QDOT_TRY(size_of_place(x, surface, &place));
+    *may = s->moved <= fastest && isfinite(left) && s->moved * left <= lowest(x, event) * place;
+    if (x->reader.read_two)
+        return QDOT_OK;
+    if (left == 0 && !x->c->leader) /* the motion does not leave it */
+        *may = s->moved <= fastest && height(s) <= least_height * place;
+    *may = *may || (height(s) <= (x->c->leader ? led : 1) * least_in_doubles * s->size && isfinite(duration(s)));
+    return QDOT_OK;
+}
+
+/* They are uncertainties of the motion until they would have ended. */
+static qdot_status
+note_skipped(qdot_piece *x, size_t surface, const skipped *s)
+{
+    const size_t n = x->n / 2;
+    qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = height(s),
+                                   .speed = fabs(s->off[1]), .mode = {x->mode, x->mode, x->mode}, .ended = true};
+
+    chatter.end = x->start.t + x->direction * fmin(duration(s), fabs(x->t1 - x->start.t));
+    if (chatter.end == chatter.t)
+        return QDOT_OK;
+    chatter.along = qdot_malloc((2 * n + 1) * sizeof *chatter.along);
+    if (!chatter.along)
+        return QDOT_ENOMEM;
+    memcpy(chatter.along, s->along, 2 * n * sizeof *s->along);
+    if (qdot_vec_push(&x->c->chatters, chatter) == QDOT_OK)
+        return QDOT_OK;
+    qdot_free(chatter.along);
+    return QDOT_ENOMEM;
+}
+
 qdot_status
 qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, bool *soon)
 {
     const size_t surface = qdot_contacts_surface(&x->c->stage->switches, event, way);
-    double *kept, moved = 0, noise = 0, height;
+    double *kept;
+    skipped s = {0};
+    bool may = false;
     qdot_status status;
 
     *lasts = *soon = false;
     if (surface == SIZE_MAX || x->side[surface] == QDOT_SIDE_SLIDES)
         return QDOT_OK;
-    kept = qdot_malloc((x->n + 1) * sizeof *kept);
+    kept = qdot_calloc(2 * x->n + 1, sizeof *kept);
     if (!kept)
         return QDOT_ENOMEM;
+    s.along = kept + x->n;
     memcpy(kept, x->start.y, x->n * sizeof *kept);
-    status = enter(x, surface, &moved, lasts);
+    status = enter(x, surface, &s, lasts);
     if (status == QDOT_OK && *lasts)
-        status = size_of_place(x, surface, &noise);
-    height = moved * left;
-    if (status == QDOT_OK && *lasts
-        && (moved > fastest || height > lowest(x, event) * noise)) {
+        status = may_rest(x, surface, left, &s, &may);
+    if (status == QDOT_OK && *lasts && !may) {
         *lasts = false;
-        *soon = moved <= fastest || left > 0;
+        *soon = s.moved <= fastest || left > 0;
         x->side[surface] = 0;
         memcpy(x->start.y, kept, x->n * sizeof *kept);
     }
+    if (status == QDOT_OK && *lasts)
+        status = note_skipped(x, surface, &s);
     qdot_free(kept);
     return status;
+}
+
+qdot_status
+qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may)
+{
+    double rate, noise;
+
+    *may = false;
+    if (x->reader.read_two || qdot_contacts_surface(&x->c->stage->switches, event, way) == SIZE_MAX)
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_rate(x, event, &rate, &noise));
+    *may = fabs(rate) <= noise * (slow / (4 * DBL_EPSILON));
+    return QDOT_OK;
 }
 
 /* --- where a run starts ---------------------------------------------------------------- */

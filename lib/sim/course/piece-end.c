@@ -251,20 +251,23 @@ rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
     return *led && x->c->stage->modes.at[run->tr.pieces.at[next].mode]->side[surface] == QDOT_SIDE_SLIDES;
 }
 
-/* The event w comes ever faster: its contact lasts from here on (*fast false), or will soon. */
+/* The event w comes ever faster (*fast), or its next bounce is low: its contact lasts from here on (*fast false), or will
+ * soon. */
 static qdot_status
 come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
 {
+    const bool low = !*fast;
     bool lasts, soon;
 
     QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
-    *fast = !lasts && !soon;
+    *fast = *fast && !lasts && !soon;
     for (size_t i = 0; i < x->repeats.n; i++) {
         qdot_piece_repeat *r = &x->repeats.at[i];
 
         if (r->kind != w->kind || r->index != w->index)
             continue;
-        r->soon = soon;
+        if (!low)
+            r->soon = soon;
         if (lasts) /* bounces may come again */
             *r = x->repeats.at[--x->repeats.n];
     }
@@ -393,7 +396,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         const qdot_root *root = &x->roots.at[i];
         const qdot_watched *w = &m->watched[root->function];
         double left = 0;
-        bool fast = false, led, rests;
+        bool fast = false, low = false, led, rests;
 
         if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
             x->c->stage->events.at[w->index].then)
@@ -431,8 +434,10 @@ qdot_piece_act(qdot_piece *x, bool *over)
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
         rests = rests_in_run(x, w, root->way, &led);
-        if (status == QDOT_OK && (led ? rests : fast) && !*over && w->kind == QDOT_WATCH_EVENT)
-            status = come_to_rest(x, w, root->way, led ? 0 : left, &fast);
+        if (status == QDOT_OK && !led && !fast && !*over && w->kind == QDOT_WATCH_EVENT)
+            status = qdot_piece_may_be_low(x, w->index, root->way, &low);
+        if (status == QDOT_OK && (led ? rests : fast || low) && !*over && w->kind == QDOT_WATCH_EVENT)
+            status = come_to_rest(x, w, root->way, led ? 0 : low ? INFINITY : left, &fast);
         fast = fast && !led && !is_between_contacts(x, w, t);
         if (fast && !*over)
             say_accumulated(x, w, t, left);

@@ -207,26 +207,36 @@ stays_on_event(qdot_piece *x)
 }
 
 qdot_status
-qdot_piece_way(qdot_piece *x, size_t i, int *way)
+qdot_piece_rate(qdot_piece *x, size_t i, double *rate, double *noise)
 {
     const size_t n = x->n / 2;
     double *rates = qdot_malloc((3 * x->n + 1) * sizeof *rates), *fast = rates + x->n,
-           *low = fast + x->n, rate, noise;
+           *low = fast + x->n;
     qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
 
-    *way = 0;
+    *rate = *noise = 0;
     if (status == QDOT_OK) {
         qdot_piece_low(x, low);
         memcpy(fast, x->largest + n, n * sizeof *fast);
         for (size_t k = n; k < x->n; k++)
             fast[k] = fabs(rates[k]);
         status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, low, rates, fast, i,
-                                 &rate, &noise);
-        if (status == QDOT_OK && fabs(rate) > noise)
-            *way = rate * x->direction > 0 ? 1 : -1;
+                                 rate, noise);
     }
     qdot_free(rates);
     return status;
+}
+
+qdot_status
+qdot_piece_way(qdot_piece *x, size_t i, int *way)
+{
+    double rate, noise;
+
+    *way = 0;
+    QDOT_TRY(qdot_piece_rate(x, i, &rate, &noise));
+    if (fabs(rate) > noise)
+        *way = rate * x->direction > 0 ? 1 : -1;
+    return QDOT_OK;
 }
 
 /* The piece ends where it starts, by an event. */

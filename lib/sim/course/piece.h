@@ -233,6 +233,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_change(qdot_piece *x, const qdot_staged_e
  * and x->start.y are those. *soon: it will, but the bounces to come are too high as yet. */
 QDOT_MUST_CHECK qdot_status qdot_piece_rest(qdot_piece *x, size_t event, int way, double left,
                                             bool *lasts, bool *soon);
+/* Whether the event that changed the state, met with the sign `way`, leaves it so slow that the next bounce might not be
+ * told from rounding within a step; never by series in two doubles, which tell it. */
+QDOT_MUST_CHECK qdot_status qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may);
 /* (piece-puck.c) Where a piece starts in the present mode: pucks that move, but are at rest, are given
  * the speed of their start. *can: friction slows those that are to rest. */
 QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
@@ -250,6 +253,9 @@ bool qdot_piece_meets_again(const qdot_piece *x, size_t i);
  * one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);
 
+/* The rate of function i where the piece starts, near its zero; *noise: what 4 roundings of velocities as large as they
+ * have been make of it. */
+QDOT_MUST_CHECK qdot_status qdot_piece_rate(qdot_piece *x, size_t i, double *rate, double *noise);
 /* The sign to which function i leaves its zero where the piece starts, in the direction of the run, by its rate; 0: the
  * rate may be the rounding of velocities. */
 QDOT_MUST_CHECK qdot_status qdot_piece_way(qdot_piece *x, size_t i, int *way);

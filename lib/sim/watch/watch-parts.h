@@ -67,6 +67,7 @@ struct qdot_watch {
     double *work, *g;   /* [m] g */
     double *moved, *raw; /* [m] scratch of noise and of values */
     double *z;          /* [2n] likewise */
+    double *end;        /* [2n + 1] the state and the time at the end of the step that was searched last */
     double *noise;      /* [m] of g in this part; NaN: not computed */
     double *first_noise; /* [m] of g at the start of the step; likewise */
     double *size;       /* [m] of the polynomial fitted last */

@@ -41,12 +41,24 @@ qdot_watch_time(const qdot_watch_part *p, double x)
     return qdot_chebyshev_place(p->a, p->b, x);
 }
 
+/* The most by which the values of function i on the part differ from the zero at its start. */
+static double
+most_off_zero(const qdot_watch *w, const qdot_watch_part *p, size_t i)
+{
+    double most = 0;
+
+    for (int j = 0; j < p->n; j++)
+        most = fmax(most, fabs(w->samples[i * QDOT_WATCH_NODES + (size_t)j] - qdot_watch_zero(w, i)));
+    return most;
+}
+
 bool
 qdot_watch_vanishes(const qdot_watch *w, const qdot_watch_part *p, size_t i)
 {
-    double size = qdot_chebyshev_size(p->n, p->c);
+    const double size = qdot_chebyshev_size(p->n, p->c);
 
-    return size == 0 || size <= (p->from_zero ? 1e5 : QDOT_WATCH_ROUNDINGS) * w->noise[i];
+    /* the quotient with the time since it was 0 has the rounding of nodes beside the start many times */
+    return size == 0 || (p->from_zero ? most_off_zero(w, p, i) : size) <= QDOT_WATCH_ROUNDINGS * w->noise[i];
 }
 
 /* Of a function that vanishes on the part: whether it is 0, not just so flat at a root that rounding is all
@@ -561,6 +573,11 @@ be_zero(qdot_watch *w, const qdot_watch_part *p, size_t i)
                                  noise));
     if (leaves)
         w->now.sign[i] = qdot_watch_sign(p->at_end);
+    if (leaves && w->fresh[i]) {
+        w->first[i] = w->now.sign[i];
+        w->slow[i] = p->from_zero;
+        w->fresh[i] = false;
+    }
     w->now.on[i] = !leaves;
     w->now.g0[i] = p->at_end;
     return QDOT_OK;

@@ -165,18 +165,19 @@ qdot_status
 qdot_watch_rate(qdot_watch *w, double t, const double *y, const double *low, const double *rates,
                 const double *fast, size_t i, double *rate, double *noise)
 {
-    const bool exact = w->reader.read_two && !w->accelerations && qdot_watch_has_two(w, i);
-    const double h = exact ? 0x1p-40 : 0x1p-20;
-    double *there = qdot_malloc((2 * w->n + 1) * sizeof *there), g = 0;
+    double *there = qdot_malloc((2 * w->n + 1) * sizeof *there), g = 0, h = 0x1p-20;
+    bool exact = false;
     qdot_status status = there ? QDOT_OK : QDOT_ENOMEM;
 
-    for (size_t k = 0; k < 2 * w->n && there; k++)
-        there[k] = exact ? (low ? low[k] : 0) + h * rates[k] : y[k] + h * rates[k];
     if (status == QDOT_OK) {
         memcpy(w->in, y, 2 * w->n * sizeof *y);
-        status = exact ? qdot_watch_value_at_start(w, t, y, low, w->g) : qdot_watch_value(w, t, w->g);
+        status = w->accelerations ? qdot_watch_value(w, t, w->g) : qdot_watch_value_at_start(w, t, y, low, w->g);
+        exact = !w->accelerations && qdot_watch_has_two(w, i);
+        h = exact ? 0x1p-40 : h;
         g = w->g[i];
     }
+    for (size_t k = 0; k < 2 * w->n && there; k++)
+        there[k] = exact ? (low ? low[k] : 0) + h * rates[k] : y[k] + h * rates[k];
     if (status == QDOT_OK && !exact)
         memcpy(w->in, there, 2 * w->n * sizeof *there);
     if (status == QDOT_OK)

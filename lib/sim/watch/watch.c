@@ -401,8 +401,8 @@ qdot_watch_step(qdot_watch *w, double t, const double *y, bool last,
         QDOT_TRY(qdot_watch_forget_start(w));
     *roots = w->roots.at;
     *n = w->roots.n;
-    w->in[2 * w->n] = t;
-    memcpy(w->in, y, 2 * w->n * sizeof *y); /* for _take */
+    w->end[2 * w->n] = t; /* for _take */
+    memcpy(w->end, y, 2 * w->n * sizeof *y);
     return QDOT_OK;
 }
 
@@ -431,8 +431,8 @@ qdot_watch_take(qdot_watch *w)
     copy_state(w, &w->start, &w->now);
     qdot_watch_take_fading(w);
     w->least = 0;
-    memcpy(w->y, w->in, 2 * w->n * sizeof *w->y);
-    w->t = w->in[2 * w->n];
+    memcpy(w->y, w->end, 2 * w->n * sizeof *w->y);
+    w->t = w->end[2 * w->n];
 }
 
 qdot_status
@@ -594,8 +594,8 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 4 * n + 2 * work + 15 * m +
-                                 3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 1,
+    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 4 * n + 2 * work + 15 * m +
+                                 3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 2,
                              sizeof *at);
     int *signs = qdot_calloc(6 * m + 1, sizeof *signs);
     bool *flags = qdot_calloc(13 * m + 1, sizeof *flags);
@@ -611,7 +611,8 @@ make_room(qdot_watch *w)
         w->coordinate[i] = SIZE_MAX;
     w->y = w->in + inputs;
     w->z = w->y + 2 * n;
-    w->work = w->z + 2 * n;
+    w->end = w->z + 2 * n;
+    w->work = w->end + 2 * n + 1;
     w->g = w->work + 2 * work; /* qdot_rounding_bounds needs as much */
     w->moved = w->g + m;
     w->raw = w->moved + m;
