@@ -541,6 +541,48 @@ def terminal_scene(rng):
             % (w, c, A, A)), [(2*mp.pi - mp.acos(R(c)))/R(w)]
 
 
+def between_ref(g, e, L, v, T):
+    """Place and velocity at T of a ball that starts in the middle of |x| < L with v, with the acceleration -g and e < 1."""
+    x, t = mp.mpf(0), mp.mpf(0)
+    while True:
+        hits = []
+        for wall in (L, -L):
+            D = v*v - 2*g*(wall - x)
+            for sign in (1, -1) if D >= 0 else ():
+                d = (v + sign*mp.sqrt(D))/g
+                if d > mp.mpf(10)**-40 and wall*(v - g*d) > 0:
+                    hits.append((d, wall))
+        d, wall = min(hits)
+        if t + d >= T:
+            d = T - t
+            return x + v*d - g*d*d/2, v - g*d
+        x, t, v = wall, t + d, -e*(v - g*d)
+        if abs(v) < mp.mpf(10)**-25:
+            return -L, mp.mpf(0)
+
+
+def walls_scene(rng):
+    """A ball between two walls that are one event, pulled to one of them: it comes to rest there."""
+    e, g, L = num(rng, 0.2, 0.95, 2), rng.choice([1, 2.5, 9.81]), rng.choice([1, 0.5, 2.25])
+    v, T = num(rng, -4, 4, 2), rng.choice([5, 20, 100])
+    form = rng.choice(["abs(x) = %s rising", "max(x, -x) = %s rising", "if(x > 0, x, -x) = %s rising",
+                       "min(x, -x) = -%s falling", "sqrt(x^2) = %s rising", "x^2 = %s^2 rising"]) % L
+    return (ball() + "force -%s on x\nevent hit: %s then x' = -%s*x'\nstart x' = %s\nrun 0..%s\nvalue(x, %s)\n"
+            "value(x', %s)\n" % (g, form, e, v, T, T, T)), list(between_ref(R(g), R(e), R(L), R(v), R(T)))
+
+
+def platform_scene(rng):
+    """A ball on a floor that moves up and down slowly enough for it to stay, before it comes to rest."""
+    H, e, g = rng.choice([0, 1, 3]), num(rng, 0.3, 0.9, 2), 10
+    u = num(rng, -0.3, 0.3, 2)
+    v = mp.sqrt(R(u)**2 + 2*g)
+    T = num(rng, 0.3, 0.97*float((v - R(u))/g + 2*v*R(e)/g/(1 - R(e))), 2)
+    y, w = bounce_ref(R(1), -R(u), R(e), mp.mpf(g), mp.mpf(0), R(T))
+    return ("coord h\nparticle b mass 1 at h\ngravity -%s\nevent floor: h = %s + %s*t falling then h' = %s - %s*(h' - %s)\n"
+            "start h = %s + 1\nrun 0..%s\nvalue(h, %s)\nvalue(h', %s)\n" % (g, H, u, u, e, u, H, T, T, T)), [
+                R(H) + R(u)*R(T) + y, R(u) + w]
+
+
 def third_scene(rng):
     """A place reached with neither velocity nor force: a crossing of third order."""
     a = num(rng, 0.5, 3, 2)
@@ -549,3 +591,12 @@ def third_scene(rng):
 
 
 KINDS = {name[:-6]: kind for name, kind in list(globals().items()) if name.endswith("_scene")}
+
+METHODS = ("taylor", "dop853", "rk8pd", "rkf45", "radau", "msadams", "msbdf", "bsimp", "gauss4", "gauss8", "gauss12", "verlet",
+           "composition8", "variational")
+
+
+def by_method(script, method):
+    """The script with its runs by that method."""
+    return "".join(line.rstrip("\n") + " method %s\n" % method if line.startswith("run ") else line
+                   for line in script.splitlines(True))
