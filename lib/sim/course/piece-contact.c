@@ -4,8 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/model/contact.h"
+#include "ode/scale.h"
 #include "sim/course/piece.h"
+#include "sim/model/contact.h"
 
 /* Two velocities count as equal up to this. */
 static const double alike = 1e-9;
@@ -19,6 +20,9 @@ static const double least_height = DBL_EPSILON / 8;
 /* And beside the place as it is: what is known of a state within a step of a method without series. The search of a
  * step tells heights above a sixth of that from rounding. */
 static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
+/* A multistep method begins anew behind each bounce, by short steps of a low order: it does not tell heights below so many
+ * times its tolerance from its own error. */
+static const double multistep_tolerances = 64;
 /* The flights of a companion, which rests where the run does, are at most so many times as high. */
 static const double led = 16;
 /* Four times the height of a flight whose apex is told from the place. */
@@ -237,6 +241,30 @@ lowest(const qdot_piece *x, size_t event)
     return least_height;
 }
 
+/* The largest height that the run of this companion has left out there. */
+static double
+skipped_in_run(const qdot_piece *x, size_t surface)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < x->c->leader->chatters.n; k++)
+        if (x->c->leader->chatters.at[k].surface == surface)
+            most = fmax(most, x->c->leader->chatters.at[k].place);
+    return most;
+}
+
+/* The height below which a method without series does not tell a bounce. */
+static double
+least_told(const qdot_piece *x, const skipped *s)
+{
+    const size_t n = x->n / 2;
+    double size = 0;
+
+    for (size_t i = 0; i < n && x->method->multistep; i++)
+        size += fabs(s->along[n + i]) * qdot_ode_size(x->c->stage->scales, i, x->start.y[i]);
+    return least_in_doubles * s->size + multistep_tolerances * x->options->tol * size;
+}
+
 /* Whether the bounces to come, within the time `left`, may be left out. By a method without series they are where the
  * next one is not told from rounding, if they end. */
 static qdot_status
@@ -247,11 +275,12 @@ may_rest(qdot_piece *x, size_t surface, double left, const skipped *s, bool *may
 
     QDOT_TRY(size_of_place(x, surface, &place));
     *may = s->moved <= fastest && isfinite(left) && s->moved * left <= lowest(x, event) * place;
-    if (x->reader.read_two)
-        return QDOT_OK;
-    if (left == 0 && !x->c->leader) /* the motion does not leave it */
+    if (!x->reader.read_two && left == 0 && !x->c->leader) /* the motion does not leave it */
         *may = s->moved <= fastest && height(s) <= least_height * place;
-    *may = *may || (height(s) <= (x->c->leader ? led : 1) * least_in_doubles * s->size && isfinite(duration(s)));
+    if (x->c->leader)
+        *may = *may || (height(s) <= led * skipped_in_run(x, surface) && isfinite(duration(s)));
+    else if (!x->reader.read_two)
+        *may = *may || (height(s) <= least_told(x, s) && isfinite(duration(s)));
     return QDOT_OK;
 }
 
@@ -317,7 +346,7 @@ qdot_piece_may_be_low(qdot_piece *x, size_t event, int way, bool *may)
     if (x->reader.read_two || qdot_contacts_surface(&x->c->stage->switches, event, way) == SIZE_MAX)
         return QDOT_OK;
     QDOT_TRY(qdot_piece_rate(x, event, &rate, &noise));
-    *may = fabs(rate) <= noise * (slow / (4 * DBL_EPSILON));
+    *may = x->method->multistep || fabs(rate) <= noise * (slow / (4 * DBL_EPSILON));
     return QDOT_OK;
 }
 
