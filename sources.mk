@@ -1823,6 +1823,8 @@ script_tests = \
 	tests/bad/digits-constraint.lag \
 	tests/bad/digits-cusp.lag \
 	tests/bad/digits-domain.lag \
+	tests/bad/digits-guide-at-start.lag \
+	tests/bad/digits-guide.lag \
 	tests/bad/digits-half.lag \
 	tests/bad/digits-many.lag \
 	tests/bad/digits-method.lag \
@@ -2268,6 +2270,8 @@ test_files = \
 	tests/bad/digits-constraint.out \
 	tests/bad/digits-cusp.out \
 	tests/bad/digits-domain.out \
+	tests/bad/digits-guide-at-start.out \
+	tests/bad/digits-guide.out \
 	tests/bad/digits-half.out \
 	tests/bad/digits-many.out \
 	tests/bad/digits-method.out \

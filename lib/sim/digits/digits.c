@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "sim/digits/precise.h"
 #include "sim/error/failure.h"
@@ -114,20 +115,35 @@ keep_end(qdot_run *run)
     return status == QDOT_EDOMAIN ? QDOT_OK : status; /* unknown: nil */
 }
 
-/* The guide: a run in doubles that finds the sequence of events and switches and their times. */
+/* The guide: a run in doubles that finds the sequence of events and switches and their times. What
+ * follows its end is not known: if it did not arrive, its reason becomes that of the run. */
 static qdot_status
 find_guide(qdot_run *run, const qdot_run_request *request)
 {
+    qdot_course *c = &run->course;
     qdot_ode_options options = {
         .tol = request->tol, .carry = run->start_low, .t1_low = run->t1_low};
+    const char *why;
+    double end;
     qdot_status status;
 
-    status = qdot_course_run(&run->course, run->plan->method, &options, run->t0, run->t1,
-                             run->start);
-    return run->course.tr.count > 0 && (status == QDOT_EFAILED || status == QDOT_ESINGULAR
-                                        || status == QDOT_EDOMAIN)
-               ? QDOT_OK
-               : status;
+    status = qdot_course_run(c, run->plan->method, &options, run->t0, run->t1, run->start);
+    if (status != QDOT_OK
+        && (c->tr.count == 0 || (status != QDOT_EFAILED && status != QDOT_ESINGULAR
+                                 && status != QDOT_EDOMAIN)))
+        return status;
+    end = c->tr.t[c->tr.count - 1];
+    if (c->reason[0] != '\0' || c->stopped_by != SIZE_MAX || (status == QDOT_OK && end == run->t1))
+        return QDOT_OK;
+    why = c->tr.result.reason[0] != '\0' ? c->tr.result.reason
+          : status != QDOT_OK            ? qdot_last_error()->message
+                                         : "it did not reach its end";
+    snprintf(c->reason, sizeof c->reason,
+             "the run in doubles, which `digits` follows through events and switches, ended at "
+             "t = %.15g: %.200s",
+             end, strncmp(why, "stopped at t = ", 15) == 0 && strchr(why, ':') ? strchr(why, ':') + 2 : why);
+    c->failed = true;
+    return QDOT_OK;
 }
 
 qdot_status

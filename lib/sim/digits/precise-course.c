@@ -366,6 +366,8 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
 
+    if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* what ended it is not known */
+        return beyond_doubles(tr->t[last]);
     QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){
                                              .mode = piece->mode, .jumped = piece->jumped})));
     if (n > 0) {
@@ -374,8 +376,12 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
         mpfr_set_d(goal, ends[0].t, RN);
         mpfr_set_d(s->course->at[W], way * pad * length_of(s->guide, k), RN);
         mpfr_add(goal, goal, s->course->at[W], RN);
+    } else if (piece->first == last) {
+        mpfr_set(goal, t, RN);
+    } else if (s->guide->failed) { /* what happens behind it is not known */
+        mpfr_set_d(goal, tr->t[last], RN);
     } else {
-        mpfr_set(goal, piece->first == last ? t : s->start.at[1], RN);
+        mpfr_set(goal, s->start.at[1], RN);
     }
     s->near = SIZE_MAX;
     status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[piece->mode]),

@@ -81,6 +81,23 @@ layered(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponen
     return f->side[i] == 0 || f->side[i] == QDOT_SIDE_SLIDES ? QDOT_ZERO : power;
 }
 
+/* Argument k of a product, frozen: |u| that is divided by is +-u also where u is held at 0, so that
+ * u/|u| is the sign of that side. */
+static qdot_expr
+factor(const freezer *f, const qdot_gate *gate, uint32_t k)
+{
+    const size_t of = f->gates.arguments.at[gate->first + k];
+    const qdot_gate *base = of == SIZE_MAX ? NULL : &f->gates.gates.at[of];
+    long power;
+
+    if (base && base->kind == QDOT_GATE_VALUE && base->op == QDOT_ABS
+        && is_held(f, &f->gates.pairs.at[base->pair])
+        && qdot_expr_to_int(f->s->pool, argument(f, gate, k + 1), &power) && power < 0)
+        return qdot_mul(f->s->pool, side_of(f, &f->gates.pairs.at[base->pair], false),
+                        argument(f, base, 0));
+    return argument(f, gate, k);
+}
+
 static qdot_expr
 freeze_product(const freezer *f, const qdot_gate *gate)
 {
@@ -89,7 +106,7 @@ freeze_product(const freezer *f, const qdot_gate *gate)
 
     for (uint32_t k = 1; k + 1 < gate->n; k += 2) {
         const qdot_expr exponent = argument(f, gate, k + 1);
-        qdot_expr power = qdot_pow(pool, argument(f, gate, k), exponent);
+        qdot_expr power = qdot_pow(pool, factor(f, gate, k), exponent);
         size_t surface;
         int only;
 
