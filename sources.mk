@@ -221,6 +221,7 @@ library_sources = \
 	lib/mech/dynamics/alike.c \
 	lib/mech/dynamics/conservation.c \
 	lib/mech/dynamics/dalembert.c \
+	lib/mech/dynamics/direction.c \
 	lib/mech/dynamics/energy.c \
 	lib/mech/dynamics/freedom.c \
 	lib/mech/dynamics/generic.c \
@@ -873,6 +874,7 @@ library_headers = \
 	lib/machine/x86.h \
 	lib/mech/dynamics/alike.h \
 	lib/mech/dynamics/dalembert.h \
+	lib/mech/dynamics/direction.h \
 	lib/mech/dynamics/energy.h \
 	lib/mech/dynamics/freedom.h \
 	lib/mech/dynamics/generic.h \
@@ -1592,6 +1594,7 @@ script_tests = \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
 	tests/script/formula-file.sh \
+	tests/script/friction-spellings.lag \
 	tests/script/friction-to-rest.lag \
 	tests/script/function-argument.lag \
 	tests/script/function-calculus.lag \
@@ -2788,6 +2791,7 @@ test_files = \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
 	tests/script/formula-file.out \
+	tests/script/friction-spellings.out \
 	tests/script/friction-to-rest.out \
 	tests/script/function-argument.out \
 	tests/script/function-calculus.out \

@@ -5,13 +5,15 @@
  *
  * in the nested sums of recursive.c where no mass varies, else pair by pair. A small scene
  * may be shorter in its simplified form: both are made, for M and for f, and the cheapest
- * of the four together is taken.
+ * of the four together is taken. Friction along a direction u/|u| is read as sign(u) in f
+ * (direction.h).
  */
 #include <string.h>
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
 #include "expr/walk.h"
+#include "mech/dynamics/direction.h"
 #include "mech/dynamics/kinematics.h"
 #include "mech/dynamics/lagrange.h"
 #include "mech/dynamics/mass-matrix.h"
@@ -359,6 +361,8 @@ numeric_get(qdot_scene *s)
     }
     if (!qdot_pool_failed(pool) && raw_forcings(s, e + n * n) && wants_both(s, e, size))
         choose(s, n, e);
+    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++)
+        e[n * n + i] = qdot_directions_as_signs(pool, e[n * n + i]);
     if (!qdot_pool_failed(pool)) {
         d->numeric_mass = qdot_matrix(pool, (uint32_t)n, (uint32_t)n, e);
         d->numeric_forcing = n > 1 ? qdot_vector(pool, (uint32_t)n, e + n * n)

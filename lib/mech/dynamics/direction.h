@@ -1,0 +1,18 @@
+/* direction.h -- friction written along the direction of a scalar velocity is sign(u):
+ *
+ *     u/|u|, u/sqrt(u^2), u^3/|u|^3     also in terms: x'/|x' - v| - v/|x' - v|
+ *
+ * At u = 0 a quotient divides by zero, where sign(u) may stick. The coefficient C of 1/|u|, with |u| and
+ * functions of u kept as they are, is B u: C/|u| becomes B sign(u). What is not of that form stays.
+ *
+ * Tests  tests/script/friction-spellings.lag
+ */
+#ifndef QDOT_MECH_DIRECTION_H
+#define QDOT_MECH_DIRECTION_H
+
+#include "expr/expr.h"
+
+/* e so. Nil: the pool keeps the failure. */
+qdot_expr qdot_directions_as_signs(qdot_pool *pool, qdot_expr e);
+
+#endif
