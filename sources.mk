@@ -1534,6 +1534,7 @@ script_tests = \
 	tests/script/digits-events-file.sh \
 	tests/script/digits-events.lag \
 	tests/script/digits-members.lag \
+	tests/script/digits-resting.lag \
 	tests/script/digits-rounding.sh \
 	tests/script/digits-shown.sh \
 	tests/script/digits-start.lag \
@@ -1834,6 +1835,7 @@ script_tests = \
 	tests/bad/digits-node.lag \
 	tests/bad/digits-none.lag \
 	tests/bad/digits-outside.lag \
+	tests/bad/digits-resting.lag \
 	tests/bad/digits-start-impact.lag \
 	tests/bad/digits-tol.lag \
 	tests/bad/digits-treatment.lag \
@@ -2281,6 +2283,7 @@ test_files = \
 	tests/bad/digits-node.out \
 	tests/bad/digits-none.out \
 	tests/bad/digits-outside.out \
+	tests/bad/digits-resting.out \
 	tests/bad/digits-start-impact.out \
 	tests/bad/digits-tol.out \
 	tests/bad/digits-treatment.out \
@@ -2727,6 +2730,7 @@ test_files = \
 	tests/script/digits-events-file.out \
 	tests/script/digits-events.out \
 	tests/script/digits-members.out \
+	tests/script/digits-resting.out \
 	tests/script/digits-rounding.out \
 	tests/script/digits-shown.out \
 	tests/script/digits-start.out \

@@ -6,6 +6,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
+#include "expr/calculus.h"
 #include "sim/digits/precise-hold.h"
 
 #define RN MPFR_RNDN
@@ -13,12 +14,15 @@
 /* The largest distance of a root from the guide's, as a fraction of its piece. */
 static const double pad = 0x1p-8;
 
-enum { MOST_TRIES = 2000 };
+enum { MOST_TRIES = 2000, MOST_BOUNCES = 1000000 };
+
+/* In place of an event: the rate of a function. */
+#define RATE (SIZE_MAX - 1)
 
 /* An expression in all digits. */
 typedef struct {
     size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
-    size_t event;
+    size_t event; /* RATE: of the function */
     bool accelerations;
     qdot_precise *program;
 } formula;
@@ -27,11 +31,12 @@ struct qdot_precise_course {
     qdot_vec(formula) formulas;
     qdot_vec(qdot_precise_hold *) holds; /* [modes] with constraints and changes; else NULL */
     bool *set;                           /* [2n] what an event has set */
+    size_t *segment_of;                  /* [pieces of the guide] */
     qdot_reals numbers; /* t, y [2n], old [2n], and the locator's */
     mpfr_t *y, *old, *at;
 };
 
-enum { LO, HI, F_LO, F_HI, X, F_X, W, BEFORE, NUMBERS };
+enum { LO, HI, F_LO, F_HI, X, F_X, W, BEFORE, SPEED, SPEED_BEFORE, FLIGHT, BEGAN, NUMBERS };
 
 /* --- what is prepared ---------------------------------------------------------------- */
 
@@ -47,6 +52,7 @@ qdot_precise_course_clear(qdot_precise_side *s)
         qdot_precise_hold_free(s->course->holds.at[i]);
     qdot_free(s->course->holds.at);
     qdot_free(s->course->set);
+    qdot_free(s->course->segment_of);
     qdot_reals_clear(&s->course->numbers);
     qdot_free(s->course);
     s->course = NULL;
@@ -87,10 +93,13 @@ add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
         tape = s->guide->stage->events.at[event].then;
         f.accelerations = s->guide->stage->events.at[event].accelerations;
     } else {
-        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1,
-                               m->functions + function, &own);
+        const qdot_expr e = event == RATE ? qdot_ddt(p->pool, m->functions[function])
+                                          : m->functions[function];
+
+        QDOT_TRY(qdot_pool_check(p->pool));
+        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, 1, &e, &own);
         tape = own;
-        f.accelerations = qdot_expr_node(p->pool, m->functions[function])->holds
+        f.accelerations = qdot_expr_node(p->pool, e)->holds
                           & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER);
     }
     if (status == QDOT_OK)
@@ -119,6 +128,31 @@ piece_of(const qdot_course *g, double t)
     return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
 }
 
+/* The end of piece k with whose event a contact begins to last; NULL: none does. *many: more than one does. */
+static const qdot_course_end *
+begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
+{
+    const qdot_switches *x = &g->stage->switches;
+    const qdot_course_end *found = NULL;
+    size_t count = 0;
+
+    for (size_t i = qdot_switches_own(x); k + 1 < g->tr.pieces.n && i < x->surfaces.n; i++) {
+        const qdot_mode *from = g->stage->modes.at[g->tr.pieces.at[k].mode];
+        const qdot_mode *to = g->stage->modes.at[g->tr.pieces.at[k + 1].mode];
+
+        if (!x->surfaces.at[i].contact || to->side[i] != QDOT_SIDE_SLIDES
+            || from->side[i] == QDOT_SIDE_SLIDES)
+            continue;
+        count++;
+        for (size_t j = 0; j < n; j++)
+            if (ends[j].what.kind == QDOT_WATCH_EVENT
+                && ends[j].what.index == x->surfaces.at[i].event)
+                found = &ends[j];
+    }
+    *many = count > 1;
+    return found;
+}
+
 qdot_status
 qdot_precise_course_init(qdot_precise_side *s)
 {
@@ -130,7 +164,8 @@ qdot_precise_course_init(qdot_precise_side *s)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_reals_init(&s->course->numbers, 1 + 2 * n + NUMBERS, s->start.bits));
     s->course->set = qdot_calloc(n + 1, sizeof *s->course->set);
-    if (!s->course->set)
+    s->course->segment_of = qdot_calloc(g->tr.pieces.n + 1, sizeof *s->course->segment_of);
+    if (!s->course->set || !s->course->segment_of)
         return QDOT_ENOMEM;
     s->course->y = s->course->numbers.at + 1;
     s->course->old = s->course->y + n;
@@ -145,9 +180,12 @@ qdot_precise_course_init(qdot_precise_side *s)
     }
     for (size_t i = 0; i < g->ends.n; i++) {
         const qdot_course_end *e = &g->ends.at[i];
+        bool many;
         size_t mode = g->tr.pieces.at[e->piece].mode;
 
         QDOT_TRY(add(s, mode, e->function, SIZE_MAX));
+        if (begins_contact(g, e->piece, e, 1, &many))
+            QDOT_TRY(add(s, mode, e->function, RATE));
         if (e->what.kind == QDOT_WATCH_EVENT
             && g->stage->events.at[e->what.index].then) {
             QDOT_TRY(add(s, mode, SIZE_MAX, e->what.index));
@@ -203,16 +241,15 @@ bracket(const qdot_precise_side *s, size_t segment, double t, double by)
         mpfr_set(at[HI], last, RN);
 }
 
-/* The root of f near t into at[X]; *found: it changes its sign there. */
+/* The root of f between at[LO] and at[HI] into at[X]; *found: it changes its sign there. */
 static qdot_status
-locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double by,
-       bool *found)
+find_root(qdot_precise_side *s, size_t segment, const formula *f, bool *found)
 {
     mpfr_t *at = s->course->at;
+    const double t = mpfr_get_d(at[LO], RN);
     int stayed = 0;
     double least;
 
-    bracket(s, segment, t, by);
     QDOT_TRY(value_at(s, segment, f, at[LO], at[F_LO]));
     QDOT_TRY(value_at(s, segment, f, at[HI], at[F_HI]));
     *found = mpfr_sgn(at[F_LO]) * mpfr_sgn(at[F_HI]) <= 0
@@ -254,6 +291,15 @@ locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double 
     }
     mpfr_set(at[X], at[LO], RN);
     return QDOT_OK;
+}
+
+/* The same near t. */
+static qdot_status
+locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double by,
+       bool *found)
+{
+    bracket(s, segment, t, by);
+    return find_root(s, segment, f, found);
 }
 
 /* --- pieces -------------------------------------------------------------------------- */
@@ -308,18 +354,35 @@ change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t
     return QDOT_OK;
 }
 
-/* The piece ends where the first of its ends vanishes: the segment is cut there. */
+/* The segment ends at t. */
 static qdot_status
-end_piece(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n)
+cut(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
 {
     qdot_precise_run *run = &s->segments.at[segment].run;
+
+    QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
+    while (run->count > 2
+           && (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) == 0
+               || (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) > 0)
+                      == (mpfr_cmp(qdot_precise_point(run, run->count - 1)[0], t) > 0)))
+        run->count--;
+    qdot_precise_cut(run, t, (const mpfr_t *)s->course->y);
+    s->result.t = run->result.t;
+    s->near = SIZE_MAX;
+    return QDOT_OK;
+}
+
+/* The piece ends where the first of its ends vanishes: the segment is cut there. */
+static qdot_status
+end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end *ends, size_t n)
+{
     const size_t mode = s->segments.at[segment].mode;
     mpfr_t *at = s->course->at;
     mpfr_ptr t = s->course->numbers.at[0];
     bool found;
 
     QDOT_TRY(locate(s, segment, find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
-                    2 * pad * length_of(s->guide, segment), &found));
+                    2 * pad * length_of(s->guide, k), &found));
     if (!found)
         return beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
@@ -330,15 +393,7 @@ end_piece(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, siz
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
             return beyond_doubles(ends[0].t);
     }
-    QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
-    while (run->count > 2
-           && (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) == 0
-               || (mpfr_cmp(qdot_precise_point(run, run->count - 2)[0], t) > 0)
-                      == (mpfr_cmp(qdot_precise_point(run, run->count - 1)[0], t) > 0)))
-        run->count--;
-    qdot_precise_cut(run, t, (const mpfr_t *)s->course->y);
-    s->result.t = run->result.t;
-    s->near = SIZE_MAX;
+    QDOT_TRY(cut(s, segment, t));
     return change(s, segment, ends, n, t);
 }
 
@@ -361,13 +416,14 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
 {
     const qdot_trajectory *tr = &s->guide->tr;
     const qdot_trajectory_piece *piece = &tr->pieces.at[k];
-    const size_t last = qdot_trajectory_last_of(tr, k);
+    const size_t last = qdot_trajectory_last_of(tr, k), segment = s->segments.n;
     qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
     mpfr_ptr t = s->course->numbers.at[0], goal = s->course->at[X];
     qdot_status status;
 
     if (n == 0 && piece->first != last && k + 1 < tr->pieces.n) /* what ended it is not known */
         return beyond_doubles(tr->t[last]);
+    s->course->segment_of[k] = segment;
     QDOT_TRY(qdot_vec_push(&s->segments, ((qdot_precise_segment){
                                              .mode = piece->mode, .jumped = piece->jumped})));
     if (n > 0) {
@@ -386,10 +442,120 @@ run_piece(qdot_precise_side *s, size_t k, const qdot_course_end *ends, size_t n)
     s->near = SIZE_MAX;
     status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[piece->mode]),
                                     &options, t, goal, (const mpfr_t *)s->course->y,
-                                    &s->segments.at[k].run);
-    count_result(s, &s->segments.at[k].run.result);
+                                    &s->segments.at[segment].run);
+    count_result(s, &s->segments.at[segment].run.result);
     QDOT_TRY(status);
-    return n > 0 ? end_piece(s, k, ends, n) : QDOT_OK;
+    return n > 0 ? end_piece(s, k, segment, ends, n) : QDOT_OK;
+}
+
+/* --- coming to rest at a contact ----------------------------------------------------- */
+
+/* The rate of u at the state y after the impact into at[SPEED], before it into at[SPEED_BEFORE]. */
+static qdot_status
+find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr t)
+{
+    mpfr_t *at = s->course->at;
+
+    QDOT_TRY(evaluate(s, rate, mode, t, (const mpfr_t *)s->course->old));
+    mpfr_set(at[SPEED_BEFORE], qdot_precise_output(rate->program, 0)[0], RN);
+    QDOT_TRY(evaluate(s, rate, mode, t, (const mpfr_t *)s->course->y));
+    mpfr_set(at[SPEED], qdot_precise_output(rate->program, 0)[0], RN);
+    return mpfr_number_p(at[SPEED]) && mpfr_number_p(at[SPEED_BEFORE])
+               ? QDOT_OK
+               : qdot_fail(QDOT_EDOMAIN, "the velocity at a contact has no value");
+}
+
+/* Whether the flight that follows is so low that the place hides it. */
+static bool
+is_low(const qdot_precise_side *s)
+{
+    const size_t n = s->guide->tr.n / 2;
+    const mpfr_t *at = (const mpfr_t *)s->course->at;
+    double size = 0;
+
+    for (size_t i = 0; i < n; i++)
+        size = fmax(size, qdot_real_log2(s->course->y[i]));
+    return mpfr_zero_p(at[SPEED]) || mpfr_zero_p(at[FLIGHT])
+           || qdot_real_log2(at[SPEED]) + qdot_real_log2(at[FLIGHT]) <= size + 14 - (double)s->start.bits;
+}
+
+static qdot_status
+does_not_rest(double t)
+{
+    qdot_fail(QDOT_ELIMIT, "`digits` does not follow the bounces that come to rest at t = %.10g", t);
+    return qdot_hint("a run in doubles rests there; digits are right until before t = %.6g", t);
+}
+
+/* One flight more in the mode, to the next impact of the end's event. */
+static qdot_status
+fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *end)
+{
+    qdot_precise_options options = {.log2_tol = s->log2_tol, .order = s->order};
+    const size_t segment = s->segments.n;
+    mpfr_t *at = s->course->at;
+    mpfr_ptr t = s->course->numbers.at[0];
+    bool found;
+    qdot_status status;
+
+    mpfr_set(at[BEGAN], t, RN);
+    mpfr_mul_d(at[X], at[FLIGHT], 1.25, RN);
+    mpfr_add(at[X], at[X], t, RN);
+    QDOT_TRY(qdot_vec_push(&s->segments,
+                           ((qdot_precise_segment){.mode = mode, .jumped = true})));
+    s->near = SIZE_MAX;
+    status = qdot_precise_integrate(qdot_precise_bind_system(s->binds[mode]), &options, t, at[X],
+                                    (const mpfr_t *)s->course->y, &s->segments.at[segment].run);
+    count_result(s, &s->segments.at[segment].run.result);
+    QDOT_TRY(status);
+    mpfr_mul_d(at[LO], at[FLIGHT], 0.75, RN);
+    mpfr_add(at[LO], at[LO], t, RN);
+    mpfr_set(at[HI], at[X], RN);
+    QDOT_TRY(find_root(s, segment, f, &found));
+    if (!found)
+        return does_not_rest(end->t);
+    mpfr_set(t, at[X], RN);
+    QDOT_TRY(cut(s, segment, t));
+    QDOT_TRY(change(s, segment, end, 1, t));
+    mpfr_sub(at[FLIGHT], t, at[BEGAN], RN);
+    return QDOT_OK;
+}
+
+/* Piece k ended with an impact behind which the run in doubles rests: the bounces that are too low for doubles
+ * follow, until all digits hide them too. Then the impulse that the last one takes up leaves the contact at rest. */
+static qdot_status
+come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
+{
+    const size_t mode = s->guide->tr.pieces.at[k].mode, n = s->guide->tr.n;
+    const formula *f = find(s, mode, end->function, SIZE_MAX), *rate = find(s, mode, end->function, RATE);
+    const qdot_precise_run *flight = &s->segments.at[s->course->segment_of[k]].run;
+    mpfr_t *at = s->course->at;
+    mpfr_ptr t = s->course->numbers.at[0];
+
+    QDOT_TRY(find_speeds(s, mode, rate, t));
+    mpfr_sub(at[FLIGHT], t, qdot_precise_point(flight, 0)[0], RN);
+    for (size_t count = 0;; count++) {
+        QDOT_TRY(qdot_interrupt_check());
+        if (mpfr_zero_p(at[SPEED]) || mpfr_zero_p(at[SPEED_BEFORE]))
+            break;
+        mpfr_div(at[W], at[SPEED], at[SPEED_BEFORE], RN);
+        mpfr_abs(at[W], at[W], RN);
+        mpfr_mul(at[FLIGHT], at[FLIGHT], at[W], RN); /* as long as the impact is hard */
+        if (is_low(s))
+            break;
+        if (count == MOST_BOUNCES || mpfr_cmp_d(at[W], 1) >= 0)
+            return does_not_rest(end->t);
+        QDOT_TRY(fly(s, mode, f, end));
+        QDOT_TRY(find_speeds(s, mode, rate, t));
+    }
+    mpfr_sub(at[W], at[SPEED_BEFORE], at[SPEED], RN);
+    if (mpfr_zero_p(at[W]))
+        return QDOT_OK;
+    mpfr_div(at[W], at[SPEED_BEFORE], at[W], RN);
+    for (size_t i = n / 2; i < n; i++) {
+        mpfr_sub(at[X], s->course->y[i], s->course->old[i], RN);
+        mpfr_fma(s->course->y[i], at[X], at[W], s->course->old[i], RN);
+    }
+    return QDOT_OK;
 }
 
 /* Find the times of the guide's occurrences. */
@@ -400,7 +566,7 @@ time_occurrences(qdot_precise_side *s)
 
     for (size_t i = 0; i < g->occurrences.n; i++) {
         const qdot_occurrence *o = &g->occurrences.at[i];
-        size_t segment = piece_of(g, o->t);
+        const size_t piece = piece_of(g, o->t), segment = s->course->segment_of[piece];
         const qdot_course_end *end = NULL;
         bool found = false;
 
@@ -409,7 +575,8 @@ time_occurrences(qdot_precise_side *s)
                 end = &g->ends.at[k];
         mpfr_set_nan(s->times.at[i]);
         if (end && end->what.kind == QDOT_WATCH_EVENT && end->what.index == o->event) {
-            const qdot_precise_run *run = &s->segments.at[end->piece].run;
+            const qdot_precise_run *run =
+                &s->segments.at[s->course->segment_of[end->piece]].run;
 
             mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
             continue;
@@ -418,7 +585,7 @@ time_occurrences(qdot_precise_side *s)
             continue;
         QDOT_TRY(locate(s, segment,
                         find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
-                        pad * pad * length_of(g, segment), &found));
+                        pad * pad * length_of(g, piece), &found));
         if (found)
             mpfr_set(s->times.at[i], s->course->at[X], RN);
     }
@@ -429,7 +596,9 @@ static qdot_status
 follow(qdot_precise_side *s)
 {
     const qdot_course *g = s->guide;
+    const qdot_course_end *rest;
     size_t at = 0;
+    bool many;
 
     if (g->ends.n > 0 && g->ends.at[0].t == g->tr.t[0])
         return qdot_fail(QDOT_ELIMIT, "`digits` does not follow an event that acts where the run starts: start with what "
@@ -444,6 +613,12 @@ follow(qdot_precise_side *s)
         while (at < g->ends.n && g->ends.at[at].piece == k)
             at++;
         QDOT_TRY(run_piece(s, k, g->ends.at + first, at - first));
+        rest = begins_contact(g, k, g->ends.at + first, at - first, &many);
+        if (rest && many)
+            return qdot_fail(QDOT_ELIMIT, "`digits` does not come to rest at several contacts at once, as "
+                                          "at t = %.15g", rest->t);
+        if (rest)
+            QDOT_TRY(come_to_rest(s, k, rest));
     }
     return time_occurrences(s);
 }

@@ -10,8 +10,12 @@
  * all digits. If doubles cannot tell the events of a scene apart, `digits` is refused:
  * QDOT_ELIMIT.
  *
+ * Where the guide comes to rest at a contact, the bounces that are too low for it follow in MPFR: flights in the mode
+ * of the last one, each as much shorter as the impact before it was hard, until the height u' T of the next is hidden
+ * by the rounding of the place. What is left of u' is then taken off along the last impulse.
+ *
  * Source  Dowell & Jarratt, BIT 11 (1971) 168
- * Tests   tests/script/digits-events.sh
+ * Tests   tests/script/digits-events.lag, digits-resting.lag
  */
 #ifndef QDOT_SIM_PRECISE_COURSE_H
 #define QDOT_SIM_PRECISE_COURSE_H

@@ -43,7 +43,7 @@ add(qdot_switches *s, size_t event, qdot_expr u, int way)
 qdot_status
 qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *r, qdot_switches *s)
 {
-    for (size_t i = 0; i < scene->events.n && r->digits == 0 && !r->lanes; i++) {
+    for (size_t i = 0; i < scene->events.n && !r->lanes; i++) {
         const qdot_event *event = &scene->events.at[i];
         const qdot_expr u = qdot_substitute(
             s->pool, qdot_sub(s->pool, event->left, event->right), r->n_values, r->symbols,
