@@ -73,6 +73,7 @@ library_sources = \
 	lib/lang/commands/usage.c \
 	lib/lang/commands/value-check.c \
 	lib/lang/commands/warnings.c \
+	lib/lang/declare/assume.c \
 	lib/lang/declare/assumed.c \
 	lib/lang/declare/constraints.c \
 	lib/lang/declare/declare-function.c \
@@ -1493,6 +1494,7 @@ script_tests = \
 	tests/script/accel-one-root-in-many-parts.lag \
 	tests/script/accel-said-again.lag \
 	tests/script/animate.sh \
+	tests/script/assume-several.lag \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
 	tests/script/bodies-moved.lag \
@@ -1786,6 +1788,8 @@ script_tests = \
 	tests/bad/argument-number.lag \
 	tests/bad/argument-reserved.lag \
 	tests/bad/as-number.lag \
+	tests/bad/assumed-contradicts.lag \
+	tests/bad/assumed-domain.lag \
 	tests/bad/assumed-equation.lag \
 	tests/bad/assumed-function.lag \
 	tests/bad/assumed-later.lag \
@@ -2234,6 +2238,8 @@ test_files = \
 	tests/bad/argument-number.out \
 	tests/bad/argument-reserved.out \
 	tests/bad/as-number.out \
+	tests/bad/assumed-contradicts.out \
+	tests/bad/assumed-domain.out \
 	tests/bad/assumed-equation.out \
 	tests/bad/assumed-function.out \
 	tests/bad/assumed-later.out \
@@ -2686,6 +2692,7 @@ test_files = \
 	tests/script/accel-one-root-in-many-parts.out \
 	tests/script/accel-said-again.out \
 	tests/script/animate.out \
+	tests/script/assume-several.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
 	tests/script/bodies-moved.out \

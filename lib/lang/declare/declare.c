@@ -1,4 +1,4 @@
-/* declare.c -- names: param, coord, function, assume, and NAME = EXPR.
+/* declare.c -- names: param, coord, function, and NAME = EXPR.
  *
  * Every declaration is read to its end before the first of its names is declared; if one
  * of them cannot be, those before it are taken back.
@@ -431,46 +431,6 @@ qdot_declare_coord(qdot_cursor *c)
         status = declare_items(c, QDOT_NAME_COORD, &list);
     qdot_free(list.at);
     return status;
-}
-
-/* Whether the relation is said with > or >=. */
-static bool
-says_greater(const qdot_token *from, const qdot_token *to)
-{
-    for (long depth = 0; from < to; from++) {
-        depth += qdot_token_bracket(from);
-        if (depth == 0 && from->kind == QDOT_TOKEN_OPERATOR && from->text[0] == '>')
-            return true;
-    }
-    return false;
-}
-
-qdot_status
-qdot_declare_assume(qdot_cursor *c)
-{
-    const qdot_token *start = c->at;
-    qdot_pool *pool = c->session->pool;
-    qdot_expr relation;
-    bool several, greater;
-    uint32_t n;
-
-    QDOT_TRY(qdot_read_value(c, &relation));
-    QDOT_TRY(qdot_cursor_expect_end(c));
-    greater = says_greater(start, c->at);
-    c->error_at = start->start;
-    several = qdot_expr_kind(pool, relation) == QDOT_LOGIC &&
-              qdot_expr_node(pool, relation)->op == QDOT_AND; /* 0 < a < c */
-    n = several ? qdot_expr_count(pool, relation) : 1;
-    for (uint32_t i = 0; i < n; i++) {
-        qdot_assumption said = {
-            .relation = several ? qdot_expr_arg(pool, relation, i) : relation,
-            .turned = greater && !several};
-
-        if (qdot_expr_kind(pool, said.relation) == QDOT_REL)
-            QDOT_TRY(qdot_value_check_assumption(c->session, &said));
-        QDOT_TRY(qdot_scene_assume(c->session->scene, said.relation, said.turned));
-    }
-    return QDOT_OK;
 }
 
 /* --- NAME = EXPR -------------------------------------------------------------------- */

@@ -1,0 +1,129 @@
+/* assume.c -- the statement `assume`: relations that the engine may use from here on.
+ *
+ * All of the relations are read before the first is taken; none is where they are proved to contradict
+ * each other, an earlier one, or a declared domain.
+ */
+#include "lang/commands/value-check.h"
+#include "lang/declare/declare.h"
+#include "lang/language/read.h"
+#include "normal/inequality/contradiction.h"
+
+typedef qdot_vec(qdot_assumption) assumptions;
+typedef qdot_vec(qdot_expr) exprs;
+
+/* Whether the relation is said with > or >=. */
+static bool
+says_greater(const qdot_token *from, const qdot_token *to)
+{
+    for (long depth = 0; from < to; from++) {
+        depth += qdot_token_bracket(from);
+        if (depth == 0 && from->kind == QDOT_TOKEN_OPERATOR && from->text[0] == '>')
+            return true;
+    }
+    return false;
+}
+
+/* One of the relations between the commas; `0 < a < c` is two. */
+static qdot_status
+read_assumption(qdot_cursor *c, assumptions *said)
+{
+    const qdot_token *start = c->at;
+    const qdot_pool *pool = c->session->pool;
+    qdot_expr e;
+    bool several, greater;
+    uint32_t n;
+
+    QDOT_TRY(qdot_read_value(c, &e));
+    greater = says_greater(start, c->at);
+    several = qdot_expr_kind(pool, e) == QDOT_LOGIC && qdot_expr_node(pool, e)->op == QDOT_AND;
+    n = several ? qdot_expr_count(pool, e) : 1;
+    for (uint32_t i = 0; i < n; i++) {
+        const qdot_assumption one = {.relation = several ? qdot_expr_arg(pool, e, i) : e,
+                                     .turned = greater && !several};
+
+        QDOT_TRY(qdot_vec_push(said, one));
+    }
+    return QDOT_OK;
+}
+
+/* The facts of the scene and what is said now, in arrays of their own. */
+static qdot_status
+gather_facts(qdot_session *session, const assumptions *said, exprs *relations, exprs *conditions)
+{
+    const qdot_facts own = qdot_scene_facts(session->scene);
+    qdot_pool *pool = session->pool;
+
+    for (size_t i = 0; i < own.n_relations; i++)
+        QDOT_TRY(qdot_vec_push(relations, own.relations[i]));
+    for (size_t i = 0; i < own.n_conditions; i++)
+        QDOT_TRY(qdot_vec_push(conditions, own.conditions[i]));
+    for (size_t i = 0; i < said->n; i++) {
+        const qdot_expr e = said->at[i].relation;
+
+        if (qdot_expr_kind(pool, e) != QDOT_REL)
+            continue;
+        if (qdot_expr_node(pool, e)->op != QDOT_EQ)
+            QDOT_TRY(qdot_vec_push(conditions, e));
+        else if (qdot_expr_is_scalar(pool, qdot_expr_arg(pool, e, 0)) &&
+                 qdot_expr_is_scalar(pool, qdot_expr_arg(pool, e, 1)))
+            QDOT_TRY(qdot_vec_push(relations,
+                                   qdot_sub(pool, qdot_expr_arg(pool, e, 0), qdot_expr_arg(pool, e, 1))));
+    }
+    return qdot_pool_check(pool);
+}
+
+static qdot_status
+refuse_contradiction(qdot_session *session, const assumptions *said)
+{
+    exprs relations = {0}, conditions = {0};
+    qdot_status status = gather_facts(session, said, &relations, &conditions);
+    bool found = false;
+
+    if (status == QDOT_OK) {
+        const qdot_facts all = {.n_relations = relations.n,
+                                .relations = relations.at,
+                                .n_conditions = conditions.n,
+                                .conditions = conditions.at};
+
+        status = qdot_contradiction(session->pool, &all, &found);
+    }
+    qdot_free(relations.at);
+    qdot_free(conditions.at);
+    if (status == QDOT_OK && found) {
+        (void)qdot_fail(QDOT_EINVAL, "this contradicts itself, what is assumed already, or a declared domain");
+        return qdot_hint("what is assumed of parameters is forgotten by `reset`, of the scene by `reset scene`");
+    }
+    return status;
+}
+
+static qdot_status
+add_assumptions(qdot_session *session, const assumptions *said)
+{
+    for (size_t i = 0; i < said->n; i++)
+        if (qdot_expr_kind(session->pool, said->at[i].relation) == QDOT_REL)
+            QDOT_TRY(qdot_value_check_assumption(session, &said->at[i]));
+    QDOT_TRY(refuse_contradiction(session, said));
+    for (size_t i = 0; i < said->n; i++)
+        QDOT_TRY(qdot_scene_assume(session->scene, said->at[i].relation, said->at[i].turned));
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_declare_assume(qdot_cursor *c)
+{
+    const qdot_token *start = c->at;
+    assumptions said = {0};
+    qdot_status status;
+
+    do
+        status = read_assumption(c, &said);
+    while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
+    if (status == QDOT_OK)
+        status = qdot_cursor_expect_end(c);
+    if (status == QDOT_OK) {
+        c->error_at = start->start;
+        status = add_assumptions(c->session, &said);
+    }
+    qdot_free(said.at);
+    return status;
+}
