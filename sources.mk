@@ -1776,6 +1776,7 @@ script_tests = \
 	tests/script/values.lag \
 	tests/script/variational-settles.lag \
 	tests/script/vector-functions.lag \
+	tests/script/velocity-names.lag \
 	tests/script/with-values.sh \
 	tests/script/workprecision-power.sh \
 	tests/script/workprecision-scenes.sh \
@@ -2998,6 +2999,7 @@ test_files = \
 	tests/script/values.out \
 	tests/script/variational-settles.out \
 	tests/script/vector-functions.out \
+	tests/script/velocity-names.out \
 	tests/script/with-values.out \
 	tests/script/workprecision-power.out \
 	tests/script/workprecision-scenes.out \

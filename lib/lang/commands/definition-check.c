@@ -10,6 +10,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
+#include "lang/language/hints.h"
 #include "lang/language/token-text.h"
 
 typedef qdot_assignment assignment;
@@ -279,6 +280,15 @@ find_primed(const qdot_token *name, size_t *primes)
 static qdot_status
 tell_word(assignment *a, const qdot_statement *row)
 {
+    const qdot_scene *s = a->session->scene;
+
+    if ((strcmp(row->word, "lagrangian") == 0 || strcmp(row->word, "hamiltonian") == 0) && a->name + 1 == a->equals &&
+        s->particles.n + s->bodies.n > 0) {
+        a->c->error_at = a->name->start;
+        (void)qdot_fail(QDOT_ENAME, "`%s` is not stated beside particles: it follows from their masses and `potential`",
+                        row->word);
+        return qdot_hint("`%s` shows it", row->word[0] == 'l' ? "lagrange_function" : row->word);
+    }
     if (!qdot_definition_statement(a, row))
         write_renamed(a);
     return tell(a, "`%s` is a word of the language: it is no name to define", row->word);
@@ -286,14 +296,17 @@ tell_word(assignment *a, const qdot_statement *row)
 
 /* --- reserved words, labels ------------------------------------------------------------- */
 
-/* lambda = 3 is a parameter of that name, which hides nothing. */
+/* lambda = 3 is a parameter of that name, which hides nothing; dtheta = 3 was meant as a velocity. */
 static qdot_status
 tell_reserved(assignment *a, const char *why)
 {
     const char *name = a->name->text;
     bool family = strcmp(name, "lambda") == 0 || strcmp(name, "delta") == 0;
+    qdot_derivative_name meant;
 
-    if (family && !a->moves && a->loop.n == 0 && qdot_definition_components(a) == 1)
+    if (!a->moves && a->name + 1 == a->equals && qdot_hints_derivative(a->session, name, false, &meant))
+        qdot_text_format(&a->line, "start %s' = %s", meant.base, qdot_text_str(&a->right));
+    else if (family && !a->moves && a->loop.n == 0 && qdot_definition_components(a) == 1)
         write_equation(a, "param");
     else
         write_renamed(a);

@@ -8,6 +8,7 @@
 #include "lang/functions/builtin.h"
 #include "lang/functions/short-names.h"
 #include "lang/language/function.h"
+#include "lang/language/hints.h"
 #include "lang/language/token-text.h"
 
 static const uint32_t motion = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
@@ -145,6 +146,61 @@ qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
                               function ? "function" : "value", function ? "value" : "function", old->file, old->line);
 }
 
+/* Whether the name stands anywhere else in the text. */
+static bool
+is_used(const qdot_cursor *c, const qdot_token *start)
+{
+    const qdot_token *tokens = c->source->tokens.at;
+
+    for (size_t i = 0; i < c->source->tokens.n; i++)
+        if (&tokens[i] != start && qdot_token_is_word(&tokens[i], start->text))
+            return true;
+    return false;
+}
+
+/* x[1], the first that is declared of a family x. */
+static const char *
+first_member(const qdot_session *s, const char *family)
+{
+    const size_t n = strlen(family);
+    const qdot_name *name;
+
+    for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++)
+        if (strncmp(name->name, family, n) == 0 && name->name[n] == '[')
+            return name->name;
+    return family;
+}
+
+/* thetadot = 2 of a coordinate theta, which nothing reads: the start that was meant. */
+static qdot_status
+tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
+{
+    qdot_session *session = c->session;
+    qdot_derivative_name meant;
+    const qdot_token *equals = start;
+    qdot_text line = {0};
+    qdot_status status;
+
+    if (entry->kind != QDOT_NAME_VALUE || !qdot_expr_is_scalar(session->pool, entry->value) ||
+        (qdot_expr_node(session->pool, entry->value)->holds & (motion | QDOT_HAS_TIME)) ||
+        !(qdot_hints_derivative(session, start->text, true, &meant) ||
+          qdot_hints_derivative(session, start->text, false, &meant)) ||
+        strcmp(meant.primes, "'") != 0 || is_used(c, start))
+        return QDOT_OK;
+    while (equals < c->at && !qdot_token_is(equals, "="))
+        equals++;
+    qdot_text_add(&line, meant.family && start + 1 == equals ? first_member(session, meant.base) : meant.base);
+    qdot_token_text(session, start + 1, equals, &line);
+    qdot_text_add(&line, "' = ");
+    qdot_token_text(session, equals + 1, c->at, &line);
+    status = qdot_text_status(&line);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "`%.100s` is a name of its own and no velocity; `start %.300s` gives that of %.100s",
+                                    entry->name, qdot_text_str(&line), meant.base);
+    qdot_text_clear(&line);
+    return status;
+}
+
 qdot_status
 qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 {
@@ -154,8 +210,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
     const char *longer;
     char words[120] = "";
 
-    if (function)
-        QDOT_TRY(tell_arguments(session, entry));
+    QDOT_TRY(function ? tell_arguments(session, entry) : tell_velocity(c, start, entry));
     if (hidden != NULL && hidden->least > 0) /* only name[...] is the language's */
         hidden = NULL;
     longer = hidden != NULL ? qdot_short_names_long(hidden) : NULL;

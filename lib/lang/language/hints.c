@@ -59,31 +59,50 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
         snprintf(text, size, "%.*s", (int)(t->start - from), c->source->text + from);
 }
 
-/* thetadot, thetaddot, theta_dot of a coordinate theta: its primes. */
-static bool
-hint_dot(qdot_cursor *c, const char *name)
+/* --- names of velocities -------------------------------------------------------------- */
+
+/* What is written around a coordinate's name, the longer before the shorter. */
+static const struct {
+    const char *prefix, *ending, *primes;
+    bool sure; /* seldom the name of anything else */
+} derivatives[] = {{"", "_ddot", "''", true}, {"", "_dot", "'", true}, {"", "ddot", "''", true},
+                   {"", "dot", "'", true},    {"d", "_dt", "'", true}, {"d", "dt", "'", true},
+                   {"", "_prime", "'", true}, {"", "prime", "'", true}, {"v_", "", "'", false},
+                   {"v", "", "'", false},     {"", "_d", "'", false},  {"d", "", "'", false}};
+
+bool
+qdot_hints_derivative(const qdot_session *session, const char *name, bool sure, qdot_derivative_name *found)
 {
-    static const struct {
-        const char *ending, *primes;
-    } endings[] = {{"_ddot", "''"}, {"_dot", "'"}, {"ddot", "''"}, {"dot", "'"}};
-    size_t n = strlen(name);
-    char base[64];
+    const qdot_names *names = session->names;
 
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        size_t m = strlen(endings[i].ending);
-        const qdot_name *found;
+    for (size_t i = 0; i < sizeof derivatives / sizeof *derivatives; i++) {
+        const size_t before = strlen(derivatives[i].prefix);
+        const size_t around = before + strlen(derivatives[i].ending), n = strlen(name);
+        const qdot_name *known;
 
-        if (!qdot_ends_in(name, endings[i].ending) || n - m >= sizeof base)
+        if (derivatives[i].sure != sure || n <= around || n - around >= sizeof found->base ||
+            strncmp(name, derivatives[i].prefix, before) != 0 || !qdot_ends_in(name, derivatives[i].ending))
             continue;
-        snprintf(base, sizeof base, "%.*s", (int)(n - m), name);
-        found = qdot_names_find(c->session->names, base);
-        if (found != NULL || qdot_names_is_family(c->session->names, base)) {
-            qdot_hint("write %s%s%s", base, found == NULL ? "[k]" : "",
-                      endings[i].primes);
+        snprintf(found->base, sizeof found->base, "%.*s", (int)(n - around), name + before);
+        found->primes = derivatives[i].primes;
+        known = qdot_names_find(names, found->base);
+        found->family = known == NULL;
+        if (known != NULL ? sure || known->kind == QDOT_NAME_COORD : qdot_names_is_family(names, found->base))
             return true;
-        }
     }
     return false;
+}
+
+/* thetadot, thetaddot, v_theta of a coordinate theta: its primes. */
+static bool
+hint_derivative(const qdot_cursor *c, const char *name, bool sure)
+{
+    qdot_derivative_name meant;
+
+    if (!qdot_hints_derivative(c->session, name, sure, &meant))
+        return false;
+    (void)qdot_hint("write %s%s%s", meant.base, meant.family ? "[k]" : "", meant.primes);
+    return true;
 }
 
 /* --- how it is declared --------------------------------------------------------------- */
@@ -160,7 +179,7 @@ unknown(qdot_cursor *c, const qdot_token *token, const char *member, bool coordi
             return qdot_hint("write %s(%s)", ours, text);
         }
     }
-    if (hint_dot(c, name))
+    if (hint_derivative(c, name, true))
         return QDOT_ENAME;
     if (strcmp(name, "e") == 0 && qdot_token_is(token + 1, "^"))
         return qdot_hint("the exponential function is exp(x)");
@@ -174,6 +193,8 @@ unknown(qdot_cursor *c, const qdot_token *token, const char *member, bool coordi
     if (nearest != NULL && strlen(name) < CLEAR && qdot_builtin_find(nearest) != NULL &&
         qdot_names_find(c->session->names, nearest) == NULL)
         nearest = NULL; /* a short name alone is seldom the slip of a function's */
+    if ((nearest == NULL || strstr(name, nearest) != NULL) && hint_derivative(c, name, false))
+        return QDOT_ENAME;
     if (nearest != NULL)
         return qdot_hint("did you mean `%s`?", nearest);
     if (member == NULL && name[0] == 'd' && name[1] != '\0' && qdot_token_is(token + 1, "^"))
@@ -201,6 +222,11 @@ qdot_hints_unknown_function(qdot_cursor *c, const qdot_token *token)
 
     qdot_fail(QDOT_ENAME, "unknown function `%.200s`", name);
     if (ours != NULL && qdot_token_is(token + 1, "(")) {
+        const qdot_builtin *row = qdot_builtin_find(ours);
+        const int n = (int)count_arguments(token + 1);
+
+        if (row != NULL && n > 0 && (n < row->least || (row->most >= 0 && n > row->most)))
+            return qdot_hint("as in %s", row->usage);
         bracket_text(c, token + 1, text, sizeof text);
         return qdot_hint("write %s(%s)", ours, text);
     }

@@ -5,6 +5,16 @@
 
 #include "lang/language/cursor.h"
 
+/* A name that looks like a derivative: of what, how it is written. */
+typedef struct {
+    char base[64];      /* theta of thetadot, v_theta */
+    const char *primes; /* ' or '' */
+    bool family;        /* theta[k] */
+} qdot_derivative_name;
+
+/* Whether `name` is how others write the velocity or acceleration of a declared name. sure: thetadot, theta_ddot; else
+ * spellings that name other things as well, v_theta, theta_d, of a coordinate. */
+bool qdot_hints_derivative(const qdot_session *session, const char *name, bool sure, qdot_derivative_name *found);
 /* Whether a name without a meaning is another system's for one of our functions: `Sin`. */
 bool qdot_hints_is_foreign(const qdot_session *session, const char *name);
 /* "unknown name `thta`", with the hint that fits: the nearest name, our form of another

@@ -408,9 +408,10 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
                          : s->springs.n    ? "springs"
                                            : NULL;
 
-    if (beside)
-        return qdot_fail(QDOT_EINVAL,
-                         "a stated Lagrangian beside %s: L would not be T - V", beside);
+    if (beside) {
+        (void)qdot_fail(QDOT_EINVAL, "a stated Lagrangian beside %s: L would not be T - V", beside);
+        return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
+    }
     QDOT_TRY(need_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
     s->lagrangian = L;
     return changed(s);
