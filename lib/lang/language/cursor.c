@@ -143,9 +143,8 @@ operand_start(const qdot_cursor *c, const qdot_token *last)
     return t;
 }
 
-/* The byte behind the operand that begins with `t`. */
-static size_t
-operand_end(const qdot_cursor *c, const qdot_token *t)
+size_t
+qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t)
 {
     const qdot_token *last = c->source->tokens.at + c->source->tokens.n - 1;
     long depth = 0;
@@ -173,12 +172,21 @@ missing_times(qdot_cursor *c, const qdot_token *before)
     c->error_at = t->glued ? t->start : before->start + before->length;
     qdot_fail(QDOT_ESYNTAX, "a `*` is missing");
     from = operand_start(c, before);
-    to = operand_end(c, t);
+    to = qdot_cursor_operand_end(c, t);
     if (to - from->start > 100)
         return qdot_hint("a product is written with `*`");
     left = (int)(before->start + before->length - from->start);
     return qdot_hint("write %.*s*%.*s", left, c->source->text + from->start,
                      (int)(to - t->start), c->source->text + t->start);
+}
+
+/* `2 on bob`: a word that joins the parts of a statement is no factor. */
+static bool
+joins_parts(const qdot_cursor *c, const qdot_token *t)
+{
+    static const char *const words[] = {"on", "at", "from", "to", "between", "of", "with", "when", "then", "in", NULL};
+
+    return t->kind == QDOT_TOKEN_NAME && !t->glued && is_one_of(t, words) && !qdot_cursor_knows(c->session, t->text);
 }
 
 static qdot_status
@@ -256,6 +264,10 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         !qdot_cursor_knows(c->session, t->text)) {
         found(what, t); /* `2 tol` among words is no product */
         return hint_word(what, t->text);
+    }
+    if (joins_parts(c, t)) {
+        found(what, t);
+        return hint_foreign(t);
     }
     if (t->glued || before->kind == QDOT_TOKEN_NUMBER ||
         (!word && (t->kind != QDOT_TOKEN_NAME || qdot_cursor_knows(c->session, t->text))))

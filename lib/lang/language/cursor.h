@@ -24,6 +24,8 @@ QDOT_MUST_CHECK qdot_status qdot_cursor_expect_op(qdot_cursor *c, const char *op
 QDOT_MUST_CHECK qdot_status qdot_cursor_expect_end(qdot_cursor *c);
 /* Step over tokens up to (not over) the next top-level `word` or the end; NULL word: the end. */
 const qdot_token *qdot_cursor_find_word(const qdot_cursor *c, const char *word);
+/* The byte behind the operand that begins with `t`, with its brackets and primes. */
+size_t qdot_cursor_operand_end(const qdot_cursor *c, const qdot_token *t);
 /* Whether the name means anything: declared, of the language or of the scene. */
 bool qdot_cursor_knows(const qdot_session *session, const char *name);
 /* An option that may be given once: QDOT_EINVAL if `given`, at the option's word. */

@@ -255,7 +255,15 @@ qdot_hints_bare_function(qdot_cursor *c, const qdot_token *token)
         bracket_text(c, next, text, sizeof text);
         return qdot_hint("write %s(%s)", name, text);
     }
-    if (next->kind == QDOT_TOKEN_NAME || next->kind == QDOT_TOKEN_NUMBER)
-        return qdot_hint("write %s(%.80s)", name, next->text);
+    if (qdot_builtin_find(name)->least <= 1 &&
+        (next->kind == QDOT_TOKEN_NUMBER ||
+         (next->kind == QDOT_TOKEN_NAME && qdot_cursor_knows(c->session, next->text)))) {
+        const size_t to = qdot_cursor_operand_end(c, next);
+
+        if (to == next->start + next->length) /* θ is theta */
+            return qdot_hint("write %s(%.80s)", name, next->text);
+        if (to - next->start <= 80)
+            return qdot_hint("write %s(%.*s)", name, (int)(to - next->start), c->source->text + next->start);
+    }
     return qdot_hint("as in %s", qdot_builtin_find(name)->usage);
 }

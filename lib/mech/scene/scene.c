@@ -155,9 +155,8 @@ need_no_lagrangian(const qdot_scene *s, const char *what)
 {
     if (s->lagrangian == QDOT_NIL)
         return QDOT_OK;
-    return qdot_fail(QDOT_EINVAL,
-                     "the scene states its Lagrangian: %s beside it would not count",
-                     what);
+    (void)qdot_fail(QDOT_EINVAL, "the scene states its Lagrangian: %s beside it would not count", what);
+    return qdot_hint("what it adds stands in the formula of `lagrangian`; `reset scene` begins anew");
 }
 
 qdot_status
