@@ -148,13 +148,13 @@ loop(qdot_piece *x, const double *y0)
         x->start.from = x->mode;
         x->start.jumped = false;
         qdot_piece_find_delay(x);
-        if ((changes_state(x) || crosses_places(x)) && qdot_piece_makes_up(x) && x->has_root)
+        if ((changes_state(x) || crosses_places(x)) && x->has_root)
             status = qdot_piece_go_to_root(x);
         if (changes_state(x))
             (void)qdot_piece_end_in_layers(x);
         if (status == QDOT_OK)
             status = qdot_piece_keep(x, NULL);
-        if (status == QDOT_OK && qdot_piece_makes_up(x) && changes_state(x) && !x->has_root)
+        if (status == QDOT_OK && changes_state(x) && !x->has_root)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);

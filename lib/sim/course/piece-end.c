@@ -64,7 +64,7 @@ change_in_two(qdot_piece *x, const qdot_staged_event *e, const double *in, const
         QDOT_TRY(qdot_tape_two_new(e->then, 0, x->n + 1, &x->thens[at]));
     two = x->thens[at];
     for (size_t i = 0; i <= x->n; i++)
-        *qdot_tape_two_input(two, i) = (qdot_two){in[i], i < x->n ? low[i] : 0};
+        *qdot_tape_two_input(two, i) = (qdot_two){in[i], i < x->n ? low[i] : x->start.t_low};
     qdot_tape_two_order(two, 0);
     for (size_t i = 0; i < e->changes; i++) {
         const qdot_two value = qdot_tape_two_output(two, i)[0];
@@ -118,7 +118,8 @@ qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const dou
     if (status == QDOT_OK)
         status = qdot_parameter_conditions_check(&x->c->stage->conditions, e->name, t, y, p->n);
     if (status == QDOT_OK && held)
-        status = qdot_constrained_put(held, t, y, e->positions ? set : NULL,
+        status = qdot_constrained_put(held, t, rest ? x->start.t_low : 0, y, rest,
+                                      e->positions ? set : NULL,
                                       e->velocities ? set + p->n : NULL, e->name);
     qdot_free(in);
     qdot_free(set);
@@ -274,14 +275,6 @@ come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *f
     return QDOT_OK;
 }
 
-/* What is uncertain of the time of a root, or all that it is late by, if that is not made up for. */
-static double
-lateness(const qdot_piece *x, const qdot_root *root)
-{
-    return qdot_piece_makes_up(x) ? root->blur
-                                  : fabs(x->t_act - root->t) + fmax(root->late, root->blur);
-}
-
 void
 qdot_piece_find_delay(qdot_piece *x)
 {
@@ -403,7 +396,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
             status = qdot_vec_push(
                 &x->c->ends,
                 ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
-                                   lateness(x, root)}));
+                                   root->blur}));
         if (status != QDOT_OK)
             break;
         if (w->kind == QDOT_WATCH_DOMAIN) {

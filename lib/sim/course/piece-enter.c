@@ -330,7 +330,7 @@ qdot_piece_start_at_end(qdot_piece *x)
     double *y = x->start.y;
 
     x->start.t = tr->t[tr->count - 1];
-    x->start.late = 0;
+    x->start.late = x->start.t_low = 0;
     x->start.on_root = false;
     memcpy(y, tr->y + (tr->count - 1) * x->n, x->n * sizeof *y);
     memcpy(x->start.low_of, y, x->n * sizeof *y);
@@ -400,12 +400,6 @@ start_at(qdot_piece *x, const qdot_two *state, bool *moved)
     return status;
 }
 
-qdot_status
-qdot_piece_go_to_root(qdot_piece *x)
-{
-    return start_at(x, x->root, &x->start.on_root);
-}
-
 /* x->start moved by `time` along the rates of a mode, added to moved [n]. */
 static qdot_status
 move_along(qdot_piece *x, size_t mode, double time, qdot_two *moved)
@@ -442,15 +436,29 @@ qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind)
         x->start.on_root = done;
     if (status == QDOT_OK)
         x->start.late = done && behind != SIZE_MAX ? fabs(late) : 0;
+    if (status == QDOT_OK)
+        x->start.t_low = done && behind == SIZE_MAX ? -late : 0;
     qdot_free(moved);
     qdot_free(low);
     return qdot_grave(status);
 }
 
-bool
-qdot_piece_makes_up(const qdot_piece *x)
+qdot_status
+qdot_piece_go_to_root(qdot_piece *x)
 {
-    return !x->c->systems.at[x->mode].project;
+    const qdot_ode_system *system = &x->c->systems.at[x->mode];
+    double by;
+
+    QDOT_TRY(start_at(x, x->root, &x->start.on_root));
+    if (!system->project) {
+        x->start.t_low = x->start.on_root ? -x->direction * x->late : 0;
+        return QDOT_OK;
+    }
+    if (x->start.on_root) {
+        QDOT_TRY(system->project(x->start.t, x->start.y, x->start.low, &by, system->user));
+        memcpy(x->start.low_of, x->start.y, x->n * sizeof *x->start.y);
+    }
+    return qdot_piece_make_up(x, x->mode, SIZE_MAX);
 }
 
 /* --- the whole ----------------------------------------------------------------------- */
@@ -471,10 +479,10 @@ qdot_piece_cross(qdot_piece *x)
     if (x->c->reason[0] != '\0')
         return QDOT_OK;
     qdot_piece_carry(x);
-    if ((x->start.jumped || x->start.from != x->mode) && qdot_piece_makes_up(x))
+    if (x->start.jumped || x->start.from != x->mode)
         QDOT_TRY(qdot_piece_make_up(x, x->start.jumped || x->start.on_root ? SIZE_MAX : x->start.from,
                                     x->mode));
     QDOT_TRY(qdot_piece_keep(x, NULL));
-    x->put_aside |= qdot_piece_makes_up(x);
+    x->put_aside = true;
     return QDOT_OK;
 }

@@ -479,7 +479,8 @@ search_expanded(qdot_piece *x, qdot_ode_expanded *step, const qdot_root **roots,
  * it. */
 static const double unseen = 0x1p-64;
 
-/* The state at the root that ends the piece. Each companion is moved by its rounding, one either way. */
+/* The state at the root that ends the piece; with constraints, which the series leaves by its error and which hold at
+ * doubles of t, at its end. Each companion is moved by its rounding, one either way. */
 static void
 read_root(qdot_piece *x)
 {
@@ -487,8 +488,8 @@ read_root(qdot_piece *x)
     if (!x->has_root)
         return;
     qdot_piece_find_delay(x);
-    qdot_ode_taylor_evaluate_two(x->reader.system, x->expanded, x->t_act, -x->direction * x->late,
-                                 x->root);
+    qdot_ode_taylor_evaluate_two(x->reader.system, x->expanded, x->t_act,
+                                 x->reader.system->project ? 0 : -x->direction * x->late, x->root);
     qdot_ode_taylor_rounding_two(x->reader.system, x->expanded, x->t_act, x->y);
     for (size_t i = 0; i < x->n; i++)
         if (x->y[i] <= unseen * x->largest[i])

@@ -49,6 +49,7 @@ typedef struct {
         double t, *y; /* [n] */
         /* The state less y, of components that still are `low_of`: others were set, and are exact. */
         double *low, *low_of; /* [n] each */
+        double t_low; /* the time of y less t, where y is at a root */
         bool on_root; /* y was moved to the root that ended the piece before, */
         double late;  /* and then on by this */
         size_t from;  /* the mode before */
@@ -82,7 +83,7 @@ typedef struct {
     double *y_act;             /* [n] the state at t_act, for methods without series */
     const double *beyond;      /* while a step is accepted: the state less y; NULL: not known */
     double *end_low;           /* [n] that at the end of the piece */
-    qdot_two *root;            /* [n] the state at the root that ends the piece */
+    qdot_two *root;            /* [n] the state at the root that ends the piece; with constraints at t_act */
     bool has_root;             /* it is known, by a series */
     bool broken_off;           /* the integration was stopped on purpose: no failure */
     qdot_vec(qdot_root) roots; /* those at t_act */
@@ -193,7 +194,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meet(qdot_piece *x, const qdot_root *root
  * companion takes the root for earlier by that, the other for later. If other switches are on other
  * sides then, nothing is done. */
 QDOT_MUST_CHECK qdot_status qdot_piece_make_up(qdot_piece *x, size_t before, size_t behind);
-/* The same by the root itself, where x->has_root: the state there. */
+/* The same by the root itself, where x->has_root: the state there, on the constraints. */
 QDOT_MUST_CHECK qdot_status qdot_piece_go_to_root(qdot_piece *x);
 /* Where the piece ended: its last point, and what that leaves out. */
 void qdot_piece_start_at_end(qdot_piece *x);
@@ -201,8 +202,6 @@ void qdot_piece_start_at_end(qdot_piece *x);
 void qdot_piece_low(const qdot_piece *x, double *low);
 /* x->late and x->blur of the piece that ended, by its roots. */
 void qdot_piece_find_delay(qdot_piece *x);
-/* Whether that is done: if the system does not project onto constraints. */
-bool qdot_piece_makes_up(const qdot_piece *x);
 
 /* Begin the watch of x->mode at the start of a piece, from x->before and x->residual; fills
  * x->functions_on. Errors as qdot_watch_begin. */

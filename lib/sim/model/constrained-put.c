@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/interrupt.h"
+#include "series/two.h"
 #include "sim/model/constrained-parts.h"
 #include "sim/model/constrained.h"
 
@@ -15,12 +16,20 @@ static const double least_size = 0x1p-10;
 /* q or q' of y, its rows, and a system that holds those and the values set. */
 typedef struct {
     const qdot_constrained_level *level;
-    double *x;
+    double *x, *low; /* [n] low: what x leaves out; NULL: it is not kept */
     const bool *set; /* [n] */
     const double *residual;
+    const qdot_tape *tape; /* of the residuals of the level's rows */
     void (*find)(qdot_constrained *h);
     qdot_saddle saddle;
 } part;
+
+/* The state about which the constraints hold. */
+typedef struct {
+    double t, t_low;
+    const double *y, *low; /* [2n] low may be NULL */
+    const char *who;
+} place;
 
 /* Fill the system: M and A at the loaded state, a unit row for each value set, -f and zeros. */
 static void
@@ -95,7 +104,7 @@ refuse(const qdot_constrained *h, size_t row, const char *who)
 
 /* Newton's method by the shortest way in the metric of M. */
 static qdot_status
-bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
+bring(qdot_constrained *h, part *p, const place *at)
 {
     const size_t n = h->plan->n;
     double before = INFINITY;
@@ -104,7 +113,7 @@ bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
     for (int k = 0; k < most_iterations; k++) {
         double now;
 
-        qdot_constrained_load(h, t, y);
+        qdot_constrained_load(h, at->t, at->y);
         p->find(h);
         fill(h, p);
         now = excess(h, p, &worst);
@@ -124,11 +133,55 @@ bring(qdot_constrained *h, part *p, double t, const double *y, const char *who)
             if (!p->set[i])
                 p->x[i] += p->saddle.x[i];
     }
-    return refuse(h, worst, who);
+    return refuse(h, worst, at->who);
+}
+
+/* The residuals of the level's rows in two doubles, as the right side of the system, which is filled. */
+static qdot_status
+measure_in_two(const qdot_constrained *h, part *p, const place *at)
+{
+    const size_t n = h->plan->n;
+    qdot_saddle *s = &p->saddle;
+    qdot_tape_two *two;
+
+    QDOT_TRY(qdot_tape_two_new(p->tape, 0, 2 * n + 1, &two));
+    for (size_t i = 0; i < 2 * n; i++)
+        *qdot_tape_two_input(two, i) = (qdot_two){at->y[i], at->low[i]};
+    *qdot_tape_two_input(two, 2 * n) = (qdot_two){at->t, at->t_low};
+    qdot_tape_two_order(two, 0);
+    memset(s->x, 0, (n + s->m) * sizeof *s->x);
+    for (size_t k = 0; k < p->level->m; k++) {
+        const qdot_two f = qdot_tape_two_output(two, k)[0];
+
+        s->x[n + k] = -(f.hi + f.lo);
+    }
+    qdot_tape_two_free(two);
+    return QDOT_OK;
+}
+
+/* One step more, which leaves nothing that two doubles hold: a rounding at every impact adds up. */
+static qdot_status
+bring_in_two(qdot_constrained *h, part *p, const place *at)
+{
+    size_t failed;
+
+    QDOT_TRY(measure_in_two(h, p, at));
+    if (qdot_saddle_factor(&p->saddle, &failed) != QDOT_OK) /* all values are set */
+        return qdot_interrupt_check();
+    qdot_saddle_solve_refined(&p->saddle);
+    for (size_t i = 0; i < h->plan->n; i++) {
+        const qdot_two moved = qdot_two_add_double((qdot_two){p->x[i], p->low[i]}, p->saddle.x[i]);
+
+        if (p->set[i] || !isfinite(moved.hi))
+            continue;
+        p->x[i] = moved.hi;
+        p->low[i] = moved.lo;
+    }
+    return QDOT_OK;
 }
 
 static qdot_status
-put(qdot_constrained *h, part *p, double t, const double *y, const char *who)
+put(qdot_constrained *h, part *p, const place *at)
 {
     size_t count = 0;
     qdot_status status;
@@ -140,27 +193,34 @@ put(qdot_constrained *h, part *p, double t, const double *y, const char *who)
     status = qdot_saddle_init(&p->saddle, h->plan->n, p->level->m + count,
                               h->plan->indefinite);
     if (status == QDOT_OK)
-        status = bring(h, p, t, y, who);
+        status = bring(h, p, at);
+    if (status == QDOT_OK && p->low)
+        status = bring_in_two(h, p, at);
     qdot_saddle_clear(&p->saddle);
     return status;
 }
 
 qdot_status
-qdot_constrained_put(qdot_constrained *h, double t, double *y, const bool *q_set,
-                     const bool *v_set, const char *who)
+qdot_constrained_put(qdot_constrained *h, double t, double t_low, double *y, double *low,
+                     const bool *q_set, const bool *v_set, const char *who)
 {
     const size_t n = h->plan->n;
+    const place at = {t, t_low, y, low, who};
     part q = {.level = h->at[QDOT_HOLONOMIC],
               .x = y,
+              .low = low,
               .set = q_set,
               .residual = h->f,
+              .tape = qdot_constrained_tape(h->positions, h->c->positions),
               .find = qdot_constrained_positions};
     part v = {.level = h->at[QDOT_VELOCITY],
               .x = y + n,
+              .low = low ? low + n : NULL,
               .set = v_set,
               .residual = h->w,
+              .tape = qdot_constrained_tape(h->velocities, h->c->velocities),
               .find = qdot_constrained_velocities};
 
-    QDOT_TRY(put(h, &q, t, y, who));
-    return put(h, &v, t, y, who);
+    QDOT_TRY(put(h, &q, &at));
+    return put(h, &v, &at);
 }

@@ -94,12 +94,13 @@ qdot_ode_bonds qdot_constrained_bonds(qdot_constrained *constrained);
 
 /* The event `who` has set the values of y [2n] marked in q_set and v_set [n]. They stay; the
  * others move least in the metric of M until the constraints hold, first on positions, then on
- * velocities, as under an impulse. q_set or v_set NULL: no position or velocity was set that
+ * velocities, as under an impulse: in two doubles, y + low [2n] at t + t_low, unless low is NULL. q_set or v_set NULL: no position or velocity was set that
  * could break a constraint, and none moves. QDOT_EDOMAIN names a constraint that cannot be kept.
  * Allocates. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_put(qdot_constrained *constrained, double t,
-                                                 double *y, const bool *q_set,
-                                                 const bool *v_set, const char *who);
+                                                 double t_low, double *y, double *low,
+                                                 const bool *q_set, const bool *v_set,
+                                                 const char *who);
 
 /* Residuals at y: the largest |f| of the holonomic rows; the largest |df/dt| or |f| of the
  * velocity rows; the indices of these rows (SIZE_MAX: none). */
