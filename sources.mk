@@ -1497,6 +1497,7 @@ script_tests = \
 	tests/script/assume-several.lag \
 	tests/script/assumed.lag \
 	tests/script/bad-runs.sh \
+	tests/script/blows-into-contacts.lag \
 	tests/script/bodies-moved.lag \
 	tests/script/broken-powers.lag \
 	tests/script/cancelling-forces.sh \
@@ -2696,6 +2697,7 @@ test_files = \
 	tests/script/assume-several.out \
 	tests/script/assumed.out \
 	tests/script/bad-runs.out \
+	tests/script/blows-into-contacts.out \
 	tests/script/bodies-moved.out \
 	tests/script/broken-powers.out \
 	tests/script/cancelling-forces.out \

@@ -222,6 +222,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_free(x.thens);
     qdot_free(x.fired.at);
     qdot_free(x.crossed.at);
+    qdot_free(x.pushed.at);
     qdot_free(x.y);
     qdot_free(x.roots.at);
     qdot_free(x.tried.at);

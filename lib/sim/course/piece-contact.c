@@ -403,14 +403,17 @@ qdot_piece_meets_again(const qdot_piece *x, size_t i)
 
 /* --- after a change ------------------------------------------------------------------- */
 
-/* The contacts that a new state leaves end; c->reason if it is pushed into one. */
+/* The contacts that a new state leaves end. Its event is met at once where the motion is pushed into one; c->reason
+ * where it is beyond it. */
 qdot_status
 qdot_piece_keep_contacts(qdot_piece *x)
 {
     const qdot_switches *s = &x->c->stage->switches;
     const qdot_sliding_rows *held = &qdot_piece_mode(x)->held;
 
+    x->pushed.n = 0;
     for (size_t i = qdot_switches_own(s); i < s->surfaces.n; i++) {
+        const double reaction = s->surfaces.at[i].reaction;
         double place, rate;
 
         if (x->side[i] != QDOT_SIDE_SLIDES || qdot_piece_mode(x)->side[i] != QDOT_SIDE_SLIDES)
@@ -419,13 +422,17 @@ qdot_piece_keep_contacts(qdot_piece *x)
             qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 0, &place, NULL));
         QDOT_TRY(
             qdot_sliding_rows_value(held, x->n / 2, x->start.t, x->start.y, i, 1, &rate, NULL));
-        place *= s->surfaces.at[i].reaction;
-        rate *= s->surfaces.at[i].reaction;
+        place *= reaction;
+        rate *= reaction;
         if (fabs(place) <= alike && fabs(rate) <= alike)
             continue;
         x->side[i] = 0;
         if (place > alike || (fabs(place) <= alike && rate > 0))
             continue;
+        if (place >= -alike) {
+            QDOT_TRY(qdot_vec_push(&x->pushed, i));
+            continue;
+        }
         snprintf(x->c->reason, sizeof x->c->reason,
                  "stopped at t = %.15g: an event pushes the motion into the contact at %.100s, and "
                  "nothing says what comes of it",

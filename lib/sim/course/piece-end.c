@@ -380,7 +380,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
     const double t = x->t_act;
 
     x->fired.n = 0;
-    x->crossed.n = 0;
+    x->crossed.n = x->pushed.n = 0;
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)

@@ -183,8 +183,8 @@ rests_on(const qdot_piece *x, size_t i, int way)
 }
 
 /* Whether a contact persists: an event with `then` that ended the piece before, occurs again at once; or the motion
- * has been on it from the start of the run or all through that piece, and would leave it now in the way of its
- * statement. */
+ * has been on it from the start of the run or all through that piece, or where blows at one instant have left it, and
+ * would leave it now in the way of its statement. */
 static bool
 stays_on_event(qdot_piece *x)
 {
@@ -197,7 +197,7 @@ stays_on_event(qdot_piece *x)
             return true;
         }
     for (size_t i = 0; i < x->c->stage->events.n; i++)
-        if ((begins || (x->left[i] == 0 && x->touching[i]))
+        if ((begins || ((x->start.jumped || x->left[i] == 0) && x->touching[i]))
             && rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
             x->resting = i;
             x->resting_way = qdot_watch_first(qdot_piece_watch(x))[i];
@@ -258,7 +258,16 @@ follow_at_once(qdot_piece *x, double t0)
     const int *first = qdot_watch_first(qdot_piece_watch(x));
     const bool starts = x->c->tr.count == 1 && !x->start.jumped;
 
-    for (size_t i = 0; i < x->c->stage->events.n; i++) {
+    for (size_t k = 0; k < x->pushed.n; k++) {
+        const qdot_surface *contact = &x->c->stage->switches.surfaces.at[x->pushed.at[k]];
+
+        QDOT_TRY(act_at_once(x, t0, &(qdot_root){.function = contact->event,
+                                                 .t = t0,
+                                                 .way = -contact->reaction,
+                                                 .exact = true,
+                                                 .late = x->start.late}));
+    }
+    for (size_t i = 0; i < x->c->stage->events.n && x->pushed.n == 0; i++) {
         const qdot_staged_event *e = &x->c->stage->events.at[i];
         int way;
         bool meets;

@@ -88,6 +88,7 @@ typedef struct {
     bool broken_off;           /* the integration was stopped on purpose: no failure */
     qdot_vec(qdot_root) roots; /* those at t_act */
     qdot_vec(qdot_root) fired; /* those that ended the piece before */
+    qdot_vec(size_t) pushed;   /* surfaces of contacts that lasted, into which what ended it has pushed the motion */
     qdot_vec(size_t) crossed;  /* the surfaces among `fired`, if the state did not jump */
     size_t noted;              /* occurrences before this step */
     struct {
@@ -248,8 +249,8 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meets_at_start(qdot_piece *x, size_t i, b
  * than rounding, and goes on to its other side. */
 bool qdot_piece_meets_again(const qdot_piece *x, size_t i);
 
-/* After an event has changed the state: contacts that it leaves end; c->reason if it is pushed into
- * one. */
+/* After an event has changed the state: contacts that it leaves end; x->pushed of those that it is pushed into;
+ * c->reason if it is beyond one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);
 
 /* The rate of function i where the piece starts, near its zero; *noise: what 4 roundings of velocities as large as they
