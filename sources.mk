@@ -618,6 +618,7 @@ library_sources = \
 	lib/sim/model/puck.c \
 	lib/sim/model/quotient.c \
 	lib/sim/model/rates.c \
+	lib/sim/model/repeated-zeros.c \
 	lib/sim/model/simple-zeros.c \
 	lib/sim/model/sliding-rows.c \
 	lib/sim/model/sliding.c \
@@ -687,6 +688,7 @@ library_sources = \
 	lib/sim/watch/watch-roots.c \
 	lib/sim/watch/watch-rough.c \
 	lib/sim/watch/watch-touches.c \
+	lib/sim/watch/watch-turns.c \
 	lib/sim/watch/watch-two.c \
 	lib/sim/watch/watch-values.c \
 	lib/sim/watch/watch.c \
@@ -1202,6 +1204,7 @@ library_headers = \
 	lib/sim/model/puck.h \
 	lib/sim/model/quotient.h \
 	lib/sim/model/rates.h \
+	lib/sim/model/repeated-zeros.h \
 	lib/sim/model/request.h \
 	lib/sim/model/simple-zeros.h \
 	lib/sim/model/sliding.h \
@@ -1461,6 +1464,7 @@ unit_tests = \
 	tests/sim/test_precise \
 	tests/sim/test_puck \
 	tests/sim/test_pulses \
+	tests/sim/test_repeated-zeros \
 	tests/sim/test_residual-sweeps \
 	tests/sim/test_response \
 	tests/sim/test_routh \
@@ -1570,6 +1574,7 @@ script_tests = \
 	tests/script/event-spans.lag \
 	tests/script/event-stays.lag \
 	tests/script/event-storms.sh \
+	tests/script/event-strobes.lag \
 	tests/script/event-time-errors.sh \
 	tests/script/events-at-once.lag \
 	tests/script/events-seen.lag \
@@ -2777,6 +2782,7 @@ test_files = \
 	tests/script/event-spans.out \
 	tests/script/event-stays.out \
 	tests/script/event-storms.out \
+	tests/script/event-strobes.out \
 	tests/script/event-time-errors.out \
 	tests/script/events-at-once.out \
 	tests/script/events-seen.out \

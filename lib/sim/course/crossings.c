@@ -3,11 +3,12 @@
 
 #include <math.h>
 
+#include "sim/model/repeated-zeros.h"
 #include "sim/watch/watch.h"
 
 typedef struct {
     const qdot_course *c;
-    qdot_expr g;
+    qdot_repeated zeros; /* of g */
     const double *limits;
     double direction;
     qdot_trajectory_cursor *cursor;
@@ -35,12 +36,13 @@ take(search *s, const qdot_root *root)
     const qdot_trajectory *tr = &s->c->tr;
     const double *const limits = s->limits;
     const bool to_end = limits[1] == tr->t[tr->count - 1];
+    const int along = s->direction > 0 ? qdot_root_way(root) : -qdot_root_way(root),
+              way = s->zeros.touches ? 0 : along;
 
     if (s->direction * (t - limits[0]) < 0
         || (to_end ? s->direction * (t - limits[1]) > 0 : s->direction * (t - limits[1]) >= 0))
         return QDOT_OK;
-    return qdot_vec_push(s->out, ((qdot_crossing){t, -s->direction * root->late, s->piece,
-                                                  s->direction > 0 ? root->way : -root->way}));
+    return qdot_vec_push(s->out, ((qdot_crossing){t, -s->direction * root->late, s->piece, way}));
 }
 
 /* The roots of the step from stored point k; `last`: the next piece does not go on from its end. */
@@ -90,9 +92,10 @@ search_piece(search *s)
     if (k >= last || s->direction * (tr->t[k] - s->limits[1]) > 0)
         return QDOT_OK;
     if (w == NULL) {
-        QDOT_TRY(qdot_watch_new(s->c->stage->modes.at[mode]->plan, 1, &s->g, s->c->shaken,
+        QDOT_TRY(qdot_watch_new(s->c->stage->modes.at[mode]->plan, 1, &s->zeros.u, s->c->shaken,
                                 s->c->touch_tol, &s->watches[mode]));
         w = s->watches[mode];
+        QDOT_TRY(qdot_watch_turns(w, 0, s->zeros.turn, s->zeros.half));
     }
     qdot_watch_may_fade(w, 0, !qdot_sliding_is(&s->c->stage->switches, s->c->stage->modes.at[mode]->side));
     QDOT_TRY(qdot_watch_begin(w, &reader, tr->t[k], tr->y + k * tr->n,
@@ -117,10 +120,12 @@ qdot_status
 qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdot_crossings *out, double *lost)
 {
     const qdot_trajectory *tr = &c->tr;
-    search s = {.c = c, .g = g, .limits = limits, .out = out, .lost = NAN};
+    const qdot_plan *plan = c->stage->modes.at[0]->plan;
+    search s = {.c = c, .limits = limits, .out = out, .lost = NAN};
     qdot_status status;
 
     s.direction = qdot_trajectory_is_backward(tr) ? -1 : 1;
+    QDOT_TRY(qdot_repeated_zeros(plan->pool, qdot_plan_substitute(plan, g), &s.zeros));
     s.watches = qdot_calloc(c->systems.n + 1, sizeof *s.watches);
     status = s.watches ? qdot_trajectory_open(tr, qdot_course_systems(c), &s.cursor) : QDOT_ENOMEM;
     for (; s.piece < tr->pieces.n && status == QDOT_OK && isnan(s.lost); s.piece++)

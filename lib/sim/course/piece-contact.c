@@ -363,6 +363,14 @@ sets_velocities(const qdot_piece *x, const qdot_staged_event *e)
     return only;
 }
 
+int
+qdot_piece_way_asked(const qdot_piece *x, size_t i)
+{
+    const int way = (int)x->direction * x->c->stage->events.at[i].way;
+
+    return qdot_watch_is_turned(qdot_piece_watch(x), x->start.t, x->start.y, i) ? -way : way;
+}
+
 qdot_status
 qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets)
 {
@@ -373,7 +381,7 @@ qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets)
     qdot_status status;
 
     *meets = false;
-    if (e->way == 0 || !x->functions_on[i] || first != (int)x->direction * e->way || !sets_velocities(x, e))
+    if (e->way == 0 || !x->functions_on[i] || first != qdot_piece_way_asked(x, i) || !sets_velocities(x, e))
         return QDOT_OK;
     QDOT_TRY(qdot_piece_way(x, i, &way));
     if (way != first)
@@ -395,7 +403,7 @@ bool
 qdot_piece_meets_again(const qdot_piece *x, size_t i)
 {
     const qdot_staged_event *e = &x->c->stage->events.at[i];
-    const int way = (int)x->direction * e->way;
+    const int way = qdot_piece_way_asked(x, i);
 
     return e->then && way != 0 && x->functions_on[i] && x->touching[i] && x->left[i] == -way
            && qdot_watch_first(qdot_piece_watch(x))[i] == way && x->signs[i] != -way && !qdot_piece_just_noted(x, i);

@@ -426,11 +426,11 @@ qdot_piece_act(qdot_piece *x, bool *over)
         }
         if (status == QDOT_OK)
             status = accumulates(x, w, t, &fast, &left);
-        rests = rests_in_run(x, w, root->way, &led);
+        rests = rests_in_run(x, w, qdot_root_way(root), &led);
         if (status == QDOT_OK && !led && !fast && !*over && w->kind == QDOT_WATCH_EVENT)
-            status = qdot_piece_may_be_low(x, w->index, root->way, &low);
+            status = qdot_piece_may_be_low(x, w->index, qdot_root_way(root), &low);
         if (status == QDOT_OK && (led ? rests : fast || low) && !*over && w->kind == QDOT_WATCH_EVENT)
-            status = come_to_rest(x, w, root->way, led ? 0 : low ? INFINITY : left, &fast);
+            status = come_to_rest(x, w, qdot_root_way(root), led ? 0 : low ? INFINITY : left, &fast);
         fast = fast && !led && !is_between_contacts(x, w, t);
         if (fast && !*over)
             say_accumulated(x, w, t, left);

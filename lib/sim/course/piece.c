@@ -68,7 +68,7 @@ way_of(const qdot_piece *x, const qdot_root *root)
 
     if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].touches)
         return 0;
-    return x->direction > 0 ? root->way : -root->way;
+    return x->direction > 0 ? qdot_root_way(root) : -qdot_root_way(root);
 }
 
 /* Whether the motion only touches a surface of places: if the equations jump there, with what they are on the other side
@@ -193,14 +193,14 @@ stays_on_event(qdot_piece *x)
     for (size_t k = 0; k < x->fired.n; k++)
         if (rests_on(x, x->fired.at[k].function, x->fired.at[k].way)) {
             x->resting = qdot_piece_mode(x)->watched[x->fired.at[k].function].index;
-            x->resting_way = x->fired.at[k].way;
+            x->resting_way = qdot_root_way(&x->fired.at[k]);
             return true;
         }
     for (size_t i = 0; i < x->c->stage->events.n; i++)
         if ((begins || ((x->start.jumped || x->left[i] == 0) && x->touching[i]))
-            && rests_on(x, i, (int)x->direction * x->c->stage->events.at[i].way)) {
+            && rests_on(x, i, qdot_piece_way_asked(x, i))) {
             x->resting = i;
-            x->resting_way = qdot_watch_first(qdot_piece_watch(x))[i];
+            x->resting_way = (int)x->direction * x->c->stage->events.at[i].way;
             return true;
         }
     return false;
@@ -272,7 +272,8 @@ follow_at_once(qdot_piece *x, double t0)
         int way;
         bool meets;
         const qdot_root root = {
-            .function = i, .t = t0, .way = first[i], .exact = true, .late = x->start.late};
+            .function = i, .t = t0, .way = first[i], .exact = true,
+            .turned = qdot_watch_is_turned(qdot_piece_watch(x), t0, x->start.y, i), .late = x->start.late};
 
         if (starts || !x->start.jumped) {
             meets = !starts && qdot_piece_meets_again(x, i);

@@ -242,7 +242,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_pucks(qdot_piece *x, bool *can);
 /* In x->side: the pucks that are at rest where a piece starts; not `anew`: only those that have crept. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_pucks(qdot_piece *x, bool anew);
 
-/* (piece-contact.c) Where a run starts: whether it has met event i, on whose zero it starts and which the motion goes on
+/* (piece-contact.c) The way of its function, in the direction of the run, that event i asks for at the start; 0: either. */
+int qdot_piece_way_asked(const qdot_piece *x, size_t i);
+/* Where a run starts: whether it has met event i, on whose zero it starts and which the motion goes on
  * to cross, the way that its statement says: an impact that turns it back. */
 QDOT_MUST_CHECK qdot_status qdot_piece_meets_at_start(qdot_piece *x, size_t i, bool *meets);
 /* Where a piece starts at a switch: whether the motion has left the zero of event i, which changes the state, by less

@@ -9,6 +9,7 @@
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
 #include "sim/model/puck.h"
+#include "sim/model/repeated-zeros.h"
 #include "sim/model/simple-zeros.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
@@ -119,14 +120,23 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *eve
     return status;
 }
 
-/* |u| has a kink at its zeros, which no polynomial shows, and u^2 hardly shows them: u is looked at. */
-static void
+/* |u| has a kink at its zeros, which no polynomial shows, and u^2 hardly shows them: u is looked at. So is what has
+ * the zeros of a function that jumps. */
+static qdot_status
 simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
 {
     const qdot_expr u = qdot_touching_zeros(pool, e->function);
+    qdot_repeated repeated;
 
     e->touches = u != QDOT_NIL;
     e->function = qdot_simple_zeros(pool, e->touches ? u : e->function);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_repeated_zeros(pool, e->function, &repeated));
+    e->function = repeated.u;
+    e->touches = e->touches || repeated.touches;
+    e->turn = repeated.turn;
+    e->half = repeated.half;
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -140,8 +150,7 @@ stage_events(qdot_stage *s, const qdot_plan *p)
         e.function =
             qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
         QDOT_TRY(qdot_pool_check(p->pool));
-        simplify_zeros(p->pool, &e);
-        QDOT_TRY(qdot_pool_check(p->pool));
+        QDOT_TRY(simplify_zeros(p->pool, &e));
         e.name = qdot_strdup(event->name);
         status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
         if (status == QDOT_OK)

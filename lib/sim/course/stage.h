@@ -17,6 +17,8 @@ typedef struct {
     char *name;
     qdot_expr function; /* left - right, with parameter values; u of |u| = 0 and u^2 = 0 */
     bool touches;       /* it is that u: where it changes its sign, |u| or u^2 only touches 0 */
+    qdot_expr turn;     /* left - right goes as the function times this (sim/model/repeated-zeros.h); NIL: as it */
+    bool half;          /* and is not 0 where that is negative */
     int way;            /* 1 rising, -1 falling as t grows, 0 either */
     bool stop;
     size_t changes;  /* number of assignments of `then`, to q, q' and parameters */

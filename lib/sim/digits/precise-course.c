@@ -581,7 +581,8 @@ time_occurrences(qdot_precise_side *s)
             mpfr_set(s->times.at[i], qdot_precise_point(run, run->count - 1)[0], RN);
             continue;
         }
-        if (o->way == 0 || segment >= s->segments.n)
+        /* what touches 0 in place of a function that crosses it is found as a crossing of that */
+        if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
         QDOT_TRY(locate(s, segment,
                         find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "ode/taylor.h"
 #include "sim/ensemble/doubts.h"
+#include "sim/model/repeated-zeros.h"
 #include "sim/watch/watch.h"
 
 enum { L = QDOT_LANES, STRIDE = QDOT_SERIES_MOST + 8 };
@@ -33,6 +34,7 @@ struct qdot_ensemble_steps {
     size_t n, varied, N;  /* coordinates; parameters; both */
     size_t stride;        /* of the series of the system, in groups */
     size_t asked;         /* occurrences of all events that are told */
+    qdot_repeated *zeros; /* [events] what is watched for them */
     size_t *first;        /* [events] where those of an event begin */
     lane lanes[L];
     size_t members;
@@ -79,6 +81,7 @@ qdot_ensemble_steps_free(qdot_ensemble_steps *s)
         qdot_ensemble_doubts_free(s->lanes[l].doubts);
     }
     qdot_free(s->first);
+    qdot_free(s->zeros);
     qdot_free(s);
 }
 
@@ -97,8 +100,11 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
     a->system = (qdot_ode_system){.n = n, .series = &a->series};
     if (!s->of.moved) /* of the run */
         QDOT_TRY(qdot_ensemble_doubts_new(s->of.plan, &a->doubts));
-    return events ? qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch)
-                  : QDOT_OK;
+    if (events)
+        QDOT_TRY(qdot_watch_new(s->of.plan, events, g, s->of.shaken, s->of.tol, &a->watch));
+    for (size_t i = 0; i < events; i++)
+        QDOT_TRY(qdot_watch_turns(a->watch, i, s->zeros[i].turn, s->zeros[i].half));
+    return QDOT_OK;
 }
 
 static qdot_status
@@ -109,10 +115,13 @@ make(qdot_ensemble_steps *s)
     qdot_status status = QDOT_OK;
 
     s->first = qdot_calloc(w->n_events + 1, sizeof *s->first);
-    if (!g || !s->first)
+    s->zeros = qdot_calloc(w->n_events + 1, sizeof *s->zeros);
+    if (!g || !s->first || !s->zeros)
         status = QDOT_ENOMEM;
     for (size_t i = 0; i < w->n_events && status == QDOT_OK; i++) {
-        g[i] = w->events[i].function;
+        status = qdot_repeated_zeros(s->of.plan->pool, qdot_plan_substitute(s->of.plan, w->events[i].function),
+                                     &s->zeros[i]);
+        g[i] = s->zeros[i].u;
         s->first[i] = s->asked;
         s->asked += w->events[i].count;
     }
@@ -382,7 +391,9 @@ note(qdot_ensemble_steps *s, lane *a)
     for (size_t k = 0; k < a->roots.n; k++) {
         const qdot_root *root = a->roots.at + k;
         const qdot_ensemble_event *e = w->events + root->function;
-        const int way = s->of.backward ? -root->way : root->way;
+        const int way = s->zeros[root->function].touches ? 0
+                        : s->of.backward                  ? -qdot_root_way(root)
+                                                          : qdot_root_way(root);
 
         if (root->pole || (e->way != 0 && e->way != way))
             continue;

@@ -1,11 +1,18 @@
 /* term-magnitude.c -- adds the absolute values of the terms. */
 #include "sim/model/term-magnitude.h"
 
+#include "expr/function.h"
+
 qdot_expr
 qdot_term_magnitude(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr size;
 
+    if (qdot_expr_is_function(pool, e, QDOT_SIN)) {
+        const qdot_expr sizes[] = {QDOT_ONE, qdot_term_magnitude(pool, qdot_expr_arg(pool, e, 0))};
+
+        return qdot_fun(pool, QDOT_MIN, 2, sizes);
+    }
     if (qdot_expr_kind(pool, e) != QDOT_SUM)
         return qdot_fun1(pool, QDOT_ABS, e);
     size = qdot_fun1(pool, QDOT_ABS, qdot_expr_arg(pool, e, 0));

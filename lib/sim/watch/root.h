@@ -12,6 +12,7 @@ typedef struct {
     double residual; /* |g| at the doubles on both sides of it, the larger */
     bool exact;      /* g is 0 at t */
     bool pole;       /* g changes its sign through infinity: it is no root */
+    bool turned;     /* g is watched in place of a function that changes its sign the other way (qdot_watch_turns) */
     bool stays;      /* g is 0 from here on for a while; `way` leads to 0, from the sign before */
     /* The root is at t - late; rounding of g leaves that uncertain by `blur`. In the direction of the
      * run: not negative. */
@@ -19,6 +20,13 @@ typedef struct {
     /* Of a touch: the tolerance under which |g| counts as 0, 0 if rounding makes it so; and g''. */
     double within, bend;
 } qdot_root;
+
+/* `way` of the function that is asked for. */
+static inline int
+qdot_root_way(const qdot_root *root)
+{
+    return root->turned ? -root->way : root->way;
+}
 
 typedef struct {
     qdot_status (*read)(double t, double *y, void *user);

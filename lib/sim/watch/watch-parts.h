@@ -3,7 +3,7 @@
  * For watch.c only, which goes over a step part by part: values of the functions
  * (watch-values.c; in two doubles: watch-two.c) and their rounding (watch-noise.c), proofs that a part holds no further roots (watch-exclusion.c), the
  * polynomial of one function on one part with its roots (watch-roots.c), whether its rounding hides
- * some (watch-resolution.c), and roots on a part of a few
+ * some (watch-resolution.c), which way the function asked for goes (watch-turns.c), and roots on a part of a few
  * thousand doubles in which no polynomial represents the function (watch-rough.c).
  *
  * Tests  as watch.h
@@ -52,6 +52,7 @@ struct qdot_watch {
     /* Values in sums of two doubles (watch-two.c). */
     qdot_tape_two *two;   /* NULL until it is needed */
     qdot_two *state_two;  /* [2n] scratch */
+    struct qdot_watch_turn *turns; /* [m] (watch-turns.c); NULL: nothing turns */
     bool *smooth;         /* [m] the function holds nothing that switches, and is no bound */
     bool expanded;        /* the step has a series */
     bool *wants;          /* [m] the sign of g_i is a matter of two doubles on the part at hand */
@@ -162,11 +163,11 @@ qdot_watch_sign(double x)
     return (x > 0) - (x < 0);
 }
 
-QDOT_MUST_CHECK static inline qdot_status
-qdot_watch_push(qdot_watch *w, qdot_root root)
-{
-    return qdot_vec_push(&w->roots, root);
-}
+/* --- roots (watch-turns.c) ----------------------------------------------------------- */
+
+/* Add a root of the step, with the way of the function that is asked for. */
+QDOT_MUST_CHECK qdot_status qdot_watch_push(qdot_watch *w, qdot_root root);
+void qdot_watch_clear_turns(qdot_watch *w);
 
 /* --- values (watch-values.c) --------------------------------------------------------- */
 

@@ -574,6 +574,7 @@ qdot_watch_free(qdot_watch *w)
     qdot_tape_free(w->plain);
     qdot_tape_two_free(w->two);
     qdot_free(w->state_two);
+    qdot_watch_clear_turns(w);
     qdot_free(w->smooth);
     qdot_polynomial_bounds_clear(&w->bounds);
     qdot_free(w->coordinate);

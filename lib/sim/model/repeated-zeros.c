@@ -1,0 +1,147 @@
+/* repeated-zeros.c -- zeros of mod, floor, tan and atan2 less a number. */
+#include "sim/model/repeated-zeros.h"
+
+#include <math.h>
+
+#include "expr/calculus.h"
+#include "expr/function.h"
+#include "expr/walk.h"
+#include "tape/constant.h"
+
+static bool
+jumps(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_is_function(pool, e, QDOT_MOD) || qdot_expr_is_function(pool, e, QDOT_FLOOR)
+           || qdot_expr_is_function(pool, e, QDOT_TAN) || qdot_expr_is_function(pool, e, QDOT_ATAN2);
+}
+
+/* The outermost function of these in e; NIL: there is none. Whether e holds it alone is told by the slope. */
+static qdot_status
+find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
+{
+    qdot_walk walk;
+    qdot_status status = qdot_walk_begin(pool, e, &walk);
+
+    *f = QDOT_NIL;
+    for (size_t i = 0; status == QDOT_OK && i < walk.n; i++) /* arguments come first */
+        if (jumps(pool, walk.at[i]))
+            *f = walk.at[i];
+    qdot_walk_end(&walk);
+    return status;
+}
+
+/* g = c f + k' as numbers: c and k = -k'/c; c NIL if it is not. */
+static qdot_status
+split(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
+{
+    const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "jumping function"); /* a space is in no name of a user */
+    const qdot_expr with = qdot_subs(pool, g, 1, &f, &s), slope = qdot_diff(pool, with, s);
+    qdot_expr rest;
+
+    *c = *k = QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(pool));
+    if (slope == QDOT_ZERO || !qdot_constant_is(pool, slope))
+        return QDOT_OK;
+    rest = qdot_sub(pool, with, qdot_mul(pool, slope, s));
+    QDOT_TRY(qdot_pool_check(pool));
+    if (!qdot_constant_is(pool, rest))
+        return QDOT_OK;
+    *c = slope;
+    *k = qdot_neg(pool, qdot_div(pool, rest, slope));
+    return qdot_pool_check(pool);
+}
+
+/* sin(phase), which goes as g at even multiples of pi if `forward` is positive. */
+static void
+put_sine(qdot_pool *pool, qdot_expr phase, qdot_expr forward, qdot_repeated *out)
+{
+    out->u = qdot_fun1(pool, QDOT_SIN, phase);
+    out->turn = out->touches ? QDOT_NIL : qdot_mul(pool, forward, qdot_fun1(pool, QDOT_COS, phase));
+}
+
+static qdot_status
+of_mod(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr c, qdot_expr k, qdot_repeated *out)
+{
+    double part, period;
+
+    if (!qdot_constant_is(pool, b))
+        return QDOT_OK;
+    QDOT_TRY(qdot_tape_constant(pool, b, &period));
+    if (period == 0)
+        return QDOT_OK;
+    QDOT_TRY(qdot_tape_constant(pool, qdot_div(pool, k, b), &part));
+    if (!(part >= 0 && part < 1)) { /* none; where k is b it comes as near as one likes */
+        out->u = QDOT_ONE;
+        return QDOT_OK;
+    }
+    out->touches = part == 0;
+    put_sine(pool, qdot_mul(pool, QDOT_PI, qdot_div(pool, qdot_sub(pool, a, k), b)), qdot_div(pool, c, b), out);
+    return QDOT_OK;
+}
+
+static qdot_status
+of_floor(qdot_pool *pool, qdot_expr a, qdot_expr c, qdot_expr k, qdot_repeated *out)
+{
+    const qdot_expr over = qdot_sub(pool, a, k);
+    qdot_expr ends[] = {over, QDOT_ZERO}, beyond[] = {qdot_sub(pool, over, QDOT_ONE), QDOT_ZERO};
+    double n;
+
+    QDOT_TRY(qdot_tape_constant(pool, k, &n));
+    if (n != floor(n)) { /* none */
+        out->u = QDOT_ONE;
+        return QDOT_OK;
+    }
+    out->u = qdot_mul(pool, c, qdot_add(pool, qdot_fun(pool, QDOT_MIN, 2, ends), qdot_fun(pool, QDOT_MAX, 2, beyond)));
+    return QDOT_OK;
+}
+
+static qdot_status
+of_angle(qdot_pool *pool, qdot_expr y, qdot_expr x, qdot_expr c, qdot_expr k, qdot_repeated *out)
+{
+    const qdot_expr sine = qdot_fun1(pool, QDOT_SIN, k), cosine = qdot_fun1(pool, QDOT_COS, k);
+    double angle, forward;
+    int side;
+
+    QDOT_TRY(qdot_tape_constant(pool, c, &forward));
+    QDOT_TRY(qdot_constant_round(pool, qdot_sub(pool, k, QDOT_PI), &angle, &side));
+    out->touches = angle == 0;
+    if (angle > 0)
+        out->u = QDOT_ONE;
+    QDOT_TRY(qdot_tape_constant(pool, qdot_add(pool, k, QDOT_PI), &angle));
+    if (angle <= 0)
+        out->u = QDOT_ONE;
+    if (out->u == QDOT_ONE)
+        return QDOT_OK;
+    out->u = qdot_sub(pool, qdot_mul(pool, y, cosine), qdot_mul(pool, x, sine));
+    if (forward < 0)
+        out->u = qdot_neg(pool, out->u);
+    out->turn = qdot_add(pool, qdot_mul(pool, x, cosine), qdot_mul(pool, y, sine));
+    out->half = true;
+    return QDOT_OK;
+}
+
+qdot_status
+qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
+{
+    qdot_expr f, c, k, a;
+
+    *out = (qdot_repeated){.u = g, .turn = QDOT_NIL};
+    if (g == QDOT_NIL || (qdot_expr_node(pool, g)->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER)) != 0)
+        return QDOT_OK; /* `turn` is read from states alone */
+    QDOT_TRY(find_outermost(pool, g, &f));
+    if (f == QDOT_NIL)
+        return QDOT_OK;
+    QDOT_TRY(split(pool, g, f, &c, &k));
+    if (c == QDOT_NIL)
+        return QDOT_OK;
+    a = qdot_expr_arg(pool, f, 0);
+    if (qdot_expr_is_function(pool, f, QDOT_TAN))
+        put_sine(pool, qdot_sub(pool, a, qdot_fun1(pool, QDOT_ATAN, k)), c, out);
+    else if (qdot_expr_is_function(pool, f, QDOT_MOD))
+        QDOT_TRY(of_mod(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
+    else if (qdot_expr_is_function(pool, f, QDOT_FLOOR))
+        QDOT_TRY(of_floor(pool, a, c, k, out));
+    else
+        QDOT_TRY(of_angle(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
+    return qdot_pool_check(pool);
+}
