@@ -196,6 +196,24 @@ slope_at(const qdot_watch_part *p, double t)
     return qdot_chebyshev_at(p->n - 1, d, x) * (2 / length) * (p->from_zero ? (t - p->a) / length : 1);
 }
 
+/* Values in two doubles are less what g was at the start of the step, or of a root in it: the motion may have been
+ * behind its zero there by the time that a change came late (qdot_piece_make_up). The root is where g itself is 0: at a
+ * later double of t than that found, if need be. */
+static void
+add_offset(const qdot_watch *w, const qdot_watch_part *p, double slope, double step, qdot_root *root)
+{
+    const double late = root->late + root->way * w->now.offset[root->function] / slope;
+
+    if (!qdot_watch_is_fine(w, root->function) || slope == 0 || fabs(late) > 16 * step)
+        return;
+    root->late = late;
+    while (root->late < 0 && root->t != p->b) {
+        root->t += w->direction * step;
+        root->late += step;
+    }
+    root->late = fmax(0, root->late);
+}
+
 /* Where between two neighbouring doubles the root is; the first may not have been evaluated. Where g moves less from
  * one double of t to the next than the rounding of the state moves it, it is as far from there as that takes. */
 static qdot_status
@@ -214,6 +232,7 @@ refine(qdot_watch *w, const qdot_watch_part *p, qdot_watch_end *ends, qdot_root 
     QDOT_TRY(w->reader.read(root->t, w->z, w->reader.user));
     QDOT_TRY(qdot_watch_noise(w, root->t, w->z, DBL_EPSILON, 0, root->function, &noise));
     root->late = step * (fabs(ends[1].g) / rise);
+    add_offset(w, p, slope, step, root);
     root->blur = noise < rise ? step * (noise / rise) : step;
     if (!qdot_watch_is_fine(w, root->function) && noise > root->blur * slope && slope > 0)
         root->blur = fmin(noise / slope, fabs(p->b - p->a));
@@ -256,7 +275,7 @@ found_between(qdot_watch *w, const qdot_watch_part *p, size_t i, int way, qdot_w
                         .way = way,
                         .residual = fmax(fabs(ends[0].g), fabs(ends[1].g)),
                         .exact = ends[1].g == 0};
-    if (root->exact && qdot_watch_is_fine(w, i))
+    if (root->exact && qdot_watch_is_fine(w, i) && w->now.offset[i] == 0)
         return QDOT_OK;
     QDOT_TRY(refine(w, p, ends, root));
     return root->exact ? QDOT_OK : is_pole(w, p, ends, root, &root->pole);
