@@ -1583,6 +1583,7 @@ script_tests = \
 	tests/script/factor.lag \
 	tests/script/fall.sh \
 	tests/script/families-parameter-ends.lag \
+	tests/script/families-signs.lag \
 	tests/script/family-ends.lag \
 	tests/script/far-away.lag \
 	tests/script/far-sides.lag \
@@ -1603,6 +1604,7 @@ script_tests = \
 	tests/script/forms-shown.lag \
 	tests/script/forms.lag \
 	tests/script/formula-file.sh \
+	tests/script/friction-drive.lag \
 	tests/script/friction-spellings.lag \
 	tests/script/friction-to-rest.lag \
 	tests/script/function-argument.lag \
@@ -2791,6 +2793,7 @@ test_files = \
 	tests/script/factor.out \
 	tests/script/fall.out \
 	tests/script/families-parameter-ends.out \
+	tests/script/families-signs.out \
 	tests/script/family-ends.out \
 	tests/script/far-away.out \
 	tests/script/far-sides.out \
@@ -2811,6 +2814,7 @@ test_files = \
 	tests/script/forms-shown.out \
 	tests/script/forms.out \
 	tests/script/formula-file.out \
+	tests/script/friction-drive.out \
 	tests/script/friction-spellings.out \
 	tests/script/friction-to-rest.out \
 	tests/script/function-argument.out \

@@ -412,7 +412,8 @@ members_add_family(const members *m)
     members all = *m;
     double at;
 
-    if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at)) {
+    if (w->lo != QDOT_NIL && w->hi == QDOT_NIL && periods_to(m, w->lo, &at) &&
+        qdot_condition(pool, m->root->period, true, m->facts) == QDOT_TRUE) {
         /* counted from the first member on */
         qdot_expr first = members_value(m, (long)ceil(at - 1e-6));
 
