@@ -730,9 +730,9 @@ library_headers = \
 	lib/base/wrap.h \
 	lib/expr/abbreviate.h \
 	lib/expr/calculus.h \
+	lib/expr/elementary.h \
 	lib/expr/expr.h \
 	lib/expr/function.def \
-	lib/expr/function.h \
 	lib/expr/list.h \
 	lib/expr/pool.h \
 	lib/expr/print-name.h \

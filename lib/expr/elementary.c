@@ -1,6 +1,6 @@
 /* elementary.c -- elementary functions: special values, parity, inverse pairs, derivatives. */
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/pool.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* test_function.c -- elementary functions: special values, parity, inverse pairs, domains. */
 #include "kit.h"
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 
 static qdot_expr
 call(qdot_fun_id id, qdot_expr x)

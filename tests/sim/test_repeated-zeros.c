@@ -1,7 +1,7 @@
 /* test_repeated-zeros.c -- in place of functions with jumps stand those without that have the same zeros. */
 #include "scenes.h"
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "sim/model/repeated-zeros.h"
 
 typedef struct {

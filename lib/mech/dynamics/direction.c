@@ -2,7 +2,7 @@
 #include "mech/dynamics/direction.h"
 
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 
 enum { MOST_DIRECTIONS = 64 };

@@ -11,7 +11,7 @@
  */
 #include <math.h>
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"

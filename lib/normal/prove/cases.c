@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
 #include "normal/prove/prove.h"

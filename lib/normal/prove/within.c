@@ -2,7 +2,7 @@
 #include "normal/prove/within.h"
 
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 
 /* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */

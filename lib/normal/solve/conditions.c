@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/inequality/contradiction.h"
 #include "normal/inequality/less.h"

@@ -1,5 +1,5 @@
 /* definedness.c -- where an expression is defined, as a set of conditions. */
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/solve/conditions.h"
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "sim/model/layer.h"
 

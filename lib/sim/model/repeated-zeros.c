@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "tape/constant.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
-#include "expr/function.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "mech/dynamics/dalembert.h"
 #include "mech/dynamics/energy.h"

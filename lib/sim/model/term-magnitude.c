@@ -1,7 +1,7 @@
 /* term-magnitude.c -- adds the absolute values of the terms. */
 #include "sim/model/term-magnitude.h"
 
-#include "expr/function.h"
+#include "expr/elementary.h"
 
 qdot_expr
 qdot_term_magnitude(qdot_pool *pool, qdot_expr e)

@@ -1,9 +1,9 @@
-/* function.h -- which function a node is.
+/* elementary.h -- which function a node is.
  *
  * Tests   tests/expr/test_function.c
  */
-#ifndef QDOT_EXPR_FUNCTION_H
-#define QDOT_EXPR_FUNCTION_H
+#ifndef QDOT_EXPR_ELEMENTARY_H
+#define QDOT_EXPR_ELEMENTARY_H
 
 #include "expr/expr.h"
 
