@@ -507,6 +507,7 @@ library_sources = \
 	lib/sim/bind/pulses.c \
 	lib/sim/branches/bifurcation.c \
 	lib/sim/branches/branch-marks.c \
+	lib/sim/branches/branch-points.c \
 	lib/sim/branches/branch.c \
 	lib/sim/branches/continuation.c \
 	lib/sim/branches/dips.c \
@@ -1111,6 +1112,7 @@ library_headers = \
 	lib/sim/branches/bifurcation.h \
 	lib/sim/branches/branch-marks.h \
 	lib/sim/branches/branch-parts.h \
+	lib/sim/branches/branch-points.h \
 	lib/sim/branches/branch.h \
 	lib/sim/branches/continuation.h \
 	lib/sim/branches/dips.h \

@@ -285,19 +285,20 @@ turns(const qdot_branches *b, const qdot_branch *branch, size_t k)
     return branch->mark[k] > 0 && (p[m] - p[0]) * (p[0] - *(p - m)) < 0;
 }
 
-/* Whether the points from .. to lie together as far as words go. */
+/* Whether the points from .. to lie together as far as words go; what lies between two bifurcations does not. */
 static bool
 is_short(const qdot_branches *b, const qdot_branch *branch, size_t from, size_t to)
 {
+    const bool apart = branch->mark[from] > 0 && branch->mark[to] > 0 && branch->mark[from] != branch->mark[to];
     const double *y = branch->y + from * b->found->width, *z = branch->y + to * b->found->width;
 
-    for (size_t k = 0; k <= b->n_told; k++) {
+    for (size_t k = 0; k <= b->n_told && !apart; k++) {
         const size_t i = k < b->n_told ? b->columns[k] : b->found->n;
 
         if (fabs(y[i] - z[i]) > tiny * b->found->size[i])
             return false;
     }
-    return true;
+    return !apart;
 }
 
 /* Where the part that begins at k ends: another verdict, or p turns. A part too short for words has none:

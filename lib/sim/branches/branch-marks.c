@@ -4,11 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/branches/branch-points.h"
 #include "sim/branches/fold-guess.h"
 
 /* Bifurcations of one kind within this distance are one, if they are located no better; beside their errors where
  * they are proved. */
 static const double together = 1e-6, rounded = 1e-11;
+/* Between two crossings this near the curves through them are next to each other; where they are within 10 times
+ * `together`, steps are not short enough to tell them apart. */
+static const double close_together = 1e-2;
 
 /* How far apart two bifurcations of a kind may be found that are one: those that are not located better
  * than by their errors, and those of equations with accurate test functions, by these. */
@@ -37,6 +41,29 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
     return i;
 }
 
+static bool
+is_crossing(const qdot_bifurcation *b)
+{
+    return b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL;
+}
+
+double
+qdot_branch_longest_near(const qdot_branch_search *s, const double *y)
+{
+    double longest = INFINITY;
+
+    for (size_t i = 0; i < s->all->bifurcations.n; i++)
+        for (size_t k = 0; k < i; k++) {
+            const qdot_bifurcation *a = &s->all->bifurcations.at[i], *b = &s->all->bifurcations.at[k];
+            const double gap = qdot_path_distance(s->x, a->y, b->y);
+
+            if (is_crossing(a) && is_crossing(b) && gap < close_together && gap > 10 * together)
+                longest = fmin(longest, fmax(gap / 4, fmin(qdot_path_distance(s->x, a->y, y),
+                                                           qdot_path_distance(s->x, b->y, y)) / 2));
+        }
+    return longest;
+}
+
 void
 qdot_branch_turn_back(const qdot_path *x, double *y)
 {
@@ -60,7 +87,7 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
     status = qdot_vec_push(&s->all->bifurcations, *b);
     if (status != QDOT_OK)
         qdot_free(b->y);
-    if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
+    if (status == QDOT_OK && is_crossing(b)) {
         status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
         other = status == QDOT_OK ? NULL : other;
     }
@@ -147,17 +174,77 @@ find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, 
     return QDOT_OK;
 }
 
+/* How far y lies behind the kept point `place`, along the tangent there; angles modulo full turns, which y is moved by. */
+static double
+way_from(const qdot_path *x, const qdot_path_point *place, double *y, double *room)
+{
+    for (size_t i = 0; i <= x->n; i++) {
+        if (i < x->n && x->angle[i])
+            y[i] += 2 * M_PI * round((place->y[i] - y[i]) / (2 * M_PI));
+        room[i] = y[i] - place->y[i];
+    }
+    return qdot_path_product(x, place->t, room);
+}
+
+/* A point of the branch at a->y, `way` behind the kept point `place`, between those that are there. */
+static qdot_status
+insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_point *a, size_t mark,
+       qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    double *room = qdot_calloc(x->n + 1, sizeof *room);
+    qdot_status status = room ? x->judge(x, a) : QDOT_ENOMEM;
+    size_t at = d->count[0];
+
+    for (size_t k = 1; k < d->n && room; k++)
+        if (way_from(x, &d->at[place], d->at[k].y, room) < way)
+            at = d->count[k];
+    if (status == QDOT_OK)
+        status = qdot_branch_insert(x, branch, at, a->y, a->stability, mark);
+    for (size_t k = 0; k < d->n; k++)
+        d->count[k] += d->count[k] > at;
+    qdot_free(room);
+    return status;
+}
+
+/* The crossings b [2] and a point between them, which has a stability of its own, become points of the branch. Takes
+ * what they own. */
+static qdot_status
+insert_pair(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation *b, double **other, double *room,
+            qdot_path_point *a, qdot_branch *branch)
+{
+    qdot_path *x = s->x;
+    const double way[2] = {way_from(x, &d->at[place], b[0].y, room), way_from(x, &d->at[place], b[1].y, room)};
+    qdot_status status = QDOT_OK;
+    int steps;
+
+    for (int k = 0; k < 2 && status == QDOT_OK; k++) {
+        size_t mark = 0;
+
+        memcpy(a->y, b[k].y, x->width * sizeof *a->y);
+        qdot_branch_turn_back(x, b[k].y);
+        status = qdot_branch_mark(s, &b[k], other[k], &mark);
+        b[k].y = other[k] = NULL;
+        if (status == QDOT_OK)
+            status = insert(s, d, place, way[k], a, mark, branch);
+    }
+    if (status == QDOT_OK && qdot_path_go(x, &d->at[place], (way[0] + way[1]) / 2, a, &steps))
+        status = insert(s, d, place, (way[0] + way[1]) / 2, a, 0, branch);
+    return status;
+}
+
 qdot_status
-qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d, size_t place, double way, qdot_branch *branch,
+qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_branch *branch,
           bool *both)
 {
     qdot_path *x = s->x;
     const size_t w = x->width;
+    double *direction = qdot_calloc(x->n + 1, sizeof *direction);
     qdot_bifurcation b[2] = {{.y = qdot_calloc(2 * w, sizeof(double))},
                              {.y = qdot_calloc(2 * w, sizeof(double))}};
     double *other[2] = {qdot_calloc(x->n + 1, sizeof(double)), qdot_calloc(x->n + 1, sizeof(double))};
     qdot_path_point room = {0};
-    qdot_status status = b[0].y && b[1].y && other[0] && other[1] ? qdot_path_point_begin(x, &room)
+    qdot_status status = direction && b[0].y && b[1].y && other[0] && other[1] ? qdot_path_point_begin(x, &room)
                                                                  : QDOT_ENOMEM;
 
     *both = status == QDOT_OK;
@@ -167,15 +254,9 @@ qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d, size_t place, d
     }
     *both = *both && status == QDOT_OK &&
             qdot_path_distance(x, b[0].y, b[1].y) > apart(x, &b[0], &b[1]);
-    for (size_t k = 0; k < 2 && *both && status == QDOT_OK; k++) {
-        const size_t point = d->count[k + 1];
-        size_t mark = 0;
-
-        status = qdot_branch_mark(s, &b[k], other[k], &mark);
-        b[k].y = other[k] = NULL;
-        if (status == QDOT_OK && point > 0 && branch->mark[point - 1] == 0)
-            branch->mark[point - 1] = mark;
-    }
+    if (*both && status == QDOT_OK)
+        status = insert_pair(s, d, place, b, other, direction, &room, branch);
+    qdot_free(direction);
     for (int k = 0; k < 2; k++) {
         qdot_free(b[k].y);
         qdot_free(other[k]);

@@ -15,6 +15,9 @@
 /* Angles as -pi < q <= pi, as far as is known. */
 void qdot_branch_turn_back(const qdot_path *x, double *y);
 
+/* The longest step from y at which a curve is told from its neighbour between two crossings that lie close together. */
+double qdot_branch_longest_near(const qdot_branch_search *s, const double *y);
+
 /* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */
 QDOT_MUST_CHECK qdot_status qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b,
                                              double *other, size_t *mark);
@@ -33,8 +36,8 @@ QDOT_MUST_CHECK qdot_status qdot_branch_fold_beside(qdot_branch_search *s, const
                                                     qdot_bifurcation *b);
 
 /* Two crossings beside the kept point `place`, `way` along the curve or nearer; *both is false where they are not
- * told apart: then nothing is kept. */
-QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, const qdot_dips *d,
+ * told apart: then nothing is kept. They and a point between them become points of the branch. */
+QDOT_MUST_CHECK qdot_status qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d,
                                                   size_t place, double way, qdot_branch *branch,
                                                   bool *both);
 /* A place at which several curves meet, known to `apart`. */

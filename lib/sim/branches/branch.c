@@ -7,6 +7,7 @@
 
 #include "base/interrupt.h"
 #include "sim/branches/branch-marks.h"
+#include "sim/branches/branch-points.h"
 
 /* Arclengths: p's range, a full angle in radians and the size of each coordinate have length 1. */
 static const double first_step = 2e-3, far_away = 100;
@@ -26,42 +27,6 @@ static const double beyond = 0.05;
 static const double doubtful = 1e-13;
 /* Halvings of the way to what is not located otherwise. */
 enum { MOST_POINTS = 20000, UNKNOWN = 20 };
-
-qdot_status
-qdot_branch_add(const qdot_path *x, qdot_branch *branch, const double *y,
-                qdot_stability stability, size_t mark)
-{
-    const size_t m = x->width;
-
-    if (branch->n == branch->room) {
-        const size_t room = branch->room == 0 ? 64 : 2 * branch->room;
-        double *all = qdot_realloc(branch->y, room * m * sizeof *all);
-        qdot_stability *verdicts;
-        size_t *marks;
-
-        branch->y = all ? all : branch->y;
-        verdicts = qdot_realloc(branch->stability, room * sizeof *verdicts);
-        branch->stability = verdicts ? verdicts : branch->stability;
-        marks = qdot_realloc(branch->mark, room * sizeof *marks);
-        branch->mark = marks ? marks : branch->mark;
-        if (!all || !verdicts || !marks)
-            return QDOT_ENOMEM;
-        branch->room = room;
-    }
-    memcpy(branch->y + branch->n * m, y, m * sizeof *y);
-    branch->stability[branch->n] = stability;
-    branch->mark[branch->n++] = mark;
-    return QDOT_OK;
-}
-
-void
-qdot_branch_clear(qdot_branch *branch)
-{
-    qdot_free(branch->y);
-    qdot_free(branch->stability);
-    qdot_free(branch->mark);
-    *branch = (qdot_branch){0};
-}
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
@@ -520,7 +485,8 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
         const size_t before = branch->n;
         bool again = false;
 
-        go_on(x, a, fmin(x->longest * fmax(1, far), d->careful), &step, b, &length, &branch->end[1], &last);
+        go_on(x, a, fmin(fmin(x->longest * fmax(1, far), d->careful), qdot_branch_longest_near(s, a->y)), &step, b,
+              &length, &branch->end[1], &last);
         if (x->failure == QDOT_EINTR) {
             s->all->interrupted = true;
             branch->end[1] = QDOT_END_STOPPED;

@@ -7,10 +7,6 @@
 
 #include "sim/branches/branch-parts.h"
 
-QDOT_MUST_CHECK qdot_status qdot_branch_add(const qdot_path *x, qdot_branch *branch,
-                                            const double *y, qdot_stability stability, size_t mark);
-void qdot_branch_clear(qdot_branch *branch);
-
 /* Follow the curve from a, which is judged, along a->t; points behind a are added to `branch`, the
  * bifurcations that are met to s->all, crossings to s->crossings. branch->end[1]. */
 QDOT_MUST_CHECK qdot_status qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *a,

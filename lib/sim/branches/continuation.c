@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sim/branches/branch-marks.h"
+#include "sim/branches/branch-points.h"
 
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
  * direction: below, it has no part along p. */
