@@ -333,9 +333,8 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 qdot_status
 qdot_rest_begin(qdot_rest *r, qdot_scene *s)
 {
-    qdot_status status;
-
     const qdot_facts facts = qdot_scene_facts(s);
+    qdot_status status;
 
     *r = (qdot_rest){.s = s, .pool = s->pool};
     QDOT_TRY(qdot_assumptions_read(s->pool, &facts, qdot_list(s->pool, (uint32_t)s->coordinates.n, s->coordinates.at),
@@ -443,13 +442,15 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
     *out = (qdot_equilibria){0};
     if (status == QDOT_OK)
         status = qdot_rest_find(&r, bind, user, out);
+    if (status == QDOT_OK && first_only) /* the first one must be where coordinates are assumed to be */
+        status = keep_assumed(&r);
     if (status == QDOT_OK)
         status = judge(&r, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_ends(&r);
-    if (status == QDOT_OK)
+    if (status == QDOT_OK && !first_only) /* behind the ends: these are not ends of what is assumed */
         status = keep_assumed(&r);
     if (status == QDOT_OK && (r.found.n == 0 || !first_only))
         status = qdot_rest_pole(&r, &out->pole);
