@@ -1,4 +1,4 @@
-/* direction.c -- each |u| that is divided by, one after another. */
+/* direction.c -- friction along u/|u| as sign(u): for each |u| that a force divides by, C/|u| becomes B sign(u). */
 #include "mech/dynamics/direction.h"
 
 #include "expr/calculus.h"
@@ -13,24 +13,24 @@ typedef struct {
     qdot_expr symbol, inverse; /* for |u|, 1/|u| */
 } direction;
 
-/* Whether factor k of a product is an odd negative power of |u|. */
-static bool
-is_odd_inverse(const qdot_pool *pool, qdot_expr product, uint32_t k, long *power)
+bool
+qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, long *power)
 {
     return qdot_expr_is_function(pool, qdot_expr_arg(pool, product, k), QDOT_ABS)
            && qdot_expr_to_int(pool, qdot_expr_arg(pool, product, k + 1), power) && *power < 0
            && *power % 2 != 0;
 }
 
-/* An |u| of a velocity that e divides by, other than those tried [n]; nil: none. */
+/* The first |u| whose odd negative power is a factor in one of e [m], where u holds a velocity and |u| is not among
+ * tried [n]; nil if there is none. */
 static qdot_expr
-find_length(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *tried)
+find_length(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n, const qdot_expr *tried)
 {
     qdot_expr found = QDOT_NIL;
     long power;
     qdot_walk walk;
 
-    if (qdot_walk_begin(pool, e, &walk) != QDOT_OK)
+    if (qdot_walk_begin_n(pool, m, e, &walk) != QDOT_OK)
         return qdot_pool_fail(pool);
     for (size_t i = 0; i < walk.n && found == QDOT_NIL; i++)
         for (uint32_t k = 1; qdot_expr_kind(pool, walk.at[i]) == QDOT_PROD
@@ -41,7 +41,7 @@ find_length(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *tried)
 
             for (size_t j = 0; j < n; j++)
                 known = known || tried[j] == length;
-            if (!known && is_odd_inverse(pool, walk.at[i], k, &power)
+            if (!known && qdot_is_inverse_magnitude(pool, walk.at[i], k, &power)
                 && (qdot_expr_node(pool, length)->holds & QDOT_HAS_VELOCITY) != 0)
                 found = length;
         }
@@ -49,7 +49,8 @@ find_length(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *tried)
     return found;
 }
 
-/* |u| and its odd inverse powers by the symbols: |u|^-3 is (1/|u|) u^-2. */
+/* A node with the symbol for |u| in place of |u|, and that for 1/|u| in its odd negative powers: |u|^-3 = (1/|u|) u^-2.
+ * Nil: it holds none itself (qdot_walk_map then looks into its children). */
 static qdot_expr
 put_symbols(qdot_pool *pool, qdot_expr node, void *user)
 {
@@ -61,7 +62,7 @@ put_symbols(qdot_pool *pool, qdot_expr node, void *user)
     if (qdot_expr_kind(pool, node) != QDOT_PROD)
         return QDOT_NIL;
     for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node); k += 2)
-        if (qdot_expr_arg(pool, node, k) == d->length && is_odd_inverse(pool, node, k, &power)) {
+        if (qdot_expr_arg(pool, node, k) == d->length && qdot_is_inverse_magnitude(pool, node, k, &power)) {
             qdot_expr rest = qdot_mul(pool, node, qdot_pow_int(pool, d->length, -power));
 
             rest = qdot_mul(pool, rest, qdot_pow_int(pool, d->u, power + 1));
@@ -92,8 +93,8 @@ divides(qdot_pool *pool, qdot_expr e, qdot_expr w)
     return found;
 }
 
-/* B of C = B u, where u = a (v - v0) is linear in v; nil: there is none. With w = v - v0 every term of C holds
- * the factor w. */
+/* B, where C = B u and u = a (v - v0) is linear in v. It is found with w = v - v0: each term of the expanded C must have
+ * the factor w. Nil if u is not linear in v or C is no multiple of u. */
 static qdot_expr
 divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
 {
@@ -114,7 +115,7 @@ divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
     return qdot_div(pool, qdot_subs(pool, B, 1, &w, &back), a);
 }
 
-/* The same, in the first velocity of u that allows it. */
+/* B, where C = B u, by the first velocity in which u is linear and that gives one; nil if none does. */
 static qdot_expr
 divide(qdot_pool *pool, qdot_expr C, qdot_expr u)
 {
@@ -131,7 +132,7 @@ divide(qdot_pool *pool, qdot_expr C, qdot_expr u)
     return B;
 }
 
-/* e with C/|u| as B sign(u); e itself if it is not of that form. */
+/* e with B sign(u) for C/|u|, where |u| is `length`; e itself if e does not divide by |u| or C is no multiple of u. */
 static qdot_expr
 read_one(qdot_pool *pool, qdot_expr e, qdot_expr length)
 {
@@ -153,18 +154,25 @@ read_one(qdot_pool *pool, qdot_expr e, qdot_expr length)
     return qdot_subs(pool, rest, 1, &d.symbol, &length);
 }
 
-qdot_expr
-qdot_directions_as_signs(qdot_pool *pool, qdot_expr e)
+static qdot_expr
+with_signs(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr tried[MOST_DIRECTIONS];
 
-    for (size_t n = 0; n < MOST_DIRECTIONS; n++) {
-        if (qdot_pool_failed(pool) || (qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) == 0)
-            break;
-        tried[n] = find_length(pool, e, n, tried);
+    for (size_t n = 0; n < MOST_DIRECTIONS && !qdot_pool_failed(pool); n++) {
+        tried[n] = find_length(pool, 1, &e, n, tried);
         if (tried[n] == QDOT_NIL)
             break;
         e = read_one(pool, e, tried[n]);
     }
     return qdot_pool_failed(pool) ? QDOT_NIL : e;
+}
+
+void
+qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e)
+{
+    if (qdot_pool_failed(pool) || find_length(pool, n, e, 0, NULL) == QDOT_NIL)
+        return; /* as in most scenes: one walk tells */
+    for (size_t i = 0; i < n; i++)
+        e[i] = with_signs(pool, e[i]);
 }

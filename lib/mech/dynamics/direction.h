@@ -12,7 +12,10 @@
 
 #include "expr/expr.h"
 
-/* e so. Nil: the pool keeps the failure. */
-qdot_expr qdot_directions_as_signs(qdot_pool *pool, qdot_expr e);
+/* Rewrite e [n] in that way. On failure an entry is nil or unchanged, and the pool keeps the failure. */
+void qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e);
+
+/* Whether the k-th argument of a product, a base, is |u| for some u, with an odd negative exponent, *power. */
+bool qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, long *power);
 
 #endif

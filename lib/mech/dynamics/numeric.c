@@ -361,8 +361,7 @@ numeric_get(qdot_scene *s)
     }
     if (!qdot_pool_failed(pool) && raw_forcings(s, e + n * n) && wants_both(s, e, size))
         choose(s, n, e);
-    for (size_t i = 0; i < n && !qdot_pool_failed(pool); i++)
-        e[n * n + i] = qdot_directions_as_signs(pool, e[n * n + i]);
+    qdot_directions_as_signs(pool, n, e + n * n);
     if (!qdot_pool_failed(pool)) {
         d->numeric_mass = qdot_matrix(pool, (uint32_t)n, (uint32_t)n, e);
         d->numeric_forcing = n > 1 ? qdot_vector(pool, (uint32_t)n, e + n * n)

@@ -13,6 +13,7 @@
 
 #include "expr/elementary.h"
 #include "expr/walk.h"
+#include "mech/dynamics/direction.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
@@ -164,9 +165,8 @@ product_by_signs(qdot_pool *pool, qdot_expr e, void *slipping)
         qdot_expr size = qdot_expr_arg(pool, e, i), u;
         long k;
 
-        if (!qdot_expr_is_function(pool, size, QDOT_ABS) ||
-            !qdot_expr_to_int(pool, qdot_expr_arg(pool, e, i + 1), &k) || k >= 0 ||
-            k % 2 == 0 || (r != NULL && (qdot_mech_holds(r->s, size) & QDOT_HAS_VELOCITY) == 0))
+        if (!qdot_is_inverse_magnitude(pool, e, i, &k) ||
+            (r != NULL && (qdot_mech_holds(r->s, size) & QDOT_HAS_VELOCITY) == 0))
             continue;
         u = qdot_expr_arg(pool, size, 0);
         product = qdot_mul(pool, product, qdot_pow_int(pool, size, -k));
