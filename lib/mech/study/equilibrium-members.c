@@ -3,6 +3,7 @@
 #include "mech/scene/access.h"
 #include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium-search.h"
+#include "mech/study/linear-motion.h"
 #include "normal/solve/solve.h"
 
 enum { MOST_PLACES = 1024 };
@@ -15,12 +16,8 @@ qdot_rest_moves_alike(void *scene, qdot_expr u, qdot_expr period)
     qdot_facts facts = qdot_scene_facts(s);
 
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]), gap;
+        const qdot_expr gap = qdot_motion_residual(s, i);
 
-        if (equation == QDOT_NIL)
-            return false;
-        gap = qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
-                       qdot_expr_arg(s->pool, equation, 1));
         if (gap == QDOT_NIL || !qdot_is_period(s->pool, gap, u, period, &facts))
             return false;
     }

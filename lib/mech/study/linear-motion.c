@@ -78,6 +78,16 @@ at(const place *p, qdot_expr e)
 }
 
 qdot_expr
+qdot_motion_residual(qdot_scene *s, size_t i)
+{
+    const qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]);
+
+    return equation == QDOT_NIL ? QDOT_NIL
+                                : qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
+                                           qdot_expr_arg(s->pool, equation, 1));
+}
+
+qdot_expr
 qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
 {
     place p = {0};
@@ -218,11 +228,9 @@ linearise(const place *p, qdot_expr *X, qdot_linear_motion *out)
     out->exact = s->constraints.n == 0;
     out->damped = true;
     for (size_t i = 0; i < n; i++) {
-        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]), left;
+        const qdot_expr left = qdot_motion_residual(s, i);
 
         QDOT_TRY(qdot_pool_check(s->pool));
-        left = qdot_sub(s->pool, qdot_expr_arg(s->pool, equation, 0),
-                        qdot_expr_arg(s->pool, equation, 1));
         for (uint32_t order = 0; order < 3; order++)
             for (size_t j = 0; j < n; j++)
                 QDOT_TRY(slope_at(p, left, j, order, &X[(2 - order) * n * n + i * n + j], out));

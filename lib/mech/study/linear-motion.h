@@ -34,6 +34,9 @@ void qdot_linear_motion_clear(qdot_linear_motion *m);
 QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
                                             qdot_facts *facts, qdot_expr **own);
 
+/* left - right of the equation of coordinate i. Nil: the pool keeps the failure. */
+qdot_expr qdot_motion_residual(qdot_scene *s, size_t i);
+
 /* e with the values of a place, at rest: substitution alone. */
 qdot_expr qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e);
 

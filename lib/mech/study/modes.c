@@ -70,7 +70,8 @@ check_masses(const job *j)
     return QDOT_OK;
 }
 
-/* Whether e jumps at the place: by a sign or an `if` that changes there. */
+/* *yes: the argument of a sign in e, or the difference between both sides of an `if`'s condition, is proved to be 0 at
+ * the place, so that e jumps there. */
 static qdot_status
 jumps_there(const job *j, qdot_expr e, qdot_expr place, bool *yes)
 {
@@ -104,14 +105,11 @@ check_smooth(const job *j, qdot_expr place)
     bool jumps = false;
 
     for (size_t i = 0; i < s->coordinates.n && !jumps; i++) {
-        qdot_expr e = qdot_mech_equation(s, s->coordinates.at[i]);
+        const qdot_expr gap = qdot_motion_residual(s, i);
 
-        QDOT_TRY(jumps_there(j, e, place, &jumps));
-        for (size_t k = 0; k < s->coordinates.n && !jumps; k++) {
-            qdot_expr gap = qdot_sub(j->pool, qdot_expr_arg(j->pool, e, 0), qdot_expr_arg(j->pool, e, 1));
-
+        QDOT_TRY(jumps_there(j, qdot_mech_equation(s, s->coordinates.at[i]), place, &jumps));
+        for (size_t k = 0; k < s->coordinates.n && !jumps; k++)
             QDOT_TRY(jumps_there(j, qdot_diff(j->pool, gap, s->coordinates.at[k]), place, &jumps));
-        }
     }
     QDOT_TRY(qdot_pool_check(j->pool));
     return jumps ? qdot_fail(QDOT_ETYPE, "the forces or their slopes jump at the equilibrium: there is no linear motion "
@@ -119,7 +117,8 @@ check_smooth(const job *j, qdot_expr place)
                  : QDOT_OK;
 }
 
-/* |e| at the place, |slope| max(1, |q|) summed over the coordinates q: what an error of 1 in the place makes of it. */
+/* Whether |value|, that of e at the place, is no more than relative errors of 1e-6 in the coordinates of the place (of
+ * 1e-6 where they are below 1) make of it, to first order. */
 static bool
 is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
 {
@@ -137,14 +136,14 @@ is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
     return fabs(value) <= 1e-6 * sum;
 }
 
-/* Modes are about a place where nothing is pushed; forces of multipliers are not judged. */
+/* An error if an equation of motion is refuted at rest at the place, beyond rounding: it is no equilibrium. Equations
+ * that hold a multiplier are passed over, because its value there need not be known. */
 static qdot_status
 check_rests(const job *j, qdot_expr place)
 {
     for (size_t i = 0; i < j->s->coordinates.n; i++) {
-        const qdot_expr equation = qdot_mech_equation(j->s, j->s->coordinates.at[i]);
-        qdot_expr gap = qdot_sub(j->pool, qdot_expr_arg(j->pool, equation, 0), qdot_expr_arg(j->pool, equation, 1)),
-                  there;
+        const qdot_expr gap = qdot_motion_residual(j->s, i);
+        qdot_expr there;
         qdot_decision decision;
         bool pulled = false;
 

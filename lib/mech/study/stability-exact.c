@@ -13,8 +13,8 @@
 
 /* --- one degree of freedom, either side ------------------------------------------------- */
 
-/* The first derivative by eps that is not 0 at eps = 0 of e, *leading (nil: none is known), and its sign, 0 where that
- * is not known. */
+/* *leading: the derivative of lowest order of e by eps that is not 0 at eps = 0; nil if none is found. *sign: 1 or -1
+ * where it has that sign for all parameters, else 0. */
 static qdot_status
 leading_term(qdot_judgement *j, qdot_expr e, qdot_expr eps, qdot_expr *leading, int *sign)
 {
@@ -106,7 +106,8 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
     return chosen(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
 }
 
-/* Stable where both are positive: always, or under conditions on parameters. */
+/* The place is stable where both forces back [2] are positive: for all parameters, or under conditions on these, which
+ * j collects. Undecided if they depend on more than parameters or cannot both be positive. */
 static qdot_status
 by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back)
 {
@@ -135,7 +136,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
     qdot_pool *pool = s->pool;
     qdot_expr q = s->coordinates.at[0], mass, up,
               eps = qdot_symbol_get(pool, QDOT_FORMAL, "epsilon"), place;
-    qdot_expr back[2]; /* positive where the force pushes back */
+    qdot_expr back[2]; /* leading terms of the force towards the place, on either side of it */
     int sign[2];
 
     if (qdot_expr_count(pool, e->equations) != 1 || qdot_expr_count(pool, j->judge->at_rest) != 1)
@@ -163,7 +164,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
             return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
         QDOT_TRY(leading_term(j, side == 0 ? qdot_neg(pool, F) : F, eps, &back[side], &sign[side]));
     }
-    if ((sign[0] > 0 || back[0] != QDOT_NIL) && (sign[1] > 0 || back[1] != QDOT_NIL) && sign[0] >= 0 && sign[1] >= 0)
+    if (back[0] != QDOT_NIL && back[1] != QDOT_NIL && sign[0] >= 0 && sign[1] >= 0)
         return by_sides_when(j, e, back);
     if ((sign[0] < 0 || sign[1] < 0) && !j->judge->velocity_kink)
         e->stability = QDOT_UNSTABLE;

@@ -169,12 +169,10 @@ matrices(held *h, size_t n, qdot_expr *M, qdot_expr *Gamma, qdot_expr *H)
     size_t a = 0;
 
     for (size_t i = 0; i < s->coordinates.n; i++) {
-        qdot_expr one = qdot_mech_equation(s, s->coordinates.at[i]), gap;
+        const qdot_expr gap = qdot_motion_residual(s, i);
         size_t b = 0;
 
-        if (one == QDOT_NIL)
-            return qdot_pool_check(pool);
-        gap = qdot_sub(pool, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1));
+        QDOT_TRY(qdot_pool_check(pool));
         for (size_t k = 0; k < s->coordinates.n && h->limit[i] == QDOT_NIL; k++) {
             if (h->limit[k] != QDOT_NIL)
                 continue;

@@ -14,6 +14,7 @@
 #include "mech/dynamics/integrated.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
+#include "mech/study/linear-motion.h"
 #include "mech/study/stability.h"
 
 /* Of the largest entry: below SMALL is 0. Roots with real parts beyond AWAY of the fastest
@@ -52,13 +53,11 @@ qdot_stability_numbers_new(const qdot_judge *judge, qdot_stability_numbers **out
     if (x->e == NULL || x->value == NULL || x->told == NULL)
         status = QDOT_ENOMEM;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
-        qdot_expr equation = qdot_mech_equation(s, s->coordinates.at[i]), left;
+        const qdot_expr left = qdot_motion_residual(s, i);
 
         status = qdot_pool_check(pool);
         if (status != QDOT_OK)
             break;
-        left = qdot_sub(pool, qdot_expr_arg(pool, equation, 0),
-                        qdot_expr_arg(pool, equation, 1));
         for (uint32_t order = 0; order < 3; order++)
             for (size_t j = 0; j < n; j++)
                 x->e[(2 - order) * n * n + i * n + j] =
