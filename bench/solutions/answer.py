@@ -1,5 +1,5 @@
 """answer.py -- what the program said to one script: its list, the conditions of each entry, and if it is all."""
-import json, re, subprocess, tempfile, os
+import json, re, subprocess, tempfile
 
 from formula import Unreadable, names
 
@@ -31,7 +31,7 @@ class Answer:
         self.error, self.hint, self.crash, self.status, self.output = None, None, None, 0, ""
 
 
-def _split(text, at=", "):
+def split(text, at=", "):
     """Parts outside brackets."""
     parts, depth, last = [], 0, 0
     for i, c in enumerate(text):
@@ -45,7 +45,7 @@ def _split(text, at=", "):
 def _conditions(words, entry):
     """`numeric, exists when a > 0 and b > 0, stable when c > 0`."""
     entry.words = words
-    for part in _split(words):
+    for part in split(words):
         part = part.strip()
         if part.startswith("numeric"):
             entry.numeric = True
@@ -79,7 +79,7 @@ def _special(where, sets, unknown):
     if sets == "every value is a solution":
         return at, None
     entries = []
-    for part in _split(sets):
+    for part in split(sets):
         e = Entry(1, part)
         text, _, when = part.partition(" when ")
         e.exists = when or None
@@ -88,15 +88,18 @@ def _special(where, sets, unknown):
     return at, entries
 
 
+def run_script(program, script, *options, timeout=20):
+    """The finished process; its status is 124 where it took longer than `timeout` seconds."""
+    with tempfile.NamedTemporaryFile("w", suffix=".lag") as f:
+        f.write(script)
+        f.flush()
+        return subprocess.run(["timeout", str(timeout), program, *options, f.name], text=True, capture_output=True)
+
+
 def ask(program, script, unknown=None, timeout=20):
     """Run a script whose last statement asks for the list."""
     said = Answer()
-    with tempfile.NamedTemporaryFile("w", suffix=".lag", delete=False) as f:
-        f.write(script)
-    try:
-        p = subprocess.run(["timeout", str(timeout), program, "--json", f.name], text=True, capture_output=True)
-    finally:
-        os.unlink(f.name)
+    p = run_script(program, script, "--json", timeout=timeout)
     said.status, said.output = p.returncode, p.stdout + p.stderr
     if p.returncode == 124:
         said.crash = f"over {timeout} s"
@@ -125,7 +128,7 @@ def ask(program, script, unknown=None, timeout=20):
             entries[e.index] = e
             e.numeric = o["kind"] == "number"
             body = e.text[1:-1] if e.text.startswith("[") and e.text.endswith("]") else e.text
-            for part in _split(body) if body else []:
+            for part in split(body) if body else []:
                 _equation(part, unknown, e)
         elif o["kind"] == "numbers" and name.startswith("solve"):
             for k, v in enumerate(o["values"], 1):

@@ -3,11 +3,12 @@
 Each listed solution is put back, in 50 digits, at random values of the parameters, of the integers and of the unknowns
 that it leaves free; simple zeros found by Newton's steps from many starts must be among them.
 """
-import itertools, random, re, subprocess, tempfile
+import itertools, random, re
 
 import mpmath
 import numpy as np
 
+from answer import run_script, split
 from formula import array, names, read, value
 from scene import num
 from verdict import Verdict, short
@@ -79,21 +80,10 @@ class System:
                 if (lo and at[u] < value(lo, {}) - slack) or (hi and at[u] > value(hi, {}) + slack)]
 
 
-def split(text):
-    """Parts between commas outside brackets."""
-    parts, depth, last = [], 0, 0
-    for i, c in enumerate(text):
-        depth += (c in "([") - (c in ")]")
-        if c == "," and depth == 0:
-            parts.append(text[last:i].strip())
-            last = i + 1
-    return [p for p in parts + [text[last:].strip()] if p]
-
-
 def entries(output):
     """[({unknown: formula}, condition or None)]"""
     when = dict(re.findall(r"^notice: (\[.*\]) exists when (.*)$", output, re.M))
-    return [(dict(p.split(" = ", 1) for p in split(text[1:-1])), when.get(text))
+    return [(dict(p.split(" = ", 1) for p in split(text[1:-1]) if p), when.get(text))
             for text in re.findall(r"^solve\(.*\)\[\d+\] = (\[.*\])$", output, re.M)]
 
 
@@ -127,7 +117,7 @@ def put_back(system, verdict, listed, at):
 
 
 def confirmed(system, at):
-    """Whether a few more of Newton's steps, in 50 digits, end beside x, y of `at` at a zero: a pole is none."""
+    """Whether a few more of Newton's steps, in 50 digits, end at a zero beside x, y of `at` (beside a pole they do not)."""
     p, h = mpmath.matrix([at["x"], at["y"]]), mpmath.mpf(10) ** -25
 
     def of(q):
@@ -186,7 +176,7 @@ def simple_zeros(system, at, reach=9.0, starts=200):
 
 
 def is_listed(system, listed, zero, at, turns):
-    """Whether one of the entries is there; an angle in which all is periodic may be turns away."""
+    """Whether an entry is that zero; an unknown in which the equations have the period 2 pi may differ by turns."""
     for entry in listed:
         used = set().union(*[names(f) for f in entry[0].values()]) if entry[0] else set()
         integers = [n for n in INTEGERS if n in used]
@@ -203,7 +193,7 @@ def is_listed(system, listed, zero, at, turns):
 
 
 def recurs(system, u):
-    """Whether nothing changes in a turn of u, as far as points tell."""
+    """Whether the equations have the period 2 pi in u, as far as four random points tell."""
     for _ in range(4):
         at = dict(system.values(), x=mpmath.mpf(system.draw.random()), y=mpmath.mpf(system.draw.random()))
         turned = dict(at, **{u: at[u] + 2 * mpmath.pi})
@@ -217,10 +207,7 @@ def recurs(system, u):
 def judge(program, seed, index, timeout=20):
     """The system, what was said, and the verdict."""
     system, verdict = System(seed, index), Verdict()
-    with tempfile.NamedTemporaryFile("w", suffix=".lag") as f:
-        f.write(system.script())
-        f.flush()
-        p = subprocess.run(["timeout", str(timeout), program, f.name], text=True, capture_output=True)
+    p = run_script(program, system.script(), timeout=timeout)
     said = p.stdout + p.stderr
     if p.returncode == 124 or p.returncode < 0 or p.returncode > 2:
         verdict.add("crash", f"status {p.returncode}")
