@@ -1,5 +1,5 @@
 /* signals.c -- Ctrl-C: stops a computation, clears a line, ends a script at the second
- * try. Files too large are errors of writing. */
+ * try. A write beyond the limit of file sizes is an error and does not end the program. */
 #include "signals.h"
 
 #include <signal.h>
@@ -40,7 +40,7 @@ qdot_signals_install(void)
     if (qdot_rank() > 0)
         action.sa_handler = SIG_IGN; /* rank 0 ends it */
     sigaction(SIGINT, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN); /* a file past the limit of sizes is a write that fails */
+    signal(SIGXFSZ, SIG_IGN); /* then write fails with EFBIG */
     if (qdot_rank() == 0 && qdot_ranks_count() > 1)
         sigaction(SIGTERM, &action, NULL); /* mpirun ends all, and gives a second to do so */
 }

@@ -117,7 +117,7 @@ def put_back(system, verdict, listed, at):
 
 
 def confirmed(system, at):
-    """Whether a few more of Newton's steps, in 50 digits, end at a zero beside x, y of `at` (beside a pole they do not)."""
+    """Whether a few more of Newton's steps, in 50 digits, end at a zero beside `at` (beside a pole they do not)."""
     p, h = mpmath.matrix([at["x"], at["y"]]), mpmath.mpf(10) ** -25
 
     def of(q):

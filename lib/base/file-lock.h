@@ -1,7 +1,7 @@
 /* file-lock.h -- one process at a time works with a file.
  *
- * The lock is FILE.lock, FILE being that behind symbolic links, an empty file that is there while it is held; of a
- * process that dies it stays, and holds nobody up. Processes that it forks do not hold it.
+ * The lock is an empty file, FILE.lock, which exists while the lock is held; symbolic links to one FILE share it.
+ * If the process dies FILE.lock stays, but locks nobody out. Processes that it forks do not hold the lock.
  *
  * Tests  tests/base/test_file-lock.c, tests/script/sweep-resume.sh
  */

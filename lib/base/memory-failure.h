@@ -8,12 +8,13 @@
  * answer may be lost. */
 bool qdot_memory_ran_out(void);
 
-/* For tests: the n-th allocation from now (n = 0: the next) fails and no other (memory.h has: it and all after it);
- * n < 0: none. How many were left before the one that was to fail until now; negative: it failed, or none was to. */
+/* For tests: the n-th allocation from now (n = 0: the next) fails and no other (qdot_memory_fail_at: it and all after
+ * it); n < 0: none. Returns how many were still to come before the failure asked for last; negative if that one failed,
+ * or none was asked for. */
 long qdot_memory_fail_once_at(long n);
 
 /* For tests: `who` is called before the n-th allocation from now (n = 0: the next), by the thread that allocates, and
- * may ask to be called again; n < 0: not. One `who` at a time, memory.h's Ctrl-C being one. */
+ * may ask to be called again; n < 0: nothing is called. Only one `who` can be set: qdot_memory_press_at sets it too. */
 void qdot_memory_visit_at(long n, void (*who)(void));
 
 #endif

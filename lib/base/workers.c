@@ -267,8 +267,8 @@ qdot_hand_drop(qdot_crew *c, qdot_hand *h)
 
 /* --- here ----------------------------------------------------------------------------- */
 
-/* A chunk for an idle worker, if there is one. That a worker is dead shows when it is read; one that cannot be told what
- * to do would be waited for without end. */
+/* Give a chunk to an idle worker, if any is left. A worker that has died is noticed when its answer is read; one to
+ * which the chunk cannot be written is killed, because its answer would be waited for without end. */
 static void
 feed(qdot_crew *c, worker *w)
 {

@@ -166,7 +166,7 @@ roots_of_radicals_body(kit *k)
 }
 TEST(roots_of_radicals)
 
-/* The end of a condition belongs to it where a place is a rest there that no other entry lists. */
+/* s >= 1 in place of s > 1 where the place is a rest at s = 1 too, and no other entry lists it. */
 static void
 ends_of_conditions_body(kit *k)
 {

@@ -61,7 +61,7 @@ JUDGED(a_trap, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + 3*(x*y' - y*x')/2 - z^2 + x^2
 JUDGED(a_trap_too_weak, {"x y z", "(x'^2 + y'^2 + z'^2)/2 + (x*y' - y*x')/2 - z^2 + x^2/2 + y^2/2", NULL, NULL, QDOT_UNSTABLE})
 JUDGED(three_damped_by_one, {"x y z", "(x'^2 + y'^2 + z'^2)/2 - x^2 - y^2 - z^2 - x*y - y*z/2", "-x' + z/9", "x", QDOT_STABLE})
 
-/* Each allocation on the way fails alone: an answer, or none, and the next question is answered. */
+/* Each allocation of the question fails alone: if that is an error the law is unknown, and it is found when asked again. */
 static void
 an_energy_law_without_memory_body(kit *k)
 {

@@ -1,4 +1,4 @@
-/* scripts.h -- the scripts of which allocations fail, and how many of them, by QDOT_RELIABILITY. */
+/* scripts.h -- the examples in which allocations fail, and the form of the test that QDOT_RELIABILITY asks for. */
 #ifndef QDOT_TESTS_RELIABILITY_SCRIPTS_H
 #define QDOT_TESTS_RELIABILITY_SCRIPTS_H
 

@@ -1,5 +1,6 @@
-/* Scripts in which an allocation and all after it fail, or one call that opens, writes or renames a file: they say so
- * or are none the worse, the session can be used again, and every file is the old one or the whole new one.
+/* Scripts in which an allocation and all after it fail, or one call that opens, writes or renames a file: a
+ * statement reports it or answers as usual, the session can be used again, and every file is the old one or the
+ * whole new one.
  *
  * The n-th call fails, for some n of each script, for all n of a kind of output where QDOT_RELIABILITY is `long`; of
  * calls that write, for all n.

@@ -1,5 +1,5 @@
-/* Scripts in which one allocation alone fails, statement by statement: they say so or are none the worse, and the
- * session can be used again.
+/* Scripts in which one allocation alone fails, statement by statement: the statement reports it or answers as usual,
+ * and the session can be used again.
  *
  * The n-th allocation of each statement, for some n of ten scripts; by QDOT_RELIABILITY of all scripts, or of the
  * examples that are named behind the program:
@@ -24,7 +24,7 @@
 #include "own-folder.h"
 #include "scripts.h"
 
-/* QDOT_RELIABILITY as a number: every so many-th allocation; else 0. */
+/* n where QDOT_RELIABILITY is a number n: every n-th allocation fails; else 0. */
 static long
 stride(void)
 {
@@ -44,7 +44,7 @@ static struct found {
 
 enum { GONE_WRONG = 3 };
 
-/* A line that tells how long it took says so each time in other words. */
+/* The text [n] without lines that state times, which differ from run to run; its length. */
 static size_t
 without_times(char *text, size_t n)
 {
@@ -75,7 +75,7 @@ begin_to_fail(long n)
     (void)qdot_memory_fail_once_at(n);
 }
 
-/* What the statement came to goes to `told`; the session must be of use, and this copy ends. */
+/* Write how the statement ended to `told`, try the session with further statements, and end this copy. */
 static _Noreturn void
 tell_and_exit(talk *k, int ended, struct found *told)
 {
@@ -101,7 +101,8 @@ tell_and_exit(talk *k, int ended, struct found *told)
     _exit(0);
 }
 
-/* Statements of a script, each of whose allocations fails alone; what they came to. */
+/* The session, the script and the statement at hand; of the script, how many failures were tried, how many went wrong,
+ * and how many allocations there were. */
 static struct {
     talk *k;
     const char *script, *statement;
@@ -129,7 +130,7 @@ says_the_usual(void)
     return found->n == usual->n && memcmp(found->text, usual->text, usual->n) == 0;
 }
 
-/* Whether a notice or an answer says that something could not be had. */
+/* Whether what was printed mentions memory, the reason why it is not the usual text. */
 static bool
 says_why(void)
 {
@@ -137,7 +138,8 @@ says_why(void)
     return strstr(found->text, "memory") != NULL;
 }
 
-/* Count what a copy came to in which the n-th allocation failed; false where it had fewer. */
+/* Wait for the copy in which the n-th allocation was to fail and count its result; false if it had fewer
+ * allocations. */
 static bool
 count_copy(pid_t copy, long n)
 {
@@ -226,7 +228,7 @@ static pid_t walker; /* the copy that carries out the statement with nothing fai
 static pthread_t main_thread;
 static long passed, *span; /* allocations since copies were made; how many until the next are, or the statement ends */
 
-/* A copy that counts to the first allocation at which the next copies can be made, and ends there. */
+/* In a copy: count the allocations up to the next at which copies can be made, in *span, and end there. */
 static void
 measure_span(void)
 {
@@ -237,8 +239,8 @@ measure_span(void)
     qdot_memory_visit_at(0, measure_span);
 }
 
-/* Copies with each of the allocations up to the next place of copies failing. In them it returns with the failure
- * before it. */
+/* Make a copy for each allocation of the next span, which fails in it; in the copy it returns, and the statement
+ * goes on towards the failure. */
 static void
 fail_each_of_span(void)
 {
@@ -304,7 +306,7 @@ fail_each_on_the_way(void)
     tell_and_exit(now.k, ended, getpid() == walker ? usual : found);
 }
 
-/* Each n of a statement, or some. */
+/* Let the n-th allocation fail, each time from the beginning of the statement: every stride()-th n, or growing n. */
 static void
 fail_some(void)
 {
@@ -332,7 +334,7 @@ next_statement(FILE *file)
     return all;
 }
 
-/* The files beside the script, by their names in this folder. */
+/* Links in this folder to the tables (*.csv) beside the script. */
 static void
 link_data(const char *path)
 {

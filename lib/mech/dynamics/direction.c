@@ -7,7 +7,7 @@
 
 enum { MOST_DIRECTIONS = 64 };
 
-/* |u| and 1/|u| as symbols. */
+/* One |u|, and the symbols that stand for it and for 1/|u| while a force is rewritten. */
 typedef struct {
     qdot_expr length, u;       /* |u|, u */
     qdot_expr symbol, inverse; /* for |u|, 1/|u| */
@@ -71,7 +71,7 @@ put_symbols(qdot_pool *pool, qdot_expr node, void *user)
     return QDOT_NIL;
 }
 
-/* Whether e holds a negative power of w. */
+/* Whether a negative power of w is a factor anywhere in e. True also on failure: the pool keeps it. */
 static bool
 divides(qdot_pool *pool, qdot_expr e, qdot_expr w)
 {
@@ -93,8 +93,8 @@ divides(qdot_pool *pool, qdot_expr e, qdot_expr w)
     return found;
 }
 
-/* B, where C = B u and u = a (v - v0) is linear in v. It is found with w = v - v0: each term of the expanded C must have
- * the factor w. Nil if u is not linear in v or C is no multiple of u. */
+/* B, where C = B u and u = a (v - v0) is linear in v. It is found with w = v - v0: each term of the expanded C must
+ * have the factor w. Nil if u is not linear in v or C is no multiple of u. */
 static qdot_expr
 divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
 {

@@ -13,20 +13,21 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solve.h"
 
-/* Conditions of more operations, and of more factors, are left as they are. */
+/* A condition with more operations or more factors than this is not examined. */
 enum { LONGEST = 40, MOST_FACTORS = 4 };
 
-/* A place where one parameter p has a value. */
+/* The place r->found.at[place] at p = value, where both sides of one of its conditions are equal. */
 typedef struct {
     qdot_rest *r;
     size_t place;
     qdot_expr p, value;
-    qdot_expr others; /* its other conditions there */
-    qdot_facts facts; /* with them; exact */
+    qdot_expr others; /* its other conditions, with that value put in */
+    qdot_facts facts; /* of the search, with `others`; special values of parameters count */
     qdot_expr room[QDOT_CONDITIONS_MOST];
 } end;
 
-/* An answer is no for what has no value there; other failures stay. */
+/* Whether the last expression has no value (a division by zero): the caller then answers no. A failure of another
+ * kind stays in the pool. */
 static bool
 is_undefined(qdot_pool *pool)
 {
@@ -101,9 +102,13 @@ is_listed(const end *e, qdot_expr values)
     return listed;
 }
 
-typedef enum { IS_NONE, IS_LISTED, IS_NEW } verdict;
+typedef enum {
+    IS_NONE,   /* not proved to be a rest */
+    IS_LISTED, /* another place is the same, or its other conditions exclude it */
+    IS_NEW     /* a rest that no other place is */
+} verdict;
 
-/* What the k-th place is where p, as the root says, makes both sides of its i-th condition equal. */
+/* The verdict on the k-th place at p = root->value, where both sides of its i-th condition are equal. */
 static verdict
 judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root)
 {
@@ -135,7 +140,8 @@ judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root
     return is_listed(&e, values) ? IS_LISTED : IS_NEW;
 }
 
-/* The same for all values of a parameter at which one factor is 0; IS_NONE where these are not known. */
+/* The verdict where `factor`, one of those of right - left of the condition, is 0, by the first parameter of which
+ * exactly one value makes it so; IS_NONE if there is no such parameter. */
 static qdot_status
 judge_factor(qdot_rest *r, size_t k, uint32_t i, qdot_expr factor, verdict *out)
 {

@@ -345,8 +345,8 @@ qdot_rest_tips(qdot_rest *r)
 
 /* --- energies that jump ----------------------------------------------------------------------- */
 
-/* Where u = 0 the value of the function `node` steps from `below` to `above`. *yes: the energy does not, for what the
- * step changes it by vanishes there. */
+/* The function `node` steps from `below` to `above` where u = 0. *yes: the energy has no step there, because the change
+ * that `node` makes in it vanishes at u = 0. */
 static qdot_status
 steps_over(const qdot_rest *r, qdot_expr node, qdot_expr below, qdot_expr above, qdot_expr u, bool *yes)
 {

@@ -15,7 +15,7 @@ typedef struct {
     qdot_scene *s;
     qdot_pool *pool;
     qdot_facts facts;
-    qdot_assumptions assumed; /* of coordinates and parameters; facts borrows of it */
+    qdot_assumptions assumed; /* what is assumed of coordinates and parameters; `facts` borrows from it */
     qdot_simultaneous system; /* the equations at rest; coordinates, then multipliers, then sides of jumps */
     qdot_expr forces;    /* a LIST: the force of each coordinate at rest, with multipliers */
     qdot_expr friction;  /* a LIST of unknowns in -1 ... 1 that stand for signs of velocities; nil: none */
@@ -76,8 +76,8 @@ QDOT_MUST_CHECK qdot_status qdot_rest_at_all_times(qdot_rest *r, qdot_expr equat
  * (equilibrium-twice.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_leave_out_twice(qdot_rest *r);
 
-/* a <= b in place of a condition a < b of parameters, for places judged already, where the place is one for a = b too and
- * no other is the same there. (equilibrium-ends.c) */
+/* After the places are judged: a condition a < b of parameters becomes a <= b where the place is a rest for a = b
+ * too, and no other place is the same one there. (equilibrium-ends.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_ends(qdot_rest *r);
 
 /* A LIST of what places divide by that may be 0 at some values of parameters; nil: none.

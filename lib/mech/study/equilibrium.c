@@ -390,7 +390,8 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     return QDOT_OK;
 }
 
-/* An angle's places are listed for one turn of its declared domain: what is assumed of it cannot choose among them. */
+/* An error if the domain of an angle is assumed: its places are listed for one turn of the declared domain alone, so
+ * those that lie where it is assumed to be may be among the other turns. */
 static qdot_status
 need_declared_angles(qdot_rest *r)
 {
@@ -410,7 +411,7 @@ need_declared_angles(qdot_rest *r)
     return QDOT_OK;
 }
 
-/* Keep the places that lie where coordinates are assumed to be. */
+/* Remove places outside the assumed domains of coordinates; where that depends on parameters, add the condition. */
 static qdot_status
 keep_assumed(qdot_rest *r)
 {

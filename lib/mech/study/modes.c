@@ -136,8 +136,8 @@ is_within_rounding(const job *j, qdot_expr e, qdot_expr place, double value)
     return fabs(value) <= 1e-6 * sum;
 }
 
-/* An error if an equation of motion is refuted at rest at the place, beyond rounding: it is no equilibrium. Equations
- * that hold a multiplier are passed over, because its value there need not be known. */
+/* An error if an equation of motion is refuted at rest at the place, beyond rounding: it is no equilibrium.
+ * Equations that hold a multiplier are passed over, because its value there need not be known. */
 static qdot_status
 check_rests(const job *j, qdot_expr place)
 {

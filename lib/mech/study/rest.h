@@ -19,7 +19,7 @@ typedef struct {
     bool touched;       /* at a point inside the range friction is at its limit */
     bool numeric_range; /* an end of it is a decimal number, known to 12 digits */
     qdot_stability stability;
-    qdot_expr stable_when; /* a LIST of RELs under which that is so; nil: wherever it exists */
+    qdot_expr stable_when; /* a LIST of RELs under which `stability` holds; nil: wherever the place exists */
     bool numeric;
     bool may_jump; /* the energy may jump there: nothing is said of its stability */
 } qdot_equilibrium;
