@@ -7,21 +7,8 @@
 
 #include <cmocka.h>
 
-#include "base/text.h"
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/conditions.h"
-
-static const char *
-printed(qdot_expr e)
-{
-    static qdot_text text;
-
-    qdot_text_clear(&text);
-    if (e == QDOT_NIL)
-        return "nil";
-    assert_int_equal(qdot_print(pool, e, QDOT_PLAIN, &text), QDOT_OK);
-    return qdot_text_str(&text);
-}
 
 static void
 zero_in_whole_regions(void **state)
@@ -56,8 +43,8 @@ magnitude_beside_its_argument(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         qdot_expr gap = text_read(pool, rows[i].gap);
 
-        assert_string_equal(printed(qdot_condition_without_magnitude(pool, gap, true)), rows[i].strict);
-        assert_string_equal(printed(qdot_condition_without_magnitude(pool, gap, false)), rows[i].weak);
+        assert_string_equal(shown(qdot_condition_without_magnitude(pool, gap, true)), rows[i].strict);
+        assert_string_equal(shown(qdot_condition_without_magnitude(pool, gap, false)), rows[i].weak);
     }
 }
 
@@ -82,9 +69,9 @@ conditions_of_such_gaps(void **state)
         qdot_expr gap = text_read(pool, rows[i].gap);
         char strict[80];
 
-        snprintf(strict, sizeof strict, "%s", printed(qdot_condition(pool, gap, true, &exact)));
+        snprintf(strict, sizeof strict, "%s", shown(qdot_condition(pool, gap, true, &exact)));
         assert_string_equal(strict, rows[i].strict);
-        assert_string_equal(printed(qdot_condition(pool, gap, false, &exact)), rows[i].weak);
+        assert_string_equal(shown(qdot_condition(pool, gap, false, &exact)), rows[i].weak);
     }
 }
 

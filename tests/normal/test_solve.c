@@ -16,18 +16,6 @@
 #include "normal/solve/null-space.h"
 #include "normal/solve/solve.h"
 
-static const char *
-shown(qdot_expr e)
-{
-    static qdot_text out;
-
-    qdot_text_clear(&out);
-    if (e == QDOT_NIL)
-        return "nil";
-    assert_int_equal(qdot_print(pool, e, QDOT_PLAIN, &out), QDOT_OK);
-    return qdot_text_str(&out);
-}
-
 /* Equation, unknown, roots in order with their conditions behind "|". */
 static const struct {
     const char *f, *x, *roots;
