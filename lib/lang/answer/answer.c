@@ -526,6 +526,17 @@ qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e)
 }
 
 qdot_status
+qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text)
+{
+    if (status == QDOT_OK)
+        status = qdot_text_status(text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice(session, "%s", qdot_text_str(text));
+    qdot_text_clear(text);
+    return status;
+}
+
+qdot_status
 qdot_answer_notice_once(qdot_session *session, const char *format, ...)
 {
     char message[NOTICE], *copy;

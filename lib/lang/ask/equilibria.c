@@ -230,10 +230,7 @@ answer_special(qdot_session *session, qdot_expr special)
         qdot_text_add(&text, " = 0");
     }
     qdot_text_add(&text, " the places are others");
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_notice_text(session, status, &text);
 }
 
 /* Tell that there is no equilibrium, or that the list may be incomplete. */

@@ -287,12 +287,7 @@ qdot_constraints_tell_disguise(qdot_session *session, size_t before)
             qdot_text_add(&text, ": ");
             status = print_integral(session, i.integral, &text);
         }
-        if (status == QDOT_OK)
-            status = qdot_text_status(&text);
-        if (status == QDOT_OK)
-            status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-        qdot_text_clear(&text);
-        QDOT_TRY(status);
+        QDOT_TRY(qdot_answer_notice_text(session, status, &text));
     }
     return QDOT_OK;
 }

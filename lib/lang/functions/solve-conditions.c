@@ -94,12 +94,8 @@ notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
     qdot_pool *pool = session->pool;
     const qdot_solutions *set = &special->set;
     qdot_text text = {0};
-    qdot_status status = QDOT_OK;
+    qdot_status status = qdot_solve_print_conditions(pool, "for ", special->where, &text);
 
-    for (uint32_t i = 0; i < qdot_expr_count(pool, special->where) && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i == 0 ? "for " : " and ");
-        status = qdot_print(pool, qdot_expr_arg(pool, special->where, i), QDOT_PLAIN, &text);
-    }
     for (size_t i = 0; i < set->root.n && status == QDOT_OK; i++) {
         const qdot_root *root = &set->root.at[i];
         bool every = root->value == x;
@@ -112,12 +108,7 @@ notice_special(qdot_session *session, qdot_expr x, const qdot_special *special)
         if (status == QDOT_OK)
             status = qdot_solve_print_conditions(pool, every ? "" : " when ", root->condition, &text);
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_notice_text(session, status, &text);
 }
 
 qdot_status
@@ -126,22 +117,19 @@ qdot_solve_notice_open(qdot_session *session, qdot_expr where)
     qdot_text text = {0};
     qdot_status status = qdot_solve_print_conditions(session->pool, "where ", where, &text);
 
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(session, "%s the solutions may be others", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    qdot_text_add(&text, " the solutions may be others");
+    return qdot_answer_notice_text(session, status, &text);
 }
 
 qdot_status
 qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions)
 {
     qdot_text text = {0};
-    qdot_status status = qdot_solve_print_conditions(session->pool, words, conditions, &text);
 
-    if (status == QDOT_OK && conditions != QDOT_NIL)
-        status = qdot_answer_notice(session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return conditions == QDOT_NIL
+               ? QDOT_OK
+               : qdot_answer_notice_text(
+                     session, qdot_solve_print_conditions(session->pool, words, conditions, &text), &text);
 }
 
 qdot_status

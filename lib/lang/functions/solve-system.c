@@ -125,17 +125,14 @@ notice_special(const question *q, qdot_expr where, const qdot_simultaneous *ther
 {
     qdot_text text = {0};
     bool other = !there->complete;
-    qdot_status status = QDOT_OK;
+    qdot_status status;
 
     for (size_t k = 0; k < there->found.n && !other; k++)
         other = !is_generic_solution(q, generic, where, there, k);
     QDOT_TRY(qdot_pool_check(q->pool));
     if (!other)
         return QDOT_OK;
-    for (uint32_t i = 0; i < qdot_expr_count(q->pool, where) && status == QDOT_OK; i++) {
-        qdot_text_add(&text, i == 0 ? "for " : " and ");
-        status = qdot_print(q->pool, qdot_expr_arg(q->pool, where, i), QDOT_PLAIN, &text);
-    }
+    status = qdot_solve_print_conditions(q->pool, "for ", where, &text);
     if (!there->complete)
         qdot_text_add(&text, " the solutions may be others");
     for (size_t k = 0; k < there->found.n && there->complete && status == QDOT_OK; k++) {
@@ -144,16 +141,10 @@ notice_special(const question *q, qdot_expr where, const qdot_simultaneous *ther
             qdot_text_add(&text, "all values are solutions");
         else
             status = qdot_print(q->pool, there->found.at[k].values, QDOT_PLAIN, &text);
-        if (status == QDOT_OK && there->found.at[k].conditions != QDOT_NIL) {
+        if (status == QDOT_OK)
             status = qdot_solve_print_conditions(q->pool, " when ", there->found.at[k].conditions, &text);
-        }
     }
-    if (status == QDOT_OK)
-        status = qdot_text_status(&text);
-    if (status == QDOT_OK)
-        status = qdot_answer_notice(q->session, "%s", qdot_text_str(&text));
-    qdot_text_clear(&text);
-    return status;
+    return qdot_answer_notice_text(q->session, status, &text);
 }
 
 static qdot_status solve_specials(const question *q, const qdot_simultaneous *set, qdot_expr where, size_t *told);

@@ -230,18 +230,13 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
 static qdot_status
 tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
 {
-    qdot_status status = QDOT_OK;
-
-    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+    for (size_t i = 0; i < n; i++) {
         qdot_text text = {0};
 
         qdot_event_print_faded(run, &faded[i], &text);
-        status = qdot_text_status(&text);
-        if (status == QDOT_OK)
-            status = qdot_answer_notice(session, "%.*s", (int)text.n - 1, qdot_text_str(&text));
-        qdot_text_clear(&text);
+        QDOT_TRY(qdot_answer_notice_text(session, QDOT_OK, &text));
     }
-    return status;
+    return QDOT_OK;
 }
 
 /* Where the run, or its end, leaves open whether events occur; faded [n]. */
@@ -251,8 +246,10 @@ add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
     const char *name = "";
     bool undecided;
 
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < n; k++) {
         qdot_event_print_faded(run, &faded[k], text);
+        qdot_text_char(text, '\n');
+    }
     for (size_t k = 0; name; k++) {
         bool told = false;
 

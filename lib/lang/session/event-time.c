@@ -32,7 +32,7 @@ qdot_event_print_faded(const qdot_run *run, const qdot_run_faded *faded, qdot_te
         qdot_text_add(text, "on");
     else
         qdot_text_format(text, "to %.4g", faded->to);
-    qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known\n");
+    qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
 }
 
 /* Error: occurrence k of n is not known. */
