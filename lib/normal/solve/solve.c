@@ -170,12 +170,7 @@ add_range(qdot_pool *pool, qdot_expr x, qdot_expr conditions, const qdot_window 
             return one.condition == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&out->root, one);
         }
     }
-    if (w.lo != QDOT_NIL)
-        one.condition = qdot_conditions_and(
-            pool, one.condition, qdot_rel(pool, w.lo_open ? QDOT_LT : QDOT_LE, w.lo, x));
-    if (w.hi != QDOT_NIL)
-        one.condition = qdot_conditions_and(
-            pool, one.condition, qdot_rel(pool, w.hi_open ? QDOT_LT : QDOT_LE, x, w.hi));
+    one.condition = qdot_conditions_all(pool, one.condition, qdot_window_relations(pool, &w, x));
     QDOT_TRY(qdot_pool_check(pool));
     return qdot_vec_push(&out->root, one);
 }
