@@ -1,4 +1,5 @@
-/* real-zeros.c -- halves intervals until Descartes' rule of signs leaves one zero in each.
+/* real-zeros.c -- the real zeros of a polynomial: intervals are halved until Descartes' rule of signs says that each
+ * holds one, then bisected to the wanted precision.
  *
  * Collins and Akritas, Polynomial real root isolation using Descarte's rule of signs (SYMSAC 1976) 272.
  */
@@ -26,8 +27,7 @@ typedef struct {
 } part;
 
 typedef struct {
-    part *stack; /* the leftmost is the last */
-    size_t n, room;
+    qdot_vec(part) stack; /* still to be searched; the leftmost is the last */
     slong scale;
     bool minus; /* the zeros are those of p(-x) */
     double work;
@@ -35,7 +35,7 @@ typedef struct {
     slong found;
 } isolation;
 
-/* How often the signs of the coefficients change; two says "two or more". */
+/* The number of sign changes along the coefficients, those that are 0 left out; counting stops at 2. */
 static int
 sign_changes(const fmpz_poly_t p)
 {
@@ -50,27 +50,36 @@ sign_changes(const fmpz_poly_t p)
     return changes;
 }
 
-/* Descartes: no zero with 0 < t < 1 for 0, one for 1, at most two or more for 2. */
+/* p(t + 1), at a cost that is counted. */
+static void
+isolation_shift(isolation *s, fmpz_poly_t p)
+{
+    const double n = (double)fmpz_poly_degree(p);
+    fmpz_t one;
+
+    fmpz_init_set_si(one, 1);
+    fmpz_poly_taylor_shift(p, p, one);
+    s->work += n * n * (1 + (double)fmpz_poly_max_limbs(p));
+    fmpz_clear(one);
+}
+
+/* A bound on the number of zeros of p with 0 < t < 1, by Descartes' rule for (1 + t)^n p(1/(1 + t)): 0 and 1 are the
+ * number itself, 2 stands for any number. */
 static int
 most_zeros(isolation *s, const fmpz_poly_t p)
 {
-    slong n = fmpz_poly_degree(p);
     fmpz_poly_t q;
-    fmpz_t one;
     int changes;
 
     fmpz_poly_init(q);
-    fmpz_init_set_si(one, 1);
-    fmpz_poly_reverse(q, p, n + 1);
-    fmpz_poly_taylor_shift(q, q, one);
-    s->work += (double)n * (double)n * (1 + (double)fmpz_poly_max_limbs(q));
+    fmpz_poly_reverse(q, p, fmpz_poly_degree(p) + 1);
+    isolation_shift(s, q);
     changes = sign_changes(q);
-    fmpz_clear(one);
     fmpz_poly_clear(q);
     return changes;
 }
 
-/* A zero in [from, from + width], times 2^(scale - depth). */
+/* Note one zero between from and from + 1, times 2^(scale - depth); exact: at from itself. */
 static void
 isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
 {
@@ -87,25 +96,18 @@ isolation_keep(isolation *s, const fmpz_t from, slong depth, bool exact)
         arb_neg(to, to);
 }
 
-static part *
+static bool
 isolation_push(isolation *s, const fmpz_poly_t p, const fmpz_t number, slong depth)
 {
     part *to;
 
-    if (s->n == s->room) {
-        part *more = qdot_realloc(s->stack, (2 * s->room + 16) * sizeof *more);
-
-        if (more == NULL)
-            return NULL;
-        s->stack = more;
-        s->room = 2 * s->room + 16;
-    }
-    to = &s->stack[s->n++];
+    if (qdot_vec_push(&s->stack, (part){.depth = depth}) != QDOT_OK)
+        return false;
+    to = &s->stack.at[s->stack.n - 1];
     fmpz_poly_init(to->p);
     fmpz_poly_set(to->p, p);
     fmpz_init_set(to->number, number);
-    to->depth = depth;
-    return to;
+    return true;
 }
 
 /* p(t/2) 2^degree. */
@@ -119,56 +121,49 @@ halve_argument(fmpz_poly_t p)
     fmpz_poly_primitive_part(p, p);
 }
 
-/* Both halves of the last part of the stack, and a zero between them. */
+/* Put its two halves in place of the last part of the stack, and note a zero where they meet. False: no memory. */
 static bool
 isolation_split(isolation *s)
 {
-    part *last = &s->stack[s->n - 1], *left;
+    part *last = &s->stack.at[s->stack.n - 1];
     fmpz_poly_t half;
-    fmpz_t one, number;
-    bool zero, good;
+    fmpz_t number;
+    bool good;
 
     fmpz_poly_init(half);
-    fmpz_init_set_si(one, 1);
     fmpz_init(number);
     halve_argument(last->p);
     fmpz_poly_set(half, last->p);
-    fmpz_poly_taylor_shift(last->p, last->p, one);
-    s->work += (double)fmpz_poly_degree(half) * (double)fmpz_poly_degree(half) *
-               (1 + (double)fmpz_poly_max_limbs(last->p));
+    isolation_shift(s, last->p);
     fmpz_mul_2exp(number, last->number, 1);
     fmpz_add_ui(last->number, number, 1);
     last->depth++;
-    zero = fmpz_is_zero(last->p->coeffs);
-    if (zero) {
+    if (fmpz_is_zero(last->p->coeffs)) {
         isolation_keep(s, last->number, last->depth, true);
         fmpz_poly_shift_right(last->p, last->p, 1);
     }
-    left = isolation_push(s, half, number, last->depth);
-    good = left != NULL;
+    good = isolation_push(s, half, number, last->depth);
     fmpz_clear(number);
-    fmpz_clear(one);
     fmpz_poly_clear(half);
     return good;
 }
 
-/* The positive zeros of p, p(0) != 0. */
+/* Note the positive zeros of p, p(0) != 0. False: too much work, interrupted, or no memory. */
 static bool
 isolate_positive(isolation *s, const fmpz_poly_t p)
 {
     fmpz_t bound, zero;
     bool good;
 
-    s->n = 0;
     fmpz_init(bound);
     fmpz_init(zero);
     fmpz_poly_bound_roots(bound, p);
     s->scale = (slong)fmpz_bits(bound);
-    good = isolation_push(s, p, zero, 0) != NULL;
+    good = isolation_push(s, p, zero, 0);
     for (slong i = 1; good && i <= fmpz_poly_degree(p); i++)
-        fmpz_mul_2exp(s->stack[0].p->coeffs + i, s->stack[0].p->coeffs + i, (ulong)(i * s->scale));
-    while (s->n > 0) {
-        part *last = &s->stack[s->n - 1];
+        fmpz_mul_2exp(s->stack.at[0].p->coeffs + i, s->stack.at[0].p->coeffs + i, (ulong)(i * s->scale));
+    while (s->stack.n > 0) {
+        part *last = &s->stack.at[s->stack.n - 1];
         int most = good ? most_zeros(s, last->p) : 0;
 
         good = good && s->work < MOST_WORK && !qdot_interrupt_flag;
@@ -180,7 +175,7 @@ isolate_positive(isolation *s, const fmpz_poly_t p)
             isolation_keep(s, last->number, last->depth, false);
         fmpz_poly_clear(last->p);
         fmpz_clear(last->number);
-        s->n--;
+        s->stack.n--;
     }
     fmpz_clear(zero);
     fmpz_clear(bound);
@@ -214,9 +209,9 @@ sign_at(const fmpz_poly_t p, const arf_t at)
     return sign;
 }
 
-/* The zero in an interval of the isolation, which is halved until its width is below 2^-bits of the zero. */
+/* An interval that holds one zero of p, bisected until its width is below 2^-bits times the magnitude of the zero. */
 static void
-halve(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
+bisect(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
 {
     arf_t lo, hi, middle, width;
     int left;
@@ -232,7 +227,7 @@ halve(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
     arb_get_lbound_arf(lo, isolated, ARF_PREC_EXACT);
     arb_get_ubound_arf(hi, isolated, ARF_PREC_EXACT);
     left = sign_at(p, lo);
-    if (left == 0) { /* another zero: the slope says what lies beyond */
+    if (left == 0) { /* the end is another zero of p: the slope there has the sign of p behind it */
         fmpz_poly_t slope;
 
         fmpz_poly_init(slope);
@@ -264,7 +259,7 @@ halve(arb_t zero, arb_srcptr isolated, const fmpz_poly_t p, slong bits)
     arf_clear(width);
 }
 
-/* --- all ------------------------------------------------------------------------------------ */
+/* --- the function ----------------------------------------------------------------------------- */
 
 static int
 by_middle(const void *a, const void *b)
@@ -304,13 +299,13 @@ qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros)
     for (; good && !apart && bits <= 1536; bits *= 4) {
         apart = true;
         for (slong i = 0; i < s.found; i++)
-            halve(*zeros + i, s.zero + i, p, bits);
+            bisect(*zeros + i, s.zero + i, p, bits);
         for (slong i = 0; i + 1 < s.found; i++)
             apart &= arb_lt(*zeros + i, *zeros + i + 1) != 0;
     }
     fmpz_poly_clear(q);
     _arb_vec_clear(s.zero, degree);
-    qdot_free(s.stack);
+    qdot_free(s.stack.at);
     return good && apart ? s.found : -1;
 }
 
