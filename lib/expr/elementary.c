@@ -2,6 +2,7 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/pool.h"
+#include "expr/walk.h"
 
 #include <string.h>
 
@@ -44,6 +45,23 @@ bool
 qdot_expr_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id)
 {
     return NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == id;
+}
+
+qdot_expr
+qdot_expr_find_function(qdot_pool *pool, qdot_expr e, size_t n, const qdot_fun_id *ids, qdot_expr x)
+{
+    qdot_expr found = QDOT_NIL;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return qdot_pool_fail(pool);
+    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
+        for (size_t k = 0; k < n && found == QDOT_NIL; k++)
+            if (qdot_expr_is_function(pool, w.at[i], ids[k]) &&
+                (x == QDOT_NIL || qdot_expr_contains(pool, w.at[i], x)))
+                found = w.at[i];
+    qdot_walk_end(&w);
+    return found;
 }
 
 static qdot_expr

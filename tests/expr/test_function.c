@@ -234,6 +234,22 @@ a_node_is_one_function_or_none(void **state)
     }
 }
 
+static void
+functions_are_found_from_the_inside(void **state)
+{
+    const qdot_fun_id ids[] = {QDOT_SIGN, QDOT_ABS};
+    qdot_expr x = qdot_symbol_get(p.pool, QDOT_FORMAL, "x"), y = qdot_symbol_get(p.pool, QDOT_FORMAL, "y"),
+              inner = call(QDOT_ABS, x), outer = call(QDOT_ABS, qdot_add(p.pool, y, inner)),
+              e = qdot_add(p.pool, outer, call(QDOT_SIN, y));
+
+    (void)state;
+    assert_int_equal(qdot_expr_find_function(p.pool, e, 2, ids, QDOT_NIL), inner);
+    assert_int_equal(qdot_expr_find_function(p.pool, e, 2, ids, y), outer);
+    assert_int_equal(qdot_expr_find_function(p.pool, e, 1, ids, QDOT_NIL), QDOT_NIL);
+    assert_int_equal(qdot_expr_find_function(p.pool, QDOT_NIL, 2, ids, QDOT_NIL), QDOT_NIL);
+    assert_false(qdot_pool_failed(p.pool));
+}
+
 int
 main(void)
 {
@@ -250,6 +266,7 @@ main(void)
         MOVED_TEST(what_is_held_stays_whole),
         MOVED_TEST(names_are_found),
         MOVED_TEST(a_node_is_one_function_or_none),
+        MOVED_TEST(functions_are_found_from_the_inside),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/field/prepare.h"
 #include "normal/form/shortest.h"
@@ -86,18 +87,7 @@ ask(qdot_pool *pool, qdot_question *q, qdot_expr e, const qdot_facts *facts)
 static qdot_expr
 first_choice(qdot_pool *pool, qdot_expr e)
 {
-    qdot_expr found = QDOT_NIL;
-    qdot_walk w;
-
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
-        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
-            (qdot_expr_node(pool, w.at[i])->op == QDOT_ABS ||
-             qdot_expr_node(pool, w.at[i])->op == QDOT_IF))
-            found = w.at[i];
-    qdot_walk_end(&w);
-    return found;
+    return qdot_expr_find_function(pool, e, 2, (qdot_fun_id[]){QDOT_ABS, QDOT_IF}, QDOT_NIL);
 }
 
 static void

@@ -2,6 +2,7 @@
 #include "normal/simplify/positive.h"
 
 #include "base/memory.h"
+#include "expr/elementary.h"
 #include "normal/field/factor.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
@@ -227,7 +228,7 @@ leave_out_magnitudes(job *j)
     for (size_t i = 0; i < j->rest.n;) {
         qdot_expr e = j->rest.at[i], v = QDOT_NIL;
 
-        if (qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == QDOT_ABS)
+        if (qdot_expr_is_function(pool, e, QDOT_ABS))
             v = qdot_expr_arg(pool, e, 0);
         if (v != QDOT_NIL && (qdot_expr_place(j->rest.n, j->rest.at, v) < j->rest.n ||
                               qdot_expr_place(j->rest.n, j->rest.at, qdot_neg(pool, v)) < j->rest.n))

@@ -2,6 +2,7 @@
 #include "normal/solve/condition-forms.h"
 
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 
 enum { MOST_CHOICES = 4, LARGEST = 80 };
@@ -62,22 +63,6 @@ qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e)
     return e != QDOT_NIL && qdot_expr_size(pool, e) <= LARGEST && vanishes_by_choice(pool, e, 0);
 }
 
-/* The first |v| in e; nil: there is none. */
-static qdot_expr
-find_magnitude(qdot_pool *pool, qdot_expr e)
-{
-    qdot_expr found = QDOT_NIL;
-    qdot_walk w;
-
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
-        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && qdot_expr_node(pool, w.at[i])->op == QDOT_ABS)
-            found = w.at[i];
-    qdot_walk_end(&w);
-    return found;
-}
-
 qdot_expr
 qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
 {
@@ -87,7 +72,7 @@ qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict)
 
     if (gap == QDOT_NIL || qdot_expr_kind(pool, gap) != QDOT_SUM)
         return QDOT_NIL;
-    magnitude = find_magnitude(pool, gap);
+    magnitude = qdot_expr_find_function(pool, gap, 1, (qdot_fun_id[]){QDOT_ABS}, QDOT_NIL);
     if (magnitude == QDOT_NIL)
         return QDOT_NIL;
     v = qdot_expr_arg(pool, magnitude, 0);

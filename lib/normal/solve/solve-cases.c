@@ -1,5 +1,6 @@
 /* solve-cases.c -- equations with |u(x)|, sign u(x), max, min and if(...): solved case by case. */
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
 #include "normal/solve/solver.h"
@@ -7,24 +8,9 @@
 qdot_expr
 qdot_solver_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
 {
-    qdot_expr found = QDOT_NIL;
-    qdot_walk w;
+    static const qdot_fun_id choices[] = {QDOT_ABS, QDOT_SIGN, QDOT_MAX, QDOT_MIN, QDOT_IF};
 
-    if (e == QDOT_NIL)
-        return QDOT_NIL;
-    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
-        return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++) {
-        uint32_t op = qdot_expr_node(pool, w.at[i])->op;
-
-        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN &&
-            (op == QDOT_ABS || op == QDOT_SIGN || op == QDOT_MAX || op == QDOT_MIN ||
-             op == QDOT_IF) &&
-            qdot_expr_contains(pool, w.at[i], x))
-            found = w.at[i];
-    }
-    qdot_walk_end(&w);
-    return found;
+    return qdot_expr_find_function(pool, e, sizeof choices / sizeof *choices, choices, x);
 }
 
 /* e with `to` in place of the node `choice`, where the relation holds. */

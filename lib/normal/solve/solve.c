@@ -118,16 +118,9 @@ qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts 
 static qdot_status
 has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
 {
-    qdot_walk w;
-
-    *yes = qdot_solver_choice(pool, f, x) != QDOT_NIL;
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_walk_begin(pool, f, &w));
-    for (size_t i = 0; i < w.n && !*yes; i++)
-        *yes = qdot_expr_is_function(pool, w.at[i], QDOT_FLOOR) &&
-               qdot_expr_contains(pool, w.at[i], x);
-    qdot_walk_end(&w);
-    return QDOT_OK;
+    *yes = qdot_solver_choice(pool, f, x) != QDOT_NIL ||
+           qdot_expr_find_function(pool, f, 1, (qdot_fun_id[]){QDOT_FLOOR}, x) != QDOT_NIL;
+    return qdot_pool_check(pool);
 }
 
 /* The conditions that say more than where the ends of x are. */
