@@ -11,6 +11,7 @@
 #include "normal/refute/enclosure.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solutions.h"
+#include "normal/solve/zeros.h"
 
 /* More members than these are given as a family; one whose ends depend on parameters, where it may reach so many
  * periods to either side. */
@@ -285,25 +286,11 @@ members_add_between(const members *m, double first, double last)
 
 /* --- families whose values are bounded ---- */
 
-/* Bounds of a constant, or of the declared end of a symbol; the whole line if it has none. */
-static qdot_status
-bounds_of_end(qdot_pool *pool, qdot_expr end, qdot_interval *to)
+/* Bounds of the declared end of a domain; the whole line if there is none, or it depends on a symbol. */
+static qdot_interval
+bounds_of_end(qdot_pool *pool, qdot_expr end)
 {
-    qdot_enclosure *bounds;
-    qdot_status status;
-
-    *to = qdot_interval_whole;
-    if (end == QDOT_NIL)
-        return QDOT_OK;
-    status = qdot_enclosure_new(pool, 1, &end, 0, NULL, &bounds);
-    if (status == QDOT_ETYPE)
-        return QDOT_OK;
-    QDOT_TRY(status);
-    qdot_enclosure_eval(bounds, to, false);
-    if (qdot_enclosure_get(bounds, 0)->state == QDOT_ENCLOSURE_WHOLE)
-        *to = qdot_enclosure_get(bounds, 0)->y;
-    qdot_enclosure_free(bounds);
-    return QDOT_OK;
+    return end == QDOT_NIL ? qdot_interval_whole : qdot_zeros_constant(pool, end);
 }
 
 /* Bounds of e [m] over the declared domains of all symbols in them; the whole line where there are none. */
@@ -322,15 +309,13 @@ bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval
     QDOT_TRY(qdot_pool_check(pool));
     for (uint32_t i = 0; i < qdot_expr_count(pool, atoms); i++) {
         qdot_expr a = qdot_expr_arg(pool, atoms, i);
-        qdot_interval lo, hi;
 
         if (qdot_expr_is_class(pool, a, QDOT_CONST))
             continue;
         if (n == QDOT_ENCLOSURE_MOST || qdot_expr_kind(pool, a) != QDOT_SYM)
             return QDOT_OK;
-        QDOT_TRY(bounds_of_end(pool, qdot_expr_symbol(pool, a)->lo, &lo));
-        QDOT_TRY(bounds_of_end(pool, qdot_expr_symbol(pool, a)->hi, &hi));
-        X[n] = (qdot_interval){lo.lo, hi.hi};
+        X[n] = (qdot_interval){bounds_of_end(pool, qdot_expr_symbol(pool, a)->lo).lo,
+                               bounds_of_end(pool, qdot_expr_symbol(pool, a)->hi).hi};
         x[n++] = a;
     }
     status = qdot_enclosure_new(pool, m, e, n, x, &bounds);

@@ -73,8 +73,6 @@ QDOT_MUST_CHECK qdot_status qdot_zeros_vanish(qdot_pool *pool, size_t m,
                                               const qdot_expr *f, size_t n,
                                               const qdot_expr *x, const qdot_expr *value,
                                               bool *yes);
-/* Bounds of a constant; the whole line if it has no value. */
-qdot_interval qdot_zeros_constant(qdot_pool *pool, qdot_expr e);
 
 /* One unknown: *R such that f(sign x) has no zeros for x >= R, proved by the growth of its terms; infinity where that
  * does not tell. Errors: QDOT_ENOMEM, QDOT_EINTR, the pool's. (zeros-far.c) */

@@ -32,6 +32,7 @@
 #define QDOT_NORMAL_ZEROS_H
 
 #include "expr/expr.h"
+#include "num/interval.h"
 
 enum { QDOT_ZEROS_MOST_UNKNOWNS = 6 };
 
@@ -73,5 +74,8 @@ void qdot_zeros_clear(qdot_zeros *z);
 QDOT_MUST_CHECK qdot_status qdot_zeros_near(qdot_pool *pool, size_t n, const qdot_expr *F,
                                             const qdot_expr *x, const double *guess,
                                             qdot_zeros *out);
+
+/* Bounds of a constant; the whole line if it has no value. */
+qdot_interval qdot_zeros_constant(qdot_pool *pool, qdot_expr e);
 
 #endif
