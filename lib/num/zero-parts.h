@@ -16,8 +16,8 @@ typedef struct {
     double *small;             /* [m] below this a function may count as 0 */
     double mu, length;         /* of the step, in units of the unknowns */
     double strongest;          /* the largest singular value of the search */
-    double damping; /* how strongly |F| shortens steps; 0: only the reach does */
-    bool gave_up;   /* |F| did not halve in some steps */
+    double damping;            /* how strongly |F| shortens steps; 0: only the reach does */
+    bool gave_up;              /* the search ended because |F| did not halve in as many steps as it may take for that */
     double order;              /* of the zero, by the last steps */
     double *last_u, *last;     /* [n] where the order was taken last, and `whole` there, */
     bool has_last;             /* if it was */
@@ -38,8 +38,9 @@ double qdot_zero_within(const qdot_zero_problem *p, size_t j, double u);
 double qdot_zero_norm(const qdot_zero_search *s, const double *f);
 /* Units of unknowns and functions, by J at r->u. */
 void qdot_zero_choose_units(qdot_zero_search *s);
-/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
+/* Whether |F| fell, from r->f to f along `part` of the step, by at least half of what J predicts. */
 bool qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part);
+/* The step [n] that values f [m] ask for with this J; its length in units of the unknowns. */
 double qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step);
 /* The step, the errors of the unknowns, the rank. False: J is 0, to rounding, or not finite. */
 bool qdot_zero_find_step(qdot_zero_search *s);

@@ -114,9 +114,9 @@ copy_result(const qdot_zero_search *s, const qdot_zero_result *from, qdot_zero_r
     memcpy(to->f_error, from->f_error, m * sizeof *to->f_error);
 }
 
-/* A search, and whether it led to a zero that is wanted. One that crept, its steps shortened by |F| where J is nearly
- * singular, goes on with steps that grow while the slopes tell F behind them; if these lead nowhere either, it ends
- * where it had crept to. */
+/* A search, and whether it led to a zero that is wanted. Where J is nearly singular, damping by |F| can make the steps so
+ * short that |F| hardly falls. The search then goes on from there without damping, with steps that may grow as long as
+ * J predicts F at their ends; if these find no zero, its result is the place where the damped search ended (crept). */
 static qdot_status
 search_once(qdot_zero_search *s, qdot_zero_result *crept, bool *done)
 {

@@ -110,7 +110,6 @@ qdot_zero_take_step(const qdot_zero_search *s, const double *f, double *step)
     return sqrt(sum);
 }
 
-/* Whether F has changed from r->f to f along `part` of the step at least half as much towards 0 as its slopes say. */
 bool
 qdot_zero_is_predicted(const qdot_zero_search *s, const double *f, double part)
 {
