@@ -151,7 +151,6 @@ read_function(qdot_cursor *c, qdot_expr *symbol, qdot_expr *body)
     return status;
 }
 
-/* `= VALUE`, an expression of parameters. */
 qdot_status
 qdot_set_keep_measured(qdot_session *session, qdot_expr *value)
 {
@@ -168,6 +167,7 @@ qdot_set_keep_measured(qdot_session *session, qdot_expr *value)
     return qdot_pool_check(session->pool);
 }
 
+/* `= VALUE`, an expression of parameters. */
 qdot_status
 qdot_set_read_constant(qdot_cursor *c, qdot_expr *value)
 {
@@ -248,7 +248,7 @@ tell_parameters(qdot_session *session, const char *name, const qdot_run_report *
     return QDOT_OK;
 }
 
-/* Keep how far the companions of the run ended from where it did: runs from there go on with its error. */
+/* Note how far the run's companions ended from it: runs that start there begin with that error. */
 static qdot_status
 keep_errors(qdot_session *session, const qdot_named_run *named)
 {

@@ -171,7 +171,7 @@ first_member(const qdot_session *s, const char *family)
     return family;
 }
 
-/* thetadot = 2 of a coordinate theta, which nothing reads: the start that was meant. */
+/* thetadot = 2, where theta is a coordinate and nothing reads thetadot: tell the `start` that was meant. */
 static qdot_status
 tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
 {

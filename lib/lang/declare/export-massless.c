@@ -26,7 +26,7 @@ is_massless(const qdot_scene *s, const qdot_expr *M, size_t i)
     return true;
 }
 
-/* Whether f holds no velocity of such coordinates. */
+/* Whether f holds no velocity of a coordinate without mass. */
 static bool
 is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
 {
@@ -88,7 +88,7 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
 
 /* --- events ------------------------------------------------------------------------------- */
 
-/* What of (q, q') is no longer what it was, as targets and values of `own`. */
+/* The parameters that the event sets, and those of (q, q') that change, as targets and values of `own`. */
 static qdot_status
 put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after, qdot_event *own)
 {
@@ -107,7 +107,8 @@ put_changed(const qdot_scene *s, const qdot_event *event, const qdot_expr *after
     return QDOT_OK;
 }
 
-/* The equations of coordinates without mass into rows, whose room this is. */
+/* Fill rows with the equations of coordinates without mass. G, coordinate, of_positions [n] are the arrays of rows;
+ * massless [n] tells which coordinates these are. */
 static qdot_status
 find_rows(qdot_scene *s, qdot_massless_rows *rows, qdot_expr *G, size_t *coordinate, bool *of_positions, bool *massless)
 {

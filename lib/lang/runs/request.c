@@ -62,7 +62,8 @@ order_start(qdot_session *session, qdot_request *o)
     return QDOT_OK;
 }
 
-/* How far companions start from the start, of values that are still those of `start RUN`. */
+/* How far the companions of this run begin from its start: as far as those of the run of `start RUN` ended from its end, in
+ * the values that are still those of that end. */
 static qdot_status
 put_errors(const qdot_session *session, qdot_request *o)
 {

@@ -106,7 +106,7 @@ typedef struct qdot_session {
     qdot_vec(qdot_expr) start_symbols, start_values; /* q or q' -> value */
     qdot_vec(qdot_expr) start_open; /* of these, while `find` changes others: constraints may change them */
     qdot_vec(qdot_expr) scale_symbols, scale_values; /* q, q' or t -> what `scale` said */
-    qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`, of values that are still those */
+    qdot_vec(qdot_start_error) start_errors; /* of the latest `start RUN`; one counts while the start has that value */
     bool start_exactly; /* the latest `start` had `exactly` */
     qdot_vec(qdot_named_run) runs;
     qdot_vec(qdot_row_table *) tables; /* of many runs; shared likewise */

@@ -10,7 +10,8 @@
 #include "lang/session/runs.h"
 #include "sim/study/extremum.h"
 
-/* An event of which the time is known worse than this part of the run's times is read so little before it. */
+/* The slope of the time of an event that changes the state is read before the event, by at most this part of the run's
+ * latest time. */
 static const double most_back = 1e-8;
 
 /* An expression of the scene with slopes at a time, as a number. */
