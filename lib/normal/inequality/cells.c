@@ -342,7 +342,7 @@ put_in(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
     qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
 
-/* With one symbol expressions are evaluated at zeros, with more of them only between zeros. */
+/* How precise zeros are: with one symbol expressions are evaluated at them, with more symbols only between them. */
 static slong
 bits_needed(const cells *c)
 {

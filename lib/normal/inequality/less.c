@@ -327,7 +327,7 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     return positive_on_box(pool, s);
 }
 
-/* Whether 0 < d may follow from 0 < |u|, of gap |u|: d holds |u|, or is a multiple of u. */
+/* Whether 0 < d is worth deriving from 0 < |u|, gap = |u|: d holds |u|, or is u times a number. */
 static bool
 is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *facts)
 {
@@ -453,8 +453,8 @@ refute_there(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
     return QDOT_OK;
 }
 
-/* Whether gap is |u| and u is seen on both sides of 0, without conditions: in a box of declared domains u is then 0
- * somewhere too, or jumps, and 0 < |u| is not tried any further. */
+/* Whether gap is |u|, there are no conditions, and points with u > 0 and with u < 0 are found. Then u is 0 somewhere in the
+ * box of the declared domains, or jumps over 0, and there is no use in trying to prove 0 < |u|. */
 static qdot_status
 has_both_signs(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts, bool *yes)
 {
@@ -589,7 +589,7 @@ known_relation(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return is.verdict == QDOT_PROVED ? 1 : is_not.verdict == QDOT_PROVED ? -1 : 0;
 }
 
-/* The same of the condition of an if. */
+/* The same of the condition of an if: comparisons joined by and, or, not. */
 static int
 known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
 {
@@ -611,6 +611,7 @@ known_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *facts)
     return op == QDOT_NOT ? -least : op == QDOT_AND ? least : most;
 }
 
+/* What a node |u|, sign u or if(c, u, v) is under the facts; nil: they do not tell, or it is another node. */
 static qdot_expr
 known_node(qdot_pool *pool, qdot_expr node, void *user)
 {

@@ -1,4 +1,4 @@
-/* assumptions.c -- what is assumed, as a search of solutions reads it. */
+/* assumptions.c -- values of parameters and domains of unknowns, from what `assume` states. */
 #include "normal/solve/assumptions.h"
 
 #include "expr/calculus.h"
@@ -21,7 +21,7 @@ qdot_assumptions_put(qdot_pool *pool, const qdot_assumptions *a, qdot_expr e)
     return e == QDOT_NIL || a->from.n == 0 ? e : qdot_subs(pool, e, a->from.n, a->from.at, a->to.at);
 }
 
-/* Parameter = value, also in the values that were known before. */
+/* Note parameter = value, and put the value into those noted before. */
 static qdot_status
 add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr value)
 {
@@ -32,7 +32,7 @@ add_value(qdot_pool *pool, qdot_assumptions *a, qdot_expr parameter, qdot_expr v
     return qdot_vec_push(&a->to, value);
 }
 
-/* What the relation `zero` = 0 says of one parameter, if it is one value. */
+/* Note the value of a parameter at which `zero` is 0, if that is one value. */
 static qdot_status
 add_relation(qdot_pool *pool, qdot_assumptions *a, qdot_expr zero)
 {

@@ -1,4 +1,4 @@
-/* assumptions.h -- what is assumed, as a search of solutions reads it.
+/* assumptions.h -- what `assume` states, as the search for solutions uses it.
  *
  *     a = b      of parameters: the value of one of them, which is put in
  *     x > 0      of an unknown: part of its domain
@@ -13,7 +13,7 @@
 
 typedef struct {
     qdot_facts facts;               /* without the inequalities of unknowns; borrows `others` */
-    qdot_expr domain;               /* these: a set of conditions (conditions.h); nil: none */
+    qdot_expr domain;               /* these inequalities, a set of conditions (conditions.h); nil: none */
     qdot_vec(qdot_expr) from, to;   /* parameters and their values, which hold none of these parameters */
     qdot_vec(qdot_expr) others;
 } qdot_assumptions;

@@ -1,13 +1,15 @@
-/* condition-forms.c -- gaps with magnitudes and roots. */
+/* condition-forms.c -- simpler forms of conditions 0 < g and 0 <= g whose g holds |v| or square roots. */
 #include "normal/solve/condition-forms.h"
 
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/walk.h"
 
+/* So many nodes |u| and the like are replaced by what they may be; larger expressions are not examined. */
 enum { MOST_CHOICES = 4, LARGEST = 80 };
 
-/* A node of e that is one of several expressions, |u|, sign u, max or min: these, other [2]; else nil. */
+/* A node |u|, sign u, max(u, v) or min(u, v) of e, and what its value may be, other [2]: u or -u, 1 or -1, u or v. Nil:
+ * there is none. */
 static qdot_expr
 find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
 {
@@ -35,6 +37,7 @@ find_choice(qdot_pool *pool, qdot_expr e, qdot_expr *other)
     return found;
 }
 
+/* Whether e is 0 identically for some choice of the values of all such nodes, `depth` of which are chosen already. */
 static bool
 vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
 {

@@ -1,4 +1,4 @@
-/* condition-forms.h -- gaps g of conditions 0 < g and 0 <= g that hold magnitudes and roots, as simpler ones.
+/* condition-forms.h -- conditions 0 < g and 0 <= g whose gap g holds magnitudes or square roots, by a simpler gap.
  *
  *     v - |v|      is 0 where v >= 0 and negative elsewhere
  *     s - t        has the sign of s^2 - t^2, s and t not negative
@@ -14,8 +14,9 @@
  * identically. */
 bool qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e);
 
-/* Of a gap k v - k |v| or k v + k |v|, k a number: v or -v, which is positive where the gap is (`strict`), not negative
- * where the gap is not; QDOT_ONE: always so, QDOT_MINUS_ONE: never. Nil: the gap is of no such form. */
+/* Of a gap k |v| + k v or k |v| - k v, k a number: v or -v, which is positive where the gap is (strict), or not negative
+ * where the gap is not negative. QDOT_ONE: the condition always holds, QDOT_MINUS_ONE: never. Nil: the gap has another
+ * form. */
 qdot_expr qdot_condition_without_magnitude(qdot_pool *pool, qdot_expr gap, bool strict);
 
 /* s^2 - t^2 for a gap s - t with a square root in it, s and t nowhere negative; else nil. */

@@ -14,7 +14,8 @@
 #include "normal/simplify/positive.h"
 #include "normal/solve/condition-forms.h"
 
-/* Relations of a set are compared with each other where there are no more, and none of more operations. */
+/* The relations of a set are compared with each other if there are at most MOST_COMPARED of them, of at most
+ * LARGEST_COMPARED operations each. */
 enum { MOST_COMPARED = 6, LARGEST_COMPARED = 24 };
 
 /* --- one relation --------------------------------------------------------------------- */
@@ -218,8 +219,8 @@ condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
     return condition_shorten(pool, gap, strict, facts);
 }
 
-/* The condition by the squares of its sides, s > t as s^2 > t^2; nil: it has none, or they may hold where s or t is not
- * defined. */
+/* s > t, of a gap s - t with square roots, as the condition s^2 > t^2. Nil: the gap has another form, or s^2 > t^2 is not
+ * known to imply that s and t are defined. */
 static qdot_expr
 condition_by_squares(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
@@ -510,7 +511,7 @@ conditions_join_nonzero(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
     return set;
 }
 
-/* Whether a relation of the set, and that it is defined, follow from the others. */
+/* Whether the i-th relation of the set follows from the others, and `domain`, that its sides are defined, too. */
 static bool
 is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const qdot_facts *facts)
 {
@@ -521,7 +522,8 @@ is_follower(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr domain, const 
     return yes;
 }
 
-/* The set without relations that follow from the others; of those alone that are not defined everywhere, or of all. */
+/* The set without relations that follow from the others; partial_alone: only those are left out whose sides are not
+ * defined everywhere. */
 static qdot_expr
 conditions_without_followers(qdot_pool *pool, qdot_expr set, bool partial_alone, const qdot_facts *facts)
 {
@@ -555,7 +557,7 @@ qdot_conditions_reduce(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
         if (follows(pool, set, i, strict, true, facts))
             set = conditions_replace(pool, set, i, strict);
     }
-    /* those with roots first: others would follow from their being defined */
+    /* those with roots first: they imply that the roots are defined, and simpler relations would be left out for that */
     return conditions_without_followers(pool, conditions_without_followers(pool, set, true, facts), false, facts);
 }
 

@@ -14,8 +14,8 @@
 /* Whether only parameters, momenta and functions of them occur in e: what is generic. */
 bool qdot_is_generic(const qdot_pool *pool, qdot_expr e);
 
-/* Whether e is one of generic parameters whose special values do not count: facts->exact makes them count; those at
- * which |a| - a is 0 are a region, and count. */
+/* Whether the zeros of e do not count: it holds parameters alone, which are generic. They do count if facts->exact is
+ * set, and where e is 0 in a whole region of the parameters, as |a| - a is. */
 bool qdot_is_taken_generic(qdot_pool *pool, qdot_expr e, const qdot_facts *facts);
 
 /* 0 < gap, or 0 <= gap if not strict: QDOT_TRUE, QDOT_FALSE if that is proved; else a relation, in its shortest

@@ -38,7 +38,8 @@ conditions_of_function(qdot_pool *pool, qdot_expr set, qdot_expr node)
     }
 }
 
-/* The bases of the powers in a product with exponents that are no integers. */
+/* The set, and that bases of powers with exponents that are no integers are not negative, or positive where the exponent
+ * may be negative. */
 static qdot_expr
 conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_expr x)
 {
@@ -55,7 +56,7 @@ conditions_of_powers(qdot_pool *pool, qdot_expr set, qdot_expr product, qdot_exp
     return set;
 }
 
-/* What one part of f, which holds x (nil: any), adds to a set. */
+/* The set with the conditions that one node of f adds; of factors, only those that hold x count (nil: all). */
 typedef qdot_expr conditions_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x);
 
 static qdot_expr

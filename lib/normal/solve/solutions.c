@@ -13,8 +13,9 @@
 #include "normal/solve/solutions.h"
 #include "normal/solve/zeros.h"
 
-/* More members than these are given as a family; one whose ends depend on parameters, where it may reach so many
- * periods to either side. */
+/* Roots that recur with a period are listed one by one if the window holds at most MOST_MEMBERS of them, or, where its ends
+ * depend on parameters, if none lies MOST_PERIODS or more to either side; else they are given as a family, with an
+ * integer n. */
 enum { MOST_MEMBERS = 1000, MOST_PERIODS = 12, MOST_INTEGERS = 16 };
 
 static const qdot_window window_whole = {.lo = QDOT_NIL, .lo_open = true, .hi_open = true};
@@ -47,7 +48,8 @@ qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle)
     return angle ? qdot_window_turn(pool, w) : w;
 }
 
-/* Whether the end a leaves less than b (nil: none): above it for a lower end; or at it, which does not belong to a. */
+/* Whether a is proved to be a tighter end of a window than b (nil: it has none): a > b for a lower end, a < b for an upper
+ * one; a = b too, if it belongs to the window by b alone. */
 static bool
 is_tighter(qdot_pool *pool, qdot_expr a, bool open, qdot_expr b, bool b_open, bool lower,
            const qdot_facts *facts)
@@ -329,7 +331,8 @@ bounds_over_domains(qdot_pool *pool, size_t m, const qdot_expr *e, qdot_interval
     return QDOT_OK;
 }
 
-/* Members between two ends that are so many periods away, as intervals bound them; *bounded: these are not too many. */
+/* Add the members between the ends of the window. How many periods away each end is depends on parameters; intervals bound
+ * that over their declared domains. *bounded: there are few enough; else none is added. */
 static qdot_status
 members_add_bounded(const members *m, bool *bounded)
 {
@@ -360,7 +363,7 @@ is_beyond(const members *m, long k)
     return qdot_condition(m->pool, gap, k > 0 ? w->hi_open : w->lo_open, m->facts) == QDOT_FALSE;
 }
 
-/* Members of up to MOST_PERIODS to either side; the farthest are beyond the ends. */
+/* Add the members to either side, up to the first that is proved to lie beyond the end there. */
 static qdot_status
 members_add_outward(const members *m)
 {

@@ -12,7 +12,7 @@
 #include "normal/solve/solve.h"
 #include "normal/solve/special-values.h"
 
-/* More special values are not looked at. */
+/* The equation is solved at so many special values; at others it is open what its solutions are. */
 enum { MOST_SPECIALS = 24 };
 
 void
@@ -51,7 +51,7 @@ typedef struct {
     qdot_specials *out;
 } special_search;
 
-/* The set may be another one where the equation holds. */
+/* Note that the solutions may be others where the equation holds. */
 static qdot_status
 leave_open(special_search *s, qdot_expr equation)
 {
@@ -108,7 +108,8 @@ equality_in(qdot_pool *pool, qdot_expr set, const qdot_facts *facts)
     return QDOT_NIL;
 }
 
-/* Whether a root that exists only where two sides are equal, -sqrt(a) for a <= 0, is one of `found` there. */
+/* Whether the root exists only where both sides of one of its conditions are equal, and is one of `found` at all values of
+ * parameters where they are. */
 static qdot_status
 is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_solutions *found, const qdot_root *root,
             bool *yes)
@@ -138,7 +139,8 @@ is_point_of(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, const qdot_so
     return status == QDOT_EDOMAIN ? QDOT_OK : status;
 }
 
-/* Leave out roots that are other ones wherever they exist. */
+/* Leave out roots that exist only at special values of parameters and equal another root there: under a <= 0, -sqrt(a)
+ * exists at a = 0 alone, where sqrt(a) is the same. */
 static qdot_status
 leave_out_points(qdot_pool *pool, qdot_expr x, const qdot_facts *facts, qdot_solutions *found)
 {

@@ -24,7 +24,8 @@ typedef struct {
 
 void qdot_specials_clear(qdot_specials *s);
 
-/* That f and what was written, whose conditions `domain` holds (nil: none), are defined in their parts without x. */
+/* The conditions without x under which f is defined, and those without x in `domain` (nil: none), under which the equation
+ * is defined as it was written. */
 qdot_expr qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr x);
 
 /* Add to the conditions of each root that its value is defined, and f in its parts without x; leave out those that

@@ -123,7 +123,7 @@ has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
     return qdot_pool_check(pool);
 }
 
-/* The conditions that say more than where the ends of x are. */
+/* The conditions that are no bounds of x by constants. */
 static qdot_expr
 conditions_beside_ends(qdot_pool *pool, qdot_expr x, qdot_expr conditions)
 {

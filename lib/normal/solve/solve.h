@@ -33,9 +33,9 @@ QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
 
-/* Of f with kinks or steps, of x and constants alone: the ranges of x in the window that solve f = 0, each a root x
- * with its conditions, and the other roots there. `domain` as above. Nothing, not complete, where no range of x,
- * inside the window or not, solves it. */
+/* Ranges of x in the window on which f = 0, for f of x and constants with |u|, sign, max, min, if or floor of x: each is a
+ * root x with its conditions; the single roots in the window too. `domain` as above. Where f is 0 on no range of x,
+ * inside the window or not, *out is empty and not complete. */
 QDOT_MUST_CHECK qdot_status qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                               qdot_expr domain, const qdot_window *window,
                                               qdot_solutions *out);

@@ -38,7 +38,7 @@ qdot_special_sides(const qdot_pool *pool, qdot_expr where, qdot_expr *from, qdot
 
 static qdot_status zeros_of_all(search *s, uint32_t n, const qdot_expr *d, qdot_expr where);
 
-/* The zeros of d are not known. */
+/* Note the equation d = 0, which is not solved. */
 static qdot_status
 leave_open(search *s, qdot_expr d)
 {

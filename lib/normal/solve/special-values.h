@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "normal/field/facts.h"
 
-/* Equations of one place; operations of a divisor that is looked at. */
+/* The most parameters with a value at one place; the most operations in a divisor whose zeros are looked for. */
 enum { QDOT_SPECIAL_TOGETHER = 3, QDOT_SPECIAL_LONGEST = 60 };
 
 typedef struct {
@@ -22,8 +22,9 @@ typedef struct {
 
 void qdot_special_values_clear(qdot_special_values *v);
 
-/* Add to out where `special` [n] are 0, each by itself, of a LIST all its members; these are of parameters alone, with
- * the values of `where` (a LIST of equations, nil: none) put in, which are said again. */
+/* Add to out the places where one of `special` [n] is 0; of one that is a LIST, those where all its members are 0 together.
+ * They hold parameters alone, and have the values of `where` (a LIST of equations, nil: none) put in; each place repeats
+ * these equations. */
 QDOT_MUST_CHECK qdot_status qdot_special_values_add(qdot_pool *pool, size_t n,
                                                     const qdot_expr *special, qdot_expr where,
                                                     const qdot_facts *facts,

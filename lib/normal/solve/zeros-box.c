@@ -312,7 +312,7 @@ is_covered(const qdot_zeros_system *s, const qdot_interval *X)
     return false;
 }
 
-/* Whether X lies in a range of zeros. */
+/* Whether all of X is known to be zeros, by one of the ranges that the caller gave (qdot_zeros_range.held). */
 static bool
 is_held(const qdot_zeros_system *s, const qdot_interval *X)
 {

@@ -22,8 +22,8 @@ typedef struct {
     } term[TERMS];
 } far_scale;
 
-/* A function that is m S(x), m in bounds, for all x >= R; bounds without one end, beyond 0, where it grows faster than any S,
- * as exp(exp(x)) and x^x do. */
+/* A function that is m S(x), m in bounds, for all x >= R. Where it grows faster than every S, as exp(exp(x)) and x^x do, the
+ * bounds reach to infinity on the side of its sign and do not hold 0. */
 typedef struct {
     qdot_interval bounds;
     far_scale scale;

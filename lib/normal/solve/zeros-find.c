@@ -47,7 +47,7 @@ read_ranges(qdot_zeros_task *t)
     return qdot_pool_check(t->pool);
 }
 
-/* The gaps b - a of the relations a < b of each range of zeros. */
+/* Bounds of b - a for the relations a < b that make each known range of zeros (qdot_zeros_range.held). */
 static qdot_status
 read_held(qdot_zeros_task *t)
 {

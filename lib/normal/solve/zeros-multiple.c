@@ -12,7 +12,7 @@
 #include "normal/solve/solve.h"
 #include "normal/solve/zeros-parts.h"
 
-/* MOST_GROWN: places that are asked about by the growth of terms. */
+/* MOST_GROWN: doubtful places at which the growth of terms is examined. */
 enum { MULTIPLICITY = 6, BITS = 512, DEPTH = 200, STEPS = 2000, LONGEST = 100, MOST_GROWN = 32 };
 
 /* --- exact candidates ------------------------------------------------------------------------------- */

@@ -30,7 +30,7 @@ typedef struct {
     qdot_enclosure
         *also; /* of `others` more expressions that vanish at each zero; NULL: none */
     size_t others;
-    qdot_enclosure **held; /* [ranges] where all gaps of one are positive every x is a zero; borrowed */
+    qdot_enclosure **held; /* [ranges] known ranges of zeros: where all expressions of one are positive; borrowed */
     size_t ranges;
     double least; /* a box is not halved where all its widths are smaller */
     qdot_isolate isolate;

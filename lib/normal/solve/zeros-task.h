@@ -23,7 +23,7 @@ typedef struct {
     qdot_expr ends[QDOT_ZEROS_MOST_UNKNOWNS];                  /* LISTs of exact ends */
     qdot_expr f[QDOT_ZEROS_SYSTEMS][QDOT_ZEROS_MOST_UNKNOWNS]; /* the systems */
     size_t systems;
-    qdot_vec(qdot_enclosure *) held; /* of one unknown: gaps of the relations of ranges of zeros */
+    qdot_vec(qdot_enclosure *) held; /* of one unknown: known ranges of zeros, by expressions that are positive there */
     qdot_vec(qdot_zeros_member) found;
     qdot_vec(qdot_zero_box) doubt;
     uint64_t budget, spent, evaluations;

@@ -42,8 +42,8 @@ typedef struct {
     bool lo_open, hi_open; /* the end does not belong to it */
     bool turn;             /* F repeats after 2 pi (proved): -pi < x <= pi */
     unsigned group;        /* unbounded unknowns of one group grow together */
-    qdot_expr held;        /* of one unknown: a LIST of LISTs of relations; every x that fulfils those of one LIST is
-                              a zero, and is not searched; nil: none */
+    qdot_expr held;        /* of one unknown: known ranges of zeros, which are not searched: LISTs of relations
+                              that hold there, in a LIST; nil: none */
 } qdot_zeros_range;
 
 typedef struct {
