@@ -346,28 +346,34 @@ static const struct {
                     {"]", "", "", "</mrow>"}},
 };
 
+/* By style: what opens and closes brackets around a number; what stands between its digits and its power of ten (NULL: it
+ * is written 1.5e-9), behind that power, and behind digits without one. */
+static const struct {
+    const char *open, *times, *raised, *alone, *close;
+} number_words[] = {
+    {"(", NULL, "", "", ")"},
+    {"(", NULL, "", "", ")"},
+    {"(", " \\cdot 10^{", "}", "", ")"},
+    {"<mrow><mo>(</mo><mn>", "</mn><mo>·</mo><msup><mn>10</mn><mn>", "</mn></msup>", "</mn>", "<mo>)</mo></mrow>"},
+};
+
 /* A symbol that stands for a number, such as `-1.5e-9#3`: what stands before the #, in brackets where it has a sign or
  * would stand beside another number without a sign between. */
 static void
 number_name(const char *name, size_t length, qdot_style style, qdot_text *out)
 {
     const bool brackets = style != QDOT_PLAIN || *name == '-';
-    const char *power = memchr(name, 'e', length), *const times = style == QDOT_LATEX     ? " \\cdot 10^{"
-                                                                 : style == QDOT_MATHML ? "</mn><mo>·</mo><msup><mn>10</mn><mn>"
-                                                                                        : NULL;
-    const bool mathml = style == QDOT_MATHML;
+    const char *power = number_words[style].times != NULL ? memchr(name, 'e', length) : NULL;
 
-    qdot_text_add(out, !brackets ? "" : mathml ? "<mrow><mo>(</mo><mn>" : "(");
-    if (power == NULL || times == NULL) {
-        qdot_text_add_n(out, name, length);
-    } else {
-        qdot_text_add_n(out, name, (size_t)(power - name));
-        qdot_text_add(out, times);
+    qdot_text_add(out, brackets ? number_words[style].open : "");
+    qdot_text_add_n(out, name, power != NULL ? (size_t)(power - name) : length);
+    if (power != NULL) {
+        qdot_text_add(out, number_words[style].times);
         power += power[1] == '+' ? 2 : 1;
         qdot_text_add_n(out, power, length - (size_t)(power - name));
-        qdot_text_add(out, mathml ? "</mn></msup>" : "}");
     }
-    qdot_text_add(out, !brackets ? "" : !mathml ? ")" : power != NULL ? "<mo>)</mo></mrow>" : "</mn><mo>)</mo></mrow>");
+    qdot_text_add(out, power != NULL ? number_words[style].raised : number_words[style].alone);
+    qdot_text_add(out, brackets ? number_words[style].close : "");
 }
 
 void
