@@ -434,15 +434,14 @@ add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_ex
     range->held = QDOT_NIL;
     for (size_t i = 0; i < found.root.n && status == QDOT_OK; i++) {
         const qdot_root *root = &found.root.at[i];
+        const bool is_range = root->value == q->x[0];
         qdot_expr value;
 
-        if (root->value != q->x[0] && *rest)
+        if (!is_range && *rest)
             continue;
-        if (root->value == q->x[0] && root->condition != QDOT_NIL)
-            range->held = range->held == QDOT_NIL ? qdot_list(pool, 1, &root->condition)
-                                                  : qdot_list_appended(pool, range->held, 1, &root->condition);
-        status = root->value == q->x[0] ? value_of_range(q, root, &value)
-                                        : number_of_root(q, root->value, &value);
+        if (is_range && root->condition != QDOT_NIL)
+            range->held = qdot_list_appended(pool, range->held, 1, &root->condition);
+        status = is_range ? value_of_range(q, root, &value) : number_of_root(q, root->value, &value);
         if (status == QDOT_OK)
             *list = qdot_list_appended(pool, *list, 1, &value);
     }
