@@ -195,7 +195,7 @@ sign_at(const fmpz_poly_t p, const arf_t at)
     arb_init(v);
     arb_set_arf(x, at);
     for (slong prec = 64; sign == 2; prec *= 2) {
-        if (prec > 4096) { /* it vanishes there, it seems: exactly */
+        if (prec > 4096) { /* probably 0: evaluate it exactly */
             arb_fmpz_poly_evaluate_arb_horner(v, p, x, ARF_PREC_EXACT);
             sign = arf_sgn(arb_midref(v));
             break;

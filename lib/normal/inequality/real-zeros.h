@@ -16,9 +16,9 @@
 void qdot_polynomial_over(fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k,
                           const slong *symbol, const fmpq *x, const fmpz_mpoly_ctx_t ctx);
 
-/* The real zeros of p, which has none twice, ascending, their balls apart from each other and not wider than 2^-bits of
- * the zero. The number of them; -1: too much. *zeros: a vector of as many balls as p has degrees, NULL if none was made;
- * the caller's (_arb_vec_clear). */
+/* The real zeros of p, which has no multiple ones, ascending, in balls that are apart from each other and not wider than
+ * 2^-bits of the zero. The number of them; -1: too much. *zeros: a vector of as many balls as p has degrees, NULL if none
+ * was made; the caller's (_arb_vec_clear). */
 slong qdot_real_zeros(const fmpz_poly_t p, slong bits, arb_ptr *zeros);
 
 /* x = a fraction with few digits above all of a (NULL: no bound) and below all of b. */

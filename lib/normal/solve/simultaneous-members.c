@@ -196,8 +196,8 @@ push_solution(qdot_simultaneous *s, qdot_expr values, qdot_expr conditions)
     return qdot_vec_push(&s->found, ((qdot_simultaneous_solution){.values = values, .conditions = conditions}));
 }
 
-/* Bounds of the integer n by conditions a n + b > 0 with constants a and b, in doubles and a little too wide; false: it
- * has not both. */
+/* Bounds of the integer n by conditions a n + b > 0 with constants a and b, in doubles and a little too wide. False: they
+ * do not bound it on both sides, or MOST_LISTED values or more are left. */
 static bool
 integer_bounds(qdot_simultaneous *s, qdot_expr conditions, qdot_expr n, double *lo, double *hi)
 {

@@ -448,7 +448,7 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
             return members_add_outward(&m);
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (w.recurs) { /* all turns */
+    if (w.recurs) { /* the whole domain in place of one turn */
         w = qdot_solve_window(pool, x, false);
         w.integer = window->integer;
     }

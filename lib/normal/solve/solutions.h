@@ -38,7 +38,8 @@ typedef struct {
 
 /* The declared domain of x; of an angle (f changes nothing in a full turn of x) one turn of it. */
 qdot_window qdot_solve_window(qdot_pool *pool, qdot_expr x, bool angle);
-/* One turn of a window that has not two ends, -pi < x <= pi if it has none. */
+/* One turn within the window: of one with one end, the turn from there; -pi < x <= pi if it has none. A window with two
+ * ends stays as it is. */
 qdot_window qdot_window_turn(qdot_pool *pool, qdot_window w);
 
 /* That a value lies in the window: a set of conditions; nil: the window has no end. */
@@ -47,7 +48,7 @@ qdot_expr qdot_window_relations(qdot_pool *pool, const qdot_window *w, qdot_expr
 /* Whether a shift of x by `period` changes nothing in e, an expression or a LIST, by proof. */
 bool qdot_is_period(qdot_pool *pool, qdot_expr e, qdot_expr x, qdot_expr period,
                     const qdot_facts *facts);
-/* Whether a full turn of x changes nothing in it. */
+/* Whether a full turn of x changes nothing in e, by proof. */
 bool qdot_is_angle(qdot_pool *pool, qdot_expr e, qdot_expr x, const qdot_facts *facts);
 
 /* The window and what conditions in x that are linear in it say of its ends, where these are constants. */

@@ -251,7 +251,7 @@ form_sum(const far_task *t, const far_form *f, const far_form *g)
     growth = scale_growth(&ratio);
     if (growth > 0)
         return form_sum(t, g, f);
-    if (growth < 0 && !is_bounded(g)) /* no smaller than that scale, perhaps larger */
+    if (growth < 0 && !is_bounded(g)) /* g may outgrow its scale, so the ratio too: only its sign is known */
         other = other.lo > 0 ? (qdot_interval){0, INFINITY} : (qdot_interval){-INFINITY, 0};
     else if (growth < 0)
         other = qdot_interval_product(other, scale_range(t, &ratio), false);

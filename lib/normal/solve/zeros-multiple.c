@@ -367,8 +367,8 @@ is_no_zero(const qdot_zeros_system *s, qdot_expr at, bool *yes)
     return qdot_pool_check(s->pool);
 }
 
-/* Whether f has no zeros within X, by the growth of f(c + 1/u) for large u and -u, c a number in X or beside it: so
- * x log(x) and x^x are bounded near 0. */
+/* Whether f is proved to have no zeros within X: none at c, a number in X or beside it, and none of f(c + 1/u) for large u
+ * and -u, by the growth of its terms. So near 0 with x log(x) or x^x in f, whose slopes have no bounds there. */
 static qdot_status
 exclude_by_growth(const qdot_zeros_system *s, qdot_interval X, bool *excluded)
 {
