@@ -64,7 +64,7 @@ QDOT_MUST_CHECK qdot_status qdot_answer_notice(qdot_session *session, const char
                                                ...) QDOT_PRINTF(2, 3);
 /* The same with %s for e, printed plain. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_of(qdot_session *session, const char *format, qdot_expr e);
-/* The text as a notice if `status` is QDOT_OK; clears it. `status`, or how it went. */
+/* Give the text as a notice if `status` is QDOT_OK, and clear it. Returns `status`, or the first failure after it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_text(qdot_session *session, qdot_status status, qdot_text *text);
 /* A notice, unless this session has already given it. */
 QDOT_MUST_CHECK qdot_status qdot_answer_notice_once(qdot_session *session,

@@ -39,7 +39,7 @@ decide_scalars(qdot_session *session, qdot_expr left, qdot_expr right, compariso
     QDOT_TRY(qdot_decide_equal(pool, left, right, known, decision));
     if (decision->verdict != QDOT_UNDECIDED)
         return QDOT_OK;
-    /* with the branches that what is assumed decides */
+    /* again, with |u|, sign u and if replaced where the assumptions decide them */
     a = qdot_known_signs(pool, left, known);
     b = qdot_known_signs(pool, right, known);
     QDOT_TRY(qdot_pool_check(pool));

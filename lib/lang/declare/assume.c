@@ -1,7 +1,7 @@
 /* assume.c -- the statement `assume`: relations that the engine may use from here on.
  *
- * All of the relations are read before the first is taken; none is where they are proved to contradict
- * each other, an earlier one, or a declared domain.
+ * All relations are read before the first is kept. None is kept if they are proved to contradict each other, an
+ * earlier one, or a declared domain.
  */
 #include "lang/commands/value-check.h"
 #include "lang/declare/declare.h"

@@ -35,8 +35,8 @@ typedef struct {
     expressions heads, bodies; /* functions and their values */
     expressions held;          /* [m] left - right of the constraints, on the sides of the switches */
     expressions equations, slopes, energy, positions, events, u;
-    qdot_vec(qdot_event) acts;     /* of each event: what it puts, and the values as written */
-    qdot_vec(expressions) effects; /* these values */
+    qdot_vec(qdot_event) acts;     /* of each event: what it sets, and to which values */
+    qdot_vec(expressions) effects; /* these values as they are exported */
     qdot_vec(int) orders;
     qdot_vec(qdot_export_surface) surface;
     qdot_vec(char *) texts; /* of the surfaces, of the ends of domains */

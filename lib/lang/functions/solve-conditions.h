@@ -20,7 +20,7 @@ QDOT_MUST_CHECK qdot_status qdot_solve_notice_specials(qdot_session *session, qd
 /* Tell `where a = 0 the solutions may be others`, of a LIST of equations that hold there. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_open(qdot_session *session, qdot_expr where);
 
-/* Tell the words and then the conditions (nil: nothing), of all solutions. */
+/* Tell `WORDS C and D`, conditions that concern all solutions; nil: there are none, nothing is told. */
 QDOT_MUST_CHECK qdot_status qdot_solve_notice_all(qdot_session *session, const char *words, qdot_expr conditions);
 
 /* A root as a value: x, or the relations that say which x are roots; with a notice of its conditions. */

@@ -409,8 +409,8 @@ bound_domain(const question *q, qdot_expr domain)
     return domain == QDOT_NIL ? QDOT_NIL : qdot_measured_as_rationals(q->session, domain);
 }
 
-/* Where whole ranges of x are solutions: these, to the list. *rest: other zeros must be searched, outside the ranges
- * in range->held; else the others are in the list too. */
+/* Add to the list the ranges of x on which the equation holds, and note them in range->held. *rest: other zeros must be
+ * searched for, outside these ranges; else they are in the list too. */
 static qdot_status
 add_ranges(const question *q, qdot_expr domain, qdot_zeros_range *range, qdot_expr *list, bool *rest)
 {

@@ -139,7 +139,8 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
     return status;
 }
 
-/* What parameters make of zeros that were found in numbers: other sets at special values, conditions. */
+/* Zeros were found in numbers: tell at which special values of parameters the solutions are others, and under which
+ * conditions on parameters they exist. */
 static qdot_status
 notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain, const qdot_facts *facts,
                   const qdot_solutions *found)

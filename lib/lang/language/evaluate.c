@@ -149,7 +149,7 @@ check_run(const qdot_machine *m, const char *name)
     return qdot_hint("`a.theta` is theta along the run a; a product is written a*theta");
 }
 
-/* The top value is one along a run. */
+/* Mark the top value as one along a run; an error if it is one along another already. */
 static qdot_status
 put_along(qdot_machine *m, const char *run)
 {

@@ -61,7 +61,7 @@ bracket_text(const qdot_cursor *c, const qdot_token *open, char *text, size_t si
 
 /* --- names of velocities -------------------------------------------------------------- */
 
-/* What is written around a coordinate's name, the longer before the shorter. */
+/* What others write before and behind a coordinate's name to mean its derivatives; longer spellings first. */
 static const struct {
     const char *prefix, *ending, *primes;
     bool sure; /* seldom the name of anything else */

@@ -35,7 +35,7 @@ qdot_event_print_faded(const qdot_run *run, const qdot_run_faded *faded, qdot_te
     qdot_text_add(text, " its sides are equal within their errors: whether it occurs there is not known");
 }
 
-/* Error: occurrence k of n is not known. */
+/* The error that occurrence k is not among the n that are known, and since when it is open whether the event occurs. */
 static qdot_status
 unknown(const qdot_named_run *named, const char *name, long k, size_t n)
 {

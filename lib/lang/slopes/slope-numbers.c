@@ -84,8 +84,8 @@ read_at(const qdot_slopes *s, const qdot_measured *m, const qdot_event *event)
     return event->targets.n == 0 ? m->value : m->value - copysign(back, report->t1 - report->t0);
 }
 
-/* The slope -Dg/(dg/dt) of an event's time, with up = Dg and down = dg/dt at the time where it is read: from there to
- * where g = 0, which is known to its error, it changes by as much as d/dt says. */
+/* To the slope -Dg/(dg/dt) of an event's time, read with up = Dg and down = dg/dt at a time near the event, add its
+ * derivative by t times `way`, the time from there to the event with its error. */
 static qdot_status
 add_way_to_event(qdot_slopes *s, qdot_expr rate_up, qdot_expr rate_down, qdot_expr time, qdot_expr way,
                  qdot_expr up, qdot_expr down, qdot_expr *slope)
