@@ -126,6 +126,15 @@ qdot_piece_change(qdot_piece *x, const qdot_staged_event *e, double t, const dou
     return status;
 }
 
+qdot_piece_repeat *
+qdot_piece_repeat_of(const qdot_piece *x, qdot_watched_kind kind, size_t index)
+{
+    for (size_t i = 0; i < x->repeats.n; i++)
+        if (x->repeats.at[i].kind == kind && x->repeats.at[i].index == index)
+            return &x->repeats.at[i];
+    return NULL;
+}
+
 /* For intervals that shrink by a constant ratio, with the next end at t: the sum of all following
  * ones; infinite if they do not shrink so. */
 static double
@@ -148,13 +157,10 @@ static qdot_status
 accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *left)
 {
     const double since = fabs(t - x->c->tr.t[0]), reach = since > 0 ? since : fabs(t);
-    qdot_piece_repeat *r = NULL;
+    qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
 
     *yes = false;
     *left = 0;
-    for (size_t i = 0; i < x->repeats.n; i++)
-        if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
-            r = &x->repeats.at[i];
     if (!r) {
         qdot_piece_repeat new = {
             .kind = w->kind, .index = w->index, .n = 1, .since = t, .last = t};
@@ -176,11 +182,9 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
 static bool
 is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
 {
-    const qdot_piece_repeat *own = NULL;
+    const qdot_piece_repeat *own =
+        w->kind == QDOT_WATCH_SURFACE ? qdot_piece_repeat_of(x, w->kind, w->index) : NULL;
 
-    for (size_t i = 0; i < x->repeats.n && w->kind == QDOT_WATCH_SURFACE; i++)
-        if (x->repeats.at[i].kind == w->kind && x->repeats.at[i].index == w->index)
-            own = &x->repeats.at[i];
     for (size_t i = 0; i < x->repeats.n && own; i++) {
         const qdot_piece_repeat *r = &x->repeats.at[i];
 
@@ -257,21 +261,15 @@ rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
 static qdot_status
 come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
 {
-    const bool low = !*fast;
+    qdot_piece_repeat *r = qdot_piece_repeat_of(x, w->kind, w->index);
     bool lasts, soon;
 
     QDOT_TRY(qdot_piece_rest(x, w->index, way, left, &lasts, &soon));
+    if (r && *fast)
+        r->soon = soon;
+    if (r && lasts) /* bounces may come again */
+        *r = x->repeats.at[--x->repeats.n];
     *fast = *fast && !lasts && !soon;
-    for (size_t i = 0; i < x->repeats.n; i++) {
-        qdot_piece_repeat *r = &x->repeats.at[i];
-
-        if (r->kind != w->kind || r->index != w->index)
-            continue;
-        if (!low)
-            r->soon = soon;
-        if (lasts) /* bounces may come again */
-            *r = x->repeats.at[--x->repeats.n];
-    }
     return QDOT_OK;
 }
 

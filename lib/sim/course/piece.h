@@ -216,6 +216,9 @@ QDOT_MUST_CHECK qdot_status qdot_piece_integrate(qdot_piece *x);
 /* A run ends if more events than that would follow at the rate at which they come. */
 extern const double qdot_piece_most_to_come;
 
+/* How often an event, bound or surface was met; NULL: never yet. */
+qdot_piece_repeat *qdot_piece_repeat_of(const qdot_piece *x, qdot_watched_kind kind, size_t index);
+
 /* Carry out all events at x->t_act, in order; x->start.y is the state before, then after. *over:
  * the run ends, for c->reason or by the event c->stopped_by; x->start.jumped: the state was
  * changed. QDOT_EDOMAIN if an event sets a value that is not finite. */
