@@ -108,25 +108,6 @@ is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, double *sh
     return qdot_grave(status);
 }
 
-/* How large the terms of u have been: what u is changed by if each component of q is by its largest size so far. */
-static qdot_status
-size_of_place(qdot_piece *x, size_t surface, double *size)
-{
-    double *slopes = qdot_malloc((x->n + 1) * sizeof *slopes), u;
-    const size_t free = x->mode;
-    qdot_status status = slopes ? qdot_piece_enter(x) : QDOT_ENOMEM; /* the mode of the contact */
-
-    *size = 0;
-    if (status == QDOT_OK)
-        status = qdot_sliding_rows_value(&qdot_piece_mode(x)->held, x->n / 2, x->start.t,
-                                         x->start.y, surface, 0, &u, slopes);
-    for (size_t i = 0; i < x->n / 2 && status == QDOT_OK; i++)
-        *size += fabs(slopes[i]) * x->largest[i];
-    x->mode = free;
-    qdot_free(slopes);
-    return status;
-}
-
 /* --- where one begins ----------------------------------------------------------------- */
 
 /* The bounce that a contact at the start leaves out. */
@@ -138,6 +119,18 @@ typedef struct {
     double moved;  /* by how much the start changes, relative to max(1, |component|) */
     double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
 } skipped;
+
+/* How large the terms of u have been: what u is changed by if each component of q is by its largest size so far. */
+static double
+size_of_place(const qdot_piece *x, const skipped *s)
+{
+    const size_t n = x->n / 2;
+    double size = 0;
+
+    for (size_t i = 0; i < n; i++)
+        size += fabs(s->along[n + i]) * x->largest[i];
+    return size;
+}
 
 /* |u| at most on the way, and how long that and all bounces behind it take. */
 static double
@@ -190,18 +183,17 @@ find_pull(qdot_piece *x, size_t surface, const double *d, skipped *s)
     return QDOT_OK;
 }
 
-/* Enter the contact at the start of the piece; what that leaves out. */
+/* Enter the contact, in x->side and x->start.y; what that leaves out. */
 static qdot_status
 enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
 {
-    const size_t free = x->mode, n = x->n;
-    double *kept = qdot_malloc((2 * n + 1) * sizeof *kept), *d = kept + n, size = 0, rest = 0;
-    qdot_status status = kept ? QDOT_OK : QDOT_ENOMEM;
+    const size_t free = x->mode;
+    double *d = qdot_malloc((x->n + 1) * sizeof *d), size = 0, rest = 0;
+    qdot_status status;
 
     *can = false;
-    if (!kept)
-        return status;
-    memcpy(kept, x->start.y, n * sizeof *kept);
+    if (!d)
+        return QDOT_ENOMEM;
     x->side[surface] = QDOT_SIDE_SLIDES;
     status = qdot_piece_enter(x);
     if (status == QDOT_OK)
@@ -211,30 +203,25 @@ enter(qdot_piece *x, size_t surface, skipped *s, bool *can)
     for (int order = 0; order < 2 && status == QDOT_OK && s->pull > 0; order++)
         status = move_onto(x, surface, order, s);
     if (status == QDOT_OK)
-        status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, n / 2, x->start.t, x->start.y, &rest);
+        status = qdot_sliding_rows_keep(&qdot_piece_mode(x)->held, x->n / 2, x->start.t, x->start.y, &rest);
     s->moved = fmax(s->moved, rest);
     if (status == QDOT_OK && isfinite(s->moved))
         status = is_smooth_wall(x, x->c->stage->switches.surfaces.at[surface].event, x->mode, free, &s->share,
                                 can);
-    if (status != QDOT_OK || !*can) {
-        memcpy(x->start.y, kept, n * sizeof *kept);
-        x->side[surface] = 0;
-    }
     x->mode = free;
-    qdot_free(kept);
+    qdot_free(d);
     return qdot_grave(status);
 }
 
-/* That of the bounces to come on an event, beside the place. Where something switches between one and the next, as at an
- * apex, a piece starts there, which must see that it is off the wall: so the flights before were higher than this. */
+/* The height of bounces that a contact may leave out, beside the place. Where something switches between two of them, as
+ * at the top of a flight, a piece starts there, which must see that it is off the wall: so the flights before were higher
+ * than this. */
 static double
-lowest(const qdot_piece *x, size_t event)
+lowest(const qdot_piece *x, size_t surface)
 {
-    const qdot_piece_repeat *own = NULL;
+    const qdot_piece_repeat *own =
+        qdot_piece_repeat_of(x, QDOT_WATCH_EVENT, x->c->stage->switches.surfaces.at[surface].event);
 
-    for (size_t i = 0; i < x->repeats.n; i++)
-        if (x->repeats.at[i].kind == QDOT_WATCH_EVENT && x->repeats.at[i].index == event)
-            own = &x->repeats.at[i];
     for (size_t i = 0; i < x->repeats.n && own && own->ratio < 1; i++)
         if (x->repeats.at[i].kind == QDOT_WATCH_SURFACE && fabs(own->last - x->repeats.at[i].last) < own->interval)
             return apart / (1 - own->ratio);
@@ -265,23 +252,20 @@ least_told(const qdot_piece *x, const skipped *s)
     return least_in_doubles * s->size + multistep_tolerances * x->options->tol * size;
 }
 
-/* Whether the bounces to come, within the time `left`, may be left out. By a method without series they are where the
- * next one is not told from rounding, if they end. */
-static qdot_status
-may_rest(qdot_piece *x, size_t surface, double left, const skipped *s, bool *may)
+/* Whether the bounces to come, within the time `left`, may be left out: where the place hides them; for a companion,
+ * where the run has left out such ones; for a method without series, where it does not tell the next one from rounding. */
+static bool
+may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
 {
-    const size_t event = x->c->stage->switches.surfaces.at[surface].event;
-    double place;
+    const bool by_points = !x->reader.read_two && !x->c->leader;
+    const double place = size_of_place(x, s);
 
-    QDOT_TRY(size_of_place(x, surface, &place));
-    *may = s->moved <= fastest && isfinite(left) && s->moved * left <= lowest(x, event) * place;
-    if (!x->reader.read_two && left == 0 && !x->c->leader) /* the motion does not leave it */
-        *may = s->moved <= fastest && height(s) <= least_height * place;
-    if (x->c->leader)
-        *may = *may || (height(s) <= led * skipped_in_run(x, surface) && isfinite(duration(s)));
-    else if (!x->reader.read_two)
-        *may = *may || (height(s) <= least_told(x, s) && isfinite(duration(s)));
-    return QDOT_OK;
+    if (s->moved <= fastest
+        && (by_points && left == 0 ? height(s) <= least_height * place /* the motion does not leave it */
+                                   : isfinite(left) && s->moved * left <= lowest(x, surface) * place))
+        return true;
+    return (x->c->leader || by_points) && isfinite(duration(s))
+           && height(s) <= (by_points ? least_told(x, s) : led * skipped_in_run(x, surface));
 }
 
 /* They are uncertainties of the motion until they would have ended. */
@@ -311,7 +295,6 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
     const size_t surface = qdot_contacts_surface(&x->c->stage->switches, event, way);
     double *kept;
     skipped s = {0};
-    bool may = false;
     qdot_status status;
 
     *lasts = *soon = false;
@@ -323,11 +306,11 @@ qdot_piece_rest(qdot_piece *x, size_t event, int way, double left, bool *lasts, 
     s.along = kept + x->n;
     memcpy(kept, x->start.y, x->n * sizeof *kept);
     status = enter(x, surface, &s, lasts);
-    if (status == QDOT_OK && *lasts)
-        status = may_rest(x, surface, left, &s, &may);
-    if (status == QDOT_OK && *lasts && !may) {
+    if (status == QDOT_OK && *lasts && !may_rest(x, surface, left, &s)) {
         *lasts = false;
         *soon = s.moved <= fastest || left > 0;
+    }
+    if (!*lasts) {
         x->side[surface] = 0;
         memcpy(x->start.y, kept, x->n * sizeof *kept);
     }
