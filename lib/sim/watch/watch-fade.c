@@ -30,8 +30,8 @@ find_floor(qdot_watch *w, double t, const double *y, size_t i, double *floor)
     const double *scales = w->reader.system->scales;
 
     for (size_t k = 0; k < 2 * w->n; k++)
-        w->sizes_of_state[k] = qdot_ode_size(scales, k, y[k]);
-    QDOT_TRY(qdot_watch_noise_of(w, t, y, w->sizes_of_state, i, floor));
+        w->z[k] = qdot_ode_size(scales, k, y[k]);
+    QDOT_TRY(qdot_watch_noise_of(w, t, y, w->z, i, floor));
     *floor *= rounding / (4 * DBL_EPSILON) * (w->faded[i] >= STEPS ? more : 1);
     return QDOT_OK;
 }
@@ -74,7 +74,7 @@ qdot_watch_find_fading(qdot_watch *w, double t, const double *y)
 bool
 qdot_watch_has_faded(const qdot_watch *w, size_t i)
 {
-    return w->may_fade[i] && w->fading[i] && w->faded[i] + 1 >= STEPS;
+    return w->fading[i] && w->faded[i] + 1 >= STEPS;
 }
 
 void

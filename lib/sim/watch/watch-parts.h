@@ -104,7 +104,6 @@ struct qdot_watch {
     int *faded;      /* [m] and through so many steps before it, in a row, */
     double *faded_since; /* [m] from then on */
     double *most;    /* [m] the largest |g| at the ends of steps so far */
-    double *sizes_of_state; /* [2n] scratch */
     int nodes;       /* number that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
     double *fitted;  /* [m x QDOT_WATCH_NODES] polynomials through these at .. */

@@ -595,8 +595,8 @@ make_room(qdot_watch *w)
 
     if (qdot_tape_work(w->sizes) > work)
         work = qdot_tape_work(w->sizes);
-    double *at = qdot_calloc(inputs + 2 * n + 2 * n + 2 * n + 4 * n + 2 * work + 15 * m +
-                                 3 * QDOT_WATCH_NODES * m + (DEEPEST + 2) * m + 2,
+    double *at = qdot_calloc(inputs + 3 * 2 * n + 1 + 2 * work + 15 * m + 3 * QDOT_WATCH_NODES * m +
+                                 (DEEPEST + 2) * m,
                              sizeof *at);
     int *signs = qdot_calloc(6 * m + 1, sizeof *signs);
     bool *flags = qdot_calloc(13 * m + 1, sizeof *flags);
@@ -633,7 +633,6 @@ make_room(qdot_watch *w)
     w->now.offset = w->start.offset + m;
     w->most = w->now.offset + m;
     w->faded_since = w->most + m;
-    w->sizes_of_state = w->faded_since + m;
     w->start.sign = signs + m;
     w->now.sign = signs + 2 * m;
     w->n_extrema = signs + 3 * m;
