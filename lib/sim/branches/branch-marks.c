@@ -41,25 +41,20 @@ index_of(const qdot_branch_search *s, const qdot_bifurcation *b)
     return i;
 }
 
-static bool
-is_crossing(const qdot_bifurcation *b)
-{
-    return b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL;
-}
-
 double
 qdot_branch_longest_near(const qdot_branch_search *s, const double *y)
 {
     double longest = INFINITY;
 
-    for (size_t i = 0; i < s->all->bifurcations.n; i++)
+    for (size_t i = 0; i < s->crossings.n; i++)
         for (size_t k = 0; k < i; k++) {
-            const qdot_bifurcation *a = &s->all->bifurcations.at[i], *b = &s->all->bifurcations.at[k];
-            const double gap = qdot_path_distance(s->x, a->y, b->y);
+            const double *a = s->all->bifurcations.at[s->crossings.at[i].at].y;
+            const double *b = s->all->bifurcations.at[s->crossings.at[k].at].y;
+            const double gap = qdot_path_distance(s->x, a, b);
 
-            if (is_crossing(a) && is_crossing(b) && gap < close_together && gap > 10 * together)
-                longest = fmin(longest, fmax(gap / 4, fmin(qdot_path_distance(s->x, a->y, y),
-                                                           qdot_path_distance(s->x, b->y, y)) / 2));
+            if (gap < close_together && gap > 10 * together)
+                longest = fmin(longest, fmax(gap / 4, fmin(qdot_path_distance(s->x, a, y),
+                                                           qdot_path_distance(s->x, b, y)) / 2));
         }
     return longest;
 }
@@ -87,7 +82,7 @@ qdot_branch_mark(qdot_branch_search *s, qdot_bifurcation *b, double *other, size
     status = qdot_vec_push(&s->all->bifurcations, *b);
     if (status != QDOT_OK)
         qdot_free(b->y);
-    if (status == QDOT_OK && is_crossing(b)) {
+    if (status == QDOT_OK && (b->kind == QDOT_PITCHFORK || b->kind == QDOT_TRANSCRITICAL)) {
         status = qdot_vec_push(&s->crossings, ((qdot_branch_crossing){i, other}));
         other = status == QDOT_OK ? NULL : other;
     }
