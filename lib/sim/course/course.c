@@ -184,6 +184,15 @@ forget_chatters(qdot_course *c)
     c->chatters.n = 0;
 }
 
+const char *
+qdot_course_cause(const char *reason)
+{
+    static const char begin[] = "stopped at t = ";
+    const char *colon = strncmp(reason, begin, sizeof begin - 1) == 0 ? strchr(reason, ':') : NULL;
+
+    return colon && colon[1] == ' ' ? colon + 2 : NULL;
+}
+
 qdot_status
 qdot_course_run(qdot_course *c, const qdot_ode_method *method,
                 const qdot_ode_options *options, double t0, double t1, const double *y)

@@ -29,6 +29,9 @@
 /* Start from {.stage}; clear it in any case. */
 void qdot_course_clear(qdot_course *c);
 
+/* What a reason "stopped at t = TIME: CAUSE" says behind the time; NULL: it is none of that kind. */
+const char *qdot_course_cause(const char *reason);
+
 /* Integrate from y [2n] at t0 to t1 by `method`, under options->tol; options->accepted
  * is called as there. If an event, bound or switch ends the run, QDOT_OK with `reason`. Other
  * errors as qdot_trajectory_run, with the run so far kept. */

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "sim/digits/precise.h"
 #include "sim/error/failure.h"
@@ -141,7 +140,7 @@ find_guide(qdot_run *run, const qdot_run_request *request)
     snprintf(c->reason, sizeof c->reason,
              "the run in doubles, which `digits` follows through events and switches, ended at "
              "t = %.15g: %.200s",
-             end, strncmp(why, "stopped at t = ", 15) == 0 && strchr(why, ':') ? strchr(why, ':') + 2 : why);
+             end, qdot_course_cause(why) ? qdot_course_cause(why) : why);
     c->failed = true;
     return QDOT_OK;
 }

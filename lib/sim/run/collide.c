@@ -429,14 +429,13 @@ time_of(const qdot_run *run, size_t clock, double *t)
 static qdot_status
 say_stop(qdot_run *run, double t)
 {
-    static const char begin[] = "stopped at t = ";
-    const char *rest = run->reason ? strchr(run->reason, ':') : NULL;
+    const char *cause = run->reason ? qdot_course_cause(run->reason) : NULL;
     qdot_text text = {0};
     qdot_status status;
 
-    if (!rest || strncmp(run->reason, begin, sizeof begin - 1) != 0)
+    if (!cause)
         return QDOT_OK;
-    qdot_text_format(&text, "%s%.15g%s", begin, t, rest);
+    qdot_text_format(&text, "stopped at t = %.15g: %s", t, cause);
     status = qdot_text_status(&text);
     if (status == QDOT_OK)
         status = qdot_run_say_why(run, qdot_text_str(&text));
