@@ -113,17 +113,15 @@ static qdot_status
 add_rounding(qdot_piece *x, const qdot_root *root, qdot_occurrence *o)
 {
     const qdot_ode_system *system = &x->c->systems.at[x->mode];
-    double *y = qdot_calloc(4 * x->n, sizeof *y), *low = y + x->n, *rates = low + x->n,
-           *size = rates + x->n, rate = 0, noise = 0;
+    double *y = qdot_malloc(3 * x->n * sizeof *y), *rates = y + x->n, *size = rates + x->n, rate = 0, noise = 0;
     qdot_status status = y ? x->reader.read(root->t, y, x->reader.user) : QDOT_ENOMEM;
 
     if (status == QDOT_OK)
         status = system->rhs(root->t, y, rates, system->user);
-    for (size_t i = 0; i < x->n && y; i++)
+    for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
         size[i] = fabs(y[i]);
     if (status == QDOT_OK)
-        status = qdot_watch_rate(qdot_piece_watch(x), root->t, y, low, rates, size, root->function,
-                                 &rate, &noise);
+        status = qdot_watch_rate(qdot_piece_watch(x), root->t, y, NULL, rates, size, root->function, &rate, &noise);
     if (status == QDOT_OK && rate != 0)
         o->blur = fmax(o->blur, fabs(noise / rate));
     qdot_free(y);
@@ -241,7 +239,7 @@ qdot_piece_way(qdot_piece *x, size_t i, int *way)
 
 /* The piece ends where it starts, by an event. */
 static qdot_status
-act_at_once(qdot_piece *x, double t0, const qdot_root *root)
+end_at_once(qdot_piece *x, double t0, const qdot_root *root)
 {
     x->intent = QDOT_PIECE_ENDS;
     x->t_act = t0;
@@ -249,49 +247,59 @@ act_at_once(qdot_piece *x, double t0, const qdot_root *root)
     return qdot_vec_push(&x->roots, *root);
 }
 
-/* Events with an action whose zero was reached at the start, or held until then, and is left at once
- * because another event has changed the state: bodies that touch, or roots that only rounding separates.
- * A zero onto which the change has put the motion does not count. Where a run starts: impacts on what it touches. */
+/* Whether the piece ends at once by event i, `root` of which is where it starts. Behind a change of the state: an event
+ * with an action whose zero was reached at the start, or held until then, and is left at once because another event has
+ * changed the state: bodies that touch, or roots that only rounding separates. A zero onto which the change has put the
+ * motion does not count. Where a run starts: impacts on what it touches. */
+static qdot_status
+acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
+{
+    const qdot_staged_event *e = &x->c->stage->events.at[i];
+    int way;
+
+    *acts = false;
+    if (!x->start.jumped && x->c->tr.count == 1)
+        return qdot_piece_meets_at_start(x, i, acts);
+    if (!x->start.jumped) {
+        *acts = qdot_piece_meets_again(x, i);
+        return QDOT_OK;
+    }
+    if ((!e->stop && !e->then) || !x->untouched[i] || !x->touching[i] || root->way == 0
+        || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
+        return QDOT_OK;
+    /* of one that rises or falls the side before may be rounding: it must be the other one */
+    if (root->way == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
+        return QDOT_OK;
+    QDOT_TRY(qdot_piece_way(x, i, &way));
+    *acts = way != 0;
+    return QDOT_OK;
+}
+
+/* Contacts into which the motion has been pushed are met first, and alone; else the events that act at once. */
 static qdot_status
 follow_at_once(qdot_piece *x, double t0)
 {
-    const int *first = qdot_watch_first(qdot_piece_watch(x));
-    const bool starts = x->c->tr.count == 1 && !x->start.jumped;
-
     for (size_t k = 0; k < x->pushed.n; k++) {
         const qdot_surface *contact = &x->c->stage->switches.surfaces.at[x->pushed.at[k]];
 
-        QDOT_TRY(act_at_once(x, t0, &(qdot_root){.function = contact->event,
+        QDOT_TRY(end_at_once(x, t0, &(qdot_root){.function = contact->event,
                                                  .t = t0,
                                                  .way = -contact->reaction,
                                                  .exact = true,
                                                  .late = x->start.late}));
     }
     for (size_t i = 0; i < x->c->stage->events.n && x->pushed.n == 0; i++) {
-        const qdot_staged_event *e = &x->c->stage->events.at[i];
-        int way;
-        bool meets;
-        const qdot_root root = {
-            .function = i, .t = t0, .way = first[i], .exact = true,
-            .turned = qdot_watch_is_turned(qdot_piece_watch(x), t0, x->start.y, i), .late = x->start.late};
+        const qdot_root root = {.function = i,
+                                .t = t0,
+                                .way = qdot_watch_first(qdot_piece_watch(x))[i],
+                                .exact = true,
+                                .turned = qdot_watch_is_turned(qdot_piece_watch(x), t0, x->start.y, i),
+                                .late = x->start.late};
+        bool acts;
 
-        if (starts || !x->start.jumped) {
-            meets = !starts && qdot_piece_meets_again(x, i);
-            if (starts)
-                QDOT_TRY(qdot_piece_meets_at_start(x, i, &meets));
-            if (meets)
-                QDOT_TRY(act_at_once(x, t0, &root));
-            continue;
-        }
-        if ((!e->stop && !e->then) || !x->untouched[i] || !x->touching[i] || first[i] == 0
-            || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, &root))
-            continue;
-        /* of one that rises or falls the side before may be rounding: it must be the other one */
-        if (first[i] == x->left[i] && (e->way == 0 || qdot_piece_just_noted(x, i)))
-            continue;
-        QDOT_TRY(qdot_piece_way(x, i, &way));
-        if (way != 0)
-            QDOT_TRY(act_at_once(x, t0, &root));
+        QDOT_TRY(acts_at_once(x, i, &root, &acts));
+        if (acts)
+            QDOT_TRY(end_at_once(x, t0, &root));
     }
     return QDOT_OK;
 }
