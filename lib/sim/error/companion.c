@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "num/two.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/model/still.h"
@@ -93,18 +94,15 @@ count(const qdot_course *c, size_t event)
 /* Of the run's work, which is known: what a companion may take before it leads anywhere. */
 static const double of_whole = 0.1;
 
-/* y [2n], and low of a run in two doubles, by as much aside as the start is in error. */
+/* Move y + low [2n], where a companion starts, by `by` times the error of the start: what run->apart has for this
+ * companion. */
 static void
 move_by_error(const qdot_run *run, size_t number, double by, double *y, double *low)
 {
     const size_t n = 2 * run->plan->n;
 
-    for (size_t i = 0; i < n && run->apart != NULL; i++) {
-        const double sum = low[i] + by * run->apart[number * n + i], to = y[i] + sum;
-
-        low[i] = sum - (to - y[i]);
-        y[i] = to;
-    }
+    for (size_t i = 0; i < n && run->apart != NULL; i++)
+        y[i] = qdot_two_rounded_sum(y[i], low[i] + by * run->apart[number * n + i], &low[i]);
 }
 
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
