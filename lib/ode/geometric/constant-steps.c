@@ -23,7 +23,7 @@ static const double aim = 0.5, safe = 0.9, most_growth = 5;
  * of a window is so much longer than that of the one before. */
 static const double singular = 1e4, of_longest = 0.1, growing = 1.1;
 
-/* What is left of a way by no more than this part of it is rounding of times. */
+/* If no more than this part of an interval is left, that is rounding of times, and no step is made for it. */
 static const double sliver = 1e-12;
 
 /* Differences of states below this, relative to max(1, |y_i|), are rounding. */

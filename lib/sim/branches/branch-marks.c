@@ -10,8 +10,8 @@
 /* Bifurcations of one kind within this distance are one, if they are located no better; beside their errors where
  * they are proved. */
 static const double together = 1e-6, rounded = 1e-11;
-/* Between two crossings this near the curves through them are next to each other; where they are within 10 times
- * `together`, steps are not short enough to tell them apart. */
+/* Two crossings within this distance: between them the curves that cross lie so near to each other that a long step goes
+ * over from one to the other. Within 10 times `together` no step is short enough to tell these apart. */
 static const double close_together = 1e-2;
 
 /* How far apart two bifurcations of a kind may be found that are one: those that are not located better
@@ -169,7 +169,8 @@ find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, 
     return QDOT_OK;
 }
 
-/* How far y lies behind the kept point `place`, along the tangent there; angles modulo full turns, which y is moved by. */
+/* How far y lies behind a point of the curve, along the tangent there. Angles of y are moved by full turns, next to those
+ * of that point. room [n + 1]. */
 static double
 way_from(const qdot_path *x, const qdot_path_point *place, double *y, double *room)
 {
@@ -181,7 +182,7 @@ way_from(const qdot_path *x, const qdot_path_point *place, double *y, double *ro
     return qdot_path_product(x, place->t, room);
 }
 
-/* A point of the branch at a->y, `way` behind the kept point `place`, between those that are there. */
+/* Insert a->y, which lies `way` behind the kept point `place`, into the points of the branch in the order of the curve. */
 static qdot_status
 insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_point *a, size_t mark,
        qdot_branch *branch)

@@ -15,7 +15,7 @@
 /* Angles as -pi < q <= pi, as far as is known. */
 void qdot_branch_turn_back(const qdot_path *x, double *y);
 
-/* The longest step from y at which a curve is told from its neighbour between two crossings that lie close together. */
+/* The longest step from y that does not go over to another curve near two crossings that lie close together. */
 double qdot_branch_longest_near(const qdot_branch_search *s, const double *y);
 
 /* Keep it, if it is new, with the direction of the other curve; *mark is 1 + its index. Takes both. */

@@ -6,7 +6,7 @@
 
 enum { POINTS = 4, HALVINGS = 60 };
 
-/* Tangents of the points turn by less than acos of this. */
+/* The points are of one curve if no tangent turns by more than the angle with this cosine. */
 static const double straight = 0.9;
 
 /* The cubic through f_k at s = -3, -1, 1, 3 (times h). */

@@ -96,7 +96,7 @@ prove(qdot_newton *s, double *x, double *error)
     return QDOT_OK;
 }
 
-/* Step from x until rounding moves it; prove what that is. */
+/* Newton's steps from x until they are rounding; then prove that a solution is there. */
 static qdot_status
 iterate(qdot_newton *s, double *x, double *error, bool *found)
 {

@@ -14,8 +14,8 @@ typedef struct {
     double within, bend, blur; /* of a touch, as in qdot_root */
 } qdot_occurrence;
 
-/* From here to there the function of an event was within the rounding of the run, below which it had decayed: whether
- * the event occurs is not known. */
+/* A stretch of time in which the function of an event, having decayed, was so small that rounding of the run hides its
+ * sign: whether the event occurs there is not known. */
 typedef struct {
     size_t event;
     double from, to;

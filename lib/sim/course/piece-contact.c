@@ -14,22 +14,21 @@ static const double alike = 1e-9;
 static const double roundings = 32;
 /* The speed of a trial impact. */
 static const double trial = 1e-3;
-/* What a contact may leave out: the height of the bounces to come, beside the place. Lower ones are lost in its
- * rounding. */
+/* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides them. */
 static const double least_height = DBL_EPSILON / 8;
-/* And beside the place as it is: what is known of a state within a step of a method without series. The search of a
- * step tells heights above a sixth of that from rounding. */
+/* The same for methods without series, from which a state within a step is known only to that part of its size. The
+ * search of a step tells heights above a sixth of that from rounding. */
 static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
-/* A multistep method begins anew behind each bounce, by short steps of a low order: it does not tell heights below so many
- * times its tolerance from its own error. */
+/* A multistep method begins anew behind each bounce, with short steps of low order: its own error there hides heights
+ * below so many times its tolerance. */
 static const double multistep_tolerances = 64;
-/* The flights of a companion, which rests where the run does, are at most so many times as high. */
+/* A companion is to rest where the run does: it may leave out bounces so many times as high as the run has. */
 static const double led = 16;
-/* Four times the height of a flight whose apex is told from the place. */
+/* Four times the least height, beside the place, at which the top of a flight is seen to be off the wall. */
 static const double apart = 64 * DBL_EPSILON;
-/* A speed above this is none of rest. */
+/* The motion does not rest where entering the contact would change a component by more than this part of it. */
 static const double fastest = 1e-4;
-/* And one above this part of the speeds so far is none of a low bounce. */
+/* A bounce is not low if it begins with more than this part of the largest speed so far. */
 static const double slow = 1e-2;
 
 /* --- whether the event is an impact on a smooth wall ---------------------------------- */
@@ -110,11 +109,11 @@ is_smooth_wall(qdot_piece *x, size_t event, size_t mode, size_t free, double *sh
 
 /* --- where one begins ----------------------------------------------------------------- */
 
-/* The bounce that a contact at the start leaves out. */
+/* The bounces that are left out where a contact begins, and how the start is moved onto it. */
 typedef struct {
-    double off[2]; /* u, u' */
+    double off[2]; /* u, u' of the start before that */
     double pull;   /* u'' without the contact, against u' */
-    double share;  /* of u' that the next impact leaves */
+    double share;  /* the part of |u'| that an impact leaves */
     double size;   /* of the terms of u */
     double moved;  /* by how much the start changes, relative to max(1, |component|) */
     double *along; /* [n] M^-1 du/dq of u = 1, then the slopes of u [n] */
@@ -132,7 +131,7 @@ size_of_place(const qdot_piece *x, const skipped *s)
     return size;
 }
 
-/* |u| at most on the way, and how long that and all bounces behind it take. */
+/* How high the next flight is; how long it and all that follow take: flights of 2 |u'|/pull, each shorter by `share`. */
 static double
 height(const skipped *s)
 {
@@ -228,7 +227,7 @@ lowest(const qdot_piece *x, size_t surface)
     return least_height;
 }
 
-/* The largest height that the run of this companion has left out there. */
+/* The height of the highest bounces that the run, which this companion accompanies, has left out there. */
 static double
 skipped_in_run(const qdot_piece *x, size_t surface)
 {
@@ -240,7 +239,7 @@ skipped_in_run(const qdot_piece *x, size_t surface)
     return most;
 }
 
-/* The height below which a method without series does not tell a bounce. */
+/* The height below which a method without series does not tell a bounce from its own error. */
 static double
 least_told(const qdot_piece *x, const skipped *s)
 {
@@ -268,7 +267,7 @@ may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
            && height(s) <= (by_points ? least_told(x, s) : led * skipped_in_run(x, surface));
 }
 
-/* They are uncertainties of the motion until they would have ended. */
+/* The bounces left out count as an error of the motion until they would have ended. */
 static qdot_status
 note_skipped(qdot_piece *x, size_t surface, const skipped *s)
 {
@@ -394,8 +393,6 @@ qdot_piece_meets_again(const qdot_piece *x, size_t i)
 
 /* --- after a change ------------------------------------------------------------------- */
 
-/* The contacts that a new state leaves end. Its event is met at once where the motion is pushed into one; c->reason
- * where it is beyond it. */
 qdot_status
 qdot_piece_keep_contacts(qdot_piece *x)
 {

@@ -177,8 +177,8 @@ accumulates(qdot_piece *x, const qdot_watched *w, double t, bool *yes, double *l
     return QDOT_OK;
 }
 
-/* Whether an event that may come to rest is met between the switches w: these come ever faster because its contact does,
- * as the apex of each bounce under drag; it decides. */
+/* Whether the switch w comes ever faster only because bounces do, as the switch at the top of each bounce under drag: an
+ * event whose contact may last was met since the last one. Then that event decides whether the motion comes to rest. */
 static bool
 is_between_contacts(const qdot_piece *x, const qdot_watched *w, double t)
 {
@@ -256,8 +256,8 @@ rests_in_run(const qdot_piece *x, const qdot_watched *w, int way, bool *led)
     return *led && x->c->stage->modes.at[run->tr.pieces.at[next].mode]->side[surface] == QDOT_SIDE_SLIDES;
 }
 
-/* The event w comes ever faster (*fast), or its next bounce is low: its contact lasts from here on (*fast false), or will
- * soon. */
+/* The event w comes ever faster (*fast), or its next bounce is low: see whether its contact lasts from here on or will
+ * soon. If either, *fast becomes false: the run goes on. */
 static qdot_status
 come_to_rest(qdot_piece *x, const qdot_watched *w, int way, double left, bool *fast)
 {

@@ -8,7 +8,7 @@ qdot_piece_let_fade(qdot_piece *x)
 {
     const qdot_stage *s = x->c->stage;
     const qdot_mode *m = qdot_piece_mode(x);
-    const bool held = qdot_sliding_is(&s->switches, x->side); /* what is held at 0 has not decayed */
+    const bool held = qdot_sliding_is(&s->switches, x->side); /* constraints and contacts keep u = 0: that is no decay */
 
     for (size_t i = 0; i < m->m; i++) {
         const qdot_watched *w = &m->watched[i];
@@ -18,7 +18,7 @@ qdot_piece_let_fade(qdot_piece *x)
     }
 }
 
-/* The last stretch of an event, if it began then; else NULL. */
+/* The latest stretch of an event, if it began at `since`; else NULL. */
 static qdot_course_faded *
 stretch_since(qdot_course *c, size_t event, double since)
 {
@@ -28,7 +28,7 @@ stretch_since(qdot_course *c, size_t event, double since)
     return NULL;
 }
 
-/* What was found of an event since then is rounding. */
+/* Drop the occurrences of an event from `since` on: they are zeros of rounding. */
 static void
 forget_since(qdot_piece *x, size_t event, double since)
 {

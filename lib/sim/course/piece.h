@@ -182,8 +182,9 @@ bool qdot_piece_is_of_places(const qdot_piece *x, size_t surface);
 /* In x->side: surfaces of places about which the motion goes too fast to be followed (sim/course/chatter.h) where a
  * piece starts; not `anew`: only those that were crossed there. It slides along them, from a start on them. */
 QDOT_MUST_CHECK qdot_status qdot_piece_stop_chatter(qdot_piece *x, bool anew);
-/* (piece-fade.c) Let events of the mode that was entered fade which are only looked at: where their function has
- * decayed below the rounding of the run they are not sought. Note those that have, in the step to t, just taken. */
+/* (piece-fade.c) In the mode that was entered: events without an action are not sought where their function has decayed
+ * below the rounding of the run (qdot_watch_may_fade). _take_faded: the step to t has been taken; note the stretches
+ * where that is so in c->faded. */
 void qdot_piece_let_fade(qdot_piece *x);
 QDOT_MUST_CHECK qdot_status qdot_piece_take_faded(qdot_piece *x, double t);
 /* An event that is met where a piece starts: it is noted, and in x->roots, if its way fits. */

@@ -77,8 +77,8 @@ qdot_run_report_is_beyond(const qdot_run_report *r, double t)
     return (r->t1 < r->t0 ? -1 : 1) * (t - r->horizon) > 0; /* of a NaN: false */
 }
 
-/* Between these times the function of an event is within its error of 0, having decayed: whether it occurs there is not
- * known. */
+/* A stretch of time in which the function of an event, having decayed, is not known to differ from 0: whether the event
+ * occurs there is not known. */
 typedef struct {
     const char *event;
     double from, to;

@@ -16,13 +16,13 @@ static const double pad = 0x1p-8;
 
 enum { MOST_TRIES = 2000, MOST_BOUNCES = 1000000 };
 
-/* In place of an event: the rate of a function. */
+/* As the `event` of a formula: it is the rate of its function. */
 #define RATE (SIZE_MAX - 1)
 
 /* An expression in all digits. */
 typedef struct {
     size_t mode, function; /* of a surface, domain or event; SIZE_MAX: `then` of event */
-    size_t event; /* RATE: of the function */
+    size_t event;
     bool accelerations;
     qdot_precise *program;
 } formula;
@@ -128,7 +128,7 @@ piece_of(const qdot_course *g, double t)
     return qdot_trajectory_piece_of(&g->tr, qdot_trajectory_locate(&g->tr, t, 0));
 }
 
-/* The end of piece k with whose event a contact begins to last; NULL: none does. *many: more than one does. */
+/* Of the ends [n] of piece k that whose event has a contact from there on; NULL: none has. *many: several contacts begin. */
 static const qdot_course_end *
 begins_contact(const qdot_course *g, size_t k, const qdot_course_end *ends, size_t n, bool *many)
 {
@@ -293,7 +293,7 @@ find_root(qdot_precise_side *s, size_t segment, const formula *f, bool *found)
     return QDOT_OK;
 }
 
-/* The same near t. */
+/* The root of f near t, likewise. */
 static qdot_status
 locate(qdot_precise_side *s, size_t segment, const formula *f, double t, double by,
        bool *found)
@@ -354,7 +354,7 @@ change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t
     return QDOT_OK;
 }
 
-/* The segment ends at t. */
+/* Shorten a segment so that it ends at t. */
 static qdot_status
 cut(qdot_precise_side *s, size_t segment, mpfr_srcptr t)
 {
@@ -465,7 +465,7 @@ find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr 
                : qdot_fail(QDOT_EDOMAIN, "the velocity at a contact has no value");
 }
 
-/* Whether the flight that follows is so low that the place hides it. */
+/* Whether the flight that follows is so low that it is lost in the rounding of the place. */
 static bool
 is_low(const qdot_precise_side *s)
 {

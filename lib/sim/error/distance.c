@@ -23,8 +23,8 @@ static const double jump = 32;
 /* Points that tell what the companions are off by near t. */
 enum { near_points = 3 };
 
-/* What the companions are off by nearby, in units of what they are off by at t and of the value: beyond both the
- * expression may be singular there, and states tell more. */
+/* Where the companions are off nearby by more than so many times what they are off by at t, and by more than so large a
+ * part of the value, the expression may be singular nearby: its error is found from that of the states. */
 static const double poor = 1e3, poor_part = 1e-8;
 
 /* The least error assumed for a companion, as a fraction of the run's. */
@@ -282,8 +282,8 @@ look_around(qdot_distance *d, size_t piece, size_t k, double *own)
     return QDOT_OK;
 }
 
-/* At point s: what the run is off by from the middle of the companions into apart [n], these from each other into
- * between [n]. *there: all have a state. y [n] is room. */
+/* At time s: the state of the run less the middle of the companions into apart [n], that of one companion less the other
+ * into between [n]. *there: all three have a state. y [n] is room. */
 static qdot_status
 compare_states(qdot_distance *d, size_t piece, double s, double *y, double *apart, double *between, bool *there)
 {
@@ -306,8 +306,8 @@ compare_states(qdot_distance *d, size_t piece, double s, double *y, double *apar
     return qdot_reader_has_nothing(status) ? QDOT_OK : status;
 }
 
-/* How far the expressions at t change if the state is off by `by` [n], a part of which counts; most [m] is the largest so
- * far. y: the state at t, which the reader keeps. */
+/* How much the expressions at t change if `by` [n] is added to the state y there, times `part`, where that is more than
+ * most [m] so far. */
 static qdot_status
 move_state(qdot_distance *d, double t, const double *y, const double *by, double part, const double *values,
            double *most)

@@ -13,10 +13,10 @@ typedef struct {
     qdot_reader reader;
     qdot_distance *distance;
     size_t n;  /* occurrences of the event */
-    double *t; /* [n + 2] the start of the run, they, and the end of what is looked at */
+    double *t; /* [n + 2] the start of the run, the times of the occurrences, and the end of what is looked at */
     double *errors; /* [n + 2] of the times; NaN: the companions do not meet it */
-    double size, tol; /* of g over the run; of the run */
-    double end;       /* of the run */
+    double size;      /* the largest |g| that was seen along the run */
+    double tol, end;  /* of the run */
 } look;
 
 static void
@@ -29,7 +29,7 @@ close_look(look *l)
     qdot_free(l->errors);
 }
 
-/* Up to the time `end`. */
+/* Prepare to look at an event up to the time `end`. */
 static qdot_status
 open_look(qdot_run *run, size_t event, double end, look *l)
 {
@@ -67,7 +67,7 @@ is_seen(look *l, double t, double least, bool *seen)
     return qdot_reader_has_nothing(status) ? QDOT_OK : status;
 }
 
-/* The size that g has had at most, at some times. */
+/* l->size, from some times along the run. */
 static qdot_status
 find_size(look *l)
 {
@@ -86,8 +86,8 @@ find_size(look *l)
     return QDOT_OK;
 }
 
-/* Whether all runs meet occurrence k within that part of what lies between it and its neighbours; of the start and the
- * end of the run they do. */
+/* Whether the error of occurrence k is at most that part of the time to its neighbours: run and companions agree about it.
+ * They do about the start and the end of the run. */
 static bool
 is_met(const look *l, size_t k, double part)
 {
@@ -97,8 +97,8 @@ is_met(const look *l, size_t k, double part)
     return l->errors[k] <= part * fmin(before, behind);
 }
 
-/* What is not seen between occurrences k - 1 and k, whatever the companions say: where these have not met one of them
- * the tolerance. */
+/* The least |g| that counts as seen between occurrences k - 1 and k, even if companions say that its error is less: where
+ * they do not agree about these, that within the tolerance. */
 static double
 least_seen(const look *l, size_t k)
 {
@@ -107,7 +107,7 @@ least_seen(const look *l, size_t k)
     return is_met(l, k - 1, near) && is_met(l, k, near) ? 0 : l->tol * l->size;
 }
 
-/* The last of some times between occurrences k - 1 and k at which it is seen; NaN: there is none. */
+/* The last of some times between occurrences k - 1 and k at which g is seen to differ from 0; NaN: it is at none. */
 static qdot_status
 last_seen(look *l, size_t k, double *t)
 {
@@ -126,7 +126,7 @@ last_seen(look *l, size_t k, double *t)
     return QDOT_OK;
 }
 
-/* It is seen at *a, and nowhere from *b on: halve the time between until it is small. */
+/* g is seen to differ from 0 at *a, and nowhere from *b on: halve the time between until it is at most `small`. */
 static qdot_status
 narrow(look *l, double least, double small, double *a, double *b)
 {

@@ -16,7 +16,7 @@ static const double least_size = 0x1p-10;
 /* q or q' of y, its rows, and a system that holds those and the values set. */
 typedef struct {
     const qdot_constrained_level *level;
-    double *x, *low; /* [n] low: what x leaves out; NULL: it is not kept */
+    double *x, *low; /* [n] the values are x + low; low NULL: x */
     const bool *set; /* [n] */
     const double *residual;
     const qdot_tape *tape; /* of the residuals of the level's rows */
@@ -24,10 +24,10 @@ typedef struct {
     qdot_saddle saddle;
 } part;
 
-/* The state about which the constraints hold. */
+/* The state that is to keep the constraints, y + low at t + t_low; who: the event that put it there. */
 typedef struct {
     double t, t_low;
-    const double *y, *low; /* [2n] low may be NULL */
+    const double *y, *low; /* [2n]; low NULL: 0 */
     const char *who;
 } place;
 
@@ -159,7 +159,8 @@ measure_in_two(const qdot_constrained *h, part *p, const place *at)
     return QDOT_OK;
 }
 
-/* One step more, which leaves nothing that two doubles hold: a rounding at every impact adds up. */
+/* One step of Newton's method more, with residuals in two doubles: y + low then keeps the constraints to the places of
+ * low. Else each of many impacts would leave a rounding of y, and these add up. */
 static qdot_status
 bring_in_two(qdot_constrained *h, part *p, const place *at)
 {

@@ -1,4 +1,4 @@
-/* massless-jump.c -- what `then` does not put, from the equations of coordinates without mass. */
+/* massless-jump.c -- solves the equations of coordinates without mass for what `then` leaves open. */
 #include "sim/model/massless-jump.h"
 
 #include "base/memory.h"
@@ -12,10 +12,9 @@ typedef struct {
     const qdot_massless_rows *rows;
     qdot_pool *pool;
     size_t n_from;
-    qdot_expr *from,
-        *to; /* [n_from] q, q' and the parameters that the event puts, and what they are behind it */
-    qdot_expr *R, *x;      /* [w] equations and their unknowns, */
-    size_t *place;         /* [w] which are these of q, q' */
+    qdot_expr *from, *to;  /* [n_from] q, q' and the parameters that the event puts; what they are behind it */
+    qdot_expr *R, *x;      /* [w] equations R = 0 and their unknowns, */
+    size_t *place;         /* [w] the places of these in q, q' */
     qdot_expr *A, *b, *at; /* [w x w], [w], [w] A x = b */
 } jump;
 
@@ -25,7 +24,7 @@ behind(const jump *j, qdot_expr e)
     return e == QDOT_NIL ? e : qdot_subs(j->pool, e, j->n_from, j->from, j->to);
 }
 
-/* Of the first n equations R = 0. */
+/* A and b of A x = b, the first n equations R = 0 for the first n unknowns, behind the jump. */
 static qdot_status
 write_linear(const jump *j, size_t n)
 {

@@ -81,8 +81,8 @@ layered(const freezer *f, size_t i, int only, qdot_expr power, qdot_expr exponen
     return f->side[i] == 0 || f->side[i] == QDOT_SIDE_SLIDES ? QDOT_ZERO : power;
 }
 
-/* Argument k of a product, frozen: |u| that is divided by is +-u also where u is held at 0, so that
- * u/|u| is the sign of that side. */
+/* Argument k of a product, frozen. |u| as a divisor is u or -u even where u is held at 0: then u/|u| is the sign of u on
+ * the side of this mode. */
 static qdot_expr
 factor(const freezer *f, const qdot_gate *gate, uint32_t k)
 {

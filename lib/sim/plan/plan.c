@@ -218,7 +218,7 @@ constrain(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     return request->lanes ? qdot_plan_make_lanes(p) : qdot_plan_choose_constrained(p, request);
 }
 
-/* Companions of ensembles start beside exact values alone. */
+/* Ensembles take no start with an error: their companions start beside exact values. */
 static qdot_status
 check_exact(const qdot_run_request *request)
 {

@@ -89,7 +89,8 @@ compare_occurrences(qdot_run *run, const by_event *own, const by_event *others,
     return status;
 }
 
-/* run->faded; occurrences of an event within a stretch to the end are none that is known, and are left out. */
+/* Fill run->faded. Where the function of an event stays within its error of 0 to the end of the run, occurrences there are
+ * none that is known: they are left out. */
 static qdot_status
 leave_out_faded(qdot_run *run)
 {

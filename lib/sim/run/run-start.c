@@ -47,7 +47,7 @@ read_start(qdot_run *run, const qdot_run_request *request)
     return QDOT_OK;
 }
 
-/* How far companions start from it. */
+/* run->apart, with a place for each parameter that events set: these have no error. */
 static qdot_status
 read_apart(qdot_run *run, const qdot_run_request *request)
 {

@@ -6,15 +6,15 @@
 #include "sim/watch/watch-parts.h"
 #include "sim/watch/watch.h"
 
-/* So much smaller than it has been a function has decayed. */
+/* A function has decayed where it is below this part of the largest that it has been. */
 static const double decayed = 0x1p-20;
 
-/* After so many steps in a row that it spends there it stays there: one that only crosses 0 is larger at the end of the
- * next step. */
+/* It has faded when it was within its rounding all through so many steps in a row: one that only crosses 0 is larger at
+ * the end of the next step. */
 enum { STEPS = 3 };
 
-/* Of the size of each component, what it is rounded by: half a double. Of a function that has decayed some of these add up
- * before it is sought again. */
+/* The rounding of a component of the state, relative to its size; so many times that must be exceeded by a function that
+ * has faded before it is searched again, because roundings add up along the run. */
 static const double rounding = DBL_EPSILON / 2, more = 32;
 
 void

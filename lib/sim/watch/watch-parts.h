@@ -98,11 +98,11 @@ struct qdot_watch {
     bool *fresh;     /* [m] `first` is not known yet */
     bool *grazed;    /* [m] g touches 0 at the end of the step */
     bool *live;      /* [m] g may have a root in this step */
-    /* Functions that decay (watch-fade.c). */
-    bool *may_fade;  /* [m] */
-    bool *fading;    /* [m] within its rounding all through this step */
-    int *faded;      /* [m] and through so many steps before it, in a row, */
-    double *faded_since; /* [m] from then on */
+    /* Functions that have decayed so far that rounding hides their signs (watch-fade.c). */
+    bool *may_fade;  /* [m] they may be left unsearched there */
+    bool *fading;    /* [m] |g| is within its rounding all through the step at hand */
+    int *faded;      /* [m] the number of steps just before it, in a row, in which it was */
+    double *faded_since; /* [m] the start of the first of these steps */
     double *most;    /* [m] the largest |g| at the ends of steps so far */
     int nodes;       /* number that sufficed the last time */
     double *samples; /* [m x QDOT_WATCH_NODES] */
@@ -196,10 +196,10 @@ QDOT_MUST_CHECK qdot_status qdot_watch_value_at_start(qdot_watch *w, double t, c
  * tell their signs; *any: whether there is one. */
 QDOT_MUST_CHECK qdot_status qdot_watch_wants_two(qdot_watch *w, const qdot_watch_part *p, int nodes, bool *any);
 
-/* --- functions that decay (watch-fade.c) ---------------------------------------------- */
+/* --- functions that have decayed (watch-fade.c) ---------------------------------------- */
 
-/* See which functions stay within their rounding all through the step to (t, y), w->final at its end; whether there is
- * nothing of function i to be searched for in it; the step is taken. */
+/* Set w->fading for the step to (t, y), at whose end the functions are w->final. _has_faded: function i is not to be
+ * searched in that step. _take_fading: the step is taken; count it. */
 QDOT_MUST_CHECK qdot_status qdot_watch_find_fading(qdot_watch *w, double t, const double *y);
 bool qdot_watch_has_faded(const qdot_watch *w, size_t i);
 void qdot_watch_take_fading(qdot_watch *w);

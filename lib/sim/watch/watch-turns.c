@@ -1,10 +1,10 @@
-/* watch-turns.c -- which way the function goes in whose place another is watched. */
+/* watch-turns.c -- which way the function f goes in whose place g_i is watched (qdot_watch_turns). */
 #include "sim/watch/watch-parts.h"
 
 #include <string.h>
 
 struct qdot_watch_turn {
-    qdot_tape *tape; /* NULL: g_i goes as it does */
+    qdot_tape *tape; /* of `turn`; NULL: f goes as g_i does */
     double *in;      /* of the tape, then its work */
     bool half;
 };
@@ -39,7 +39,7 @@ qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half)
     return own->in ? QDOT_OK : QDOT_ENOMEM;
 }
 
-/* The sign of what was declared. */
+/* The sign of `turn` at the state in own->in. */
 static int
 sign_of(const qdot_watch *w, double t, size_t i)
 {

@@ -47,14 +47,16 @@ void qdot_watch_free(qdot_watch *w);
 /* Declare that g_i is coordinate - bound: a step far from the bound is not searched. */
 void qdot_watch_is_bound(qdot_watch *w, size_t i, size_t coordinate, double bound);
 
-/* Declare that the function asked for goes as g_i times `turn` at the zeros of g_i (sim/model/repeated-zeros.h); `half`:
- * and has none where turn < 0: such a root is given as a pole. Errors: as qdot_tape_new. */
+/* Declare that g_i stands for another function f, which at a zero of g_i changes its sign as g_i * turn does
+ * (sim/model/repeated-zeros.h). `half`: f is not 0 where turn < 0; such a root of g_i is given as a pole. Errors: as
+ * qdot_tape_new. */
 QDOT_MUST_CHECK qdot_status qdot_watch_turns(qdot_watch *w, size_t i, qdot_expr turn, bool half);
-/* Whether that is the other way, at a state. */
+/* Whether turn < 0 at a state, so that f goes the other way than g_i; never with `half`. */
 bool qdot_watch_is_turned(qdot_watch *w, double t, const double *y, size_t i);
 
-/* Whether nothing but occurrences is sought of g_i, and where it has decayed and stays within the rounding of the state
- * these are not sought: not unless that is said. Since when it has; NaN: it has not. */
+/* Let g_i fade: where it has decayed and stays within the rounding of the state its zeros are not sought. That is for
+ * functions whose zeros are only recorded; until this is called none fades. _faded_since: the time since which g_i has
+ * faded; NaN: it has not. */
 void qdot_watch_may_fade(qdot_watch *w, size_t i, bool may);
 double qdot_watch_faded_since(const qdot_watch *w, size_t i);
 
