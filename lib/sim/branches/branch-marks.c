@@ -170,16 +170,18 @@ find_crossing_from(qdot_branch_search *s, const qdot_path_point *a, double way, 
 }
 
 /* How far y lies behind a point of the curve, along the tangent there. Angles of y are moved by full turns, next to those
- * of that point. room [n + 1]. */
+ * of that point. */
 static double
-way_from(const qdot_path *x, const qdot_path_point *place, double *y, double *room)
+way_from(const qdot_path *x, const qdot_path_point *place, double *y)
 {
+    double way = 0;
+
     for (size_t i = 0; i <= x->n; i++) {
         if (i < x->n && x->angle[i])
             y[i] += 2 * M_PI * round((place->y[i] - y[i]) / (2 * M_PI));
-        room[i] = y[i] - place->y[i];
+        way += x->weight[i] * place->t[i] * (y[i] - place->y[i]);
     }
-    return qdot_path_product(x, place->t, room);
+    return way;
 }
 
 /* Insert a->y, which lies `way` behind the kept point `place`, into the points of the branch in the order of the curve. */
@@ -188,29 +190,26 @@ insert(qdot_branch_search *s, qdot_dips *d, size_t place, double way, qdot_path_
        qdot_branch *branch)
 {
     qdot_path *x = s->x;
-    double *room = qdot_calloc(x->n + 1, sizeof *room);
-    qdot_status status = room ? x->judge(x, a) : QDOT_ENOMEM;
     size_t at = d->count[0];
 
-    for (size_t k = 1; k < d->n && room; k++)
-        if (way_from(x, &d->at[place], d->at[k].y, room) < way)
+    QDOT_TRY(x->judge(x, a));
+    for (size_t k = 1; k < d->n; k++)
+        if (way_from(x, &d->at[place], d->at[k].y) < way)
             at = d->count[k];
-    if (status == QDOT_OK)
-        status = qdot_branch_insert(x, branch, at, a->y, a->stability, mark);
+    QDOT_TRY(qdot_branch_insert(x, branch, at, a->y, a->stability, mark));
     for (size_t k = 0; k < d->n; k++)
         d->count[k] += d->count[k] > at;
-    qdot_free(room);
-    return status;
+    return QDOT_OK;
 }
 
 /* The crossings b [2] and a point between them, which has a stability of its own, become points of the branch. Takes
  * what they own. */
 static qdot_status
-insert_pair(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation *b, double **other, double *room,
+insert_pair(qdot_branch_search *s, qdot_dips *d, size_t place, qdot_bifurcation *b, double **other,
             qdot_path_point *a, qdot_branch *branch)
 {
     qdot_path *x = s->x;
-    const double way[2] = {way_from(x, &d->at[place], b[0].y, room), way_from(x, &d->at[place], b[1].y, room)};
+    const double way[2] = {way_from(x, &d->at[place], b[0].y), way_from(x, &d->at[place], b[1].y)};
     qdot_status status = QDOT_OK;
     int steps;
 
@@ -235,13 +234,12 @@ qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d, size_t place, double 
 {
     qdot_path *x = s->x;
     const size_t w = x->width;
-    double *direction = qdot_calloc(x->n + 1, sizeof *direction);
     qdot_bifurcation b[2] = {{.y = qdot_calloc(2 * w, sizeof(double))},
                              {.y = qdot_calloc(2 * w, sizeof(double))}};
     double *other[2] = {qdot_calloc(x->n + 1, sizeof(double)), qdot_calloc(x->n + 1, sizeof(double))};
     qdot_path_point room = {0};
-    qdot_status status = direction && b[0].y && b[1].y && other[0] && other[1] ? qdot_path_point_begin(x, &room)
-                                                                 : QDOT_ENOMEM;
+    qdot_status status =
+        b[0].y && b[1].y && other[0] && other[1] ? qdot_path_point_begin(x, &room) : QDOT_ENOMEM;
 
     *both = status == QDOT_OK;
     for (int k = 0; k < 2 && *both && status == QDOT_OK; k++) {
@@ -251,8 +249,7 @@ qdot_branch_mark_pair(qdot_branch_search *s, qdot_dips *d, size_t place, double 
     *both = *both && status == QDOT_OK &&
             qdot_path_distance(x, b[0].y, b[1].y) > apart(x, &b[0], &b[1]);
     if (*both && status == QDOT_OK)
-        status = insert_pair(s, d, place, b, other, direction, &room, branch);
-    qdot_free(direction);
+        status = insert_pair(s, d, place, b, other, &room, branch);
     for (int k = 0; k < 2; k++) {
         qdot_free(b[k].y);
         qdot_free(other[k]);
