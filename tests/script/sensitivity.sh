@@ -47,6 +47,28 @@ run 0..1 as n with g = 9.9999
 print (value(p.y, 1) - value(n.y, 1))/0.0002, (p.bounce[2] - n.bounce[2])/0.0002
 print (mean(p.y, 0..1) - mean(n.y, 0..1))/0.0002, (max(p.y, 0.5..1) - max(n.y, 0.5..1))/0.0002
 END
+# ends of a range that move: by a parameter, with an event, with the run
+qdot -q - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep '^d(\|error:\|^T = '
+param S = 2
+coord x
+lagrangian x'^2/2 - x^2/2
+event low: x = -0.2 falling
+start x = 1
+run 0..5
+sensitivity mean(x, 0..S) of S
+sensitivity mean(x, S/2..S) of S, x
+sensitivity min(x, 0..S) of S, x
+sensitivity max(x', S..5) of S
+sensitivity mean(x, 0..low[1]) of x
+find T = 2.5 such that mean(x, 0..T) = 0.1
+find T = 2.5 such that min(x, 0..T) = -0.9
+run 0..S
+sensitivity mean(x) of S
+remove low
+event low: x = -0.2 falling stop
+run 0..5
+sensitivity mean(x) of x
+END
 # a ball that comes to rest: before that there are slopes; a stiff scene: by radau, as the run
 sed 's/y = x\/10/y = 0/' ball.lag >level.lag
 qdot -q level.lag - <<'END' 2>&1 | awk -f six.awk | sed "$same" | grep '^d(\|error:'

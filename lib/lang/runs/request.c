@@ -169,8 +169,10 @@ qdot_request_fill(qdot_session *session, qdot_request *o)
 qdot_status
 qdot_request_limits(qdot_session *session, qdot_expr from, qdot_expr to, qdot_request *o)
 {
-    o->request.t0 = qdot_session_bind(session, qdot_measured_as_rationals(session, from));
-    o->request.t1 = qdot_session_bind(session, qdot_measured_as_rationals(session, to));
+    o->request.said[0] = qdot_measured_as_rationals(session, from);
+    o->request.said[1] = qdot_measured_as_rationals(session, to);
+    o->request.t0 = qdot_session_bind(session, o->request.said[0]);
+    o->request.t1 = qdot_session_bind(session, o->request.said[1]);
     return qdot_pool_check(session->pool);
 }
 

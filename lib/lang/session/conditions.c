@@ -21,6 +21,7 @@ qdot_conditions_take(const qdot_scene *scene, const qdot_run_request *request,
     c->exactly = request->exactly;
     c->t0 = request->t0;
     c->t1 = request->t1;
+    memcpy(c->said, request->said, sizeof c->said);
     APPEND(c->symbols, request->symbols, request->n_values);
     APPEND(c->values, request->values, request->n_values);
     APPEND(c->q0, request->q0, n);
@@ -58,6 +59,7 @@ qdot_conditions_request(const qdot_conditions *c)
                               .exactly = c->exactly,
                               .t0 = c->t0,
                               .t1 = c->t1,
+                              .said = {c->said[0], c->said[1]},
                               .tol = 1e-12,
                               .method = "auto"};
 }

@@ -15,6 +15,7 @@ typedef struct {
     qdot_vec(bool) q_named, v_named;
     bool exactly;
     qdot_expr t0, t1;
+    qdot_expr said[2]; /* the limits as they were said; nil: t0, t1 */
 } qdot_conditions;
 
 /* The conditions of a request, copied into *conditions from {0}; clear it in any case. QDOT_ENOMEM. */

@@ -48,10 +48,11 @@ measure_mixed(qdot_session *session, const char *run, qdot_range_kind kind, qdot
     return qdot_pool_check(session->pool);
 }
 
-/* The value of one expression, a new symbol; plain: it, and the range, hold no other numbers of runs. */
+/* The value of one expression over a range, which was said so, a new symbol; plain: it holds no other numbers of
+ * runs. */
 static qdot_status
 measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr e,
-        const double *range, bool plain, qdot_expr *value)
+        const double *range, const qdot_expr *said, bool plain, qdot_expr *value)
 {
     const qdot_run_report *report;
     qdot_named_run *named;
@@ -74,6 +75,8 @@ measure(qdot_session *session, const char *run, qdot_range_kind kind, qdot_expr 
                                    .e = e,
                                    .ends = {range != NULL ? range[0] : report->t0,
                                             range != NULL ? range[1] : report->t1},
+                                   .said = {range != NULL ? said[0] : QDOT_NIL,
+                                            range != NULL ? said[1] : QDOT_NIL},
                                    .run = run}});
     return qdot_pool_check(session->pool);
 }
@@ -91,8 +94,6 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
 
     for (uint32_t i = 0; i < n; i++)
         plain = plain && !qdot_measured_occurs(session, args[i]);
-    for (int k = 0; k < 2 && range != NULL; k++)
-        plain = plain && !qdot_measured_occurs(session, range[k]);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strcmp(words[i].word, word) == 0)
             kind = words[i].kind;
@@ -106,7 +107,7 @@ qdot_range_value(qdot_session *session, const char *run, const char *word, uint3
         qdot_expr one = QDOT_NIL;
 
         status = measure(session, run, kind, columns.at[i], range != NULL ? ends : NULL,
-                         plain, &one);
+                         range, plain, &one);
         if (status == QDOT_OK)
             status = qdot_vec_push(&results, one);
     }

@@ -29,6 +29,7 @@ typedef struct {
     qdot_range_kind range;
     qdot_expr e, time; /* as they were written, numbers of runs in them as symbols */
     double ends[2];
+    qdot_expr said[2]; /* the ends as they were written, nil: those of the run */
     const char *run, *event; /* borrowed, for the statement; run NULL: the latest */
 } qdot_origin;
 

@@ -121,11 +121,26 @@ slope_of_event(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slop
     return add_way_to_event(s, qdot_ddt(pool, Dg), qdot_ddt(pool, dg), time, way, up, down, slope);
 }
 
-/* max, min: De where e is largest or least. */
+/* Of the k-th end of a range, as it was said, or as the limit of the run was. */
 static qdot_status
-slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t k,
+slope_of_end(qdot_slopes *s, const qdot_measured *m, int end, size_t first, size_t k, qdot_expr *slope)
+{
+    const qdot_expr said = m->origin.said[end] != QDOT_NIL ? m->origin.said[end] : s->conditions->said[end];
+
+    *slope = QDOT_ZERO;
+    if (m->origin.said[end] == QDOT_NIL && end == 1 && qdot_run_get_report(s->run)->status == QDOT_RUN_STOPPED) {
+        (void)qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes over a range that ends where the run was stopped");
+        return qdot_hint("say its ends: max(x, 0..EVENT)");
+    }
+    return said == QDOT_NIL ? QDOT_OK : qdot_slopes_of(s, said, first, k, slope);
+}
+
+/* max, min: De where e is largest or least; there, at an end of the range, that moves along with rate de/dt. */
+static qdot_status
+slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k,
                   qdot_expr *slope)
 {
+    qdot_expr time;
     qdot_extremum x = {.run = run,
                        .kind = m->origin.range,
                        .from = m->origin.ends[0],
@@ -137,28 +152,55 @@ slope_of_extremum(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t 
     x.bend = qdot_variation_rate(&s->variation, x.rate);
     QDOT_TRY(qdot_pool_check(s->session->pool));
     QDOT_TRY(qdot_extremum_time(&x, &t));
-    return at_time(s, slope_along(s, m->origin.e, k),
-                   qdot_measured_rational(s->session->pool, t), slope);
+    time = qdot_measured_rational(s->session->pool, t);
+    QDOT_TRY(at_time(s, slope_along(s, m->origin.e, k), time, slope));
+    for (int end = 0; end < 2; end++) {
+        qdot_expr moves, rate;
+
+        if (t != m->origin.ends[end])
+            continue;
+        QDOT_TRY(slope_of_end(s, m, end, first, k, &moves));
+        QDOT_TRY(at_time(s, moves == QDOT_ZERO ? moves : x.rate, time, &rate));
+        *slope = qdot_add(s->session->pool, *slope, qdot_mul(s->session->pool, rate, moves));
+    }
+    return qdot_pool_check(s->session->pool);
+}
+
+/* mean(e, a..b): the mean of De, and ((e(b) - mean) db/ds - (e(a) - mean) da/ds)/(b - a). */
+static qdot_status
+slope_of_mean(qdot_slopes *s, const qdot_measured *m, qdot_run *run, size_t first, size_t k, qdot_expr *slope)
+{
+    qdot_pool *pool = s->session->pool;
+    const double *ends = m->origin.ends;
+    const qdot_expr along = slope_along(s, m->origin.e, k),
+                    e = qdot_variation_with_numbers(&s->variation, m->origin.e);
+    double value, error;
+
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_run_range(run, QDOT_RANGE_MEAN, along, ends[0], ends[1], &value, &error));
+    *slope = qdot_measured_new(s->session, value, error);
+    for (int end = 0; end < 2; end++) {
+        qdot_expr moves, there;
+
+        QDOT_TRY(slope_of_end(s, m, end, first, k, &moves));
+        if (moves == QDOT_ZERO)
+            continue;
+        QDOT_TRY(at_time(s, e, qdot_measured_rational(pool, ends[end]), &there));
+        there = qdot_mul(pool, qdot_sub(pool, there, m->symbol), moves);
+        *slope = qdot_add(pool, *slope, qdot_div(pool, there, qdot_measured_rational(pool, ends[end] - ends[!end])));
+    }
+    return qdot_pool_check(pool);
 }
 
 static qdot_status
-slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t k, qdot_expr *slope)
+slope_of_range(qdot_slopes *s, const qdot_measured *m, size_t first, size_t k, qdot_expr *slope)
 {
-    double value, error;
     qdot_named_run *named;
-    qdot_expr e;
 
     if (m->origin.range == QDOT_RANGE_DRIFT)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: slopes of drift");
     QDOT_TRY(qdot_runs_find(s->session, qdot_slopes_run, &named));
-    if (m->origin.range != QDOT_RANGE_MEAN)
-        return slope_of_extremum(s, m, named->run, k, slope);
-    e = slope_along(s, m->origin.e, k);
-    QDOT_TRY(qdot_pool_check(s->session->pool));
-    QDOT_TRY(qdot_run_range(named->run, QDOT_RANGE_MEAN, e, m->origin.ends[0],
-                            m->origin.ends[1], &value, &error));
-    *slope = qdot_measured_new(s->session, value, error);
-    return qdot_pool_check(s->session->pool);
+    return (m->origin.range == QDOT_RANGE_MEAN ? slope_of_mean : slope_of_extremum)(s, m, named->run, first, k, slope);
 }
 
 /* The slope of the i-th number measured. */
@@ -178,7 +220,7 @@ slope_of_number(qdot_slopes *s, size_t i, size_t first, size_t k, qdot_expr *slo
     }
     switch (m.origin.kind) {
     case QDOT_ORIGIN_EVENT: return slope_of_event(s, &m, k, slope);
-    case QDOT_ORIGIN_RANGE: return slope_of_range(s, &m, k, slope);
+    case QDOT_ORIGIN_RANGE: return slope_of_range(s, &m, first, k, slope);
     default: return slope_of_value(s, &m, first, k, slope);
     }
 }

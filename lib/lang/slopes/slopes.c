@@ -315,13 +315,14 @@ needed_time(qdot_slopes *s, const qdot_measured *m)
 
 typedef qdot_vec(size_t) indices;
 
-/* Of the numbers measured from the first-th on the values: what other numbers may stand in. Few of many, where events
- * without end are measured too. */
+/* Of the numbers measured from the first-th on the values and those over ranges: what other numbers may stand in. Few
+ * of many, where events without end are measured too. */
 static qdot_status
 find_values(const qdot_slopes *s, size_t first, indices *values)
 {
     for (size_t i = first; i < s->session->measured.n; i++)
-        if (s->session->measured.at[i].origin.kind == QDOT_ORIGIN_VALUE)
+        if (s->session->measured.at[i].origin.kind == QDOT_ORIGIN_VALUE ||
+            s->session->measured.at[i].origin.kind == QDOT_ORIGIN_RANGE)
             QDOT_TRY(qdot_vec_push(values, i));
     return QDOT_OK;
 }
@@ -336,7 +337,10 @@ is_used(const qdot_slopes *s, qdot_expr e, const indices *values, qdot_expr symb
     for (size_t i = 0; i < values->n && !used; i++) {
         const qdot_origin *of = &s->session->measured.at[values->at[i]].origin;
 
-        used = qdot_expr_contains(pool, of->e, symbol) || qdot_expr_contains(pool, of->time, symbol);
+        if (of->kind == QDOT_ORIGIN_VALUE)
+            used = qdot_expr_contains(pool, of->e, symbol) || qdot_expr_contains(pool, of->time, symbol);
+        for (int end = 0; end < 2 && of->kind == QDOT_ORIGIN_RANGE && !used; end++)
+            used = of->said[end] != QDOT_NIL && qdot_expr_contains(pool, of->said[end], symbol);
     }
     return used;
 }

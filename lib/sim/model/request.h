@@ -18,6 +18,7 @@ typedef struct {
                                      from the constraints; NULL: all */
     bool exactly;                 /* a start that breaks a constraint is refused */
     qdot_expr t0, t1;             /* limits: exact constants; t1 < t0 runs back */
+    qdot_expr said[2]; /* the limits as they were said, of symbols with values; nil: as above */
     double tol;                   /* local error of each component in each step, relative to
                                      max(s, |value|) */
     const double *scales;         /* [2n] s of q, then of q', in order of the coordinates; 0: found
