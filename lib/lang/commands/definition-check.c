@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "expr/print.h"
 #include "expr/tensor.h"
 #include "lang/answer/answer.h"
 #include "lang/commands/definition-parts.h"
@@ -277,6 +278,24 @@ find_primed(const qdot_token *name, size_t *primes)
 
 /* --- words of statements ---------------------------------------------------------------- */
 
+/* potential = E where the Lagrangian is stated: L less E. */
+static qdot_status
+tell_beside_lagrangian(assignment *a, const char *word)
+{
+    static const char message[] = "the scene states its Lagrangian: a %s beside it would not count";
+    qdot_status status;
+
+    if (word[0] == 'p' && qdot_definition_components(a) == 1) {
+        qdot_text_add(&a->line, "lagrangian ");
+        status = qdot_print(a->session->pool, a->session->scene->lagrangian, QDOT_PLAIN, &a->line);
+        qdot_text_format(&a->line, " - (%s)", qdot_text_str(&a->right));
+        return status == QDOT_OK ? tell(a, message, word) : status;
+    }
+    a->c->error_at = a->name->start;
+    (void)qdot_fail(QDOT_ENAME, message, word);
+    return qdot_hint("what it adds stands in the formula of `lagrangian`; `reset scene` begins anew");
+}
+
 static qdot_status
 tell_word(assignment *a, const qdot_statement *row)
 {
@@ -289,6 +308,9 @@ tell_word(assignment *a, const qdot_statement *row)
                         row->word);
         return qdot_hint("`%s` shows it", row->word[0] == 'l' ? "lagrange_function" : row->word);
     }
+    if (s->lagrangian != QDOT_NIL && a->name + 1 == a->equals &&
+        (strcmp(row->word, "potential") == 0 || strcmp(row->word, "gravity") == 0))
+        return tell_beside_lagrangian(a, row->word);
     if (!qdot_definition_statement(a, row))
         write_renamed(a);
     return tell(a, "`%s` is a word of the language: it is no name to define", row->word);
@@ -313,9 +335,10 @@ tell_reserved(assignment *a, const char *why)
     return tell(a, why, name);
 }
 
-/* `bob = (1, 2)` of a particle at (x, y): where it starts. False: it is placed otherwise. */
+/* `bob = (1, 2)`, `bob' = (1, 2)` of a particle at (x, y): where it starts, or how fast. False: it is placed
+ * otherwise. */
 static bool
-write_placed(assignment *a, qdot_expr at)
+write_placed(assignment *a, qdot_expr at, bool velocity)
 {
     const qdot_pool *pool = a->session->pool;
     const bool one = qdot_expr_is_scalar(pool, at);
@@ -335,31 +358,51 @@ write_placed(assignment *a, qdot_expr at)
                 break;
             depth += qdot_token_bracket(k);
         }
-        qdot_text_format(&a->line, "%s%s = ", i > 0 ? ", " : "start ",
-                         qdot_expr_symbol(pool, one ? at : qdot_expr_arg(pool, at, i))->name);
+        qdot_text_format(&a->line, "%s%s%s = ", i > 0 ? ", " : "start ",
+                         qdot_expr_symbol(pool, one ? at : qdot_expr_arg(pool, at, i))->name, velocity ? "'" : "");
         qdot_token_text_written(a->session, from, k, &a->line);
     }
     return true;
+}
+
+/* Where the particle or body of that name is; nil: there is none. */
+static qdot_expr
+position_of(const qdot_scene *s, const char *label)
+{
+    const qdot_particle *particle = qdot_scene_find_particle(s, label);
+    const qdot_body *body = qdot_scene_find_body(s, label);
+
+    return particle != NULL ? particle->position : body != NULL ? body->position : QDOT_NIL;
 }
 
 static qdot_status
 tell_label(assignment *a, const char *label)
 {
     const qdot_scene *s = a->session->scene;
-    const qdot_particle *particle = qdot_scene_find_particle(s, label);
-    const qdot_body *body = qdot_scene_find_body(s, label);
+    const qdot_expr at = position_of(s, label);
 
-    if ((particle != NULL && write_placed(a, particle->position)) ||
-        (body != NULL && write_placed(a, body->position)))
+    if (at != QDOT_NIL && write_placed(a, at, false))
         return tell(a, "`%.200s` is placed by the coordinates of its position", label);
     write_renamed(a);
     return tell(a,
-                particle != NULL ? "`%.200s` is a particle of the scene"
-                : body != NULL   ? "`%.200s` is a body of the scene"
+                qdot_scene_find_particle(s, label) != NULL ? "`%.200s` is a particle of the scene"
+                : at != QDOT_NIL ? "`%.200s` is a body of the scene"
                 : is_run(a->session, label)
                     ? "`%.200s` is a run"
                     : "`%.200s` is a label of the scene",
                 label);
+}
+
+/* bob' = (1, 2) of a particle that coordinates place: their start. */
+static qdot_status
+tell_velocity(assignment *a)
+{
+    const qdot_expr at = position_of(a->session->scene, a->name->text);
+
+    read_right(a);
+    return at != QDOT_NIL && write_placed(a, at, true)
+               ? tell(a, "`%.200s'` follows from the coordinates of its position", a->name->text)
+               : QDOT_OK;
 }
 
 /* The label that a member of a family, or the whole, spells; NULL: there is none. */
@@ -572,7 +615,7 @@ check_statement(assignment *a)
         return is_foreign(a) ? QDOT_OK : tell_coordinate(a, primes);
     }
     if (form == QDOT_FORM_VALUE)
-        return check_function(a);
+        return known == NULL && a->equals == a->name + 2 && primes == 1 ? tell_velocity(a) : check_function(a);
     if (form != QDOT_FORM_DEFINITION)
         return QDOT_OK;
     a->equals = a->name + 1;

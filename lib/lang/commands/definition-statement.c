@@ -3,6 +3,7 @@
 
 #include "lang/commands/definition-parts.h"
 #include "lang/commands/statement-form.h"
+#include "lang/language/token-text.h"
 
 typedef qdot_assignment assignment;
 
@@ -69,8 +70,33 @@ count_dimensions(const qdot_session *s)
                                                   : qdot_expr_count(s->pool, at);
 }
 
-/* gravity = g: along the last axis, downwards; gravity = (0, -g) as it is. False: it is no field of the
- * scene. */
+/* gravity (0, -g) of the last n components of the right side, with 0 before them where there are fewer. */
+static void
+write_components(assignment *a, uint32_t n)
+{
+    const size_t said = qdot_definition_components(a);
+    const qdot_token *k = a->equals + 2, *from = k;
+    long depth = 0;
+    size_t at = 0;
+
+    qdot_text_add(&a->line, n > 1 ? "gravity (" : "gravity ");
+    for (size_t i = said; i < n; i++)
+        qdot_text_add(&a->line, "0, ");
+    for (; k < a->behind; k++) {
+        if (depth == 0 && (qdot_token_is(k, ",") || k + 1 == a->behind)) {
+            if (at + n >= said)
+                qdot_token_text_written(a->session, from, k, &a->line);
+            at++;
+            from = k + 1;
+            qdot_text_add(&a->line, at < said && at + n > said ? ", " : "");
+        }
+        depth += qdot_token_bracket(k);
+    }
+    qdot_text_add(&a->line, n > 1 ? ")" : "");
+}
+
+/* gravity = g: along the last axis, downwards; gravity = (0, -g) with as many components as the scene has. False: it is
+ * no field. */
 static bool
 write_gravity(assignment *a)
 {
@@ -79,9 +105,9 @@ write_gravity(assignment *a)
     const bool down = *right == '-'; /* already */
     const bool whole = is_sum(a) && !down;
 
-    if (qdot_definition_components(a) > 1 && n > 0 && qdot_definition_components(a) != n)
-        return false;
-    if (qdot_definition_components(a) > 1 || n == 1)
+    if (qdot_definition_components(a) > 1 && n > 0 && n <= 3 && qdot_definition_components(a) != n)
+        write_components(a, n);
+    else if (qdot_definition_components(a) > 1 || n == 1)
         write_statement(a, "gravity", "");
     else
         qdot_text_format(&a->line, "gravity (0, %s%s%s%s%s)", n == 3 ? "0, " : "", down ? "" : "-",
@@ -103,6 +129,31 @@ says_on(const assignment *a)
     return false;
 }
 
+/* Whether the right side is a vector though it is not written as one: it holds the position or the velocity of a thing,
+ * or a name of a vector, outside the arguments of functions. */
+static bool
+holds_vector(const assignment *a)
+{
+    const qdot_session *s = a->session;
+    long depth = 0, arguments = 0; /* the depth of the outermost brackets of a function; 0: outside */
+
+    for (const qdot_token *k = a->equals + 1; k < a->behind; k++) {
+        const qdot_name *known = k->kind == QDOT_TOKEN_NAME ? qdot_names_find(s->names, k->text) : NULL;
+        const qdot_particle *particle = k->kind == QDOT_TOKEN_NAME ? qdot_scene_find_particle(s->scene, k->text) : NULL;
+        const qdot_expr e = known != NULL ? known->value : particle != NULL ? particle->position : QDOT_NIL;
+
+        if (qdot_token_is(k, "(") && k > a->equals + 1 && k[-1].kind == QDOT_TOKEN_NAME && arguments == 0)
+            arguments = depth + 1;
+        depth += qdot_token_bracket(k);
+        if (depth < arguments)
+            arguments = 0;
+        if (arguments == 0 && e != QDOT_NIL && qdot_expr_kind(s->pool, e) == QDOT_VEC && !qdot_token_is(k + 1, "[") &&
+            !qdot_token_is(k + 1, "("))
+            return true;
+    }
+    return false;
+}
+
 /* force = F: a vector on the first thing that has as many dimensions, a number on a coordinate. False:
  * there is none. */
 static bool
@@ -111,7 +162,7 @@ write_force(assignment *a, const char *word)
     const qdot_scene *s = a->session->scene;
     const qdot_name *q = qdot_definition_coordinate(a->session);
     const char *on = q != NULL ? q->name : NULL;
-    const bool vector = qdot_definition_components(a) > 1;
+    const bool vector = qdot_definition_components(a) > 1 || holds_vector(a);
     qdot_text behind = {0};
 
     if (says_on(a))
