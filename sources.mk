@@ -344,6 +344,7 @@ library_sources = \
 	lib/normal/refute/sample-edge.c \
 	lib/normal/refute/sample-solve.c \
 	lib/normal/refute/sample.c \
+	lib/normal/simplify/kinks.c \
 	lib/normal/simplify/positive.c \
 	lib/normal/simplify/rationalize.c \
 	lib/normal/simplify/simplify.c \
@@ -964,6 +965,7 @@ library_headers = \
 	lib/normal/refute/constant.h \
 	lib/normal/refute/enclosure.h \
 	lib/normal/refute/sample.h \
+	lib/normal/simplify/kinks.h \
 	lib/normal/simplify/positive.h \
 	lib/normal/simplify/rationalize.h \
 	lib/normal/simplify/simplify.h \
@@ -1631,6 +1633,7 @@ script_tests = \
 	tests/script/jumps-on-switches.lag \
 	tests/script/jumps.sh \
 	tests/script/kept-files.sh \
+	tests/script/kinks-that-cancel.lag \
 	tests/script/labels.lag \
 	tests/script/leading.sh \
 	tests/script/long-run.lag \
@@ -2855,6 +2858,7 @@ test_files = \
 	tests/script/jumps-on-switches.out \
 	tests/script/jumps.out \
 	tests/script/kept-files.out \
+	tests/script/kinks-that-cancel.out \
 	tests/script/labels.out \
 	tests/script/leading.out \
 	tests/script/long-run.out \

@@ -10,6 +10,7 @@
 #include "lang/session/bind.h"
 #include "lang/session/momenta.h"
 #include "lang/session/value-kind.h"
+#include "normal/simplify/kinks.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/solve.h"
 
@@ -90,6 +91,8 @@ qdot_algebra_diff(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr 
     if (args[1] == QDOT_T && times > 0)
         QDOT_TRY(tell_partial(s, e));
     e = qdot_momenta_for(s, e, args[1]);
+    if (times > 0)
+        e = qdot_kinks_cancel(s->pool, e);
     for (; times > 0 && e != QDOT_NIL && e != QDOT_ZERO; times--)
         e = qdot_diff(s->pool, e, args[1]);
     return e == args[0] ? qdot_value_kind_give(s->pool, e, value)

@@ -9,6 +9,7 @@
 #include "expr/walk.h"
 #include "mech/scene/access.h"
 #include "mech/scene/cache.h"
+#include "normal/simplify/kinks.h"
 
 /* What may not stand in a declaration, with its words. */
 enum {
@@ -256,6 +257,9 @@ qdot_scene_term(qdot_scene *s, qdot_scene_kind kind, const char *name, qdot_expr
     qdot_scene_forget_dropped(s);
     QDOT_TRY(qdot_scene_need_new_label(s, name));
     QDOT_TRY(need_term(s, kind, e));
+    if (kind == QDOT_POTENTIAL)
+        term.e = qdot_kinks_cancel(s->pool, e);
+    QDOT_TRY(qdot_pool_check(s->pool));
     if (kind == QDOT_GRAVITY && !name)
         before = plain_gravity(s);
     if (before) {
@@ -412,7 +416,8 @@ qdot_scene_lagrangian(qdot_scene *s, qdot_expr L)
         return qdot_hint("`lagrange_function` shows the one that follows; `reset scene` takes the scene away");
     }
     QDOT_TRY(need_scalar(s, L, "a Lagrangian", NO_ACCELERATION));
-    s->lagrangian = L;
+    s->lagrangian = qdot_kinks_cancel(s->pool, L);
+    QDOT_TRY(qdot_pool_check(s->pool));
     return changed(s);
 }
 
