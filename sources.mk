@@ -1711,6 +1711,7 @@ script_tests = \
 	tests/script/report-runs.sh \
 	tests/script/report.sh \
 	tests/script/reset.lag \
+	tests/script/rest-in-a-larger-scene.lag \
 	tests/script/resting-beside-switches.lag \
 	tests/script/resting-by-methods.lag \
 	tests/script/resting-together-by-methods.lag \
@@ -2938,6 +2939,7 @@ test_files = \
 	tests/script/report-runs.out \
 	tests/script/report.out \
 	tests/script/reset.out \
+	tests/script/rest-in-a-larger-scene.out \
 	tests/script/resting-beside-switches.out \
 	tests/script/resting-by-methods.out \
 	tests/script/resting-together-by-methods.out \

@@ -235,6 +235,20 @@ keep_shares(sliding *s)
     }
 }
 
+/* To f[i] what the contacts press with: they stand in no force. */
+static void
+add_reactions(sliding *s, size_t i)
+{
+    qdot_plan *p = s->p;
+
+    for (size_t j = 0; j < s->k; j++) {
+        const size_t r = s->n + s->m + j;
+
+        if (p->mode->surfaces.at[s->of[j].surface].contact)
+            p->f[i] = qdot_sub(p->pool, p->f[i], qdot_mul(p->pool, s->A[i * s->size + r], s->x[r]));
+    }
+}
+
 /* Put the shares found into f, or take q'' itself. Where pucks creep only their shares: the others are
  * to be found anew. */
 static qdot_status
@@ -262,6 +276,7 @@ put_in(sliding *s, bool all)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
             p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
+            add_reactions(s, i);
         }
     }
     qdot_free(symbols);
