@@ -1750,6 +1750,7 @@ script_tests = \
 	tests/script/solve-numbers.lag \
 	tests/script/solve-parameters.lag \
 	tests/script/solve-ranges.lag \
+	tests/script/solve-short-periods.lag \
 	tests/script/solve-special.lag \
 	tests/script/solve-system-parameters.lag \
 	tests/script/solve-system-sets.lag \
@@ -2979,6 +2980,7 @@ test_files = \
 	tests/script/solve-numbers.out \
 	tests/script/solve-parameters.out \
 	tests/script/solve-ranges.out \
+	tests/script/solve-short-periods.out \
 	tests/script/solve-special.out \
 	tests/script/solve-system-parameters.out \
 	tests/script/solve-system-sets.out \

@@ -554,10 +554,35 @@ families_with_ends_that_are_parameters(void **state)
     qdot_solutions_clear(&found);
 }
 
+/* Of an angle the members of one turn are listed if they are few; else they are the family, however many. */
+static void
+families_of_short_periods(void **state)
+{
+    static const struct {
+        const char *period;
+        size_t n;
+    } of[] = {{"pi/2", 4}, {"pi/500", 1000}, {"pi/501", 1}, {"pi/10^20", 1}, {"pi/10^400", 1}};
+    qdot_expr x = text_read(pool, "phi"), c = text_read(pool, "c");
+    const qdot_window turn = qdot_solve_window(pool, x, true);
+
+    (void)state;
+    assert_true(turn.turn);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const qdot_root family = {c, QDOT_NIL, text_read(pool, of[i].period), QDOT_NIL};
+        qdot_solutions found = {.complete = true};
+
+        assert_int_equal(qdot_solve_members(pool, x, &family, &turn, NULL, &found), QDOT_OK);
+        assert_int_equal(found.root.n, of[i].n);
+        assert_int_equal(qdot_solve_integers(pool, found.root.at[0].value), of[i].n == 1);
+        qdot_solutions_clear(&found);
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(families_of_short_periods, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_satisfy_their_equation, open_pool,
                                         close_pool),
         cmocka_unit_test_setup_teardown(what_is_beyond_it_is_said, open_pool, close_pool),

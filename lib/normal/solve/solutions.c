@@ -373,19 +373,18 @@ members_add_outward(const members *m)
     return qdot_pool_check(m->pool);
 }
 
-/* As many members as make a turn, whichever turn they lie in. */
+/* As many members as make a turn, whichever turn they lie in; *few: there are few enough, else none is added. */
 static qdot_status
-members_add_turn(const members *m)
+members_add_turn(const members *m, bool *few)
 {
     qdot_expr turn = qdot_mul(m->pool, qdot_expr_int(m->pool, 2), QDOT_PI);
     double n;
 
     turn = qdot_simplify(m->pool, qdot_div(m->pool, turn, m->root->period), m->facts);
-    if (!as_number(m->pool, turn, &n))
-        n = 1;
-    for (long k = 0; k < lround(n); k++) /* 0, -1, 1, -2 ... */
+    *few = as_number(m->pool, turn, &n) && n < MOST_MEMBERS + 0.5;
+    for (long k = 0; *few && k < lround(n); k++) /* 0, -1, 1, -2 ... */
         QDOT_TRY(members_add_value(m, members_value(m, k % 2 == 0 ? k / 2 : -(k / 2) - 1), &window_whole));
-    return QDOT_OK;
+    return qdot_pool_check(m->pool);
 }
 
 /* The family itself, value + n period, with what n must fulfil. */
@@ -425,7 +424,7 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
     const members m = {pool, x, root, &w, facts, out};
     const bool recurs = out->recurs || (w.recurs && root->period != QDOT_NIL);
     double first, last;
-    bool bounded;
+    bool bounded, few = true;
 
     if (root->period == QDOT_NIL)
         return members_add_value(&m, root->value, root->value == x ? &window_whole : &w);
@@ -436,9 +435,12 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
         return members_add_between(&m, fmin(first, last), fmax(first, last));
     }
     QDOT_TRY(qdot_pool_check(pool));
-    if (w.turn && qdot_is_constant(pool, root->period))
-        return members_add_turn(&m);
-    if (qdot_is_constant(pool, root->period)) {
+    if (w.turn && qdot_is_constant(pool, root->period)) {
+        QDOT_TRY(members_add_turn(&m, &few));
+        if (few)
+            return QDOT_OK;
+    }
+    if (few && qdot_is_constant(pool, root->period)) {
         QDOT_TRY(members_add_bounded(&m, &bounded));
         if (bounded) {
             out->recurs = recurs;
@@ -448,7 +450,7 @@ qdot_solve_members(qdot_pool *pool, qdot_expr x, const qdot_root *root, const qd
             return members_add_outward(&m);
         QDOT_TRY(qdot_pool_check(pool));
     }
-    if (w.recurs) { /* the whole domain in place of one turn */
+    if (!few || w.recurs) { /* the whole domain in place of one turn */
         w = qdot_solve_window(pool, x, false);
         w.integer = window->integer;
     }
