@@ -10,7 +10,9 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 
 enum { SUPERBLOCK = 48, DATASPACE = 1, DATATYPE = 3, LINK = 6, LAYOUT = 8, ATTRIBUTE = 12, HEAD = 4 };
@@ -37,16 +39,30 @@ number(const unsigned char *at, int bytes)
     return x;
 }
 
+/* The bytes of a regular file (a pipe would be waited for, a device may have no end); Ctrl-C is heard between blocks. */
 static qdot_status
 load(const char *path, qdot_text *out)
 {
-    FILE *from = fopen(path, "rb");
-    bool whole;
+    enum { BLOCK = 1 << 24 };
+    qdot_status status = QDOT_OK;
+    bool whole = true, more = true;
+    struct stat info;
+    FILE *from;
 
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return qdot_fail(QDOT_EIO, "%.200s cannot be read: it is no regular file", path);
+    from = fopen(path, "rbe");
     if (from == NULL)
         return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);
-    whole = qdot_text_add_stream(out, from, SIZE_MAX);
+    while (status == QDOT_OK && whole && more) {
+        const size_t before = out->n;
+
+        status = qdot_interrupt_check();
+        whole = qdot_text_add_stream(out, from, before + BLOCK);
+        more = out->n > before;
+    }
     fclose(from);
+    QDOT_TRY(status);
     if (!whole)
         return qdot_fail(QDOT_EIO, "%.200s cannot be read", path);
     return qdot_text_status(out);

@@ -181,11 +181,15 @@ qdot_sink_is_free(const char *path, const char *mark)
 {
     const size_t length = strlen(mark);
     char head[64];
-    FILE *file = fopen(path, "rbe");
+    struct stat info;
+    FILE *file;
     bool ours;
 
-    if (file == NULL)
+    if (stat(path, &info) != 0)
         return errno == ENOENT;
+    file = S_ISREG(info.st_mode) ? fopen(path, "rbe") : NULL; /* a pipe would be waited for */
+    if (file == NULL)
+        return false;
     ours = length <= sizeof head && fread(head, 1, length, file) == length
            && memcmp(head, mark, length) == 0;
     (void)fclose(file);

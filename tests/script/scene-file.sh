@@ -71,3 +71,10 @@ qdot -q -e 'scene to'
 qdot -q -e 'scene to "a.tex"; scene to x'
 qdot -q -e 'save session to "a.svg"'
 qdot --json -e 'coord x; scene to "an-object.lag"; undo'
+
+# Into a pipe it is written for whom reads there.
+mkfifo pipe.lag
+timeout 60 cat pipe.lag >read.lag &
+timeout 60 qdot -q -e 'coord x; scene to "pipe.lag"'
+wait
+cat read.lag

@@ -9,8 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "show/data.h"
 #include "show/hdf5-read.h"
@@ -161,6 +163,25 @@ hdf5_is_read_back(void **state)
     free(bytes);
 }
 
+/* A device without an end and a pipe that nobody writes are refused; Ctrl-C is heard. */
+static void
+only_regular_files_are_read(void **state)
+{
+    qdot_data_columns c = {0};
+
+    (void)state;
+    assert_int_equal(qdot_data_read_hdf5("/dev/zero", "program", &c), QDOT_EIO);
+    (void)unlink(path);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_int_equal(read_columns(&c), QDOT_EIO);
+    (void)unlink(path);
+    assert_int_equal(qdot_data_hdf5(&data, path), QDOT_OK);
+    qdot_interrupt_set_at(0);
+    assert_int_equal(read_columns(&c), QDOT_EINTR);
+    qdot_interrupt_clear();
+    qdot_data_columns_clear(&c);
+}
+
 static void
 failing_memory_is_told(void **state)
 {
@@ -202,6 +223,7 @@ main(void)
         cmocka_unit_test(html_is_escaped),
         cmocka_unit_test(hdf5_ends_where_it_says),
         cmocka_unit_test(hdf5_is_read_back),
+        cmocka_unit_test(only_regular_files_are_read),
         cmocka_unit_test(failing_memory_is_told),
         cmocka_unit_test(files_that_cannot_be_written_are_told),
     };

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "lang/answer/answer.h"
 #include "lang/declare/session-file.h"
@@ -224,15 +225,16 @@ qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
     return qdot_text_status(out);
 }
 
-/* Refuse to overwrite a file that does not begin as these files do. */
+/* Refuse to overwrite a regular file that does not begin as these files do. */
 static qdot_status
 may_overwrite(const char *path)
 {
     char begin[sizeof header] = "";
-    FILE *file = fopen(path, "rbe");
+    struct stat info;
+    FILE *file;
     size_t n;
 
-    if (file == NULL)
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || (file = fopen(path, "rbe")) == NULL)
         return QDOT_OK; /* writing tells why it cannot be */
     n = fread(begin, 1, sizeof header - 1, file);
     fclose(file);
