@@ -171,14 +171,37 @@ of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
     }
 }
 
-/* sum <- sum + c b, where both are known. */
+/* A bound with a long denominator by a shorter one beyond it, above where `up`: the denominator of a sum of thousands of
+ * fractions would grow with each. */
 static void
-add(struct bound *sum, const fmpq *c, const struct bound *b)
+shorten(struct bound *b, bool up)
+{
+    enum { LONG = 1024, SHORT = 256 };
+    fmpz *n = fmpq_numref(&b->x), *d = fmpq_denref(&b->x);
+
+    if (fmpz_bits(d) <= LONG)
+        return;
+    fmpz_mul_2exp(n, n, SHORT);
+    if (up)
+        fmpz_cdiv_q(n, n, d);
+    else
+        fmpz_fdiv_q(n, n, d);
+    fmpz_one(d);
+    fmpz_mul_2exp(d, d, SHORT);
+    fmpq_canonicalise(&b->x);
+    b->open = true;
+}
+
+/* sum <- sum + c b, where both are known; an upper bound where `up`. */
+static void
+add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
 {
     sum->known &= b->known;
     sum->open |= b->open;
-    if (sum->known)
-        qdot_rational_addmul(&sum->x, c, &b->x);
+    if (!sum->known)
+        return;
+    qdot_rational_addmul(&sum->x, c, &b->x);
+    shorten(sum, up);
 }
 
 uint8_t
@@ -195,8 +218,8 @@ qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         bool up = qdot_rational_sgn(c) > 0;
 
         of_term(pool, args[i], &lo, &hi);
-        add(&least, c, up ? &lo : &hi);
-        add(&most, c, up ? &hi : &lo);
+        add(&least, c, up ? &lo : &hi, false);
+        add(&most, c, up ? &hi : &lo, true);
         fmpq_clear(&lo.x);
         fmpq_clear(&hi.x);
     }
