@@ -1784,6 +1784,7 @@ script_tests = \
 	tests/script/ties-of-rounding.lag \
 	tests/script/tighter.sh \
 	tests/script/to-file.sh \
+	tests/script/underflowing-forces.lag \
 	tests/script/undo-included.sh \
 	tests/script/undo.lag \
 	tests/script/units.sh \
@@ -3014,6 +3015,7 @@ test_files = \
 	tests/script/ties-of-rounding.out \
 	tests/script/tighter.out \
 	tests/script/to-file.out \
+	tests/script/underflowing-forces.out \
 	tests/script/undo-included.out \
 	tests/script/undo.out \
 	tests/script/units.out \
