@@ -534,6 +534,7 @@ library_sources = \
 	lib/sim/course/piece-enter.c \
 	lib/sim/course/piece-fade.c \
 	lib/sim/course/piece-layer.c \
+	lib/sim/course/piece-massless.c \
 	lib/sim/course/piece-puck.c \
 	lib/sim/course/piece-sides.c \
 	lib/sim/course/piece.c \
@@ -1645,10 +1646,12 @@ script_tests = \
 	tests/script/loops.lag \
 	tests/script/lyapunov.sh \
 	tests/script/mass-in-time.lag \
+	tests/script/massless-corner.lag \
 	tests/script/massless-jumps.sh \
 	tests/script/massless-orbits.sh \
 	tests/script/massless-slopes.sh \
 	tests/script/massless-studies.lag \
+	tests/script/massless-switches.lag \
 	tests/script/massless.lag \
 	tests/script/mechanism-bead.lag \
 	tests/script/mechanism-cycloid.lag \
@@ -1949,7 +1952,6 @@ script_tests = \
 	tests/bad/mass-negative-with.lag \
 	tests/bad/mass-negative.lag \
 	tests/bad/massless-conserved.lag \
-	tests/bad/massless-corner.lag \
 	tests/bad/massless-digits.lag \
 	tests/bad/massless-export.lag \
 	tests/bad/massless-odd.lag \
@@ -2399,7 +2401,6 @@ test_files = \
 	tests/bad/mass-negative-with.out \
 	tests/bad/mass-negative.out \
 	tests/bad/massless-conserved.out \
-	tests/bad/massless-corner.out \
 	tests/bad/massless-digits.out \
 	tests/bad/massless-export.out \
 	tests/bad/massless-odd.out \
@@ -2873,10 +2874,12 @@ test_files = \
 	tests/script/loops.out \
 	tests/script/lyapunov.out \
 	tests/script/mass-in-time.out \
+	tests/script/massless-corner.out \
 	tests/script/massless-jumps.out \
 	tests/script/massless-orbits.out \
 	tests/script/massless-slopes.out \
 	tests/script/massless-studies.out \
+	tests/script/massless-switches.out \
 	tests/script/massless.out \
 	tests/script/mechanism-bead.out \
 	tests/script/mechanism-cycloid.out \

@@ -22,6 +22,7 @@ make_room(qdot_piece *x)
     x->untouched = qdot_calloc(m, sizeof *x->untouched);
     x->touching = qdot_calloc(m, sizeof *x->touching);
     x->turned = qdot_calloc(m, sizeof *x->turned);
+    x->jumps = qdot_calloc(m, sizeof *x->jumps);
     x->root = qdot_calloc(x->n, sizeof *x->root);
     x->thens = qdot_calloc(x->c->stage->events.n + 1, sizeof *x->thens);
     x->y = qdot_calloc(9 * x->n, sizeof *x->y);
@@ -34,7 +35,7 @@ make_room(qdot_piece *x)
     x->step.t = qdot_calloc(2, sizeof *x->step.t);
     x->step.y = qdot_calloc(2 * x->n, sizeof *x->step.y);
     if (!x->side || !x->functions_on || !x->before || !x->residual ||
-        !x->signs || !x->left || !x->untouched || !x->touching || !x->turned || !x->root || !x->thens || !x->y || !x->step.t || !x->step.y)
+        !x->signs || !x->left || !x->untouched || !x->touching || !x->turned || !x->jumps || !x->root || !x->thens || !x->y || !x->step.t || !x->step.y)
         return QDOT_ENOMEM;
     x->y_act = x->y + x->n;
     x->start.y = x->y_act + x->n;
@@ -74,6 +75,17 @@ crosses_places(const qdot_piece *x)
         places |= w->kind == QDOT_WATCH_SURFACE;
     }
     return places;
+}
+
+/* Whether the state may jump where the piece ends: by an event, or coordinates without mass by a switch. */
+static bool
+may_jump(const qdot_piece *x)
+{
+    bool switches = false;
+
+    for (size_t i = 0; i < x->roots.n && qdot_piece_has_massless(x); i++)
+        switches |= qdot_piece_mode(x)->watched[x->roots.at[i].function].kind == QDOT_WATCH_SURFACE;
+    return switches || changes_state(x);
 }
 
 /* Make the state set by an event at the end of the run its last point. */
@@ -137,8 +149,13 @@ loop(qdot_piece *x, const double *y0)
         if (status == QDOT_OK && c->tr.count > 0)
             qdot_piece_start_at_end(x);
         if (status != QDOT_OK || x->intent != QDOT_PIECE_ENDS || c->reason[0] != '\0') {
-            if (status == QDOT_OK && x->start.t == x->t1 && qdot_piece_end_in_layers(x))
-                status = resume(x);
+            if (status == QDOT_OK && x->start.t == x->t1) {
+                x->start.from = x->mode;
+                x->start.jumped = qdot_piece_end_in_layers(x);
+                status = c->reason[0] == '\0' ? qdot_piece_end_behind(x) : QDOT_OK;
+                if (status == QDOT_OK && x->start.jumped)
+                    status = resume(x);
+            }
             break;
         }
         if (c->most_pieces > 0 && c->tr.pieces.n > c->most_pieces) {
@@ -148,13 +165,13 @@ loop(qdot_piece *x, const double *y0)
         x->start.from = x->mode;
         x->start.jumped = false;
         qdot_piece_find_delay(x);
-        if ((changes_state(x) || crosses_places(x)) && x->has_root)
+        if ((may_jump(x) || crosses_places(x)) && x->has_root)
             status = qdot_piece_go_to_root(x);
         if (changes_state(x))
             (void)qdot_piece_end_in_layers(x);
         if (status == QDOT_OK)
             status = qdot_piece_keep(x, NULL);
-        if (status == QDOT_OK && changes_state(x) && !x->has_root)
+        if (status == QDOT_OK && may_jump(x) && !x->has_root)
             status = qdot_piece_make_up(x, x->mode, SIZE_MAX);
         if (status == QDOT_OK)
             status = qdot_piece_act(x, &over);
@@ -166,6 +183,8 @@ loop(qdot_piece *x, const double *y0)
             status = resume(x);
         if (status == QDOT_OK && over)
             c->tr.result.outcome = c->failed ? QDOT_ODE_FAILED : QDOT_ODE_STOPPED;
+        if (status == QDOT_OK && x->start.t == x->t1 && !over)
+            status = qdot_piece_end_behind(x);
         if (x->start.t == x->t1 && !over) {
             if (x->start.jumped && status == QDOT_OK)
                 status = resume(x);
@@ -225,6 +244,7 @@ qdot_course_run(qdot_course *c, const qdot_ode_method *method,
     qdot_free(x.untouched);
     qdot_free(x.touching);
     qdot_free(x.turned);
+    qdot_free(x.jumps);
     qdot_free(x.root);
     for (size_t i = 0; i < c->stage->events.n && x.thens; i++)
         qdot_tape_two_free(x.thens[i]);

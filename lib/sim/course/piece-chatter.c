@@ -240,7 +240,8 @@ qdot_piece_stop_chatter(qdot_piece *x, bool anew)
 
         for (size_t k = 0; k < x->crossed.n && !crossed; k++)
             crossed = x->crossed.at[k] == i;
-        if (!crossed || (x->side[i] != 1 && x->side[i] != -1) || !qdot_piece_is_of_places(x, i))
+        if (!crossed || (x->side[i] != 1 && x->side[i] != -1) || !qdot_piece_is_of_places(x, i)
+            || qdot_piece_holds_massless(x, i)) /* no mass swings about it */
             continue;
         QDOT_TRY(slide(x, i, &may));
     }

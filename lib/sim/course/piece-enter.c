@@ -97,7 +97,10 @@ qdot_piece_carry(qdot_piece *x)
     size_t events = x->c->stage->events.n;
 
     for (size_t i = 0; i < next->m; i++) {
-        x->before[i] = x->start.jumped || i >= events || qdot_piece_just_noted(x, i) ? 0 : x->signs[i];
+        x->before[i] = x->start.jumped || i >= events || qdot_piece_just_noted(x, i)
+                               || (x->start.followed && x->jumps[i])
+                           ? 0
+                           : x->signs[i];
         x->residual[i] = -1;
     }
     for (size_t i = 0; i < next->m; i++) { /* it was held at 0 */
@@ -118,6 +121,9 @@ qdot_piece_carry(qdot_piece *x)
             x->put_aside = true;
         }
     }
+    for (size_t i = 0; i < next->m && x->start.slipped; i++) /* and then sticks: its share begins at an end */
+        if (next->watched[i].kind == QDOT_WATCH_SURFACE && slides(next, next->watched[i].index))
+            x->residual[i] = 0;
     for (size_t i = 0; i < x->c->stage->switches.surfaces.n; i++)
         if (x->c->stage->switches.surfaces.at[i].contact && slides(old, i)) /* no occurrence */
             x->before[x->c->stage->switches.surfaces.at[i].event] = 0;
@@ -130,6 +136,10 @@ qdot_piece_carry(qdot_piece *x)
             x->residual[root->function] = root->residual;
             continue;
         }
+        for (size_t i = 0; i < next->m && qdot_piece_has_massless(x); i++)
+            if (next->watched[i].kind == QDOT_WATCH_SURFACE && next->watched[i].index == w->index
+                && slides(next, w->index) && !slides(old, w->index)) /* its share begins at an end */
+                x->residual[i] = 0;
         for (size_t i = 0; i < next->m; i++)
             if (next->watched[i].kind == QDOT_WATCH_SURFACE &&
                 x->c->stage->switches.surfaces.at[w->index].puck == 0 &&
@@ -165,7 +175,8 @@ qdot_piece_widen_residuals(qdot_piece *x)
     for (size_t i = 0; i < qdot_piece_mode(x)->m; i++) {
         double off, noise;
 
-        if (!qdot_piece_mode(x)->watched[i].velocity || !(x->residual[i] >= 0))
+        /* places are put onto their surfaces, but for those that equations determine */
+        if (!(x->residual[i] >= 0) || !(qdot_piece_mode(x)->watched[i].velocity || qdot_piece_has_massless(x)))
             continue;
         QDOT_TRY(qdot_watch_measure(qdot_piece_watch(x), &x->reader, x->start.t, x->start.y, &g));
         off = fabs(g[i]);
@@ -255,7 +266,7 @@ static void
 check_momenta(qdot_piece *x, const qdot_mode *a, const qdot_mode *b, double *in)
 {
     const size_t n = x->n / 2;
-    const double *y = x->start.y;
+    const double *y = x->start.followed ? x->bare : x->start.y;
 
     for (size_t k = n; k < 2 * n && x->c->reason[0] == '\0'; k++) {
         double p[2], size = 0;
@@ -285,7 +296,7 @@ check_level(qdot_piece *x)
 {
     const qdot_mode *a = x->c->stage->modes.at[x->start.from], *b = qdot_piece_mode(x);
     const size_t n = x->n;
-    const double t = x->start.t, *y = x->start.y;
+    const double t = x->start.t, *y = x->start.followed ? x->bare : x->start.y;
     size_t work = 1;
     double *in, jump, least = 0;
 
@@ -474,7 +485,7 @@ qdot_piece_cross(qdot_piece *x)
     QDOT_TRY(turns_a_corner(x, &corners));
     if (corners)
         return QDOT_OK;
-    if (!x->start.jumped)
+    if (!x->start.jumped && !(qdot_piece_has_massless(x) && x->start.t == x->c->tr.t[0])) /* the start may be on no side */
         QDOT_TRY(check_level(x));
     if (x->c->reason[0] != '\0')
         return QDOT_OK;

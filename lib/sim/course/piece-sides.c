@@ -32,8 +32,8 @@ went_to(const qdot_piece *x, const qdot_watched *w, int first)
                : first;
 }
 
-static qdot_status
-doubt(qdot_piece *x, const qdot_watched *w, int first)
+qdot_status
+qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first)
 {
     const long now = qdot_piece_mode(x)->side[w->index];
     qdot_piece_doubt d = {.surface = w->index, .n = 2, .sides = {now}};
@@ -69,7 +69,7 @@ qdot_piece_leaves_well(qdot_piece *x, bool *well)
             continue;
         *well = false;
         x->side[w->index] = went_to(x, w, first[i]);
-        QDOT_TRY(doubt(x, w, first[i]));
+        QDOT_TRY(qdot_piece_doubt_side(x, w, first[i]));
     }
     return QDOT_OK;
 }
@@ -113,6 +113,6 @@ qdot_piece_doubt_open(qdot_piece *x)
     x->doubts.n = 0;
     for (size_t i = 0; i < m->m; i++)
         if (is_open(x, i))
-            QDOT_TRY(doubt(x, &m->watched[i], -m->watched[i].inside));
+            QDOT_TRY(qdot_piece_doubt_side(x, &m->watched[i], -m->watched[i].inside));
     return QDOT_OK;
 }

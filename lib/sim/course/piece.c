@@ -643,9 +643,9 @@ qdot_piece_begin(qdot_piece *x)
     QDOT_TRY(qdot_watch_begin(
         qdot_piece_watch(x), &x->reader, t, y,
         &(qdot_watch_known){x->c->shaken && x->c->tr.count == 1, x->before, x->residual, x->y, x->largest,
-                            !x->start.on_root  ? 0
-                            : x->start.jumped ? x->c->stage->events.n
-                                              : qdot_piece_mode(x)->m},
+                            !x->start.on_root                                  ? 0
+                            : x->start.jumped || qdot_piece_has_massless(x) ? x->c->stage->events.n
+                                                                            : qdot_piece_mode(x)->m},
         x->functions_on));
     for (size_t i = 0; i < qdot_piece_mode(x)->m && x->c->tr.count == 1; i++)
         x->c->began_on |= x->functions_on[i];
@@ -686,7 +686,7 @@ qdot_piece_integrate(qdot_piece *x)
     x->searched.since = x->start.t;
     x->searched.parts = 0;
     x->noted = c->occurrences.n;
-    status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped, &options, x->t1,
+    status = qdot_trajectory_resume(&c->tr, system, x->mode, x->start.jumped || x->start.followed, &options, x->t1,
                                     x->start.y);
     if (x->broken_off) {
         c->tr.result.outcome = QDOT_ODE_STOPPED;

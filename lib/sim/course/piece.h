@@ -1,7 +1,8 @@
 /* piece.h -- one piece of a course: its data while it is integrated.
  *
  * For course.c only, which has the loop over pieces. side-search.c and piece-sides.c find the
- * sides of the switches for a piece, piece-enter.c enters their mode, piece.c integrates from the
+ * sides of the switches for a piece, piece-enter.c enters their mode, piece-massless.c lets coordinates
+ * without mass follow, piece.c integrates from the
  * start and looks for roots in every step, piece-end.c carries out the event or switch at the
  * end.
  *
@@ -54,6 +55,8 @@ typedef struct {
         double late;  /* and then on by this */
         size_t from;  /* the mode before */
         bool jumped;  /* an event has changed the state */
+        bool followed; /* coordinates without mass have jumped with their equations, */
+        bool slipped;  /* positions of them against dry friction: `bare` is behind that */
     } start;
     long *side;         /* [surfaces] */
     bool *functions_on; /* [functions] the piece starts on a zero of it */
@@ -63,6 +66,7 @@ typedef struct {
     bool *touching;     /* [functions] and was 0 where that piece ended, but for rounding */
     bool *untouched;    /* [functions] what ended that piece left its value as it was; it did not end it, or an event
                            behind it changed the state once more */
+    bool *jumps;        /* [functions] the jump of coordinates without mass at the start changes its value */
     bool *turned;       /* [functions] an event on it ended that piece, and its own `then` turned it back */
     bool put_aside;     /* the start may be off its surfaces by rounding */
     double *residual;   /* [functions] |g| up to which it counts as 0 at the start */
@@ -153,6 +157,20 @@ QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
 /* Bring the start of the piece back onto the surfaces along which the mode slides; *near: it was as
  * near as rounding leaves it; NULL: not asked for. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
+
+/* For the surface of w another side has to be tried, `first` the sign of its function behind the start. */
+QDOT_MUST_CHECK qdot_status qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first);
+
+/* (piece-massless.c) Whether the mode has coordinates without mass; in a mode other than that of the piece before, bring
+ * them to what its equations say at the start: x->start.followed. *can: not, and x->hindrance says so, where these have no
+ * solution or positions would jump against a switch of velocities. */
+bool qdot_piece_has_massless(const qdot_piece *x);
+/* Whether u of a surface holds the place of such a coordinate. */
+bool qdot_piece_holds_massless(const qdot_piece *x, size_t surface);
+QDOT_MUST_CHECK qdot_status qdot_piece_follow_massless(qdot_piece *x, bool *can);
+
+/* Where a run ends and time alone switches their equations it ends behind that, as behind an event: x->start.jumped. */
+QDOT_MUST_CHECK qdot_status qdot_piece_end_behind(qdot_piece *x);
 
 /* Carry the signs and residuals at the end of the piece before over to the functions of the new
  * mode. */

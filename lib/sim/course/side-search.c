@@ -145,7 +145,9 @@ enter(qdot_piece *x, bool *can)
             return QDOT_OK;
         }
     }
-    if (!qdot_sliding_is(&x->c->stage->switches, x->side))
+    if (status == QDOT_OK)
+        QDOT_TRY(qdot_piece_follow_massless(x, can));
+    if (!*can || !qdot_sliding_is(&x->c->stage->switches, x->side))
         return status;
     if (status != QDOT_OK) {
         *can = false;
@@ -184,6 +186,8 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     memcpy(x->side, held, surfaces * sizeof *x->side);
     x->side[surface] = side;
     QDOT_TRY(qdot_piece_sides(x, held));
+    if (qdot_piece_has_massless(x)) /* their values are those of the sides found */
+        memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
     status = enter(x, &can);
     if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
@@ -226,20 +230,45 @@ compare(qdot_piece *x, const long *held)
     return status;
 }
 
+/* The state where the piece starts, in two doubles, to and from y [3n]. */
+static void
+copy_start(const qdot_piece *x, double *y)
+{
+    memcpy(y, x->start.y, x->n * sizeof *y);
+    memcpy(y + x->n, x->start.low, x->n * sizeof *y);
+    memcpy(y + 2 * x->n, x->start.low_of, x->n * sizeof *y);
+}
+
+static void
+put_start(qdot_piece *x, const double *y)
+{
+    memcpy(x->start.y, y, x->n * sizeof *y);
+    memcpy(x->start.low, y + x->n, x->n * sizeof *y);
+    memcpy(x->start.low_of, y + 2 * x->n, x->n * sizeof *y);
+}
+
 /* Compare the sides found with others, then integrate with them. */
 static qdot_status
 go_by(qdot_piece *x)
 {
     const size_t surfaces = x->c->stage->switches.surfaces.n;
     long *held = qdot_malloc((surfaces + 1) * sizeof *held);
-    qdot_status status = held ? QDOT_OK : QDOT_ENOMEM;
+    double *y = qdot_malloc((3 * x->n + 1) * sizeof *y);
+    const bool massless = qdot_piece_has_massless(x), followed = x->start.followed;
+    qdot_status status = held && y ? QDOT_OK : QDOT_ENOMEM;
 
     if (status == QDOT_OK) {
         memcpy(held, x->side, surfaces * sizeof *held);
+        copy_start(x, y);
         status = compare(x, held);
         memcpy(x->side, held, surfaces * sizeof *held);
+        if (massless) {
+            put_start(x, y);
+            x->start.followed = followed;
+        }
     }
     qdot_free(held);
+    qdot_free(y);
     if (status != QDOT_OK || x->c->reason[0] != '\0')
         return status;
     x->search = QDOT_SIDES_KNOWN;
@@ -299,7 +328,7 @@ search(qdot_piece *x)
     x->doubts.n = 0;
     x->search = QDOT_SIDES_TRIED;
     x->hindrance[0] = '\0';
-    x->put_aside = false;
+    x->put_aside = x->start.slipped = false;
     memcpy(x->bare, x->start.y, x->n * sizeof *x->bare);
     for (;;) {
         bool over, can;

@@ -9,6 +9,7 @@
 #include "num/two.h"
 #include "ode/companion.h"
 #include "ode/scale.h"
+#include "sim/model/massless.h"
 #include "sim/model/still.h"
 #include "tape/shake.h"
 #include "sim/course/chatter.h"
@@ -105,6 +106,26 @@ move_by_error(const qdot_run *run, size_t number, double by, double *y, double *
         y[i] = qdot_two_rounded_sum(y[i], low[i] + by * run->apart[number * n + i], &low[i]);
 }
 
+/* A start onto its constraints. Where what coordinates without mass do decides a switch the first piece finds these. */
+static qdot_status
+project_start(const qdot_run *run, const qdot_ode_system *system, double t0, double *y)
+{
+    const size_t n = 2 * run->plan->n;
+    const bool finds = qdot_massless_switch(run->plan, &run->stage.switches);
+    double *moved = qdot_malloc((n + 1) * sizeof *moved), by;
+    qdot_status status = moved ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(moved, y, n * sizeof *moved);
+        status = system->project(t0, moved, NULL, &by, system->user);
+    }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++)
+        if (!finds || !run->plan->massless[i % (n / 2)])
+            y[i] = moved[i];
+    qdot_free(moved);
+    return status;
+}
+
 /* The moved start of the companion into y [2n] and, for a run in two doubles, low; a bound that
  * the start is on is kept. */
 static qdot_status
@@ -118,11 +139,8 @@ begin_beside(const qdot_run *run, const qdot_ode_system *system, size_t number, 
     qdot_companion_beside(run->units, n, run->start, number, run->report.tol, y,
                           run->leading ? low : NULL);
     move_by_error(run, number, 1, y, low);
-    if (system->project) { /* along what solutions may do */
-        double by;
-
-        QDOT_TRY(system->project(t0, y, NULL, &by, system->user));
-    }
+    if (system->project) /* along what solutions may do */
+        QDOT_TRY(project_start(run, system, t0, y));
     /* a bound that the start is on stays where it is */
     if (qdot_domains_outside(&run->stage.domains, y)) {
         memcpy(y, run->start, n * sizeof *y);

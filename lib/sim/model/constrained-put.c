@@ -102,6 +102,49 @@ refuse(const qdot_constrained *h, size_t row, const char *who)
                      who, h->c->rows[row].name);
 }
 
+/* Add to noise [m] what 4 roundings of component k of the state, or of t, make of the residuals r [m]. */
+static void
+add_noise(qdot_constrained *h, const part *p, const place *at, double *y, size_t k, const double *r, double *noise)
+{
+    const size_t n = h->plan->n;
+    const double more = 1 + 4 * DBL_EPSILON, kept = k < 2 * n ? y[k] : at->t;
+
+    if (k < 2 * n)
+        y[k] *= more;
+    qdot_constrained_load(h, k < 2 * n ? at->t : at->t * more, y);
+    p->find(h);
+    for (size_t i = 0; i < p->level->m; i++)
+        noise[i] += fabs(p->residual[p->level->row[i]] - r[i]);
+    if (k < 2 * n)
+        y[k] = kept;
+}
+
+/* Whether residuals are what rounding of the state and of t makes of them: terms cancel that hold none of the unknowns, as
+ * in the equation of a coordinate without mass whose velocity becomes 0. */
+static qdot_status
+is_rounding(qdot_constrained *h, const part *p, const place *at, bool *is)
+{
+    const size_t n = h->plan->n, m = p->level->m;
+    double *y = qdot_calloc(2 * n + 2 * m + 1, sizeof *y), *r = y + 2 * n, *noise = r + m;
+
+    if (!y)
+        return QDOT_ENOMEM;
+    memcpy(y, at->y, 2 * n * sizeof *y);
+    qdot_constrained_load(h, at->t, y);
+    p->find(h);
+    for (size_t i = 0; i < m; i++)
+        r[i] = p->residual[p->level->row[i]];
+    for (size_t k = 0; k <= 2 * n; k++)
+        add_noise(h, p, at, y, k, r, noise);
+    *is = true;
+    for (size_t i = 0; i < m; i++)
+        *is = *is && fabs(r[i]) <= noise[i];
+    qdot_constrained_load(h, at->t, at->y);
+    p->find(h);
+    qdot_free(y);
+    return QDOT_OK;
+}
+
 /* Newton's method by the shortest way in the metric of M. */
 static qdot_status
 bring(qdot_constrained *h, part *p, const place *at)
@@ -109,6 +152,7 @@ bring(qdot_constrained *h, part *p, const place *at)
     const size_t n = h->plan->n;
     double before = INFINITY;
     size_t worst = 0, failed;
+    bool rounding;
 
     for (int k = 0; k < most_iterations; k++) {
         double now;
@@ -133,7 +177,8 @@ bring(qdot_constrained *h, part *p, const place *at)
             if (!p->set[i])
                 p->x[i] += p->saddle.x[i];
     }
-    return refuse(h, worst, at->who);
+    QDOT_TRY(is_rounding(h, p, at, &rounding));
+    return rounding ? QDOT_OK : refuse(h, worst, at->who);
 }
 
 /* The residuals of the level's rows in two doubles, as the right side of the system, which is filled. */

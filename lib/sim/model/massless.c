@@ -27,6 +27,12 @@ is_held(const qdot_scene *scene, const qdot_plan *p, size_t i)
     return false;
 }
 
+bool
+qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i)
+{
+    return !has_mass(p, i) && !is_held(scene, p, i);
+}
+
 /* How many of the symbols from `first` on f_i holds, of massless coordinates alone or of all. */
 static size_t
 held(const qdot_plan *p, size_t i, size_t first, bool massless)
@@ -67,7 +73,7 @@ qdot_massless_find(const qdot_scene *scene, qdot_plan *p)
     const size_t n = p->n - p->n_states;
 
     for (size_t i = 0; i < n; i++) {
-        if (has_mass(p, i) || is_held(scene, p, i))
+        if (!qdot_massless_is(scene, p, i))
             continue;
         if (!p->massless)
             p->massless = qdot_calloc(p->n, sizeof *p->massless);
@@ -80,6 +86,18 @@ qdot_massless_find(const qdot_scene *scene, qdot_plan *p)
         if (p->massless[i])
             QDOT_TRY(check(p, i));
     return QDOT_OK;
+}
+
+bool
+qdot_massless_switch(const qdot_plan *p, const qdot_switches *s)
+{
+    for (size_t i = 0; i < p->n && p->massless; i++)
+        for (size_t k = 0; k < qdot_switches_own(s) && p->massless[i]; k++)
+            if (qdot_expr_contains(p->pool, s->surfaces.at[k].u, p->inputs[p->n + i])
+                || (qdot_massless_kind(p, i) == QDOT_HOLONOMIC
+                    && qdot_expr_contains(p->pool, s->surfaces.at[k].u, p->inputs[i])))
+                return true;
+    return false;
 }
 
 /* Whether e, with values, holds such a jet of a coordinate among these [n]. */

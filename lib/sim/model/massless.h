@@ -20,10 +20,18 @@
 #include "mech/scene/scene.h"
 #include "sim/model/equations.h"
 #include "sim/model/request.h"
+#include "sim/model/switch.h"
 
 /* Find them, into p->massless and p->n_massless, once M and f are there. QDOT_ESINGULAR: an equation
  * determines nothing. */
 QDOT_MUST_CHECK qdot_status qdot_massless_find(const qdot_scene *scene, qdot_plan *p);
+
+/* Whether coordinate i is one, by p->M. */
+bool qdot_massless_is(const qdot_scene *scene, const qdot_plan *p, size_t i);
+
+/* Whether what these equations determine decides a switch, as the velocity of a slider: by which side that starts is for
+ * the first piece to find (sim/course/piece-massless.c), from values as they were said. */
+bool qdot_massless_switch(const qdot_plan *p, const qdot_switches *s);
 
 /* Their equations 0 = G with the values of a request. One that holds a velocity of such coordinates determines a velocity;
  * one of positions alone determines a position, and by its rate a velocity. */

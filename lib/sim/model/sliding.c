@@ -8,6 +8,7 @@
 #include "expr/walk.h"
 #include "mech/dynamics/integrated.h"
 #include "normal/solve/linear.h"
+#include "sim/model/massless.h"
 #include "sim/model/puck.h"
 #include "sim/model/switch.h"
 
@@ -37,6 +38,11 @@ typedef struct {
     size_t n, m, k, size;
     unknown *of; /* [k] */
     qdot_expr *A, *b, *x;
+    bool *massless; /* [n] */
+    bool some_massless;
+    /* Shares that equations of massless coordinates determine: their surfaces, symbols and values. */
+    size_t n_settled, *settled;
+    qdot_expr *symbols, *values;
 } sliding;
 
 static qdot_expr
@@ -59,6 +65,9 @@ holds_share(const sliding *s, qdot_expr e)
 {
     for (size_t j = 0; j < s->k; j++)
         if (qdot_expr_contains(s->p->pool, e, share_symbol(s, j)))
+            return true;
+    for (size_t j = 0; j < s->n_settled; j++)
+        if (qdot_expr_contains(s->p->pool, e, s->symbols[j]))
             return true;
     return false;
 }
@@ -111,7 +120,17 @@ fill_row(sliding *s, size_t r, qdot_expr f, int times)
     return qdot_pool_check(p->pool);
 }
 
-/* M q'' - sum B s = f0. */
+/* Whether f holds a velocity of a massless coordinate. */
+static bool
+holds_rates(const sliding *s, qdot_expr f)
+{
+    for (size_t i = 0; i < s->n; i++)
+        if (s->massless[i] && qdot_expr_contains(s->p->pool, f, s->p->inputs[s->p->n + i]))
+            return true;
+    return false;
+}
+
+/* M q'' - sum B s = f0; the equation of a massless coordinate, differentiated until it holds q''. */
 static qdot_status
 fill_forces(sliding *s)
 {
@@ -124,6 +143,10 @@ fill_forces(sliding *s)
         zeros[j] = QDOT_ZERO;
     }
     for (size_t i = 0; i < s->n && status == QDOT_OK; i++) {
+        if (s->massless[i]) {
+            status = fill_row(s, i, p->f[i], holds_rates(s, p->f[i]) ? 1 : 2);
+            continue;
+        }
         for (size_t j = 0; j < s->n && status == QDOT_OK; j++) {
             s->A[i * s->size + j] = p->M[i * s->n + j];
             if (holds_share(s, p->M[i * s->n + j]))
@@ -270,7 +293,7 @@ put_in(sliding *s, bool all)
         to[k++] = u->puck ? *place_of(p, u->puck, u->c) : p->share[u->surface];
     }
     for (size_t i = 0; i < s->n; i++) {
-        if (all && s->m == 0 && s->n <= MOST_SOLVED) {
+        if (all && s->m == 0 && s->n <= MOST_SOLVED && !s->some_massless) {
             p->f[i] = s->x[i];
             for (size_t j = 0; j < s->n; j++)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
@@ -315,6 +338,98 @@ solve(sliding *s)
     return s->k > 0 ? solve(s) : QDOT_OK;
 }
 
+/* --- coordinates without mass --------------------------------------------------------- */
+
+/* Share j, whose slope in equation i of a massless coordinate is B, from that equation. Then u = 0 stands in its place. */
+static qdot_status
+settle(sliding *s, size_t i, size_t j, qdot_expr B)
+{
+    qdot_plan *p = s->p;
+    const qdot_expr symbol = share_symbol(s, j), zero = QDOT_ZERO;
+    qdot_expr value, u;
+
+    if (s->of[j].puck || holds_share(s, B))
+        return cannot(s->of[j].puck ? "friction in a plane acts on a coordinate without mass"
+                                    : "forces hold products of what switches there");
+    QDOT_TRY(held(p, &s->of[j], &u));
+    if (holds_share(s, u))
+        return cannot("one switch is inside another");
+    value = qdot_neg(p->pool, qdot_div(p->pool, qdot_subs(p->pool, p->f[i], 1, &symbol, &zero), B));
+    for (size_t k = 0; k < s->n; k++)
+        p->f[k] = k == i ? u : qdot_subs(p->pool, p->f[k], 1, &symbol, &value);
+    for (size_t k = 0; k < s->n_settled; k++)
+        s->values[k] = qdot_subs(p->pool, s->values[k], 1, &symbol, &value);
+    s->settled[s->n_settled] = s->of[j].surface;
+    s->symbols[s->n_settled] = symbol;
+    s->values[s->n_settled++] = value;
+    s->k--;
+    for (size_t k = j; k < s->k; k++)
+        s->of[k] = s->of[k + 1];
+    return qdot_pool_check(p->pool);
+}
+
+/* Whether u of share j holds coordinate i or its velocity. */
+static bool
+is_own(const sliding *s, size_t i, size_t j)
+{
+    const qdot_plan *p = s->p;
+    const qdot_expr u = s->p->mode->surfaces.at[s->of[j].surface].u;
+
+    return qdot_expr_contains(p->pool, u, p->inputs[i]) || qdot_expr_contains(p->pool, u, p->inputs[p->n + i]);
+}
+
+/* Solve the equations of massless coordinates for the shares in them, first where a share holds the coordinate itself. */
+static qdot_status
+settle_massless(sliding *s)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < s->n; i++)
+            for (size_t j = 0; j < s->k && s->massless[i]; j++) {
+                const qdot_expr B = qdot_diff(s->p->pool, s->p->f[i], share_symbol(s, j));
+
+                QDOT_TRY(qdot_pool_check(s->p->pool));
+                if (B == QDOT_ZERO || (pass == 0 && !is_own(s, i, j)))
+                    continue;
+                QDOT_TRY(settle(s, i, j, B));
+                break;
+            }
+    return QDOT_OK;
+}
+
+static qdot_status
+find_massless(sliding *s)
+{
+    const size_t surfaces = s->p->mode->surfaces.n;
+
+    s->massless = qdot_calloc(s->n + 1, sizeof *s->massless);
+    s->settled = qdot_calloc(surfaces + 1, sizeof *s->settled);
+    s->symbols = qdot_calloc(2 * surfaces + 1, sizeof *s->symbols);
+    if (!s->massless || !s->settled || !s->symbols)
+        return QDOT_ENOMEM;
+    s->values = s->symbols + surfaces;
+    for (size_t i = 0; i < s->n - s->p->n_states; i++) {
+        s->massless[i] = qdot_massless_is(s->scene, s->p, i);
+        s->some_massless |= s->massless[i];
+    }
+    return QDOT_OK;
+}
+
+/* Shares that were settled may hold those found behind them. */
+static qdot_status
+keep_settled(sliding *s)
+{
+    qdot_plan *p = s->p;
+
+    for (size_t k = 0; k < s->n_settled; k++) {
+        qdot_expr value = s->values[k];
+
+        for (size_t i = 0; i < p->mode->surfaces.n; i++)
+            value = qdot_subs(p->pool, value, 1, &p->mode->surfaces.at[i].side, &p->share[i]);
+        p->share[s->settled[k]] = value;
+    }
+    return qdot_pool_check(p->pool);
+}
+
 static qdot_status
 add_unknown(sliding *s, size_t surface)
 {
@@ -352,10 +467,19 @@ qdot_sliding_freeze(qdot_plan *p, qdot_scene *scene)
     if (status == QDOT_OK && s.k > 0) {
         const size_t size = n + s.m + s.k;
 
+        status = find_massless(&s);
+        if (status == QDOT_OK)
+            status = settle_massless(&s);
         s.A = qdot_calloc(size * (size + 2), sizeof *s.A);
-        status = s.A ? solve(&s) : QDOT_ENOMEM;
+        if (status == QDOT_OK && s.k > 0)
+            status = s.A ? solve(&s) : QDOT_ENOMEM;
+        if (status == QDOT_OK)
+            status = keep_settled(&s);
     }
     qdot_free(s.A);
+    qdot_free(s.massless);
+    qdot_free(s.settled);
+    qdot_free(s.symbols);
     qdot_free(s.of);
     return status;
 }

@@ -2,8 +2,10 @@
 #include "sim/run/run-start.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "sim/digits/digits.h"
+#include "sim/model/massless.h"
 #include "sim/start/start.h"
 #include "tape/shake.h"
 
@@ -117,14 +119,44 @@ check_start(qdot_run *run)
     return qdot_bind_check(run->course.binds.at[0], run->t0, run->start, run->start_low);
 }
 
+/* The start brought onto the constraints and checked. Where what has no mass decides a switch it stays as it was said. */
+static qdot_status
+settle_and_check(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
+{
+    const size_t n = run->plan->n;
+    double *said = qdot_malloc((4 * n + 1) * sizeof *said);
+    const size_t words = run->notice.n;
+    qdot_status status = said ? QDOT_OK : QDOT_ENOMEM;
+
+    if (status == QDOT_OK) {
+        memcpy(said, run->start, 2 * n * sizeof *said);
+        memcpy(said + 2 * n, run->start_low, 2 * n * sizeof *said);
+        status = settle_start(run, scene, request, &run->stage.domains);
+    }
+    if (status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches)) { /* on the sides of now */
+        qdot_text_truncate(&run->notice, words);
+        memcpy(run->start, said, 2 * n * sizeof *said);
+        status = qdot_start_settle(scene, run->plan, request, &run->stage.domains, run->start, run->start_low, &run->notice);
+        qdot_text_truncate(&run->notice, words);
+    }
+    if (status == QDOT_OK)
+        status = check_start(run);
+    for (size_t i = 0; i < 2 * n && status == QDOT_OK && qdot_massless_switch(run->plan, &run->stage.switches); i++)
+        if (run->plan->massless[i % n]) {
+            run->start[i] = said[i];
+            run->start_low[i] = said[2 * n + i];
+        }
+    qdot_free(said);
+    return status;
+}
+
 qdot_status
 qdot_run_start(qdot_run *run, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(read_start(run, request));
     QDOT_TRY(read_apart(run, request));
     QDOT_TRY(check_springs(run, scene));
-    QDOT_TRY(settle_start(run, scene, request, &run->stage.domains));
-    return check_start(run);
+    return settle_and_check(run, scene, request);
 }
 
 qdot_status
