@@ -1649,6 +1649,7 @@ script_tests = \
 	tests/script/massless-corner.lag \
 	tests/script/massless-jumps.sh \
 	tests/script/massless-orbits.sh \
+	tests/script/massless-phase-space.sh \
 	tests/script/massless-slopes.sh \
 	tests/script/massless-studies.lag \
 	tests/script/massless-switches.lag \
@@ -2877,6 +2878,7 @@ test_files = \
 	tests/script/massless-corner.out \
 	tests/script/massless-jumps.out \
 	tests/script/massless-orbits.out \
+	tests/script/massless-phase-space.out \
 	tests/script/massless-slopes.out \
 	tests/script/massless-studies.out \
 	tests/script/massless-switches.out \

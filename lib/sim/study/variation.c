@@ -261,7 +261,34 @@ holds_jet(const elimination *e, qdot_expr g, uint32_t order)
     return false;
 }
 
-/* W = L U, without exchanges; *pivot: the coordinate whose equation determines nothing. */
+static void
+swap(qdot_expr *a, qdot_expr *b)
+{
+    const qdot_expr c = *a;
+
+    *a = *b;
+    *b = c;
+}
+
+/* Exchange two equations of massless coordinates. */
+static void
+exchange(elimination *e, size_t c, size_t d)
+{
+    const bool of_positions = e->v->of_positions[c];
+
+    e->v->of_positions[c] = e->v->of_positions[d];
+    e->v->of_positions[d] = of_positions;
+    swap(&e->v->G[c], &e->v->G[d]);
+    swap(&e->rate[c], &e->rate[d]);
+    swap(&e->F[e->m + c], &e->F[e->m + d]);
+    for (size_t i = 0; i < e->n; i++)
+        swap(&e->A[(e->m + c) * e->n + i], &e->A[(e->m + d) * e->n + i]);
+    for (size_t k = 0; k < e->w; k++)
+        swap(&e->W[c * e->w + k], &e->W[d * e->w + k]);
+}
+
+/* W = L U. In phase space (L = p q' - H) the equation of q determines p': equations are exchanged so that each stands where
+ * the coordinate does that it determines. *pivot: one that none determines. */
 static qdot_status
 factor_massless(elimination *e, size_t *pivot)
 {
@@ -272,9 +299,15 @@ factor_massless(elimination *e, size_t *pivot)
         for (size_t k = 0; k < w; k++)
             e->W[c * w + k] = qdot_hold(pool, e->A[(e->m + c) * e->n + e->v->massless[k]]);
     for (size_t k = 0; k < w; k++) {
+        size_t row = k;
+
         *pivot = e->v->massless[k];
-        if (e->W[k * w + k] == QDOT_ZERO)
+        while (row < w && e->W[row * w + k] == QDOT_ZERO)
+            row++;
+        if (row == w)
             return QDOT_ESINGULAR;
+        if (row != k)
+            exchange(e, row, k);
         for (size_t i = k + 1; i < w; i++) {
             e->W[i * w + k] = qdot_hold(pool, qdot_quotient(pool, e->W[i * w + k], e->W[k * w + k]));
             for (size_t j = k + 1; j < w; j++)
@@ -352,6 +385,17 @@ say_singular(const elimination *e, size_t pivot, bool constraint)
                      qdot_expr_symbol(s->pool, s->coordinates.at[pivot])->name);
 }
 
+static qdot_status
+say_undetermined(const elimination *e, size_t pivot)
+{
+    const char *name = qdot_expr_symbol(e->pool, e->v->of->coordinates.at[pivot])->name;
+
+    return qdot_fail(QDOT_ESINGULAR,
+                     "the equations of coordinates without mass do not determine all of their velocities: "
+                     "%.100s' is left over",
+                     name);
+}
+
 /* Derive M, f, the constraints, and factor them. */
 static qdot_status
 prepare(elimination *e)
@@ -378,10 +422,12 @@ prepare(elimination *e)
     QDOT_TRY(qdot_pool_check(pool));
     find_massless(e);
     status = factor(pool, n, e->L, &pivot);
+    if (status == QDOT_ESINGULAR)
+        return say_singular(e, pivot, false);
     if (status == QDOT_OK)
         status = prepare_massless(e, &pivot);
     if (status == QDOT_ESINGULAR)
-        return say_singular(e, pivot, false);
+        return say_undetermined(e, pivot);
     for (size_t c = 0; c < m && status == QDOT_OK; c++) {
         e->F[c] = qdot_variation_with_numbers(v, second_rate(e, c));
         for (size_t i = 0; i < n; i++)
