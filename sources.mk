@@ -1954,6 +1954,7 @@ script_tests = \
 	tests/bad/mass-negative.lag \
 	tests/bad/massless-conserved.lag \
 	tests/bad/massless-digits.lag \
+	tests/bad/massless-export-switch.lag \
 	tests/bad/massless-export.lag \
 	tests/bad/massless-odd.lag \
 	tests/bad/massless-others.lag \
@@ -2403,6 +2404,7 @@ test_files = \
 	tests/bad/mass-negative.out \
 	tests/bad/massless-conserved.out \
 	tests/bad/massless-digits.out \
+	tests/bad/massless-export-switch.out \
 	tests/bad/massless-export.out \
 	tests/bad/massless-odd.out \
 	tests/bad/massless-others.out \

@@ -3,8 +3,10 @@
 
 #include "base/memory.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "mech/dynamics/quantity.h"
+#include "sim/model/gates.h"
 #include "sim/model/massless-jump.h"
 
 static qdot_expr
@@ -34,6 +36,32 @@ is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
         if (massless[j] && qdot_expr_contains(s->pool, f, jet(s, j, 1)))
             return false;
     return true;
+}
+
+/* Whether what f_i = 0 determines may jump: it switches, and not only by a kink where it determines velocities. */
+static qdot_status
+check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
+{
+    const bool of_positions = is_of_positions(s, massless, f);
+    bool jumps = false;
+    qdot_walk walk;
+
+    QDOT_TRY(qdot_walk_begin(s->pool, f, &walk));
+    for (size_t k = 0; k < walk.n; k++)
+        jumps = jumps
+                || (qdot_gates_is_switch(s->pool, walk.at[k])
+                    && (of_positions
+                        || !(qdot_expr_is_function(s->pool, walk.at[k], QDOT_ABS)
+                             || qdot_expr_is_function(s->pool, walk.at[k], QDOT_MIN)
+                             || qdot_expr_is_function(s->pool, walk.at[k], QDOT_MAX))));
+    qdot_walk_end(&walk);
+    if (!jumps)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ENOTBUILT,
+                    "not built yet: exports where the equation of %.100s, with which no mass moves, switches: what it "
+                    "determines jumps there",
+                    qdot_expr_symbol(s->pool, s->coordinates.at[i])->name);
+    return qdot_hint("a small mass, or `save` of a run");
 }
 
 /* The rate of f_i that holds accelerations. */
@@ -78,6 +106,9 @@ qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any)
     }
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         if (massless[i]) {
+            status = check_jumps(scene, massless, i, f[i]);
+            if (status != QDOT_OK)
+                break;
             put_rate(scene, accelerations, accelerations + n, rate_of(scene, massless, f[i]), M + i * n, f + i);
             status = qdot_pool_check(scene->pool);
         }

@@ -5,16 +5,17 @@
  *
  *     M_ij = dF/dq''_j,   f_i = -F at q'' = 0,   F = df_i/dt, or d^2 f_i/dt^2 where f_i holds no velocity of such coordinates
  *
- * which is right from a start where f_i = 0 (and its rate) is.
+ * which is right from a start where f_i = 0 (and its rate) is, up to where f_i jumps (or, of positions, has a kink): that is
+ * refused.
  *
- * Tests  tests/meta/exports.test
+ * Tests  tests/meta/exports.test, tests/bad/massless-export-switch.lag
  */
 #ifndef QDOT_LANG_EXPORT_MASSLESS_H
 #define QDOT_LANG_EXPORT_MASSLESS_H
 
 #include "mech/scene/scene.h"
 
-/* M [n x n], f [n]; *any: there are such coordinates. */
+/* M [n x n], f [n]; *any: there are such coordinates. QDOT_ENOTBUILT: what one determines may jump. */
 QDOT_MUST_CHECK qdot_status qdot_export_massless(qdot_scene *scene, qdot_expr *M, qdot_expr *f, bool *any);
 
 /* What an event puts, with what follows from it by their equations (sim/model/massless-jump.h), as targets and values of
