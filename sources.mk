@@ -1672,6 +1672,7 @@ script_tests = \
 	tests/script/mechanism-rolling-sphere.lag \
 	tests/script/mechanism-slider-crank.lag \
 	tests/script/mechanism-top.lag \
+	tests/script/modes-massless.lag \
 	tests/script/modes-order.lag \
 	tests/script/modes.lag \
 	tests/script/momenta-in-names.lag \
@@ -2903,6 +2904,7 @@ test_files = \
 	tests/script/mechanism-rolling-sphere.out \
 	tests/script/mechanism-slider-crank.out \
 	tests/script/mechanism-top.out \
+	tests/script/modes-massless.out \
 	tests/script/modes-order.out \
 	tests/script/modes.out \
 	tests/script/momenta-in-names.out \

@@ -295,3 +295,84 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
         qdot_linear_motion_clear(out);
     return status;
 }
+
+/* --- coordinates without mass ---------------------------------------------------------- */
+
+static bool
+has_mass(const qdot_linear_motion *m, size_t a, qdot_pool *pool, const qdot_facts *facts)
+{
+    for (size_t b = 0; b < m->n; b++)
+        if (!qdot_is_zero(pool, m->M[a * m->n + b], facts) || !qdot_is_zero(pool, m->M[b * m->n + a], facts))
+            return true;
+    return false;
+}
+
+/* X [rows * n] without column a, and without row a if `square`, to `to`. */
+static qdot_expr *
+copy_without(const qdot_expr *X, size_t rows, size_t n, size_t a, bool square, qdot_expr *to)
+{
+    for (size_t i = 0; i < rows; i++)
+        for (size_t b = 0; b < n; b++)
+            if (b != a && !(square && i == a))
+                *to++ = X[i * n + b];
+    return to;
+}
+
+/* y_a = -sum_b H_ab y_b / H_aa, put in; y_a is none of the unknowns then. */
+static qdot_status
+eliminate(qdot_scene *s, const qdot_facts *facts, size_t a, qdot_linear_motion *m)
+{
+    qdot_pool *pool = s->pool;
+    const size_t n = m->n, q = s->coordinates.n;
+    qdot_expr *room = qdot_calloc(3 * n * n + q * n + 1, sizeof *room), *to = room;
+
+    if (room == NULL)
+        return QDOT_ENOMEM;
+    for (size_t b = 0; b < n; b++) {
+        const qdot_expr by = qdot_div(pool, m->H[a * n + b], m->H[a * n + a]);
+
+        if (b == a || by == QDOT_ZERO)
+            continue;
+        for (size_t i = 0; i < n; i++)
+            if (i != a)
+                m->H[i * n + b] = qdot_simplify(
+                    pool, qdot_sub(pool, m->H[i * n + b], qdot_mul(pool, by, m->H[i * n + a])), facts);
+        for (size_t i = 0; i < q; i++)
+            m->N[i * n + b] = qdot_simplify(
+                pool, qdot_sub(pool, m->N[i * n + b], qdot_mul(pool, by, m->N[i * n + a])), facts);
+    }
+    to = copy_without(m->M, n, n, a, true, to);
+    to = copy_without(m->Gamma, n, n, a, true, to);
+    to = copy_without(m->H, n, n, a, true, to);
+    (void)copy_without(m->N, q, n, a, false, to);
+    qdot_free(m->M);
+    m->n--;
+    m->M = room;
+    m->Gamma = m->M + m->n * m->n;
+    m->H = m->Gamma + m->n * m->n;
+    m->N = m->H + m->n * m->n;
+    for (size_t b = a; b < m->n; b++)
+        m->which[b] = m->which[b + 1];
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_linear_motion_condense(qdot_scene *s, const qdot_facts *facts, qdot_linear_motion *m, size_t *left)
+{
+    bool found = true;
+
+    while (found) {
+        found = false;
+        *left = SIZE_MAX;
+        for (size_t a = 0; a < m->n && !found; a++) {
+            if (has_mass(m, a, s->pool, facts))
+                continue;
+            *left = *left == SIZE_MAX ? m->which[a] : *left;
+            found = !qdot_is_zero(s->pool, m->H[a * m->n + a], facts);
+            QDOT_TRY(qdot_pool_check(s->pool));
+            if (found)
+                QDOT_TRY(eliminate(s, facts, a, m));
+        }
+    }
+    return qdot_pool_check(s->pool);
+}

@@ -30,6 +30,12 @@ QDOT_MUST_CHECK qdot_status qdot_linear_motion_about(qdot_scene *s, qdot_expr eq
                                                      qdot_linear_motion *out);
 void qdot_linear_motion_clear(qdot_linear_motion *m);
 
+/* Of an undamped motion with symmetric H: put in unknowns without mass, a point between springs, from their own equations
+ * H_aa y_a + sum H_ab y_b = 0 (static condensation), so that as many are left as there are oscillations. *left: the
+ * coordinate of one without mass whose equation does not determine it; SIZE_MAX: none. Allocates. */
+QDOT_MUST_CHECK qdot_status qdot_linear_motion_condense(qdot_scene *s, const qdot_facts *facts,
+                                                        qdot_linear_motion *m, size_t *left);
+
 /* The facts of a scene and the conditions under which an equilibrium exists. own: to be freed. */
 QDOT_MUST_CHECK qdot_status qdot_rest_facts(qdot_scene *s, qdot_expr exists,
                                             qdot_facts *facts, qdot_expr **own);

@@ -11,7 +11,6 @@
 #include "expr/walk.h"
 #include "mech/dynamics/generic.h"
 #include "mech/dynamics/integrated.h"
-#include "mech/dynamics/mass-matrix.h"
 #include "mech/dynamics/quantity.h"
 #include "mech/scene/access.h"
 #include "mech/study/linear-motion.h"
@@ -48,26 +47,18 @@ with_values(const job *j, qdot_expr e)
     return j->bind == NULL || e == QDOT_NIL ? e : j->bind(j->user, e);
 }
 
-/* A coordinate without mass has no oscillation: its row of M is 0. */
+/* A coordinate without mass has no oscillation of its own: it follows the others, by its springs. */
 static qdot_status
-check_masses(const job *j)
+put_massless(job *j)
 {
-    qdot_scene *s = j->s;
+    size_t left;
 
-    for (size_t i = 0; i < s->coordinates.n && s->constraints.n == 0; i++) {
-        const char *q = qdot_expr_symbol(j->pool, s->coordinates.at[i])->name;
-        bool moves = false;
-
-        for (size_t k = 0; k < s->coordinates.n && !moves; k++)
-            moves = !is_zero(j, qdot_mass_of_lagrangian(s, i, k));
-        QDOT_TRY(qdot_pool_check(j->pool));
-        if (moves)
-            continue;
-        (void)qdot_fail(QDOT_ESINGULAR,
-                        "nothing with mass moves with %.200s: it has no modes", q);
-        return qdot_hint("declare only the coordinates that the scene uses");
-    }
-    return QDOT_OK;
+    QDOT_TRY(qdot_linear_motion_condense(j->s, &j->facts, &j->m, &left));
+    if (left == SIZE_MAX && j->m.n > 0)
+        return QDOT_OK;
+    (void)qdot_fail(QDOT_ESINGULAR, "nothing with mass moves with %.200s: it has no modes",
+                    qdot_expr_symbol(j->pool, j->s->coordinates.at[left == SIZE_MAX ? 0 : left])->name);
+    return qdot_hint("declare only the coordinates that the scene uses");
 }
 
 /* *yes: the argument of a sign in e, or the difference between both sides of an `if`'s condition, is proved to be 0 at
@@ -164,13 +155,12 @@ check_rests(const job *j, qdot_expr place)
 }
 
 static qdot_status
-check_motion(const job *j)
+check_motion(job *j)
 {
     size_t n = j->m.n;
 
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
-    QDOT_TRY(check_masses(j));
     for (size_t i = 0; i < n * n; i++)
         if (!is_zero(j, j->m.Gamma[i]))
             return qdot_fail(QDOT_ETYPE,
@@ -181,7 +171,8 @@ check_motion(const job *j)
             if (!is_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i])))
                 return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no "
                                              "normal modes");
-    return qdot_pool_check(j->pool);
+    QDOT_TRY(qdot_pool_check(j->pool));
+    return put_massless(j);
 }
 
 /* One mode: w, and x = N y with its first component that is not 0 made 1. */
