@@ -370,6 +370,7 @@ library_sources = \
 	lib/normal/solve/solve.c \
 	lib/normal/solve/solver.c \
 	lib/normal/solve/special-values.c \
+	lib/normal/solve/written.c \
 	lib/normal/solve/zeros-box.c \
 	lib/normal/solve/zeros-exact.c \
 	lib/normal/solve/zeros-far.c \
@@ -985,6 +986,7 @@ library_headers = \
 	lib/normal/solve/solve.h \
 	lib/normal/solve/solver.h \
 	lib/normal/solve/special-values.h \
+	lib/normal/solve/written.h \
 	lib/normal/solve/zeros-parts.h \
 	lib/normal/solve/zeros-task.h \
 	lib/normal/solve/zeros.h \
@@ -1760,6 +1762,7 @@ script_tests = \
 	tests/script/solve-system-parameters.lag \
 	tests/script/solve-system-sets.lag \
 	tests/script/solve-system.lag \
+	tests/script/solve-written-roots.lag \
 	tests/script/solve.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
@@ -2995,6 +2998,7 @@ test_files = \
 	tests/script/solve-system-parameters.out \
 	tests/script/solve-system-sets.out \
 	tests/script/solve-system.out \
+	tests/script/solve-written-roots.out \
 	tests/script/solve.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \

@@ -11,6 +11,7 @@
 #include "normal/solve/solve.h"
 
 static const qdot_facts exact = {.exact = true};
+static const qdot_written as_it_is = {QDOT_NIL, QDOT_NIL};
 
 /* Equation in x with its parameters p, k, c of any sign; all that is told: roots with conditions behind "|", then sets at
  * special values. `u != 0` is a condition 0 < |u|. */
@@ -44,8 +45,8 @@ roots_and_sets_at_special_values(void **state)
         qdot_text told = {0};
 
         assert_int_equal(qdot_solve_inside(pool, f, x, QDOT_NIL, &exact, &found), QDOT_OK);
-        assert_int_equal(qdot_solve_parameters(pool, f, x, &exact, &found), QDOT_OK);
-        assert_int_equal(qdot_solve_specials(pool, f, x, QDOT_NIL, &exact, &found, &specials), QDOT_OK);
+        assert_int_equal(qdot_solve_parameters(pool, f, x, &as_it_is, &exact, &found), QDOT_OK);
+        assert_int_equal(qdot_solve_specials(pool, f, x, &as_it_is, &exact, &found, &specials), QDOT_OK);
         for (size_t k = 0; k < found.root.n; k++) {
             text_add_expr(&told, k == 0 ? "" : "; ", found.root.at[k].value);
             if (found.root.at[k].condition != QDOT_NIL)
@@ -64,6 +65,40 @@ roots_and_sets_at_special_values(void **state)
     }
 }
 
+/* Roots of products as they were written: what they ask for, and where the parts need not. */
+static void
+roots_are_asked_as_written(void **state)
+{
+    static const struct {
+        const char *base, *f, *domain, *apart, *lifted, *not_lifted;
+    } cases[] = {
+        {"k*x^2", "sqrt(k)*abs(x)", "[k*x^2 >= 0]", "[k >= 0]", "0", "1"},
+        {"k*(x - 1)^2", "sqrt(k)*abs(x - 1) - p*(x - 1)", "[k*(x - 1)^2 >= 0]", "[k >= 0]", "1", "p"},
+        {"-x*(x - 1)^2", "sqrt(-x)*abs(x - 1)", "[-x*(x - 1)^2 >= 0]", "[-x >= 0]", "1", "2"},
+        {"k*x", "sqrt(k*x)", NULL, NULL, NULL, "0"}, /* not taken apart */
+        {"4*k", "2*sqrt(k)", NULL, NULL, NULL, "0"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        qdot_written w = {QDOT_NIL, QDOT_NIL};
+        qdot_expr asked = QDOT_NIL, f = text_read(pool, cases[i].f), x = text_read(pool, "x");
+        bool yes;
+
+        assert_int_equal(qdot_written_add(pool, text_read(pool, cases[i].base), QDOT_HALF, &w, &asked), QDOT_OK);
+        assert_int_equal(w.domain == QDOT_NIL, cases[i].domain == NULL);
+        assert_int_equal(asked == QDOT_NIL, cases[i].domain != NULL);
+        if (cases[i].domain != NULL) {
+            assert_string_equal(shown(w.domain), cases[i].domain);
+            assert_string_equal(shown(w.apart), cases[i].apart);
+            assert_int_equal(qdot_written_lifts(pool, &w, f, x, text_read(pool, cases[i].lifted), &exact, &yes), QDOT_OK);
+            assert_true(yes);
+        }
+        assert_int_equal(qdot_written_lifts(pool, &w, f, x, text_read(pool, cases[i].not_lifted), &exact, &yes), QDOT_OK);
+        assert_false(yes);
+    }
+}
+
 /* A divisor whose zeros no formula gives is told. */
 static void
 open_values_are_told(void **state)
@@ -74,7 +109,7 @@ open_values_are_told(void **state)
 
     (void)state;
     assert_int_equal(qdot_solve_inside(pool, f, x, QDOT_NIL, &exact, &found), QDOT_OK);
-    assert_int_equal(qdot_solve_specials(pool, f, x, QDOT_NIL, &exact, &found, &specials), QDOT_OK);
+    assert_int_equal(qdot_solve_specials(pool, f, x, &as_it_is, &exact, &found, &specials), QDOT_OK);
     assert_int_equal(specials.at.n, 0);
     assert_int_equal(specials.open.n, 1);
     qdot_specials_clear(&specials);
@@ -111,6 +146,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(roots_and_sets_at_special_values, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(roots_are_asked_as_written, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(open_values_are_told, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(sets_are_reduced, open_pool, close_pool),
     };

@@ -593,6 +593,7 @@ qdot_check(qdot_cursor *c)
         status = q.conserved ? answer_conserved(c, &q, &f) : answer(c, &q, &f);
     }
     qdot_free(q.passed.value.at);
+    qdot_free(q.passed.root.at);
     qdot_assumed_free(&f);
     return status;
 }

@@ -33,6 +33,40 @@ domain_as_written(qdot_session *session, qdot_expr x)
                                qdot_conditions_of_divisors(pool, list, x));
 }
 
+/* The conditions under which the functions among these values [n] exist, without those of their arguments. */
+static qdot_expr
+domain_of_functions(qdot_pool *pool, size_t n, const qdot_expr *value)
+{
+    qdot_expr set = QDOT_NIL;
+
+    for (size_t i = 0; i < n; i++)
+        if (qdot_expr_kind(pool, value[i]) == QDOT_FUN)
+            set = qdot_conditions_all(pool, set, qdot_conditions_of_function(pool, value[i]));
+    return set;
+}
+
+/* What the equation that was written asks of all that is in it: of roots what was written, not of the parts that they were
+ * taken into. */
+static qdot_status
+read_written(qdot_session *session, qdot_written *w)
+{
+    qdot_pool *pool = session->pool;
+    const qdot_passed *p = session->passed;
+    qdot_written of_roots = {QDOT_NIL, QDOT_NIL};
+    qdot_expr all = domain_as_written(session, QDOT_NIL), asked;
+
+    *w = (qdot_written){all, QDOT_NIL};
+    QDOT_TRY(qdot_pool_check(pool));
+    if (all == QDOT_NIL)
+        return QDOT_OK;
+    asked = domain_of_functions(pool, p->value.n, p->value.at);
+    for (size_t i = 0; i + 1 < p->root.n; i += 2)
+        QDOT_TRY(qdot_written_add(pool, p->root.at[i], p->root.at[i + 1], &of_roots, &asked));
+    w->apart = qdot_conditions_less(pool, of_roots.apart, asked);
+    w->domain = qdot_conditions_all(pool, qdot_conditions_less(pool, all, w->apart), of_roots.domain);
+    return qdot_pool_check(pool);
+}
+
 /* --- one unknown ------------------------------------------------------------------------------------- */
 
 /* A list of solutions in the making. */
@@ -142,17 +176,17 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
 /* Zeros were found in numbers: tell at which special values of parameters the solutions are others, and under which
  * conditions on parameters they exist. */
 static qdot_status
-notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain, const qdot_facts *facts,
+notice_parameters(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
                   const qdot_solutions *found)
 {
     qdot_pool *pool = session->pool;
-    qdot_expr set = qdot_conditions_at(pool, qdot_solve_conditions(pool, domain, f, x), 0, NULL, NULL, facts);
+    qdot_expr set = qdot_conditions_at(pool, qdot_solve_conditions(pool, written->domain, f, x), 0, NULL, NULL, facts);
     qdot_specials specials = {0};
     qdot_status status;
 
     set = qdot_conditions_reduce(pool, set, facts);
     QDOT_TRY(qdot_pool_check(pool));
-    status = qdot_solve_specials(pool, f, x, domain, facts, found, &specials);
+    status = qdot_solve_specials(pool, f, x, written, facts, found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
     if (status == QDOT_OK)
@@ -168,7 +202,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     qdot_pool *pool = session->pool;
     const qdot_facts scene = qdot_scene_facts(session->scene);
     qdot_assumptions assumed = {0};
-    qdot_expr f = qdot_value_kind_difference(pool, equation), domain, *values;
+    qdot_expr f = qdot_value_kind_difference(pool, equation), *values;
+    qdot_written written;
     qdot_solutions found = {0};
     qdot_specials specials = {0};
     solve_list list = {.constant = true};
@@ -182,29 +217,29 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (!qdot_expr_is_scalar(pool, f))
         return qdot_fail(QDOT_ETYPE, "solve takes an equation between numbers, not %s",
                          qdot_value_kind_words(pool, equation));
-    domain = domain_as_written(session, QDOT_NIL);
-    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(read_written(session, &written));
     status = qdot_assumptions_read(pool, &scene, qdot_list(pool, 1, &x), &assumed);
     assumed.facts.exact = true;
     f = qdot_assumptions_put(pool, &assumed, f);
-    domain = qdot_conditions_all(pool, qdot_assumptions_put(pool, &assumed, domain), assumed.domain);
+    written.domain = qdot_conditions_all(pool, qdot_assumptions_put(pool, &assumed, written.domain), assumed.domain);
+    written.apart = qdot_assumptions_put(pool, &assumed, written.apart);
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
-        status = qdot_solve_inside(pool, f, x, domain, &assumed.facts, &found);
+        status = qdot_solve_written(pool, f, x, &written, &assumed.facts, &found);
     complete = found.complete;
     if (status == QDOT_OK)
-        status = qdot_solve_parameters(pool, f, x, &assumed.facts, &found);
+        status = qdot_solve_parameters(pool, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && complete)
-        status = qdot_solve_specials(pool, f, x, domain, &assumed.facts, &found, &specials);
+        status = qdot_solve_specials(pool, f, x, &written, &assumed.facts, &found, &specials);
     if (status == QDOT_OK)
         status = qdot_solve_notice_specials(session, x, &specials);
     if (status == QDOT_OK)
         status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
-        status = add_numbers(session, f, x, domain, &assumed.facts, &list, &found.recurs, &known);
+        status = add_numbers(session, f, x, written.domain, &assumed.facts, &list, &found.recurs, &known);
     if (status == QDOT_OK && !complete && known)
-        status = notice_parameters(session, f, x, domain, &assumed.facts, &found);
+        status = notice_parameters(session, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && !known) {
         (void)qdot_fail(QDOT_EFAILED, "this equation cannot be solved exactly%s",
                         found.root.n > 0 ? " for every x" : "");

@@ -228,7 +228,7 @@ call(qdot_machine *m, const qdot_postfix *code)
 {
     size_t n = code->n + code->to;
     const char *run = NULL;
-    qdot_expr value, over = QDOT_NIL;
+    qdot_expr value, first, over = QDOT_NIL;
 
     if (takes_run(m, code))
         QDOT_TRY(run_to_read(m, code, n, &run));
@@ -239,6 +239,7 @@ call(qdot_machine *m, const qdot_postfix *code)
     for (size_t i = n; i > 0; i--)
         m->labels.at[m->labels.n++] = qdot_machine_top(m, i)->label;
     QDOT_TRY(qdot_machine_take(m, n));
+    first = n == 0 ? QDOT_NIL : m->args.at[0];
     QDOT_TRY(qdot_resolve_call(m->c,
                                &(qdot_call){code->token, code->primes, code->to, code->n,
                                             m->args.at, m->labels.at, run},
@@ -246,6 +247,8 @@ call(qdot_machine *m, const qdot_postfix *code)
     QDOT_TRY(qdot_machine_push(m, value));
     qdot_machine_top(m, 1)->over = over;
     qdot_machine_spoil(m, code->token->text);
+    if (n == 1 && code->primes == 0 && strcmp(code->token->text, "sqrt") == 0)
+        return qdot_machine_pass_power(m, first, QDOT_HALF, value);
     return qdot_machine_pass(m, value);
 }
 
@@ -399,7 +402,7 @@ step(qdot_machine *m, const qdot_postfix *code, uint32_t *pc)
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(
             qdot_machine_push(m, qdot_value_pow(m->pool, m->args.at[0], m->args.at[1])));
-        return qdot_machine_pass(m, qdot_machine_top(m, 1)->value);
+        return qdot_machine_pass_power(m, m->args.at[0], m->args.at[1], qdot_machine_top(m, 1)->value);
     case QDOT_POSTFIX_RELATION:
         QDOT_TRY(qdot_machine_take(m, 2));
         QDOT_TRY(qdot_condition_relation(m->pool, code->token->text, m->args.at[0],

@@ -16,16 +16,30 @@ qdot_machine_push(qdot_machine *m, qdot_expr value)
     return qdot_vec_push(&m->stack, s);
 }
 
+/* Whether session->passed keeps the value. */
+static bool
+is_passed(const qdot_machine *m, qdot_expr value)
+{
+    const qdot_passed *p = m->session->passed;
+
+    return p != NULL && !p->spoiled && p->branches == 0 && value != QDOT_NIL &&
+           qdot_expr_is_scalar(m->pool, value) && qdot_expr_kind(m->pool, value) != QDOT_NUM;
+}
+
 qdot_status
 qdot_machine_pass(qdot_machine *m, qdot_expr value)
 {
-    qdot_passed *p = m->session->passed;
+    return is_passed(m, value) ? qdot_vec_push(&m->session->passed->value, value) : QDOT_OK;
+}
 
-    if (p == NULL || p->spoiled || p->branches > 0 || value == QDOT_NIL ||
-        !qdot_expr_is_scalar(m->pool, value) ||
-        qdot_expr_kind(m->pool, value) == QDOT_NUM)
+qdot_status
+qdot_machine_pass_power(qdot_machine *m, qdot_expr base, qdot_expr exponent, qdot_expr value)
+{
+    if (!is_passed(m, value) || !qdot_expr_is_scalar(m->pool, base))
         return QDOT_OK;
-    return qdot_vec_push(&p->value, value);
+    QDOT_TRY(qdot_vec_push(&m->session->passed->value, value));
+    QDOT_TRY(qdot_vec_push(&m->session->passed->root, base));
+    return qdot_vec_push(&m->session->passed->root, exponent);
 }
 
 qdot_status
@@ -52,6 +66,7 @@ qdot_machine_pass_end(qdot_machine *m)
     if (frame->outer != NULL)
         frame->outer->spoiled = true; /* such a function takes its arguments apart */
     qdot_free(frame->passed.value.at);
+    qdot_free(frame->passed.root.at);
     qdot_free(frame);
 }
 

@@ -56,6 +56,8 @@ qdot_machine_top(qdot_machine *m, size_t n)
 QDOT_MUST_CHECK qdot_status qdot_machine_push(qdot_machine *m, qdot_expr value);
 /* Keep a value that must exist, of a scalar with symbols. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass(qdot_machine *m, qdot_expr value);
+/* Keep base^exponent, whose value it is. */
+QDOT_MUST_CHECK qdot_status qdot_machine_pass_power(qdot_machine *m, qdot_expr base, qdot_expr exponent, qdot_expr value);
 /* Keep such values in a frame of their own, from _begin to _end. */
 QDOT_MUST_CHECK qdot_status qdot_machine_pass_begin(qdot_machine *m);
 void qdot_machine_pass_end(qdot_machine *m);

@@ -62,6 +62,7 @@ void qdot_named_run_release(qdot_named_run *run); /* one use less; the last free
 /* Subexpressions of the sides of a check: each must be defined where the sides are compared. */
 typedef struct {
     qdot_vec(qdot_expr) value;
+    qdot_vec(qdot_expr) root; /* of powers among them, base and exponent in turn */
     bool spoiled;      /* a function that may take its argument apart (subs) was called */
     unsigned branches; /* open branches of ifs: subexpressions there need not be defined */
 } qdot_passed;

@@ -45,6 +45,8 @@ qdot_expr qdot_conditions_at(qdot_pool *pool, qdot_expr set, size_t n, const qdo
 /* The conditions under which every part of f that holds x (nil: every part) is defined: of bases of roots, logarithms
  * and inverse functions. Denominators and poles are not among them. (definedness.c) */
 qdot_expr qdot_conditions_of_domain(qdot_pool *pool, qdot_expr f, qdot_expr x);
+/* The conditions under which the function is defined, without those of its argument. (definedness.c) */
+qdot_expr qdot_conditions_of_function(qdot_pool *pool, qdot_expr function);
 /* That no denominator in f that holds x (nil: any) is 0 and no part of it has a pole: 0 < |u| for u != 0.
  * (definedness.c) */
 qdot_expr qdot_conditions_of_divisors(qdot_pool *pool, qdot_expr f, qdot_expr x);

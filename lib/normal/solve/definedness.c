@@ -74,6 +74,12 @@ conditions_of_parts(qdot_pool *pool, qdot_expr f, qdot_expr x, conditions_of_par
     return set;
 }
 
+qdot_expr
+qdot_conditions_of_function(qdot_pool *pool, qdot_expr function)
+{
+    return conditions_of_function(pool, QDOT_NIL, function);
+}
+
 static qdot_expr
 domain_of_part(qdot_pool *pool, qdot_expr set, qdot_expr part, qdot_expr x)
 {

@@ -44,7 +44,8 @@ conditions_without(qdot_pool *pool, qdot_expr set, qdot_expr more, qdot_expr x)
 /* A set at values of parameters, special for it or not, whose special values are looked for. */
 typedef struct {
     qdot_pool *pool;
-    qdot_expr f, x, domain;
+    qdot_expr f, x;
+    qdot_written written;
     const qdot_facts *facts;
     const qdot_solutions *found;
     qdot_expr where; /* nil: at all values */
@@ -173,8 +174,8 @@ qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr 
 }
 
 qdot_status
-qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
-                      qdot_solutions *found)
+qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written,
+                      const qdot_facts *facts, qdot_solutions *found)
 {
     const qdot_expr of_equation = qdot_solve_conditions(pool, QDOT_NIL, f, x);
     size_t kept = 0;
@@ -185,7 +186,11 @@ qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_fact
                               ? root.value
                               : qdot_list(pool, 2, (qdot_expr[]){root.value, root.period}),
                   set = of_equation;
+        bool lifted;
 
+        QDOT_TRY(qdot_written_lifts(pool, written, f, x, root.value, facts, &lifted));
+        if (lifted)
+            set = qdot_conditions_less(pool, set, written->apart);
         set = conditions_without(pool, set, qdot_conditions_of_divisors(pool, value, QDOT_NIL), x);
         set = conditions_without(pool, set, qdot_conditions_of_domain(pool, value, QDOT_NIL), x);
         if (set != QDOT_NIL)
@@ -256,18 +261,19 @@ solve_at(special_search *s, qdot_expr where)
     if (status == QDOT_EDOMAIN) /* the equation is not defined there */
         return QDOT_OK;
     QDOT_TRY(status);
-    next.domain = qdot_conditions_at(pool, s->domain, n, from, to, s->facts);
+    next.written.domain = qdot_conditions_at(pool, s->written.domain, n, from, to, s->facts);
+    next.written.apart = s->written.apart == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, s->written.apart, n, from, to);
     QDOT_TRY(qdot_pool_check(pool));
-    if (next.domain == QDOT_FALSE)
+    if (next.written.domain == QDOT_FALSE)
         return QDOT_OK;
-    if (next.domain == QDOT_NIL && qdot_is_zero(pool, next.f, s->facts)) {
+    if (next.written.domain == QDOT_NIL && qdot_is_zero(pool, next.f, s->facts)) {
         QDOT_TRY(qdot_vec_push(&one.set.root, ((qdot_root){s->x, QDOT_NIL, QDOT_NIL, QDOT_NIL})));
         one.set.complete = true;
     } else {
-        status = qdot_solve_inside(pool, next.f, s->x, next.domain, s->facts, &one.set);
+        status = qdot_solve_written(pool, next.f, s->x, &next.written, s->facts, &one.set);
     }
     if (status == QDOT_OK)
-        status = qdot_solve_parameters(pool, next.f, s->x, s->facts, &one.set);
+        status = qdot_solve_parameters(pool, next.f, s->x, &next.written, s->facts, &one.set);
     if (status == QDOT_OK && !one.set.complete) {
         for (size_t i = 0; i < n && status == QDOT_OK; i++)
             status = leave_open(s, qdot_rel(pool, QDOT_EQ, qdot_sub(pool, from[i], to[i]), QDOT_ZERO));
@@ -308,10 +314,10 @@ search_specials(special_search *s)
 }
 
 qdot_status
-qdot_solve_specials(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
+qdot_solve_specials(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written,
                     const qdot_facts *facts, const qdot_solutions *found, qdot_specials *out)
 {
-    special_search s = {.pool = pool, .f = f, .x = x, .domain = domain, .facts = facts, .found = found,
+    special_search s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .found = found,
                         .where = QDOT_NIL, .out = out};
 
     return search_specials(&s);

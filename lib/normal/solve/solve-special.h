@@ -10,6 +10,7 @@
 #define QDOT_NORMAL_SOLVE_SPECIAL_H
 
 #include "normal/solve/solutions.h"
+#include "normal/solve/written.h"
 
 /* A set of roots at special values. */
 typedef struct {
@@ -28,15 +29,16 @@ void qdot_specials_clear(qdot_specials *s);
  * is defined as it was written. */
 qdot_expr qdot_solve_conditions(qdot_pool *pool, qdot_expr domain, qdot_expr f, qdot_expr x);
 
-/* Add to the conditions of each root that its value is defined, and f in its parts without x; leave out those that
- * follow from others, and roots without any values of the parameters. */
+/* Add to the conditions of each root that its value is defined, and f in its parts without x, as `written` asks for it; leave
+ * out those that follow from others, and roots without any values of the parameters. */
 QDOT_MUST_CHECK qdot_status qdot_solve_parameters(qdot_pool *pool, qdot_expr f, qdot_expr x,
-                                                  const qdot_facts *facts, qdot_solutions *found);
+                                                  const qdot_written *written, const qdot_facts *facts,
+                                                  qdot_solutions *found);
 
-/* The sets of f = 0 at special values, as far as they are not what `found` (by qdot_solve_inside with this `domain`, and
+/* The sets of f = 0 at special values, as far as they are not what `found` (by qdot_solve_written and
  * qdot_solve_parameters) says there; at values special for these in turn too. */
 QDOT_MUST_CHECK qdot_status qdot_solve_specials(qdot_pool *pool, qdot_expr f, qdot_expr x,
-                                                qdot_expr domain, const qdot_facts *facts,
+                                                const qdot_written *written, const qdot_facts *facts,
                                                 const qdot_solutions *found, qdot_specials *out);
 
 #endif

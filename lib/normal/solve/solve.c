@@ -48,7 +48,7 @@ solve_guarded(void *user)
 {
     qdot_solver *s = user;
     qdot_expr domain = qdot_conditions_all(
-        s->pool, qdot_conditions_of_domain(s->pool, s->f, s->x), s->domain);
+        s->pool, qdot_conditions_of_domain(s->pool, s->f, s->x), s->written.domain);
 
     s->status = qdot_pool_check(s->pool);
     if (s->status == QDOT_OK)
@@ -60,16 +60,15 @@ solve_guarded(void *user)
 }
 
 static qdot_status
-solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain, const qdot_facts *facts,
+solve_where(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written, const qdot_facts *facts,
             qdot_solutions *out)
 {
-    qdot_solver s = {
-        .pool = pool, .f = f, .x = x, .domain = domain, .facts = facts, .out = out};
+    qdot_solver s = {.pool = pool, .f = f, .x = x, .written = *written, .facts = facts, .out = out};
     qdot_status status;
 
     *out = (qdot_solutions){.complete = true};
     QDOT_TRY(qdot_pool_check(pool));
-    if (domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
+    if (written->domain == QDOT_NIL && qdot_is_zero(pool, f, facts))
         return qdot_fail(QDOT_EDOMAIN, "the equation holds for every value");
     status = qdot_flint_run(pool, solve_guarded, &s);
     if (status != QDOT_OK) { /* what it allocated is there no more */
@@ -83,7 +82,7 @@ qdot_status
 qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts *facts,
            qdot_solutions *out)
 {
-    return solve_where(pool, f, x, QDOT_NIL, facts, out);
+    return solve_where(pool, f, x, &(qdot_written){QDOT_NIL, QDOT_NIL}, facts, out);
 }
 
 qdot_status
@@ -200,7 +199,7 @@ qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     QDOT_TRY(has_pieces(pool, f, x, &pieces));
     if (!pieces)
         return QDOT_OK;
-    status = solve_where(pool, f, x, domain, NULL, &all);
+    status = solve_where(pool, f, x, &(qdot_written){domain, QDOT_NIL}, NULL, &all);
     for (size_t i = 0; i < all.root.n && !ranges; i++)
         ranges = all.root.at[i].value == x;
     out->complete = all.complete && ranges;
@@ -219,22 +218,23 @@ qdot_solve_ranges(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
 }
 
 qdot_status
-qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
-                  const qdot_facts *facts, qdot_solutions *out)
+qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_written *written,
+                   const qdot_facts *facts, qdot_solutions *out)
 {
+    qdot_written w = *written;
     qdot_solutions all;
     qdot_window window;
     bool angle = false;
     qdot_status status;
 
     *out = all = (qdot_solutions){0};
-    if (domain != QDOT_NIL) /* what holds in all of the declared domain of x is decided before roots are put in */
-        domain = qdot_conditions_at(pool, domain, 0, NULL, NULL, facts);
-    status = solve_where(pool, f, x, domain, facts, &all);
+    if (w.domain != QDOT_NIL) /* what holds in all of the declared domain of x is decided before roots are put in */
+        w.domain = qdot_conditions_at(pool, w.domain, 0, NULL, NULL, facts);
+    status = solve_where(pool, f, x, &w, facts, &all);
     for (size_t i = 0; i < all.root.n && !angle; i++)
         angle = all.root.at[i].period != QDOT_NIL;
     angle = angle && status == QDOT_OK && qdot_is_angle(pool, f, x, facts);
-    window = qdot_solve_tighten(pool, x, domain, qdot_solve_window(pool, x, false), facts);
+    window = qdot_solve_tighten(pool, x, w.domain, qdot_solve_window(pool, x, false), facts);
     if (angle)
         window = qdot_window_turn(pool, window);
     if (status == QDOT_OK)
@@ -249,4 +249,11 @@ qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
     if (status == QDOT_OK)
         status = qdot_solve_sort(pool, out->root.n, out->root.at);
     return status;
+}
+
+qdot_status
+qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x, qdot_expr domain,
+                  const qdot_facts *facts, qdot_solutions *out)
+{
+    return qdot_solve_written(pool, f, x, &(qdot_written){domain, QDOT_NIL}, facts, out);
 }

@@ -20,6 +20,7 @@
 #define QDOT_NORMAL_SOLVE_H
 
 #include "normal/solve/solutions.h"
+#include "normal/solve/written.h"
 
 /* All roots, whatever the declared domain of x (its sign is used); ascending where all are constants. f = 0
  * identically: QDOT_EDOMAIN. Past the bound of memory: none, not complete. facts may be NULL. *out is cleared by
@@ -32,6 +33,11 @@ QDOT_MUST_CHECK qdot_status qdot_solve(qdot_pool *pool, qdot_expr f, qdot_expr x
 QDOT_MUST_CHECK qdot_status qdot_solve_inside(qdot_pool *pool, qdot_expr f, qdot_expr x,
                                               qdot_expr domain, const qdot_facts *facts,
                                               qdot_solutions *out);
+
+/* The same of an equation as it was written. */
+QDOT_MUST_CHECK qdot_status qdot_solve_written(qdot_pool *pool, qdot_expr f, qdot_expr x,
+                                               const qdot_written *written, const qdot_facts *facts,
+                                               qdot_solutions *out);
 
 /* Ranges of x in the window on which f = 0, for f of x and constants with |u|, sign, max, min, if or floor of x: each is a
  * root x with its conditions; the single roots in the window too. `domain` as above. Where f is 0 on no range of x,

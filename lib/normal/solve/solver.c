@@ -149,7 +149,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     qdot_expr room[QDOT_CONDITIONS_MOST];
     qdot_status status = qdot_pool_check(s->pool);
     qdot_facts facts;
-    bool yes;
+    bool yes, lifted = false;
 
     if (status == QDOT_EDOMAIN || when == QDOT_FALSE) /* the value is defined nowhere */
         return QDOT_OK;
@@ -158,6 +158,13 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
         when = of_all_members(s, when, period, &root.members);
     root.condition = qdot_conditions_at(s->pool, when, 1, &s->x, &root.value, s->facts);
     QDOT_TRY(qdot_pool_check(s->pool));
+    if (root.condition != QDOT_NIL)
+        QDOT_TRY(qdot_written_lifts(s->pool, &s->written, s->f, s->x, root.value, s->facts, &lifted));
+    if (lifted) {
+        when = qdot_conditions_less(s->pool, when, s->written.apart);
+        root.condition = qdot_conditions_at(s->pool, when, 1, &s->x, &root.value, s->facts);
+        QDOT_TRY(qdot_pool_check(s->pool));
+    }
     if (root.condition == QDOT_FALSE)
         return QDOT_OK;
     for (size_t i = 0; i < s->out->root.n; i++)
@@ -166,7 +173,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
             qdot_conditions_join(s->pool, &s->out->root.at[i].condition, root.condition,
                                  s->facts))
             return qdot_pool_check(s->pool);
-    if (root.members != QDOT_NIL) /* the value itself may be none */
+    if (root.members != QDOT_NIL || lifted) /* the value itself may be none; or it is proved to be one */
         return qdot_vec_push(&s->out->root, root);
     facts = qdot_facts_and(s->pool, s->facts, root.condition, room);
     QDOT_TRY(is_root(s, root.value, &facts, &yes));

@@ -4,11 +4,12 @@
 
 #include "normal/field/factor.h"
 #include "normal/solve/solutions.h"
+#include "normal/solve/written.h"
 
 typedef struct {
     qdot_pool *pool;
     qdot_expr f, x;
-    qdot_expr domain; /* conditions of every root; nil: none */
+    qdot_written written; /* its domain: conditions of every root */
     const qdot_facts *facts;
     qdot_solutions *out;
     int depth; /* of functions inverted */

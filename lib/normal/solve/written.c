@@ -1,0 +1,107 @@
+/* written.c -- conditions of roots as they were written, before they were taken apart. */
+#include "normal/solve/written.h"
+
+#include <stdio.h>
+
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "normal/prove/decide.h"
+
+/* The place of a relation in a set; UINT32_MAX: it is not in it. */
+static uint32_t
+place_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+{
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++)
+        if (qdot_expr_arg(pool, set, i) == relation)
+            return i;
+    return UINT32_MAX;
+}
+
+static bool
+is_in(qdot_pool *pool, qdot_expr set, qdot_expr relation)
+{
+    return place_in(pool, set, relation) != UINT32_MAX;
+}
+
+qdot_expr
+qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some)
+{
+    qdot_expr left = QDOT_NIL;
+
+    if (some == QDOT_NIL || set == QDOT_FALSE)
+        return set;
+    for (uint32_t i = 0; set != QDOT_NIL && i < qdot_expr_count(pool, set); i++)
+        if (!is_in(pool, some, qdot_expr_arg(pool, set, i)))
+            left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, set, i));
+    return left;
+}
+
+/* Whether q is a positive number that is no integer. */
+static bool
+is_root_exponent(const fmpq *q)
+{
+    return q != NULL && fmpq_sgn(q) > 0 && !fmpz_is_one(fmpq_denref(q));
+}
+
+qdot_status
+qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_written *w, qdot_expr *asked)
+{
+    qdot_expr whole = qdot_rel(pool, QDOT_LE, QDOT_ZERO, base), parts;
+
+    parts = qdot_conditions_of_domain(pool, qdot_pow(pool, base, exponent), QDOT_NIL);
+    parts = qdot_conditions_less(pool, parts, qdot_conditions_of_domain(pool, base, QDOT_NIL));
+    QDOT_TRY(qdot_pool_check(pool));
+    if (qdot_expr_kind(pool, base) != QDOT_PROD || qdot_expr_count(pool, base) < 5 || parts == QDOT_NIL ||
+        !is_root_exponent(qdot_expr_rational(pool, exponent)) || is_in(pool, parts, whole)) {
+        *asked = qdot_conditions_all(pool, *asked, parts);
+    } else {
+        w->domain = qdot_conditions_and(pool, w->domain, whole);
+        w->apart = qdot_conditions_all(pool, w->apart, parts);
+    }
+    return qdot_pool_check(pool);
+}
+
+/* A product with a formal symbol in the place of each base of a root, one for each, that is >= 0 by a condition of
+ * `user`, a list. */
+static qdot_expr
+replace_bases(qdot_pool *pool, qdot_expr product, void *user)
+{
+    const qdot_expr apart = *(qdot_expr *)user;
+    qdot_expr result = qdot_expr_arg(pool, product, 0);
+
+    for (uint32_t i = 1; i < qdot_expr_count(pool, product); i += 2) {
+        qdot_expr base = qdot_expr_arg(pool, product, i), exponent = qdot_expr_arg(pool, product, i + 1);
+        uint32_t k = is_root_exponent(qdot_expr_rational(pool, exponent)) &&
+                             (qdot_expr_node(pool, base)->sign & QDOT_GE0) == 0
+                         ? place_in(pool, apart, qdot_rel(pool, QDOT_LE, QDOT_ZERO, base))
+                         : UINT32_MAX;
+
+        if (k != UINT32_MAX) {
+            char name[40];
+
+            snprintf(name, sizeof name, "(part of a root %u)", (unsigned)k);
+            base = qdot_symbol_get(pool, QDOT_FORMAL, name);
+        }
+        result = qdot_mul(pool, result, qdot_pow(pool, base, exponent));
+    }
+    return result;
+}
+
+qdot_status
+qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_expr x, qdot_expr value,
+                   const qdot_facts *facts, bool *yes)
+{
+    qdot_expr apart = w->apart, there;
+    qdot_status status;
+
+    *yes = false;
+    if (apart == QDOT_NIL || apart == QDOT_FALSE || value == x)
+        return QDOT_OK;
+    there = qdot_walk_replace(pool, f, QDOT_PROD, replace_bases, &apart);
+    there = there == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, there, 1, &x, &value);
+    status = qdot_pool_check(pool);
+    if (status != QDOT_OK)
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    *yes = qdot_is_zero(pool, there, facts);
+    return qdot_pool_check(pool);
+}

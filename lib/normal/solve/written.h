@@ -1,0 +1,31 @@
+/* written.h -- what an equation asks of its solutions as it was written.
+ *
+ * A root of a product is taken apart when it is built: sqrt(b x^2) becomes sqrt(b) |x|, which asks for b >= 0 where the
+ * root that was written asks for b x^2 >= 0 alone. Where the root is 0 these differ: x = 0 solves sqrt(b x^2) = 0 for
+ * every b.
+ *
+ * Tests  tests/normal/test_solve_special.c
+ */
+#ifndef QDOT_NORMAL_WRITTEN_H
+#define QDOT_NORMAL_WRITTEN_H
+
+#include "normal/solve/conditions.h"
+
+typedef struct {
+    qdot_expr domain; /* conditions that solutions fulfil; nil: none */
+    qdot_expr apart;  /* conditions 0 <= u of f that come from roots taken apart: where these are 0, not asked; nil: none */
+} qdot_written;
+
+/* Add the power base^exponent as it was written, of a root that was taken apart: `domain` gets the condition of its base,
+ * `apart` those of the parts. Of others *asked gets the conditions of the power without those of its base. */
+QDOT_MUST_CHECK qdot_status qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_written *w,
+                                             qdot_expr *asked);
+
+/* The set without those relations that are in `some`. */
+qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
+
+/* Whether f is 0 at x = value whatever the roots are whose conditions are `apart`. */
+QDOT_MUST_CHECK qdot_status qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_expr x,
+                                               qdot_expr value, const qdot_facts *facts, bool *yes);
+
+#endif
