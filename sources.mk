@@ -284,6 +284,7 @@ library_sources = \
 	lib/mech/study/noether.c \
 	lib/mech/study/reactions.c \
 	lib/mech/study/rods.c \
+	lib/mech/study/stability-corners.c \
 	lib/mech/study/stability-exact.c \
 	lib/mech/study/stability-friction.c \
 	lib/mech/study/stability-numbers.c \
@@ -1764,6 +1765,7 @@ script_tests = \
 	tests/script/solve-system.lag \
 	tests/script/solve-written-roots.lag \
 	tests/script/solve.lag \
+	tests/script/stability-corners.lag \
 	tests/script/stability.lag \
 	tests/script/start-consistent.lag \
 	tests/script/start-errors.sh \
@@ -3000,6 +3002,7 @@ test_files = \
 	tests/script/solve-system.out \
 	tests/script/solve-written-roots.out \
 	tests/script/solve.out \
+	tests/script/stability-corners.out \
 	tests/script/stability.out \
 	tests/script/start-consistent.out \
 	tests/script/start-errors.out \

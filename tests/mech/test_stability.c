@@ -49,6 +49,16 @@ JUDGED(a_trough, {"x y", "(x'^2 + y'^2)/2 - y^2/2", NULL, NULL, QDOT_STABLE})
 JUDGED(a_ridge, {"x y", "(x'^2 + y'^2)/2 + (1 + x^2)*y^2/2", NULL, NULL, QDOT_UNSTABLE})
 JUDGED(a_kink_at_the_bottom, {"x", "x'^2/2 - abs(x)", NULL, NULL, QDOT_STABLE})
 JUDGED(a_kink_on_top, {"x", "x'^2/2 + abs(x)", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(a_corner_of_two, {"x y", "(x'^2 + y'^2)/2 - abs(x) - abs(y)", NULL, NULL, QDOT_STABLE})
+JUDGED(a_corner_with_a_bowl, {"x y", "(x'^2 + y'^2)/2 - abs(x) - 3*x^2 - y^2/2 - x*y", NULL, NULL, QDOT_STABLE})
+JUDGED(a_corner_with_a_saddle, {"x y", "(x'^2 + y'^2)/2 - abs(x) + y^2", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(a_corner_with_a_flat_bottom, {"x y", "(x'^2 + y'^2)/2 - abs(x) - y^4", NULL, NULL, QDOT_STABLE})
+JUDGED(a_corner_that_leaks, {"x y", "(x'^2 + y'^2)/2 - abs(x) - y^3", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(a_corner_left_on_one_axis, {"x y", "(x'^2 + y'^2)/2 - abs(x) + abs(y)", NULL, NULL, QDOT_UNSTABLE})
+JUDGED(three_kinks_of_two, {"x y", "(x'^2 + y'^2)/2 - abs(x) - abs(y) - abs(x - y) + x/2", NULL, NULL, QDOT_STABLE})
+JUDGED(a_kink_of_slopes, {"x y", "(x'^2 + y'^2)/2 - abs(x)^3 - abs(y)", NULL, NULL, QDOT_STABLE})
+/* in which directions nothing is decided: along y the potential is 0 */
+JUDGED(a_corner_with_a_trough, {"x y", "(x'^2 + y'^2)/2 - abs(x)*(1 + y^2)", NULL, NULL, QDOT_STABILITY_UNDECIDED})
 JUDGED(a_flat_bottom, {"x", "x'^2/2 - x^4", "-x'", "x", QDOT_STABLE})
 JUDGED(a_flat_bottom_driven, {"x", "x'^2/2 - x^4", "x'^3", "x", QDOT_STABILITY_UNDECIDED})
 JUDGED(an_indefinite_mass, {"x y", "x'^2/2 - y'^2/2 - x^2/2 - y^2", NULL, NULL, QDOT_STABILITY_UNDECIDED})
@@ -98,6 +108,11 @@ main(void)
         cmocka_unit_test(a_circulating_force_that_does_not_matter), cmocka_unit_test(a_trap),
         cmocka_unit_test(a_trap_too_weak),      cmocka_unit_test(three_damped_by_one),
         cmocka_unit_test(an_energy_law_without_memory),
+        cmocka_unit_test(a_corner_of_two),      cmocka_unit_test(a_corner_with_a_bowl),
+        cmocka_unit_test(a_corner_with_a_saddle), cmocka_unit_test(a_corner_with_a_flat_bottom),
+        cmocka_unit_test(a_corner_that_leaks),  cmocka_unit_test(a_corner_left_on_one_axis),
+        cmocka_unit_test(three_kinks_of_two),   cmocka_unit_test(a_kink_of_slopes),
+        cmocka_unit_test(a_corner_with_a_trough),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

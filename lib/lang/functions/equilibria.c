@@ -4,6 +4,7 @@
 #include "expr/calculus.h"
 #include "expr/list.h"
 #include "lang/answer/answer.h"
+#include "lang/functions/solve-conditions.h"
 #include "lang/session/bind.h"
 #include "mech/dynamics/quantity.h"
 #include "normal/solve/solve.h"
@@ -66,6 +67,40 @@ qdot_equilibria_list(qdot_session *session, const qdot_equilibria *all, qdot_exp
     *value = qdot_list(session->pool, (uint32_t)all->n, members);
     qdot_free(members);
     return qdot_pool_check(session->pool);
+}
+
+/* The conditions with the values of the session put in. */
+static qdot_expr
+exists_now(qdot_session *session, qdot_expr exists)
+{
+    qdot_expr bound = qdot_session_bind(session, exists);
+
+    return bound == QDOT_NIL ? QDOT_NIL : qdot_conditions_at(session->pool, bound, 0, NULL, NULL, NULL);
+}
+
+qdot_status
+qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e)
+{
+    qdot_text text = {0};
+    qdot_expr now;
+    qdot_status status;
+
+    if (e->exists == QDOT_NIL)
+        return QDOT_OK;
+    now = exists_now(session, e->exists);
+    QDOT_TRY(qdot_pool_check(session->pool));
+    if (now == QDOT_NIL) /* it does */
+        return QDOT_OK;
+    qdot_text_format(&text, "equilibria[%ld] exists when ", k);
+    status = qdot_solve_print_conditions(session->pool, "", e->exists, &text);
+    if (now == QDOT_FALSE)
+        qdot_text_add(&text, ": not with the values of `set`");
+    if (status == QDOT_OK)
+        status = qdot_text_status(&text);
+    if (status == QDOT_OK)
+        status = qdot_answer_notice_once(session, "%s", qdot_text_str(&text));
+    qdot_text_clear(&text);
+    return status;
 }
 
 /* --- the verdict as a value ------------------------------------------------------------------ */

@@ -15,6 +15,8 @@ QDOT_MUST_CHECK qdot_status qdot_equilibria_list(qdot_session *session,
                                                  qdot_expr *value);
 /* The LIST of one of them. */
 qdot_expr qdot_equilibria_value(qdot_pool *pool, const qdot_equilibrium *e);
+/* The k-th is used as a value: tell its conditions, unless the values of the session fulfil them. */
+QDOT_MUST_CHECK qdot_status qdot_equilibria_notice(qdot_session *session, long k, const qdot_equilibrium *e);
 /* The verdict on one, such a LIST, as a value: a word, or if(CONDITION, word, undecided). */
 QDOT_MUST_CHECK qdot_status qdot_equilibria_stability(qdot_session *session,
                                                       qdot_expr equations,

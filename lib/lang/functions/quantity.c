@@ -288,11 +288,17 @@ get_equilibria(qdot_session *s, uint32_t n, const qdot_expr *index, qdot_expr *v
 {
     qdot_equilibria all;
     qdot_status status;
+    long k = 0;
 
-    (void)n, (void)index;
     QDOT_TRY(need_coordinates(s));
     QDOT_TRY(qdot_equilibria_find(s, &all));
     status = qdot_equilibria_list(s, &all, value);
+    if (status == QDOT_OK && n > 0)
+        status = qdot_entry_of(s, *value, QDOT_NIL, 1, index, value);
+    if (status == QDOT_OK && n > 0)
+        status = qdot_session_integer(s, index[0], &k);
+    if (status == QDOT_OK && n > 0)
+        status = qdot_equilibria_notice(s, k, &all.at[k - 1]);
     qdot_equilibria_clear(&all);
     return status;
 }
@@ -438,7 +444,7 @@ static const qdot_quantity rows[] = {
      "every conserved quantity found: cyclic momenta, the energy, those of translations, "
      "rotations and boosts; each is proved",
      "conserved", false, NULL},
-    {"equilibria", 0, 0, get_equilibria, "equilibria or equilibria[2]",
+    {"equilibria", 0, 1, get_equilibria, "equilibria or equilibria[2]",
      "where the scene can rest, a list of equations each; alone, with their stability",
      "equilibria", false, NULL},
     {"stable", 0, 0, get_stable, "stable", "a verdict of stability(equilibria[1])",

@@ -494,12 +494,15 @@ independent_momentum(qdot_session *s, qdot_expr q, qdot_expr *value)
     return qdot_value_kind_check(s->pool, *value);
 }
 
-/* eom[theta], mass_matrix[a, b]; eom[1] is the first of the list. */
+/* eom[theta], mass_matrix[a, b]; eom[1] is the first of the list. equilibria[1] is asked of the quantity itself, which
+ * tells the conditions of its members. */
 static qdot_status
 quantity_index(qdot_session *s, const qdot_quantity *row, unsigned primes, uint32_t n,
                const qdot_expr *index, qdot_expr *value)
 {
-    if (row->least == 0 && (row->most == 0 || all_integers(s, n, index))) {
+    const bool by_number = row->most == 1 && !row->over_coordinates && n == 1;
+
+    if (row->least == 0 && (row->most == 0 || (all_integers(s, n, index) && !by_number))) {
         QDOT_TRY(quantity(s, row, primes, 0, NULL, value));
         return qdot_entry_of(s, *value, QDOT_NIL, n, index, value);
     }

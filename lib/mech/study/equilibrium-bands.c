@@ -168,7 +168,10 @@ poles_of(line *l, qdot_expr g, bool *known)
 
             *known = op == QDOT_SIN || op == QDOT_COS || op == QDOT_EXP || op == QDOT_SINH ||
                      op == QDOT_COSH || op == QDOT_TANH || op == QDOT_ATAN || op == QDOT_ASIN ||
-                     op == QDOT_ACOS || op == QDOT_LOG || op == QDOT_ABS;
+                     op == QDOT_ACOS || op == QDOT_LOG || op == QDOT_ABS || op == QDOT_SIGN;
+            if (op == QDOT_SIGN) /* it jumps */
+                status = zeros_of(l, qdot_expr_arg(pool, node, 0), 0, known);
+            *known = *known || op == QDOT_MAX || op == QDOT_MIN || op == QDOT_IF;
         } else if (kind == QDOT_PROD) {
             for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, node) && *known && status == QDOT_OK;
                  k += 2) {
@@ -183,6 +186,8 @@ poles_of(line *l, qdot_expr g, bool *known)
                 if (*known && fmpq_sgn(exponent) < 0)
                     status = zeros_of(l, base, 0, known);
             }
+        } else if (kind == QDOT_REL) { /* an if(...) jumps where its sides are equal */
+            status = zeros_of(l, qdot_sub(pool, qdot_expr_arg(pool, node, 1), qdot_expr_arg(pool, node, 0)), 0, known);
         } else {
             *known = kind == QDOT_SUM || kind == QDOT_SYM;
         }

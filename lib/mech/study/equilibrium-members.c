@@ -4,6 +4,7 @@
 #include "mech/study/equilibrium-bands.h"
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
+#include "normal/simplify/positive.h"
 #include "normal/solve/solve.h"
 
 enum { MOST_PLACES = 1024 };
@@ -64,13 +65,68 @@ choose_sides(qdot_rest *r, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
+/* The value of a coordinate to which the relation a = b of two conditions a <= b and b <= a narrows a region, as an equation;
+ * nil: no condition has an opposite one, or a - b is not linear in a coordinate. */
+static qdot_expr
+narrowed(const qdot_rest *r, qdot_expr conditions)
+{
+    qdot_pool *pool = r->pool;
+    const uint32_t n = conditions == QDOT_NIL || conditions == QDOT_FALSE ? 0 : qdot_expr_count(pool, conditions);
+
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t k = i + 1; k < n; k++) {
+            qdot_expr one = qdot_expr_arg(pool, conditions, i), other = qdot_expr_arg(pool, conditions, k), gap;
+
+            if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_node(pool, one)->op != QDOT_LE ||
+                qdot_expr_kind(pool, other) != QDOT_REL || qdot_expr_node(pool, other)->op != QDOT_LE)
+                continue;
+            gap = qdot_positive_of(pool, one);
+            if (qdot_expand(pool, qdot_add(pool, gap, qdot_positive_of(pool, other))) != QDOT_ZERO)
+                continue;
+            for (size_t c = 0; c < r->s->coordinates.n; c++) {
+                qdot_expr u = r->s->coordinates.at[c], slope = qdot_diff(pool, gap, u), zero = QDOT_ZERO;
+
+                if (slope == QDOT_NIL || slope == QDOT_ZERO || qdot_expr_rational(pool, slope) == NULL)
+                    continue;
+                gap = qdot_subs(pool, gap, 1, &u, &zero);
+                return qdot_rel(pool, QDOT_EQ, u, qdot_neg(pool, qdot_div(pool, gap, slope)));
+            }
+        }
+    return QDOT_NIL;
+}
+
+/* The values and conditions of a solution, where its conditions leave one value of a coordinate alone, with that value. */
+static qdot_status
+narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr one;
+
+    while ((one = narrowed(r, *conditions)) != QDOT_NIL) {
+        qdot_expr u = qdot_expr_arg(pool, one, 0), value = qdot_expr_arg(pool, one, 1);
+
+        *conditions = qdot_conditions_at(pool, *conditions, 1, &u, &value, &r->facts);
+        *values = qdot_subs(pool, *values, 1, &u, &value);
+        *values = *values == QDOT_NIL ? QDOT_NIL : qdot_list_appended(pool, *values, 1, &one);
+        if (*values == QDOT_NIL && qdot_pool_check(pool) == QDOT_EDOMAIN)
+            *conditions = QDOT_FALSE;
+        if (*conditions == QDOT_FALSE)
+            return QDOT_OK;
+        QDOT_TRY(qdot_pool_check(pool));
+    }
+    return qdot_pool_check(pool);
+}
+
 static qdot_status
 append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
 {
     qdot_pool *pool = r->pool;
-    qdot_equilibrium e = {.equations = qdot_list(pool, 0, NULL),
-                          .exists = qdot_conditions_generic(pool, conditions)};
+    qdot_equilibrium e = {.equations = qdot_list(pool, 0, NULL)};
 
+    QDOT_TRY(narrow(r, &values, &conditions));
+    if (conditions == QDOT_FALSE)
+        return QDOT_OK;
+    e.exists = qdot_conditions_generic(pool, conditions);
     for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i);
 

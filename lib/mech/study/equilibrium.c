@@ -293,8 +293,12 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     if (qdot_solve_integers(pool, e->equations) == 0)
         return qdot_judge_place(judge, e);
     QDOT_TRY(is_alike(r, e, &alike));
-    if (!alike) {
-        e->stability = QDOT_STABILITY_UNDECIDED;
+    if (!alike) { /* what holds whatever the integers are */
+        QDOT_TRY(qdot_judge_place(judge, e));
+        if (e->stability == QDOT_UNSTABLE || (e->stable_when != QDOT_NIL && holds_integer(pool, e->stable_when))) {
+            e->stability = QDOT_STABILITY_UNDECIDED;
+            e->stable_when = QDOT_NIL;
+        }
         return QDOT_OK;
     }
     one.equations = qdot_solve_one_member(pool, e->equations);
@@ -320,6 +324,7 @@ judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
         judge->forces = r->forces;
         judge->friction = r->friction;
         judge->slips = r->slips;
+        status = qdot_rest_by_signs(r, r->forces, &judge->by_signs);
     }
     for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
         status = judge_member(r, judge, &r->found.at[i]);

@@ -8,6 +8,7 @@
 #include "mech/scene/access.h"
 #include "normal/prove/decide.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/solutions.h"
 
 /* --- linear motion -------------------------------------------------------------------- */
 
@@ -70,11 +71,23 @@ place_end(place *p)
     qdot_free(p->own);
 }
 
+/* e at the place; at a member of a family without the whole turns that its integer makes of circular functions. */
+static qdot_expr
+value_at(const place *p, qdot_expr e)
+{
+    qdot_pool *pool = p->s->pool;
+    bool family = false;
+
+    for (size_t i = 0; i < p->n && !family; i++)
+        family = qdot_solve_integers(pool, p->to[i]) > 0;
+    e = qdot_subs(pool, e, p->n, p->from, p->to);
+    return family && e != QDOT_NIL ? qdot_solve_without_turns(pool, e) : e;
+}
+
 static qdot_expr
 at(const place *p, qdot_expr e)
 {
-    e = qdot_subs(p->s->pool, e, p->n, p->from, p->to);
-    return qdot_simplify(p->s->pool, e, &p->facts);
+    return qdot_simplify(p->s->pool, value_at(p, e), &p->facts);
 }
 
 qdot_expr
@@ -93,8 +106,7 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
     place p = {0};
     qdot_status status = place_begin(&p, s, equations, QDOT_NIL);
 
-    e = status == QDOT_OK ? qdot_subs(s->pool, e, p.n, p.from, p.to)
-                          : qdot_pool_fail(s->pool);
+    e = status == QDOT_OK ? value_at(&p, e) : qdot_pool_fail(s->pool);
     place_end(&p);
     return e;
 }

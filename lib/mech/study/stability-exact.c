@@ -10,6 +10,7 @@
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
 #include "normal/solve/conditions.h"
+#include "normal/solve/solutions.h"
 
 /* --- one degree of freedom, either side ------------------------------------------------- */
 
@@ -106,13 +107,30 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
     return chosen(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
 }
 
-/* The place is stable where both forces back [2] are positive: for all parameters, or under conditions on these, which
- * j collects. Undecided if they depend on more than parameters or cannot both be positive. */
+qdot_status
+qdot_judgement_one_side(qdot_judgement *j, qdot_expr F, qdot_expr eps, qdot_expr *leading, int *sign, bool *known)
+{
+    one_side o = {j, eps, QDOT_OK, true};
+
+    F = qdot_walk_replace(j->s->pool, F, QDOT_FUN, on_one_side, &o);
+    *leading = QDOT_NIL;
+    *sign = 0;
+    if (o.status == QDOT_OK)
+        o.status = qdot_pool_check(j->s->pool);
+    *known = o.status == QDOT_OK && o.known;
+    if (!*known)
+        return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
+    return leading_term(j, F, eps, leading, sign);
+}
+
+/* The place is stable where both forces back [2] are positive: for all parameters (sign [2] is 1), or under conditions on
+ * these, which j collects. Undecided if these depend on more than parameters or cannot both be positive. */
 static qdot_status
-by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back)
+by_sides_when(qdot_judgement *j, qdot_equilibrium *e, const qdot_expr *back, const int *sign)
 {
     const qdot_judgement_point before = qdot_judgement_mark(j);
-    bool possible = qdot_is_generic(j->s->pool, back[0]) && qdot_is_generic(j->s->pool, back[1]);
+    bool possible = (sign[0] > 0 || qdot_is_generic(j->s->pool, back[0])) &&
+                    (sign[1] > 0 || qdot_is_generic(j->s->pool, back[1]));
 
     for (int side = 0; side < 2 && possible; side++) {
         qdot_expr answer;
@@ -154,18 +172,18 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
         qdot_expr at = side == 0 ? qdot_add(pool, place, eps) : qdot_sub(pool, place, eps),
                   F = qdot_subs(pool, qdot_expr_arg(pool, j->judge->at_rest, 0), 1, &q, &at);
 
-        one_side o = {j, eps, QDOT_OK, true};
+        bool known;
 
         QDOT_TRY(qdot_pool_check(pool));
-        F = qdot_walk_replace(pool, F, QDOT_FUN, on_one_side, &o);
-        if (o.status == QDOT_OK)
-            o.status = qdot_pool_check(pool);
-        if (o.status != QDOT_OK || !o.known)
-            return o.status == QDOT_EDOMAIN ? QDOT_OK : o.status;
-        QDOT_TRY(leading_term(j, side == 0 ? qdot_neg(pool, F) : F, eps, &back[side], &sign[side]));
+        if (qdot_solve_integers(pool, place) > 0)
+            F = qdot_solve_without_turns(pool, F);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(qdot_judgement_one_side(j, side == 0 ? qdot_neg(pool, F) : F, eps, &back[side], &sign[side], &known));
+        if (!known)
+            return QDOT_OK;
     }
     if (back[0] != QDOT_NIL && back[1] != QDOT_NIL && sign[0] >= 0 && sign[1] >= 0)
-        return by_sides_when(j, e, back);
+        return by_sides_when(j, e, back, sign);
     if ((sign[0] < 0 || sign[1] < 0) && !j->judge->velocity_kink)
         e->stability = QDOT_UNSTABLE;
     return QDOT_OK;
@@ -263,7 +281,8 @@ qdot_judgement_confirm(qdot_judgement *j, bool *yes)
     for (size_t i = 0; i < j->claims.n && *yes; i++)
         QDOT_TRY(qdot_judgement_is_sure(j, j->claims.at[i], true, yes));
     for (size_t r = 0; r < j->m.rank && *yes; r++)
-        if (qdot_mech_holds(j->s, j->m.pivot[r]) & QDOT_HAS_COORD)
+        if ((qdot_mech_holds(j->s, j->m.pivot[r]) & QDOT_HAS_COORD) != 0 ||
+            qdot_solve_integers(j->s->pool, j->m.pivot[r]) > 0)
             QDOT_TRY(qdot_judgement_is_sure(j, j->m.pivot[r], false, yes));
     return QDOT_OK;
 }
@@ -355,6 +374,8 @@ exact_place(qdot_judgement *j, qdot_equilibrium *e)
     if (e->stability == QDOT_STABILITY_UNDECIDED && s->coordinates.n == 1 &&
         s->constraints.n == 0 && j->judge->law != QDOT_ENERGY_UNKNOWN)
         QDOT_TRY(by_sides(j, e));
+    if (e->stability == QDOT_STABILITY_UNDECIDED && kink && s->coordinates.n > 1 && j->judge->law != QDOT_ENERGY_UNKNOWN)
+        QDOT_TRY(qdot_stability_by_corner(j, e));
     if (e->stability != QDOT_STABILITY_UNDECIDED) {
         QDOT_TRY(qdot_judgement_confirm(j, &sure));
         if (!sure)

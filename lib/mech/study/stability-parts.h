@@ -66,6 +66,16 @@ QDOT_MUST_CHECK qdot_status qdot_judgement_drop_implied(qdot_judgement *j, size_
 /* Whether what was claimed to be positive is so all along a family of places (stability-exact.c). */
 QDOT_MUST_CHECK qdot_status qdot_judgement_confirm(qdot_judgement *j, bool *yes);
 
+/* *leading: the term of lowest order in eps > 0 of F, near eps = 0, where |u|, sign u and the like are what they are
+ * there; nil: none was found. *sign: 1 or -1 where it has that sign for all parameters, else 0. *known is false where it is open what
+ * they are (stability-exact.c). */
+QDOT_MUST_CHECK qdot_status qdot_judgement_one_side(qdot_judgement *j, qdot_expr F, qdot_expr eps, qdot_expr *leading,
+                                                    int *sign, bool *known);
+
+/* A corner of the potential of several coordinates: by its derivatives in all directions. Sets e->stability, notes
+ * conditions (stability-corners.c). */
+QDOT_MUST_CHECK qdot_status qdot_stability_by_corner(qdot_judgement *j, qdot_equilibrium *e);
+
 /* --- the linear motion (stability-roots.c) ----
  * By the roots s of det(M s^2 + Gamma s + H), block by block of coordinates that are coupled:
  * unstable, asymptotically stable, or bounded: stable where nothing is neglected, else to first order.

@@ -7,6 +7,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/solutions.h"
 
 enum { MOST_ASKED = 150 }; /* operations of conditions of which some may follow of others */
 
@@ -15,7 +16,9 @@ enum { MOST_ASKED = 150 }; /* operations of conditions of which some may follow 
 static qdot_status
 claim(qdot_judgement *j, qdot_expr e)
 {
-    return qdot_mech_holds(j->s, e) & QDOT_HAS_COORD ? qdot_vec_push(&j->claims, e) : QDOT_OK;
+    return (qdot_mech_holds(j->s, e) & QDOT_HAS_COORD) != 0 || qdot_solve_integers(j->s->pool, e) > 0
+               ? qdot_vec_push(&j->claims, e)
+               : QDOT_OK;
 }
 
 /* Ask e > 0: true, false, or a condition that is noted. */

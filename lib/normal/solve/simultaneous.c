@@ -7,6 +7,7 @@
 
 #include "base/interrupt.h"
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/list.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
@@ -59,8 +60,28 @@ add_special(qdot_simultaneous *s, qdot_expr d)
 
 /* --- one step of a branch ------------------------------------------------------------ */
 
+/* Whether e holds unknowns that are no places: multipliers, sides of jumps. */
+static bool
+holds_others(const qdot_simultaneous *s, qdot_expr e)
+{
+    bool holds = false;
+
+    for (size_t i = s->places; i < s->unknowns.n && !holds; i++)
+        holds = qdot_expr_contains(s->pool, e, s->unknowns.at[i]);
+    return holds;
+}
+
+/* Whether e jumps or has a kink with u: its derivative does not tell that it is not linear in u. */
+static bool
+has_kinks(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
+{
+    static const qdot_fun_id kinks[] = {QDOT_SIGN, QDOT_ABS, QDOT_FLOOR, QDOT_MOD, QDOT_MIN, QDOT_MAX, QDOT_IF};
+
+    return qdot_expr_find_function(s->pool, e, sizeof kinks / sizeof *kinks, kinks, u) != QDOT_NIL;
+}
+
 /* How hard it is to solve a factor for an unknown: 0 the only one in it; 1 linear, never
- * divided by anything unknown; 2 linear; 3 else; 9 not there. */
+ * divided by anything unknown; 2 linear, or so in pieces; 3 else; 9 not there. */
 static int
 effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
 {
@@ -73,6 +94,8 @@ effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
     slope = qdot_diff(s->pool, factor, u);
     if (slope == QDOT_NIL || qdot_expr_contains(s->pool, slope, u))
         return 3;
+    if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* the others first */
+        return 2;
     return holds_unknowns(s, slope) == 0 ? 1 : 2;
 }
 
@@ -108,9 +131,8 @@ with_value(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr eq
     if (qdot_solve_integers(pool, value) > 0) { /* counts members of a family */
         next.equations = qdot_solve_without_turns(pool, next.equations);
         next.known = qdot_solve_without_turns(pool, next.known);
-        next.conditions = next.conditions == QDOT_NIL
-                              ? QDOT_NIL
-                              : qdot_solve_without_turns(pool, next.conditions);
+        if (next.conditions != QDOT_NIL && next.conditions != QDOT_FALSE)
+            next.conditions = qdot_solve_without_turns(pool, qdot_subs(pool, next.conditions, 1, &u, &value));
     }
     if (qdot_pool_failed(pool)) { /* a denominator is 0 there: no solution */
         qdot_status status = qdot_pool_check(pool);
