@@ -1751,6 +1751,7 @@ script_tests = \
 	tests/script/solve-assumed.lag \
 	tests/script/solve-bounded-families.lag \
 	tests/script/solve-domains.lag \
+	tests/script/solve-double-angles.lag \
 	tests/script/solve-fast-growth.lag \
 	tests/script/solve-joined-exponentials.lag \
 	tests/script/solve-line.lag \
@@ -2988,6 +2989,7 @@ test_files = \
 	tests/script/solve-assumed.out \
 	tests/script/solve-bounded-families.out \
 	tests/script/solve-domains.out \
+	tests/script/solve-double-angles.out \
 	tests/script/solve-fast-growth.out \
 	tests/script/solve-joined-exponentials.out \
 	tests/script/solve-line.out \

@@ -4,6 +4,7 @@
  *
  *     a polynomial in x, or in one function of x, of degree 1 or 2, or in a power of it;
  *     a polynomial in sin u or cos u alone of that kind; a sin u + b cos u = d;
+ *     A cos^2 u + B sin u cos u = C, which is linear in sin 2u and cos 2u;
  *     A(cos u) + B(cos u) sin u, whose resolvent A^2 = (1 - cos^2 u) B^2 is of that kind;
  *     a polynomial in sinh u and cosh u, which is one in exp u;
  *     linear in a root r, r^q = b(x): its resolvent, with the sign that r must have;

@@ -394,6 +394,13 @@ sine_and_cosine(qdot_solver *s, qdot_field *f, shape *sh, qdot_expr when)
         s->out->complete = false;
         return QDOT_OK;
     }
+    if (sh->degree[0] == 2 && coefficient(f, sh, 0, 1) == QDOT_ZERO && coefficient(f, sh, 1, 0) == QDOT_ZERO &&
+        coefficient(f, sh, 2, 1) == QDOT_ZERO) { /* A cos^2 u + B sin u cos u + C, linear in those of 2 u */
+        A = qdot_mul(pool, QDOT_HALF, coefficient(f, sh, 2, 0));
+        B = qdot_mul(pool, QDOT_HALF, coefficient(f, sh, 1, 1));
+        return qdot_solver_mixed(s, qdot_mul(pool, qdot_expr_int(pool, 2), u), B, A,
+                                 qdot_add(pool, A, coefficient(f, sh, 0, 0)), when);
+    }
     A = slice(f, sh, 0);
     B = slice(f, sh, 1);
     c = f->gen[sh->var[0]].expr;
