@@ -153,20 +153,19 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
     return half(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
-/* A product with sign(u) u^k for |u|^k, k < 0 odd; slipping (a rest, or NULL): of velocities alone. */
+/* A product with sign(u) u^k for |u|^k, k < 0 odd. */
 static qdot_expr
-product_by_signs(qdot_pool *pool, qdot_expr e, void *slipping)
+product_by_signs(qdot_pool *pool, qdot_expr e, void *user)
 {
-    const qdot_rest *r = slipping;
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr product = e;
 
+    (void)user;
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr size = qdot_expr_arg(pool, e, i), u;
         long k;
 
-        if (!qdot_is_inverse_magnitude(pool, e, i, &k) ||
-            (r != NULL && (qdot_mech_holds(r->s, size) & QDOT_HAS_VELOCITY) == 0))
+        if (!qdot_is_inverse_magnitude(pool, e, i, &k))
             continue;
         u = qdot_expr_arg(pool, size, 0);
         product = qdot_mul(pool, product, qdot_pow_int(pool, size, -k));
@@ -219,7 +218,7 @@ qdot_rest_slips_by_signs(qdot_rest *r, qdot_expr force)
     qdot_expr by = qdot_walk_replace(pool, force, QDOT_FUN, slip_by_sign, r);
 
     if (by != QDOT_NIL)
-        by = qdot_walk_replace(pool, by, QDOT_PROD, product_by_signs, r);
+        qdot_directions_as_signs(pool, 1, &by);
     if (by != QDOT_NIL && by != force)
         by = qdot_expand(pool, by);
     return by == QDOT_NIL ? by : qdot_walk_replace(pool, by, QDOT_PROD, product_of_signs, NULL);
