@@ -1531,6 +1531,7 @@ script_tests = \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
 	tests/script/continue-files.sh \
+	tests/script/continue-moving-ends.lag \
 	tests/script/continue-near.lag \
 	tests/script/continue-orbit-files.sh \
 	tests/script/continue-orbit.lag \
@@ -2748,6 +2749,7 @@ test_files = \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
 	tests/script/continue-files.out \
+	tests/script/continue-moving-ends.out \
 	tests/script/continue-near.out \
 	tests/script/continue-orbit-files.out \
 	tests/script/continue-orbit.out \

@@ -44,11 +44,11 @@ check_count(qdot_equilibrium_curve *c)
     return QDOT_OK;
 }
 
-/* p changes where the scene rests, or how it moves about that. */
+/* p changes where the scene rests or may rest, or how it moves about that. */
 static qdot_status
 check_influence(const qdot_equilibrium_curve *c)
 {
-    bool some = false;
+    bool some = c->moving;
 
     for (size_t i = 0; i < c->n; i++)
         some = some || qdot_expr_contains(c->pool, c->F[i], c->parameter);
@@ -63,18 +63,24 @@ check_influence(const qdot_equilibrium_curve *c)
 
 /* --- the equations ------------------------------------------------------------------------- */
 
-/* An end of the domain of a symbol; without one *v stays. */
+/* An end of the domain of a symbol; without one *v stays. *moving: the end, where it depends on the parameter. */
 static qdot_status
-bound(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v)
+bound(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v, qdot_expr *moving)
 {
     if (e == QDOT_NIL)
         return QDOT_OK;
     e = c->bind(c->user, e);
     QDOT_TRY(qdot_pool_check(c->pool));
-    if (qdot_expr_contains(c->pool, e, c->parameter))
-        return qdot_fail(QDOT_ENOTBUILT, "not built yet: branches where the domain of %.100s "
-                                         "depends on %.100s",
-                         of->name, qdot_expr_symbol(c->pool, c->parameter)->name);
+    if (qdot_expr_contains(c->pool, e, c->parameter)) {
+        qdot_expr zero = QDOT_ZERO;
+
+        *moving = e;
+        e = qdot_subs(c->pool, e, 1, &c->parameter, &zero); /* what else is in it */
+        if (e == QDOT_NIL)
+            return qdot_pool_check(c->pool) == QDOT_EDOMAIN ? QDOT_OK : qdot_pool_check(c->pool);
+        if ((qdot_expr_node(c->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
+            return QDOT_OK;
+    }
     if ((qdot_expr_node(c->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) != 0)
         return qdot_fail(QDOT_EINVAL, "an end of the domain of %.100s has no value", of->name);
     return qdot_generic_evaluate(c->pool, 1, &e, NULL, v);
@@ -92,6 +98,9 @@ make_room(qdot_equilibrium_curve *c)
     c->K = qdot_calloc(3 * all * all + 1, sizeof *c->K);
     c->roots.re = qdot_calloc(4 * all + 1, sizeof *c->roots.re);
     if (!c->unknown || !c->angle || !c->lo || !c->K || !c->roots.re)
+        return QDOT_ENOMEM;
+    c->end = qdot_calloc(2 * n + 2, sizeof *c->end);
+    if (c->end == NULL)
         return QDOT_ENOMEM;
     c->F = c->unknown + n + 1;
     c->hi = c->lo + n + 1;
@@ -115,12 +124,26 @@ fill_equations(qdot_equilibrium_curve *c)
 
         c->lo[i] = -INFINITY;
         c->hi[i] = INFINITY;
-        QDOT_TRY(bound(c, &q, q.lo, &c->lo[i]));
-        QDOT_TRY(bound(c, &q, q.hi, &c->hi[i]));
-        if (i < c->coordinates && isinf(c->lo[i]) && isinf(c->hi[i]))
+        QDOT_TRY(bound(c, &q, q.lo, &c->lo[i], &c->end[2 * i]));
+        QDOT_TRY(bound(c, &q, q.hi, &c->hi[i], &c->end[2 * i + 1]));
+        c->moving = c->moving || c->end[2 * i] != QDOT_NIL || c->end[2 * i + 1] != QDOT_NIL;
+        if (i < c->coordinates && q.lo == QDOT_NIL && q.hi == QDOT_NIL && isinf(c->lo[i]) && isinf(c->hi[i]))
             c->angle[i] = qdot_is_angle(c->pool, c->rest.system.equations, c->unknown[i], &c->rest.facts);
     }
     return qdot_pool_check(c->pool);
+}
+
+double
+qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool upper, double p)
+{
+    const qdot_expr e = c->end[2 * i + upper];
+    double value = NAN;
+
+    if (e == QDOT_NIL)
+        return upper ? c->hi[i] : c->lo[i];
+    return qdot_generic_evaluate(c->pool, 1, &e, &(qdot_generic_point){1, &c->parameter, &p, 1}, &value) == QDOT_OK
+               ? value
+               : NAN;
 }
 
 /* e at rest; coordinates that occur in no equation at rest are put to 0. */
@@ -203,6 +226,7 @@ qdot_equilibrium_curve_end(qdot_equilibrium_curve *c)
     qdot_free(c->unknown);
     qdot_free(c->angle);
     qdot_free(c->lo);
+    qdot_free(c->end);
     qdot_free(c->K);
     qdot_free(c->roots.re);
     *c = (qdot_equilibrium_curve){0};
@@ -263,6 +287,10 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
     rest.system.unknowns.n = rest.system.unknowns.capacity = 0;
     for (size_t i = 0; i < c->rest.system.unknowns.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&rest.system.unknowns, c->rest.system.unknowns.at[i]);
+    if (c->moving) {
+        rest.system.ends = bind_all;
+        rest.system.ends_user = &value;
+    }
     if (status == QDOT_OK)
         status = qdot_rest_find(&rest, bind_all, &value, &unused);
     if (status == QDOT_OK) {

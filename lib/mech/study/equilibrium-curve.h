@@ -28,7 +28,9 @@ typedef struct {
     qdot_expr *unknown;    /* [n + 1] with p behind them */
     qdot_expr *F;          /* [n] */
     bool *angle;           /* [n] a full turn changes nothing */
-    double *lo, *hi;       /* [n + 1] the domains */
+    double *lo, *hi;       /* [n + 1] the domains; of ends that move with p the whole line */
+    qdot_expr *end;        /* [2 n] ends that move with p, lower and upper of each unknown; nil: it does not */
+    bool moving;           /* there is one */
     size_t all;            /* coordinates of the scene and constraints */
     qdot_expr *K, *Gamma, *M; /* [all * all] H with A and A^T beside it; Gamma, M with 0 */
     bool damped;           /* Gamma has values at rest: no |v| v */
@@ -44,6 +46,9 @@ QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_begin(qdot_equilibrium_curve 
                                                          qdot_expr parameter, qdot_binder bind,
                                                          void *user);
 void qdot_equilibrium_curve_end(qdot_equilibrium_curve *c);
+
+/* An end of the domain of unknown i at p; NaN: it has no value there. */
+double qdot_equilibrium_curve_end_of(const qdot_equilibrium_curve *c, size_t i, bool upper, double p);
 
 /* Equilibria at p: *at [count * (n + 1)] gets u, p of each; owned by the caller. */
 QDOT_MUST_CHECK qdot_status qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p,

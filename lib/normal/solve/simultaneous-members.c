@@ -277,7 +277,7 @@ append_members(qdot_simultaneous *s, const solution *p, size_t i, qdot_expr cond
         return append_solution(s, p, conditions);
     u = p->symbol[i];
     QDOT_TRY(qdot_simultaneous_period(s, u, &period));
-    window = qdot_solve_window(pool, u, period == turn);
+    window = qdot_simultaneous_window(s, u, period == turn);
     window.integer = integers_before(s, p, i);
     status = qdot_solve_members(pool, u, &(qdot_root){.value = p->value[i], .period = period}, &window,
                                 &s->facts, &members);

@@ -37,6 +37,27 @@ qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values)
     return e;
 }
 
+/* An end of a window with the values put in; as it is where it has none there. */
+static qdot_expr
+end_with_values(const qdot_simultaneous *s, qdot_expr end)
+{
+    qdot_expr there = s->ends == NULL || end == QDOT_NIL ? end : s->ends(s->ends_user, end);
+
+    if (there == QDOT_NIL && end != QDOT_NIL && qdot_pool_check(s->pool) != QDOT_EDOMAIN)
+        (void)qdot_pool_fail(s->pool);
+    return there == QDOT_NIL ? end : there;
+}
+
+qdot_window
+qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle)
+{
+    qdot_window w = qdot_solve_window(s->pool, u, false);
+
+    w.lo = end_with_values(s, w.lo);
+    w.hi = end_with_values(s, w.hi);
+    return angle ? qdot_window_turn(s->pool, w) : w;
+}
+
 static size_t
 holds_unknowns(const qdot_simultaneous *s, qdot_expr e)
 {
@@ -222,7 +243,7 @@ with_family(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr e
 {
     qdot_pool *pool = s->pool;
     qdot_window window = qdot_solve_tighten(pool, u, root->members,
-                                            qdot_solve_window(pool, u, false), &s->facts);
+                                            qdot_simultaneous_window(s, u, false), &s->facts);
     qdot_expr period, ratio;
     long members = 0;
     bool done;
@@ -302,7 +323,7 @@ with_root(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr oth
 static qdot_status
 order_families(qdot_simultaneous *s, qdot_expr u, qdot_solutions *found)
 {
-    qdot_window window = qdot_solve_window(s->pool, u, true);
+    qdot_window window = qdot_simultaneous_window(s, u, true);
     bool any = false;
 
     for (size_t i = 0; i < found->root.n && !window.turn; i++) {

@@ -43,6 +43,9 @@ typedef struct {
     /* Whether the caller takes members of a family with this period, other than a turn, for alike; NULL: it does. */
     bool (*alike)(void *user, qdot_expr u, qdot_expr period);
     void *user;
+    /* Values put into the ends of the domains of unknowns, that members are listed in; NULL: as they are. */
+    qdot_expr (*ends)(void *user, qdot_expr end);
+    void *ends_user;
     uint64_t work;                  /* rest of the budget, in operations */
     qdot_vec(qdot_simultaneous_branch) todo;
 
@@ -70,6 +73,9 @@ void qdot_simultaneous_clear(qdot_simultaneous *s);
 
 /* e with the values of equations u = value put in, all at once. */
 qdot_expr qdot_simultaneous_put(qdot_pool *pool, qdot_expr e, qdot_expr values);
+
+/* The window of the unknown u (solutions.h), with the values in its ends. */
+qdot_window qdot_simultaneous_window(const qdot_simultaneous *s, qdot_expr u, bool angle);
 
 /* The least shift of the unknown u after which all equations are what they were; nil: none is known. */
 QDOT_MUST_CHECK qdot_status qdot_simultaneous_period(qdot_simultaneous *s, qdot_expr u, qdot_expr *period);

@@ -109,7 +109,8 @@ qdot_branch_fold_is_crossing(qdot_branch_search *s, const qdot_bifurcation_brack
     for (size_t i = 0; i <= x->n && same; i++)
         same = fabs(b.y[i] - fold->y[i]) <= fold->error[i] + b.error[i];
     for (size_t i = 0; i < x->n && same; i++) /* on the end of an open domain: no place of the branch */
-        *outside = *outside || b.y[i] - b.error[i] <= x->lo[i] || b.y[i] + b.error[i] >= x->hi[i];
+        *outside = *outside || b.y[i] - b.error[i] <= qdot_path_end_of(x, i, false, b.y[x->n]) ||
+                   b.y[i] + b.error[i] >= qdot_path_end_of(x, i, true, b.y[x->n]);
     if (same) {
         memcpy(fold->y, b.y, 2 * x->width * sizeof *b.y);
         fold->kind = b.kind;

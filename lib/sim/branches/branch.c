@@ -26,7 +26,7 @@ static const double beyond = 0.05;
 /* Of the largest determinant so far: below, it may be of either sign. */
 static const double doubtful = 1e-13;
 /* Halvings of the way to what is not located otherwise. */
-enum { MOST_POINTS = 20000, UNKNOWN = 20 };
+enum { MOST_POINTS = 20000, UNKNOWN = 20, HALVINGS = 52 };
 
 /* --- bifurcations between two points ---------------------------------------------------------- */
 
@@ -335,10 +335,11 @@ static size_t
 passed(const qdot_path *x, const double *y, double *held)
 {
     for (size_t i = 0; i <= x->n; i++) {
-        const double lo = i < x->n ? x->lo[i] : x->least, hi = i < x->n ? x->hi[i] : x->most;
+        const double lo = i < x->n ? qdot_path_end_of(x, i, false, y[x->n]) : x->least;
+        const double hi = i < x->n ? qdot_path_end_of(x, i, true, y[x->n]) : x->most;
 
         *held = y[i] < lo ? lo : hi;
-        if (y[i] < lo || y[i] > hi)
+        if (!(y[i] >= lo && y[i] <= hi))
             return i;
     }
     return x->n + 1;
@@ -360,6 +361,26 @@ end_at(qdot_path *x, const qdot_path_point *a, size_t i, double held, qdot_path_
     *length = qdot_path_distance(x, a->y, b->y);
     return *length <= 1.01 * far && qdot_path_tangent(x, a->t, b) &&
            qdot_path_product(x, a->t, b->t) > straight;
+}
+
+/* Put b at the last place within all ends, which move with p, on the way of this length from a; *length. False: not found. */
+static bool
+end_by_halving(qdot_path *x, const qdot_path_point *a, qdot_path_point *b, double *length)
+{
+    double inside = 0, outside = *length, held;
+    int steps;
+
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = inside + (outside - inside) / 2;
+
+        if (!qdot_path_go(x, a, middle, b, &steps))
+            return false;
+        *(passed(x, b->y, &held) > x->n ? &inside : &outside) = middle;
+    }
+    if (!(inside > 0) || !qdot_path_go(x, a, inside, b, &steps))
+        return false;
+    *length = qdot_path_distance(x, a->y, b->y);
+    return qdot_path_product(x, a->t, b->t) > straight;
 }
 
 /* One step from a to b, of a length that it adapts, at most `most`; *last: nothing lies behind b, or
@@ -392,7 +413,7 @@ go_on(qdot_path *x, const qdot_path_point *a, double most, double *step, qdot_pa
         }
         *why = i == x->n ? QDOT_END_RANGE : QDOT_END_DOMAIN;
         *last = true;
-        if (end_at(x, a, i, held, b, length))
+        if (x->end != NULL && i < x->n ? end_by_halving(x, a, b, length) : end_at(x, a, i, held, b, length))
             return;
     }
     *length = 0;

@@ -182,8 +182,7 @@ follow_from(qdot_branch_search *s, const double *y)
     if (status == QDOT_OK) {
         memcpy(a.y, y, m * sizeof *y);
         up[m - 1] = 1;
-        for (size_t i = 0; i + 1 < m; i++)
-            known = known && a.y[i] >= x->lo[i] && a.y[i] <= x->hi[i];
+        known = qdot_path_is_inside(x, a.y);
         if (known && qdot_path_hold(x, m - 1, a.y) &&
             qdot_path_distance(x, a.y, y) < 1e-3 && qdot_path_tangent(x, up, &a)) {
             status = is_known(s, a.y, &known);
@@ -284,9 +283,8 @@ follow_arm(qdot_branch_search *s, const double *y, const double *other, double w
         status = qdot_path_point_begin(s->x, &a);
     if (status == QDOT_OK && (leap(s->x, y, other, way, false, &start, &a) ||
                               (over = leap(s->x, y, other, way, true, &start, &a)))) {
-        for (size_t i = 0; i < s->x->n; i++)
-            if (a.y[i] < s->x->lo[i] || a.y[i] > s->x->hi[i])
-                arm->end[1] = QDOT_END_DOMAIN;
+        if (!qdot_path_is_inside(s->x, a.y))
+            arm->end[1] = QDOT_END_DOMAIN;
         if (arm->end[1] == QDOT_END_RANGE)
             status = is_known(s, a.y, &known);
     }

@@ -87,6 +87,22 @@ qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_
 }
 
 double
+qdot_path_end_of(const qdot_path *x, size_t i, bool upper, double p)
+{
+    return x->end != NULL ? x->end(x, i, upper, p) : upper ? x->hi[i] : x->lo[i];
+}
+
+bool
+qdot_path_is_inside(const qdot_path *x, const double *y)
+{
+    bool inside = true;
+
+    for (size_t i = 0; i < x->n && inside; i++)
+        inside = y[i] >= qdot_path_end_of(x, i, false, y[x->n]) && y[i] <= qdot_path_end_of(x, i, true, y[x->n]);
+    return inside;
+}
+
+double
 qdot_path_product(const qdot_path *x, const double *a, const double *b)
 {
     double sum = 0;

@@ -38,6 +38,7 @@ struct qdot_path {
     size_t width;            /* n + 1, and what is told beside u and p at each point */
     const bool *angle;       /* [n] a full turn changes nothing; borrowed, as all that describes F */
     const double *lo, *hi;   /* [n] domains of the unknowns */
+    double (*end)(const qdot_path *x, size_t i, bool upper, double p); /* one that moves with p; NULL: none does */
     double least, most;      /* of p */
     double *weight;          /* [n + 1] */
     double exact;            /* corrections of Newton's below are rounding */
@@ -69,6 +70,10 @@ void qdot_path_scale(qdot_path *x, const double *size);
 QDOT_MUST_CHECK qdot_status qdot_path_point_begin(const qdot_path *x, qdot_path_point *a);
 void qdot_path_point_end(qdot_path_point *a);
 void qdot_path_point_copy(const qdot_path *x, const qdot_path_point *from, qdot_path_point *to);
+
+/* An end of the domain of unknown i at p; NaN: there is no domain there. Whether the unknowns of y lie in theirs. */
+double qdot_path_end_of(const qdot_path *x, size_t i, bool upper, double p);
+bool qdot_path_is_inside(const qdot_path *x, const double *y);
 
 /* The inner product. The distance of two places, angles modulo full turns. */
 double qdot_path_product(const qdot_path *x, const double *a, const double *b);

@@ -32,6 +32,12 @@ judge(qdot_path *path, qdot_path_point *a)
     return QDOT_OK;
 }
 
+static double
+end(const qdot_path *path, size_t i, bool upper, double p)
+{
+    return qdot_equilibrium_curve_end_of(((const qdot_rest_path *)path)->c, i, upper, p);
+}
+
 qdot_status
 qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least, double most)
 {
@@ -41,6 +47,7 @@ qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least,
     x->path.angle = c->angle;
     x->path.lo = c->lo;
     x->path.hi = c->hi;
+    x->path.end = c->moving ? end : NULL;
     x->path.least = least;
     x->path.most = most;
     x->path.at = evaluate;
