@@ -362,12 +362,14 @@ refuse(const hunt *h, const qdot_zero_result *r)
     return qdot_last_error()->status;
 }
 
-/* The solution is one of many: a notice. */
+/* The solution is one of many, or may be one of several between bounds: a notice. */
 static qdot_status
-tell_family(const hunt *h, const qdot_zero_result *r)
+tell_others(const hunt *h, const qdot_zero_result *r)
 {
     if (r->rank >= h->trial.n)
-        return QDOT_OK;
+        return !isfinite(h->f->low.at[0]) ? QDOT_OK
+                                          : qdot_answer_notice(h->f->c->session, "there may be others between the bounds: "
+                                                                                 "one solution was searched for");
     if (r->vague_rank)
         return qdot_answer_notice(h->f->c->session,
                                   "perhaps one of a family: to first order the conditions fix %zu of %zu unknowns",
@@ -504,7 +506,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     if (rests)
         QDOT_TRY(qdot_answer_notice(
             session, "this is a rest: velocities and accelerations are 0 at its start"));
-    return tell_family(h, r);
+    return tell_others(h, r);
 }
 
 /* --- along the motion ------------------------------------------------------------------------ */
