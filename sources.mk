@@ -359,6 +359,7 @@ library_sources = \
 	lib/normal/solve/linear.c \
 	lib/normal/solve/null-space.c \
 	lib/normal/solve/proportion.c \
+	lib/normal/solve/sides.c \
 	lib/normal/solve/simultaneous-members.c \
 	lib/normal/solve/simultaneous-set.c \
 	lib/normal/solve/simultaneous.c \
@@ -981,6 +982,7 @@ library_headers = \
 	lib/normal/solve/linear.h \
 	lib/normal/solve/null-space.h \
 	lib/normal/solve/proportion.h \
+	lib/normal/solve/sides.h \
 	lib/normal/solve/simultaneous.h \
 	lib/normal/solve/solutions.h \
 	lib/normal/solve/solve-special.h \
@@ -1378,6 +1380,7 @@ unit_tests = \
 	tests/normal/test_flint \
 	tests/normal/test_half-plane \
 	tests/normal/test_less \
+	tests/normal/test_sides \
 	tests/normal/test_simplify \
 	tests/normal/test_simultaneous \
 	tests/normal/test_solve \
@@ -1745,6 +1748,7 @@ script_tests = \
 	tests/script/session-file.sh \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
+	tests/script/sides-of-switches.lag \
 	tests/script/signs.lag \
 	tests/script/slope-units.sh \
 	tests/script/slow-margin.lag \
@@ -2983,6 +2987,7 @@ test_files = \
 	tests/script/session-file.out \
 	tests/script/several-ranges.out \
 	tests/script/several.out \
+	tests/script/sides-of-switches.out \
 	tests/script/signs.out \
 	tests/script/six.awk \
 	tests/script/slope-units.out \
@@ -3119,6 +3124,7 @@ other_files = \
 	bench/solutions/answer.py \
 	bench/solutions/equations.py \
 	bench/solutions/formula.py \
+	bench/solutions/kinks.py \
 	bench/solutions/rests.py \
 	bench/solutions/run \
 	bench/solutions/scene.py \

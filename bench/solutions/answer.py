@@ -118,7 +118,7 @@ def ask(program, script, unknown=None, timeout=20):
         index = re.search(r"\[(\d+)\]$", name)
         if o["kind"] == "error":
             said.error, said.hint = o["message"], o.get("hint")
-        elif o["kind"] in ("expr", "number") and (name.startswith("solve") or name.startswith("equilibria")):
+        elif o["kind"] in ("expr", "number") and re.match("solve|equilibria|%\\d", name):
             plain = o.get("plain") or o.get("value") or ""
             if plain == "[]" and not index:
                 if unknown is not None:
@@ -130,7 +130,7 @@ def ask(program, script, unknown=None, timeout=20):
             body = e.text[1:-1] if e.text.startswith("[") and e.text.endswith("]") else e.text
             for part in split(body) if body else []:
                 _equation(part, unknown, e)
-        elif o["kind"] == "numbers" and name.startswith("solve"):
+        elif o["kind"] == "numbers" and re.match("solve|%\\d", name):
             for k, v in enumerate(o["values"], 1):
                 e = entries[k] = Entry(k, str(v))
                 e.numeric = True

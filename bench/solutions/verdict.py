@@ -9,7 +9,7 @@ from formula import Real, Unreadable, array, names, read, symbolic, value
 from scene import bare
 from search import Forces, gauss, grid, inside, polish, stationary, vanishes, wrap, zeros
 
-WORST = ["crash", "wrong", "stability", "incomplete", "condition", "visible", "error", "said", "right"]
+WORST = ["crash", "wrong", "stability", "incomplete", "condition", "twice", "visible", "error", "said", "right"]
 REASONS = re.compile(r"cannot|not built|too |more than|budget|needs|only|no closed|must")
 
 

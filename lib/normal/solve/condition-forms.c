@@ -61,6 +61,24 @@ vanishes_by_choice(qdot_pool *pool, qdot_expr e, int depth)
 }
 
 bool
+qdot_holds_root(qdot_pool *pool, qdot_expr e)
+{
+    bool found = false;
+    qdot_walk w;
+
+    if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return true;
+    for (size_t i = 0; i < w.n && !found; i++)
+        for (uint32_t k = 2; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2) {
+            const fmpq *q = qdot_expr_rational(pool, qdot_expr_arg(pool, w.at[i], k));
+
+            found = found || q == NULL || !fmpz_is_one(fmpq_denref(q));
+        }
+    qdot_walk_end(&w);
+    return found;
+}
+
+bool
 qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e)
 {
     return e != QDOT_NIL && qdot_expr_size(pool, e) <= LARGEST && vanishes_by_choice(pool, e, 0);

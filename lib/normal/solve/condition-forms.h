@@ -13,6 +13,9 @@
 /* Whether e may be 0 in whole regions, as |a| - a is: with other values of |u|, sign u, max, min put in, it is 0
  * identically. */
 bool qdot_vanishes_in_regions(qdot_pool *pool, qdot_expr e);
+/* Whether e holds a power with an exponent that is no integer: such a sum, as sqrt((a - 1)^2) - a + 1, may be 0 in regions
+ * without a choice in it. */
+bool qdot_holds_root(qdot_pool *pool, qdot_expr e);
 
 /* Of a gap k |v| + k v or k |v| - k v, k a number: v or -v, which is positive where the gap is (strict), or not negative
  * where the gap is not negative. QDOT_ONE: the condition always holds, QDOT_MINUS_ONE: never. Nil: the gap has another

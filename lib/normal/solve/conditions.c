@@ -191,6 +191,7 @@ condition_shorten(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts 
 static qdot_expr
 condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *facts)
 {
+    bool generic;
     uint8_t sign;
 
     if (gap == QDOT_NIL)
@@ -212,9 +213,12 @@ condition_decide(qdot_pool *pool, qdot_expr gap, bool strict, const qdot_facts *
         if (qdot_is_zero(pool, gap, facts))
             return strict ? QDOT_FALSE : QDOT_TRUE;
     }
-    if (is_proved(pool, QDOT_ZERO, gap, strict && !qdot_is_taken_generic(pool, gap, facts), facts))
+    generic = qdot_is_taken_generic(pool, gap, facts);
+    if (is_proved(pool, QDOT_ZERO, gap, strict && !generic, facts))
         return QDOT_TRUE;
-    if (is_proved(pool, gap, QDOT_ZERO, !strict, facts) || qdot_pool_failed(pool))
+    /* generic parameters are at no end */
+    if (is_proved(pool, gap, QDOT_ZERO, !strict && !(generic && !qdot_holds_root(pool, gap)), facts) ||
+        qdot_pool_failed(pool))
         return qdot_pool_failed(pool) ? QDOT_NIL : QDOT_FALSE;
     return condition_shorten(pool, gap, strict, facts);
 }
@@ -300,28 +304,110 @@ qdot_conditions_and_nonzero(qdot_pool *pool, qdot_expr set, qdot_expr u)
                                qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, u)));
 }
 
+/* The set with `to` in the place of its i-th relation; TRUE: without it. */
+static qdot_expr
+conditions_replace(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
+{
+    qdot_expr all = QDOT_NIL;
+
+    for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++)
+        all = qdot_conditions_and(pool, all, k == i ? to : qdot_expr_arg(pool, set, k));
+    return all;
+}
+
+/* Whether all relations of `set` follow from those of `from`. */
+static bool
+set_follows(qdot_pool *pool, qdot_expr from, qdot_expr set, const qdot_facts *facts)
+{
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    const qdot_facts known = qdot_facts_and(pool, facts, from, room);
+    bool all = true;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, set) && all; i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i);
+
+        all = qdot_conditions_and(pool, from, one) == from ||
+              (qdot_expr_kind(pool, one) == QDOT_REL && qdot_expr_node(pool, one)->op != QDOT_EQ &&
+               is_proved(pool, qdot_expr_arg(pool, one, 0), qdot_expr_arg(pool, one, 1),
+                         qdot_expr_node(pool, one)->op == QDOT_LT, &known));
+    }
+    return all;
+}
+
+/* The only relation of `set` that is not in `other`; nil: there are none or several. */
+static qdot_expr
+only_beside(qdot_pool *pool, qdot_expr set, qdot_expr other)
+{
+    qdot_expr only = QDOT_NIL;
+    unsigned count = 0;
+
+    for (uint32_t i = 0; i < qdot_expr_count(pool, set); i++)
+        if (qdot_conditions_and(pool, other, qdot_expr_arg(pool, set, i)) != other) {
+            only = qdot_expr_arg(pool, set, i);
+            count++;
+        }
+    return count == 1 ? only : QDOT_NIL;
+}
+
+/* Both sets but for one relation each, u > 0 or u >= 0 and the opposite of it: *set gets u != 0 or nothing in its place. */
+static bool
+join_opposites(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
+{
+    qdot_expr a = only_beside(pool, *set, other), b = only_beside(pool, other, *set), sum, left = QDOT_NIL;
+
+    if (a == QDOT_NIL || b == QDOT_NIL || qdot_expr_kind(pool, a) != QDOT_REL || qdot_expr_kind(pool, b) != QDOT_REL)
+        return false;
+    sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
+    if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
+        return false;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, *set); i++)
+        if (qdot_expr_arg(pool, *set, i) != a)
+            left = qdot_conditions_and(pool, left, qdot_expr_arg(pool, *set, i));
+    if (qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
+        !qdot_is_taken_generic(pool, a, facts))
+        left = qdot_conditions_and_nonzero(pool, left, qdot_positive_of(pool, a));
+    *set = left;
+    return true;
+}
+
+/* The set without its i-th relation, where all of that follows from `other`, and `other` from it and the opposite of that
+ * relation: that is what either set says. *set gets it. */
+static bool
+join_complement(qdot_pool *pool, qdot_expr *set, qdot_expr one, qdot_expr other, const qdot_facts *facts)
+{
+    for (uint32_t i = 0; i < qdot_expr_count(pool, one); i++) {
+        qdot_expr relation = qdot_expr_arg(pool, one, i), rest = conditions_replace(pool, one, i, QDOT_TRUE), opposite;
+        bool strict;
+
+        if (qdot_expr_kind(pool, relation) != QDOT_REL || qdot_expr_node(pool, relation)->op == QDOT_EQ)
+            continue;
+        strict = qdot_expr_node(pool, relation)->op == QDOT_LT;
+        opposite = qdot_rel(pool, strict ? QDOT_LE : QDOT_LT, qdot_expr_arg(pool, relation, 1),
+                            qdot_expr_arg(pool, relation, 0));
+        if ((rest == QDOT_NIL || set_follows(pool, other, rest, facts)) &&
+            set_follows(pool, qdot_conditions_and(pool, rest, opposite), other, facts)) {
+            *set = rest;
+            return true;
+        }
+    }
+    return false;
+}
+
 bool
 qdot_conditions_join(qdot_pool *pool, qdot_expr *set, qdot_expr other, const qdot_facts *facts)
 {
-    qdot_expr a, b, sum;
-
     if (*set == other || *set == QDOT_NIL)
         return true;
     if (other == QDOT_NIL) {
         *set = QDOT_NIL;
         return true;
     }
-    if (qdot_expr_count(pool, *set) != 1 || qdot_expr_count(pool, other) != 1)
+    if (join_opposites(pool, set, other, facts) || set_follows(pool, other, *set, facts) ||
+        join_complement(pool, set, *set, other, facts) || join_complement(pool, set, other, *set, facts))
+        return true;
+    if (!set_follows(pool, *set, other, facts))
         return false;
-    a = qdot_expr_arg(pool, *set, 0);
-    b = qdot_expr_arg(pool, other, 0);
-    sum = qdot_add(pool, qdot_positive_of(pool, a), qdot_positive_of(pool, b));
-    if (sum != QDOT_ZERO) /* not a >= 0 and a <= 0 */
-        return false;
-    *set = qdot_expr_node(pool, a)->op == QDOT_LT && qdot_expr_node(pool, b)->op == QDOT_LT &&
-                   !qdot_is_taken_generic(pool, a, facts)
-               ? qdot_conditions_and_nonzero(pool, QDOT_NIL, qdot_positive_of(pool, a))
-               : QDOT_NIL;
+    *set = other;
     return true;
 }
 
@@ -447,17 +533,6 @@ follows(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr relation, bool wit
     known = qdot_facts_and(pool, facts, others, room);
     return is_proved(pool, qdot_expr_arg(pool, relation, 0), qdot_expr_arg(pool, relation, 1),
                      qdot_expr_node(pool, relation)->op == QDOT_LT, &known);
-}
-
-/* The set with `to` in the place of its i-th relation; TRUE: without it. */
-static qdot_expr
-conditions_replace(qdot_pool *pool, qdot_expr set, uint32_t i, qdot_expr to)
-{
-    qdot_expr all = QDOT_NIL;
-
-    for (uint32_t k = 0; k < qdot_expr_count(pool, set); k++)
-        all = qdot_conditions_and(pool, all, k == i ? to : qdot_expr_arg(pool, set, k));
-    return all;
 }
 
 /* Whether the relations of a set are few and small enough to be compared with each other. */

@@ -14,6 +14,8 @@
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/condition-forms.h"
+#include "normal/solve/sides.h"
 #include "normal/solve/solve.h"
 
 enum { MOST_MEMBERS = 64 };
@@ -368,15 +370,78 @@ split(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr others,
     return status;
 }
 
+/* --- sides ----------------------------------------------------------------------------- */
+
+/* The branch on one side of a switch, with further conditions (nil: none), and `jump` (nil: none) among its equations. */
+static qdot_status
+with_side(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const qdot_sides *sides, size_t side,
+          qdot_expr relations, qdot_expr jump)
+{
+    qdot_pool *pool = s->pool;
+    bool free = b->conditions == QDOT_NIL;
+    qdot_simultaneous_branch next = {
+        .equations = qdot_sides_put(sides, side, b->equations),
+        .known = qdot_sides_put(sides, side, b->known),
+        .conditions = free ? QDOT_NIL : qdot_sides_put(sides, side, b->conditions),
+        .first = b->first == QDOT_NIL ? QDOT_NIL : qdot_sides_put(sides, side, b->first),
+        .whole = qdot_sides_put(sides, side, b->whole == QDOT_NIL ? s->equations : b->whole)};
+    qdot_status status = qdot_pool_check(pool);
+
+    if (status != QDOT_OK) /* not defined there */
+        return status == QDOT_EDOMAIN ? QDOT_OK : status;
+    if (jump != QDOT_NIL)
+        next.equations = qdot_list_appended(pool, next.equations, 1, &jump);
+    next.conditions = qdot_conditions_all(pool, next.conditions, relations);
+    next.conditions = qdot_conditions_at(pool, next.conditions, 0, NULL, NULL, &s->facts);
+    QDOT_TRY(qdot_pool_check(pool));
+    return next.conditions == QDOT_FALSE ? QDOT_OK : qdot_vec_push(&s->todo, next);
+}
+
+/* A branch for each side of the switch that `choice` belongs to, in all equations; the first one is solved first. */
+static qdot_status
+with_sides(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qdot_expr choice)
+{
+    qdot_expr all = qdot_list_appended(s->pool, b->equations, 1, &b->known);
+    qdot_sides sides = {0};
+    qdot_status status;
+
+    if (b->first != QDOT_NIL)
+        all = qdot_list_appended(s->pool, all, 1, &b->first);
+    if (b->conditions != QDOT_NIL)
+        all = qdot_list_appended(s->pool, all, 1, &b->conditions);
+    QDOT_TRY(qdot_pool_check(s->pool));
+    status = qdot_sides_of(s->pool, all, choice, &sides);
+    s->complete = s->complete && sides.n > 0;
+    if (status == QDOT_OK && sides.jump != QDOT_NIL)
+        status = with_side(s, b, &sides, sides.n, QDOT_NIL, sides.jump);
+    for (size_t i = sides.n; i-- > 0 && status == QDOT_OK;)
+        status = with_side(s, b, &sides, i, sides.relations[i], QDOT_NIL);
+    qdot_sides_clear(&sides);
+    return status;
+}
+
+/* The innermost choice by unknowns in e, unless it is the one equation left in one unknown: then the solution makes it. */
+static qdot_expr
+shared_choice(const qdot_simultaneous *s, qdot_expr e, qdot_expr others)
+{
+    qdot_expr choice = QDOT_NIL;
+
+    if (qdot_expr_count(s->pool, others) == 0 && holds_unknowns(s, e) == 1)
+        return QDOT_NIL;
+    for (size_t i = 0; i < s->unknowns.n && choice == QDOT_NIL; i++)
+        choice = qdot_sides_choice(s->pool, e, s->unknowns.at[i]);
+    return choice;
+}
+
 /* --- the next equation ----------------------------------------------------------------- */
 
 /* Whether e, without unknowns and not proved to be 0, is another number than 0: else nothing is known. */
 static qdot_status
-is_never_zero(qdot_simultaneous *s, qdot_expr e)
+is_never_zero(qdot_simultaneous *s, qdot_expr e, const qdot_facts *facts)
 {
     qdot_decision d;
 
-    QDOT_TRY(qdot_decide_equal(s->pool, e, QDOT_ZERO, &s->facts, &d));
+    QDOT_TRY(qdot_decide_equal(s->pool, e, QDOT_ZERO, facts, &d));
     s->complete = s->complete && d.verdict == QDOT_REFUTED;
     return add_special(s, e);
 }
@@ -429,35 +494,39 @@ with_integers_solved(qdot_simultaneous *s, const qdot_simultaneous_branch *b, qd
     return status;
 }
 
-/* The factors of every equation; the one whose hardest factor is easiest. *dead: one of them is
- * never 0. *integers: instead, it is 0 for some integers that count members of families; else nil. */
+/* What is solved next. */
+typedef struct {
+    qdot_expr equation, factors; /* factors: nil where nothing is left to solve */
+    qdot_expr others;            /* equations */
+    qdot_expr dead;              /* an equation without unknowns that is not proved to be 0; nil: there is none */
+} next_equation;
+
+/* The factors of every equation; the one whose hardest factor is easiest. */
 static qdot_status
-choose(qdot_simultaneous *s, qdot_expr equations, qdot_expr *factors, qdot_expr *others,
-       bool *dead, qdot_expr *integers)
+choose(qdot_simultaneous *s, qdot_expr equations, const qdot_facts *facts, next_equation *next)
 {
     qdot_pool *pool = s->pool;
     uint32_t n = qdot_expr_count(pool, equations), best = 0, count = 0;
-    qdot_expr *left = qdot_calloc(n + 1, sizeof *left), chosen = QDOT_NIL;
+    qdot_expr *left = qdot_calloc(n + 1, sizeof *left);
     int least = 10;
     size_t which;
-    qdot_status status = left == NULL ? QDOT_ENOMEM : QDOT_OK;
 
-    *dead = false;
-    for (uint32_t i = 0; i < n && !*dead && status == QDOT_OK; i++) {
+    if (left == NULL)
+        return QDOT_ENOMEM;
+    for (uint32_t i = 0; i < n && next->dead == QDOT_NIL; i++) {
         qdot_expr e = qdot_simplify(pool, qdot_expr_arg(pool, equations, i), &s->facts),
                   list;
         int hardest = 0;
 
         if (e == QDOT_ZERO || e == QDOT_NIL || qdot_is_zero(pool, e, &s->facts))
             continue;
+        if (holds_unknowns(s, e) == 0 && qdot_is_zero(pool, e, facts))
+            continue;
         list = qdot_solve_factors(pool, e);
         if (list == QDOT_NIL)
             break;
-        *dead = holds_unknowns(s, e) == 0;
-        if (*dead && qdot_solve_integers(pool, e) > 0)
-            *integers = e;
-        else if (*dead)
-            status = is_never_zero(s, e);
+        if (holds_unknowns(s, e) == 0)
+            next->dead = e;
         for (uint32_t k = 0; k < qdot_expr_count(pool, list); k++) {
             int one = easiest(s, qdot_expr_arg(pool, list, k), &which);
 
@@ -468,58 +537,97 @@ choose(qdot_simultaneous *s, qdot_expr equations, qdot_expr *factors, qdot_expr 
         if (hardest < least) {
             least = hardest;
             best = count - 1;
-            chosen = list;
+            next->factors = list;
         }
     }
-    *factors = count == 0 ? QDOT_NIL : chosen;
-    if (count > 0)
+    if (count > 0) {
+        next->equation = left[best];
         left[best] = left[count - 1];
-    *others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
+    }
+    next->others = qdot_list(pool, count == 0 ? 0 : count - 1, left);
     qdot_free(left);
-    return status == QDOT_OK ? qdot_pool_check(pool) : status;
+    return qdot_pool_check(pool);
 }
 
 /* A divisor that is to be 0 before anything else: its factors; nil: it is 0 already. */
 static qdot_status
-choose_divisor(qdot_simultaneous *s, qdot_expr divisor, qdot_expr *factors, bool *dead)
+choose_divisor(qdot_simultaneous *s, qdot_expr divisor, next_equation *next)
 {
     qdot_pool *pool = s->pool;
     qdot_expr e = qdot_simplify(pool, divisor, &s->facts);
 
-    *factors = QDOT_NIL;
-    *dead = false;
     if (e == QDOT_NIL || e == QDOT_ZERO || qdot_is_zero(pool, e, &s->facts))
         return qdot_pool_check(pool);
-    *factors = qdot_solve_factors(pool, e);
-    *dead = holds_unknowns(s, e) == 0;
-    QDOT_TRY(qdot_pool_check(pool));
-    if (*dead && qdot_solve_integers(pool, e) > 0) { /* for which integers is not asked */
-        s->complete = false;
+    next->equation = e;
+    next->factors = qdot_solve_factors(pool, e);
+    if (holds_unknowns(s, e) == 0)
+        next->dead = e;
+    return qdot_pool_check(pool);
+}
+
+/* An equation e = 0 without unknowns. Integers that count members of families may solve it, or one side of a switch of
+ * parameters; else it never holds. */
+static qdot_status
+with_dead(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next, const qdot_facts *facts)
+{
+    qdot_expr choice = qdot_vanishes_in_regions(s->pool, next->dead)
+                           ? qdot_sides_choice(s->pool, next->dead, QDOT_NIL)
+                           : QDOT_NIL;
+    qdot_simultaneous_branch simple = *b;
+
+    if (qdot_solve_integers(s->pool, next->dead) > 0) {
+        if (b->first == QDOT_NIL)
+            return with_integers_solved(s, b, next->dead);
+        s->complete = false; /* for which integers a divisor is 0 is not asked */
         return QDOT_OK;
     }
-    return *dead ? is_never_zero(s, e) : QDOT_OK;
+    if (choice == QDOT_NIL)
+        return is_never_zero(s, next->dead, facts);
+    simple.equations = qdot_list_appended(s->pool, b->equations, 1, &next->dead);
+    return with_sides(s, &simple, choice);
+}
+
+/* The factors of the next equation, each solved where no choice is in it; else a branch with that factor alone, or, if it
+ * is the only one, for each side. */
+static qdot_status
+with_factors(qdot_simultaneous *s, const qdot_simultaneous_branch *b, const next_equation *next)
+{
+    uint32_t n = qdot_expr_count(s->pool, next->factors);
+
+    for (uint32_t k = n; k-- > 0;) {
+        qdot_expr one = qdot_expr_arg(s->pool, next->factors, k), choice = shared_choice(s, one, next->others);
+        qdot_simultaneous_branch with = *b;
+        qdot_expr *at = b->first == QDOT_NIL ? &with.equations : &with.first;
+
+        if (choice == QDOT_NIL) {
+            QDOT_TRY(split(s, b, next->others, one));
+            continue;
+        }
+        *at = b->first == QDOT_NIL ? qdot_list_appended(s->pool, next->others, 1, &one) : one;
+        QDOT_TRY(qdot_pool_check(s->pool));
+        QDOT_TRY(n == 1 ? with_sides(s, &with, choice) : qdot_vec_push(&s->todo, with));
+    }
+    return QDOT_OK;
 }
 
 static qdot_status
 step(qdot_simultaneous *s, const qdot_simultaneous_branch *b)
 {
-    qdot_expr factors = QDOT_NIL, others = b->equations, integers = QDOT_NIL;
-    bool dead = false;
+    next_equation next = {QDOT_NIL, QDOT_NIL, b->equations, QDOT_NIL};
+    qdot_simultaneous_branch left = *b;
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    const qdot_facts facts = qdot_facts_and(s->pool, &s->facts, b->conditions, room);
 
     QDOT_TRY(qdot_interrupt_check());
     if (b->first != QDOT_NIL)
-        QDOT_TRY(choose_divisor(s, b->first, &factors, &dead));
-    if (factors == QDOT_NIL && !dead)
-        QDOT_TRY(choose(s, b->equations, &factors, &others, &dead, &integers));
-    if (integers != QDOT_NIL)
-        return with_integers_solved(s, b, integers);
-    if (dead)
-        return QDOT_OK;
-    if (factors == QDOT_NIL)
-        return qdot_simultaneous_emit(s, b);
-    for (uint32_t k = qdot_expr_count(s->pool, factors); k-- > 0;)
-        QDOT_TRY(split(s, b, others, qdot_expr_arg(s->pool, factors, k)));
-    return QDOT_OK;
+        QDOT_TRY(choose_divisor(s, b->first, &next));
+    if (next.factors == QDOT_NIL) { /* the divisor is 0 */
+        left.first = QDOT_NIL;
+        QDOT_TRY(choose(s, b->equations, &facts, &next));
+    }
+    if (next.dead != QDOT_NIL)
+        return with_dead(s, &left, &next, &facts);
+    return next.factors == QDOT_NIL ? qdot_simultaneous_emit(s, b) : with_factors(s, &left, &next);
 }
 
 /* Charge a step on these equations, whose factors and forms take more than their length; false when

@@ -7,6 +7,7 @@
 #include "expr/walk.h"
 #include "normal/field/flint.h"
 #include "normal/prove/decide.h"
+#include "normal/solve/sides.h"
 #include "normal/solve/solver.h"
 
 /* Whether the root `one` lies in the family or range `all`. */
@@ -117,7 +118,7 @@ qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qdot_expr x, const qdot_facts 
 static qdot_status
 has_pieces(qdot_pool *pool, qdot_expr f, qdot_expr x, bool *yes)
 {
-    *yes = qdot_solver_choice(pool, f, x) != QDOT_NIL ||
+    *yes = qdot_sides_choice(pool, f, x) != QDOT_NIL ||
            qdot_expr_find_function(pool, f, 1, (qdot_fun_id[]){QDOT_FLOOR}, x) != QDOT_NIL;
     return qdot_pool_check(pool);
 }

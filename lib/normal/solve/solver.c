@@ -11,6 +11,7 @@
 #include "normal/refute/constant.h"
 #include "normal/refute/sample.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/sides.h"
 
 enum { WORK = 2000000, MOST_DEPTH = 8, POINTS = 30 };
 
@@ -188,7 +189,7 @@ vanishes_in_regions(qdot_pool *pool, qdot_expr e)
     bool found = false;
 
     for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms) && !found; i++)
-        found = qdot_solver_choice(pool, e, qdot_expr_arg(pool, atoms, i)) != QDOT_NIL;
+        found = qdot_sides_choice(pool, e, qdot_expr_arg(pool, atoms, i)) != QDOT_NIL;
     return found;
 }
 
@@ -606,6 +607,45 @@ by_factors(qdot_solver *s, qdot_expr e, qdot_expr when)
     return status == QDOT_OK ? qdot_pool_check(s->pool) : status;
 }
 
+/* Whether e is a product of whole powers of several factors with x, divided by nothing that holds x. */
+static bool
+is_product(const qdot_solver *s, qdot_expr e)
+{
+    uint32_t n = qdot_expr_kind(s->pool, e) == QDOT_PROD ? qdot_expr_count(s->pool, e) : 0, with = 0;
+
+    for (uint32_t i = 1; i + 1 < n; i += 2) {
+        long power;
+
+        if (!qdot_expr_contains(s->pool, qdot_expr_arg(s->pool, e, i), s->x))
+            continue;
+        if (!qdot_expr_to_int(s->pool, qdot_expr_arg(s->pool, e, i + 1), &power) || power < 0)
+            return false;
+        with++;
+    }
+    return with > 1;
+}
+
+/* The zeros of each factor of a product, of those with choices last: the choices of one do not matter to another. */
+static qdot_status
+by_product(qdot_solver *s, qdot_expr e, qdot_expr when)
+{
+    qdot_expr rest = qdot_expr_arg(s->pool, e, 0);
+
+    for (int choices = 0; choices < 2; choices++)
+        for (uint32_t i = 1; i + 1 < qdot_expr_count(s->pool, e); i += 2) {
+            qdot_expr base = qdot_expr_arg(s->pool, e, i);
+
+            if ((qdot_sides_choice(s->pool, base, s->x) != QDOT_NIL) != (choices == 1))
+                continue;
+            if (qdot_expr_contains(s->pool, base, s->x))
+                QDOT_TRY(qdot_solver_equation(s, base, when));
+            else
+                rest = qdot_mul(s->pool, rest, qdot_pow(s->pool, base, qdot_expr_arg(s->pool, e, i + 1)));
+        }
+    QDOT_TRY(qdot_pool_check(s->pool));
+    return qdot_is_constant(s->pool, rest) ? QDOT_OK : qdot_solver_add_where(s, s->x, rest, when);
+}
+
 qdot_status
 qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
 {
@@ -620,8 +660,11 @@ qdot_solver_equation(qdot_solver *s, qdot_expr e, qdot_expr when)
         return QDOT_OK;
     }
     s->depth++;
-    choice = qdot_solver_choice(s->pool, e, s->x);
-    status = choice == QDOT_NIL ? by_factors(s, e, when) : qdot_solver_cases(s, e, choice, when);
+    choice = qdot_sides_choice(s->pool, e, s->x);
+    if (choice == QDOT_NIL)
+        status = by_factors(s, e, when);
+    else
+        status = is_product(s, e) ? by_product(s, e, when) : qdot_solver_cases(s, e, choice, when);
     s->depth--;
     return status;
 }

@@ -46,9 +46,7 @@ QDOT_MUST_CHECK qdot_status qdot_solver_turns(qdot_solver *s, qdot_expr u, size_
 QDOT_MUST_CHECK qdot_status qdot_solver_mixed(qdot_solver *s, qdot_expr u, qdot_expr a,
                                               qdot_expr b, qdot_expr d, qdot_expr when);
 
-/* The innermost |u|, sign u, max, min or if(...) in e that holds x; nil: none; and e = 0 case by case
- * (solve-cases.c). */
-qdot_expr qdot_solver_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
+/* e = 0 side by side of the switch that `choice` (sides.h) belongs to (solve-cases.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_cases(qdot_solver *s, qdot_expr e, qdot_expr choice,
                                               qdot_expr when);
 

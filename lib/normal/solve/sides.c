@@ -1,0 +1,198 @@
+/* sides.c -- which functions choose by the sign of the same u, and what they are on its sides. */
+#include "normal/solve/sides.h"
+
+#include "expr/calculus.h"
+#include "expr/elementary.h"
+#include "expr/list.h"
+#include "expr/walk.h"
+#include "normal/simplify/simplify.h"
+
+qdot_expr
+qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x)
+{
+    static const qdot_fun_id choices[] = {QDOT_ABS, QDOT_SIGN, QDOT_MAX, QDOT_MIN, QDOT_IF};
+
+    return qdot_expr_find_function(pool, e, sizeof choices / sizeof *choices, choices, x);
+}
+
+/* --- one function ---------------------------------------------------------------------------------- */
+
+/* What a function is where left > right, where left < right and where they are equal. */
+typedef struct {
+    qdot_expr left, right;
+    qdot_expr above, below, equal; /* nil: it is no function that chooses by one difference */
+} chooser;
+
+static chooser
+chooser_of(qdot_pool *pool, qdot_expr e)
+{
+    const chooser none = {QDOT_NIL, QDOT_NIL, QDOT_NIL, QDOT_NIL, QDOT_NIL};
+    qdot_expr a, b, c;
+
+    if (qdot_expr_kind(pool, e) != QDOT_FUN)
+        return none;
+    a = qdot_expr_arg(pool, e, 0);
+    switch (qdot_expr_node(pool, e)->op) {
+    case QDOT_ABS: return (chooser){a, QDOT_ZERO, a, qdot_neg(pool, a), QDOT_ZERO};
+    case QDOT_SIGN: return (chooser){a, QDOT_ZERO, QDOT_ONE, QDOT_MINUS_ONE, QDOT_ZERO};
+    case QDOT_MAX:
+    case QDOT_MIN:
+        if (qdot_expr_count(pool, e) != 2)
+            return none;
+        b = qdot_expr_arg(pool, e, 1);
+        return qdot_expr_node(pool, e)->op == QDOT_MAX ? (chooser){a, b, a, b, a} : (chooser){b, a, a, b, a};
+    case QDOT_IF:
+        b = qdot_expr_arg(pool, e, 1);
+        c = qdot_expr_arg(pool, e, 2);
+        if (qdot_expr_kind(pool, a) != QDOT_REL || qdot_expr_node(pool, a)->op == QDOT_EQ)
+            return none;
+        return (chooser){qdot_expr_arg(pool, a, 1), qdot_expr_arg(pool, a, 0), b, c,
+                         qdot_expr_node(pool, a)->op == QDOT_LT ? c : b};
+    default: return none;
+    }
+}
+
+/* 1 if v = c u with c > 0, -1 if with c < 0, both proved by the form of v/u; else 0. */
+static int
+sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
+{
+    qdot_expr ratio;
+    uint8_t sign;
+
+    if (v == u)
+        return 1;
+    if (v == QDOT_NIL || u == QDOT_ZERO || v == QDOT_ZERO)
+        return 0;
+    ratio = qdot_simplify(pool, qdot_div(pool, v, u), NULL);
+    if (ratio == QDOT_NIL)
+        return 0;
+    sign = qdot_expr_node(pool, ratio)->sign;
+    return (sign & QDOT_POS) == QDOT_POS ? 1 : (sign & QDOT_NEG) == QDOT_NEG ? -1 : 0;
+}
+
+/* --- the switch ------------------------------------------------------------------------------------- */
+
+/* The functions of e that choose by the sign of u: to s->choice; which of the sides agree at u = 0: with[2]. */
+static qdot_status
+collect(qdot_sides *s, qdot_expr e, qdot_expr u, bool *with)
+{
+    qdot_pool *pool = s->pool;
+    qdot_vec(chooser) found = {0};
+    qdot_status status;
+    qdot_walk w;
+
+    with[0] = with[1] = true;
+    QDOT_TRY(qdot_walk_begin(pool, e, &w));
+    status = qdot_pool_check(pool);
+    for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
+        chooser one = chooser_of(pool, w.at[i]);
+        int sign = one.above == QDOT_NIL ? 0 : sign_of_ratio(pool, qdot_sub(pool, one.left, one.right), u);
+
+        status = qdot_pool_check(pool);
+        if (status != QDOT_OK || sign == 0)
+            continue;
+        if (sign < 0) {
+            qdot_expr above = one.above;
+
+            one.above = one.below;
+            one.below = above;
+        }
+        if (qdot_expr_is_function(pool, w.at[i], QDOT_SIGN))
+            with[0] = with[1] = false;
+        else if (qdot_expr_is_function(pool, w.at[i], QDOT_IF)) {
+            with[0] = with[0] && one.equal == one.above;
+            with[1] = with[1] && one.equal == one.below;
+        }
+        status = qdot_vec_push(&s->choice, w.at[i]);
+        if (status == QDOT_OK)
+            status = qdot_vec_push(&found, one);
+    }
+    qdot_walk_end(&w);
+    for (int side = 0; side < 3; side++)
+        for (size_t i = 0; i < found.n && status == QDOT_OK; i++)
+            status = qdot_vec_push(&s->value, side == 0   ? found.at[i].above
+                                              : side == 1 ? found.at[i].below
+                                                          : found.at[i].equal);
+    qdot_free(found.at);
+    return status;
+}
+
+/* left > right and left < right. */
+static qdot_status
+two_sides(qdot_sides *s, qdot_expr e, const chooser *by)
+{
+    qdot_pool *pool = s->pool;
+    qdot_expr u = qdot_sub(pool, by->left, by->right), relation;
+    bool with[2];
+    qdot_status status = qdot_pool_check(pool);
+
+    QDOT_TRY(status);
+    QDOT_TRY(collect(s, e, u, with));
+    s->n = 2;
+    (void)qdot_sides_put(s, 2, e);
+    status = qdot_pool_check(pool);
+    if (status == QDOT_EDOMAIN) /* what is divided by is 0 there */
+        with[0] = with[1] = false;
+    else if (status == QDOT_OK && !with[0] && !with[1])
+        s->jump = u;
+    else if (status != QDOT_OK)
+        return status;
+    relation = qdot_rel(pool, with[0] ? QDOT_LE : QDOT_LT, by->right, by->left);
+    s->relations[0] = qdot_list(pool, 1, &relation);
+    relation = qdot_rel(pool, with[1] ? QDOT_LE : QDOT_LT, by->left, by->right);
+    s->relations[1] = qdot_list(pool, 1, &relation);
+    return qdot_pool_check(pool);
+}
+
+/* The largest (least) of several arguments: each, where it is. */
+static qdot_status
+side_each(qdot_sides *s, qdot_expr choice)
+{
+    qdot_pool *pool = s->pool;
+    bool largest = qdot_expr_node(pool, choice)->op == QDOT_MAX;
+    uint32_t n = qdot_expr_count(pool, choice);
+
+    if (n > QDOT_SIDES_MOST)
+        return QDOT_OK;
+    QDOT_TRY(qdot_vec_push(&s->choice, choice));
+    for (uint32_t i = 0; i < n; i++) {
+        qdot_expr it = qdot_expr_arg(pool, choice, i), there = qdot_list(pool, 0, NULL);
+
+        for (uint32_t k = 0; k < n; k++) {
+            qdot_expr other = qdot_expr_arg(pool, choice, k),
+                      relation = largest ? qdot_rel(pool, QDOT_LE, other, it) : qdot_rel(pool, QDOT_LE, it, other);
+
+            if (k != i)
+                there = qdot_list_appended(pool, there, 1, &relation);
+        }
+        s->relations[i] = there;
+        QDOT_TRY(qdot_vec_push(&s->value, it));
+    }
+    s->n = n;
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out)
+{
+    const chooser by = chooser_of(pool, choice);
+
+    *out = (qdot_sides){.pool = pool, .jump = QDOT_NIL};
+    if (by.above != QDOT_NIL)
+        return two_sides(out, e, &by);
+    return qdot_expr_is_function(pool, choice, QDOT_IF) ? qdot_pool_check(pool) : side_each(out, choice);
+}
+
+qdot_expr
+qdot_sides_put(const qdot_sides *s, size_t side, qdot_expr e)
+{
+    return qdot_subs(s->pool, e, s->choice.n, s->choice.at, s->value.at + side * s->choice.n);
+}
+
+void
+qdot_sides_clear(qdot_sides *s)
+{
+    qdot_free(s->choice.at);
+    qdot_free(s->value.at);
+    *s = (qdot_sides){0};
+}

@@ -1,0 +1,43 @@
+/* sides.h -- equations with |u|, sign u, max, min and if(...), one side of u at a time.
+ *
+ * All of these functions that choose by the sign of one u are a switch: |u|, sign(2 u), max(a, b) with u = a - b,
+ * if(b < a, ...). Where u > 0 each of them is something smooth, and something else where u < 0:
+ *
+ *     |v|        v      -v      0         v = c u, c > 0; the other way round for c < 0
+ *     sign v     1      -1      0
+ *     max(a, b)  a       b      a
+ *     if(b < a, A, B)  A    B    B
+ *
+ * A side of u is chosen once, for all equations and conditions; its relation (u > 0) then is a condition of what follows.
+ * An end u = 0 belongs to every side with which all functions of the switch agree there; where there is no such side the
+ * zeros of u are a case of their own, a jump.
+ *
+ * Tests  tests/normal/test_sides.c
+ */
+#ifndef QDOT_NORMAL_SIDES_H
+#define QDOT_NORMAL_SIDES_H
+
+#include "base/memory.h"
+#include "expr/expr.h"
+
+enum { QDOT_SIDES_MOST = 8 };
+
+typedef struct {
+    qdot_pool *pool;
+    size_t n;                             /* sides; 0: the condition of an if(...) is none of a < b, a <= b */
+    qdot_expr relations[QDOT_SIDES_MOST]; /* LISTs */
+    qdot_expr jump;                       /* u, if no side has its zeros; else nil */
+    qdot_vec(qdot_expr) choice;           /* the functions of the switch */
+    qdot_vec(qdot_expr) value;            /* of each choice on each side, side by side; last where u = 0 */
+} qdot_sides;
+
+/* The innermost |u|, sign u, max, min or if(...) in e that holds x (nil: any); nil: none. */
+qdot_expr qdot_sides_choice(qdot_pool *pool, qdot_expr e, qdot_expr x);
+
+/* The switch that `choice` belongs to, of the functions in e (a LIST, too). *out is cleared by the caller in any case. */
+QDOT_MUST_CHECK qdot_status qdot_sides_of(qdot_pool *pool, qdot_expr e, qdot_expr choice, qdot_sides *out);
+/* e on a side, s->n: where u = 0. Nil (QDOT_EDOMAIN): it is not defined there. */
+qdot_expr qdot_sides_put(const qdot_sides *s, size_t side, qdot_expr e);
+void qdot_sides_clear(qdot_sides *s);
+
+#endif
