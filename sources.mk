@@ -1533,6 +1533,7 @@ script_tests = \
 	tests/script/constraint-fades.sh \
 	tests/script/constraint-hidden.sh \
 	tests/script/constraint-switches.lag \
+	tests/script/continue-degenerate.lag \
 	tests/script/continue-files.sh \
 	tests/script/continue-moving-ends.lag \
 	tests/script/continue-near.lag \
@@ -2752,6 +2753,7 @@ test_files = \
 	tests/script/constraint-fades.out \
 	tests/script/constraint-hidden.out \
 	tests/script/constraint-switches.out \
+	tests/script/continue-degenerate.out \
 	tests/script/continue-files.out \
 	tests/script/continue-moving-ends.out \
 	tests/script/continue-near.out \

@@ -182,8 +182,11 @@ class Scene:
         return "\n".join(out) + "\n"
 
     def values(self):
-        return {p: Fraction(self.draw.randint(1, 300), 53) * (1 if s or self.draw.random() < 0.5 else -1)
-                for p, s in self.params.items()}
+        """No simple ones, at which conditions change."""
+        def one(prime, sign):
+            v = Fraction(self.draw.choice([k for k in range(1, 300) if k % prime]), prime)
+            return v if sign or self.draw.random() < 0.5 else -v
+        return {p: one(prime, s) for prime, (p, s) in zip((53, 59), self.params.items())}
 
     def inside(self, at):
         return all((lo is None or at[u] > lo) and (hi is None or at[u] < hi) for u, (lo, hi) in self.ends.items())

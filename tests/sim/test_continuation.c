@@ -189,6 +189,30 @@ a_hopf_point(void **state)
 }
 
 /* Out of memory at the n-th allocation, for n up to where it passes. */
+/* x^3 (x^4 - c) = 0: x = 0 is at rest for every c, but the slope of the equation vanishes there. */
+static void
+what_is_not_followed_is_told(void **state)
+{
+    qdot_equilibrium_curve c = {0};
+    qdot_continuation x = {0};
+    fixture f;
+    qdot_expr q;
+
+    (void)state;
+    begin(&f);
+    q = coordinate(&f, "x");
+    must(qdot_scene_particle(f.scene, "a", QDOT_ONE, q));
+    must(qdot_scene_potential(
+        f.scene, qdot_sub(f.pool, times(&f, number(&f, "0.125"), qdot_pow_int(f.pool, q, 8)),
+                          times(&f, times(&f, number(&f, "0.25"), parameter(&f, "mu")), qdot_pow_int(f.pool, q, 4)))));
+    follow(&f, "mu", -1, 1, &c, &x);
+    assert_int_equal(x.branches.n, 1);
+    assert_int_equal(x.left.n, 14); /* at each of seven mu */
+    for (size_t k = 0; k < x.left.n; k += 2)
+        assert_true(x.left.at[k] == 0);
+    finish(&f, &c, &x);
+}
+
 static void
 survives_failed_allocations_too(void **state)
 {
@@ -265,6 +289,7 @@ main(void)
         cmocka_unit_test(a_closed_curve),
         cmocka_unit_test(pairs_of_crossings),
         cmocka_unit_test(a_hopf_point),
+        cmocka_unit_test(what_is_not_followed_is_told),
         cmocka_unit_test(survives_failed_allocations_too),
         cmocka_unit_test(keeps_what_is_known),
     };

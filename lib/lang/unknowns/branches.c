@@ -159,6 +159,12 @@ answer_json(qdot_session *session, const qdot_branches *b)
         qdot_text_add(&line, "}\n");
         QDOT_TRY(qdot_write(session, session->out, &line));
     }
+    for (size_t k = 0; k < b->found->left.n && !b->orbits; k += b->found->n + 1) {
+        qdot_text_add(&line, "{\"kind\":\"row\",\"name\":\"not followed\"");
+        write_values(b, b->found->left.at + k, &line);
+        qdot_text_add(&line, "}\n");
+        QDOT_TRY(qdot_write(session, session->out, &line));
+    }
     return QDOT_OK;
 }
 
@@ -396,7 +402,7 @@ say_ends(const qdot_branches *b, size_t i, qdot_text *out)
         [QDOT_END_DOMAIN] = "ends at a coordinate's domain",
         [QDOT_END_FAR] = "is not followed further",
         [QDOT_END_BLURRED] = "ends where its orbits are too unstable: their multipliers have no digits left",
-        [QDOT_END_LOST] = "is lost: the equations have no value there, or jump",
+        [QDOT_END_LOST] = "is lost: the equations have no value there, jump, or have a kink",
         [QDOT_END_STOPPED] = "is broken off",
     };
     const qdot_branch *branch = &b->found->branches.at[i];
@@ -508,6 +514,28 @@ say_degenerate(const qdot_branches *b, qdot_text *out)
         qdot_text_add(out, "other branches that begin at a degenerate point are not followed\n");
 }
 
+/* Places at rest from which no branch is followed. */
+static void
+say_left(const qdot_branches *b, qdot_text *out)
+{
+    const size_t n = b->found->n;
+
+    if (b->orbits || b->found->left.n == 0)
+        return;
+    qdot_text_add(out, "also at rest, but degenerate, so that no branch is followed from there: ");
+    for (size_t k = 0; k < b->found->left.n; k += n + 1) {
+        const double *y = b->found->left.at + k;
+
+        qdot_text_format(out, "%s%s = ", k == 0 ? "" : "; ", name_of(b, n));
+        write_place(b, n, y[n], out);
+        for (size_t q = 0; q < b->n_told; q++) {
+            qdot_text_format(out, ", %s = ", name_of(b, b->columns[q]));
+            write_place(b, b->columns[q], y[b->columns[q]], out);
+        }
+    }
+    qdot_text_char(out, '\n');
+}
+
 qdot_status
 qdot_branches_answer(qdot_session *session, const qdot_branches *b)
 {
@@ -534,6 +562,7 @@ qdot_branches_answer(qdot_session *session, const qdot_branches *b)
     if (status == QDOT_OK)
         status = write_grid(&points, &text);
     say_degenerate(b, &text);
+    say_left(b, &text);
     clear_grid(&branches);
     clear_grid(&points);
     return qdot_answer_written(session, "branches", status, &text);

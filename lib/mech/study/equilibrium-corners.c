@@ -33,19 +33,21 @@ side_symbol(qdot_pool *pool, size_t k)
 }
 
 /* The next argument u of a sign in e after `skip` [n]: one that holds velocities and is 0 at rest, or (moving
- * false) one of coordinates alone; nil: there is none. */
+ * false, e a LIST) one of coordinates alone by which a member jumps; nil: there is none. */
 static qdot_expr
 next_jump(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_expr *skip)
 {
     qdot_pool *pool = r->pool;
     qdot_expr nowhere = qdot_list(pool, 0, NULL), found = QDOT_NIL;
+    qdot_status status = QDOT_OK;
+    bool jumps = false;
     qdot_walk w;
 
     if (e == QDOT_NIL)
         return QDOT_NIL;
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
-    for (size_t i = 0; i < w.n && found == QDOT_NIL; i++) {
+    for (size_t i = 0; i < w.n && found == QDOT_NIL && status == QDOT_OK; i++) {
         uint32_t holds;
         qdot_expr u;
 
@@ -57,11 +59,13 @@ next_jump(const qdot_rest *r, qdot_expr e, bool moving, size_t n, const qdot_exp
         if (qdot_expr_place(n, skip, u) < n || ((holds & QDOT_HAS_VELOCITY) != 0) != moving ||
             (!moving && (holds & QDOT_HAS_COORD) == 0))
             continue;
-        if (!moving || qdot_rest_value(r->s, nowhere, u) == QDOT_ZERO)
+        if (!moving)
+            status = qdot_rest_jumps(r, e, u, &jumps);
+        if (status == QDOT_OK && (moving ? qdot_rest_value(r->s, nowhere, u) == QDOT_ZERO : jumps))
             found = u;
     }
     qdot_walk_end(&w);
-    return found;
+    return status == QDOT_OK ? found : qdot_pool_fail(pool);
 }
 
 /* sum_i -dG_i/ds du/dx_i over the coordinates (order 0) or velocities (1): positive where the jump pushes back;

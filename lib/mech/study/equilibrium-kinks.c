@@ -81,6 +81,25 @@ vanishes_with(const qdot_rest *r, qdot_expr e, qdot_expr u, bool *yes)
     return QDOT_OK;
 }
 
+qdot_status
+qdot_rest_jumps(const qdot_rest *r, qdot_expr equations, qdot_expr u, bool *yes)
+{
+    qdot_pool *pool = r->pool;
+    qdot_expr sign = qdot_fun1(pool, QDOT_SIGN, u), side = qdot_symbol_get(pool, QDOT_FORMAL, "(side)");
+
+    *yes = false;
+    for (uint32_t i = 0; i < qdot_expr_count(pool, equations) && !*yes; i++) {
+        qdot_expr G = qdot_subs(pool, qdot_expr_arg(pool, equations, i), 1, &sign, &side);
+        bool alike;
+
+        G = qdot_diff(pool, G, side);
+        QDOT_TRY(qdot_pool_check(pool));
+        QDOT_TRY(vanishes_with(r, G, u, &alike));
+        *yes = !alike;
+    }
+    return QDOT_OK;
+}
+
 /* Whether the energy is continuous where u = 0: what an if(...) by u chooses in it agrees there. */
 static qdot_status
 is_continuous(const qdot_rest *r, qdot_expr u, bool *yes)

@@ -58,6 +58,9 @@ QDOT_MUST_CHECK qdot_status qdot_rest_corners(qdot_rest *r, qdot_expr equations)
 /* The members of a LIST with jumps of coordinates written as signs, where that is possible: else r->unresolved.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_by_signs(qdot_rest *r, qdot_expr list, qdot_expr *out);
+/* Whether one of the equations, a LIST by signs, may jump where u = 0: it is not proved that what stands beside sign u
+ * vanishes there. (equilibrium-kinks.c) */
+QDOT_MUST_CHECK qdot_status qdot_rest_jumps(const qdot_rest *r, qdot_expr equations, qdot_expr u, bool *yes);
 /* Sets r->unresolved where there is the tip of a cone, sqrt(x^2 + y^2), at which forces have no value.
  * (equilibrium-kinks.c) */
 QDOT_MUST_CHECK qdot_status qdot_rest_tips(qdot_rest *r);

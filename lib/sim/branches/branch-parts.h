@@ -12,7 +12,7 @@ typedef enum {
     QDOT_END_REST,    /* an orbit shrinks to a place at rest */
     QDOT_END_HALF,    /* an orbit becomes one of half its period */
     QDOT_END_PERIOD,  /* the period of an orbit grows to infinity */
-    QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, or jump */
+    QDOT_END_LOST,    /* nothing is found further on: the equations have no value there, jump, or have a kink */
     QDOT_END_BLURRED, /* what is judged drowns in errors */
     QDOT_END_STOPPED  /* interrupted, or too many points */
 } qdot_branch_end;
@@ -32,6 +32,7 @@ typedef struct {
     double *size;          /* [width] of each; of p its range */
     qdot_vec(qdot_branch) branches;
     qdot_vec(qdot_bifurcation) bifurcations;
+    qdot_vec(double) left; /* places [n + 1] from which no curve is followed: they have no single direction */
     bool conserved; /* of orbits: their energy is */
     bool interrupted;
 } qdot_continuation;

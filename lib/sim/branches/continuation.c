@@ -10,6 +10,8 @@
 /* Places that are one: rounding at a place near a fold. First steps along the other curve of a crossing. Of a unit
  * direction: below, it has no part along p. */
 static const double same = 1e-6, leaps[] = {1e-3, 1e-2, 1e-4}, upright = 1e-8;
+/* A residual that is 0, of what it is beside the place. */
+static const double zero = 1e-9;
 enum { MOST_BRANCHES = 400 };
 
 void
@@ -21,6 +23,7 @@ qdot_continuation_clear(qdot_continuation *x)
         qdot_free(x->bifurcations.at[i].y);
     qdot_free(x->branches.at);
     qdot_free(x->bifurcations.at);
+    qdot_free(x->left.at);
     qdot_free(x->size);
     *x = (qdot_continuation){0};
 }
@@ -168,9 +171,24 @@ follow_both(qdot_branch_search *s, qdot_path_point *a)
     return status;
 }
 
-/* From a place y at its p: polished, its curve followed unless it is known. */
+/* The largest |F| at y, or with all unknowns shifted by a part of their sizes. */
+static double
+largest_residual(qdot_branch_search *s, const double *y, double part, double *room)
+{
+    double most = 0;
+
+    memcpy(room, y, (s->x->n + 1) * sizeof *room);
+    for (size_t i = 0; i < s->x->n; i++)
+        room[i] += part * s->all->size[i];
+    s->x->at(s->x, room);
+    for (size_t i = 0; i < s->x->n; i++)
+        most = isfinite(s->x->F[i]) ? fmax(most, fabs(s->x->F[i])) : INFINITY;
+    return most;
+}
+
+/* From a place y at its p: polished, its curve followed unless it is known; *left: it has no single direction. */
 static qdot_status
-follow_from(qdot_branch_search *s, const double *y)
+follow_from(qdot_branch_search *s, const double *y, bool *left)
 {
     qdot_path *x = s->x;
     const size_t m = x->n + 1;
@@ -188,7 +206,9 @@ follow_from(qdot_branch_search *s, const double *y)
             status = is_known(s, a.y, &known);
             if (status == QDOT_OK && !known)
                 status = follow_both(s, &a);
+            known = false;
         }
+        *left = known && largest_residual(s, y, 0, up) < zero * largest_residual(s, y, 0.3, up);
     }
     qdot_path_point_end(&a);
     qdot_free(up);
@@ -345,6 +365,35 @@ follow_crossings(qdot_branch_search *s, size_t *done)
 
 /* --- all ------------------------------------------------------------------------------------ */
 
+/* A place to s->all->left. */
+static qdot_status
+add_left(qdot_branch_search *s, const double *y)
+{
+    for (size_t i = 0; i <= s->x->n; i++)
+        QDOT_TRY(qdot_vec_push(&s->all->left, y[i]));
+    return QDOT_OK;
+}
+
+/* Of the places that are left only those on no curve. */
+static qdot_status
+leave_out_known(qdot_branch_search *s)
+{
+    const size_t m = s->x->n + 1, n = s->all->left.n;
+    size_t kept = 0;
+
+    for (size_t k = 0; k < n; k += m) {
+        bool known;
+
+        QDOT_TRY(is_known(s, s->all->left.at + k, &known));
+        if (known)
+            continue;
+        memmove(s->all->left.at + kept, s->all->left.at + k, m * sizeof *s->all->left.at);
+        kept += m;
+    }
+    s->all->left.n = kept;
+    return QDOT_OK;
+}
+
 qdot_status
 qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
 {
@@ -352,12 +401,16 @@ qdot_continuation_follow(qdot_branch_search *s, const double *at, size_t count)
     size_t done = 0;
 
     for (size_t k = 0; k < count && !s->all->interrupted; k++) {
+        bool left = false;
+
         if (s->all->branches.n >= MOST_BRANCHES)
             return qdot_fail(QDOT_ELIMIT, "more than %d branches", MOST_BRANCHES);
-        QDOT_TRY(follow_from(s, at + k * m));
+        QDOT_TRY(follow_from(s, at + k * m, &left));
+        if (left)
+            QDOT_TRY(add_left(s, at + k * m));
         QDOT_TRY(follow_crossings(s, &done));
     }
-    return QDOT_OK;
+    return leave_out_known(s);
 }
 
 qdot_status
