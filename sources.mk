@@ -252,6 +252,7 @@ library_sources = \
 	lib/mech/scene/print.c \
 	lib/mech/scene/remove.c \
 	lib/mech/scene/replace.c \
+	lib/mech/scene/saved.c \
 	lib/mech/scene/scene.c \
 	lib/mech/study/chart-body.c \
 	lib/mech/study/chart-express.c \
@@ -543,6 +544,7 @@ library_sources = \
 	lib/sim/course/piece.c \
 	lib/sim/course/reader.c \
 	lib/sim/course/run-state.c \
+	lib/sim/course/run-time.c \
 	lib/sim/course/side-search.c \
 	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
@@ -659,6 +661,7 @@ library_sources = \
 	lib/sim/run/collide.c \
 	lib/sim/run/describe.c \
 	lib/sim/run/long-run.c \
+	lib/sim/run/origin.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-report.c \
 	lib/sim/run/run-start.c \
@@ -902,6 +905,7 @@ library_headers = \
 	lib/mech/scene/body.h \
 	lib/mech/scene/cache.h \
 	lib/mech/scene/constraint.h \
+	lib/mech/scene/saved.h \
 	lib/mech/scene/scene.h \
 	lib/mech/scene/things.h \
 	lib/mech/study/chart-body.h \
@@ -1145,6 +1149,7 @@ library_headers = \
 	lib/sim/course/reader.h \
 	lib/sim/course/report.h \
 	lib/sim/course/run-state.h \
+	lib/sim/course/run-time.h \
 	lib/sim/course/stage.h \
 	lib/sim/digits/digits.h \
 	lib/sim/digits/precise-course.h \
@@ -1243,6 +1248,7 @@ library_headers = \
 	lib/sim/run/chart-start.h \
 	lib/sim/run/collide.h \
 	lib/sim/run/long-run.h \
+	lib/sim/run/origin.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-report.h \
 	lib/sim/run/run-start.h \
@@ -1463,6 +1469,7 @@ unit_tests = \
 	tests/sim/test_ensemble \
 	tests/sim/test_equations \
 	tests/sim/test_exponents \
+	tests/sim/test_far \
 	tests/sim/test_gates \
 	tests/sim/test_horizon \
 	tests/sim/test_longtime \
@@ -1600,6 +1607,7 @@ script_tests = \
 	tests/script/family-ends.lag \
 	tests/script/far-away.lag \
 	tests/script/far-sides.lag \
+	tests/script/far.lag \
 	tests/script/fast-oscillations.sh \
 	tests/script/figures.sh \
 	tests/script/find-no-solution.sh \
@@ -2824,6 +2832,7 @@ test_files = \
 	tests/script/family-ends.out \
 	tests/script/far-away.out \
 	tests/script/far-sides.out \
+	tests/script/far.out \
 	tests/script/fast-oscillations.out \
 	tests/script/figures.out \
 	tests/script/find-no-solution.out \
@@ -3134,8 +3143,8 @@ other_files = \
 	bench/solutions/systems.py \
 	bench/solutions/verdict.py \
 	bench/stiff \
-	bench/surfaces/nested \
-	bench/surfaces/relays \
+	bench/surfaces/nested.py \
+	bench/surfaces/relays.py \
 	bench/surfaces/run \
 	bench/surfaces/scenes.py \
 	bench/symbolic/ginac-peer.cc \

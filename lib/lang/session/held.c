@@ -112,51 +112,15 @@ put_in(qdot_expr e, void *user)
     return qdot_held_parameters(user, e);
 }
 
-static void
-drop(qdot_held_scene *kept)
-{
-    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++)
-        qdot_free(kept->at[k]);
-    *kept = (qdot_held_scene){0};
-}
-
 qdot_status
-qdot_held_scene_begin(qdot_session *session, qdot_held_scene *kept)
+qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept)
 {
-    qdot_scene *scene = session->scene;
-
-    kept->lagrangian = scene->lagrangian;
-    kept->version = scene->version;
-    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++) {
-        const qdot_scene_part part = qdot_scene_part_at(scene, k);
-        const size_t bytes = *part.n * part.size;
-
-        kept->at[k] = qdot_malloc(bytes + 1);
-        if (kept->at[k] == NULL) {
-            drop(kept);
-            return QDOT_ENOMEM;
-        }
-        if (bytes > 0)
-            memcpy(kept->at[k], *(void **)part.at, bytes);
-    }
-    return qdot_scene_map(scene, put_in, session);
+    QDOT_TRY(qdot_scene_save(session->scene, kept));
+    return qdot_scene_map(session->scene, put_in, session);
 }
 
 void
-qdot_held_scene_end(qdot_session *session, qdot_held_scene *kept)
+qdot_held_scene_end(qdot_session *session, qdot_scene_saved *kept)
 {
-    qdot_scene *scene = session->scene;
-
-    if (kept->at[0] == NULL)
-        return;
-    for (size_t k = 0; k < QDOT_SCENE_PARTS; k++) {
-        const qdot_scene_part part = qdot_scene_part_at(scene, k);
-        const size_t bytes = *part.n * part.size;
-
-        if (bytes > 0)
-            memcpy(*(void **)part.at, kept->at[k], bytes);
-    }
-    scene->lagrangian = kept->lagrangian;
-    scene->version = kept->version;
-    drop(kept);
+    qdot_scene_restore(session->scene, kept);
 }

@@ -10,6 +10,7 @@
 #define QDOT_LANG_HELD_H
 
 #include "lang/session/session.h"
+#include "mech/scene/saved.h"
 
 /* Hold the symbol at the value, innermost last; its value of `set` or `start` is kept for the end. */
 QDOT_MUST_CHECK qdot_status qdot_held_begin(qdot_session *session, qdot_expr symbol,
@@ -26,14 +27,8 @@ bool qdot_held_coordinate(const qdot_session *session);
 /* QDOT_EDOMAIN where a value is outside the declared domain. */
 QDOT_MUST_CHECK qdot_status qdot_held_check(qdot_session *session);
 
-/* The arrays of a scene, kept while held parameters are put into it. */
-typedef struct {
-    unsigned char *at[QDOT_SCENE_PARTS];
-    qdot_expr lagrangian;
-    uint64_t version;
-} qdot_held_scene;
 /* Put held parameters into the scene, {0} before; end() in any case, which puts the scene back. */
-QDOT_MUST_CHECK qdot_status qdot_held_scene_begin(qdot_session *session, qdot_held_scene *kept);
-void qdot_held_scene_end(qdot_session *session, qdot_held_scene *kept);
+QDOT_MUST_CHECK qdot_status qdot_held_scene_begin(qdot_session *session, qdot_scene_saved *kept);
+void qdot_held_scene_end(qdot_session *session, qdot_scene_saved *kept);
 
 #endif

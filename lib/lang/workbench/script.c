@@ -147,7 +147,7 @@ static qdot_status
 dispatch_held(qdot_cursor *c)
 {
     qdot_session *session = c->session;
-    qdot_held_scene kept = {0};
+    qdot_scene_saved kept = {0};
     qdot_status status = QDOT_OK;
 
     if (session->held.n == 0 || !asks(session, c->at))

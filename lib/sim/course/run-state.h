@@ -21,6 +21,10 @@ struct qdot_run {
     size_t factored;      /* number of matrices factored by the integration */
     double t0, t1;        /* as requested */
     double t0_low, t1_low; /* the exact limits less t0, t1 */
+    /* Of a run far from t = 0 (sim/course/run-time.h), whose times here are t less `origin`; else 0: */
+    double origin;
+    double *times;            /* [points] t at the points of the course */
+    qdot_run_report *told;    /* the report, its times in t */
     bool turns;           /* of the request */
     bool leading;         /* first orders are sums of two doubles (ode/leading.h) */
     int t0_side, t1_side; /* sign of the exact limit less t0, t1 */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ode/companion.h"
+#include "sim/course/run-time.h"
 #include "sim/digits/digits.h"
 #include "sim/error/companion.h"
 #include "sim/error/faded.h"
@@ -155,11 +156,30 @@ qdot_run_event_at_end(qdot_run *run, size_t k, const char **name, bool *undecide
     return *name && !run->precise ? qdot_touches_end(run, k, undecided) : QDOT_OK;
 }
 
+/* In t, of a run that counts its times from an origin; the sum is rounded. */
+static void
+tell_in_t(qdot_run *run)
+{
+    for (size_t i = 0; i < run->occurrences.n; i++) {
+        qdot_run_occurrence *o = &run->occurrences.at[i];
+
+        o->t = qdot_run_time_told(run, o->t);
+        o->error += DBL_EPSILON * fabs(o->t);
+    }
+    for (size_t i = 0; i < run->faded.n; i++) {
+        run->faded.at[i].from = qdot_run_time_told(run, run->faded.at[i].from);
+        run->faded.at[i].to = qdot_run_time_told(run, run->faded.at[i].to);
+    }
+}
+
 qdot_status
 qdot_run_occurrences(qdot_run *run, const qdot_run_occurrence **list, size_t *n)
 {
-    if (!run->occurrence_errors)
-        QDOT_TRY(run->precise ? qdot_digits_occurrences(run) : find_errors(run));
+    if (!run->occurrence_errors) {
+        QDOT_TRY(qdot_run_time_fail(run->origin, run->precise ? qdot_digits_occurrences(run) : find_errors(run)));
+        if (run->origin != 0)
+            tell_in_t(run);
+    }
     run->occurrence_errors = true;
     *list = run->occurrences.at;
     *n = run->occurrences.n;

@@ -10,6 +10,7 @@
 #include "ode/companion.h"
 #include "ode/scale.h"
 #include "sim/error/companion.h"
+#include "sim/course/run-time.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
 #include "sim/read/in-chart.h"
@@ -469,14 +470,57 @@ range_in_chart(const qdot_run_expression *x, qdot_range_kind kind, const double 
     return status;
 }
 
-qdot_status
-qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
-                     double *value, double *error)
+static qdot_status
+range_by_chart(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
+               double *error)
 {
     for (size_t k = 0; k < x->n; k++)
         if (x->runs[k]->chart)
             return range_in_chart(x, kind, range, value, error);
     return range_along(x, kind, range, value, error);
+}
+
+/* Of runs that all count their times from one origin. */
+static qdot_status
+range_from_origin(const qdot_run_expression *x, qdot_range_kind kind, const double *range, double *value,
+                  double *error)
+{
+    qdot_run_member *members = qdot_malloc((x->m + 1) * sizeof *members);
+    qdot_run_expression own = *x;
+    double limits[2], rest;
+    qdot_status status = members ? QDOT_OK : QDOT_ENOMEM;
+
+    for (size_t i = 0; i <= x->m && status == QDOT_OK; i++) {
+        const qdot_expr *e;
+        qdot_expr *made;
+
+        status = qdot_run_time_express(x->runs[0], 1, i < x->m ? &x->members[i].value : &x->e, &e, &made);
+        if (status == QDOT_OK && i < x->m) {
+            members[i] = x->members[i];
+            members[i].value = *e;
+        } else if (status == QDOT_OK) {
+            own.e = *e;
+        }
+        qdot_free(made);
+    }
+    own.members = members;
+    for (int i = 0; i < 2 && range; i++)
+        qdot_run_time_own(x->runs[0], range[i], 0, &limits[i], &rest);
+    if (status == QDOT_OK)
+        status = range_by_chart(&own, kind, range ? limits : NULL, value, error);
+    qdot_free(members);
+    return qdot_run_time_fail(x->runs[0]->origin, status);
+}
+
+qdot_status
+qdot_run_range_along(const qdot_run_expression *x, qdot_range_kind kind, const double *range,
+                     double *value, double *error)
+{
+    for (size_t k = 1; k < x->n; k++)
+        if (x->runs[k]->origin != x->runs[0]->origin)
+            return qdot_fail(QDOT_ENOTBUILT, "not built yet: extrema and means of several runs far from t = 0, "
+                                             "unless they begin at one time");
+    return (x->runs[0]->origin != 0 ? range_from_origin : range_by_chart)(x, kind, range, value, error);
 }
 
 qdot_status

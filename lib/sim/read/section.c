@@ -9,6 +9,7 @@
 #include "ode/companion.h"
 #include "sim/course/crossings.h"
 #include "sim/course/reader.h"
+#include "sim/course/run-time.h"
 #include "sim/error/companion.h"
 #include "sim/error/horizon.h"
 #include "sim/error/noise.h"
@@ -278,11 +279,12 @@ find_in_chart(qdot_run *run, const qdot_section_of *of, const double *limits, qd
     return status;
 }
 
-qdot_status
-qdot_section_find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
+/* In the times of the run. */
+static qdot_status
+find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
 {
     const qdot_trajectory *tr = &run->course.tr;
-    double limits[2];
+    double limits[2], rest;
 
     s->m = of->m;
     if (run->precise)
@@ -292,6 +294,8 @@ qdot_section_find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
     QDOT_TRY(qdot_run_twin(run));
     limits[0] = of->limits ? fmin(of->limits[0], of->limits[1]) : -INFINITY;
     limits[1] = of->limits ? fmax(of->limits[0], of->limits[1]) : INFINITY;
+    for (int i = 0; i < 2 && of->limits; i++)
+        qdot_run_time_own(run, limits[i], 0, &limits[i], &rest);
     qdot_trajectory_narrow(tr, &limits[0], &limits[1]);
     if (limits[0] > limits[1])
         return QDOT_OK;
@@ -302,4 +306,31 @@ qdot_section_find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
         limits[1] = last;
     }
     return (run->chart ? find_in_chart : find_between)(run, of, limits, s);
+}
+
+qdot_status
+qdot_section_find(qdot_run *run, const qdot_section_of *of, qdot_section *s)
+{
+    qdot_expr *given = qdot_calloc(of->m + 1, sizeof *given), *made = NULL;
+    const qdot_expr *own = given;
+    const size_t first = s->n;
+    const double lost = s->lost;
+    qdot_status status = given ? QDOT_OK : QDOT_ENOMEM;
+
+    if (given) {
+        memcpy(given, of->exprs, of->m * sizeof *given);
+        given[of->m] = of->g;
+        status = qdot_run_time_express(run, of->m + 1, given, &own, &made);
+    }
+    s->lost = NAN;
+    if (status == QDOT_OK)
+        status = find(run, &(qdot_section_of){own[of->m], of->way, of->m, own, of->limits}, s);
+    for (size_t k = first; k < s->n && run->origin != 0; k++) {
+        s->t[k] = qdot_run_time_told(run, s->t[k]);
+        s->t_errors[k] += DBL_EPSILON * fabs(s->t[k]);
+    }
+    s->lost = isnan(s->lost) ? lost : qdot_run_time_told(run, s->lost);
+    qdot_free(made);
+    qdot_free(given);
+    return qdot_run_time_fail(run->origin, status);
 }

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "expr/print.h"
 #include "sim/course/reader.h"
+#include "sim/course/run-time.h"
 #include "sim/digits/precise.h"
 #include "sim/error/companion.h"
 #include "sim/error/distance.h"
@@ -185,6 +186,32 @@ values_in_chart(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exac
     return status;
 }
 
+static qdot_status
+values_along(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times, double *values,
+             double *errors)
+{
+    return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
+}
+
+/* The same of a run that counts its times from an origin. */
+static qdot_status
+values_from_origin(qdot_run *run, size_t m, const qdot_expr *exprs, const qdot_exact_times *times,
+                   double *values, double *errors)
+{
+    double *at = qdot_malloc(2 * (times->n + 1) * sizeof *at), *low = at + times->n + 1;
+    const qdot_expr *own;
+    qdot_expr *made = NULL;
+    qdot_status status = at ? qdot_run_time_express(run, m, exprs, &own, &made) : QDOT_ENOMEM;
+
+    for (size_t i = 0; i < times->n && status == QDOT_OK; i++)
+        qdot_run_time_own(run, times->at[i], times->low ? times->low[i] : 0, &at[i], &low[i]);
+    if (status == QDOT_OK)
+        status = values_along(run, m, own, &(qdot_exact_times){times->n, at, low}, values, errors);
+    qdot_free(made);
+    qdot_free(at);
+    return status;
+}
+
 qdot_status
 qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
                        const qdot_exact_times *times, double *values, double *errors)
@@ -192,7 +219,9 @@ qdot_run_values_beyond(qdot_run *run, size_t m, const qdot_expr *exprs,
     if (run->precise)
         return qdot_precise_pair_sample_values(run->precise, m, exprs, times->n, times->at, values,
                                                errors);
-    return (run->chart ? values_in_chart : qdot_in_chart_values)(run, m, exprs, times, values, errors);
+    if (run->origin != 0)
+        return qdot_run_time_fail(run->origin, values_from_origin(run, m, exprs, times, values, errors));
+    return values_along(run, m, exprs, times, values, errors);
 }
 
 bool
@@ -227,15 +256,17 @@ qdot_status
 qdot_run_point_values(qdot_run *run, size_t m, const qdot_expr *exprs, size_t k, double *values)
 {
     qdot_in_chart in = {0};
-    qdot_status status;
+    const qdot_expr *own;
+    qdot_expr *made;
+    qdot_status status = qdot_run_time_express(run, m, exprs, &own, &made);
 
-    if (run->chart == NULL)
-        return read_point(run, m, exprs, k, values);
-    status = qdot_in_chart_express(&in, run, m, exprs, run->course.tr.t[k]);
+    if (run->chart && status == QDOT_OK)
+        status = qdot_in_chart_express(&in, run, m, own, run->course.tr.t[k]);
     if (status == QDOT_OK)
-        status = read_point(run, m, in.exprs, k, values);
+        status = read_point(run, m, run->chart ? in.exprs : own, k, values);
     qdot_in_chart_clear(&in);
-    return status;
+    qdot_free(made);
+    return qdot_run_time_fail(run->origin, status);
 }
 
 qdot_status
@@ -261,5 +292,17 @@ qdot_run_exact_point_values(qdot_run *run, size_t m, const qdot_expr *exprs, siz
 double
 qdot_run_requested_end(const qdot_run *run)
 {
-    return run->t1;
+    return qdot_run_time_told(run, run->t1);
+}
+
+const qdot_run_report *
+qdot_run_get_report(const qdot_run *run)
+{
+    return qdot_run_time_report(run);
+}
+
+const double *
+qdot_run_times(const qdot_run *run, size_t *n)
+{
+    return qdot_run_time_points(run, n);
 }

@@ -6,6 +6,7 @@
 #include "sim/run/change-over.h"
 #include "sim/run/chart-run.h"
 #include "sim/run/long-run.h"
+#include "sim/run/origin.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-report.h"
 #include "sim/run/run-start.h"
@@ -20,6 +21,7 @@
 #include "base/threads.h"
 #include "ode/companion.h"
 #include "sim/course/multipliers.h"
+#include "sim/course/run-time.h"
 #include "sim/digits/digits.h"
 #include "sim/digits/precise.h"
 #include "sim/error/companion.h"
@@ -71,6 +73,8 @@ qdot_run_free(qdot_run *run)
     qdot_free(run->parts.at);
     qdot_multipliers_clear(&run->multipliers);
     qdot_run_chart_free(run->chart);
+    qdot_free(run->times);
+    qdot_free(run->told);
     qdot_free(run);
 }
 
@@ -93,19 +97,6 @@ qdot_run_bytes(const qdot_run *run)
     /* of `digits`: those points again in long numbers, and the companion's */
     return sizeof *run +
            points * (1 + (run->precise ? 8 + (size_t)run->report.digits / 8 : 0));
-}
-
-const qdot_run_report *
-qdot_run_get_report(const qdot_run *run)
-{
-    return &run->report;
-}
-
-const double *
-qdot_run_times(const qdot_run *run, size_t *n)
-{
-    *n = run->course.tr.count;
-    return run->course.tr.t;
 }
 
 static qdot_status
@@ -654,33 +645,49 @@ make_in_scales(qdot_scene *scene, const qdot_run_request *request, qdot_run **ru
 
 static const char start_as_exact[] = "the error of the run that the start was taken from is not in that of this run";
 
-qdot_status
-qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+/* With the parameters that events set among its coordinates. */
+static qdot_status
+make_in_states(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
 {
-    const double clock = process_clock();
     const qdot_run_maker by = {make_whole, qdot_run_values, qdot_run_free};
     qdot_parameter_states states = {0};
     qdot_status status;
 
-    *out = NULL;
     QDOT_TRY(qdot_parameter_states_init(&states, scene, asked));
     status = make_whole(scene, &states.request, out);
     if (status == QDOT_OK && !asked->digits)
         status = make_in_scales(scene, &states.request, out);
     if (!asked->digits)
         status = qdot_run_change_chart(scene, &states.request, &by, status, out);
-    if (status == QDOT_ENOMEM) { /* of a run that was to be made once more */
-        qdot_run_free(*out);
-        *out = NULL;
-    }
+    qdot_parameter_states_clear(&states);
+    return status;
+}
+
+qdot_status
+qdot_run_new(qdot_scene *scene, const qdot_run_request *asked, qdot_run **out)
+{
+    const double clock = process_clock();
+    qdot_origin origin = {0};
+    qdot_status status = qdot_origin_begin(&origin, scene, asked);
+
+    *out = NULL;
+    if (status == QDOT_OK)
+        status = qdot_run_time_fail(origin.origin, make_in_states(scene, &origin.request, out));
     if (status == QDOT_OK && asked->apart && (!(*out)->apart || asked->digits)) {
         qdot_text_add(qdot_run_next_notice(*out), start_as_exact);
         status = qdot_text_status(&(*out)->notice);
+    }
+    if (*out && qdot_grave(status) != QDOT_ENOMEM
+        && qdot_run_time_begin(*out, origin.origin) == QDOT_ENOMEM)
+        status = QDOT_ENOMEM;
+    qdot_origin_end(&origin);
+    if (status == QDOT_ENOMEM) { /* of a run that was to be made once more, too */
+        qdot_run_free(*out);
+        *out = NULL;
     }
     if (*out) {
         (*out)->report.notice = (*out)->notice.n > 0 ? qdot_text_str(&(*out)->notice) : NULL;
         (*out)->report.cpu_total = process_clock() - clock;
     }
-    qdot_parameter_states_clear(&states);
     return status;
 }

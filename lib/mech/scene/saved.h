@@ -1,0 +1,22 @@
+/* saved.h -- the state of a scene, while other expressions stand in its arrays.
+ *
+ * What events own (`targets`, `values`) is not in it.
+ *
+ * Tests  tests/script/loops-over-declared.lag, far.lag
+ */
+#ifndef QDOT_MECH_SAVED_H
+#define QDOT_MECH_SAVED_H
+
+#include "mech/scene/scene.h"
+
+typedef struct {
+    unsigned char *at[QDOT_SCENE_PARTS];
+    qdot_expr lagrangian;
+    uint64_t version;
+} qdot_scene_saved;
+
+/* Save, {0} before; put back, which also frees the copy. Where nothing was saved nothing is done. */
+QDOT_MUST_CHECK qdot_status qdot_scene_save(qdot_scene *s, qdot_scene_saved *saved);
+void qdot_scene_restore(qdot_scene *s, qdot_scene_saved *saved);
+
+#endif

@@ -1,0 +1,117 @@
+/* origin.c -- writes the scene and the request of a run far from 0 in the time from its start. */
+#include "sim/run/origin.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "expr/calculus.h"
+#include "expr/walk.h"
+#include "tape/constant.h"
+
+/* Times so many lengths of the run away from 0 are counted from its start. */
+static const double far = 1024;
+
+typedef struct {
+    qdot_pool *pool;
+    qdot_expr time; /* t in terms of s */
+    bool found;
+} writing;
+
+static qdot_expr
+write_in_s(qdot_expr e, void *user)
+{
+    const writing *w = user;
+    const qdot_expr t = QDOT_T;
+
+    return e == QDOT_NIL ? e : qdot_subs(w->pool, e, 1, &t, &w->time);
+}
+
+/* Whether t stands in the scene, or in a value of a parameter. */
+static bool
+has_time(qdot_scene *s, const qdot_run_request *r)
+{
+    bool found = qdot_scene_contains(s, QDOT_T);
+
+    for (size_t i = 0; i < r->n_values && !found; i++)
+        found = qdot_expr_contains(s->pool, r->values[i], QDOT_T);
+    for (size_t i = 0; i < s->events.n && !found; i++) {
+        const qdot_event *e = &s->events.at[i];
+
+        found = qdot_expr_contains(s->pool, e->left, QDOT_T) || qdot_expr_contains(s->pool, e->right, QDOT_T);
+        for (size_t k = 0; k < e->values.n && !found; k++)
+            found = qdot_expr_contains(s->pool, e->values.at[k], QDOT_T);
+    }
+    return found;
+}
+
+/* Write the scene in s; what events set is kept behind the values of the request. */
+static qdot_status
+write_scene(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
+{
+    writing w = {.pool = scene->pool,
+                 .time = qdot_add(scene->pool, QDOT_T, qdot_expr_of_double(scene->pool, o->origin))};
+    size_t n = asked->n_values;
+
+    for (size_t i = 0; i < scene->events.n; i++)
+        n += scene->events.at[i].values.n;
+    o->values = qdot_malloc((n + 1) * sizeof *o->values);
+    if (!o->values)
+        return QDOT_ENOMEM;
+    QDOT_TRY(qdot_scene_save(scene, &o->saved));
+    o->scene = scene;
+    n = 0;
+    for (; n < asked->n_values; n++)
+        o->values[n] = write_in_s(asked->values[n], &w);
+    o->request.values = o->values;
+    for (size_t i = 0; i < scene->events.n; i++) {
+        qdot_event *e = &scene->events.at[i];
+
+        for (size_t k = 0; k < e->values.n; k++) {
+            o->values[n++] = e->values.at[k];
+            e->values.at[k] = write_in_s(e->values.at[k], &w);
+        }
+        e->left = write_in_s(e->left, &w);
+        e->right = write_in_s(e->right, &w);
+    }
+    return qdot_scene_map(scene, write_in_s, &w);
+}
+
+qdot_status
+qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked)
+{
+    qdot_pool *pool = scene->pool;
+    double t0, t1, length, low;
+    qdot_expr origin;
+    int side;
+
+    o->request = *asked;
+    if (asked->digits > 0 || asked->by_clock)
+        return QDOT_OK;
+    QDOT_TRY(qdot_constant_split(pool, asked->t0, &t0, &side, &low));
+    QDOT_TRY(qdot_constant_split(pool, asked->t1, &t1, &side, &low));
+    length = fabs(t1 - t0);
+    if (!(length > 0) || !isfinite(length) || fmax(fabs(t0), fabs(t1)) < far * length)
+        return QDOT_OK;
+    o->origin = t0;
+    origin = qdot_expr_of_double(pool, t0);
+    o->request.t0 = qdot_sub(pool, asked->t0, origin);
+    o->request.t1 = qdot_sub(pool, asked->t1, origin);
+    QDOT_TRY(qdot_pool_check(pool));
+    return has_time(scene, asked) ? write_scene(o, scene, asked) : QDOT_OK;
+}
+
+void
+qdot_origin_end(qdot_origin *o)
+{
+    size_t n = o->request.n_values;
+
+    if (o->scene) {
+        qdot_scene_restore(o->scene, &o->saved);
+        for (size_t i = 0; i < o->scene->events.n; i++)
+            for (size_t k = 0; k < o->scene->events.at[i].values.n; k++)
+                o->scene->events.at[i].values.at[k] = o->values[n++];
+    }
+    qdot_free(o->values);
+    *o = (qdot_origin){0};
+}

@@ -1,0 +1,27 @@
+/* origin.h -- a run far from t = 0 beside its length, from t0 to t1, as one from 0 on of the scene in s = t - origin.
+ *
+ * The origin is the double at t0. The scene is written in s where t stands in it, and put back at the end. With
+ * `digits` numbers are as long as they have to be: nothing is done.
+ *
+ * Tests  tests/sim/test_far.c, tests/script/far.lag
+ */
+#ifndef QDOT_SIM_ORIGIN_H
+#define QDOT_SIM_ORIGIN_H
+
+#include "mech/scene/saved.h"
+#include "sim/model/request.h"
+
+/* A request whose times are s. Start from {0}. */
+typedef struct {
+    qdot_run_request request; /* borrows from the one asked for */
+    double origin;            /* 0: nothing was done */
+    qdot_scene *scene;        /* written in s; NULL: t does not stand in it */
+    qdot_scene_saved saved;
+    qdot_expr *values; /* of parameters, then of what events set, as it was */
+} qdot_origin;
+
+/* End it in any case. Errors: those of constants, QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *asked);
+void qdot_origin_end(qdot_origin *o);
+
+#endif
