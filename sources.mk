@@ -532,6 +532,7 @@ library_sources = \
 	lib/sim/course/crossings.c \
 	lib/sim/course/drift.c \
 	lib/sim/course/multipliers.c \
+	lib/sim/course/piece-back.c \
 	lib/sim/course/piece-chatter.c \
 	lib/sim/course/piece-contact.c \
 	lib/sim/course/piece-end.c \
@@ -546,6 +547,7 @@ library_sources = \
 	lib/sim/course/run-state.c \
 	lib/sim/course/run-time.c \
 	lib/sim/course/side-search.c \
+	lib/sim/course/stage-events.c \
 	lib/sim/course/stage-pucks.c \
 	lib/sim/course/stage-sides.c \
 	lib/sim/course/stage.c \
@@ -635,6 +637,7 @@ library_sources = \
 	lib/sim/model/switch-freeze.c \
 	lib/sim/model/switch.c \
 	lib/sim/model/term-magnitude.c \
+	lib/sim/model/undone.c \
 	lib/sim/plan/cost.c \
 	lib/sim/plan/form.c \
 	lib/sim/plan/geometric.c \
@@ -662,6 +665,7 @@ library_sources = \
 	lib/sim/run/describe.c \
 	lib/sim/run/long-run.c \
 	lib/sim/run/origin.c \
+	lib/sim/run/run-back.c \
 	lib/sim/run/run-doubts.c \
 	lib/sim/run/run-report.c \
 	lib/sim/run/run-start.c \
@@ -1228,6 +1232,7 @@ library_headers = \
 	lib/sim/model/surface.h \
 	lib/sim/model/switch.h \
 	lib/sim/model/term-magnitude.h \
+	lib/sim/model/undone.h \
 	lib/sim/plan/cost.h \
 	lib/sim/plan/form.h \
 	lib/sim/plan/geometric.h \
@@ -1249,6 +1254,7 @@ library_headers = \
 	lib/sim/run/collide.h \
 	lib/sim/run/long-run.h \
 	lib/sim/run/origin.h \
+	lib/sim/run/run-back.h \
 	lib/sim/run/run-doubts.h \
 	lib/sim/run/run-report.h \
 	lib/sim/run/run-start.h \
@@ -1495,6 +1501,7 @@ unit_tests = \
 	tests/sim/test_tangents \
 	tests/sim/test_taylor \
 	tests/sim/test_tree-alone \
+	tests/sim/test_undone \
 	tests/sim/test_variation \
 	tests/sim/test_workprecision \
 	tests/src/test_options \
@@ -1518,6 +1525,8 @@ script_tests = \
 	tests/script/animate.sh \
 	tests/script/assume-several.lag \
 	tests/script/assumed.lag \
+	tests/script/backward-ends.sh \
+	tests/script/backward.lag \
 	tests/script/bad-runs.sh \
 	tests/script/blows-into-contacts.lag \
 	tests/script/bodies-moved.lag \
@@ -2736,6 +2745,8 @@ test_files = \
 	tests/script/animate.out \
 	tests/script/assume-several.out \
 	tests/script/assumed.out \
+	tests/script/backward-ends.out \
+	tests/script/backward.out \
 	tests/script/bad-runs.out \
 	tests/script/blows-into-contacts.out \
 	tests/script/bodies-moved.out \

@@ -15,6 +15,8 @@ s/^  [0-9][0-9]* steps\{0,1\}, [0-9].*$/  STEPS/
 s/\( at t = [-0-9.]\{12\}\)[0-9]*/\1/g
 s/\(a singularity: [^ ]* = \)[^ ]* there, \([^ ]* = \).*/\1N there, \2N/
 s/\(does not vanish there: it is \).*/\1N/
+# When a contact began is known to ten digits at best.
+s/\(rests on .* from t = [0-9][0-9.]\{9\}\)[0-9]*/\1/
 # What may be anything.
 s/-\{0,1\}[0-9][0-9.]*\(e[-+]*[0-9]*\)\{0,1\} (error unknown)/N (error unknown)/g
 /^  apart: /s/ [0-9][0-9]* steps\{0,1\}/ STEPS/g

@@ -39,6 +39,7 @@ typedef struct {
 typedef struct {
     size_t surface;
     double t, end;        /* until when */
+    double unsure;        /* by how much `end` of a contact errs, for it began where u is 0 but for rounding */
     double speed;         /* |u'| at most */
     double place;         /* |u| at the start */
     size_t mode[3];       /* below the surface, on it, above */

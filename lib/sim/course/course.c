@@ -142,6 +142,8 @@ loop(qdot_piece *x, const double *y0)
                                      x->start.t, x->start.t, y0);
     if (status == QDOT_OK)
         status = come_to_rest(x, true, &over);
+    if (status == QDOT_OK && qdot_piece_stop_nowhere(x))
+        over = true;
     while (status == QDOT_OK && !over) {
         status = qdot_piece_search(x);
         if (status == QDOT_OK && c->reason[0] != '\0')

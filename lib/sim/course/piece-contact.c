@@ -31,6 +31,41 @@ static const double fastest = 1e-4;
 /* A bounce is not low if it begins with more than this part of the largest speed so far. */
 static const double slow = 1e-2;
 
+/* --- how fast the motion leaves a surface ---------------------------------------------- */
+
+qdot_status
+qdot_piece_rate(qdot_piece *x, size_t i, double *rate, double *noise)
+{
+    const size_t n = x->n / 2;
+    double *rates = qdot_malloc((3 * x->n + 1) * sizeof *rates), *fast = rates + x->n,
+           *low = fast + x->n;
+    qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
+
+    *rate = *noise = 0;
+    if (status == QDOT_OK) {
+        qdot_piece_low(x, low);
+        memcpy(fast, x->largest + n, n * sizeof *fast);
+        for (size_t k = n; k < x->n; k++)
+            fast[k] = fabs(rates[k]);
+        status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, low, rates, fast, i,
+                                 rate, noise);
+    }
+    qdot_free(rates);
+    return status;
+}
+
+qdot_status
+qdot_piece_way(qdot_piece *x, size_t i, int *way)
+{
+    double rate, noise;
+
+    *way = 0;
+    QDOT_TRY(qdot_piece_rate(x, i, &rate, &noise));
+    if (fabs(rate) > noise)
+        *way = rate * x->direction > 0 ? 1 : -1;
+    return QDOT_OK;
+}
+
 /* --- whether the event is an impact on a smooth wall ---------------------------------- */
 
 /* The direction M^-1 du/dq [n] times the reaction at the start: q'' of the mode less that without
@@ -273,7 +308,9 @@ note_skipped(qdot_piece *x, size_t surface, const skipped *s)
 {
     const size_t n = x->n / 2;
     qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = height(s),
-                                   .speed = fabs(s->off[1]), .mode = {x->mode, x->mode, x->mode}, .ended = true};
+                                   .speed = fabs(s->off[1]),
+                                   .unsure = s->off[1] != 0 ? fabs(s->off[0] / s->off[1]) : 0,
+                                   .mode = {x->mode, x->mode, x->mode}, .ended = true};
 
     chatter.end = x->start.t + x->direction * fmin(duration(s), fabs(x->t1 - x->start.t));
     if (chatter.end == chatter.t)
@@ -385,7 +422,7 @@ bool
 qdot_piece_meets_again(const qdot_piece *x, size_t i)
 {
     const qdot_staged_event *e = &x->c->stage->events.at[i];
-    const int way = qdot_piece_way_asked(x, i);
+    const int way = e->undoing ? qdot_watch_first(qdot_piece_watch(x))[i] : qdot_piece_way_asked(x, i);
 
     return e->then && way != 0 && x->functions_on[i] && x->touching[i] && x->left[i] == -way
            && qdot_watch_first(qdot_piece_watch(x))[i] == way && x->signs[i] != -way && !qdot_piece_just_noted(x, i);

@@ -379,6 +379,12 @@ qdot_piece_act(qdot_piece *x, bool *over)
 
     x->fired.n = 0;
     x->crossed.n = x->pushed.n = 0;
+    for (size_t i = 0; i < x->roots.n / 2 && x->c->stage->back; i++) { /* undone in the opposite order */
+        const qdot_root swapped = x->roots.at[i];
+
+        x->roots.at[i] = x->roots.at[x->roots.n - 1 - i];
+        x->roots.at[x->roots.n - 1 - i] = swapped;
+    }
     for (size_t i = 0; i < x->roots.n && status == QDOT_OK; i++)
         status = qdot_vec_push(&x->fired, x->roots.at[i]);
     if (status == QDOT_OK)
@@ -389,8 +395,7 @@ qdot_piece_act(qdot_piece *x, bool *over)
         double left = 0;
         bool fast = false, low = false, led, rests;
 
-        if (w->kind != QDOT_WATCH_EVENT || x->c->stage->events.at[w->index].stop ||
-            x->c->stage->events.at[w->index].then)
+        if (w->kind != QDOT_WATCH_EVENT || qdot_staged_event_acts(&x->c->stage->events.at[w->index]))
             status = qdot_vec_push(
                 &x->c->ends,
                 ((qdot_course_end){x->c->tr.pieces.n - 1, root->function, t, *w,
@@ -412,7 +417,14 @@ qdot_piece_act(qdot_piece *x, bool *over)
         } else {
             const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
-            if (e->then)
+            if (e->undoing)
+                status = qdot_piece_check_undone(x, root);
+            if (x->c->reason[0] != '\0') {
+                *over = true;
+                qdot_piece_stop(x, true);
+                break;
+            }
+            if (e->then && status == QDOT_OK)
                 status = change_state(x, i, old);
             if (e->stop && status == QDOT_OK) {
                 x->c->stopped_by = w->index;

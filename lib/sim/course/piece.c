@@ -62,10 +62,13 @@ read_either(double t, double *y, void *user)
 
 /* That of an occurrence, as t grows. */
 static int
-way_of(const qdot_piece *x, const qdot_root *root)
+way_of(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
+    int way;
 
+    if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].undoing)
+        return qdot_piece_is_undone(x, root, &way) ? way : 0;
     if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].touches)
         return 0;
     return x->direction > 0 ? qdot_root_way(root) : -qdot_root_way(root);
@@ -81,11 +84,14 @@ touches_place(const qdot_piece *x, const qdot_watched *w, const qdot_root *root)
 }
 
 static bool
-is_occurrence(const qdot_piece *x, const qdot_root *root)
+is_occurrence(qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    const int way = way_of(x, root);
+    int way;
 
+    if (w->kind == QDOT_WATCH_EVENT && x->c->stage->events.at[w->index].undoing)
+        return !root->pole && qdot_piece_is_undone(x, root, &way);
+    way = way_of(x, root);
     if (w->kind == QDOT_WATCH_EVENT)
         return !root->pole && (x->c->stage->events.at[w->index].way == 0 ||
                                x->c->stage->events.at[w->index].way == way);
@@ -96,9 +102,8 @@ static bool
 is_action(const qdot_piece *x, const qdot_root *root)
 {
     const qdot_watched *w = &qdot_piece_mode(x)->watched[root->function];
-    const qdot_staged_event *e = &x->c->stage->events.at[w->index];
 
-    return w->kind != QDOT_WATCH_EVENT || e->stop || e->then;
+    return w->kind != QDOT_WATCH_EVENT || qdot_staged_event_acts(&x->c->stage->events.at[w->index]);
 }
 
 static bool
@@ -175,7 +180,7 @@ rests_on(const qdot_piece *x, size_t i, int way)
     const qdot_watched *w =
         i < x->c->stage->events.n ? &qdot_piece_mode(x)->watched[i] : NULL;
 
-    return w && way != 0 && x->c->stage->events.at[w->index].then && x->functions_on[i]
+    return w && way != 0 && x->c->stage->events.at[w->index].then && !x->c->stage->back && x->functions_on[i]
            && qdot_watch_slow(qdot_piece_watch(x))[i]
            && qdot_watch_first(qdot_piece_watch(x))[i] == way;
 }
@@ -204,39 +209,6 @@ stays_on_event(qdot_piece *x)
     return false;
 }
 
-qdot_status
-qdot_piece_rate(qdot_piece *x, size_t i, double *rate, double *noise)
-{
-    const size_t n = x->n / 2;
-    double *rates = qdot_malloc((3 * x->n + 1) * sizeof *rates), *fast = rates + x->n,
-           *low = fast + x->n;
-    qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
-
-    *rate = *noise = 0;
-    if (status == QDOT_OK) {
-        qdot_piece_low(x, low);
-        memcpy(fast, x->largest + n, n * sizeof *fast);
-        for (size_t k = n; k < x->n; k++)
-            fast[k] = fabs(rates[k]);
-        status = qdot_watch_rate(qdot_piece_watch(x), x->start.t, x->start.y, low, rates, fast, i,
-                                 rate, noise);
-    }
-    qdot_free(rates);
-    return status;
-}
-
-qdot_status
-qdot_piece_way(qdot_piece *x, size_t i, int *way)
-{
-    double rate, noise;
-
-    *way = 0;
-    QDOT_TRY(qdot_piece_rate(x, i, &rate, &noise));
-    if (fabs(rate) > noise)
-        *way = rate * x->direction > 0 ? 1 : -1;
-    return QDOT_OK;
-}
-
 /* The piece ends where it starts, by an event. */
 static qdot_status
 end_at_once(qdot_piece *x, double t0, const qdot_root *root)
@@ -259,12 +231,12 @@ acts_at_once(qdot_piece *x, size_t i, const qdot_root *root, bool *acts)
 
     *acts = false;
     if (!x->start.jumped && x->c->tr.count == 1)
-        return qdot_piece_meets_at_start(x, i, acts);
+        return e->undoing ? qdot_piece_undone_at_start(x, i, acts) : qdot_piece_meets_at_start(x, i, acts);
     if (!x->start.jumped) {
-        *acts = qdot_piece_meets_again(x, i);
+        *acts = qdot_piece_meets_again(x, i) && is_occurrence(x, root);
         return QDOT_OK;
     }
-    if ((!e->stop && !e->then) || !x->untouched[i] || !x->touching[i] || root->way == 0
+    if (!qdot_staged_event_acts(e) || !x->untouched[i] || !x->touching[i] || root->way == 0
         || (e->way == 0 && x->left[i] == 0) || !is_occurrence(x, root))
         return QDOT_OK;
     /* of one that rises or falls the side before may be rounding: it must be the other one */
@@ -349,7 +321,7 @@ is_switch(const qdot_piece *x, const qdot_root *root)
 /* The end of the piece that root k of [n] ends: the last simultaneous switch, if no other root
  * lies between. */
 static double
-end_of(const qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
+end_of(qdot_piece *x, const qdot_root *roots, size_t n, size_t k)
 {
     double t = roots[k].t;
 

@@ -273,6 +273,17 @@ QDOT_MUST_CHECK qdot_status qdot_piece_meets_at_start(qdot_piece *x, size_t i, b
  * than rounding, and goes on to its other side. */
 bool qdot_piece_meets_again(const qdot_piece *x, size_t i);
 
+/* (piece-back.c) In a run back in time, of an event with a `then`: whether it has just occurred at a root of its function,
+ * or may have; *way: that of its function before it, as t grows. */
+bool qdot_piece_is_undone(qdot_piece *x, const qdot_root *root, int *way);
+/* The same of event i where the run starts: the motion rests on it, or the start is behind an impact. */
+QDOT_MUST_CHECK qdot_status qdot_piece_undone_at_start(qdot_piece *x, size_t i, bool *acts);
+/* Before it is undone: c->reason if what was before it is not known. */
+QDOT_MUST_CHECK qdot_status qdot_piece_check_undone(qdot_piece *x, const qdot_root *root);
+/* End the run where it starts, with c->reason, if there is an event of which not even the time can be known; whether there
+ * is. */
+bool qdot_piece_stop_nowhere(qdot_piece *x);
+
 /* After an event has changed the state: contacts that it leaves end; x->pushed of those that it is pushed into;
  * c->reason if it is beyond one. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep_contacts(qdot_piece *x);

@@ -5,24 +5,13 @@
 #include <string.h>
 
 #include "expr/walk.h"
-#include "sim/model/massless.h"
 #include "sim/model/contact.h"
 #include "sim/model/layer.h"
 #include "sim/model/puck.h"
-#include "sim/model/repeated-zeros.h"
-#include "sim/model/simple-zeros.h"
 #include "sim/model/substitute.h"
 #include "sim/plan/kept.h"
 #include "sim/plan/plan.h"
 #include "tape/constant.h"
-
-static void
-clear_event(qdot_staged_event *e)
-{
-    qdot_free(e->name);
-    qdot_free(e->targets);
-    qdot_tape_free(e->then);
-}
 
 static void
 free_mode(qdot_mode *m)
@@ -41,7 +30,7 @@ void
 qdot_stage_clear(qdot_stage *s)
 {
     for (size_t i = 0; i < s->events.n; i++)
-        clear_event(&s->events.at[i]);
+        qdot_staged_event_clear(&s->events.at[i]);
     qdot_free(s->events.at);
     for (size_t i = 0; i < s->modes.n; i++)
         free_mode(s->modes.at[i]);
@@ -54,113 +43,6 @@ qdot_stage_clear(qdot_stage *s)
     qdot_tape_free(s->pucks);
     qdot_free(s->scales);
     *s = (qdot_stage){0};
-}
-
-/* --- events -------------------------------------------------------------------------- */
-
-/* Whether a new value of component k of the state may break constraints. */
-static qdot_status
-find_broken(const qdot_scene *scene, const qdot_plan *p, size_t k, qdot_staged_event *e)
-{
-    const bool parameter = k >= p->n - p->n_states && k < p->n;
-
-    e->velocities |= !parameter;
-    e->positions |= k < p->n - p->n_states;
-    for (size_t i = 0; parameter && i < scene->constraints.n; i++) {
-        const qdot_expr f = qdot_plan_substitute(p, scene->constraints.at[i].f);
-
-        QDOT_TRY(qdot_pool_check(p->pool));
-        if (qdot_expr_contains(p->pool, f, p->inputs[k]))
-            e->positions = e->velocities = true;
-    }
-    for (size_t i = 0; parameter && p->massless && i < p->n - p->n_states; i++) /* their equations are kept too */
-        if (p->massless[i] && qdot_expr_contains(p->pool, p->f[i], p->inputs[k])) {
-            e->velocities = true;
-            e->positions = e->positions || qdot_massless_kind(p, i) == QDOT_HOLONOMIC;
-        }
-    return QDOT_OK;
-}
-
-static qdot_status
-stage_changes(const qdot_scene *scene, const qdot_plan *p, const qdot_event *event,
-              qdot_staged_event *e)
-{
-    qdot_vec(qdot_expr) values = {0};
-    qdot_status status = QDOT_OK;
-    bool changes = false;
-
-    e->changes = event->targets.n;
-    e->targets = qdot_calloc(e->changes + 1, sizeof *e->targets);
-    if (!e->targets)
-        return QDOT_ENOMEM;
-    for (size_t i = 0; i < e->changes && status == QDOT_OK; i++) {
-        qdot_expr value = qdot_plan_substitute(p, event->values.at[i]);
-
-        status = qdot_pool_check(p->pool);
-        if (status != QDOT_OK)
-            break;
-        e->targets[i] = qdot_expr_place(2 * p->n, p->inputs, qdot_plan_substitute(p, event->targets.at[i]));
-        e->accelerations |=
-            (qdot_expr_node(p->pool, value)->holds
-             & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
-            != 0;
-        status = find_broken(scene, p, e->targets[i], e);
-        changes |= value != p->inputs[e->targets[i]];
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&values, value);
-    }
-    if (!changes) { /* x' = x': the event is only seen */
-        e->changes = 0;
-        e->positions = e->velocities = false;
-    }
-    if (status == QDOT_OK && e->changes > 0)
-        status = qdot_tape_new(p->pool, qdot_plan_inputs(p), p->inputs, values.n, values.at,
-                               &e->then);
-    qdot_free(values.at);
-    return status;
-}
-
-/* |u| has a kink at its zeros, which no polynomial shows, and u^2 hardly shows them: u is looked at. So is what has
- * the zeros of a function that jumps. */
-static qdot_status
-simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
-{
-    const qdot_expr u = qdot_touching_zeros(pool, e->function);
-    qdot_repeated repeated;
-
-    e->touches = u != QDOT_NIL;
-    e->function = qdot_simple_zeros(pool, e->touches ? u : e->function);
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_repeated_zeros(pool, e->function, &repeated));
-    e->function = repeated.u;
-    e->touches = e->touches || repeated.touches;
-    e->turn = repeated.turn;
-    e->half = repeated.half;
-    return QDOT_OK;
-}
-
-static qdot_status
-stage_events(qdot_stage *s, const qdot_plan *p)
-{
-    for (size_t i = 0; i < s->scene->events.n; i++) {
-        const qdot_event *event = &s->scene->events.at[i];
-        qdot_staged_event e = {.way = event->way, .stop = event->stop};
-        qdot_status status;
-
-        e.function =
-            qdot_plan_substitute(p, qdot_sub(p->pool, event->left, event->right));
-        QDOT_TRY(qdot_pool_check(p->pool));
-        QDOT_TRY(simplify_zeros(p->pool, &e));
-        e.name = qdot_strdup(event->name);
-        status = e.name ? stage_changes(s->scene, p, event, &e) : QDOT_ENOMEM;
-        if (status == QDOT_OK)
-            status = qdot_vec_push(&s->events, e);
-        if (status != QDOT_OK) {
-            clear_event(&e);
-            return status;
-        }
-    }
-    return QDOT_OK;
 }
 
 /* --- modes --------------------------------------------------------------------------- */
@@ -419,7 +301,7 @@ make_mode(qdot_stage *s, const long *side, qdot_mode *m)
     }
     if (s->modes.n == 0) {
         QDOT_TRY(qdot_domains_find(m->plan, &s->domains));
-        QDOT_TRY(stage_events(s, m->plan));
+        QDOT_TRY(qdot_stage_events(s, m->plan));
         QDOT_TRY(qdot_parameter_conditions_find(m->plan, s->scene, &s->conditions));
     }
     most = s->events.n + 2 * s->domains.n + 2 * surfaces;
@@ -466,6 +348,24 @@ qdot_stage_mode(qdot_stage *s, const long *side, size_t *mode)
 }
 
 /* --- the start ----------------------------------------------------------------------- */
+
+/* Whether the request's time goes back. */
+static qdot_status
+runs_back(const qdot_stage *s, bool *back)
+{
+    const qdot_run_request *r = s->request;
+    const qdot_expr ends[] = {r->t0, r->t1};
+    double t[2] = {0};
+
+    for (size_t k = 0; k < 2; k++) {
+        const qdot_expr e = qdot_substitute(s->scene->pool, ends[k], r->n_values, r->symbols, r->values);
+
+        QDOT_TRY(qdot_pool_check(s->scene->pool));
+        QDOT_TRY(qdot_tape_constant(s->scene->pool, e, &t[k]));
+    }
+    *back = t[1] < t[0];
+    return QDOT_OK;
+}
 
 /* The request's start as doubles, y [2n]. */
 static qdot_status
@@ -587,7 +487,9 @@ begin(qdot_stage *s, qdot_scene *scene, const qdot_run_request *request,
         s->switches.pool = scene->pool;
     else
         QDOT_TRY(qdot_switches_find(scene, request, &s->switches));
-    QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
+    QDOT_TRY(runs_back(s, &s->back));
+    if (!s->back) /* what rests where time goes back has no one past */
+        QDOT_TRY(qdot_contacts_find(scene, request, &s->switches));
     if (!s->kept)
         QDOT_TRY(qdot_pucks_find(scene, request, &s->switches));
     side = qdot_calloc(s->switches.surfaces.n + 1, sizeof *side);

@@ -13,7 +13,17 @@
 #include "sim/model/sliding.h"
 #include "sim/model/switch.h"
 
+/* Of an event in a run back in time (sim/course/piece-back.c): its `then` is what undoes it (sim/model/undone.h). */
 typedef struct {
+    const char *why;  /* not NULL: there is no such thing, and why; nor then a `then` */
+    bool nowhere;     /* nor is it known where the event would have occurred */
+    bool keeps_speed; /* it changes nothing on which the speed of its function depends */
+    bool moved;       /* its function is not that of the event, which a change of places or parameters has moved */
+    qdot_tape *rates; /* from q, q', t, q'': g' of the function g of the event, g'' (0 if g holds q'), dg/dq [n] */
+    struct qdot_staged_event *forward; /* the event as it is stated; its targets are those of the event that undoes it */
+} qdot_staged_undoing;
+
+typedef struct qdot_staged_event {
     char *name;
     qdot_expr function; /* left - right, with parameter values; u of |u| = 0 and u^2 = 0 */
     bool touches;       /* it is that u: where it changes its sign, |u| or u^2 only touches 0 */
@@ -26,7 +36,15 @@ typedef struct {
     qdot_tape *then; /* the new values from q, q', t, q''; NULL: no assignments */
     bool accelerations; /* `then` reads q'' */
     bool positions, velocities; /* `then` may break constraints on these */
+    qdot_staged_undoing *undoing; /* NULL: time goes on, or the event changes nothing */
 } qdot_staged_event;
+
+/* Whether the event does more than to be seen. */
+static inline bool
+qdot_staged_event_acts(const qdot_staged_event *e)
+{
+    return e->stop || e->then || (e->undoing && e->undoing->why);
+}
 
 typedef enum { QDOT_WATCH_EVENT, QDOT_WATCH_DOMAIN, QDOT_WATCH_SURFACE } qdot_watched_kind;
 
@@ -65,6 +83,7 @@ typedef struct {
     double *scales; /* [2n] of the state (ode/scale.h); NULL: all are 1 */
     size_t n, n_states; /* coordinates of the run; how many of these are parameters that events
                            set */
+    bool back;          /* time goes back */
     qdot_vec(qdot_staged_event) events;
     qdot_vec(qdot_mode *) modes;
     qdot_tape *sides; /* from q, q', t, sides: u of every surface, then the magnitudes of their terms;
@@ -81,6 +100,10 @@ void qdot_stage_clear(qdot_stage *stage);
  * surface the stage and its plans are made anew; *anew whether they were. */
 QDOT_MUST_CHECK qdot_status qdot_stage_settle(qdot_stage *stage, const double *y,
                                               bool *anew);
+
+/* (stage-events.c) Fill s->events, by the plan of the first mode. Errors as qdot_stage_begin. */
+QDOT_MUST_CHECK qdot_status qdot_stage_events(qdot_stage *s, const qdot_plan *plan);
+void qdot_staged_event_clear(qdot_staged_event *e);
 
 /* The mode with these sides [surfaces], made if it is new. QDOT_EFAILED if it is new and the run
  * has ended (stage->scene is NULL), or as qdot_sliding_freeze. */

@@ -157,7 +157,7 @@ met_the_same(const qdot_run *run, const qdot_course *c, bool acting)
     for (size_t i = 0; i < run->stage.events.n; i++) {
         const qdot_staged_event *e = run->stage.events.at + i;
 
-        if ((!acting || e->then || e->stop) && count(&run->course, i) != count(c, i))
+        if ((!acting || qdot_staged_event_acts(e)) && count(&run->course, i) != count(c, i))
             return false;
     }
     return went_alike(&run->course, c);

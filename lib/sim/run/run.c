@@ -7,6 +7,7 @@
 #include "sim/run/chart-run.h"
 #include "sim/run/long-run.h"
 #include "sim/run/origin.h"
+#include "sim/run/run-back.h"
 #include "sim/run/run-doubts.h"
 #include "sim/run/run-report.h"
 #include "sim/run/run-start.h"
@@ -283,7 +284,7 @@ static bool
 is_undisturbed(const qdot_run *run)
 {
     for (size_t i = 0; i < run->stage.events.n; i++)
-        if (run->stage.events.at[i].then || run->stage.events.at[i].stop)
+        if (qdot_staged_event_acts(&run->stage.events.at[i]))
             return false;
     return run->stage.switches.surfaces.n == 0;
 }
@@ -554,6 +555,8 @@ make(qdot_scene *scene, const qdot_run_request *asked, double touch_tol, double 
                      : carry_out(run, scene, request->tol, &interrupted);
     if (status == QDOT_OK)
         status = qdot_slides_tell(run);
+    if (status == QDOT_OK)
+        status = qdot_run_back_tell(run);
     if (status != QDOT_OK) {
         qdot_run_free(run);
         return status;

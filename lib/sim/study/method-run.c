@@ -129,7 +129,7 @@ qdot_method_run_init(qdot_method_run *m, qdot_scene *scene, const qdot_run_reque
     m->plan = m->stage.modes.at[0]->plan;
     m->pieces = m->stage.switches.surfaces.n > 0;
     for (size_t i = 0; i < m->stage.events.n; i++)
-        m->pieces = m->pieces || m->stage.events.at[i].stop || m->stage.events.at[i].then;
+        m->pieces = m->pieces || qdot_staged_event_acts(&m->stage.events.at[i]);
     QDOT_TRY(qdot_bind_new(m->plan, false, &m->bind));
     QDOT_TRY(qdot_bind_scale(m->bind, m->stage.scales));
     QDOT_TRY(read_start(m, request));
