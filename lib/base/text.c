@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -143,6 +144,19 @@ qdot_text_double(qdot_text *s, double x, int digits)
         if (*c == ',')
             *c = '.';
     qdot_text_add(s, buffer);
+}
+
+int
+qdot_double_digits(double x, int least)
+{
+    char buffer[64];
+
+    for (int digits = least; digits < 17; digits++) {
+        snprintf(buffer, sizeof buffer, "%.*g", digits, x);
+        if (strtod(buffer, NULL) == x) /* in the same locale */
+            return digits;
+    }
+    return 17;
 }
 
 bool

@@ -36,6 +36,9 @@ QDOT_MUST_CHECK qdot_status qdot_text_status(const qdot_text *s);
 /* A double as the C locale writes it, `digits` significant ones; inf and nan in words. */
 void qdot_text_double(qdot_text *s, double x, int digits);
 
+/* The fewest digits, not below `least`, with which %g writes a double that reads back as x; 17 of NaN. */
+int qdot_double_digits(double x, int least);
+
 /* Whether text ends in `ending`, with something before it: "a.csv" in ".csv". */
 bool qdot_ends_in(const char *text, const char *ending);
 

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -120,11 +119,7 @@ qdot_export_number(double x, qdot_text *out)
 {
     char text[40];
 
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
-    }
+    snprintf(text, sizeof text, "%.*g", qdot_double_digits(x, 15), x);
     qdot_text_add(out, text);
     if (strpbrk(text, ".en") == NULL)
         qdot_text_add(out, ".0");

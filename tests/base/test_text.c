@@ -149,6 +149,38 @@ doubles_are_written_short_and_in_words(void **state)
 }
 
 static void
+the_fewest_digits_read_back_the_same(void **state)
+{
+    static const struct {
+        double x;
+        int least, digits;
+    } row[] = {
+        {0.1, 1, 1}, {0.1, 15, 15}, {2.385, 1, 4}, {1e22, 1, 1}, {0.1 + 0.2, 1, 17}, {1.0 / 3, 1, 16}, {0, 1, 1},
+        {-0.0, 3, 3}, {5e-324, 1, 1}, {NAN, 1, 17}, {INFINITY, 1, 1},
+    };
+    uint64_t bits = 0x2545F4914F6CDD1Du;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++)
+        assert_int_equal(qdot_double_digits(row[i].x, row[i].least), row[i].digits);
+    for (int i = 0; i < 20000; i++) {
+        char text[64];
+        double x;
+        int digits;
+
+        bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+        memcpy(&x, &bits, sizeof x);
+        if (!isfinite(x))
+            continue;
+        digits = qdot_double_digits(x, 1);
+        snprintf(text, sizeof text, "%.*g", digits, x);
+        assert_true(strtod(text, NULL) == x);
+        snprintf(text, sizeof text, "%.*g", digits - 1, x);
+        assert_true(digits == 1 || strtod(text, NULL) != x);
+    }
+}
+
+static void
 json_escapes_what_it_must(void **state)
 {
     static const struct {
@@ -241,6 +273,7 @@ main(void)
         cmocka_unit_test(truncate_shortens_and_never_lengthens),
         cmocka_unit_test(a_double_of_17_digits_reads_back_the_same),
         cmocka_unit_test(doubles_are_written_short_and_in_words),
+        cmocka_unit_test(the_fewest_digits_read_back_the_same),
         cmocka_unit_test(json_escapes_what_it_must),
         cmocka_unit_test(a_failed_append_marks_the_string_for_good),
         cmocka_unit_test(an_ending_has_something_before_it),

@@ -2,8 +2,6 @@
 #include "lang/answer/number-text.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* 1e-9, not 1e-09. */
@@ -26,13 +24,7 @@ qdot_number_text(qdot_text *text, double value, double error)
 
     value += 0.0;     /* -0 is 0 */
     if (error == 0) { /* the shortest that reads back as the same double */
-        for (digits = 1; digits < 17; digits++) {
-            char buffer[40];
-
-            snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-            if (strtod(buffer, NULL) == value)
-                break;
-        }
+        digits = qdot_double_digits(value, 1);
         if (fabs(value) >= 1 && fabs(value) < 1e15) /* 10, not 1e+01 */
             digits = (int)fmax(digits, floor(log10(fabs(value))) + 1);
     } else if (isfinite(error) && isfinite(value) && value != 0) {

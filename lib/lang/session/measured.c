@@ -2,8 +2,6 @@
 #include "lang/session/measured.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "base/text.h"
 #include "expr/calculus.h"
@@ -26,7 +24,6 @@ write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
 {
     const mpfr_prec_t bits = (mpfr_prec_t)(3.33 * m->digits) + 64;
     char *text = NULL;
-    int digits = 15;
     mpfr_t x;
 
     if (m->digits > 0) {
@@ -40,14 +37,7 @@ write_number(qdot_session *session, const qdot_measured *m, qdot_text *out)
         if (text != NULL)
             return;
     }
-    for (; digits < 17; digits++) {
-        char shown[40];
-
-        snprintf(shown, sizeof shown, "%.*g", digits, m->value);
-        if (strtod(shown, NULL) == m->value)
-            break;
-    }
-    qdot_text_double(out, m->value + 0.0, digits);
+    qdot_text_double(out, m->value + 0.0, qdot_double_digits(m->value, 15));
 }
 
 /* The symbol's name: the number, and behind # one that no other symbol has, which is not printed. */
