@@ -357,6 +357,19 @@ static const struct {
     {"<mrow><mo>(</mo><mn>", "</mn><mo>·</mo><msup><mn>10</mn><mn>", "</mn></msup>", "</mn>", "<mo>)</mo></mrow>"},
 };
 
+/* Where the digits end in the name of a symbol that stands for a number; NULL: it stands for none. */
+static const char *
+number_end(const qdot_symbol *s)
+{
+    return s->class == QDOT_FORMAL ? strchr(s->name, '#') : NULL;
+}
+
+bool
+qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e)
+{
+    return qdot_expr_kind(pool, e) == QDOT_SYM && number_end(qdot_expr_symbol(pool, e)) != NULL;
+}
+
 /* A symbol that stands for a number, such as `-1.5e-9#3`: what stands before the #, in brackets where it has a sign or
  * would stand beside another number without a sign between. */
 static void
@@ -380,7 +393,7 @@ void
 qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, e);
-    const char *mark = s->class == QDOT_FORMAL ? strchr(s->name, '#') : NULL;
+    const char *mark = number_end(s);
     const char *name =
         s->base != QDOT_NIL ? qdot_expr_symbol(pool, s->base)->name : s->name;
     bool of_coordinate = s->class == QDOT_MOMENTUM || s->class == QDOT_DIFFERENTIAL ||

@@ -14,6 +14,10 @@ void qdot_print_name(const qdot_pool *pool, const char *name, qdot_style style, 
 /* theta1' as theta1', θ̇₁, \dot{\theta}_{1}. */
 void qdot_print_symbol(const qdot_pool *pool, qdot_expr e, qdot_style style, qdot_text *out);
 
+/* Whether e is a symbol that stands for a number of a run, such as `0.25#3`: what is behind # keeps it apart from
+ * others of the same digits, and is not printed. */
+bool qdot_symbol_is_number(const qdot_pool *pool, qdot_expr e);
+
 /* The LaTeX command of a function, \\arcsin; NULL if there is none. */
 const char *qdot_print_latex_word(qdot_fun_id id);
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "expr/calculus.h"
+#include "expr/print.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 
@@ -27,7 +28,7 @@ static qdot_expr
 make(qdot_session *session, const char *run, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
-    bool plain = qdot_expr_kind(pool, e) == QDOT_SYM && strchr(qdot_expr_symbol(pool, e)->name, '#') == NULL;
+    bool plain = qdot_expr_kind(pool, e) == QDOT_SYM && !qdot_symbol_is_number(pool, e);
     qdot_member m = {.value = e};
     qdot_text name = {0}, text = {0};
     qdot_status status;
