@@ -2,14 +2,16 @@
 #include "tape/logistic.h"
 
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "tape/constant.h"
 
 enum { MOST = 8 }; /* factors of one product that are treated */
 
 static bool
-is_fun(const qdot_pool *pool, qdot_expr e, qdot_fun_id f)
+is_exp_or_hyperbolic(const qdot_pool *pool, qdot_expr e)
 {
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == (uint16_t)f;
+    return qdot_expr_is_function(pool, e, QDOT_EXP) || qdot_expr_is_function(pool, e, QDOT_COSH) ||
+           qdot_expr_is_function(pool, e, QDOT_SINH);
 }
 
 static bool
@@ -32,7 +34,7 @@ read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
     *x = (exponential){e, QDOT_ZERO};
     if (qdot_constant_is(pool, e))
         return true;
-    if (is_fun(pool, e, QDOT_EXP)) {
+    if (qdot_expr_is_function(pool, e, QDOT_EXP)) {
         *x = (exponential){QDOT_ONE, qdot_expr_arg(pool, e, 0)};
         return true;
     }
@@ -41,7 +43,7 @@ read_exponential(qdot_pool *pool, qdot_expr e, exponential *x)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, e, i);
 
-        if (is_fun(pool, base, QDOT_EXP) && qdot_expr_arg(pool, e, i + 1) == QDOT_ONE &&
+        if (qdot_expr_is_function(pool, base, QDOT_EXP) && qdot_expr_arg(pool, e, i + 1) == QDOT_ONE &&
             x->v == QDOT_ZERO)
             x->v = qdot_expr_arg(pool, base, 0);
         else if (!qdot_constant_is(pool, base) ||
@@ -67,7 +69,7 @@ read_sum(qdot_pool *pool, qdot_expr e, denominator *x)
 
     if (qdot_constant_is(pool, e))
         return false;
-    if (is_fun(pool, e, QDOT_COSH)) {
+    if (qdot_expr_is_function(pool, e, QDOT_COSH)) {
         const qdot_expr u = qdot_expr_arg(pool, e, 0);
 
         *x = (denominator){.c = QDOT_HALF, .v = qdot_neg(pool, u), .w = u, .ratio = QDOT_ONE};
@@ -217,7 +219,7 @@ with_tangents(qdot_pool *pool, qdot_expr e)
         const qdot_expr b = qdot_expr_arg(pool, e, i), r = qdot_expr_arg(pool, e, i + 1);
         qdot_expr c, p = QDOT_ZERO, all;
 
-        if (!is_fun(pool, b, QDOT_SINH) || qdot_expr_kind(pool, r) != QDOT_NUM)
+        if (!qdot_expr_is_function(pool, b, QDOT_SINH) || qdot_expr_kind(pool, r) != QDOT_NUM)
             continue;
         c = qdot_fun1(pool, QDOT_COSH, qdot_expr_arg(pool, b, 0));
         for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, e); k += 2)
@@ -246,10 +248,10 @@ typedef struct {
 static bool
 take_cosine(qdot_pool *pool, qdot_expr base, qdot_expr exponent, cosines *t)
 {
-    const bool cosine = is_fun(pool, base, QDOT_COSH);
+    const bool cosine = qdot_expr_is_function(pool, base, QDOT_COSH);
     long k;
 
-    if ((!cosine && !is_fun(pool, base, QDOT_SINH)) || !qdot_expr_to_int(pool, exponent, &k) ||
+    if ((!cosine && !qdot_expr_is_function(pool, base, QDOT_SINH)) || !qdot_expr_to_int(pool, exponent, &k) ||
         k < 1 || (t->u != QDOT_NIL && t->u != qdot_expr_arg(pool, base, 0)))
         return false;
     t->u = qdot_expr_arg(pool, base, 0);
@@ -404,11 +406,11 @@ as_sum(qdot_pool *pool, qdot_expr b)
 
     if (qdot_expr_kind(pool, b) == QDOT_SUM)
         return b;
-    if (!is_fun(pool, b, QDOT_COSH) && !is_fun(pool, b, QDOT_SINH))
+    if (!qdot_expr_is_function(pool, b, QDOT_COSH) && !qdot_expr_is_function(pool, b, QDOT_SINH))
         return QDOT_NIL;
     up = qdot_fun1(pool, QDOT_EXP, qdot_expr_arg(pool, b, 0));
     down = qdot_fun1(pool, QDOT_EXP, qdot_neg(pool, qdot_expr_arg(pool, b, 0)));
-    if (is_fun(pool, b, QDOT_SINH))
+    if (qdot_expr_is_function(pool, b, QDOT_SINH))
         down = qdot_neg(pool, down);
     return qdot_add(pool, qdot_mul(pool, QDOT_HALF, up), qdot_mul(pool, QDOT_HALF, down));
 }
@@ -426,7 +428,7 @@ sort(quotients *q, qdot_expr e)
 
         if (take_denominator(q, b, p))
             continue;
-        if (is_fun(pool, b, QDOT_EXP) && p == QDOT_ONE)
+        if (qdot_expr_is_function(pool, b, QDOT_EXP) && p == QDOT_ONE)
             q->left = qdot_add(pool, q->left, qdot_expr_arg(pool, b, 0));
         else if (q->sum == QDOT_NIL && p == QDOT_ONE && (sum = as_sum(pool, b)) != QDOT_NIL) {
             q->sum = sum;
@@ -465,15 +467,14 @@ grows(const qdot_pool *pool, qdot_expr sum)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, sum); i += 2) {
         const qdot_expr x = qdot_expr_arg(pool, sum, i);
 
-        if (is_fun(pool, x, QDOT_EXP) || is_fun(pool, x, QDOT_COSH) || is_fun(pool, x, QDOT_SINH))
+        if (is_exp_or_hyperbolic(pool, x))
             return true;
         if (qdot_expr_kind(pool, x) != QDOT_PROD)
             continue;
         for (uint32_t k = 1; k + 1 < qdot_expr_count(pool, x); k += 2) {
             const qdot_expr b = qdot_expr_arg(pool, x, k);
 
-            if (is_fun(pool, b, QDOT_EXP) || is_fun(pool, b, QDOT_COSH) ||
-                is_fun(pool, b, QDOT_SINH))
+            if (is_exp_or_hyperbolic(pool, b))
                 return true;
         }
     }
@@ -552,7 +553,7 @@ logarithm_of(qdot_pool *pool, qdot_expr large)
 static qdot_expr
 logarithm(qdot_pool *pool, qdot_expr e, void *user)
 {
-    const bool is_log = is_fun(pool, e, QDOT_LOG);
+    const bool is_log = qdot_expr_is_function(pool, e, QDOT_LOG);
     const qdot_expr S = is_log ? qdot_expr_arg(pool, e, 0) : e;
     denominator x;
     factored f;
@@ -573,8 +574,7 @@ qdot_logistic_occurs(const qdot_walk *w)
     bool any = false;
 
     for (size_t i = 0; i < w->n && !any; i++)
-        any = is_fun(w->pool, w->at[i], QDOT_EXP) || is_fun(w->pool, w->at[i], QDOT_COSH) ||
-              is_fun(w->pool, w->at[i], QDOT_SINH);
+        any = is_exp_or_hyperbolic(w->pool, w->at[i]);
     return any;
 }
 
@@ -590,12 +590,12 @@ qdot_logistic_argument(const qdot_pool *pool, qdot_expr e)
 {
     qdot_expr sum, x;
 
-    if (!is_fun(pool, e, QDOT_LOG))
+    if (!qdot_expr_is_function(pool, e, QDOT_LOG))
         return QDOT_NIL;
     sum = qdot_expr_arg(pool, e, 0);
     if (qdot_expr_kind(pool, sum) != QDOT_SUM || qdot_expr_count(pool, sum) != 3 ||
         qdot_expr_arg(pool, sum, 0) != QDOT_ONE || qdot_expr_arg(pool, sum, 2) != QDOT_ONE)
         return QDOT_NIL;
     x = qdot_expr_arg(pool, sum, 1);
-    return is_fun(pool, x, QDOT_EXP) ? qdot_expr_arg(pool, x, 0) : QDOT_NIL;
+    return qdot_expr_is_function(pool, x, QDOT_EXP) ? qdot_expr_arg(pool, x, 0) : QDOT_NIL;
 }
