@@ -91,12 +91,41 @@ others_have_simple_zeros(void **state)
     end(&s.f);
 }
 
+/* Powers and moduli are taken off first: (mod(x, 2) - 1/2)^3, |mod(x, 2) - 1/2|, x^4. */
+static void
+powers_are_watched_by_their_base(void **state)
+{
+    place s;
+    qdot_pool *pool;
+    qdot_repeated once, out;
+    qdot_expr g;
+
+    (void)state;
+    begin_place(&s);
+    pool = s.f.pool;
+    g = qdot_sub(pool, modulo(&s), s.half);
+    once = repeated(&s, g);
+    assert_true(qdot_watched_zeros(pool, qdot_pow_int(pool, g, 3), &out) == QDOT_OK);
+    assert_true(out.u == once.u && out.turn == once.turn && !out.touches);
+    assert_true(qdot_watched_zeros(pool, qdot_fun1(pool, QDOT_ABS, g), &out) == QDOT_OK);
+    assert_true(out.u == once.u && out.turn == once.turn && out.touches);
+    assert_true(qdot_watched_zeros(pool, qdot_pow_int(pool, s.x, 4), &out) == QDOT_OK);
+    assert_true(out.u == s.x && out.turn == QDOT_NIL && out.touches && !out.half);
+    assert_true(qdot_watched_zeros(pool, s.x, &out) == QDOT_OK);
+    assert_true(out.u == s.x && !out.touches);
+    /* the jump is where it touches 0, whatever the power */
+    assert_true(qdot_watched_zeros(pool, qdot_pow_int(pool, modulo(&s), 3), &out) == QDOT_OK);
+    assert_true(out.u == repeated(&s, modulo(&s)).u && out.touches);
+    end(&s.f);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mod_is_a_sine),
         cmocka_unit_test(others_have_simple_zeros),
+        cmocka_unit_test(powers_are_watched_by_their_base),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -125,7 +125,7 @@ qdot_crossings_find(const qdot_course *c, qdot_expr g, const double *limits, qdo
     qdot_status status;
 
     s.direction = qdot_trajectory_is_backward(tr) ? -1 : 1;
-    QDOT_TRY(qdot_repeated_zeros(plan->pool, qdot_plan_substitute(plan, g), &s.zeros));
+    QDOT_TRY(qdot_watched_zeros(plan->pool, qdot_plan_substitute(plan, g), &s.zeros));
     s.watches = qdot_calloc(c->systems.n + 1, sizeof *s.watches);
     status = s.watches ? qdot_trajectory_open(tr, qdot_course_systems(c), &s.cursor) : QDOT_ENOMEM;
     for (; s.piece < tr->pieces.n && status == QDOT_OK && isnan(s.lost); s.piece++)

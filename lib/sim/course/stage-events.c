@@ -4,7 +4,6 @@
 #include "sim/course/stage.h"
 #include "sim/model/massless.h"
 #include "sim/model/repeated-zeros.h"
-#include "sim/model/simple-zeros.h"
 #include "sim/model/undone.h"
 #include "sim/plan/plan.h"
 
@@ -77,17 +76,13 @@ stage_changes(const qdot_scene *scene, const qdot_plan *p, size_t n, const qdot_
 static qdot_status
 simplify_zeros(qdot_pool *pool, qdot_staged_event *e)
 {
-    const qdot_expr u = qdot_touching_zeros(pool, e->function);
-    qdot_repeated repeated;
+    qdot_repeated zeros;
 
-    e->touches = u != QDOT_NIL;
-    e->function = qdot_simple_zeros(pool, e->touches ? u : e->function);
-    QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(qdot_repeated_zeros(pool, e->function, &repeated));
-    e->function = repeated.u;
-    e->touches = e->touches || repeated.touches;
-    e->turn = repeated.turn;
-    e->half = repeated.half;
+    QDOT_TRY(qdot_watched_zeros(pool, e->function, &zeros));
+    e->function = zeros.u;
+    e->touches = zeros.touches;
+    e->turn = zeros.turn;
+    e->half = zeros.half;
     return QDOT_OK;
 }
 

@@ -119,8 +119,8 @@ make(qdot_ensemble_steps *s)
     if (!g || !s->first || !s->zeros)
         status = QDOT_ENOMEM;
     for (size_t i = 0; i < w->n_events && status == QDOT_OK; i++) {
-        status = qdot_repeated_zeros(s->of.plan->pool, qdot_plan_substitute(s->of.plan, w->events[i].function),
-                                     &s->zeros[i]);
+        status = qdot_watched_zeros(s->of.plan->pool, qdot_plan_substitute(s->of.plan, w->events[i].function),
+                                    &s->zeros[i]);
         g[i] = s->zeros[i].u;
         s->first[i] = s->asked;
         s->asked += w->events[i].count;

@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/walk.h"
+#include "sim/model/simple-zeros.h"
 #include "tape/constant.h"
 
 static bool
@@ -143,5 +144,15 @@ qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
         QDOT_TRY(of_floor(pool, a, c, k, out));
     else
         QDOT_TRY(of_angle(pool, a, qdot_expr_arg(pool, f, 1), c, k, out));
+    return qdot_pool_check(pool);
+}
+
+qdot_status
+qdot_watched_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
+{
+    const qdot_expr v = qdot_touching_zeros(pool, g);
+
+    QDOT_TRY(qdot_repeated_zeros(pool, qdot_simple_zeros(pool, v != QDOT_NIL ? v : g), out));
+    out->touches = out->touches || v != QDOT_NIL;
     return qdot_pool_check(pool);
 }

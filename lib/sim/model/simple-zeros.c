@@ -1,6 +1,8 @@
 /* simple-zeros.c -- lowers the exponents of a product. */
 #include "sim/model/simple-zeros.h"
 
+#include "expr/elementary.h"
+
 /* Whether the exponent is a whole number. *n out: 1 if it is odd, 2 if it is even, with its sign. */
 static bool
 is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
@@ -23,12 +25,6 @@ far(const qdot_pool *pool, qdot_expr number)
                                                 : (long)fmpz_bits(fmpq_numref(q)) - (long)fmpz_bits(fmpq_denref(q));
 
     return e > FAR || e < -FAR ? e : 0;
-}
-
-static bool
-is_modulus(const qdot_pool *pool, qdot_expr e)
-{
-    return qdot_expr_kind(pool, e) == QDOT_FUN && qdot_expr_node(pool, e)->op == QDOT_ABS;
 }
 
 /* A sum times a power of 2, if all its coefficients are far from 1, to one side. */
@@ -82,17 +78,18 @@ qdot_touching_zeros(qdot_pool *pool, qdot_expr g)
 {
     qdot_expr u = QDOT_ONE;
 
-    if (is_modulus(pool, g))
+    if (qdot_expr_is_function(pool, g, QDOT_ABS))
         return qdot_expr_arg(pool, g, 0);
     if (qdot_expr_kind(pool, g) != QDOT_PROD)
         return QDOT_NIL;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, g); i += 2) {
         const qdot_expr base = qdot_expr_arg(pool, g, i);
+        const bool modulus = qdot_expr_is_function(pool, base, QDOT_ABS);
         long n;
 
-        if (!is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !is_modulus(pool, base)))
+        if (!is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !modulus))
             return QDOT_NIL;
-        u = qdot_mul(pool, u, is_modulus(pool, base) ? qdot_expr_arg(pool, base, 0) : base);
+        u = qdot_mul(pool, u, modulus ? qdot_expr_arg(pool, base, 0) : base);
     }
     return u;
 }
