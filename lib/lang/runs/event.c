@@ -226,7 +226,7 @@ add_line(qdot_session *session, int digits, qdot_text *text, const qdot_run_occu
     return QDOT_OK;
 }
 
-/* JSON: notices of where it is not known whether events occur. */
+/* JSON: a notice for each stretch of time in which it is not known whether an event occurs, faded [n]. */
 static qdot_status
 tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *faded, size_t n)
 {
@@ -239,7 +239,8 @@ tell_faded(qdot_session *session, const qdot_run *run, const qdot_run_faded *fad
     return QDOT_OK;
 }
 
-/* Where the run, or its end, leaves open whether events occur; faded [n]. */
+/* Add a line for each stretch of time in which it is not known whether an event occurs, faded [n], and for each event
+ * of which it is not known whether it occurs at the end of the run. */
 static qdot_status
 add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
 {
@@ -265,15 +266,16 @@ add_open(qdot_run *run, const qdot_run_faded *faded, size_t n, qdot_text *text)
     return QDOT_OK;
 }
 
-/* The number of an occurrence among those of its event; counts [distinct events] of those before. */
+/* How many occurrences of an event have been listed. */
 typedef struct {
     const char *event;
     size_t n;
 } event_count;
 typedef qdot_vec(event_count) event_counts;
 
+/* Count one more occurrence of the event; *k: its number among those of that event. */
 static qdot_status
-count(event_counts *counts, const char *event, size_t *k)
+count_occurrence(event_counts *counts, const char *event, size_t *k)
 {
     for (size_t i = 0; i < counts->n; i++)
         if (strcmp(counts->at[i].event, event) == 0) {
@@ -311,7 +313,7 @@ qdot_event_list(qdot_cursor *c)
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         size_t k;
 
-        status = count(&counts, list[i].event, &k);
+        status = count_occurrence(&counts, list[i].event, &k);
         if (status == QDOT_OK)
             status =
                 add_line(session, qdot_event_digits(run->run, &list[i]), &text, &list[i], k);
