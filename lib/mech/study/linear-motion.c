@@ -111,71 +111,83 @@ qdot_rest_value(qdot_scene *s, qdot_expr equations, qdot_expr e)
     return e;
 }
 
+/* Slopes of constraints in reduced row echelon form. */
+typedef struct {
+    size_t n, rank;
+    qdot_expr *A;  /* [rank x n] */
+    size_t *pivot; /* [rank] the column of each row's 1, in which the other rows are 0 */
+} echelon;
+
+/* row -= by other, both [n]. */
+static qdot_status
+row_subtract(const place *p, size_t n, qdot_expr *row, qdot_expr by, const qdot_expr *other)
+{
+    qdot_pool *pool = p->s->pool;
+
+    for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
+        row[i] = qdot_simplify(pool, qdot_sub(pool, row[i], qdot_mul(pool, by, other[i])), &p->facts);
+    return qdot_pool_check(pool);
+}
+
+/* Add the slopes of constraint k, unless they depend on those of the ones before. *pivot: its row was divided by it. */
+static qdot_status
+echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
+{
+    qdot_pool *pool = p->s->pool;
+    qdot_expr *row = e->A + e->rank * e->n;
+    size_t j = 0;
+
+    for (size_t i = 0; i < e->n; i++)
+        row[i] = at(p, qdot_integrated_slope(p->s, k, i));
+    QDOT_TRY(qdot_pool_check(pool));
+    for (size_t r = 0; r < e->rank; r++)
+        QDOT_TRY(row_subtract(p, e->n, row, row[e->pivot[r]], e->A + r * e->n));
+    while (j < e->n && qdot_is_zero(pool, row[j], &p->facts))
+        j++;
+    if (j == e->n)
+        return QDOT_OK;
+    *pivot = row[j];
+    for (size_t i = e->n; i-- > 0;)
+        if (i != j)
+            row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
+    row[j] = QDOT_ONE;
+    for (size_t r = 0; r < e->rank; r++)
+        QDOT_TRY(row_subtract(p, e->n, e->A + r * e->n, e->A[r * e->n + j], row));
+    e->pivot[e->rank++] = j;
+    return qdot_pool_check(pool);
+}
+
 /* The tangent space of the holonomic constraints: its columns, at stride n, a basis; which [n] the
  * coordinate of each. */
 static qdot_status
 tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
 {
-    qdot_scene *s = p->s;
-    qdot_pool *pool = s->pool;
-    size_t n = s->coordinates.n, c = s->constraints.n, rank = 0, columns = 0;
-    qdot_expr *A = qdot_calloc(c * n + n + 1, sizeof *A);
-    size_t *pivot = qdot_calloc(c + 1, sizeof *pivot);
-    qdot_status status = A == NULL || pivot == NULL ? QDOT_ENOMEM : QDOT_OK;
+    const size_t n = p->s->coordinates.n, c = p->s->constraints.n;
+    echelon e = {.n = n};
+    qdot_status status;
 
-    for (size_t k = 0; k < c && status == QDOT_OK; k++) { /* reduced rows, one by one */
-        qdot_expr *row = A + rank * n;
-        size_t j = 0;
-
-        for (size_t i = 0; i < n; i++)
-            row[i] = at(p, qdot_integrated_slope(s, k, i));
-        status = qdot_pool_check(pool);
-        for (size_t r = 0; r < rank && status == QDOT_OK; r++) {
-            qdot_expr by = row[pivot[r]];
-
-            for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
-                row[i] = qdot_simplify(
-                    pool, qdot_sub(pool, row[i], qdot_mul(pool, by, A[r * n + i])),
-                    &p->facts);
-            status = qdot_pool_check(pool);
-        }
-        while (status == QDOT_OK && j < n && qdot_is_zero(pool, row[j], &p->facts))
-            j++;
-        if (status != QDOT_OK || j == n)
-            continue;
-        out->pivot[rank] = row[j];
-        for (size_t i = n; i-- > 0;)
-            if (i != j)
-                row[i] = qdot_simplify(pool, qdot_div(pool, row[i], row[j]), &p->facts);
-        row[j] = QDOT_ONE;
-        for (size_t r = 0; r < rank; r++) {
-            qdot_expr by = A[r * n + j];
-
-            for (size_t i = 0; i < n && by != QDOT_ZERO; i++)
-                A[r * n + i] = qdot_simplify(
-                    pool, qdot_sub(pool, A[r * n + i], qdot_mul(pool, by, row[i])),
-                    &p->facts);
-        }
-        pivot[rank++] = j;
-        status = qdot_pool_check(pool);
-    }
+    e.A = qdot_calloc(c * n + n + 1, sizeof *e.A);
+    e.pivot = qdot_calloc(c + 1, sizeof *e.pivot);
+    status = e.A == NULL || e.pivot == NULL ? QDOT_ENOMEM : QDOT_OK;
+    for (size_t k = 0; k < c && status == QDOT_OK; k++)
+        status = echelon_add(p, &e, k, &out->pivot[e.rank]);
+    out->n = 0;
     for (size_t j = 0; j < n && status == QDOT_OK; j++) {
         bool dependent = false;
 
-        for (size_t r = 0; r < rank; r++)
-            dependent |= pivot[r] == j;
+        for (size_t r = 0; r < e.rank; r++)
+            dependent |= e.pivot[r] == j;
         if (dependent)
             continue;
         for (size_t i = 0; i < n; i++)
-            N[i * n + columns] = i == j ? QDOT_ONE : QDOT_ZERO;
-        for (size_t r = 0; r < rank; r++)
-            N[pivot[r] * n + columns] = qdot_neg(pool, A[r * n + j]);
-        out->which[columns++] = j;
+            N[i * n + out->n] = i == j ? QDOT_ONE : QDOT_ZERO;
+        for (size_t r = 0; r < e.rank; r++)
+            N[e.pivot[r] * n + out->n] = qdot_neg(p->s->pool, e.A[r * n + j]);
+        out->which[out->n++] = j;
     }
-    out->n = columns;
-    out->rank = rank;
-    qdot_free(A);
-    qdot_free(pivot);
+    out->rank = e.rank;
+    qdot_free(e.A);
+    qdot_free(e.pivot);
     return status;
 }
 
