@@ -464,6 +464,34 @@ look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double
     return status == QDOT_EINTR ? QDOT_OK : status;
 }
 
+/* Look at the step from a to b, of a length that is 0 if none could be made. *ends: the branch ends with it. */
+static qdot_status
+look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
+             qdot_branch *branch, bool *ends)
+{
+    *ends = true;
+    if (s->x->failure == QDOT_EINTR) {
+        s->all->interrupted = true;
+        branch->end[1] = QDOT_END_STOPPED;
+        return QDOT_OK;
+    }
+    QDOT_TRY(s->x->failure);
+    if (length == 0) {
+        memcpy(branch->reason[1], s->x->reason, sizeof s->x->reason);
+        return QDOT_OK;
+    }
+    QDOT_TRY(look(s, a, b, length, branch));
+    if (s->all->interrupted)
+        branch->end[1] = QDOT_END_STOPPED;
+    else if (b->blurred)
+        branch->end[1] = QDOT_END_BLURRED;
+    else if (s->over != QDOT_END_STOPPED)
+        branch->end[1] = s->over;
+    else
+        *ends = false;
+    return QDOT_OK;
+}
+
 /* Look whether something dips to 0 between the latest points; *again: a, `gone` and the branch are
  * those of an earlier point, from which the way is gone by shorter steps. */
 static qdot_status
@@ -504,33 +532,13 @@ follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, 
     qdot_dips_add(x, d, a, 0, branch->n);
     while (!last && branch->n < most) {
         const size_t before = branch->n;
-        bool again = false;
+        bool again = false, ends;
 
         go_on(x, a, fmin(fmin(x->longest * fmax(1, far), d->careful), qdot_branch_longest_near(s, a->y)), &step, b,
               &length, &branch->end[1], &last);
-        if (x->failure == QDOT_EINTR) {
-            s->all->interrupted = true;
-            branch->end[1] = QDOT_END_STOPPED;
+        QDOT_TRY(look_for_end(s, a, b, length, branch, &ends));
+        if (ends)
             return QDOT_OK;
-        }
-        QDOT_TRY(x->failure);
-        if (length == 0) {
-            memcpy(branch->reason[1], x->reason, sizeof x->reason);
-            return QDOT_OK;
-        }
-        QDOT_TRY(look(s, a, b, length, branch));
-        if (s->all->interrupted) {
-            branch->end[1] = QDOT_END_STOPPED;
-            return QDOT_OK;
-        }
-        if (b->blurred) {
-            branch->end[1] = QDOT_END_BLURRED;
-            return QDOT_OK;
-        }
-        if (s->over != QDOT_END_STOPPED) {
-            branch->end[1] = s->over;
-            return QDOT_OK;
-        }
         if (s->leapt) {
             step = length / 2;
             last = s->leapt = false;
