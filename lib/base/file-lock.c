@@ -12,7 +12,7 @@
 #include "base/text.h"
 
 static qdot_status
-refuse(const char *path, int reason)
+lock_refuse(const char *path, int reason)
 {
     if (reason == EACCES || reason == EAGAIN) {
         qdot_fail(QDOT_EIO, "another process works with `%.200s`", path);
@@ -64,7 +64,7 @@ qdot_file_lock_acquire(const char *path, qdot_file_lock *lock)
     if (lock->path != NULL)
         return QDOT_OK;
     qdot_text_clear(&name);
-    return refuse(path, failed);
+    return lock_refuse(path, failed);
 }
 
 void

@@ -71,7 +71,7 @@ give(qdot_crew *c, size_t rank)
 }
 
 static qdot_status
-hear(qdot_crew *c, const qdot_rank_message *m)
+mate_hear(qdot_crew *c, const qdot_rank_message *m)
 {
     qdot_mate *mate = &c->mates[m->from];
     const char *at = qdot_text_str(&m->bytes);
@@ -120,7 +120,7 @@ qdot_mates_serve(qdot_crew *c)
     if (c->mates == NULL)
         return QDOT_OK;
     while (status == QDOT_OK && qdot_ranks_next(&m)) {
-        status = hear(c, &m);
+        status = mate_hear(c, &m);
         give(c, m.from);
     }
     qdot_text_clear(&m.bytes);

@@ -45,7 +45,7 @@ static qdot_vec(sending) sendings;
 /* --- the library ------------------------------------------------------------------------ */
 
 static void *
-find(void *handle, const char *name, bool *all)
+mpi_find_function(void *handle, const char *name, bool *all)
 {
     void *symbol = dlsym(handle, name);
 
@@ -54,7 +54,7 @@ find(void *handle, const char *name, bool *all)
 }
 
 static qdot_status
-load(void)
+mpi_load(void)
 {
     /* the parts that it loads later look for its symbols among those of all */
     void *handle = dlopen(library, RTLD_NOW | RTLD_GLOBAL);
@@ -64,14 +64,14 @@ load(void)
         (void)qdot_fail(QDOT_EIO, "MPI cannot be loaded: %.300s", dlerror());
         return qdot_hint("Debian: openmpi-bin");
     }
-#define X(name) mpi.name = (__typeof__(mpi.name))find(handle, "MPI_" #name, &all);
+#define X(name) mpi.name = (__typeof__(mpi.name))mpi_find_function(handle, "MPI_" #name, &all);
     FUNCTIONS(X)
 #undef X
-    mpi.world = find(handle, "ompi_mpi_comm_world", &all);
-    mpi.byte = find(handle, "ompi_mpi_byte", &all);
-    mpi.integer = find(handle, "ompi_mpi_int", &all);
-    mpi.least = find(handle, "ompi_mpi_op_min", &all);
-    mpi.errors_return = find(handle, "ompi_mpi_errors_return", &all);
+    mpi.world = mpi_find_function(handle, "ompi_mpi_comm_world", &all);
+    mpi.byte = mpi_find_function(handle, "ompi_mpi_byte", &all);
+    mpi.integer = mpi_find_function(handle, "ompi_mpi_int", &all);
+    mpi.least = mpi_find_function(handle, "ompi_mpi_op_min", &all);
+    mpi.errors_return = mpi_find_function(handle, "ompi_mpi_errors_return", &all);
     return all ? QDOT_OK : qdot_fail(QDOT_EIO, "%s is not OpenMPI's", library);
 }
 
@@ -80,7 +80,7 @@ qdot_mpi_begin(size_t *count, size_t *mine)
 {
     int n = 1, rank = 0;
 
-    QDOT_TRY(load());
+    QDOT_TRY(mpi_load());
     /* workers are copies of a rank; they send nothing */
     setenv("OMPI_MCA_mpi_warn_on_fork", "0", 0);
     if (mpi.Init(NULL, NULL) != MPI_SUCCESS)
@@ -126,7 +126,7 @@ qdot_mpi_gather(const void *bytes, size_t n, void *all)
 /* --- messages --------------------------------------------------------------------------- */
 
 static void
-drop(parcel *p)
+parcel_release(parcel *p)
 {
     if (--p->references == 0)
         qdot_free(p);
@@ -144,7 +144,7 @@ qdot_mpi_sending(void)
         if (mpi.Test(&s->request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done)
             sendings.at[n++] = *s;
         else
-            drop(s->parcel);
+            parcel_release(s->parcel);
     }
     return sendings.n = n;
 }
@@ -171,7 +171,7 @@ qdot_mpi_send(size_t first, size_t end, int what, const void *bytes, size_t n)
             sendings.n--;
         }
     }
-    drop(p);
+    parcel_release(p);
     (void)qdot_mpi_sending();
 }
 

@@ -155,7 +155,7 @@ set_sentinel(void)
 
 /* MPI's own beginning waits for all, and for ever for one that has died. The sentinel ends the others. */
 static void
-give_up(int signal_number)
+ranks_give_up(int signal_number)
 {
     static const char text[] =
         "qdot: the other ranks have not begun within two minutes\n";
@@ -165,7 +165,7 @@ give_up(int signal_number)
 }
 
 static qdot_status
-look_around(size_t *kind)
+ranks_gather_places(size_t *kind)
 {
     const place here = {machine_here(), digits_here(), getpid()};
     int least = (int)*kind;
@@ -198,10 +198,10 @@ qdot_ranks_begin(size_t *kind)
     if (ours != NULL && atol(ours) == 1)
         return QDOT_OK;
     set_sentinel();
-    if (ranks.sentinel >= 0 && signal(SIGALRM, give_up) != SIG_ERR)
+    if (ranks.sentinel >= 0 && signal(SIGALRM, ranks_give_up) != SIG_ERR)
         alarm(GATHERING);
     QDOT_TRY(qdot_mpi_begin(&ranks.count, &ranks.mine));
-    QDOT_TRY(look_around(kind));
+    QDOT_TRY(ranks_gather_places(kind));
     alarm(0);
     if (ranks.places[ranks.mine].digits == ranks.places[0].digits)
         return QDOT_OK;
@@ -249,7 +249,7 @@ static void __attribute__((noreturn)) leave(void)
 
 /* Whether a message has come. */
 static bool
-look(size_t *from, int *what)
+ranks_poll(size_t *from, int *what)
 {
     bool come = qdot_mpi_look(from, what);
 
@@ -279,7 +279,7 @@ qdot_ranks_next(qdot_rank_message *m)
 {
     int what;
 
-    if (!look(&m->from, &what))
+    if (!ranks_poll(&m->from, &what))
         return false;
     qdot_mpi_take(m->from, what, &m->bytes);
     m->what = (qdot_rank_what)what;
@@ -292,7 +292,7 @@ qdot_ranks_has_shared(void)
     size_t from;
     int what;
 
-    return look(&from, &what) && what == QDOT_RANK_SHARED;
+    return ranks_poll(&from, &what) && what == QDOT_RANK_SHARED;
 }
 
 /* Whether this machine knows that it is dead. */
@@ -337,7 +337,7 @@ wait_until_sent(double seconds)
 }
 
 static void
-tell(qdot_status status, const qdot_text *text)
+share_send(qdot_status status, const qdot_text *text)
 {
     share_head h = {.number = ranks.shared, .n = text->n};
 
@@ -358,7 +358,7 @@ wait_for_piece(qdot_text *piece)
     int what;
 
     for (;;) {
-        if (!look(&from, &what)) {
+        if (!ranks_poll(&from, &what)) {
             rest();
             continue;
         }
@@ -369,7 +369,7 @@ wait_for_piece(qdot_text *piece)
 }
 
 static qdot_status
-hear(qdot_text *text)
+share_receive(qdot_text *text)
 {
     qdot_text piece = {0};
     share_head h;
@@ -399,8 +399,8 @@ qdot_ranks_share(qdot_status status, qdot_text *text)
         return status;
     ranks.shared++;
     if (ranks.mine > 0)
-        return hear(text);
-    tell(status, text);
+        return share_receive(text);
+    share_send(status, text);
     return status;
 }
 

@@ -16,7 +16,7 @@ home(const qdot_scope *s, const void *block)
 }
 
 static size_t
-find(const qdot_scope *s, const void *block)
+scope_find_slot(const qdot_scope *s, const void *block)
 {
     size_t i = home(s, block);
 
@@ -26,7 +26,7 @@ find(const qdot_scope *s, const void *block)
 }
 
 static bool
-enlarge(qdot_scope *s)
+scope_enlarge(qdot_scope *s)
 {
     qdot_scope bigger = {.mask = 2 * (s->mask + 1) - 1};
 
@@ -35,7 +35,7 @@ enlarge(qdot_scope *s)
         return false;
     for (size_t i = 0; i <= s->mask; i++)
         if (s->slot[i].block != NULL)
-            bigger.slot[find(&bigger, s->slot[i].block)] = s->slot[i];
+            bigger.slot[scope_find_slot(&bigger, s->slot[i].block)] = s->slot[i];
     free(s->slot);
     s->slot = bigger.slot;
     s->mask = bigger.mask;
@@ -91,9 +91,9 @@ qdot_scope_note(void *block, size_t size)
 
     if (s == NULL)
         return true;
-    if (2 * (s->n + 1) > s->mask && !enlarge(s))
+    if (2 * (s->n + 1) > s->mask && !scope_enlarge(s))
         return false;
-    s->slot[find(s, block)] = (struct qdot_noted){block, size};
+    s->slot[scope_find_slot(s, block)] = (struct qdot_noted){block, size};
     s->n++;
     s->bytes += size;
     return true;
@@ -104,7 +104,7 @@ qdot_scope_has(const void *block)
 {
     const qdot_scope *s = qdot_scope_now;
 
-    return s != NULL && block != NULL && s->slot[find(s, block)].block != NULL;
+    return s != NULL && block != NULL && s->slot[scope_find_slot(s, block)].block != NULL;
 }
 
 bool
@@ -115,7 +115,7 @@ qdot_scope_release(void *block)
 
     if (!qdot_scope_has(block))
         return false;
-    gap = find(s, block);
+    gap = scope_find_slot(s, block);
     s->n--;
     s->bytes -= s->slot[gap].size;
     /* those behind move up where the gap would hide them */

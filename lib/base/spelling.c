@@ -6,7 +6,7 @@
 enum { LONGEST = 64 };
 
 static int
-lower(char c)
+letter_lower(char c)
 {
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
 }
@@ -14,7 +14,7 @@ lower(char c)
 /* Twice the least number of letters put in, left out, changed or swapped; a change of
  * case alone costs half. Optimal string alignment (Damerau 1964). */
 static int
-distance(const char *a, size_t n, const char *b, size_t m)
+spelling_distance(const char *a, size_t n, const char *b, size_t m)
 {
     int rows[3][LONGEST + 1];
 
@@ -26,7 +26,7 @@ distance(const char *a, size_t n, const char *b, size_t m)
         row[0] = 2 * (int)i;
         for (size_t j = 1; j <= m; j++) {
             int change = a[i - 1] == b[j - 1]                 ? 0
-                         : lower(a[i - 1]) == lower(b[j - 1]) ? 1
+                         : letter_lower(a[i - 1]) == letter_lower(b[j - 1]) ? 1
                                                               : 2;
             int best = above[j - 1] + change;
 
@@ -62,7 +62,7 @@ qdot_spelling_offer(qdot_spelling *s, const char *candidate)
     if (s->length == 0 || s->length > LONGEST || m > LONGEST || m > s->length + 3 ||
         s->length > m + 3)
         return;
-    d = distance(s->name, s->length, candidate, m);
+    d = spelling_distance(s->name, s->length, candidate, m);
     /* a one-letter name is never a slip of another one, only of its other case */
     if (m < 2 && d > 1)
         return;

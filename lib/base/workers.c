@@ -71,7 +71,7 @@ write_all(int to, const void *bytes, size_t n)
 }
 
 static bool
-read_all(int from, void *bytes, size_t n)
+pipe_read_all(int from, void *bytes, size_t n)
 {
     for (char *at = bytes; n > 0;) {
         const ssize_t come = read(from, at, n);
@@ -101,7 +101,7 @@ serve(const qdot_workers_job *job, int ask, int answer)
     signal(SIGTERM, SIG_DFL);
     qdot_progress_open = NULL;
     qdot_threads_are_taken = qdot_ranks_are_there() || job->workers >= qdot_workers_processors();
-    while (read_all(ask, &r, sizeof r)) {
+    while (pipe_read_all(ask, &r, sizeof r)) {
         if (job->begin)
             job->begin(r.first, r.count, job->user);
         for (size_t k = r.first; k < r.first + r.count; k++) {
@@ -119,7 +119,7 @@ serve(const qdot_workers_job *job, int ask, int answer)
 }
 
 static bool
-start(qdot_crew *c, worker *w)
+worker_start(qdot_crew *c, worker *w)
 {
     int ask[2], answer[2];
 
@@ -155,7 +155,7 @@ start(qdot_crew *c, worker *w)
 }
 
 static void
-end(worker *w, bool at_once)
+worker_end(worker *w, bool at_once)
 {
     if (w->answer < 0)
         return;
@@ -195,7 +195,7 @@ qdot_hand_out(qdot_crew *c, qdot_hand *h, double seconds, size_t most)
 
 /* It has answered one of its items. The time of a chunk is known when it is done. */
 static void
-note(qdot_hand *h, size_t k)
+hand_note_answer(qdot_hand *h, size_t k)
 {
     double now, seconds;
 
@@ -248,7 +248,7 @@ qdot_hand_take(qdot_crew *c, qdot_hand *hand, const char *bytes, size_t n)
         else
             QDOT_TRY(qdot_crew_answer(c, (size_t)h.item, come->at + at, (size_t)h.n));
         at += h.n != QDOT_NO_ANSWER ? (size_t)h.n : 0;
-        note(hand, (size_t)h.item);
+        hand_note_answer(hand, (size_t)h.item);
     }
     if (at > 0) {
         memmove(come->at, come->at + at, come->n - at);
@@ -283,13 +283,13 @@ feed(qdot_crew *c, worker *w)
 
 /* A worker has died: what it had not answered is done again, by another in its place. */
 static qdot_status
-replace(qdot_crew *c, worker *w)
+worker_replace(qdot_crew *c, worker *w)
 {
     qdot_hand *h = &w->hand;
     qdot_items_chunk rest = h->has[0];
     size_t killer;
 
-    end(w, true);
+    worker_end(w, true);
     if (h->n > 0) {
         h->n = 0;
         rest.first += rest.count - h->left[0];
@@ -301,7 +301,7 @@ replace(qdot_crew *c, worker *w)
         for (size_t k = rest.first; k < rest.first + rest.count; k++)
             QDOT_TRY(qdot_items_give(&c->items, (qdot_items_chunk){k, 1}));
     }
-    if ((c->items.left > 0 || qdot_rank() > 0) && !start(c, w))
+    if ((c->items.left > 0 || qdot_rank() > 0) && !worker_start(c, w))
         return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     return QDOT_OK;
 }
@@ -315,7 +315,7 @@ listen_to(qdot_crew *c, worker *w)
     if (n < 0 && errno == EINTR)
         return QDOT_OK;
     if (n <= 0)
-        return replace(c, w);
+        return worker_replace(c, w);
     QDOT_TRY(qdot_hand_take(c, &w->hand, bytes, (size_t)n));
     if (qdot_rank() > 0)
         return qdot_mates_send(c, w->hand.n == 0);
@@ -325,7 +325,7 @@ listen_to(qdot_crew *c, worker *w)
 
 /* Until all is answered; or, in other ranks, until rank 0 wants no more. */
 static qdot_status
-carry_out(qdot_crew *c, struct pollfd *polled)
+workers_carry_out(qdot_crew *c, struct pollfd *polled)
 {
     const int moment = qdot_ranks_count() > 1 ? 1 : 200;
     bool over = false;
@@ -362,7 +362,7 @@ start_all(qdot_crew *c)
         QDOT_TRY(qdot_mates_take(c, &over));
     }
     for (size_t i = 0; i < c->job->workers && !over; i++)
-        if (!start(c, &c->workers[i]))
+        if (!worker_start(c, &c->workers[i]))
             return qdot_fail(QDOT_EIO, "no process can be started: %s", strerror(errno));
     return QDOT_OK;
 }
@@ -384,9 +384,9 @@ qdot_workers_run(const qdot_workers_job *job)
     if (status == QDOT_OK)
         status = start_all(&c);
     if (status == QDOT_OK)
-        status = carry_out(&c, polled);
+        status = workers_carry_out(&c, polled);
     for (size_t i = 0; c.workers && i < job->workers; i++)
-        end(&c.workers[i], status != QDOT_OK || qdot_rank() > 0);
+        worker_end(&c.workers[i], status != QDOT_OK || qdot_rank() > 0);
     signal(SIGPIPE, before);
     qdot_mates_free(&c);
     qdot_items_free(&c.items);

@@ -15,7 +15,7 @@ typedef struct {
 
 /* The columns it takes; codes for colours and marks of cells take none. */
 static size_t
-columns_of(piece p)
+piece_columns(piece p)
 {
     size_t columns = 0, from = 0, i = 0;
 
@@ -83,7 +83,7 @@ indent_of(piece line, size_t width)
 
     for (size_t i = left; i < line.n;) {
         const size_t letters = letters_at(line, i), blanks = blanks_at(line, i + letters);
-        const size_t columns = columns_of((piece){line.at, i + letters + blanks});
+        const size_t columns = piece_columns((piece){line.at, i + letters + blanks});
 
         if (blanks >= 2 && i + letters + blanks < line.n)
             return columns + LEAST_ROOM <= width ? columns : left + USUAL_INDENT;
@@ -93,7 +93,7 @@ indent_of(piece line, size_t width)
 }
 
 static bool
-is_one_of(piece word, const char *const *words)
+piece_is_one_of(piece word, const char *const *words)
 {
     for (; *words != NULL; words++)
         if (strlen(*words) == word.n && memcmp(*words, word.at, word.n) == 0)
@@ -108,7 +108,7 @@ belong_together(piece before, piece behind)
     static const char *const both[] = {"=", "±", "<", ">", "<=", ">=", "==", NULL};
     static const char *const first[] = {"+", "-", "−", "*", "/", NULL};
 
-    return is_one_of(before, both) || is_one_of(behind, both) || is_one_of(before, first);
+    return piece_is_one_of(before, both) || piece_is_one_of(behind, both) || piece_is_one_of(before, first);
 }
 
 /* The end of what begins with the word at i and stays in one line: in any case that word; more
@@ -125,7 +125,7 @@ end_of_chunk(piece line, size_t i, size_t room)
         if (blanks == 0 || letters == 0 ||
             !belong_together((piece){line.at + start, end - start},
                              (piece){line.at + next, letters}) ||
-            columns_of((piece){line.at + i, next + letters - i}) > room)
+            piece_columns((piece){line.at + i, next + letters - i}) > room)
             return end;
         start = next;
         end = next + letters;
@@ -144,7 +144,7 @@ add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t widt
         const size_t blanks = blanks_at(line, i),
                      end = end_of_chunk(line, i + blanks, room);
         const piece chunk = {line.at + i + blanks, end - i - blanks};
-        const size_t columns = columns_of(chunk);
+        const size_t columns = piece_columns(chunk);
 
         if (chunk.n == 0) /* blanks at the end */
             break;
@@ -164,9 +164,9 @@ add_broken(qdot_text *out, piece line, size_t column, size_t indent, size_t widt
 }
 
 static void
-add_line(qdot_text *out, piece line, size_t width)
+wrap_add_line(qdot_text *out, piece line, size_t width)
 {
-    if (columns_of(line) <= width)
+    if (piece_columns(line) <= width)
         qdot_text_add_n(out, line.at, line.n);
     else
         add_broken(out, line, 0, indent_of(line, width), width);
@@ -250,7 +250,7 @@ read_table(const char **text, table *t)
             break;
         for (size_t k = 0; k < t->n; k++) {
             const piece cell = cell_of(line, k);
-            const size_t columns = columns_of(cell);
+            const size_t columns = piece_columns(cell);
 
             if (qdot_vec_push(&t->cells, cell) != QDOT_OK)
                 return false;
@@ -269,7 +269,7 @@ cell_at(const table *t, size_t row, size_t k)
 }
 
 static bool
-is_same(piece a, piece b)
+pieces_equal(piece a, piece b)
 {
     return a.n == b.n && memcmp(a.at, b.at, a.n) == 0;
 }
@@ -284,23 +284,23 @@ find_keys(table *t)
         alike = 0;
         for (size_t i = 2; i < t->rows && alike < t->keys; i++)
             for (alike = 0; alike < t->keys; alike++)
-                if (!is_same(cell_at(t, i, alike), cell_at(t, i - 1, alike)))
+                if (!pieces_equal(cell_at(t, i, alike), cell_at(t, i - 1, alike)))
                     break;
     } while (alike == t->keys && t->keys + 1 < t->n);
 }
 
 static void
-add_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
+table_add_cell(qdot_text *out, const table *t, size_t row, size_t k, bool last)
 {
     const piece cell = cell_at(t, row, k);
 
     qdot_text_add_n(out, cell.at, cell.n);
-    add_blanks(out, last ? 0 : t->width[k] - columns_of(cell));
+    add_blanks(out, last ? 0 : t->width[k] - piece_columns(cell));
 }
 
 /* The first columns and columns [from, to) of all rows. */
 static void
-add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
+table_add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
 {
     for (size_t i = 0; i < t->rows; i++) {
         size_t last = to, column = t->key_columns;
@@ -308,10 +308,10 @@ add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
         while (last > from && trimmed(cell_at(t, i, last - 1)).n == 0)
             last--; /* nothing but blanks from there on */
         for (size_t k = 0; k < t->keys; k++)
-            add_cell(out, t, i, k, last == from && k + 1 == t->keys);
+            table_add_cell(out, t, i, k, last == from && k + 1 == t->keys);
         for (size_t k = from; k < last; column += t->width[k++]) {
             if (k + 1 < t->n)
-                add_cell(out, t, i, k, k + 1 == last);
+                table_add_cell(out, t, i, k, k + 1 == last);
             else /* the last of all may be text that is too wide */
                 add_broken(out, cell_at(t, i, k), column, t->key_columns + USUAL_INDENT,
                            width);
@@ -321,7 +321,7 @@ add_block(qdot_text *out, const table *t, size_t from, size_t to, size_t width)
 }
 
 static void
-add_blocks(qdot_text *out, const table *t, size_t width)
+table_add_blocks(qdot_text *out, const table *t, size_t width)
 {
     for (size_t from = t->keys, to; from < t->n; from = to) {
         size_t columns = t->key_columns + t->width[from];
@@ -330,7 +330,7 @@ add_blocks(qdot_text *out, const table *t, size_t width)
             columns += t->width[to];
         if (from > t->keys)
             qdot_text_char(out, '\n');
-        add_block(out, t, from, to, width);
+        table_add_block(out, t, from, to, width);
     }
 }
 
@@ -341,7 +341,7 @@ add_records(qdot_text *out, const table *t, size_t width)
     size_t names = 0;
 
     for (size_t k = 0; k < t->n; k++) {
-        const size_t columns = columns_of(trimmed(cell_at(t, 0, k)));
+        const size_t columns = piece_columns(trimmed(cell_at(t, 0, k)));
 
         names = columns > names ? columns : names;
     }
@@ -354,7 +354,7 @@ add_records(qdot_text *out, const table *t, size_t width)
 
             add_blanks(out, indent);
             qdot_text_add_n(out, name.at, name.n);
-            add_blanks(out, column - indent - columns_of(name));
+            add_blanks(out, column - indent - piece_columns(name));
             add_broken(out, cell, column, column, width);
             qdot_text_char(out, '\n');
         }
@@ -371,7 +371,7 @@ fits_in_blocks(const table *t, size_t width)
 }
 
 static void
-add_table(qdot_text *out, const char **text, size_t width)
+wrap_add_table(qdot_text *out, const char **text, size_t width)
 {
     const char *const start = *text;
     table t = {0};
@@ -387,7 +387,7 @@ add_table(qdot_text *out, const char **text, size_t width)
         if (columns <= width)
             add_plain(out, (piece){start, (size_t)(*text - start)});
         else if (fits_in_blocks(&t, width))
-            add_blocks(out, &t, width);
+            table_add_blocks(out, &t, width);
         else
             add_records(out, &t, width);
     }
@@ -406,10 +406,10 @@ qdot_wrap(const char *text, size_t width, qdot_text *out)
         const piece line = {text, strcspn(text, "\n")};
 
         if (memchr(line.at, QDOT_WRAP_CELL[0], line.n) != NULL) {
-            add_table(out, &text, width);
+            wrap_add_table(out, &text, width);
             continue;
         }
-        add_line(out, line, width);
+        wrap_add_line(out, line, width);
         qdot_text_add_n(out, line.at + line.n, line.at[line.n] == '\n');
         text += line.n + (line.at[line.n] == '\n');
     }
