@@ -25,7 +25,7 @@ may_be_part(const qdot_pool *pool, qdot_expr e)
 /* The number of places of each node, parents first; a part's children stand there once. named [w.n]:
  * which nodes are parts. */
 static void
-count(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
+count_places(const qdot_pool *pool, qdot_walk *w, qdot_expr root, bool *named)
 {
     const uint64_t most = UINT32_MAX;
 
@@ -78,7 +78,7 @@ qdot_abbreviate(qdot_pool *pool, qdot_expr e, bool (*is_taken)(const char *name,
     if (named == NULL)
         status = QDOT_ENOMEM;
     else
-        count(pool, &w, e, named);
+        count_places(pool, &w, e, named);
     for (size_t i = 0; i < w.n && status == QDOT_OK; i++) {
         qdot_expr made = qdot_walk_rebuild(pool, &w, w.at[i]);
 

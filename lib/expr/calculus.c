@@ -27,7 +27,7 @@ derived(const derivation *d, qdot_expr e)
 }
 
 static void
-add_term(derivation *d, qdot_expr term)
+derivation_add_term(derivation *d, qdot_expr term)
 {
     if (qdot_vec_push(&d->terms, term) != QDOT_OK)
         qdot_pool_fail(d->pool);
@@ -44,7 +44,7 @@ derive_sum(derivation *d, qdot_expr e)
 
         if (inner == QDOT_ZERO)
             continue;
-        add_term(d, inner);
+        derivation_add_term(d, inner);
         if (qdot_vec_push(&d->factors, ARGS(pool, e)[k + 1]) != QDOT_OK)
             qdot_pool_fail(pool);
     }
@@ -62,10 +62,10 @@ derive_product(derivation *d, qdot_expr e)
         qdot_expr db = derived(d, b), dx = derived(d, ARGS(pool, e)[i + 1]);
 
         if (db != QDOT_ZERO)
-            add_term(d, qdot_product_derived(pool, e, i, db));
+            derivation_add_term(d, qdot_product_derived(pool, e, i, db));
         if (dx != QDOT_ZERO)
-            add_term(d, qdot_product(pool, 3,
-                                     (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
+            derivation_add_term(d, qdot_product(pool, 3,
+                                                (qdot_expr[]){e, qdot_fun1(pool, QDOT_LOG, b), dx}));
     }
 }
 
@@ -94,8 +94,8 @@ derive_ufun(derivation *d, qdot_expr e)
             qdot_expr_to_int(pool, ARGS(pool, e)[n + k], &order);
             orders[k] = (uint32_t)order + (k == i);
         }
-        add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders),
-                             inner));
+        derivation_add_term(d, qdot_mul(pool, qdot_ufun_apply(pool, NODE(pool, e)->op, args, orders),
+                                        inner));
     }
 }
 
@@ -133,7 +133,7 @@ derive_extreme(derivation *d, qdot_expr e, const qdot_expr *args)
         rest = qdot_fun(pool, id, n - k, args + k);
     }
     if (slope != QDOT_ZERO)
-        add_term(d, slope);
+        derivation_add_term(d, slope);
 }
 
 static void
@@ -155,15 +155,15 @@ derive_function(derivation *d, qdot_expr e)
         qdot_expr yes = derived(d, args[1]), no = derived(d, args[2]);
 
         if (yes != QDOT_ZERO || no != QDOT_ZERO)
-            add_term(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
+            derivation_add_term(d, qdot_fun(pool, QDOT_IF, 3, (qdot_expr[]){args[0], yes, no}));
     } else {
         for (uint32_t i = 0; i < node.n; i++) {
             qdot_expr inner = derived(d, args[i]);
 
             if (inner != QDOT_ZERO)
-                add_term(d, qdot_mul(pool,
-                                     qdot_fun_derivative(pool, node.op, node.n, args, i),
-                                     inner));
+                derivation_add_term(d, qdot_mul(pool,
+                                                qdot_fun_derivative(pool, node.op, node.n, args, i),
+                                                inner));
         }
     }
     if (args != few)
@@ -191,8 +191,8 @@ derive_entries(derivation *d, qdot_expr e, bool root)
 }
 
 static qdot_expr
-derive(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
-       qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
+derive_by(qdot_pool *pool, qdot_expr e, uint32_t holds, uint32_t touches,
+          qdot_expr (*of)(qdot_pool *pool, qdot_expr symbol, void *user), void *user)
 {
     qdot_walk w;
     derivation d = {.pool = pool, .w = &w, .holds = holds};
@@ -258,7 +258,7 @@ qdot_diff(qdot_pool *pool, qdot_expr e, qdot_expr x)
             pool, QDOT_ETYPE,
             "a derivative is taken with respect to a name: a coordinate, a "
             "velocity, a parameter or t");
-    return derive(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
+    return derive_by(pool, e, 0, NODE(pool, x)->touches, with_respect_to, &x);
 }
 
 /* All but parameters, formal arguments and constants. */
@@ -286,7 +286,7 @@ in_time(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_ddt(qdot_pool *pool, qdot_expr e)
 {
-    return derive(pool, e, in_time_holds, 0, in_time, NULL);
+    return derive_by(pool, e, in_time_holds, 0, in_time, NULL);
 }
 
 static qdot_expr
@@ -307,7 +307,7 @@ in_differentials(qdot_pool *pool, qdot_expr symbol, void *user)
 qdot_expr
 qdot_differential(qdot_pool *pool, qdot_expr e)
 {
-    return derive(pool, e, in_time_holds, 0, in_differentials, NULL);
+    return derive_by(pool, e, in_time_holds, 0, in_differentials, NULL);
 }
 
 /* --- substitution --------------------------------------------------------------------------- */

@@ -128,7 +128,7 @@ sine_at(qdot_pool *pool, long k)
 
 /* a/b, b one of the values above; their sums are never divided by. */
 static qdot_expr
-over(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
+quotient_of_values(qdot_pool *pool, qdot_fun_id id, qdot_expr a, qdot_expr b)
 {
     if (b == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN,
@@ -152,14 +152,14 @@ circular_at(qdot_pool *pool, qdot_fun_id id, long k)
     case QDOT_TAN:
     case QDOT_COT:
         if (!halves)
-            return id == QDOT_TAN ? over(pool, id, s, c) : over(pool, id, c, s);
-        c2 = over(pool, id, c2, s2);
-        s2 = over(pool, id, QDOT_ONE, s2);
+            return id == QDOT_TAN ? quotient_of_values(pool, id, s, c) : quotient_of_values(pool, id, c, s);
+        c2 = quotient_of_values(pool, id, c2, s2);
+        s2 = quotient_of_values(pool, id, QDOT_ONE, s2);
         return id == QDOT_TAN ? qdot_sub(pool, s2, c2) : qdot_add(pool, s2, c2);
     default:
         if (!halves)
-            return over(pool, id, QDOT_ONE, id == QDOT_SEC ? c : s);
-        s2 = over(pool, id, qdot_expr_int(pool, 2), s2);
+            return quotient_of_values(pool, id, QDOT_ONE, id == QDOT_SEC ? c : s);
+        s2 = quotient_of_values(pool, id, qdot_expr_int(pool, 2), s2);
         return qdot_expand(pool, qdot_mul(pool, s2, id == QDOT_SEC ? s : c));
     }
 }
@@ -199,7 +199,7 @@ without_pi(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 }
 
 static qdot_expr
-circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+fold_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     static const qdot_fun_id inverse_of[] = {QDOT_ASIN, QDOT_ACOS, QDOT_ATAN};
     fmpq_t c, twelve;
@@ -270,7 +270,7 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 /* --- hyperbolic, exponential --------------------------------------------------------------- */
 
 static qdot_expr
-hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
+fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
     static const qdot_fun_id partner[] = {QDOT_ASINH, QDOT_ACOSH, QDOT_ATANH,
                                           QDOT_SINH,  QDOT_COSH,  QDOT_TANH};
@@ -302,7 +302,7 @@ hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 }
 
 static qdot_expr
-exponential(qdot_pool *pool, qdot_expr x)
+fold_exp(qdot_pool *pool, qdot_expr x)
 {
     if (x == QDOT_ZERO)
         return QDOT_ONE;
@@ -407,7 +407,7 @@ signum(qdot_pool *pool, qdot_expr x)
 /* Whether `other` decides that a number is not needed among the arguments of min or max: max(u, 0) is u
  * where u >= 0 is known. */
 static bool
-is_beyond(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_expr other)
+is_beyond_number(const qdot_pool *pool, qdot_fun_id id, qdot_expr number, qdot_expr other)
 {
     const bool max = id == QDOT_MAX;
 
@@ -438,7 +438,7 @@ extreme(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
         bool needed = true;
 
         for (uint32_t j = 0; j < n && needed && NUMBER(pool, args[i]) != NULL; j++)
-            needed = !is_beyond(pool, id, args[i], args[j]);
+            needed = !is_beyond_number(pool, id, args[i], args[j]);
         if (needed)
             few[k++] = args[i];
     }
@@ -468,7 +468,7 @@ floor_of(qdot_pool *pool, qdot_expr x)
 }
 
 static qdot_expr
-modulo(qdot_pool *pool, const qdot_expr *args)
+fold_mod(qdot_pool *pool, const qdot_expr *args)
 {
     if (args[1] == QDOT_ZERO)
         return qdot_pool_refuse(pool, QDOT_EDOMAIN, "mod by zero");
@@ -502,7 +502,7 @@ arctangent2(qdot_pool *pool, const qdot_expr *args)
 }
 
 static qdot_expr
-choose(qdot_pool *pool, const qdot_expr *args)
+fold_if(qdot_pool *pool, const qdot_expr *args)
 {
     qdot_kind kind = NODE(pool, args[0])->kind;
 
@@ -564,7 +564,7 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_TAN:
     case QDOT_SEC:
     case QDOT_CSC:
-    case QDOT_COT: return circular(pool, id, args[0]);
+    case QDOT_COT: return fold_circular(pool, id, args[0]);
     case QDOT_ASIN:
     case QDOT_ACOS:
     case QDOT_ATAN: return inverse_circular(pool, id, args[0]);
@@ -574,8 +574,8 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_TANH:
     case QDOT_ASINH:
     case QDOT_ACOSH:
-    case QDOT_ATANH: return hyperbolic(pool, id, args[0]);
-    case QDOT_EXP: return exponential(pool, args[0]);
+    case QDOT_ATANH: return fold_hyperbolic(pool, id, args[0]);
+    case QDOT_EXP: return fold_exp(pool, args[0]);
     case QDOT_LOG: return logarithm(pool, args[0]);
     case QDOT_ERF:
     case QDOT_ERFC: return error_function(pool, id, args[0]);
@@ -583,9 +583,9 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
     case QDOT_SIGN: return signum(pool, args[0]);
     case QDOT_MIN:
     case QDOT_MAX: return extreme(pool, id, n, args);
-    case QDOT_MOD: return modulo(pool, args);
+    case QDOT_MOD: return fold_mod(pool, args);
     case QDOT_FLOOR: return floor_of(pool, args[0]);
-    case QDOT_IF: return choose(pool, args);
+    case QDOT_IF: return fold_if(pool, args);
     default: return qdot_pool_refuse(pool, QDOT_EINVAL, "no such function");
     }
 }

@@ -18,7 +18,7 @@ term_count(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
+expand_term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     uint32_t terms;
 
@@ -32,7 +32,7 @@ term_at(qdot_pool *pool, qdot_expr e, uint32_t i)
 
 /* a b, both expanded, expanded. */
 static qdot_expr
-multiply(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
+multiply_expanded(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 {
     uint32_t na, nb;
     qdot_vec(qdot_expr) terms = {0};
@@ -50,10 +50,10 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
                                 "expanding it takes more than %llu products of terms",
                                 (unsigned long long)*work);
     for (uint32_t i = 0; i < na && !FAILED(pool); i++) {
-        qdot_expr x = term_at(pool, a, i);
+        qdot_expr x = expand_term_at(pool, a, i);
 
         for (uint32_t k = 0; k < nb && !FAILED(pool); k++)
-            if (qdot_vec_push(&terms, qdot_mul(pool, x, term_at(pool, b, k))) != QDOT_OK)
+            if (qdot_vec_push(&terms, qdot_mul(pool, x, expand_term_at(pool, b, k))) != QDOT_OK)
                 qdot_pool_fail(pool);
     }
     result = qdot_sum(pool, terms.n, terms.at);
@@ -63,15 +63,15 @@ multiply(qdot_pool *pool, qdot_expr a, qdot_expr b, uint64_t *work)
 
 /* s^n of an expanded sum, n >= 1, by squaring. */
 static qdot_expr
-power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
+expand_power(qdot_pool *pool, qdot_expr s, unsigned long n, uint64_t *work)
 {
     qdot_expr result = QDOT_ONE;
 
     for (; n > 0 && !FAILED(pool); n >>= 1) {
         if (n & 1)
-            result = multiply(pool, result, s, work);
+            result = multiply_expanded(pool, result, s, work);
         if (n > 1)
-            s = multiply(pool, s, s, work);
+            s = multiply_expanded(pool, s, s, work);
     }
     return result;
 }
@@ -84,7 +84,7 @@ distribute(qdot_pool *pool, qdot_expr e, uint64_t *work)
 
     return rest == QDOT_NIL || NODE(pool, rest)->kind != QDOT_SUM
                ? e
-               : multiply(pool, ARGS(pool, e)[0], rest, work);
+               : multiply_expanded(pool, ARGS(pool, e)[0], rest, work);
 }
 
 /* A product of parts that are expanded already. */
@@ -102,15 +102,15 @@ expand_product(qdot_pool *pool, qdot_expr e, const qdot_walk *w, uint64_t *work)
         if (base == QDOT_NIL || exponent == QDOT_NIL)
             return QDOT_NIL;
         if (!qdot_expr_to_int(pool, exponent, &k) || NODE(pool, base)->kind != QDOT_SUM)
-            result = multiply(pool, result, qdot_pow(pool, base, exponent), work);
+            result = multiply_expanded(pool, result, qdot_pow(pool, base, exponent), work);
         else if (k > 0)
-            result = multiply(pool, result, power(pool, base, (unsigned long)k, work), work);
+            result = multiply_expanded(pool, result, expand_power(pool, base, (unsigned long)k, work), work);
         else
-            below = multiply(pool, below, power(pool, base, 0ul - (unsigned long)k, work), work);
+            below = multiply_expanded(pool, below, expand_power(pool, base, 0ul - (unsigned long)k, work), work);
     }
     if (below == QDOT_ONE || below == QDOT_NIL)
         return below == QDOT_NIL ? QDOT_NIL : result;
-    return multiply(pool, result, qdot_pow(pool, below, QDOT_MINUS_ONE), work);
+    return multiply_expanded(pool, result, qdot_pow(pool, below, QDOT_MINUS_ONE), work);
 }
 
 qdot_expr
@@ -181,7 +181,7 @@ split_power(qdot_pool *pool, qdot_expr term, qdot_expr x, qdot_expr *power)
 }
 
 static void
-gather(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
+groups_add(qdot_pool *pool, groups *all, qdot_expr power, qdot_expr coefficient)
 {
     size_t i = 0;
 
@@ -204,14 +204,14 @@ gather_all(qdot_pool *pool, qdot_expr e, qdot_expr x, groups *all)
         return;
     n = term_count(pool, e);
     for (uint32_t i = 0; i < n && !FAILED(pool); i++) {
-        qdot_expr power, rest = split_power(pool, term_at(pool, e, i), x, &power);
+        qdot_expr power, rest = split_power(pool, expand_term_at(pool, e, i), x, &power);
 
-        gather(pool, all, power, rest);
+        groups_add(pool, all, power, rest);
     }
 }
 
 static void
-clear(groups *all)
+groups_clear(groups *all)
 {
     for (size_t i = 0; i < all->n; i++)
         qdot_free(all->at[i].coefficients.at);
@@ -230,7 +230,7 @@ collect_scalar(qdot_pool *pool, qdot_expr e, void *user)
                           qdot_mul(pool, all.at[i].power,
                                    qdot_sum(pool, all.at[i].coefficients.n,
                                             all.at[i].coefficients.at)));
-    clear(&all);
+    groups_clear(&all);
     return FAILED(pool) ? QDOT_NIL : result;
 }
 
@@ -270,6 +270,6 @@ qdot_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr x, long n)
         else if (all.at[i].power == wanted)
             result = c;
     }
-    clear(&all);
+    groups_clear(&all);
     return FAILED(pool) ? QDOT_NIL : result;
 }

@@ -124,8 +124,8 @@ qdot_expr_compare(const qdot_pool *pool, qdot_expr a, qdot_expr b)
 
 /* The i-th (base, exponent) of a term seen as a product. */
 static void
-factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
-          qdot_expr *exponent)
+order_factor_at(const qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *base,
+                qdot_expr *exponent)
 {
     if (NODE(pool, e)->kind != QDOT_PROD) {
         *base = e;
@@ -144,7 +144,7 @@ factors(const qdot_pool *pool, qdot_expr e)
 
 /* A root of a sum: among terms it stands behind symbols, a + d - sqrt(...). */
 static bool
-is_root(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
+is_root_of_sum(const qdot_pool *pool, qdot_expr base, qdot_expr exponent)
 {
     const fmpq *x = NUMBER(pool, exponent);
 
@@ -185,11 +185,11 @@ qdot_expr_compare_terms(const qdot_pool *pool, qdot_expr a, qdot_expr b)
     while (na > 0 && nb > 0) {
         qdot_expr base_a, base_b, exp_a, exp_b;
 
-        factor_at(pool, a, --na, &base_a, &exp_a);
-        factor_at(pool, b, --nb, &base_b, &exp_b);
+        order_factor_at(pool, a, --na, &base_a, &exp_a);
+        order_factor_at(pool, b, --nb, &base_b, &exp_b);
         d = level(NODE(pool, base_a)->holds) != level(NODE(pool, base_b)->holds)
                 ? 0
-                : is_root(pool, base_a, exp_a) - is_root(pool, base_b, exp_b);
+                : is_root_of_sum(pool, base_a, exp_a) - is_root_of_sum(pool, base_b, exp_b);
         if (d == 0)
             d = compare_bases(pool, base_a, base_b);
         if (d == 0)
@@ -224,7 +224,7 @@ flip(uint8_t s)
 }
 
 static uint8_t
-times(uint8_t a, uint8_t b)
+sign_of_product(uint8_t a, uint8_t b)
 {
     uint8_t known = 0;
 
@@ -260,7 +260,7 @@ qdot_sign_of_product(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
     uint8_t s = NODE(pool, args[0])->sign;
 
     for (uint32_t i = 1; i < n && s != 0; i += 2)
-        s = times(s, sign_of_power(pool, args[i], args[i + 1]));
+        s = sign_of_product(s, sign_of_power(pool, args[i], args[i + 1]));
     return s;
 }
 

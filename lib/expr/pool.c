@@ -124,7 +124,7 @@ rehash(qdot_pool *pool)
 
 /* Append a node and enter it in the table. */
 static qdot_expr
-append(qdot_pool *pool, const qdot_node *node)
+pool_append(qdot_pool *pool, const qdot_node *node)
 {
     uint32_t i;
 
@@ -223,7 +223,7 @@ qdot_pool_intern(qdot_pool *pool, qdot_kind kind, uint16_t op, uint32_t n,
     if (n > 0)
         memmove(pool->args.at + pool->args.n, args, n * sizeof *args);
     pool->args.n += n;
-    return append(pool, &node);
+    return pool_append(pool, &node);
 }
 
 /* --- numbers -------------------------------------------------------------------------- */
@@ -246,7 +246,7 @@ hash_fmpz(uint32_t h, const fmpz_t x)
 }
 
 static bool
-is_small(const fmpq_t x)
+rational_is_small(const fmpq_t x)
 {
     return !COEFF_IS_MPZ(*fmpq_numref(x)) && !COEFF_IS_MPZ(*fmpq_denref(x));
 }
@@ -254,7 +254,7 @@ is_small(const fmpq_t x)
 bool
 qdot_number_too_large(qdot_pool *pool, const fmpq_t x)
 {
-    if (is_small(x))
+    if (rational_is_small(x))
         return false;
     if (fmpz_bits(fmpq_numref(x)) <= QDOT_MAX_BITS &&
         fmpz_bits(fmpq_denref(x)) <= QDOT_MAX_BITS)
@@ -294,7 +294,7 @@ qdot_expr
 qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
 {
     qdot_node node = {.kind = QDOT_NUM, .sign = sign_of_number(x)};
-    bool small = is_small(x);
+    bool small = rational_is_small(x);
     fmpq copy;
 
     if (!may_work(pool, 0) || qdot_number_too_large(pool, x))
@@ -315,7 +315,7 @@ qdot_expr_fmpq(qdot_pool *pool, const fmpq_t x)
         !keep_integer(pool, fmpq_denref(&copy), fmpq_denref(x)) ||
         qdot_vec_push(&pool->numbers, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
-    return append(pool, &node);
+    return pool_append(pool, &node);
 }
 
 /* --- symbols -------------------------------------------------------------------------- */
@@ -372,7 +372,7 @@ symbol(qdot_pool *pool, const qdot_symbol *wanted)
                                                : QDOT_HAS_ACCELERATION;
     if (qdot_vec_push(&pool->symbols, copy) != QDOT_OK)
         return qdot_pool_fail(pool);
-    return append(pool, &node);
+    return pool_append(pool, &node);
 }
 
 qdot_expr

@@ -9,24 +9,24 @@ cases(printer *p, qdot_expr e, int context)
 
     if (context >= BASE)
         open_bracket(p);
-    say(p, styled(p, "", "", "\\begin{cases} ",
-                  "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd>"));
+    print_text(p, styled(p, "", "", "\\begin{cases} ",
+                         "<mrow><mo>{</mo><mtable columnalign=\"left\"><mtr><mtd>"));
     for (;; e = ARGS(pool, e)[2]) {
         bool more = NODE(pool, e)->kind == QDOT_FUN && NODE(pool, e)->op == QDOT_IF;
 
         child(p, more ? ARGS(pool, e)[1] : e, TOP);
-        say(p, more ? styled(p, "", "", " & \\text{if } ",
-                             "</mtd><mtd><mtext>if&#xA0;</mtext>")
+        print_text(p, more ? styled(p, "", "", " & \\text{if } ",
+                                    "</mtd><mtd><mtext>if&#xA0;</mtext>")
                     : styled(p, "", "", " & \\text{otherwise}",
                              "</mtd><mtd><mtext>otherwise</mtext>"));
         if (!more)
             break;
         child(p, ARGS(pool, e)[0], TOP);
-        say(p, styled(p, "", "", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
+        print_text(p, styled(p, "", "", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
     }
-    say(p, styled(p, "", "", " \\end{cases}", "</mtd></mtr></mtable></mrow>"));
+    print_text(p, styled(p, "", "", " \\end{cases}", "</mtd></mtr></mtable></mrow>"));
     if (context >= BASE)
-        close_bracket(p);
+        print_close_bracket(p);
 }
 
 void
@@ -40,41 +40,41 @@ qdot_print_function(printer *p, qdot_expr e, int context)
     }
 
     if (is_drawn(p) && (id == QDOT_ABS || id == QDOT_FLOOR)) {
-        say(p, id == QDOT_ABS ? styled(p, "", "", "\\left|", "<mrow><mo>|</mo>")
+        print_text(p, id == QDOT_ABS ? styled(p, "", "", "\\left|", "<mrow><mo>|</mo>")
                               : styled(p, "", "", "\\left\\lfloor ", "<mrow><mo>⌊</mo>"));
         child(p, ARGS(p->pool, e)[0], TOP);
-        say(p, id == QDOT_ABS
+        print_text(p, id == QDOT_ABS
                    ? styled(p, "", "", "\\right|", "<mo>|</mo></mrow>")
                    : styled(p, "", "", "\\right\\rfloor ", "<mo>⌋</mo></mrow>"));
         return;
     }
     if (p->style == QDOT_LATEX && qdot_print_latex_word(id) != NULL) {
-        say(p, qdot_print_latex_word(id));
+        print_text(p, qdot_print_latex_word(id));
     } else {
-        say(p, styled(p, "", "", "\\operatorname{", "<mi>"));
-        say(p, qdot_fun_name(id));
-        say(p, styled(p, "", "", "}", "</mi><mo>&#x2061;</mo>"));
+        print_text(p, styled(p, "", "", "\\operatorname{", "<mi>"));
+        print_text(p, qdot_fun_name(id));
+        print_text(p, styled(p, "", "", "}", "</mi><mo>&#x2061;</mo>"));
     }
     open_bracket(p);
     children(p, e, 0, NODE(p->pool, e)->n, comma(p));
-    close_bracket(p);
+    print_close_bracket(p);
 }
 
 /* --- undefined functions ------------------------------------------------------------------------ */
 
 /* (s, t): the arguments, or the declared ones. */
 static void
-arguments(printer *p, qdot_expr e, bool declared)
+print_arguments(printer *p, qdot_expr e, bool declared)
 {
     const qdot_ufun *f = &p->pool->ufuns.at[NODE(p->pool, e)->op];
 
-    say(p, styled(p, "(", "(", "(", "<mo>&#x2061;</mo><mrow><mo>(</mo>"));
+    print_text(p, styled(p, "(", "(", "(", "<mo>&#x2061;</mo><mrow><mo>(</mo>"));
     children(p, declared ? f->formals : e, 0, f->arity, comma(p));
-    say(p, styled(p, ")", ")", ")", "<mo>)</mo></mrow>"));
+    print_text(p, styled(p, ")", ")", ")", "<mo>)</mo></mrow>"));
 }
 
 static uint32_t
-order_of(const qdot_pool *pool, qdot_expr e, uint32_t i)
+derivative_order(const qdot_pool *pool, qdot_expr e, uint32_t i)
 {
     long order = 0;
 
@@ -91,34 +91,34 @@ derivative_plain(printer *p, qdot_expr e, bool moved)
     uint32_t n = f->arity;
 
     if (moved)
-        say(p, "subs(");
+        print_text(p, "subs(");
     for (uint32_t i = 0; i < n; i++)
-        if (order_of(pool, e, i) > 0)
-            say(p, "diff(");
-    name(p, f->name);
-    arguments(p, e, true);
+        if (derivative_order(pool, e, i) > 0)
+            print_text(p, "diff(");
+    print_name_text(p, f->name);
+    print_arguments(p, e, true);
     for (uint32_t i = 0; i < n; i++) {
-        if (order_of(pool, e, i) == 0)
+        if (derivative_order(pool, e, i) == 0)
             continue;
-        say(p, ", ");
+        print_text(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
-        if (order_of(pool, e, i) > 1) {
-            say(p, ", ");
+        if (derivative_order(pool, e, i) > 1) {
+            print_text(p, ", ");
             child(p, ARGS(pool, e)[n + i], TOP);
         }
-        say(p, ")");
+        print_text(p, ")");
     }
     if (!moved)
         return;
     for (uint32_t i = 0; i < n; i++) {
         if (ARGS(pool, e)[i] == ARGS(pool, f->formals)[i])
             continue;
-        say(p, ", ");
+        print_text(p, ", ");
         child(p, ARGS(pool, f->formals)[i], TOP);
-        say(p, " = ");
+        print_text(p, " = ");
         child(p, ARGS(pool, e)[i], TOP);
     }
-    say(p, ")");
+    print_text(p, ")");
 }
 
 /* The order above `before`, which stands there: ∂², \\partial^{2}. */
@@ -127,13 +127,13 @@ with_order(printer *p, const char *before, qdot_expr e, uint32_t order)
 {
     bool raise = p->style == QDOT_MATHML && order > 1;
 
-    say(p, raise ? "<msup>" : "");
-    say(p, before);
+    print_text(p, raise ? "<msup>" : "");
+    print_text(p, before);
     if (e != QDOT_NIL)
         child(p, e, TOP);
-    say(p, raise ? "<mn>" : "");
+    print_text(p, raise ? "<mn>" : "");
     piece(p, (struct piece){.order = order, .context = raise ? TERM : TOP});
-    say(p, raise ? "</mn></msup>" : "");
+    print_text(p, raise ? "</mn></msup>" : "");
 }
 
 /* \frac{\partial^{2} x}{\partial s \partial t}, where that is drawn; at other arguments these
@@ -147,23 +147,23 @@ derivative_partial(printer *p, qdot_expr e, uint32_t total, bool moved, int cont
 
     if (bracket)
         open_bracket(p);
-    say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+    print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
     with_order(p, styled(p, "", "", "\\partial", "<mo>∂</mo>"), QDOT_NIL, total);
-    say(p, styled(p, "", "", " ", ""));
-    name(p, f->name);
-    say(p, styled(p, "", "", "}{", "</mrow><mrow>"));
+    print_text(p, styled(p, "", "", " ", ""));
+    print_name_text(p, f->name);
+    print_text(p, styled(p, "", "", "}{", "</mrow><mrow>"));
     for (uint32_t i = 0; i < f->arity; i++) {
-        if (order_of(pool, e, i) == 0)
+        if (derivative_order(pool, e, i) == 0)
             continue;
-        say(p, styled(p, "", "", first ? "\\partial " : " \\partial ", "<mo>∂</mo>"));
-        with_order(p, "", ARGS(pool, f->formals)[i], order_of(pool, e, i));
+        print_text(p, styled(p, "", "", first ? "\\partial " : " \\partial ", "<mo>∂</mo>"));
+        with_order(p, "", ARGS(pool, f->formals)[i], derivative_order(pool, e, i));
         first = false;
     }
-    say(p, styled(p, "", "", "}", "</mrow></mfrac>"));
+    print_text(p, styled(p, "", "", "}", "</mrow></mfrac>"));
     if (bracket)
-        close_bracket(p);
+        print_close_bracket(p);
     if (moved)
-        arguments(p, e, false);
+        print_arguments(p, e, false);
 }
 
 void
@@ -175,7 +175,7 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
     bool moved = false;
 
     for (uint32_t i = 0; i < f->arity; i++) {
-        total += order_of(pool, e, i);
+        total += derivative_order(pool, e, i);
         moved |= ARGS(pool, e)[i] != ARGS(pool, f->formals)[i];
     }
     if (total > 0 && f->arity > 1 && is_drawn(p)) {
@@ -187,16 +187,16 @@ qdot_print_ufun(printer *p, qdot_expr e, int context)
         derivative_plain(p, e, moved);
         return;
     }
-    say(p, styled(p, "", "", "", total > 0 ? "<msup><mrow>" : ""));
-    name(p, f->name);
-    say(p, styled(p, "", "", "", total > 0 ? "</mrow><mo>" : ""));
+    print_text(p, styled(p, "", "", "", total > 0 ? "<msup><mrow>" : ""));
+    print_name_text(p, f->name);
+    print_text(p, styled(p, "", "", "", total > 0 ? "</mrow><mo>" : ""));
     for (uint32_t i = 0; i < total && total <= 3; i++)
-        say(p, styled(p, "'", "′", "'", "′"));
+        print_text(p, styled(p, "'", "′", "'", "′"));
     if (total > 3) {
-        say(p, styled(p, "", "⁽", "^{(", "("));
+        print_text(p, styled(p, "", "⁽", "^{(", "("));
         piece(p, (struct piece){.order = total, .context = TERM});
-        say(p, styled(p, "", "⁾", ")}", ")"));
+        print_text(p, styled(p, "", "⁾", ")}", ")"));
     }
-    say(p, styled(p, "", "", "", total > 0 ? "</mo></msup>" : ""));
-    arguments(p, e, false);
+    print_text(p, styled(p, "", "", "", total > 0 ? "</mo></msup>" : ""));
+    print_arguments(p, e, false);
 }

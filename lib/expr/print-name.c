@@ -83,7 +83,7 @@ greek_letters(const char *at, size_t length, qdot_style style, qdot_text *out)
 }
 
 static struct parts
-split(const char *name)
+name_split(const char *name)
 {
     struct parts p = {0};
     size_t n = strcspn(name, "["), head = strcspn(name, "_");
@@ -121,7 +121,7 @@ all_digits(const char *text, size_t n)
 }
 
 static void
-lower(const char *digits, size_t n, qdot_text *out)
+print_lowered(const char *digits, size_t n, qdot_text *out)
 {
     for (size_t i = 0; i < n; i++)
         qdot_text_add(out, subscript[digits[i] - '0']);
@@ -132,16 +132,16 @@ static void parts_of(const char *at, size_t length, char between, qdot_style sty
 
 /* What stands in the brackets of a name, part by part. */
 static void
-index_of(const char *name, qdot_style style, qdot_text *out)
+print_index(const char *name, qdot_style style, qdot_text *out)
 {
-    struct parts p = split(name);
+    struct parts p = name_split(name);
 
     parts_of(name + p.index_at, p.index, ',', style, out);
 }
 
 static bool
-is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
-         const char *digits, size_t n_digits)
+name_is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pattern,
+              const char *digits, size_t n_digits)
 {
     qdot_text other = {0};
     bool is;
@@ -157,7 +157,7 @@ is_known(const qdot_pool *pool, const char *name, size_t letters, const char *pa
 /* Whether x[1], x_1 may stand as x₁, which is else x1, else x[1]: no name that comes before is
  * there. */
 static bool
-is_small(const qdot_pool *pool, const char *name, const struct parts *p)
+index_is_lowered(const qdot_pool *pool, const char *name, const struct parts *p)
 {
     bool index = p->index > 0;
     const char *digits = name + (index ? p->index_at : p->below_at);
@@ -166,16 +166,16 @@ is_small(const qdot_pool *pool, const char *name, const struct parts *p)
     if (p->digits > 0 || (index && p->below > 0) || !all_digits(digits, n))
         return false;
     return pool == NULL ||
-           (!is_known(pool, name, p->letters, "%.*s", digits, n) &&
-            (index || !is_known(pool, name, p->letters, "[%.*s]", digits, n)));
+           (!name_is_known(pool, name, p->letters, "%.*s", digits, n) &&
+            (index || !name_is_known(pool, name, p->letters, "[%.*s]", digits, n)));
 }
 
 /* θ̇₁: what the language reads as the name and its primes. */
 static void
 name_unicode(const qdot_pool *pool, const char *name, uint32_t order, qdot_text *out)
 {
-    struct parts p = split(name);
-    bool lowered = is_small(pool, name, &p);
+    struct parts p = name_split(name);
+    bool lowered = index_is_lowered(pool, name, &p);
     bool one = (p.letter != NULL || p.letters == 1) && (p.index == 0 || lowered);
 
     if (p.greek)
@@ -184,10 +184,10 @@ name_unicode(const qdot_pool *pool, const char *name, uint32_t order, qdot_text 
         qdot_text_add_n(out, name, p.letters);
     if (one && (order == 1 || order == 2))
         qdot_text_add(out, order == 1 ? "\u0307" : "\u0308");
-    lower(name + p.digits_at, p.digits, out);
+    print_lowered(name + p.digits_at, p.digits, out);
     if (lowered) {
-        lower(name + (p.index > 0 ? p.index_at : p.below_at),
-              p.index > 0 ? p.index : p.below, out);
+        print_lowered(name + (p.index > 0 ? p.index_at : p.below_at),
+                      p.index > 0 ? p.index : p.below, out);
     } else if (p.below > 0) {
         qdot_text_char(out, '_');
         parts_of(name + p.below_at, p.below, '_', QDOT_UNICODE, out);
@@ -206,7 +206,7 @@ static void
 name_latex(const char *name, uint32_t order, qdot_text *out)
 {
     static const char *const dots[] = {"", "\\dot{", "\\ddot{", "\\dddot{", "\\ddddot{"};
-    struct parts p = split(name);
+    struct parts p = name_split(name);
 
     qdot_text_add(out, dots[order > 4 ? 0 : order]);
     if (p.greek) {
@@ -233,7 +233,7 @@ name_latex(const char *name, uint32_t order, qdot_text *out)
         if (p.digits + p.below > 0 && p.index > 0)
             qdot_text_char(out, ',');
         if (p.index > 0)
-            index_of(name, QDOT_LATEX, out);
+            print_index(name, QDOT_LATEX, out);
         qdot_text_char(out, '}');
     }
     if (order > 4)
@@ -244,7 +244,7 @@ name_latex(const char *name, uint32_t order, qdot_text *out)
 static void
 name_mathml(const char *name, uint32_t order, qdot_text *out)
 {
-    struct parts p = split(name);
+    struct parts p = name_split(name);
     bool below = p.digits + p.below + p.index > 0;
 
     if (below)
@@ -276,7 +276,7 @@ name_mathml(const char *name, uint32_t order, qdot_text *out)
     parts_of(name + p.below_at, p.below, '_', QDOT_MATHML, out);
     qdot_text_add(out, p.below > 0 && p.index > 0 ? "<mo>,</mo>" : "");
     if (p.index > 0)
-        index_of(name, QDOT_MATHML, out);
+        print_index(name, QDOT_MATHML, out);
     qdot_text_add(out, "</mrow></msub>");
 }
 

@@ -202,7 +202,7 @@ decimal_digits(const fmpz_t n, const struct decimal *d, qdot_text *out)
 
 /* 9.81, 0.05; below 1e-4 with a power of ten, 6.67e-11. *product: that is drawn as a product. */
 static void
-decimal(const fmpq_t x, const struct decimal *d, qdot_style style, qdot_text *out, bool *product)
+decimal_write(const fmpq_t x, const struct decimal *d, qdot_style style, qdot_text *out, bool *product)
 {
     static const char *const power[][2] = {
         [QDOT_PLAIN] = {"e-", ""},
@@ -247,7 +247,7 @@ print_decimal(const fmpq_t x, const struct decimal *d, qdot_style style, int bra
     bool minus = qdot_rational_sgn(x) < 0, product, wrap, mathml = style == QDOT_MATHML;
     qdot_text text = {0};
 
-    decimal(x, d, style, &text, &product);
+    decimal_write(x, d, style, &text, &product);
     wrap = (bracket > 0 && minus) || (bracket == 2 && product);
     if (wrap)
         qdot_text_add(out, mathml ? "<mrow><mo>(</mo>" : "(");

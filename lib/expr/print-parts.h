@@ -66,7 +66,7 @@ piece(printer *p, struct piece x)
 }
 
 static inline void
-say(printer *p, const char *text)
+print_text(printer *p, const char *text)
 {
     piece(p, (struct piece){.text = text});
 }
@@ -78,7 +78,7 @@ child(printer *p, qdot_expr e, int context)
 }
 
 static inline void
-name(printer *p, const char *text)
+print_name_text(printer *p, const char *text)
 {
     piece(p, (struct piece){.text = text, .name = true});
 }
@@ -106,13 +106,13 @@ is_drawn(const printer *p)
 static inline void
 open_bracket(printer *p)
 {
-    say(p, styled(p, "(", "(", "\\left(", "<mrow><mo>(</mo>"));
+    print_text(p, styled(p, "(", "(", "\\left(", "<mrow><mo>(</mo>"));
 }
 
 static inline void
-close_bracket(printer *p)
+print_close_bracket(printer *p)
 {
-    say(p, styled(p, ")", ")", "\\right)", "<mo>)</mo></mrow>"));
+    print_text(p, styled(p, ")", ")", "\\right)", "<mo>)</mo></mrow>"));
 }
 
 static inline const char *
@@ -126,7 +126,7 @@ children(printer *p, qdot_expr e, uint32_t from, uint32_t to, const char *betwee
 {
     for (uint32_t i = from; i < to; i++) {
         if (i > from)
-            say(p, between);
+            print_text(p, between);
         child(p, ARGS(p->pool, e)[i], TOP);
     }
 }

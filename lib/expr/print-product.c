@@ -54,7 +54,7 @@ void
 qdot_print_raise(printer *p)
 {
     if (p->style == QDOT_MATHML)
-        say(p, "<msup><mrow>");
+        print_text(p, "<msup><mrow>");
 }
 
 /* An exponent, its sign turned where it stands below. */
@@ -78,17 +78,17 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
         bare = NODE(pool, e)->kind == QDOT_SYM;
     }
     if (is_drawn(p)) {
-        say(p, styled(p, "", "", "^{", "</mrow><mrow>"));
+        print_text(p, styled(p, "", "", "^{", "</mrow><mrow>"));
         if (p->style == QDOT_LATEX && x != NULL && !fmpz_is_one(fmpq_denref(x)) &&
             !qdot_print_is_decimal(x)) {
-            say(p, !turned && qdot_rational_sgn(x) < 0 ? "-" : "");
+            print_text(p, !turned && qdot_rational_sgn(x) < 0 ? "-" : "");
             say_number(p, fmpq_numref(x), NULL); /* r^{1/3} */
-            say(p, "/");
+            print_text(p, "/");
             say_number(p, fmpq_denref(x), NULL);
         } else {
             piece(p, number);
         }
-        say(p, styled(p, "", "", "}", "</mrow></msup>"));
+        print_text(p, styled(p, "", "", "}", "</mrow></msup>"));
         return;
     }
     if (p->style == QDOT_UNICODE && integer) {
@@ -96,10 +96,10 @@ qdot_print_exponent(printer *p, qdot_expr e, bool turned)
         piece(p, number);
         return;
     }
-    say(p, bare ? "^" : "^(");
+    print_text(p, bare ? "^" : "^(");
     piece(p, number);
     if (!bare)
-        say(p, ")");
+        print_text(p, ")");
 }
 
 static bool
@@ -113,14 +113,14 @@ static void
 power_of_function(printer *p, qdot_expr b, qdot_expr e, bool turned)
 {
     qdot_print_raise(p);
-    say(p, styled(p, "", "", "\\", "<mi>"));
-    say(p, qdot_fun_name(NODE(p->pool, b)->op));
-    say(p, styled(p, "", "", "", "</mi>"));
+    print_text(p, styled(p, "", "", "\\", "<mi>"));
+    print_text(p, qdot_fun_name(NODE(p->pool, b)->op));
+    print_text(p, styled(p, "", "", "", "</mi>"));
     qdot_print_exponent(p, e, turned);
-    say(p, styled(p, "", "", "", "<mo>&#x2061;</mo>"));
+    print_text(p, styled(p, "", "", "", "<mo>&#x2061;</mo>"));
     open_bracket(p);
     children(p, b, 0, NODE(p->pool, b)->n, comma(p));
-    close_bracket(p);
+    print_close_bracket(p);
 }
 
 /* Whether e is 1/2 or -1/2. */
@@ -133,7 +133,7 @@ is_sqrt(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-is_even(const fmpq *x)
+exponent_is_even(const fmpq *x)
 {
     return x != NULL && fmpz_is_one(fmpq_denref(x)) && fmpz_is_even(fmpq_numref(x));
 }
@@ -153,26 +153,26 @@ is_bare(const qdot_pool *pool, qdot_expr e)
 static void
 base(printer *p, qdot_expr b, const fmpq *x, bool turned, int context)
 {
-    turned |= is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
+    turned |= exponent_is_even(x) && NODE(p->pool, b)->kind == QDOT_SUM &&
               (NODE(p->pool, b)->sign & QDOT_LE0);
     piece(p, (struct piece){.e = b, .context = context, .turned = turned});
 }
 
 /* b^e, or b^-e below the bar; flip: of -b, e odd. */
 static void
-factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
+print_factor(printer *p, qdot_expr b, qdot_expr e, bool down, int context, bool flip)
 {
     const qdot_pool *pool = p->pool;
     const fmpq *x = qdot_expr_rational(pool, e);
     bool half = is_sqrt(pool, e) && (down || qdot_rational_sgn(x) > 0);
 
     if (half && p->style == QDOT_UNICODE && is_bare(pool, b)) {
-        say(p, "√");
+        print_text(p, "√");
         child(p, b, TOP);
     } else if (half) {
-        say(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
+        print_text(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
         child(p, b, TOP);
-        say(p, styled(p, ")", ")", "}", "</msqrt>"));
+        print_text(p, styled(p, ")", ")", "}", "</msqrt>"));
     } else if (down ? e == QDOT_MINUS_ONE : e == QDOT_ONE) {
         base(p, b, x, flip, context);
     } else if (p->style != QDOT_PLAIN && is_circular(pool, b) && x != NULL &&
@@ -222,7 +222,7 @@ is_under(const qdot_pool *pool, const struct root *r, qdot_expr b, qdot_expr x)
 /* The factors of c e that go under one root, at least two of them. c sqrt(n), c = a/b, is
  * a/(b/g) sqrt((n/g)/g) with g = gcd(n, b): 1/3 sqrt(6) is sqrt(2/3). */
 static void
-find_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
+find_common_root(const qdot_pool *pool, const fmpq *c, qdot_expr e, struct root *r)
 {
     uint32_t n = NODE(pool, e)->kind == QDOT_PROD ? NODE(pool, e)->n : 0, out = 0, in = 0;
     const fmpq *number = NULL;
@@ -276,13 +276,13 @@ forget_root(struct root *r)
 
 /* What joins two factors. */
 static const char *
-times(const printer *p)
+times_text(const printer *p)
 {
     return styled(p, "*", "\u202F", " ", "<mo>&#x2062;</mo>");
 }
 
 static const char *
-dot(const printer *p)
+dot_text(const printer *p)
 {
     return styled(p, "*", "·", " \\cdot ", "<mo>⋅</mo>");
 }
@@ -300,12 +300,12 @@ under_root(printer *p, qdot_expr b, qdot_expr x, int context)
     }
     qdot_print_raise(p);
     child(p, b, BASE);
-    say(p, styled(p, "^", "", "", "</mrow><mn>"));
+    print_text(p, styled(p, "^", "", "", "</mrow><mn>"));
     piece(p, (struct piece){.order = power,
                             .context = p->style == QDOT_PLAIN || p->style == QDOT_MATHML
                                            ? TERM
                                            : TOP});
-    say(p, styled(p, "", "", "", "</mn></msup>"));
+    print_text(p, styled(p, "", "", "", "</mn></msup>"));
 }
 
 /* One side of the fraction under the root. */
@@ -326,7 +326,7 @@ root_side(printer *p, qdot_expr e, const struct root *r, bool down, uint32_t cou
             (below(pool, x) == r->above) != down)
             continue;
         if (!first || shown)
-            say(p, times(p));
+            print_text(p, times_text(p));
         under_root(p, b, x,
                    is_drawn(p) && count + shown == 1 ? TOP
                    : down && count + shown == 1      ? BASE
@@ -352,18 +352,18 @@ open_root(printer *p, qdot_expr e, const struct root *r)
     }
     fraction = count[1] > 0 || below_bar;
     several = count[1] + below_bar > 1 && !is_drawn(p);
-    say(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
+    print_text(p, styled(p, "sqrt(", "√(", "\\sqrt{", "<msqrt>"));
     if (fraction)
-        say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+        print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
     root_side(p, e, r, false, count[0], fraction);
     if (fraction) {
-        say(p, styled(p, "/", "/", "}{", "</mrow><mrow>"));
-        say(p, several ? "(" : "");
+        print_text(p, styled(p, "/", "/", "}{", "</mrow><mrow>"));
+        print_text(p, several ? "(" : "");
         root_side(p, e, r, true, count[1], fraction);
-        say(p, several ? ")" : "");
-        say(p, styled(p, "", "", "}", "</mrow></mfrac>"));
+        print_text(p, several ? ")" : "");
+        print_text(p, styled(p, "", "", "}", "</mrow></mfrac>"));
     }
-    say(p, styled(p, ")", ")", "}", "</msqrt>"));
+    print_text(p, styled(p, ")", ")", "}", "</msqrt>"));
 }
 
 /* --- products --------------------------------------------------------------------------------- */
@@ -387,15 +387,15 @@ static const char *
 joint(const printer *p, const fmpq *number, qdot_expr b, qdot_expr e)
 {
     if (NODE(p->pool, b)->kind != QDOT_NUM)
-        return times(p);
-    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? times(p) /* 2 √3 */
-                                                                : dot(p);
+        return times_text(p);
+    return is_sqrt(p->pool, e) && qdot_print_is_compact(number) ? times_text(p) /* 2 √3 */
+                                                                : dot_text(p);
 }
 
 /* Where a factor stands: of parameters, the roots of their sums behind them, functions and the
  * others: a sqrt(b + c) x sin(alpha). */
 static uint32_t
-place(const qdot_pool *pool, qdot_expr b, qdot_expr x)
+factor_class(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 {
     const fmpq *k = qdot_expr_rational(pool, x);
 
@@ -416,7 +416,7 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
 
     if (NODE(pool, e)->kind != QDOT_PROD) {
         if (number != NULL)
-            say(p, joint(p, number, e, QDOT_ONE));
+            print_text(p, joint(p, number, e, QDOT_ONE));
         child(p, e, context);
         return;
     }
@@ -425,17 +425,17 @@ factors(printer *p, qdot_expr e, const struct root *r, bool down, const fmpq *nu
         qdot_expr b = ARGS(pool, e)[i], x = ARGS(pool, e)[i + 1];
         bool under = is_under(pool, r, b, x);
 
-        if (place(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
+        if (factor_class(pool, b, x) != k / (NODE(pool, e)->n / 2) ||
             (under ? i != r->last || r->above == down : below(pool, x) != down))
             continue;
         if (first && number != NULL)
-            say(p, under ? times(p) : joint(p, number, b, x));
+            print_text(p, under ? times_text(p) : joint(p, number, b, x));
         else if (!first)
-            say(p, NODE(pool, b)->kind == QDOT_NUM && !under ? dot(p) : times(p));
+            print_text(p, NODE(pool, b)->kind == QDOT_NUM && !under ? dot_text(p) : times_text(p));
         if (under)
             open_root(p, e, r);
         else
-            factor(p, b, x, down, context, b == turned || (p->turning && b == p->below));
+            print_factor(p, b, x, down, context, b == turned || (p->turning && b == p->below));
         first = false;
     }
 }
@@ -461,7 +461,7 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     qdot_expr turned = flip || negative ? turnable(p, e) : QDOT_NIL;
     bool minus = negative && turned == QDOT_NIL;
 
-    find_root(pool, x, e, &r);
+    find_common_root(pool, x, e, &r);
     if (r.any)
         x = r.c;
 
@@ -483,9 +483,9 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
     if (bracket)
         open_bracket(p);
     if (minus)
-        say(p, styled(p, "-", "−", "-", "<mo>−</mo>"));
+        print_text(p, styled(p, "-", "−", "-", "<mo>−</mo>"));
     if (frac)
-        say(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
+        print_text(p, styled(p, "", "", "\\frac{", "<mfrac><mrow>"));
     if (number && r.any) {
         say_number(p, fmpq_numref(x), inside ? NULL : fmpq_denref(x));
     } else if (number) {
@@ -499,7 +499,7 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
                                          : context,
                 turned);
     if (down > 0) {
-        say(p, frac ? styled(p, "", "", "}{", "</mrow><mrow>") : several ? "/(" : "/");
+        print_text(p, frac ? styled(p, "", "", "}{", "</mrow><mrow>") : several ? "/(" : "/");
         if (inside && r.any)
             say_number(p, fmpq_denref(x), NULL);
         else if (inside)
@@ -510,10 +510,10 @@ qdot_print_scaled(printer *p, qdot_expr c, qdot_expr e, int context, bool flip)
                                              : BASE,
                 turned);
         if (frac || several)
-            say(p, frac ? styled(p, "", "", "}", "</mrow></mfrac>") : ")");
+            print_text(p, frac ? styled(p, "", "", "}", "</mrow></mfrac>") : ")");
     }
     if (bracket)
-        close_bracket(p);
+        print_close_bracket(p);
     p->turning = false;
     forget_root(&r);
 }

@@ -29,10 +29,10 @@ term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
     bool flip = minus && turnable(p, t) != QDOT_NIL;
 
     if (minus && !flip)
-        say(p, leads ? styled(p, "-", "−", "-", "<mo>−</mo>")
+        print_text(p, leads ? styled(p, "-", "−", "-", "<mo>−</mo>")
                      : styled(p, " - ", " − ", " - ", "<mo>−</mo>"));
     else if (!leads)
-        say(p, styled(p, " + ", " + ", " + ", "<mo>+</mo>"));
+        print_text(p, styled(p, " + ", " + ", " + ", "<mo>+</mo>"));
     piece(p,
           (struct piece){.e = t, .coefficient = c, .context = MAGNITUDE, .turned = flip});
 }
@@ -40,7 +40,7 @@ term(printer *p, qdot_expr c, qdot_expr t, bool turned, bool leads)
 /* Terms stand in their order, the number last. But constants stand before what coordinates enter
  * by functions alone: m + M sin(x)^2, R + r cos(x). */
 static bool
-is_constant(const qdot_pool *pool, qdot_expr e)
+term_is_constant(const qdot_pool *pool, qdot_expr e)
 {
     return (NODE(pool, e)->holds & ~(QDOT_HAS_PARAM | QDOT_HAS_FORMAL | QDOT_HAS_FUN)) ==
            0;
@@ -62,10 +62,10 @@ is_by_functions(const qdot_pool *pool, qdot_expr e)
     for (uint32_t i = 1; i < node->n; i += 2) {
         qdot_expr b = ARGS(pool, e)[i];
 
-        if (!is_constant(pool, b) && NODE(pool, b)->kind != QDOT_FUN &&
+        if (!term_is_constant(pool, b) && NODE(pool, b)->kind != QDOT_FUN &&
             NODE(pool, b)->kind != QDOT_SYM)
             return false;
-        any |= !is_constant(pool, b) && NODE(pool, b)->kind == QDOT_FUN;
+        any |= !term_is_constant(pool, b) && NODE(pool, b)->kind == QDOT_FUN;
     }
     return any;
 }
@@ -79,7 +79,7 @@ constants_first(const qdot_pool *pool, qdot_expr e)
     if (!(NODE(pool, e)->holds & QDOT_HAS_FUN) || n > 64)
         return false;
     for (uint32_t i = 1; i < n; i += 2) {
-        if (is_constant(pool, args[i]))
+        if (term_is_constant(pool, args[i]))
             constants++;
         else if (is_by_functions(pool, args[i]))
             others++;
@@ -153,12 +153,12 @@ arrange(const printer *p, qdot_expr e, bool turned, uint32_t *order)
 
     for (uint32_t i = 1; i < n; i += 2)
         if (!(NODE(pool, args[i])->holds & late) &&
-            (!first || is_constant(pool, args[i])))
+            (!first || term_is_constant(pool, args[i])))
             order[count++] = i;
     if (args[0] != QDOT_ZERO && NODE(pool, e)->holds != 0)
         order[count++] = 0;
     for (uint32_t i = 1; i < n && first; i += 2)
-        if (!is_constant(pool, args[i]))
+        if (!term_is_constant(pool, args[i]))
             order[count++] = i;
     others = count;
     for (uint32_t i = 1; i < n; i += 2) /* m g + lambda x */
@@ -248,7 +248,7 @@ open_sum(printer *p, qdot_expr e, int context, bool turned)
             term(p, args[i + 1], args[i], turned, k == 0);
     }
     if (context >= FACTOR)
-        close_bracket(p);
+        print_close_bracket(p);
     if (order != few)
         qdot_free(order);
 }
@@ -275,10 +275,10 @@ open_relation(printer *p, qdot_expr e, int context)
     if (context > TOP)
         open_bracket(p);
     child(p, side[turned], TERM);
-    say(p, styled(p, sign[0], sign[1], sign[2], sign[3]));
+    print_text(p, styled(p, sign[0], sign[1], sign[2], sign[3]));
     child(p, side[!turned], TERM);
     if (context > TOP)
-        close_bracket(p);
+        print_close_bracket(p);
 }
 
 /* Whether an operand of `and`, `or`, `not` needs its brackets: `not` binds tightest. */
@@ -302,16 +302,16 @@ open_logic(printer *p, qdot_expr e, int context)
     if (context > TOP)
         open_bracket(p);
     if (node->op == QDOT_NOT)
-        say(p, styled(p, "not ", "not ", "\\neg ", "<mo>¬</mo>"));
+        print_text(p, styled(p, "not ", "not ", "\\neg ", "<mo>¬</mo>"));
     for (uint32_t i = 0; i < node->n; i++) {
         qdot_expr part = ARGS(p->pool, e)[i];
 
         if (i > 0)
-            say(p, word);
+            print_text(p, word);
         child(p, part, is_bracketed(p->pool, node->op, part) ? TERM : TOP);
     }
     if (context > TOP)
-        close_bracket(p);
+        print_close_bracket(p);
 }
 
 /* (a, b); of equations (a, b) = (c, d), where it stands alone. */
@@ -327,15 +327,15 @@ open_vector(printer *p, qdot_expr e, int context)
         equations = node->kind == QDOT_REL && node->op == QDOT_EQ;
     }
     for (uint32_t side = 0; side <= equations; side++) {
-        say(p, side ? styled(p, " = ", " = ", " = ", "<mo>=</mo>") : "");
+        print_text(p, side ? styled(p, " = ", " = ", " = ", "<mo>=</mo>") : "");
         open_bracket(p);
         for (uint32_t i = 0; i < n; i++) {
             qdot_expr one = ARGS(p->pool, e)[i];
 
-            say(p, i > 0 ? comma(p) : "");
+            print_text(p, i > 0 ? comma(p) : "");
             child(p, equations ? ARGS(p->pool, one)[side] : one, TOP);
         }
-        close_bracket(p);
+        print_close_bracket(p);
     }
 }
 
@@ -344,17 +344,17 @@ open_matrix(printer *p, qdot_expr e)
 {
     const qdot_node *node = NODE(p->pool, e);
 
-    say(p, styled(p, "[", "[", "\\begin{pmatrix}", "<mrow><mo>(</mo><mtable><mtr><mtd>"));
+    print_text(p, styled(p, "[", "[", "\\begin{pmatrix}", "<mrow><mo>(</mo><mtable><mtr><mtd>"));
     for (uint32_t i = 0; i < node->n; i++) {
         if (i > 0)
-            say(p, i % node->op
+            print_text(p, i % node->op
                        ? styled(p, ", ", ", ", " & ", "</mtd><mtd>")
                        : styled(p, "; ", "; ", " \\\\ ", "</mtd></mtr><mtr><mtd>"));
         child(p, ARGS(p->pool, e)[i], TOP);
     }
     /* one row must not look like a list */
-    say(p, styled(p, node->n == node->op ? ";]" : "]", "]", "\\end{pmatrix}",
-                  "</mtd></mtr></mtable><mo>)</mo></mrow>"));
+    print_text(p, styled(p, node->n == node->op ? ";]" : "]", "]", "\\end{pmatrix}",
+                         "</mtd></mtr></mtable><mo>)</mo></mrow>"));
 }
 
 static void
@@ -398,9 +398,9 @@ open_node(printer *p, const struct piece *x)
     case QDOT_LOGIC: open_logic(p, x->e, x->context); break;
     case QDOT_VEC: open_vector(p, x->e, x->context); break;
     case QDOT_LIST:
-        say(p, styled(p, "[", "[", "\\left[", "<mrow><mo>[</mo>"));
+        print_text(p, styled(p, "[", "[", "\\left[", "<mrow><mo>[</mo>"));
         children(p, x->e, 0, node->n, comma(p));
-        say(p, styled(p, "]", "]", "\\right]", "<mo>]</mo></mrow>"));
+        print_text(p, styled(p, "]", "]", "\\right]", "<mo>]</mo></mrow>"));
         break;
     default: open_matrix(p, x->e);
     }

@@ -40,7 +40,7 @@ qdot_printed_forget(qdot_printed *printed)
 }
 
 static size_t
-place(qdot_expr e, uint32_t how)
+printed_slot(qdot_expr e, uint32_t how)
 {
     return (e * 2654435761u ^ how * 40503u) >> 7 & (SLOTS - 1);
 }
@@ -48,7 +48,7 @@ place(qdot_expr e, uint32_t how)
 bool
 qdot_printed_copy(const qdot_printed *printed, qdot_expr e, uint32_t how, qdot_text *out)
 {
-    const struct slot *s = printed->slot == NULL ? NULL : &printed->slot[place(e, how)];
+    const struct slot *s = printed->slot == NULL ? NULL : &printed->slot[printed_slot(e, how)];
 
     if (s == NULL || s->e != e || s->how != how)
         return false;
@@ -75,6 +75,6 @@ qdot_printed_keep(qdot_printed *p, qdot_expr e, uint32_t how, const qdot_text *o
         p->text.failed = false; /* what it holds is as it was */
         return QDOT_ENOMEM;
     }
-    p->slot[place(e, how)] = (struct slot){e, how, (uint32_t)(p->text.n - n), (uint32_t)n};
+    p->slot[printed_slot(e, how)] = (struct slot){e, how, (uint32_t)(p->text.n - n), (uint32_t)n};
     return QDOT_OK;
 }

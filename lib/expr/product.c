@@ -21,7 +21,7 @@ struct product {
 };
 
 static void
-begin(struct product *p, qdot_pool *pool)
+product_begin(struct product *p, qdot_pool *pool)
 {
     p->pool = pool;
     fmpq_init(&p->c);
@@ -33,7 +33,7 @@ begin(struct product *p, qdot_pool *pool)
 }
 
 static void
-end(struct product *p)
+product_end(struct product *p)
 {
     fmpq_clear(&p->c);
     if (p->at != p->few)
@@ -41,7 +41,7 @@ end(struct product *p)
 }
 
 static void
-push(struct product *p, qdot_expr base, qdot_expr exponent)
+product_push(struct product *p, qdot_expr base, qdot_expr exponent)
 {
     if (base == QDOT_NIL || exponent == QDOT_NIL) {
         p->failed = true;
@@ -66,7 +66,7 @@ push(struct product *p, qdot_expr base, qdot_expr exponent)
 }
 
 static void
-scale(struct product *p, const fmpq *c)
+product_scale(struct product *p, const fmpq *c)
 {
     if (fmpq_is_one(c))
         return;
@@ -86,7 +86,7 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
 
     if (e == NULL) {
         if (base != QDOT_ONE)
-            push(p, base, exponent);
+            product_push(p, base, exponent);
         return;
     }
     if (base == QDOT_ZERO && qdot_rational_sgn(e) < 0) {
@@ -95,7 +95,7 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
         return;
     }
     if (base == QDOT_ZERO || base == QDOT_ONE || exponent == QDOT_ONE) {
-        scale(p, RATIONAL(pool, base));
+        product_scale(p, RATIONAL(pool, base));
         return;
     }
     fmpq_init(b);
@@ -108,13 +108,13 @@ push_number(struct product *p, qdot_expr base, qdot_expr exponent)
     } else {
         good = qdot_number_root(pool, b, k, y, &base, &exponent);
         if (good && base != QDOT_ONE) {
-            push(p, base, exponent);
+            product_push(p, base, exponent);
             if (!p->failed)
                 p->at[p->n - 1].settled = true;
         }
     }
     if (good)
-        scale(p, y);
+        product_scale(p, y);
     else
         p->failed = true;
     fmpq_clear(b);
@@ -133,13 +133,13 @@ is_integer(const qdot_pool *pool, qdot_expr e)
 }
 
 static bool
-is_even(const qdot_pool *pool, qdot_expr e)
+is_even_integer(const qdot_pool *pool, qdot_expr e)
 {
     return is_integer(pool, e) && fmpz_is_even(fmpq_numref(RATIONAL(pool, e)));
 }
 
 static bool
-is_root(const qdot_pool *pool, qdot_expr e)
+is_fraction(const qdot_pool *pool, qdot_expr e)
 {
     const fmpq *x = NUMBER(pool, e);
 
@@ -157,7 +157,7 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
     fmpq_t c;
 
     fmpq_init(c);
-    begin(&rest, pool);
+    product_begin(&rest, pool);
     qdot_rational_set(c, RATIONAL(pool, ARGS(pool, base)[0]));
     if (qdot_rational_sgn(c) < 0) {
         fmpq_neg(c, c);
@@ -169,21 +169,21 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
         qdot_expr b = ARGS(pool, base)[i], e = ARGS(pool, base)[i + 1];
 
         /* x^(1/2) is real only where x >= 0 */
-        if ((NODE(pool, b)->sign & QDOT_GE0) || is_root(pool, e))
-            push(p, b, qdot_mul(pool, e, k));
-        else if (is_even(pool, e))
-            push(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
+        if ((NODE(pool, b)->sign & QDOT_GE0) || is_fraction(pool, e))
+            product_push(p, b, qdot_mul(pool, e, k));
+        else if (is_even_integer(pool, e))
+            product_push(p, qdot_fun1(pool, QDOT_ABS, b), qdot_mul(pool, e, k));
         else
-            push(&rest, b, e);
+            product_push(&rest, b, e);
     }
     if (rest.n > 0 || !fmpq_is_one(&rest.c)) {
         if (rest.n == (n - 1) / 2 &&
             qdot_rational_equal(&rest.c, RATIONAL(pool, ARGS(pool, base)[0]))) {
-            push(p, base, k); /* nothing came out */
+            product_push(p, base, k); /* nothing came out */
         } else if (rest.n == 0 && !(NODE(pool, base)->sign & QDOT_NE0)) {
             p->n = 0; /* sqrt(-x^2), real where it is 0: nothing comes out */
             fmpq_one(&p->c);
-            push(p, base, k);
+            product_push(p, base, k);
         } else {
             qdot_expr f = qdot_expr_fmpq(pool, &rest.c);
 
@@ -193,11 +193,11 @@ push_power_of_product(struct product *p, qdot_expr base, qdot_expr k)
             if (f != QDOT_NIL && NODE(pool, f)->kind == QDOT_NUM)
                 push_number(p, f, k);
             else
-                push(p, f, k);
+                product_push(p, f, k);
         }
     }
     fmpq_clear(c);
-    end(&rest);
+    product_end(&rest);
 }
 
 /* --- the canonical form ------------------------------------------------------------------ */
@@ -210,25 +210,25 @@ take_pairs(struct product *p, qdot_expr e, uint32_t without)
 
     for (uint32_t i = 1; i < NODE(pool, e)->n && !p->failed; i += 2)
         if (i != without) {
-            push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
+            product_push(p, ARGS(pool, e)[i], ARGS(pool, e)[i + 1]);
             if (!p->failed)
                 p->at[p->n - 1].settled = true;
         }
 }
 
 static void
-take(struct product *p, qdot_expr e)
+product_take(struct product *p, qdot_expr e)
 {
     qdot_pool *pool = p->pool;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM: scale(p, RATIONAL(pool, e)); return;
+    case QDOT_NUM: product_scale(p, RATIONAL(pool, e)); return;
     case QDOT_PROD:
         if (ARGS(pool, e)[0] != QDOT_ONE)
-            scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
+            product_scale(p, RATIONAL(pool, ARGS(pool, e)[0]));
         take_pairs(p, e, 0);
         return;
-    default: push(p, e, QDOT_ONE);
+    default: product_push(p, e, QDOT_ONE);
     }
 }
 
@@ -241,7 +241,7 @@ by_id(const void *a, const void *b)
 }
 
 static int
-by_order(const void *a, const void *b, void *pool)
+compare_pairs(const void *a, const void *b, void *pool)
 {
     const struct pair *x = a, *y = b;
     int d = qdot_expr_compare(pool, x->base, y->base);
@@ -251,13 +251,13 @@ by_order(const void *a, const void *b, void *pool)
 
 /* Factors are few as a rule. */
 static void
-sort(struct product *p, bool ids)
+product_sort(struct product *p, bool ids)
 {
     if (p->n > 16) {
         if (ids)
             qsort(p->at, p->n, sizeof *p->at, by_id);
         else
-            qsort_r(p->at, p->n, sizeof *p->at, by_order, p->pool);
+            qsort_r(p->at, p->n, sizeof *p->at, compare_pairs, p->pool);
         return;
     }
     for (size_t i = 1; i < p->n; i++) {
@@ -265,7 +265,7 @@ sort(struct product *p, bool ids)
         size_t k = i;
 
         for (; k > 0 && (ids ? p->at[k - 1].base > x.base
-                             : by_order(&p->at[k - 1], &x, p->pool) > 0);
+                             : compare_pairs(&p->at[k - 1], &x, p->pool) > 0);
              k--)
             p->at[k] = p->at[k - 1];
         p->at[k] = x;
@@ -303,7 +303,7 @@ merge_exponentials(struct product *p)
     if (sum == QDOT_NIL)
         p->failed = true;
     else
-        take(p, qdot_fun1(pool, QDOT_EXP, sum));
+        product_take(p, qdot_fun1(pool, QDOT_EXP, sum));
     return true;
 }
 
@@ -354,7 +354,7 @@ merge_turned(struct product *p)
         other = qdot_sum_turned(pool, x->base);
         for (size_t j = 0; j < p->n; j++)
             if (p->at[j].base == other && is_integer(pool, p->at[j].exponent)) {
-                if (!is_even(pool, p->at[j].exponent))
+                if (!is_even_integer(pool, p->at[j].exponent))
                     fmpq_neg(&p->c, &p->c);
                 x->exponent = qdot_add(pool, x->exponent, p->at[j].exponent);
                 p->failed = x->exponent == QDOT_NIL;
@@ -390,7 +390,7 @@ round_of_merging(struct product *p)
     size_t kept = 0, n;
     bool again = false;
 
-    sort(p, true);
+    product_sort(p, true);
     for (size_t i = 0; i < p->n; i++) {
         if (kept > 0 && p->at[kept - 1].base == p->at[i].base) {
             qdot_expr e = qdot_add(pool, p->at[kept - 1].exponent, p->at[i].exponent);
@@ -421,7 +421,7 @@ round_of_merging(struct product *p)
             fmpq_init(y);
             if (qdot_number_power(pool, y, RATIONAL(pool, ARGS(pool, e)[0]),
                                   fmpq_numref(RATIONAL(pool, x.exponent))))
-                scale(p, y);
+                product_scale(p, y);
             else
                 p->failed = true;
             fmpq_clear(y);
@@ -429,16 +429,16 @@ round_of_merging(struct product *p)
             for (uint32_t k = 1; k < NODE(pool, e)->n && !p->failed; k += 2) {
                 qdot_expr inner = qdot_mul(pool, ARGS(pool, e)[k + 1], x.exponent);
 
-                push(p, ARGS(pool, e)[k], inner);
+                product_push(p, ARGS(pool, e)[k], inner);
             }
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
-                   is_even(pool, x.exponent)) {
+                   is_even_integer(pool, x.exponent)) {
             qdot_expr arg = ARGS(pool, x.base)[0];
 
             p->n = n;
-            push(p, arg, x.exponent);
+            product_push(p, arg, x.exponent);
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_FUN && base->op == QDOT_ABS &&
@@ -448,16 +448,16 @@ round_of_merging(struct product *p)
             qdot_expr arg = ARGS(pool, x.base)[0]; /* |u| sign(u) = u */
 
             p->n = n;
-            push(p, arg, x.exponent);
+            product_push(p, arg, x.exponent);
             n = p->n;
             again = true;
         } else if (base->kind == QDOT_SUM && is_integer(pool, x.exponent) &&
                    qdot_expr_is_negative(pool, x.base)) {
             /* (b - a)^n by (a - b)^n, so that the two meet */
             p->n = n;
-            push(p, qdot_sum_turned(pool, x.base), x.exponent);
+            product_push(p, qdot_sum_turned(pool, x.base), x.exponent);
             n = p->n;
-            if (!is_even(pool, x.exponent))
+            if (!is_even_integer(pool, x.exponent))
                 fmpq_neg(&p->c, &p->c);
             again = true;
         } else if (base->kind == QDOT_NUM &&
@@ -507,7 +507,7 @@ all_plain(const struct product *p)
 
 /* Plain pairs into their order, equal bases together. The factors of each product come sorted. */
 static void
-gather(struct product *p)
+product_gather(struct product *p)
 {
     qdot_pool *pool = p->pool;
     size_t kept = 0;
@@ -543,14 +543,14 @@ unsettled(const struct product *p)
 }
 
 static qdot_expr
-finish(struct product *p)
+product_finish(struct product *p)
 {
     qdot_pool *pool = p->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
     bool again = true, plain = all_plain(p);
 
     if (plain)
-        gather(p);
+        product_gather(p);
     for (int round = 0; !plain && again && !p->failed && round < 64 && unsettled(p); round++) {
         again = round_of_merging(p);
         again |= !p->failed && merge_exponentials(p);
@@ -570,7 +570,7 @@ finish(struct product *p)
         NODE(pool, p->at[0].base)->kind == QDOT_SUM)
         return qdot_sum_turned(pool, p->at[0].base);
     if (!plain)
-        sort(p, false);
+        product_sort(p, false);
     if (p->n > 16 && (args = qdot_malloc((2 * p->n + 1) * sizeof *args)) == NULL)
         return qdot_pool_fail(pool);
     args[0] = fmpq_is_one(&p->c) ? QDOT_ONE : qdot_expr_fmpq(pool, &p->c);
@@ -605,11 +605,11 @@ qdot_product(qdot_pool *pool, size_t n, const qdot_expr *factors)
     }
     if (FAILED(pool))
         return QDOT_NIL;
-    begin(&p, pool);
+    product_begin(&p, pool);
     for (size_t i = 0; i < n && !p.failed; i++)
-        take(&p, factors[i]);
-    e = finish(&p);
-    end(&p);
+        product_take(&p, factors[i]);
+    e = product_finish(&p);
+    product_end(&p);
     return e;
 }
 
@@ -621,7 +621,7 @@ qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner)
 
     if (inner == QDOT_NIL || FAILED(pool))
         return QDOT_NIL;
-    begin(&p, pool);
+    product_begin(&p, pool);
     qdot_rational_set(&p.c, RATIONAL(pool, ARGS(pool, e)[0]));
     take_pairs(&p, e, i);
     if (x != QDOT_ONE) {
@@ -630,14 +630,14 @@ qdot_product_derived(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr inner)
         if (NODE(pool, b)->kind == QDOT_NUM && less != QDOT_NIL)
             push_number(&p, b, less);
         else
-            push(&p, b, less);
+            product_push(&p, b, less);
         if (!p.failed)
-            take(&p, x);
+            product_take(&p, x);
     }
     if (!p.failed)
-        take(&p, inner);
-    result = finish(&p);
-    end(&p);
+        product_take(&p, inner);
+    result = product_finish(&p);
+    product_end(&p);
     return result;
 }
 
@@ -662,15 +662,15 @@ qdot_pow(qdot_pool *pool, qdot_expr a, qdot_expr b)
         return qdot_pool_intern(pool, QDOT_PROD, 0, 3, args,
                                 qdot_sign_of_product(pool, 3, args));
     }
-    begin(&p, pool);
+    product_begin(&p, pool);
     kind = NODE(pool, a)->kind;
     if (kind == QDOT_NUM)
         push_number(&p, a, b);
     else if (kind == QDOT_PROD && !is_integer(pool, b))
         push_power_of_product(&p, a, b);
     else
-        push(&p, a, b);
-    e = finish(&p);
-    end(&p);
+        product_push(&p, a, b);
+    e = product_finish(&p);
+    product_end(&p);
     return e;
 }

@@ -11,7 +11,7 @@ plus(uint64_t a, uint64_t b)
 
 /* That of a child: as the walk found it, or without a walk as its node keeps it. */
 static uint64_t
-size_of(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
+child_size(const qdot_pool *pool, const qdot_walk *w, qdot_expr e)
 {
     return w == NULL ? NODE(pool, e)->size : qdot_walk_get(w, e);
 }
@@ -37,7 +37,7 @@ leading_minus(const qdot_pool *pool, qdot_expr sum)
 }
 
 static bool
-is_whole(const fmpq *x)
+is_integer_rational(const fmpq *x)
 {
     return fmpz_is_one(fmpq_denref(x));
 }
@@ -58,11 +58,11 @@ size_of_sum(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
         const fmpq *c = RATIONAL(pool, args[i + 1]);
 
-        size = plus(size, size_of(pool, w, args[i]));
-        size = plus(size, (uint64_t)!is_whole(c) + !is_unit(c) + (i > 1));
+        size = plus(size, child_size(pool, w, args[i]));
+        size = plus(size, (uint64_t)!is_integer_rational(c) + !is_unit(c) + (i > 1));
     }
     if (args[0] != QDOT_ZERO)
-        size = plus(size, 1 + (uint64_t)!is_whole(RATIONAL(pool, args[0])));
+        size = plus(size, 1 + (uint64_t)!is_integer_rational(RATIONAL(pool, args[0])));
     return size;
 }
 
@@ -72,7 +72,7 @@ size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     const qdot_expr *args = ARGS(pool, e);
     const fmpq *c = RATIONAL(pool, args[0]);
     uint64_t size = qdot_rational_sgn(c) < 0 && qdot_expr_turnable(pool, e) == QDOT_NIL;
-    uint64_t operands = (uint64_t)!is_unit(c) + !is_whole(c);
+    uint64_t operands = (uint64_t)!is_unit(c) + !is_integer_rational(c);
     bool above = !is_unit(c);
 
     for (uint32_t i = 1; i < NODE(pool, e)->n; i += 2) {
@@ -80,10 +80,10 @@ size_of_product(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
 
         above |= x == NULL || qdot_rational_sgn(x) > 0;
         operands++;
-        size = plus(size, size_of(pool, w, args[i]));
+        size = plus(size, child_size(pool, w, args[i]));
         if (x == NULL)
-            size = plus(plus(size, 1), size_of(pool, w, args[i + 1]));
-        else if (!is_unit(x) || !is_whole(x)) /* a power or a root */
+            size = plus(plus(size, 1), child_size(pool, w, args[i + 1]));
+        else if (!is_unit(x) || !is_integer_rational(x)) /* a power or a root */
             size = plus(size, 1);
     }
     return plus(size, operands - above); /* 1/x divides too */
@@ -103,7 +103,7 @@ size_of_node(const qdot_pool *pool, qdot_expr e, const qdot_walk *w)
     case QDOT_PROD: return size_of_product(pool, e, w);
     default:
         for (uint32_t i = 0; i < n; i++)
-            size = plus(size, size_of(pool, w, args[i]));
+            size = plus(size, child_size(pool, w, args[i]));
         for (uint32_t i = n; i < node->n; i++) /* orders of derivatives */
             size = plus(size, args[i] != QDOT_ZERO);
         return plus(size, node->kind == QDOT_FUN || node->kind == QDOT_LOGIC);

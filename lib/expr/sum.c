@@ -19,7 +19,7 @@ struct sum {
 };
 
 static void
-begin(struct sum *s, qdot_pool *pool)
+sum_begin(struct sum *s, qdot_pool *pool)
 {
     s->pool = pool;
     fmpq_init(&s->constant);
@@ -30,17 +30,17 @@ begin(struct sum *s, qdot_pool *pool)
 }
 
 static void
-drop(struct term *t)
+term_clear(struct term *t)
 {
     if (t->id == QDOT_NIL)
         fmpq_clear(&t->c);
 }
 
 static void
-end(struct sum *s)
+sum_end(struct sum *s)
 {
     for (size_t i = 0; i < s->n; i++)
-        drop(&s->at[i]);
+        term_clear(&s->at[i]);
     fmpq_clear(&s->constant);
     if (s->at != s->few)
         qdot_free(s->at);
@@ -54,14 +54,14 @@ fail(struct sum *s)
 }
 
 static const fmpq *
-coefficient(const struct sum *s, const struct term *t)
+term_coefficient(const struct sum *s, const struct term *t)
 {
     return t->id != QDOT_NIL ? RATIONAL(s->pool, t->id) : &t->c;
 }
 
 /* Append a * b * term, a and b NUMs, term without a coefficient of its own. */
 static void
-push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
+sum_push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 {
     struct term *t;
 
@@ -92,7 +92,7 @@ push(struct sum *s, qdot_expr term, qdot_expr a, qdot_expr b)
 }
 
 static void
-add_number(struct sum *s, qdot_expr a, qdot_expr b)
+sum_add_number(struct sum *s, qdot_expr a, qdot_expr b)
 {
     if (a != QDOT_ZERO && b != QDOT_ZERO)
         qdot_rational_addmul(&s->constant, RATIONAL(s->pool, a), RATIONAL(s->pool, b));
@@ -100,35 +100,35 @@ add_number(struct sum *s, qdot_expr a, qdot_expr b)
 
 /* Add c times e, c a NUM. */
 static void
-add(struct sum *s, qdot_expr e, qdot_expr c)
+sum_add(struct sum *s, qdot_expr e, qdot_expr c)
 {
     qdot_pool *pool = s->pool;
     qdot_expr own, rest;
 
     switch (NODE(pool, e)->kind) {
-    case QDOT_NUM: add_number(s, e, c); return;
+    case QDOT_NUM: sum_add_number(s, e, c); return;
     case QDOT_PROD:
         own = ARGS(pool, e)[0];
         if (own == QDOT_ONE) {
-            push(s, e, c, QDOT_ONE);
+            sum_push(s, e, c, QDOT_ONE);
             return;
         }
         rest = qdot_expr_strip(pool, e);
         if (rest == QDOT_NIL)
             fail(s);
         else if (NODE(pool, rest)->kind != QDOT_SUM)
-            push(s, rest, own, c);
+            sum_push(s, rest, own, c);
         else if ((c = qdot_mul(pool, own, c)) == QDOT_NIL)
             fail(s);
         else
-            add(s, rest, c); /* one level: a coefficient times a bare sum */
+            sum_add(s, rest, c); /* one level: a coefficient times a bare sum */
         return;
     case QDOT_SUM:
-        add_number(s, ARGS(pool, e)[0], c);
+        sum_add_number(s, ARGS(pool, e)[0], c);
         for (uint32_t i = 1; i < NODE(pool, e)->n && !s->failed; i += 2)
-            push(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
+            sum_push(s, ARGS(pool, e)[i], ARGS(pool, e)[i + 1], c);
         return;
-    default: push(s, e, c, QDOT_ONE);
+    default: sum_push(s, e, c, QDOT_ONE);
     }
 }
 
@@ -150,7 +150,7 @@ ordered(const struct sum *s, const struct term *a, const struct term *b)
 
 /* Like neighbours together, zeros out. */
 static void
-merge(struct sum *s)
+sum_merge(struct sum *s)
 {
     size_t kept = 0;
 
@@ -164,9 +164,9 @@ merge(struct sum *s)
         }
         last = &s->at[kept - 1];
         fmpq_init(c);
-        qdot_rational_add(c, coefficient(s, last), coefficient(s, t));
-        drop(last);
-        drop(t);
+        qdot_rational_add(c, term_coefficient(s, last), term_coefficient(s, t));
+        term_clear(last);
+        term_clear(t);
         last->id = QDOT_NIL;
         last->c = *c;
         if (fmpq_is_zero(c)) {
@@ -234,14 +234,14 @@ sort_few(struct sum *s)
 }
 
 static void
-sort(struct sum *s)
+sum_sort(struct sum *s)
 {
     uint32_t *start;
     size_t runs;
 
     if (s->n <= 8) {
         sort_few(s);
-        merge(s);
+        sum_merge(s);
         return;
     }
     start = qdot_malloc(s->n * sizeof *start);
@@ -258,23 +258,23 @@ sort(struct sum *s)
             break;
         /* no order at all, as after multiplying out: like terms first, by their ids */
         qsort(s->at, s->n, sizeof *s->at, by_id);
-        merge(s);
+        sum_merge(s);
     }
     if (runs > 1)
         sort_runs(s, start, runs);
     qdot_free(start);
-    merge(s);
+    sum_merge(s);
 }
 
 static qdot_expr
-finish(struct sum *s)
+sum_finish(struct sum *s)
 {
     qdot_pool *pool = s->pool;
     qdot_expr few[33], *args = few, e = QDOT_NIL;
 
     if (s->failed || FAILED(pool))
         return QDOT_NIL;
-    sort(s);
+    sum_sort(s);
     if (s->failed)
         return QDOT_NIL;
     if (s->n == 0)
@@ -325,7 +325,7 @@ scalars(qdot_pool *pool, size_t n, const qdot_expr *e)
 
 /* The sum of c[i] terms[i]; c NULL: all 1. */
 static qdot_expr
-combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
+sum_combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
 {
     struct sum s;
     qdot_expr e;
@@ -342,19 +342,19 @@ combine(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *terms)
         return count == 0  ? QDOT_ZERO
                : c == NULL ? terms[only]
                            : qdot_mul(pool, c[only], terms[only]);
-    begin(&s, pool);
+    sum_begin(&s, pool);
     /* numbers that grow without end make no nodes, which would look for Ctrl-C */
     for (size_t i = 0; i < n && !s.failed && !qdot_pool_interrupted(pool); i++)
-        add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
-    e = finish(&s);
-    end(&s);
+        sum_add(&s, terms[i], c == NULL ? QDOT_ONE : c[i]);
+    e = sum_finish(&s);
+    sum_end(&s);
     return e;
 }
 
 qdot_expr
 qdot_sum(qdot_pool *pool, size_t n, const qdot_expr *terms)
 {
-    return combine(pool, n, NULL, terms);
+    return sum_combine(pool, n, NULL, terms);
 }
 
 qdot_expr
@@ -362,19 +362,19 @@ qdot_sum_scaled(qdot_pool *pool, size_t n, const qdot_expr *c, const qdot_expr *
 {
     if (!scalars(pool, n, c))
         return QDOT_NIL;
-    return combine(pool, n, c, terms);
+    return sum_combine(pool, n, c, terms);
 }
 
 qdot_expr
 qdot_add(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    return combine(pool, 2, NULL, (qdot_expr[]){a, b});
+    return sum_combine(pool, 2, NULL, (qdot_expr[]){a, b});
 }
 
 qdot_expr
 qdot_sub(qdot_pool *pool, qdot_expr a, qdot_expr b)
 {
-    return combine(pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}, (qdot_expr[]){a, b});
+    return sum_combine(pool, 2, (qdot_expr[]){QDOT_ONE, QDOT_MINUS_ONE}, (qdot_expr[]){a, b});
 }
 
 qdot_expr

@@ -14,7 +14,7 @@ hash_id(uint32_t e)
 }
 
 static size_t
-find(const qdot_walk *w, qdot_expr e)
+walk_find_slot(const qdot_walk *w, qdot_expr e)
 {
     uint32_t i = hash_id(e) & w->mask;
 
@@ -24,7 +24,7 @@ find(const qdot_walk *w, qdot_expr e)
 }
 
 static qdot_status
-enlarge(qdot_walk *w)
+walk_enlarge(qdot_walk *w)
 {
     uint32_t size = (w->mask + 1) * 2;
     uint32_t *slot = qdot_calloc(size, sizeof *slot);
@@ -36,7 +36,7 @@ enlarge(qdot_walk *w)
     w->slot = slot;
     w->mask = size - 1;
     for (size_t k = 0; k < w->n; k++)
-        slot[find(w, w->at[k])] = (uint32_t)k + 1;
+        slot[walk_find_slot(w, w->at[k])] = (uint32_t)k + 1;
     return QDOT_OK;
 }
 
@@ -76,7 +76,7 @@ sort_ids(qdot_expr *at, size_t n, qdot_expr *scratch)
 static qdot_status
 add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
 {
-    size_t place = find(w, e);
+    size_t place = walk_find_slot(w, e);
 
     if (w->slot[place] != 0)
         return QDOT_OK;
@@ -89,7 +89,7 @@ add_node(qdot_walk *w, size_t *capacity, qdot_expr e)
     QDOT_TRY(qdot_grow(&w->at, capacity, w->n + 1, sizeof *w->at));
     w->at[w->n++] = e;
     w->slot[place] = (uint32_t)w->n;
-    return w->n * 2 > w->mask ? enlarge(w) : QDOT_OK;
+    return w->n * 2 > w->mask ? walk_enlarge(w) : QDOT_OK;
 }
 
 /* Places of all nodes in the table. */
@@ -107,8 +107,8 @@ place_nodes(qdot_walk *w)
 }
 
 static qdot_status
-begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
-      uint32_t touches, qdot_walk *w)
+walk_begin_roots(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
+                 uint32_t touches, qdot_walk *w)
 {
     size_t capacity = QDOT_WALK_FEW;
     qdot_status status = QDOT_OK;
@@ -162,20 +162,20 @@ begin(const qdot_pool *pool, size_t n, const qdot_expr *roots, uint32_t holds,
 qdot_status
 qdot_walk_begin_n(const qdot_pool *pool, size_t n, const qdot_expr *roots, qdot_walk *w)
 {
-    return begin(pool, n, roots, UINT32_MAX, 0, w);
+    return walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w);
 }
 
 qdot_status
 qdot_walk_begin(const qdot_pool *pool, qdot_expr e, qdot_walk *w)
 {
-    return begin(pool, 1, &e, UINT32_MAX, 0, w);
+    return walk_begin_roots(pool, 1, &e, UINT32_MAX, 0, w);
 }
 
 qdot_status
 qdot_walk_begin_where(const qdot_pool *pool, qdot_expr e, uint32_t holds,
                       uint32_t touches, qdot_walk *w)
 {
-    return begin(pool, 1, &e, holds, touches, w);
+    return walk_begin_roots(pool, 1, &e, holds, touches, w);
 }
 
 /* A node and where it comes to stand. */
@@ -233,7 +233,7 @@ qdot_walk_begin_by_height(const qdot_pool *pool, size_t n, const qdot_expr *root
     size_t *first; /* of a height */
     size_t most;
 
-    QDOT_TRY(begin(pool, n, roots, UINT32_MAX, 0, w));
+    QDOT_TRY(walk_begin_roots(pool, n, roots, UINT32_MAX, 0, w));
     if (w->n == 0)
         return QDOT_OK;
     m = qdot_malloc(w->n * sizeof *m);
@@ -279,7 +279,7 @@ qdot_walk_end(qdot_walk *w)
 size_t
 qdot_walk_index(const qdot_walk *w, qdot_expr e)
 {
-    uint32_t slot = w->slot[find(w, e)];
+    uint32_t slot = w->slot[walk_find_slot(w, e)];
 
     return slot == 0 ? SIZE_MAX : slot - 1;
 }
@@ -418,7 +418,7 @@ qdot_expr_contains(const qdot_pool *pool, qdot_expr e, qdot_expr x)
 }
 
 static int
-by_order(const void *a, const void *b, void *pool)
+compare_exprs(const void *a, const void *b, void *pool)
 {
     return qdot_expr_compare(pool, *(const qdot_expr *)a, *(const qdot_expr *)b);
 }
@@ -444,7 +444,7 @@ qdot_expr_atoms(qdot_pool *pool, qdot_expr e, bool ufuns)
     }
     qdot_walk_end(&w);
     if (found.n > 0)
-        qsort_r(found.at, found.n, sizeof *found.at, by_order, pool);
+        qsort_r(found.at, found.n, sizeof *found.at, compare_exprs, pool);
     list = qdot_list(pool, (uint32_t)found.n, found.at);
     qdot_free(found.at);
     return list;
