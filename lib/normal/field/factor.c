@@ -35,7 +35,7 @@ within_bounds(qdot_field *f, const fmpz_mpoly_t p)
 }
 
 static qdot_status
-reserve(qdot_field *f, qdot_factors *out, slong n)
+factors_reserve(qdot_field *f, qdot_factors *out, slong n)
 {
     out->poly = qdot_malloc(((size_t)n + 2) * sizeof *out->poly);
     out->exp = qdot_malloc(((size_t)n + 2) * sizeof *out->exp);
@@ -65,7 +65,7 @@ by_monomials(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
         fmpz_mpoly_get_term_exp_ui(exp, content, 0, f->ctx);
         for (slong v = 0; v < f->n; v++)
             n += exp[v] > 0;
-        status = reserve(f, out, n + (fmpz_mpoly_is_fmpz(rest, f->ctx) ? 0 : 1));
+        status = factors_reserve(f, out, n + (fmpz_mpoly_is_fmpz(rest, f->ctx) ? 0 : 1));
     }
     if (status == QDOT_OK) {
         n = 0;
@@ -217,7 +217,7 @@ at_a_glance(qdot_field *f, qdot_factors *out, bool *done)
 }
 
 static qdot_status
-start(qdot_factors *out)
+factors_begin(qdot_factors *out)
 {
     *out = (qdot_factors){.complete = true};
     fmpz_init(out->content);
@@ -232,7 +232,7 @@ qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
     qdot_status status = QDOT_OK;
     bool done;
 
-    QDOT_TRY(start(out));
+    QDOT_TRY(factors_begin(out));
     QDOT_TRY(by_monomials(f, out, p));
     if (out->n == 0)
         return QDOT_OK;
@@ -244,12 +244,12 @@ qdot_factor(qdot_field *f, qdot_factors *out, const fmpz_mpoly_t p)
         return QDOT_OK;
     }
     qdot_factor_clear(f, out);
-    QDOT_TRY(start(out));
+    QDOT_TRY(factors_begin(out));
     fmpz_mpoly_factor_init(all, f->ctx);
     done = fmpz_mpoly_factor(all, p, f->ctx) && fmpz_is_one(all->constant_den);
     if (done) {
         fmpz_mpoly_factor_sort(all, f->ctx);
-        status = reserve(f, out, all->num);
+        status = factors_reserve(f, out, all->num);
         fmpz_set(out->content, all->constant);
         for (slong i = 0; i < all->num && status == QDOT_OK; i++) {
             fmpz_mpoly_swap(out->poly + i, all->poly + i, f->ctx);
@@ -318,7 +318,7 @@ typedef struct {
 } index_of;
 
 static size_t
-place(const index_of *index, const qdot_groups *out, slong gens, const ulong *key)
+group_find_slot(const index_of *index, const qdot_groups *out, slong gens, const ulong *key)
 {
     uint64_t hash = 0xcbf29ce484222325u;
 
@@ -344,7 +344,7 @@ grow_index(index_of *index, const qdot_groups *out, slong gens)
     for (size_t k = 0; k < index->size; k++)
         index->at[k] = -1;
     for (slong i = 0; i < out->n; i++)
-        index->at[place(index, out, gens, out->key + i * gens)] = i;
+        index->at[group_find_slot(index, out, gens, out->key + i * gens)] = i;
     return QDOT_OK;
 }
 
@@ -373,7 +373,7 @@ qdot_factor_group(qdot_field *f, qdot_groups *out, const fmpz_mpoly_t p, const b
         status = grow_index(&index, out, gens);
         if (status != QDOT_OK)
             break;
-        slot = place(&index, out, gens, key);
+        slot = group_find_slot(&index, out, gens, key);
         at = index.at[slot];
         if (at < 0) {
             status =

@@ -41,7 +41,7 @@ add_gen(struct found *g, qdot_gen gen)
 }
 
 static qdot_status
-push(struct found *g, qdot_expr e)
+nodes_push(struct found *g, qdot_expr e)
 {
     QDOT_TRY(qdot_grow(&g->stack, &g->stack_capacity, g->depth + 1, sizeof *g->stack));
     g->stack[g->depth++] = e;
@@ -85,7 +85,7 @@ add_number_root(qdot_pool *pool, struct found *g, qdot_expr base, ulong q)
     fmpz_set(n, fmpq_numref(qdot_expr_rational(pool, base)));
     if (fmpz_bits(n) > 64) {
         fmpz_clear(n);
-        QDOT_TRY(push(g, base));
+        QDOT_TRY(nodes_push(g, base));
         return add_root(g, base, q);
     }
     fmpz_factor_init(factors);
@@ -93,7 +93,7 @@ add_number_root(qdot_pool *pool, struct found *g, qdot_expr base, ulong q)
     for (slong i = 0; i < factors->num && status == QDOT_OK; i++) {
         qdot_expr prime = qdot_expr_int(pool, fmpz_get_si(factors->p + i));
 
-        status = push(g, prime);
+        status = nodes_push(g, prime);
         if (status == QDOT_OK)
             status = add_root(g, prime, q);
     }
@@ -103,7 +103,7 @@ add_number_root(qdot_pool *pool, struct found *g, qdot_expr base, ulong q)
 }
 
 static qdot_status
-add_power(qdot_field *f, struct found *g, qdot_expr base, qdot_expr exponent)
+field_add_power(qdot_field *f, struct found *g, qdot_expr base, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(f->pool, exponent);
     ulong q;
@@ -114,10 +114,10 @@ add_power(qdot_field *f, struct found *g, qdot_expr base, qdot_expr exponent)
                                      .expr = qdot_pow(f->pool, base, exponent)});
     q = fmpz_get_ui(fmpq_denref(x));
     if (q == 1)
-        return push(g, base);
+        return nodes_push(g, base);
     if (qdot_expr_kind(f->pool, base) == QDOT_NUM)
         return add_number_root(f->pool, g, base, q);
-    QDOT_TRY(push(g, base));
+    QDOT_TRY(nodes_push(g, base));
     return add_root(g, base, q);
 }
 
@@ -153,7 +153,7 @@ look_at_function(qdot_field *f, struct found *g, qdot_expr e)
     case QDOT_TANH: return qdot_lattice_add(&f->hyperbolic, f->pool, arg, false, &row);
     case QDOT_EXP: return qdot_lattice_add(&f->exponential, f->pool, arg, false, &row);
     case QDOT_ABS:
-        QDOT_TRY(push(g, arg));
+        QDOT_TRY(nodes_push(g, arg));
         return add_gen(g, (qdot_gen){.kind = QDOT_GEN_ABS, .expr = e, .of = arg});
     default: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
     }
@@ -177,12 +177,12 @@ look_at_node(qdot_field *f, struct found *g, qdot_expr e)
                                      .fast = qdot_expr_node(pool, e)->holds & FAST});
     case QDOT_SUM:
         for (uint32_t i = 1; i < n; i += 2)
-            QDOT_TRY(push(g, qdot_expr_arg(pool, e, i)));
+            QDOT_TRY(nodes_push(g, qdot_expr_arg(pool, e, i)));
         return QDOT_OK;
     case QDOT_PROD:
         for (uint32_t i = 1; i < n; i += 2)
-            QDOT_TRY(add_power(f, g, qdot_expr_arg(pool, e, i),
-                               qdot_expr_arg(pool, e, i + 1)));
+            QDOT_TRY(field_add_power(f, g, qdot_expr_arg(pool, e, i),
+                                     qdot_expr_arg(pool, e, i + 1)));
         return QDOT_OK;
     case QDOT_FUN: return look_at_function(f, g, e);
     case QDOT_UFUN: return add_gen(g, (qdot_gen){.kind = QDOT_GEN_PLAIN, .expr = e});
@@ -200,7 +200,7 @@ ascending(const void *a, const void *b)
 
 /* How many terms and factors are looked at for e: its own, or those of an angle. */
 static slong
-length_of(const qdot_pool *pool, qdot_expr e)
+node_length(const qdot_pool *pool, qdot_expr e)
 {
     qdot_kind kind = qdot_expr_kind(pool, e);
 
@@ -213,13 +213,13 @@ length_of(const qdot_pool *pool, qdot_expr e)
 
 /* All nodes that the values are made through, children first. */
 static qdot_status
-look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
+field_find_generators(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
 {
     size_t capacity = 0, rows = 0;
     qdot_expr at;
 
     for (size_t i = 0; i < n; i++)
-        QDOT_TRY(push(g, e[i]));
+        QDOT_TRY(nodes_push(g, e[i]));
     while (g->depth > 0 || rows < f->circular.n_rows) {
         if (g->depth == 0) { /* new angles may bring new roots */
             rows = f->circular.n_rows;
@@ -235,7 +235,7 @@ look_at_all(qdot_field *f, struct found *g, size_t n, const qdot_expr *e)
         QDOT_TRY(qdot_map_set(&f->nodes, at, 0));
         QDOT_TRY(qdot_grow(&f->node, &capacity, f->n_nodes + 1, sizeof *f->node));
         f->node[f->n_nodes++] = at;
-        if (!qdot_field_charge(f, 8, 8 + length_of(f->pool, at)))
+        if (!qdot_field_charge(f, 8, 8 + node_length(f->pool, at)))
             return f->state == QDOT_FIELD_FAILED ? f->status : QDOT_ELIMIT;
         QDOT_TRY(look_at_node(f, g, at));
     }
@@ -298,7 +298,7 @@ add_exponentials(qdot_field *f, struct found *g)
 
 /* Roots and absolute values, outer first; sines; cosines; the rest. */
 static int
-place_of(qdot_gen_kind kind)
+generator_rank(qdot_gen_kind kind)
 {
     static const int place[] = {
         [QDOT_GEN_ROOT] = 0, [QDOT_GEN_ABS] = 0,  [QDOT_GEN_SIN] = 1,
@@ -309,14 +309,14 @@ place_of(qdot_gen_kind kind)
 }
 
 static int
-by_place(const void *a, const void *b, void *pool)
+compare_generators(const void *a, const void *b, void *pool)
 {
     const qdot_gen *x = a, *y = b;
-    int d = place_of(x->kind) - place_of(y->kind);
+    int d = generator_rank(x->kind) - generator_rank(y->kind);
 
     if (d != 0)
         return d;
-    if (place_of(x->kind) == 0 && x->of != y->of)
+    if (generator_rank(x->kind) == 0 && x->of != y->of)
         return x->of > y->of ? -1 : 1;
     if (x->of != QDOT_NIL && x->of != y->of)
         return qdot_expr_compare(pool, x->of, y->of);
@@ -350,12 +350,12 @@ make_rules(qdot_field *f)
         qdot_free(exp);
         return QDOT_ENOMEM;
     }
-    for (slong v = 0; v < f->n && place_of(f->gen[v].kind) < 3; v++) {
+    for (slong v = 0; v < f->n && generator_rank(f->gen[v].kind) < 3; v++) {
         qdot_rule *rule = &f->rule[f->n_rules++];
 
         rule->var = v;
         fmpz_mpoly_init(rule->poly, f->ctx);
-        if (place_of(f->gen[v].kind) == 0)
+        if (generator_rank(f->gen[v].kind) == 0)
             continue;
         rule->power = 2;
         exp[v] = 2;
@@ -384,7 +384,7 @@ solve_lattice(qdot_field *f, qdot_lattice *l)
 }
 
 static qdot_status
-settle(qdot_field *f, struct found *g)
+field_settle_generators(qdot_field *f, struct found *g)
 {
     for (size_t i = 0; i < g->n; i++)
         if (g->at[i].kind == QDOT_GEN_ROOT) {
@@ -409,7 +409,7 @@ settle(qdot_field *f, struct found *g)
         QDOT_TRY(add_exponentials(f, g));
     }
     if (g->n > 1)
-        qsort_r(g->at, g->n, sizeof *g->at, by_place, f->pool);
+        qsort_r(g->at, g->n, sizeof *g->at, compare_generators, f->pool);
     f->gen = g->at;
     g->at = NULL;
     f->n = (slong)g->n;
@@ -434,9 +434,9 @@ qdot_field_begin(qdot_field *f, qdot_pool *pool, size_t n, const qdot_expr *e,
         f->status = qdot_last_error()->status;
         return;
     }
-    status = look_at_all(f, &g, n, e);
+    status = field_find_generators(f, &g, n, e);
     if (status == QDOT_OK)
-        status = settle(f, &g);
+        status = field_settle_generators(f, &g);
     if (status == QDOT_OK)
         status = qdot_value_all(f);
     stop(f, status);

@@ -32,7 +32,7 @@ static _Thread_local struct {
 /* --- memory functions -------------------------------------------------------------------- */
 
 static __attribute__((noreturn)) void
-leave(qdot_status why)
+flint_leave(qdot_status why)
 {
     guard.why = why;
     longjmp(guard.out, 1);
@@ -40,16 +40,16 @@ leave(qdot_status why)
 
 /* Leave the computation if it was interrupted or `size` bytes more exceed its bound. */
 static void
-look(size_t size)
+flint_check_budget(size_t size)
 {
     size_t caches = guard.library.bytes < guard.cached ? guard.library.bytes : guard.cached;
     size_t held = guard.own.bytes + guard.library.bytes - caches;
 
     if (qdot_interrupt_flag)
-        leave(qdot_interrupt_check());
+        flint_leave(qdot_interrupt_check());
     if (size > QDOT_FLINT_MEMORY || held > QDOT_FLINT_MEMORY - size)
-        leave(qdot_fail(QDOT_ELIMIT, "more than %zu MB of memory",
-                        QDOT_FLINT_MEMORY >> 20));
+        flint_leave(qdot_fail(QDOT_ELIMIT, "more than %zu MB of memory",
+                              QDOT_FLINT_MEMORY >> 20));
 }
 
 /* The allocated block. NULL: leave the computation; a thread without one aborts. */
@@ -59,18 +59,18 @@ given(void *block)
     if (block != NULL)
         return block;
     if (guard.on)
-        leave(QDOT_ENOMEM);
+        flint_leave(QDOT_ENOMEM);
     abort();
 }
 
 static void *
-take(size_t size)
+guarded_malloc(size_t size)
 {
     void *block;
 
     if (!guard.on)
         return given(malloc(size));
-    look(size);
+    flint_check_budget(size);
     qdot_scope_now = &guard.library;
     block = qdot_malloc(size);
     qdot_scope_now = &guard.own;
@@ -84,7 +84,7 @@ take_clear(size_t count, size_t size)
 
     if (!guard.on)
         return given(calloc(count, size));
-    look(count * size);
+    flint_check_budget(count * size);
     qdot_scope_now = &guard.library;
     block = qdot_calloc(count, size);
     qdot_scope_now = &guard.own;
@@ -92,11 +92,11 @@ take_clear(size_t count, size_t size)
 }
 
 static void *
-enlarge(void *block, size_t size)
+guarded_realloc(void *block, size_t size)
 {
     if (!guard.on)
         return given(realloc(block, size));
-    look(size);
+    flint_check_budget(size);
     qdot_scope_now = &guard.library;
     block = qdot_realloc(block, size);
     qdot_scope_now = &guard.own;
@@ -120,7 +120,7 @@ static void *
 enlarge_limbs(void *block, size_t old, size_t size)
 {
     (void)old;
-    return enlarge(block, size);
+    return guarded_realloc(block, size);
 }
 
 static void
@@ -134,7 +134,7 @@ static __attribute__((noreturn)) void
 gave_up(void)
 {
     if (guard.on)
-        leave(qdot_fail(QDOT_ELIMIT, "FLINT gave up"));
+        flint_leave(qdot_fail(QDOT_ELIMIT, "FLINT gave up"));
     abort();
 }
 
@@ -144,7 +144,7 @@ gave_up(void)
 static void *
 take_aligned(size_t alignment, size_t size)
 {
-    char *block = take(size + alignment + sizeof(void *));
+    char *block = guarded_malloc(size + alignment + sizeof(void *));
     uintptr_t past = (uintptr_t)block + sizeof(void *) + alignment - 1;
     void **at = (void **)(void *)(block + (past - past % alignment - (uintptr_t)block));
 
@@ -183,16 +183,16 @@ install(void)
         __flint_get_all_memory_functions(&before.take, &before.take_clear, &before.enlarge,
                                          &before.give_back, &before.take_aligned,
                                          &before.give_back_aligned);
-        __flint_set_all_memory_functions(take, take_clear, enlarge, give_back, take_aligned,
+        __flint_set_all_memory_functions(guarded_malloc, take_clear, guarded_realloc, give_back, take_aligned,
                                          give_back_aligned);
 #else
         __flint_get_memory_functions(&before.take, &before.take_clear, &before.enlarge,
                                      &before.give_back);
-        __flint_set_memory_functions(take, take_clear, enlarge, give_back);
+        __flint_set_memory_functions(guarded_malloc, take_clear, guarded_realloc, give_back);
 #endif
         mp_get_memory_functions(&before.limbs, &before.enlarge_limbs,
                                 &before.give_back_limbs);
-        mp_set_memory_functions(take, enlarge_limbs, give_back_limbs);
+        mp_set_memory_functions(guarded_malloc, enlarge_limbs, give_back_limbs);
         flint_set_abort(gave_up);
     }
     pthread_mutex_unlock(&before.lock);
@@ -287,7 +287,7 @@ compute_for(void *user)
 }
 
 static void
-end(worker *w)
+worker_stop(worker *w)
 {
     pthread_mutex_lock(&w->lock);
     w->state = ENDING;
@@ -301,7 +301,7 @@ end(worker *w)
 
 /* A copy of the process has the memory of this thread's worker and not its thread. */
 static void
-forget(void)
+worker_forget(void)
 {
     mine = NULL;
 }
@@ -312,7 +312,7 @@ thread_ends(void *place)
     worker **its = place;
 
     if (*its != NULL)
-        end(*its);
+        worker_stop(*its);
     *its = NULL;
     flint_cleanup();
 }
@@ -321,12 +321,12 @@ static void
 make_key(void)
 {
     (void)pthread_key_create(&key, thread_ends);
-    (void)pthread_atfork(NULL, NULL, forget);
+    (void)pthread_atfork(NULL, NULL, worker_forget);
 }
 
 /* The thread of who asks; signals are for the others. NULL: refused. */
 static worker *
-begin(void)
+worker_start_thread(void)
 {
     worker *w = qdot_calloc(1, sizeof *w);
     sigset_t all, old;
@@ -366,7 +366,7 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
         return QDOT_OK;
     }
     if (mine == NULL)
-        mine = begin();
+        mine = worker_start_thread();
     if (mine == NULL)
         return QDOT_ENOMEM;
     budget = qdot_pool_budget(pool, UINT64_MAX);
@@ -386,7 +386,7 @@ qdot_flint_run(qdot_pool *pool, void (*work)(void *user), void *user)
     pthread_mutex_unlock(&mine->lock);
 
     if (ended) {
-        end(mine);
+        worker_stop(mine);
         mine = NULL;
     }
     if (status != QDOT_OK)

@@ -23,7 +23,7 @@ never_zero(qdot_field *f, const fmpz_mpoly_t p, bool generic)
 
 /* p without factors that never vanish and without powers; nothing left: p as it is. */
 static qdot_status
-strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
+polynomial_strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
 {
     qdot_factors factors;
     fmpz_mpoly_t rest;
@@ -42,7 +42,7 @@ strip(qdot_field *f, fmpz_mpoly_t p, bool generic)
 }
 
 static qdot_status
-add(qdot_ideal *ideal, qdot_field *f, const fmpz_mpoly_t p)
+ideal_add(qdot_ideal *ideal, qdot_field *f, const fmpz_mpoly_t p)
 {
     fmpz_mpoly_struct *copy = qdot_malloc(sizeof *copy);
 
@@ -149,7 +149,7 @@ s_polynomial(qdot_field *f, fmpz_mpoly_t r, const fmpz_mpoly_t a, const fmpz_mpo
 
 /* Close under S-polynomials as far as the budget goes. */
 static qdot_status
-complete(qdot_ideal *ideal, qdot_field *f)
+ideal_complete(qdot_ideal *ideal, qdot_field *f)
 {
     qdot_status status = QDOT_OK;
     int pairs = 0;
@@ -169,11 +169,11 @@ complete(qdot_ideal *ideal, qdot_field *f)
             if (fmpz_mpoly_is_zero(s, f->ctx) ||
                 fmpz_mpoly_length(s, f->ctx) > MOST_TERMS)
                 continue;
-            status = strip(f, s, ideal->generic);
+            status = polynomial_strip(f, s, ideal->generic);
             if (status == QDOT_OK && fmpz_mpoly_is_fmpz(s, f->ctx))
                 continue; /* contradictory relations prove nothing here */
             if (status == QDOT_OK)
-                status = add(ideal, f, s);
+                status = ideal_add(ideal, f, s);
         }
     fmpz_mpoly_clear(s, f->ctx);
     fmpz_clear(scale);
@@ -199,17 +199,17 @@ qdot_ideal_make(qdot_ideal *ideal, qdot_field *f, size_t n, const qdot_expr *rel
         if (r == NULL || fmpz_mpoly_is_zero(r->n, f->ctx))
             continue;
         fmpz_mpoly_set(p, r->n, f->ctx);
-        status = strip(f, p, ideal->generic);
+        status = polynomial_strip(f, p, ideal->generic);
         if (status == QDOT_OK && !fmpz_mpoly_is_fmpz(p, f->ctx) && qdot_field_goes(f))
-            status = add(ideal, f, p);
+            status = ideal_add(ideal, f, p);
     }
     if (ideal->n > 0)
         for (size_t i = 0; i < f->n_rules && status == QDOT_OK; i++)
             if (f->rule[i].power > 0)
-                status = add(ideal, f, f->rule[i].poly);
+                status = ideal_add(ideal, f, f->rule[i].poly);
     fmpz_mpoly_clear(p, f->ctx);
     if (status == QDOT_OK)
-        status = complete(ideal, f);
+        status = ideal_complete(ideal, f);
     return status;
 }
 

@@ -29,8 +29,8 @@ monomial(qdot_lattice *l, qdot_expr mono, uint32_t *index)
 }
 
 static qdot_status
-add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const fmpq_t c,
-         bool offsets)
+lattice_add_term(qdot_lattice *l, qdot_lattice_row *row, qdot_expr mono, const fmpq_t c,
+                 bool offsets)
 {
     uint32_t index;
 
@@ -89,13 +89,13 @@ parse(qdot_lattice *l, qdot_pool *pool, qdot_lattice_row *row, qdot_expr arg,
         uint32_t n = qdot_expr_count(pool, rest);
 
         fmpq_mul(x, c, qdot_expr_rational(pool, qdot_expr_arg(pool, rest, 0)));
-        status = add_term(l, row, QDOT_ONE, x, offsets);
+        status = lattice_add_term(l, row, QDOT_ONE, x, offsets);
         for (uint32_t i = 1; i + 1 < n && status == QDOT_OK; i += 2) {
             fmpq_mul(x, c, qdot_expr_rational(pool, qdot_expr_arg(pool, rest, i + 1)));
-            status = add_term(l, row, qdot_expr_arg(pool, rest, i), x, offsets);
+            status = lattice_add_term(l, row, qdot_expr_arg(pool, rest, i), x, offsets);
         }
     } else {
-        status = add_term(l, row, rest, c, offsets);
+        status = lattice_add_term(l, row, rest, c, offsets);
     }
     fmpq_clear(c);
     fmpq_clear(x);
@@ -145,7 +145,7 @@ gcd(fmpq_t g, const fmpq_t c)
 }
 
 static qdot_status
-coordinate(qdot_lattice_row *row, size_t j, const fmpq_t c, const fmpq_t unit)
+lattice_set_coordinate(qdot_lattice_row *row, size_t j, const fmpq_t c, const fmpq_t unit)
 {
     fmpq_t x;
     bool fits;
@@ -265,7 +265,7 @@ take_directions(qdot_lattice *l, qdot_pool *pool, size_t n, struct direction *d)
         }
         for (size_t r = 0; r < l->n_rows && status == QDOT_OK; r++)
             if (parallel(row, &l->row[r], q))
-                status = coordinate(&l->row[r], i, q, &d[i].unit);
+                status = lattice_set_coordinate(&l->row[r], i, q, &d[i].unit);
     }
     fmpq_clear(one);
     fmpq_clear(q);
@@ -290,7 +290,7 @@ take_monomials(qdot_lattice *l, qdot_pool *pool)
         for (size_t r = 0; r < l->n_rows && status == QDOT_OK; r++)
             for (size_t k = 0; k < l->row[r].n && status == QDOT_OK; k++)
                 if (l->row[r].term[k].mono == j)
-                    status = coordinate(&l->row[r], j, &l->row[r].term[k].c, unit);
+                    status = lattice_set_coordinate(&l->row[r], j, &l->row[r].term[k].c, unit);
     }
     fmpq_clear(unit);
     return status;

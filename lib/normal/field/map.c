@@ -4,7 +4,7 @@
 #include "base/memory.h"
 
 static uint32_t
-place(const qdot_map *m, qdot_expr key)
+map_find_slot(const qdot_map *m, qdot_expr key)
 {
     uint32_t i = key * 2654435761u & m->mask;
 
@@ -14,7 +14,7 @@ place(const qdot_map *m, qdot_expr key)
 }
 
 static qdot_status
-enlarge(qdot_map *m)
+map_enlarge(qdot_map *m)
 {
     qdot_map bigger = {0};
     uint32_t size = m->at == NULL ? 32 : 2 * (m->mask + 1);
@@ -27,7 +27,7 @@ enlarge(qdot_map *m)
     if (m->at != NULL)
         for (uint32_t i = 0; i <= m->mask; i++)
             if (m->at[i].key != QDOT_NIL)
-                bigger.at[place(&bigger, m->at[i].key)] = m->at[i];
+                bigger.at[map_find_slot(&bigger, m->at[i].key)] = m->at[i];
     qdot_free(m->at);
     *m = bigger;
     return QDOT_OK;
@@ -39,8 +39,8 @@ qdot_map_set(qdot_map *m, qdot_expr key, uint32_t value)
     uint32_t i;
 
     if (m->at == NULL || 2 * (m->n + 1) > m->mask)
-        QDOT_TRY(enlarge(m));
-    i = place(m, key);
+        QDOT_TRY(map_enlarge(m));
+    i = map_find_slot(m, key);
     if (m->at[i].key == QDOT_NIL)
         m->n++;
     m->at[i].key = key;
@@ -55,7 +55,7 @@ qdot_map_get(const qdot_map *m, qdot_expr key, uint32_t *value)
 
     if (m->at == NULL)
         return false;
-    i = place(m, key);
+    i = map_find_slot(m, key);
     if (m->at[i].key == QDOT_NIL)
         return false;
     if (value != NULL)

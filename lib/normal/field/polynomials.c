@@ -25,7 +25,7 @@ hash_of(const qdot_field *f, const fmpz_mpoly_t p, uint64_t *hash)
 
 /* Where p is, or the free place for it; the table has one. */
 static size_t
-place(const qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p, uint64_t hash)
+polynomial_find_place(const qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly_t p, uint64_t hash)
 {
     size_t k = hash & (t->places - 1);
 
@@ -46,12 +46,12 @@ qdot_polynomials_find(qdot_field *f, const qdot_polynomials *t, const fmpz_mpoly
         qdot_pool_fail(f->pool);
         return -1;
     }
-    return (slong)t->place[place(f, t, p, hash)] - 1;
+    return (slong)t->place[polynomial_find_place(f, t, p, hash)] - 1;
 }
 
 /* Room for one more, half of the places free. */
 static qdot_status
-make_room(const qdot_field *f, qdot_polynomials *t)
+polynomials_make_room(const qdot_field *f, qdot_polynomials *t)
 {
     size_t places = t->places ? 2 * t->places : 64;
     uint32_t *all;
@@ -67,7 +67,7 @@ make_room(const qdot_field *f, qdot_polynomials *t)
     t->place = all;
     t->places = places;
     for (size_t i = 0; i < t->n; i++)
-        t->place[place(f, t, t->at + i, t->hash[i])] = (uint32_t)i + 1;
+        t->place[polynomial_find_place(f, t, t->at + i, t->hash[i])] = (uint32_t)i + 1;
     return QDOT_OK;
 }
 
@@ -76,13 +76,13 @@ qdot_polynomials_add(qdot_field *f, qdot_polynomials *t, const fmpz_mpoly_t p)
 {
     uint64_t hash;
 
-    QDOT_TRY(make_room(f, t));
+    QDOT_TRY(polynomials_make_room(f, t));
     if (!hash_of(f, p, &hash))
         return QDOT_ENOMEM;
     fmpz_mpoly_init(t->at + t->n, f->ctx);
     fmpz_mpoly_set(t->at + t->n, p, f->ctx);
     t->hash[t->n] = hash;
-    t->place[place(f, t, p, hash)] = (uint32_t)t->n + 1;
+    t->place[polynomial_find_place(f, t, p, hash)] = (uint32_t)t->n + 1;
     t->n++;
     return QDOT_OK;
 }

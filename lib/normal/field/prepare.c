@@ -33,7 +33,7 @@ is_monomial(const qdot_pool *pool, qdot_expr e)
 /* A sum of monomials in symbols: normal as it stands, unless `whole` and a power is
  * negative. */
 static bool
-is_flat(const qdot_pool *pool, qdot_expr e, bool polynomial)
+is_flat_sum(const qdot_pool *pool, qdot_expr e, bool polynomial)
 {
     uint32_t n = qdot_expr_count(pool, e);
 
@@ -59,7 +59,7 @@ qdot_prepare_flat(qdot_pool *pool, qdot_expr e, int64_t work)
     qdot_expr flat = e;
     qdot_field f;
 
-    if (e == QDOT_NIL || !qdot_expr_is_scalar(pool, e) || is_flat(pool, e, true))
+    if (e == QDOT_NIL || !qdot_expr_is_scalar(pool, e) || is_flat_sum(pool, e, true))
         return e;
     qdot_field_begin(&f, pool, 1, &e, work);
     if (qdot_field_goes(&f)) {
@@ -128,7 +128,7 @@ flat_angle(qdot_pool *pool, qdot_expr e, int64_t work)
     qdot_expr sum = e;
     qdot_field f;
 
-    if (is_flat(pool, e, false))
+    if (is_flat_sum(pool, e, false))
         return e;
     qdot_field_begin(&f, pool, 1, &e, work);
     if (qdot_field_goes(&f)) {
@@ -155,7 +155,7 @@ one_plus(qdot_pool *pool, qdot_expr u, long sign)
 }
 
 static qdot_expr
-root(qdot_pool *pool, qdot_expr e)
+prepare_root(qdot_pool *pool, qdot_expr e)
 {
     return e == QDOT_NIL ? e : qdot_split_power(pool, e, QDOT_HALF);
 }
@@ -173,35 +173,35 @@ of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr 
     switch (qdot_expr_node(pool, e)->op) {
     case QDOT_ASIN:
         *s = u;
-        *c = root(pool, one_plus(pool, u, -1));
+        *c = prepare_root(pool, one_plus(pool, u, -1));
         return circular;
     case QDOT_ACOS:
         *c = u;
-        *s = root(pool, one_plus(pool, u, -1));
+        *s = prepare_root(pool, one_plus(pool, u, -1));
         return circular;
     case QDOT_ATAN:
-        *c = qdot_div(pool, QDOT_ONE, root(pool, one_plus(pool, u, 1)));
+        *c = qdot_div(pool, QDOT_ONE, prepare_root(pool, one_plus(pool, u, 1)));
         *s = qdot_mul(pool, u, *c);
         return circular;
     case QDOT_ATAN2:
         v = qdot_expr_arg(pool, e, 1);
-        r = root(pool, qdot_prepare_flat(pool,
-                                         qdot_add(pool, qdot_pow_int(pool, u, 2),
-                                                  qdot_pow_int(pool, v, 2)),
-                                         WORK));
+        r = prepare_root(pool, qdot_prepare_flat(pool,
+                                                 qdot_add(pool, qdot_pow_int(pool, u, 2),
+                                                          qdot_pow_int(pool, v, 2)),
+                                                 WORK));
         *s = qdot_div(pool, u, r);
         *c = qdot_div(pool, v, r);
         return circular;
     case QDOT_ASINH:
         *s = u;
-        *c = root(pool, one_plus(pool, u, 1));
+        *c = prepare_root(pool, one_plus(pool, u, 1));
         return !circular;
     case QDOT_ACOSH:
         *c = u;
-        *s = root(pool, qdot_sub(pool, qdot_pow_int(pool, u, 2), QDOT_ONE));
+        *s = prepare_root(pool, qdot_sub(pool, qdot_pow_int(pool, u, 2), QDOT_ONE));
         return !circular;
     case QDOT_ATANH:
-        *c = qdot_div(pool, QDOT_ONE, root(pool, one_plus(pool, u, -1)));
+        *c = qdot_div(pool, QDOT_ONE, prepare_root(pool, one_plus(pool, u, -1)));
         *s = qdot_mul(pool, u, *c);
         return !circular;
     default: return false;
@@ -211,7 +211,7 @@ of_inverse(qdot_pool *pool, qdot_expr e, bool circular, qdot_expr *s, qdot_expr 
 /* s, c of half the angle, where that is known to lie in [0, pi/2] (`first`) or between -pi/2 and pi/2:
  * c = sqrt((1 + c)/2), s = sqrt((1 - c)/2) or s/(2 c); of areas alike. */
 static void
-halve(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr *c)
+halve_angle(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr *c)
 {
     qdot_expr half = qdot_prepare_flat(
         pool, qdot_mul(pool, QDOT_HALF, qdot_add(pool, QDOT_ONE, *c)), WORK);
@@ -221,8 +221,8 @@ halve(qdot_pool *pool, bool circular, bool first, qdot_expr *s, qdot_expr *c)
                  circular ? qdot_sub(pool, QDOT_ONE, *c) : qdot_sub(pool, *c, QDOT_ONE)),
         WORK);
 
-    *c = root(pool, half);
-    *s = first ? root(pool, rest)
+    *c = prepare_root(pool, half);
+    *s = first ? prepare_root(pool, rest)
                : qdot_div(pool, *s, qdot_mul(pool, qdot_expr_int(pool, 2), *c));
 }
 
@@ -245,7 +245,7 @@ part_of_inverse(qdot_pool *pool, qdot_expr e, const fmpq *factor, bool circular,
         return false;
     first = op == QDOT_ACOS || op == QDOT_ACOSH;
     for (; d > 1; d /= 2) {
-        halve(pool, circular, first, s, c);
+        halve_angle(pool, circular, first, s, c);
         first = false;
     }
     return true;
@@ -268,13 +268,13 @@ tangent_of_half(qdot_pool *pool, qdot_expr arg)
 
 /* The i-th term of an argument: coefficient and the rest. */
 static uint32_t
-terms(const qdot_pool *pool, qdot_expr e)
+argument_terms(const qdot_pool *pool, qdot_expr e)
 {
     return qdot_expr_kind(pool, e) == QDOT_SUM ? (qdot_expr_count(pool, e) - 1) / 2 : 1;
 }
 
 static void
-term_at(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *c, qdot_expr *rest)
+argument_term_at(qdot_pool *pool, qdot_expr e, uint32_t i, qdot_expr *c, qdot_expr *rest)
 {
     if (qdot_expr_kind(pool, e) == QDOT_SUM) {
         *rest = qdot_expr_arg(pool, e, 1 + 2 * i);
@@ -300,10 +300,10 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
     if (op == QDOT_TAN && (s1 = tangent_of_half(pool, arg)) != QDOT_NIL)
         return s1;
 
-    for (uint32_t i = 0; i < terms(pool, arg); i++) {
+    for (uint32_t i = 0; i < argument_terms(pool, arg); i++) {
         qdot_expr factor, rest;
 
-        term_at(pool, arg, i, &factor, &rest);
+        argument_term_at(pool, arg, i, &factor, &rest);
         if (!part_of_inverse(pool, rest, qdot_expr_rational(pool, factor), circular, &n,
                              &s1, &c1))
             continue;
@@ -342,14 +342,14 @@ resolve(qdot_pool *pool, uint32_t op, qdot_expr arg)
 
 /* exp(c log(u) + ...) = u^c exp(...). */
 static qdot_expr
-exponential(qdot_pool *pool, qdot_expr arg)
+prepare_exponential(qdot_pool *pool, qdot_expr arg)
 {
     qdot_expr left = arg, product = QDOT_ONE;
 
-    for (uint32_t i = 0; i < terms(pool, arg); i++) {
+    for (uint32_t i = 0; i < argument_terms(pool, arg); i++) {
         qdot_expr factor, rest, u;
 
-        term_at(pool, arg, i, &factor, &rest);
+        argument_term_at(pool, arg, i, &factor, &rest);
         if (qdot_expr_kind(pool, rest) != QDOT_FUN ||
             qdot_expr_node(pool, rest)->op != QDOT_LOG)
             continue;
@@ -366,7 +366,7 @@ exponential(qdot_pool *pool, qdot_expr arg)
 /* --- the pass ---------------------------------------------------------------------- */
 
 static qdot_expr
-function(qdot_pool *pool, qdot_expr e, int64_t work)
+prepare_function(qdot_pool *pool, qdot_expr e, int64_t work)
 {
     uint32_t op = qdot_expr_node(pool, e)->op, n = qdot_expr_count(pool, e);
     qdot_expr arg = qdot_expr_arg(pool, e, 0), args[4], resolved;
@@ -389,7 +389,7 @@ function(qdot_pool *pool, qdot_expr e, int64_t work)
                                                               : qdot_fun1(pool, op, arg);
     case QDOT_EXP:
         arg = flat_angle(pool, arg, work);
-        return arg == QDOT_NIL ? arg : exponential(pool, arg);
+        return arg == QDOT_NIL ? arg : prepare_exponential(pool, arg);
     case QDOT_ABS: return qdot_split_abs(pool, arg);
     case QDOT_LOG: return qdot_split_log(pool, arg);
     default:
@@ -437,7 +437,7 @@ remember_base(qdot_pool *pool, qdot_map *origins, qdot_expr power, qdot_expr x,
 
 /* Powers with fractional exponents split, others with normal base and exponent. */
 static qdot_expr
-product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
+prepare_product(qdot_pool *pool, qdot_expr e, qdot_map *origins, int64_t work)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result;
@@ -483,7 +483,7 @@ with_flat_args(qdot_pool *pool, qdot_expr e, uint32_t count, int64_t work)
 }
 
 static qdot_expr
-node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins, int64_t work)
+prepare_node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins, int64_t work)
 {
     qdot_expr before = e, now;
 
@@ -491,8 +491,8 @@ node(qdot_pool *pool, const qdot_walk *w, qdot_expr e, qdot_map *origins, int64_
     if (e == QDOT_NIL)
         return e;
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_FUN: now = function(pool, e, work); break;
-    case QDOT_PROD: return product(pool, e, origins, work);
+    case QDOT_FUN: now = prepare_function(pool, e, work); break;
+    case QDOT_PROD: return prepare_product(pool, e, origins, work);
     case QDOT_UFUN: now = with_flat_args(pool, e, qdot_expr_count(pool, e) / 2, work); break;
     case QDOT_REL: return with_flat_args(pool, e, 2, work);
     default: return e;
@@ -532,7 +532,7 @@ qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
 
     if (e == QDOT_NIL || qdot_pool_failed(pool))
         return QDOT_NIL;
-    if (is_flat(pool, e, false))
+    if (is_flat_sum(pool, e, false))
         return e;
     if (qdot_walk_begin(pool, e, &w) != QDOT_OK)
         return qdot_pool_fail(pool);
@@ -543,7 +543,7 @@ qdot_prepare_from(qdot_pool *pool, qdot_expr e, qdot_map *origins)
         qdot_expr at = w.at[i];
         qdot_kind kind = qdot_expr_kind(pool, at);
 
-        result = kind == QDOT_NUM || kind == QDOT_SYM ? at : node(pool, &w, at, origins, work);
+        result = kind == QDOT_NUM || kind == QDOT_SYM ? at : prepare_node(pool, &w, at, origins, work);
         qdot_walk_set(&w, at, result);
     }
     qdot_walk_end(&w);

@@ -40,7 +40,7 @@ qdot_root_parts_many(qdot_pool *pool, qdot_expr e)
 
 /* b^(e - floor(e)) of every moving base in a product, multiplied. */
 static qdot_expr
-roots_of(qdot_pool *pool, qdot_expr term)
+term_roots(qdot_pool *pool, qdot_expr term)
 {
     const uint32_t constant = QDOT_HAS_PARAM | QDOT_HAS_FUN;
     qdot_expr roots = QDOT_ONE;
@@ -79,9 +79,9 @@ typedef struct {
 
 /* Note `term` of column j for the row of its roots. */
 static qdot_status
-place(division *d, size_t j, qdot_expr term)
+division_place_term(division *d, size_t j, qdot_expr term)
 {
-    const qdot_expr key = roots_of(d->pool, term);
+    const qdot_expr key = term_roots(d->pool, term);
     size_t k = d->first;
 
     if (key == QDOT_NIL)
@@ -97,7 +97,7 @@ place(division *d, size_t j, qdot_expr term)
 }
 
 static qdot_status
-divide(division *d, const qdot_expr *E)
+division_sort_terms(division *d, const qdot_expr *E)
 {
     qdot_pool *pool = d->pool;
 
@@ -107,14 +107,14 @@ divide(division *d, const qdot_expr *E)
         QDOT_TRY(qdot_pool_check(pool));
         if (qdot_expr_kind(pool, e) != QDOT_SUM) {
             if (e != QDOT_ZERO)
-                QDOT_TRY(place(d, j, e));
+                QDOT_TRY(division_place_term(d, j, e));
             continue;
         }
         if (qdot_expr_arg(pool, e, 0) != QDOT_ZERO)
-            QDOT_TRY(place(d, j, qdot_expr_arg(pool, e, 0)));
+            QDOT_TRY(division_place_term(d, j, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2)
-            QDOT_TRY(place(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
-                                          qdot_expr_arg(pool, e, i))));
+            QDOT_TRY(division_place_term(d, j, qdot_mul(pool, qdot_expr_arg(pool, e, i + 1),
+                                                        qdot_expr_arg(pool, e, i))));
     }
     return QDOT_OK;
 }
@@ -130,7 +130,7 @@ by_entry(const void *left, const void *right)
 
 /* The terms of each entry, added at once: one at a time every partial sum would be a node. */
 static qdot_status
-add_up(division *d)
+division_add_terms(division *d)
 {
     qdot_vec(qdot_expr) terms = {0};
     qdot_status status = QDOT_OK;
@@ -157,12 +157,12 @@ qdot_status
 qdot_root_parts_add(qdot_pool *pool, qdot_root_parts *parts, const qdot_expr *E)
 {
     division d = {.pool = pool, .to = parts, .first = parts->roots.n};
-    qdot_status status = divide(&d, E);
+    qdot_status status = division_sort_terms(&d, E);
 
     if (status == QDOT_OK && parts->roots.n == d.first + 1) /* as it stands: not expanded */
         memcpy(parts->entries.at + d.first * parts->n, E, parts->n * sizeof *E);
     else if (status == QDOT_OK)
-        status = add_up(&d);
+        status = division_add_terms(&d);
     qdot_free(d.placed.at);
     return status;
 }

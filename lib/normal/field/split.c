@@ -29,14 +29,14 @@ init(struct parts *p)
 }
 
 static void
-clear(struct parts *p)
+parts_clear(struct parts *p)
 {
     fmpq_clear(p->c);
     qdot_free(p->at);
 }
 
 static qdot_status
-add(struct parts *p, qdot_expr base, long m)
+parts_add(struct parts *p, qdot_expr base, long m)
 {
     QDOT_TRY(qdot_grow(&p->at, &p->capacity, p->n + 1, sizeof *p->at));
     p->at[p->n].base = base;
@@ -46,7 +46,7 @@ add(struct parts *p, qdot_expr base, long m)
 
 /* The form of p with the fewest terms among s^2 for 1 - c^2 and c^2 for 1 - s^2. */
 static qdot_status
-shortest(qdot_field *f, fmpz_mpoly_t p)
+polynomial_shorten(qdot_field *f, fmpz_mpoly_t p)
 {
     fmpz_mpoly_t other;
     qdot_status status = QDOT_OK;
@@ -76,7 +76,7 @@ take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t pol
 {
     qdot_pool *pool = f->pool;
     qdot_factors factors;
-    qdot_status status = shortest(f, poly);
+    qdot_status status = polynomial_shorten(f, poly);
 
     QDOT_TRY(status);
     status = qdot_factor(f, &factors, poly);
@@ -104,9 +104,9 @@ take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t pol
                 p->negative = !p->negative;
         }
         if (sign & QDOT_GE0) {
-            status = add(p, base, m);
+            status = parts_add(p, base, m);
         } else if (m % 2 == 0) {
-            status = add(p, qdot_fun1(pool, QDOT_ABS, base), m);
+            status = parts_add(p, qdot_fun1(pool, QDOT_ABS, base), m);
         } else if (u->n < sizeof u->base / sizeof *u->base) {
             u->base[u->n] = base;
             u->m[u->n++] = m;
@@ -121,7 +121,7 @@ take_factors(qdot_field *f, struct parts *p, struct unknown *u, fmpz_mpoly_t pol
 /* Split b. `whole`: b is known not to be negative (it stands under a root or in a
  * logarithm). QDOT_EFAILED where it cannot be split. */
 static qdot_status
-split(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
+split_base(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
 {
     struct unknown u = {.n = 0};
     qdot_status status = QDOT_EFAILED;
@@ -145,7 +145,7 @@ split(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
     QDOT_TRY(status);
     if (!whole) {
         for (size_t i = 0; i < u.n && status == QDOT_OK; i++)
-            status = add(p, qdot_fun1(pool, QDOT_ABS, u.base[i]), u.m[i]);
+            status = parts_add(p, qdot_fun1(pool, QDOT_ABS, u.base[i]), u.m[i]);
         return status;
     }
     if (u.n == 0)
@@ -153,11 +153,11 @@ split(qdot_pool *pool, qdot_expr b, bool whole, struct parts *p)
     if (p->negative)
         u.base[0] = qdot_neg(pool, u.base[0]);
     if (u.n == 1)
-        return add(p, u.base[0], u.m[0]);
+        return parts_add(p, u.base[0], u.m[0]);
     /* f^m = |f|^(m - 1) f */
     for (size_t i = 0; i < u.n && status == QDOT_OK; i++) {
         if (u.m[i] != 1)
-            status = add(p, qdot_fun1(pool, QDOT_ABS, u.base[i]), u.m[i] - 1);
+            status = parts_add(p, qdot_fun1(pool, QDOT_ABS, u.base[i]), u.m[i] - 1);
         p->rest = qdot_mul(pool, p->rest, u.base[i]);
     }
     return status;
@@ -172,7 +172,7 @@ qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
     if (qdot_expr_kind(pool, b) == QDOT_NUM || qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_pow(pool, b, x);
     init(&p);
-    if (split(pool, b, true, &p) != QDOT_OK) {
+    if (split_base(pool, b, true, &p) != QDOT_OK) {
         e = qdot_pow(pool, b, x);
     } else {
         e = qdot_mul(pool, qdot_pow(pool, qdot_expr_fmpq(pool, p.c), x),
@@ -182,7 +182,7 @@ qdot_split_power(qdot_pool *pool, qdot_expr b, qdot_expr x)
                          qdot_pow(pool, p.at[i].base,
                                   qdot_mul(pool, qdot_expr_int(pool, p.at[i].m), x)));
     }
-    clear(&p);
+    parts_clear(&p);
     return e;
 }
 
@@ -195,14 +195,14 @@ qdot_split_abs(qdot_pool *pool, qdot_expr b)
     if (qdot_expr_kind(pool, b) == QDOT_NUM || qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_fun1(pool, QDOT_ABS, b);
     init(&p);
-    if (split(pool, b, false, &p) != QDOT_OK) {
+    if (split_base(pool, b, false, &p) != QDOT_OK) {
         e = qdot_fun1(pool, QDOT_ABS, b);
     } else {
         e = qdot_expr_fmpq(pool, p.c);
         for (size_t i = 0; i < p.n; i++)
             e = qdot_mul(pool, e, qdot_pow_int(pool, p.at[i].base, p.at[i].m));
     }
-    clear(&p);
+    parts_clear(&p);
     return e;
 }
 
@@ -265,7 +265,7 @@ qdot_split_log(qdot_pool *pool, qdot_expr b)
     if (qdot_expr_kind(pool, b) == QDOT_SYM)
         return qdot_fun1(pool, QDOT_LOG, b);
     init(&p);
-    if (split(pool, b, true, &p) != QDOT_OK) {
+    if (split_base(pool, b, true, &p) != QDOT_OK) {
         e = qdot_fun1(pool, QDOT_LOG, b);
     } else {
         e = qdot_sub(pool, log_of_integer(pool, fmpq_numref(p.c)),
@@ -277,6 +277,6 @@ qdot_split_log(qdot_pool *pool, qdot_expr b)
                          qdot_mul(pool, qdot_expr_int(pool, p.at[i].m),
                                   log_of_factor(pool, p.at[i].base)));
     }
-    clear(&p);
+    parts_clear(&p);
     return e;
 }

@@ -21,7 +21,7 @@ holds_functions(const qdot_pool *pool, qdot_expr e)
 }
 
 static void
-add(struct arguments *a, qdot_expr e)
+arguments_add(struct arguments *a, qdot_expr e)
 {
     for (size_t i = 0; i < a->n; i++)
         if (a->at[i] == e)
@@ -31,7 +31,7 @@ add(struct arguments *a, qdot_expr e)
 }
 
 static qdot_status
-gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr *e)
+arguments_gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr *e)
 {
     qdot_walk w;
 
@@ -41,7 +41,7 @@ gather(struct arguments *a, qdot_pool *pool, size_t n, const qdot_expr *e)
 
         for (uint32_t k = 0; kind == QDOT_FUN && k < qdot_expr_count(pool, w.at[i]); k++)
             if (holds_functions(pool, qdot_expr_arg(pool, w.at[i], k)))
-                add(a, qdot_expr_arg(pool, w.at[i], k));
+                arguments_add(a, qdot_expr_arg(pool, w.at[i], k));
     }
     qdot_walk_end(&w);
     return QDOT_OK;
@@ -75,7 +75,7 @@ qdot_together(qdot_pool *pool, size_t n, qdot_expr *e, bool *changed)
     struct arguments a = {.n = 0};
 
     *changed = false;
-    QDOT_TRY(gather(&a, pool, n, e));
+    QDOT_TRY(arguments_gather(&a, pool, n, e));
     if (a.n < 2 || !flatten(&a, pool))
         return QDOT_OK;
     for (size_t i = 0; i < n; i++) {

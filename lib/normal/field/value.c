@@ -8,7 +8,7 @@
 #include "base/memory.h"
 
 static void
-generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
+value_of_generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
     slong v = qdot_field_var(f, e);
 
@@ -24,7 +24,7 @@ generator(qdot_field *f, qdot_ratio *r, qdot_expr e)
 
 /* Add up p[n] pairwise, so that the work is n log n; the sum is p[0]. */
 static void
-add_up(qdot_field *f, slong n, fmpz_mpoly_struct *p)
+polynomials_add_up(qdot_field *f, slong n, fmpz_mpoly_struct *p)
 {
     for (slong step = 1; step < n; step *= 2)
         for (slong i = 0; i + step < n; i += 2 * step)
@@ -45,7 +45,7 @@ constant(qdot_field *f, const qdot_ratio *r, fmpz_t d)
 }
 
 static const qdot_ratio *
-value_of(qdot_field *f, qdot_expr e)
+node_value(qdot_field *f, qdot_expr e)
 {
     uint32_t i;
 
@@ -69,7 +69,7 @@ whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
     fmpz_init(k);
     fmpz_init_set(all, fmpq_denref(c0));
     for (uint32_t i = 1; i < n; i += 2)
-        if (constant(f, value_of(f, args[i]), d)) {
+        if (constant(f, node_value(f, args[i]), d)) {
             fmpz_mul(d, d, fmpq_denref(qdot_expr_rational(pool, args[i + 1])));
             fmpz_lcm(all, all, d);
         }
@@ -81,16 +81,16 @@ whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
     for (uint32_t i = 1; i < n; i += 2) {
         const fmpq *c = qdot_expr_rational(pool, args[i + 1]);
 
-        if (!constant(f, value_of(f, args[i]), d))
+        if (!constant(f, node_value(f, args[i]), d))
             continue;
         fmpz_mul(d, d, fmpq_denref(c));
         fmpz_divexact(k, all, d);
         fmpz_mul(k, k, fmpq_numref(c));
         fmpz_mpoly_init(p + count, f->ctx);
-        fmpz_mpoly_scalar_mul_fmpz(p + count, value_of(f, args[i])->n, k, f->ctx);
+        fmpz_mpoly_scalar_mul_fmpz(p + count, node_value(f, args[i])->n, k, f->ctx);
         count++;
     }
-    add_up(f, count, p);
+    polynomials_add_up(f, count, p);
     fmpz_mpoly_swap(r->n, p, f->ctx);
     fmpz_mpoly_set_fmpz(r->d, all, f->ctx);
     for (uint32_t i = 0; i < count; i++)
@@ -103,7 +103,7 @@ whole_terms(qdot_field *f, qdot_ratio *r, qdot_expr e)
 }
 
 static qdot_status
-sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
+value_of_sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
     const qdot_expr *args = qdot_expr_args(f->pool, e);
     uint32_t n = qdot_expr_count(f->pool, e);
@@ -114,8 +114,8 @@ sum(qdot_field *f, qdot_ratio *r, qdot_expr e)
     fmpz_init(d);
     qdot_ratio_init(f, &term);
     for (uint32_t i = 1; i < n && qdot_field_goes(f); i += 2)
-        if (!constant(f, value_of(f, args[i]), d)) {
-            qdot_ratio_set(f, &term, value_of(f, args[i]));
+        if (!constant(f, node_value(f, args[i]), d)) {
+            qdot_ratio_set(f, &term, node_value(f, args[i]));
             qdot_ratio_scale(f, &term, qdot_expr_rational(f->pool, args[i + 1]));
             qdot_ratio_add(f, r, r, &term);
         }
@@ -157,7 +157,7 @@ power_of_root(qdot_field *f, qdot_ratio *r, slong v, slong k)
 }
 
 static slong
-find_root(qdot_field *f, qdot_expr base)
+find_root_generator(qdot_field *f, qdot_expr base)
 {
     for (slong v = 0; v < f->n && (size_t)v < f->n_rules; v++)
         if (f->gen[v].kind == QDOT_GEN_ROOT && f->gen[v].of == base)
@@ -169,7 +169,7 @@ find_root(qdot_field *f, qdot_expr base)
 static void
 fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
 {
-    slong v = find_root(f, base), p, q;
+    slong v = find_root_generator(f, base), p, q;
     qdot_ratio one;
     fmpz_factor_t factors;
     fmpz_t n;
@@ -191,7 +191,7 @@ fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
     fmpz_mpoly_one(r->n, f->ctx);
     for (slong i = 0; i < factors->num; i++) {
         qdot_ratio_init(f, &one);
-        v = find_root(f, qdot_expr_int(f->pool, fmpz_get_si(factors->p + i)));
+        v = find_root_generator(f, qdot_expr_int(f->pool, fmpz_get_si(factors->p + i)));
         power_of_root(f, &one, v,
                       p * (slong)factors->exp[i] * (slong)f->gen[v].order / q);
         qdot_ratio_mul(f, r, r, &one);
@@ -202,22 +202,22 @@ fractional_power(qdot_field *f, qdot_ratio *r, qdot_expr base, const fmpq *x)
 }
 
 static void
-power(qdot_field *f, qdot_ratio *r, qdot_expr base, qdot_expr exponent)
+value_of_power(qdot_field *f, qdot_ratio *r, qdot_expr base, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(f->pool, exponent);
 
     if (x == NULL || fmpz_cmp_ui(fmpq_denref(x), 10000) > 0)
-        generator(f, r, qdot_pow(f->pool, base, exponent));
+        value_of_generator(f, r, qdot_pow(f->pool, base, exponent));
     else if (!fmpz_is_one(fmpq_denref(x)))
         fractional_power(f, r, base, x);
     else if (!fmpz_fits_si(fmpq_numref(x)))
         f->state = QDOT_FIELD_OVER;
     else
-        qdot_ratio_pow(f, r, value_of(f, base), fmpz_get_si(fmpq_numref(x)));
+        qdot_ratio_pow(f, r, node_value(f, base), fmpz_get_si(fmpq_numref(x)));
 }
 
 static void
-product(qdot_field *f, qdot_ratio *r, qdot_expr e)
+value_of_product(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
     uint32_t n = qdot_expr_count(f->pool, e);
     qdot_ratio factor;
@@ -226,7 +226,7 @@ product(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio_scale(f, r, qdot_expr_rational(f->pool, qdot_expr_arg(f->pool, e, 0)));
     for (uint32_t i = 1; i < n && qdot_field_goes(f); i += 2) {
         qdot_ratio_init(f, &factor);
-        power(f, &factor, qdot_expr_arg(f->pool, e, i), qdot_expr_arg(f->pool, e, i + 1));
+        value_of_power(f, &factor, qdot_expr_arg(f->pool, e, i), qdot_expr_arg(f->pool, e, i + 1));
         qdot_ratio_mul(f, r, r, &factor);
         qdot_ratio_clear(f, &factor);
     }
@@ -296,7 +296,7 @@ add_angles(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpz_mpoly_t s1,
 /* (s, c) of an angle <- those of the angle + n base; `sign` is -1 for circular, 1 for
  * hyperbolic. */
 static void
-turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
+angle_turn(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, slong vs, slong n, int sign)
 {
     fmpz_mpoly_t s1, c1;
 
@@ -336,7 +336,7 @@ four_cos(qdot_field *f, fmpz_mpoly_t p, slong k)
         fmpz_mpoly_init(root[i], f->ctx);
     for (int i = 0; i < 2; i++)
         if (row[1 + i] != 0 || row[3] != 0) {
-            slong v = find_root(f, qdot_expr_int(f->pool, i + 2));
+            slong v = find_root_generator(f, qdot_expr_int(f->pool, i + 2));
 
             /* the order is a multiple of 2 */
             fmpz_mpoly_gen(root[i], v, f->ctx);
@@ -374,7 +374,7 @@ offset(qdot_field *f, fmpz_mpoly_t s, fmpz_mpoly_t c, const fmpq_t pi)
 }
 
 static const qdot_lattice_row *
-row_of(const qdot_lattice *l, qdot_expr arg)
+lattice_row_of(const qdot_lattice *l, qdot_expr arg)
 {
     uint32_t i;
 
@@ -395,15 +395,15 @@ static void
 sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool circular)
 {
     const qdot_lattice *l = circular ? &f->circular : &f->hyperbolic;
-    const qdot_lattice_row *row = row_of(l, arg);
+    const qdot_lattice_row *row = lattice_row_of(l, arg);
 
     fmpz_mpoly_zero(s->n, f->ctx);
     fmpz_mpoly_one(c->n, f->ctx);
     for (size_t j = 0; j < l->n_bases; j++)
         if (row->at[j] != 0)
-            turn(f, s->n, c->n,
-                 sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
-                 row->at[j], circular ? -1 : 1);
+            angle_turn(f, s->n, c->n,
+                       sine_of(f, l->base[j], circular ? QDOT_GEN_SIN : QDOT_GEN_SINH),
+                       row->at[j], circular ? -1 : 1);
     if (circular && !fmpq_is_zero(&row->pi)) {
         offset(f, s->n, c->n, &row->pi);
         fmpz_mpoly_set_si(s->d, 4, f->ctx);
@@ -414,9 +414,9 @@ sine_cosine(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg, bool cir
 }
 
 static void
-exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
+value_of_exponential(qdot_field *f, qdot_ratio *r, qdot_expr arg)
 {
-    const qdot_lattice_row *row = row_of(&f->exponential, arg);
+    const qdot_lattice_row *row = lattice_row_of(&f->exponential, arg);
     qdot_ratio factor;
 
     fmpz_mpoly_one(r->n, f->ctx);
@@ -443,7 +443,7 @@ by_exponential(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg)
     fmpq_set_si(half, 1, 2);
     qdot_ratio_init(f, &e);
     qdot_ratio_init(f, &inverse);
-    exponential(f, &e, arg);
+    value_of_exponential(f, &e, arg);
     qdot_ratio_pow(f, &inverse, &e, -1);
     qdot_ratio_sub(f, s, &e, &inverse);
     qdot_ratio_add(f, c, &e, &inverse);
@@ -455,7 +455,7 @@ by_exponential(qdot_field *f, qdot_ratio *s, qdot_ratio *c, qdot_expr arg)
 }
 
 static void
-function(qdot_field *f, qdot_ratio *r, qdot_expr e)
+value_of_function(qdot_field *f, qdot_ratio *r, qdot_expr e)
 {
     uint32_t op = qdot_expr_node(f->pool, e)->op;
     qdot_expr arg = qdot_expr_arg(f->pool, e, 0);
@@ -463,12 +463,12 @@ function(qdot_field *f, qdot_ratio *r, qdot_expr e)
     qdot_ratio s, c, one;
 
     if (op == QDOT_EXP) {
-        exponential(f, r, arg);
+        value_of_exponential(f, r, arg);
         return;
     }
     if (!hyperbolic && op != QDOT_SIN && op != QDOT_COS && op != QDOT_TAN &&
         op != QDOT_SEC && op != QDOT_CSC && op != QDOT_COT) {
-        generator(f, r, e);
+        value_of_generator(f, r, e);
         return;
     }
     qdot_ratio_init(f, &s);
@@ -544,10 +544,10 @@ qdot_value_all(qdot_field *f)
             fmpz_mpoly_set_fmpz(r->d, fmpq_denref(qdot_expr_rational(f->pool, e)),
                                 f->ctx);
             break;
-        case QDOT_SUM: QDOT_TRY(sum(f, r, e)); break;
-        case QDOT_PROD: product(f, r, e); break;
-        case QDOT_FUN: function(f, r, e); break;
-        default: generator(f, r, e);
+        case QDOT_SUM: QDOT_TRY(value_of_sum(f, r, e)); break;
+        case QDOT_PROD: value_of_product(f, r, e); break;
+        case QDOT_FUN: value_of_function(f, r, e); break;
+        default: value_of_generator(f, r, e);
         }
         if (has_open_rules(f))
             complete_rules(f, e, r);
