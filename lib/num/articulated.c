@@ -172,7 +172,7 @@ plane_kernels_here(void)
 }
 
 static double *
-take(double **numbers, size_t n)
+numbers_reserve(double **numbers, size_t n)
 {
     double *at = *numbers;
 
@@ -184,13 +184,13 @@ take(double **numbers, size_t n)
 static void
 make_plane(qdot_articulated *a, double *at)
 {
-    a->W = take(&at, 4 * a->slots);
-    a->Below = take(&at, 4 * a->slots);
-    a->t = take(&at, 2 * a->slots);
-    a->tn = take(&at, 2 * a->slots);
-    a->wt = take(&at, 2 * a->slots);
-    a->own = take(&at, a->slots);
-    a->ratio = take(&at, a->slots);
+    a->W = numbers_reserve(&at, 4 * a->slots);
+    a->Below = numbers_reserve(&at, 4 * a->slots);
+    a->t = numbers_reserve(&at, 2 * a->slots);
+    a->tn = numbers_reserve(&at, 2 * a->slots);
+    a->wt = numbers_reserve(&at, 2 * a->slots);
+    a->own = numbers_reserve(&at, a->slots);
+    a->ratio = numbers_reserve(&at, a->slots);
     for (size_t n = 0; n < a->nodes; n++)
         for (size_t e = 0; e < 4; e++) {
             a->W[e * a->slots + a->slot[n]] = a->weight[n * 4 + e];
@@ -213,20 +213,20 @@ make_numbers(qdot_articulated *a)
     at = a->numbers;
     while ((uintptr_t)at % (pieces * sizeof *at) != 0)
         at++;
-    a->there = take(&at, a->slots);
-    a->I_0 = take(&at, square);
-    a->I = take(&at, square);
-    a->A = take(&at, square);
-    a->Up = take(&at, square);
-    a->Down = take(&at, square);
-    a->B = take(&at, m * c * a->slots);
-    a->H = take(&at, c * c * a->slots);
-    a->d = take(&at, m * a->slots);
-    a->Z = take(&at, m * a->slots);
-    a->x = take(&at, m * a->slots);
-    a->w = take(&at, c * a->slots);
-    a->up = take(&at, 3 * m * m * pieces);
-    a->down = take(&at, 3 * m * m * pieces);
+    a->there = numbers_reserve(&at, a->slots);
+    a->I_0 = numbers_reserve(&at, square);
+    a->I = numbers_reserve(&at, square);
+    a->A = numbers_reserve(&at, square);
+    a->Up = numbers_reserve(&at, square);
+    a->Down = numbers_reserve(&at, square);
+    a->B = numbers_reserve(&at, m * c * a->slots);
+    a->H = numbers_reserve(&at, c * c * a->slots);
+    a->d = numbers_reserve(&at, m * a->slots);
+    a->Z = numbers_reserve(&at, m * a->slots);
+    a->x = numbers_reserve(&at, m * a->slots);
+    a->w = numbers_reserve(&at, c * a->slots);
+    a->up = numbers_reserve(&at, 3 * m * m * pieces);
+    a->down = numbers_reserve(&at, 3 * m * m * pieces);
     if (a->plane)
         make_plane(a, at);
     /* what is no node passes on what it is given */
@@ -252,7 +252,7 @@ pass_on(const qdot_articulated *a, size_t n, const double *from, double *to)
 }
 
 static qdot_status
-make(qdot_articulated *a, const qdot_articulated_tree *t)
+articulated_allocate(qdot_articulated *a, const qdot_articulated_tree *t)
 {
     const size_t entries = t->nodes * t->m, square = entries * t->m;
 
@@ -295,7 +295,7 @@ qdot_articulated_new(const qdot_articulated_tree *t, qdot_articulated **articula
     a->kernels = kernels_of(t->m, t->c);
     a->path = a->kernels && is_path(t);
     a->plane = a->path && is_plane(t) ? plane_kernels_here() : NULL;
-    status = make(a, t);
+    status = articulated_allocate(a, t);
     if (status != QDOT_OK) {
         qdot_articulated_free(a);
         return status;

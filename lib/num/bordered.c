@@ -7,7 +7,7 @@ enum { most = QDOT_BORDERED_MOST };
 
 /* Solve row k for unknown k and eliminate it from the other rows. */
 static void
-exchange(size_t all, double (*K)[most], size_t k)
+pivot_exchange(size_t all, double (*K)[most], size_t k)
 {
     const double inverse = 1 / K[k][k];
 
@@ -36,7 +36,7 @@ invert_schur(size_t m, double (*S)[most], double least)
     for (size_t k = 0; k < m; k++) {
         if (!(S[k][k] > least * whole[k] && whole[k] < INFINITY))
             return false;
-        exchange(m, S, k);
+        pivot_exchange(m, S, k);
     }
     return true;
 }
@@ -93,14 +93,14 @@ qdot_bordered_invert(size_t n, size_t m, double (*K)[QDOT_BORDERED_MOST], double
     for (size_t k = 0; k < n; k++) {
         if (!(K[k][k] > 0 && K[k][k] < INFINITY))
             return false;
-        exchange(n + m, K, k);
+        pivot_exchange(n + m, K, k);
     }
     for (size_t k = n; k < n + m; k++)
         whole[k] = -K[k][k];
     for (size_t k = n; k < n + m; k++) {
         if (!(-K[k][k] > least * whole[k] && whole[k] < INFINITY))
             return false;
-        exchange(n + m, K, k);
+        pivot_exchange(n + m, K, k);
     }
     return true;
 }

@@ -24,7 +24,7 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 
 /* The row of node j of n, n entries: rows of most nodes come first, then those of half as many. */
 static const double *
-row(int n, int j)
+node_row(int n, int j)
 {
     return at_node[2 * most - 2 * n + j];
 }
@@ -56,7 +56,7 @@ qdot_chebyshev_fit(int n, const double *values, double *c)
 
     pthread_once(&once, fill_cosines);
     for (int j = 0; j < n; j++) {
-        const double *T = row(n, j);
+        const double *T = node_row(n, j);
 
         for (int k = 0; k < n; k++)
             sum[k] += values[j] * T[k];
@@ -212,7 +212,7 @@ changes(double a, double b)
 
 /* Drop coefficients below the rounding of the others. */
 static int
-shorten(int n, const double *c)
+series_shorten(int n, const double *c)
 {
     double least = 0x1p-56 * qdot_chebyshev_size(n, c);
 
@@ -230,7 +230,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 
     int kept = 0; /* the end that the last step has kept: -1 lo, 1 hi */
 
-    n = shorten(n, c);
+    n = series_shorten(n, c);
     for (int k = 0; k < 100; k++) {
         double now;
 
@@ -259,7 +259,7 @@ qdot_chebyshev_root(int n, const double *c, double lo, double hi)
 
 /* The only root of p on a piece whose ends differ in sign. */
 static double
-refine(const piece *p)
+piece_root(const piece *p)
 {
     const double x = qdot_chebyshev_root(p->n, p->c, -1, 1);
 
@@ -278,7 +278,7 @@ is_monotone(const piece *p)
 }
 
 static void
-halve(const piece *p, piece *left, piece *right)
+piece_halve(const piece *p, piece *left, piece *right)
 {
     double middle = qdot_chebyshev_at(p->n, p->c, 0);
 
@@ -289,8 +289,8 @@ halve(const piece *p, piece *left, piece *right)
     right->hi = p->hi;
     right->at_hi = p->at_hi;
     qdot_chebyshev_halves(p->n, p->c, left->c, right->c);
-    left->n = shorten(p->n, left->c);
-    right->n = shorten(p->n, right->c);
+    left->n = series_shorten(p->n, left->c);
+    right->n = series_shorten(p->n, right->c);
 }
 
 int
@@ -301,7 +301,7 @@ qdot_chebyshev_crossings(int n, const double *c, double *roots)
 
     if (!isfinite(qdot_chebyshev_spread(n, c)) || !isfinite(c[0]))
         return -1;
-    stack[0] = (piece){.lo = -1, .hi = 1, .n = shorten(n, c)};
+    stack[0] = (piece){.lo = -1, .hi = 1, .n = series_shorten(n, c)};
     memcpy(stack[0].c, c, (size_t)n * sizeof *c);
     stack[0].at_lo = qdot_chebyshev_at(stack[0].n, c, -1);
     stack[0].at_hi = qdot_chebyshev_at(stack[0].n, c, 1);
@@ -314,10 +314,10 @@ qdot_chebyshev_crossings(int n, const double *c, double *roots)
             continue;
         if (is_monotone(p) || p->hi - p->lo < 0x1p-43) {
             if (changes(p->at_lo, p->at_hi) && found < n)
-                roots[found++] = refine(p);
+                roots[found++] = piece_root(p);
             continue;
         }
-        halve(p, &left, &right);
+        piece_halve(p, &left, &right);
         stack[depth++] = right;
         stack[depth++] = left;
     }

@@ -7,7 +7,7 @@
 
 /* Member i of a block; index is NULL for the whole matrix: the compiler then drops it. */
 static inline size_t
-member(const size_t *index, size_t i)
+block_member(const size_t *index, size_t i)
 {
     return index ? index[i] : i;
 }
@@ -17,23 +17,23 @@ member(const size_t *index, size_t i)
 static bool
 is_resolved(double *a, size_t n, const size_t *index, size_t i, double diagonal, double d)
 {
-    const size_t column = member(index, i);
+    const size_t column = block_member(index, i);
     const double *ai = a + column * n;
     double size = sqrt(diagonal);
 
     for (size_t j = i; j-- > 0;) {
-        const double *aj = a + member(index, j) * n;
-        double v = ai[member(index, j)], norm = 0;
+        const double *aj = a + block_member(index, j) * n;
+        double v = ai[block_member(index, j)], norm = 0;
 
         for (size_t k = j + 1; k < i; k++) {
-            const double *ak = a + member(index, k) * n;
+            const double *ak = a + block_member(index, k) * n;
 
-            v -= ak[member(index, j)] * ak[column];
+            v -= ak[block_member(index, j)] * ak[column];
         }
-        v /= aj[member(index, j)];
-        a[member(index, j) * n + column] = v;
+        v /= aj[block_member(index, j)];
+        a[block_member(index, j) * n + column] = v;
         for (size_t k = 0; k <= j; k++)
-            norm += aj[member(index, k)] * aj[member(index, k)];
+            norm += aj[block_member(index, k)] * aj[block_member(index, k)];
         size += fabs(v) * sqrt(norm);
     }
     return d > 4 * (double)(i + 1) * DBL_EPSILON * size * size;
@@ -46,17 +46,17 @@ factor_block(double *a, size_t n, const size_t *index, size_t m)
     double lost = 1; /* the smallest d / a_kk so far */
 
     for (size_t i = 0; i < m; i++) {
-        double *ai = a + member(index, i) * n;
-        double diagonal = ai[member(index, i)], d = diagonal;
+        double *ai = a + block_member(index, i) * n;
+        double diagonal = ai[block_member(index, i)], d = diagonal;
 
         for (size_t j = 0; j < i; j++) {
-            const double *aj = a + member(index, j) * n;
-            double x = ai[member(index, j)];
+            const double *aj = a + block_member(index, j) * n;
+            double x = ai[block_member(index, j)];
 
             for (size_t k = 0; k < j; k++)
-                x -= ai[member(index, k)] * aj[member(index, k)];
-            x /= aj[member(index, j)];
-            ai[member(index, j)] = x;
+                x -= ai[block_member(index, k)] * aj[block_member(index, k)];
+            x /= aj[block_member(index, j)];
+            ai[block_member(index, j)] = x;
             d -= x * x;
         }
         if (!(d > 0 && d < INFINITY))
@@ -64,29 +64,29 @@ factor_block(double *a, size_t n, const size_t *index, size_t m)
         lost = fmin(lost, d / diagonal);
         if (lost < 1e-4 && !is_resolved(a, n, index, i, diagonal, d))
             return i;
-        ai[member(index, i)] = sqrt(d);
+        ai[block_member(index, i)] = sqrt(d);
     }
     return m;
 }
 
 static inline void
-solve_block(const double *a, size_t n, const size_t *index, size_t m, double *b)
+cholesky_solve_block(const double *a, size_t n, const size_t *index, size_t m, double *b)
 {
     for (size_t i = 0; i < m; i++) {
-        const double *ai = a + member(index, i) * n;
-        double x = b[member(index, i)];
+        const double *ai = a + block_member(index, i) * n;
+        double x = b[block_member(index, i)];
 
         for (size_t k = 0; k < i; k++)
-            x -= ai[member(index, k)] * b[member(index, k)];
-        b[member(index, i)] = x / ai[member(index, i)];
+            x -= ai[block_member(index, k)] * b[block_member(index, k)];
+        b[block_member(index, i)] = x / ai[block_member(index, i)];
     }
     for (size_t i = m; i-- > 0;) {
-        const double *ai = a + member(index, i) * n;
-        double x = b[member(index, i)] / ai[member(index, i)];
+        const double *ai = a + block_member(index, i) * n;
+        double x = b[block_member(index, i)] / ai[block_member(index, i)];
 
-        b[member(index, i)] = x;
+        b[block_member(index, i)] = x;
         for (size_t k = 0; k < i; k++)
-            b[member(index, k)] -= x * ai[member(index, k)];
+            b[block_member(index, k)] -= x * ai[block_member(index, k)];
     }
 }
 
@@ -122,9 +122,9 @@ void
 qdot_cholesky_solve(const double *a, size_t n, const qdot_structure *s, double *b)
 {
     if (!s || qdot_structure_is_full(s)) {
-        solve_block(a, n, NULL, n, b);
+        cholesky_solve_block(a, n, NULL, n, b);
         return;
     }
     for (size_t k = 0; k < s->blocks; k++)
-        solve_block(a, n, s->index + s->start[k], s->start[k + 1] - s->start[k], b);
+        cholesky_solve_block(a, n, s->index + s->start[k], s->start[k + 1] - s->start[k], b);
 }

@@ -116,7 +116,7 @@ qdot_collocation_weights(const qdot_collocation *m, qdot_two x, qdot_two *w)
 }
 
 static void
-make(int stages, family of, qdot_collocation *m)
+collocation_fill(int stages, family of, qdot_collocation *m)
 {
     *m = (qdot_collocation){.stages = stages, .order = 2 * stages - (int)of};
     find_nodes(stages, of, m->c);
@@ -130,17 +130,17 @@ make(int stages, family of, qdot_collocation *m)
 void
 qdot_collocation_gauss(int stages, qdot_collocation *m)
 {
-    make(stages, GAUSS, m);
+    collocation_fill(stages, GAUSS, m);
 }
 
 void
 qdot_collocation_radau(int stages, qdot_collocation *m)
 {
-    make(stages, RADAU, m);
+    collocation_fill(stages, RADAU, m);
 }
 
 void
 qdot_collocation_lobatto(int stages, qdot_collocation *m)
 {
-    make(stages, LOBATTO, m);
+    collocation_fill(stages, LOBATTO, m);
 }

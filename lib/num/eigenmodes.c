@@ -17,7 +17,7 @@ typedef struct {
 } solver;
 
 static bool
-allocate(solver *s, size_t n)
+eigenmodes_allocate(solver *s, size_t n)
 {
     s->A = gsl_matrix_alloc(n, n);
     s->V = gsl_matrix_complex_alloc(n, n);
@@ -30,7 +30,7 @@ allocate(solver *s, size_t n)
 }
 
 static void
-release(solver *s)
+eigenmodes_release(solver *s)
 {
     gsl_matrix_free(s->A);
     gsl_matrix_complex_free(s->V);
@@ -49,8 +49,8 @@ of_gsl(gsl_complex z)
 }
 
 static qdot_status
-solve(solver *s, size_t n, const double *A, const double *f, double complex *lambda,
-      double complex *v, double complex *c)
+eigenmodes_solve(solver *s, size_t n, const double *A, const double *f, double complex *lambda,
+                 double complex *v, double complex *c)
 {
     int sign;
 
@@ -81,9 +81,9 @@ qdot_eigenmodes(size_t n, const double *A, const double *f, double complex *lamb
     gsl_error_handler_t *before = gsl_set_error_handler_off();
     solver s = {0};
     qdot_status status =
-        allocate(&s, n) ? solve(&s, n, A, f, lambda, v, c) : QDOT_ENOMEM;
+        eigenmodes_allocate(&s, n) ? eigenmodes_solve(&s, n, A, f, lambda, v, c) : QDOT_ENOMEM;
 
-    release(&s);
+    eigenmodes_release(&s);
     gsl_set_error_handler(before);
     return status;
 }

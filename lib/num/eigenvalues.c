@@ -25,7 +25,7 @@ typedef struct {
 } solver;
 
 static bool
-allocate(solver *s)
+eigenvalues_allocate(solver *s)
 {
     const size_t n = s->n;
 
@@ -42,7 +42,7 @@ allocate(solver *s)
 }
 
 static void
-release(solver *s)
+eigenvalues_release(solver *s)
 {
     gsl_matrix_free(s->A);
     gsl_matrix_complex_free(s->V);
@@ -75,7 +75,7 @@ error_between(const solver *s, const double *A, const double *E, size_t k, size_
 
 /* Left vectors that are found by themselves: V^-1 is lost to all where two other eigenvalues are one with one vector. */
 static void
-find_left(solver *s, const double *A)
+find_left_vectors(solver *s, const double *A)
 {
     const size_t n = s->n;
     gsl_matrix_complex *const U = s->LU;
@@ -175,14 +175,14 @@ error_in_plane(const solver *s, const double *A, const double *E, const double c
 }
 
 static double
-apart(const solver *s, size_t j, size_t k)
+eigenvalue_distance(const solver *s, size_t j, size_t k)
 {
     return gsl_complex_abs(gsl_complex_sub(gsl_vector_complex_get(s->lambda, j), gsl_vector_complex_get(s->lambda, k)));
 }
 
 /* The errors by these left vectors, where they are less. */
 static void
-bound(const solver *s, const double *A, const double *E, double *error)
+bound_errors(const solver *s, const double *A, const double *E, double *error)
 {
     double complex *const Q = s->planes, *const L = s->planes + 2 * s->n;
 
@@ -193,10 +193,10 @@ bound(const solver *s, const double *A, const double *E, double *error)
         for (size_t j = 0; j < s->n; j++) {
             double both;
 
-            if (j == k || !(apart(s, j, k) <= 16 * first))
+            if (j == k || !(eigenvalue_distance(s, j, k) <= 16 * first))
                 continue;
             both = error_between(s, A, E, k, j) * error_between(s, A, E, j, k);
-            sum += 4 * sqrt(both) < apart(s, j, k) ? 4 * both / apart(s, j, k) : sqrt(both);
+            sum += 4 * sqrt(both) < eigenvalue_distance(s, j, k) ? 4 * both / eigenvalue_distance(s, j, k) : sqrt(both);
             if (find_planes(s, k, j, Q, L))
                 error[k] = fmin(error[k], error_in_plane(s, A, E, Q, L));
         }
@@ -221,7 +221,7 @@ is_as_large(const double *re, const double *im, const double *error, size_t j, s
 }
 
 static void
-exchange(double *x, size_t j, size_t k)
+numbers_exchange(double *x, size_t j, size_t k)
 {
     const double kept = x[j];
 
@@ -231,14 +231,14 @@ exchange(double *x, size_t j, size_t k)
 
 /* Insertion sort of first..end-1: `before` is whether k has to stand before j. */
 static void
-sort(size_t first, size_t end, bool (*before)(const double *re, const double *im, size_t k, size_t j),
-     double *re, double *im, double *error)
+eigenvalues_sort(size_t first, size_t end, bool (*before)(const double *re, const double *im, size_t k, size_t j),
+                 double *re, double *im, double *error)
 {
     for (size_t i = first + 1; i < end; i++)
         for (size_t k = i; k > first && before(re, im, k, k - 1); k--) {
-            exchange(re, k, k - 1);
-            exchange(im, k, k - 1);
-            exchange(error, k, k - 1);
+            numbers_exchange(re, k, k - 1);
+            numbers_exchange(im, k, k - 1);
+            numbers_exchange(error, k, k - 1);
         }
 }
 
@@ -257,16 +257,16 @@ is_to_the_right(const double *re, const double *im, size_t k, size_t j)
 void
 qdot_eigenvalues_arrange(size_t n, double *re, double *im, double *error)
 {
-    sort(0, n, is_larger, re, im, error);
+    eigenvalues_sort(0, n, is_larger, re, im, error);
     for (size_t first = 0, end; first < n; first = end) {
         for (end = first + 1; end < n && is_as_large(re, im, error, end - 1, end);)
             end++;
-        sort(first, end, is_to_the_right, re, im, error);
+        eigenvalues_sort(first, end, is_to_the_right, re, im, error);
     }
 }
 
 static qdot_status
-solve(solver *s, const double *A, const double *E, double *re, double *im, double *error)
+eigenvalues_solve(solver *s, const double *A, const double *E, double *re, double *im, double *error)
 {
     const size_t n = s->n;
     int sign;
@@ -286,11 +286,11 @@ solve(solver *s, const double *A, const double *E, double *re, double *im, doubl
         error[k] = NAN;
     }
     if (known)
-        bound(s, A, E, error);
+        bound_errors(s, A, E, error);
     else
         gsl_matrix_complex_set_all(s->W, gsl_complex_rect(NAN, NAN));
-    find_left(s, A);
-    bound(s, A, E, error);
+    find_left_vectors(s, A);
+    bound_errors(s, A, E, error);
     qdot_eigenvalues_arrange(n, re, im, error);
     return QDOT_OK;
 }
@@ -301,9 +301,9 @@ qdot_eigenvalues(size_t n, const double *A, const double *E, double *re, double 
 {
     gsl_error_handler_t *before = gsl_set_error_handler_off();
     solver s = {.n = n};
-    qdot_status status = allocate(&s) ? solve(&s, A, E, re, im, error) : QDOT_ENOMEM;
+    qdot_status status = eigenvalues_allocate(&s) ? eigenvalues_solve(&s, A, E, re, im, error) : QDOT_ENOMEM;
 
-    release(&s);
+    eigenvalues_release(&s);
     gsl_set_error_handler(before);
     return status;
 }
@@ -339,8 +339,8 @@ nearest_to(double x, double y, size_t n, const double *re, const double *im, con
 /* Take the K numbers nearest to (x, y): their mean *re, *im; *error: theirs, and how far they are from it. Whether what is
  * nearest to the conjugate (x, -y) is among them: then they are one real number. */
 static bool
-take(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, double y, double *re, double *im,
-     double *error)
+cluster_take(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, double y, double *re,
+             double *im, double *error)
 {
     const double *const a = all, *const b = all + n, *const off = all + 2 * n;
     const size_t mate = nearest_to(x, -y, n, a, b, taken);
@@ -363,16 +363,17 @@ take(size_t K, size_t n, const double *all, bool *taken, size_t *own, double x, 
 
 /* [n] numbers of which each stands K times in all [3 x K n], in descending order of modulus: re, im, error. */
 static void
-gather(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
+cluster_means(size_t K, size_t n, const double *all, bool *taken, size_t *own, double *re, double *im, double *error)
 {
     const size_t count = K * n;
 
     for (size_t i = 0, first = 0; i < n; i++) {
         while (taken[first])
             first++;
-        if (take(K, count, all, taken, own, all[first], all[count + first], &re[i], &im[i], &error[i]) || i + 1 == n)
+        if (cluster_take(K, count, all, taken, own, all[first], all[count + first], &re[i], &im[i], &error[i]) ||
+            i + 1 == n)
             continue;
-        (void)take(K, count, all, taken, own, re[i], -im[i], &re[i + 1], &im[i + 1], &error[i + 1]);
+        (void)cluster_take(K, count, all, taken, own, re[i], -im[i], &re[i + 1], &im[i + 1], &error[i + 1]);
         re[i + 1] = re[i];
         im[i + 1] = -im[i];
         error[i + 1] = fmax(error[i], error[i + 1]);
@@ -409,7 +410,7 @@ qdot_eigenvalues_of_product(size_t K, size_t n, const double *A, const double *E
     }
     if (status == QDOT_OK) {
         raise(K, count, all, all + count, all + 2 * count);
-        gather(K, n, all, taken, own, re, im, error);
+        cluster_means(K, n, all, taken, own, re, im, error);
         qdot_eigenvalues_arrange(n, re, im, error);
     }
     qdot_free(C);

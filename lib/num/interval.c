@@ -105,13 +105,13 @@ of_corners(double (*f)(double, double), qdot_interval a, qdot_interval b)
 
 /* A product with 0 times infinity = 0. */
 static double
-times(double x, double y)
+bound_times(double x, double y)
 {
     return x == 0 || y == 0 ? 0 : x * y;
 }
 
 static double
-over(double x, double y)
+bound_over(double x, double y)
 {
     return x / y;
 }
@@ -123,10 +123,10 @@ qdot_interval_product(qdot_interval a, qdot_interval b, bool same)
 
     if (same)
         return qdot_interval_within(
-            of_corners(times, qdot_interval_size(a), qdot_interval_size(a)), 0, INFINITY);
+            of_corners(bound_times, qdot_interval_size(a), qdot_interval_size(a)), 0, INFINITY);
     if ((a.lo == 0 && a.hi == 0) || (b.lo == 0 && b.hi == 0))
         return qdot_interval_point(0);
-    d = of_corners(times, a, b);
+    d = of_corners(bound_times, a, b);
     if ((a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0))
         d.lo = fmax(d.lo, 0);
     if ((a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0))
@@ -138,7 +138,7 @@ qdot_interval
 qdot_interval_quotient(qdot_interval a, qdot_interval b)
 {
     if (b.lo > 0 || b.hi < 0)
-        return of_corners(over, a, b);
+        return of_corners(bound_over, a, b);
     if (b.hi == 0) {
         a = qdot_interval_negative(a);
         b = qdot_interval_negative(b);

@@ -57,7 +57,7 @@ all_finite(size_t n, const double *x)
 
 /* x->f and x->J at u. */
 static qdot_status
-evaluate(search *s, const double *u)
+least_squares_evaluate(search *s, const double *u)
 {
     qdot_least_squares *x = s->x;
     qdot_status status;
@@ -78,7 +78,7 @@ static int
 gsl_f(const gsl_vector *u, void *user, gsl_vector *f)
 {
     search *s = user;
-    const qdot_status status = evaluate(s, u->data);
+    const qdot_status status = least_squares_evaluate(s, u->data);
 
     if (status != QDOT_OK && !is_nowhere(status)) {
         s->status = status;
@@ -93,7 +93,7 @@ static int
 gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
 {
     search *s = user;
-    const qdot_status status = evaluate(s, u->data);
+    const qdot_status status = least_squares_evaluate(s, u->data);
 
     if (status != QDOT_OK) {
         s->status = status;
@@ -107,7 +107,7 @@ gsl_J(const gsl_vector *u, void *user, gsl_matrix *J)
 /* --- J = U S V^T with columns of length 1 ---------------------------------------------------- */
 
 static qdot_status
-decompose(search *s)
+jacobian_decompose(search *s)
 {
     const qdot_least_squares *x = s->x;
 
@@ -137,7 +137,7 @@ offset(search *s)
 
 /* C J^T f. */
 static void
-find_left(const search *s)
+gradient_in_covariance(const search *s)
 {
     const qdot_least_squares *x = s->x;
 
@@ -152,7 +152,7 @@ find_left(const search *s)
 
 /* C = D V S^-2 V^T D and the step left, D V S^-1 U^T f, D = 1/size; the direction without slope. */
 static void
-conclude(search *s)
+least_squares_conclude(search *s)
 {
     qdot_least_squares *x = s->x;
     const size_t p = x->p;
@@ -170,7 +170,7 @@ conclude(search *s)
                 sum / gsl_vector_get(s->size, i) / gsl_vector_get(s->size, j);
         }
     }
-    find_left(s);
+    gradient_in_covariance(s);
     for (size_t i = 0, most = 0; i < p && lost; i++) {
         if (fabs(gsl_matrix_get(s->V, i, p - 1)) > fabs(gsl_matrix_get(s->V, most, p - 1)) + 1e-9)
             most = i;
@@ -195,7 +195,7 @@ stands(const search *s, const gsl_vector *move, const gsl_vector *u)
 
 /* Whether the step left is nothing beside u, by what both change of the numbers. */
 static bool
-is_rounding(const search *s)
+step_is_rounding(const search *s)
 {
     double most = 0;
 
@@ -213,16 +213,16 @@ polish(search *s)
 
     x->converged = true;
     while (before > least_offset && x->steps++ < 2 * x->most_steps) {
-        find_left(s);
+        gradient_in_covariance(s);
         for (size_t k = 0; k < x->p; k++)
             x->u[k] -= x->left[k];
-        QDOT_TRY(evaluate(s, x->u));
-        QDOT_TRY(decompose(s));
+        QDOT_TRY(least_squares_evaluate(s, x->u));
+        QDOT_TRY(jacobian_decompose(s));
         if (!(offset(s) < before)) {
             for (size_t k = 0; k < x->p; k++)
                 x->u[k] += x->left[k];
-            QDOT_TRY(evaluate(s, x->u));
-            return decompose(s);
+            QDOT_TRY(least_squares_evaluate(s, x->u));
+            return jacobian_decompose(s);
         }
         before = offset(s);
     }
@@ -231,7 +231,7 @@ polish(search *s)
 
 /* Step until the search ends; x->u, f, J are those of its end. */
 static qdot_status
-step(search *s, gsl_multifit_nlinear_workspace *w)
+least_squares_iterate(search *s, gsl_multifit_nlinear_workspace *w)
 {
     qdot_least_squares *x = s->x;
     bool over = false;
@@ -239,9 +239,9 @@ step(search *s, gsl_multifit_nlinear_workspace *w)
 
     while (true) {
         memcpy(x->u, gsl_multifit_nlinear_position(w)->data, x->p * sizeof *x->u);
-        QDOT_TRY(evaluate(s, x->u)); /* anew only after a step that was taken back */
-        QDOT_TRY(decompose(s));
-        x->converged = over && is_rounding(s);
+        QDOT_TRY(least_squares_evaluate(s, x->u)); /* anew only after a step that was taken back */
+        QDOT_TRY(jacobian_decompose(s));
+        x->converged = over && step_is_rounding(s);
         if (offset(s) <= near_offset)
             return polish(s);
         if (over || x->steps == x->most_steps)
@@ -267,7 +267,7 @@ run(search *s)
     gsl_multifit_nlinear_workspace *w;
     qdot_status status;
 
-    QDOT_TRY(evaluate(s, x->u)); /* it must have numbers where it begins */
+    QDOT_TRY(least_squares_evaluate(s, x->u)); /* it must have numbers where it begins */
     how.scale = gsl_multifit_nlinear_scale_more;
     how.solver = gsl_multifit_nlinear_solver_svd;
     w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, x->n, x->p);
@@ -277,17 +277,17 @@ run(search *s)
                  ? QDOT_OK
                  : qdot_fail(QDOT_EFAILED, "the squares have no finite sum");
     if (status == QDOT_OK)
-        status = step(s, w);
+        status = least_squares_iterate(s, w);
     gsl_multifit_nlinear_free(w);
     if (status == QDOT_OK)
-        conclude(s);
+        least_squares_conclude(s);
     for (size_t i = 0; i < x->n && status == QDOT_OK; i++)
         x->chi2 += x->f[i] * x->f[i];
     return status;
 }
 
 static bool
-make_room(search *s)
+least_squares_allocate(search *s)
 {
     qdot_least_squares *x = s->x;
     const size_t n = x->n, p = x->p;
@@ -322,7 +322,7 @@ qdot_least_squares_find(qdot_least_squares *x)
     x->most_steps = x->most_steps > 0 ? x->most_steps : 200;
     x->steps = x->models = 0;
     x->chi2 = 0;
-    status = make_room(&s) ? run(&s) : QDOT_ENOMEM;
+    status = least_squares_allocate(&s) ? run(&s) : QDOT_ENOMEM;
     gsl_matrix_free(s.U);
     gsl_matrix_free(s.V);
     gsl_vector_free(s.S);

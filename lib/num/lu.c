@@ -14,7 +14,7 @@ swap(double *a, double *b)
 
 /* Exchange rows i and j of A [n x n]. */
 static void
-exchange(size_t n, double *A, size_t i, size_t j)
+rows_exchange(size_t n, double *A, size_t i, size_t j)
 {
     for (size_t c = 0; c < n; c++)
         swap(A + i * n + c, A + j * n + c);
@@ -45,9 +45,9 @@ bring(size_t n, double *re, double *im, qdot_lu_row *rows, size_t k, size_t best
     rows[k].pivot = best;
     if (best == k)
         return;
-    exchange(n, re, k, best);
+    rows_exchange(n, re, k, best);
     if (im)
-        exchange(n, im, k, best);
+        rows_exchange(n, im, k, best);
     rows[k].from = rows[best].from;
     rows[k].to = rows[best].to;
     rows[best].from = kept.from;
@@ -103,9 +103,9 @@ qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b)
 
 /* Eliminate column k from one row below it, in columns before `to`. */
 static void
-eliminate(size_t to, size_t k, const double *restrict from_re,
-          const double *restrict from_im, const double *inverse, double *restrict re,
-          double *restrict im)
+row_eliminate(size_t to, size_t k, const double *restrict from_re,
+              const double *restrict from_im, const double *inverse, double *restrict re,
+              double *restrict im)
 {
     const double by_re = re[k] * inverse[0] - im[k] * inverse[1];
     const double by_im = re[k] * inverse[1] + im[k] * inverse[0];
@@ -145,8 +145,8 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
         for (size_t i = k + 1; i < n; i++) {
             if (re[i * n + k] == 0 && im[i * n + k] == 0)
                 continue;
-            eliminate(rows[k].to, k, re + k * n, im + k * n, inverse, re + i * n,
-                      im + i * n);
+            row_eliminate(rows[k].to, k, re + k * n, im + k * n, inverse, re + i * n,
+                          im + i * n);
             if (rows[i].to < rows[k].to)
                 rows[i].to = rows[k].to;
         }
@@ -156,8 +156,8 @@ qdot_lu_factor_complex(size_t n, double *re, double *im, qdot_lu_row *rows)
 
 /* x + i y -= (row i of re + i im, columns from ... to - 1) (x + i y) */
 static inline void
-subtract(const double *re, const double *im, size_t i, size_t from, size_t to, double *x,
-         double *y)
+row_subtract_known(const double *re, const double *im, size_t i, size_t from, size_t to, double *x,
+                   double *y)
 {
     for (size_t j = from; j < to; j++) {
         x[i] -= re[j] * x[j] - im[j] * y[j];
@@ -174,12 +174,12 @@ qdot_lu_solve_complex(size_t n, const double *re, const double *im,
         swap(y + k, y + rows[k].pivot);
     }
     for (size_t i = 1; i < n; i++)
-        subtract(re + i * n, im + i * n, i, rows[i].from, i, x, y);
+        row_subtract_known(re + i * n, im + i * n, i, rows[i].from, i, x, y);
     for (size_t i = n; i-- > 0;) {
         const double c = re[i * n + i], d = im[i * n + i];
         double u, v;
 
-        subtract(re + i * n, im + i * n, i, i + 1, rows[i].to, x, y);
+        row_subtract_known(re + i * n, im + i * n, i, i + 1, rows[i].to, x, y);
         u = x[i];
         v = y[i];
         x[i] = u * c - v * d;

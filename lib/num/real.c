@@ -10,7 +10,7 @@
 /* --- many in one block -------------------------------------------------------------- */
 
 static mpfr_prec_t
-whole(mpfr_prec_t bits)
+bits_of_whole_limbs(mpfr_prec_t bits)
 {
     return (bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS * GMP_NUMB_BITS;
 }
@@ -18,7 +18,7 @@ whole(mpfr_prec_t bits)
 double
 qdot_reals_size(size_t n, mpfr_prec_t bits)
 {
-    return (double)n * ((double)whole(bits) / CHAR_BIT + sizeof(mpfr_t));
+    return (double)n * ((double)bits_of_whole_limbs(bits) / CHAR_BIT + sizeof(mpfr_t));
 }
 
 qdot_status
@@ -30,7 +30,7 @@ qdot_reals_init(qdot_reals *v, size_t n, mpfr_prec_t bits)
     if (bits < MPFR_PREC_MIN || bits > 1 << 24)
         return qdot_fail(QDOT_EINVAL, "a precision of %ld bits is out of range",
                          (long)bits);
-    bits = whole(bits);
+    bits = bits_of_whole_limbs(bits);
     per = (size_t)bits / GMP_NUMB_BITS;
     v->at = qdot_calloc(n + 1, sizeof *v->at);
     v->limbs = qdot_calloc(n * per + 1, sizeof *v->limbs);
@@ -72,12 +72,12 @@ qdot_real_log2(mpfr_srcptr x)
 size_t
 qdot_real_dot_work(mpfr_prec_t bits)
 {
-    return 4 * ((size_t)whole(bits) / GMP_NUMB_BITS) + 8;
+    return 4 * ((size_t)bits_of_whole_limbs(bits) / GMP_NUMB_BITS) + 8;
 }
 
 /* The largest exponent of a product; false where one is not finite. */
 static bool
-largest(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *some)
+largest_exponent(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *some)
 {
     *some = false;
     for (size_t j = 0; j < n; j++, b--) {
@@ -96,7 +96,7 @@ largest(const mpfr_t *a, const mpfr_t *b, size_t n, mpfr_exp_t *exponent, bool *
 
 /* sum = +-acc 2^exponent; acc [m], its point below the highest limb. */
 static void
-settle(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
+sum_settle(mpfr_ptr sum, mp_limb_t *acc, size_t m, mpfr_exp_t exponent)
 {
     const size_t limbs = (size_t)mpfr_get_prec(sum) / GMP_NUMB_BITS;
     mp_limb_t *to = mpfr_custom_get_significand(sum);
@@ -137,7 +137,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
     mpfr_exp_t top = 0;
     bool some;
 
-    if (!largest(a, b, n, &top, &some)) {
+    if (!largest_exponent(a, b, n, &top, &some)) {
         mpfr_set_nan(sum);
         return;
     }
@@ -178,7 +178,7 @@ qdot_real_dot(mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, size_t n, mp_limb_
             mpn_sub(acc + used, acc + used, (mp_size_t)(m - used), high,
                     (mp_size_t)kept);
     }
-    settle(sum, acc, m, top);
+    sum_settle(sum, acc, m, top);
 }
 
 /* --- linear equations --------------------------------------------------------------- */

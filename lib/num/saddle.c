@@ -37,7 +37,7 @@ weight_of(const qdot_saddle *s, size_t k)
 }
 
 static size_t
-width(const qdot_saddle *s)
+saddle_row_width(const qdot_saddle *s)
 {
     return (s->n + s->m + lanes - 1) / lanes * lanes;
 }
@@ -70,7 +70,7 @@ qdot_saddle_init(qdot_saddle *s, size_t n, size_t m, bool indefinite)
     s->y = qdot_calloc(all, sizeof *s->y);
     s->keep = qdot_calloc(all, sizeof *s->keep);
     if (inverted)
-        s->inverse = qdot_calloc(width(s) * (n + m), sizeof *s->inverse);
+        s->inverse = qdot_calloc(saddle_row_width(s) * (n + m), sizeof *s->inverse);
     s->start = qdot_calloc(m + 1, sizeof *s->start);
     s->column = qdot_calloc(m * n + 1, sizeof *s->column);
     if (!s->start || !s->column || !s->M || !s->A || !s->x || !s->pivot || !s->widest ||
@@ -159,7 +159,7 @@ qdot_saddle_row_size(const qdot_saddle *s, size_t k, const double *x, double lea
 }
 
 static double
-dot(size_t n, const double *a, const double *b)
+dot_product(size_t n, const double *a, const double *b)
 {
     double sum = 0;
 
@@ -169,7 +169,7 @@ dot(size_t n, const double *a, const double *b)
 }
 
 static void
-add(size_t n, double c, const double *a, double *y)
+add_multiple(size_t n, double c, const double *a, double *y)
 {
     for (size_t i = 0; i < n; i++)
         y[i] += c * a[i];
@@ -216,13 +216,13 @@ size_of_row(const qdot_saddle *s, size_t k, double norm)
 
     if (s->rank == s->m || !(norm > 0))
         return norm;
-    least = shrunk * sqrt(s->widest[k] / dot(s->n, A, A));
+    least = shrunk * sqrt(s->widest[k] / dot_product(s->n, A, A));
     return least > 1 ? least * norm : norm;
 }
 
 /* S = D M D, and the rows of R = E A D. */
 static void
-scale(qdot_saddle *s)
+saddle_scale(qdot_saddle *s)
 {
     const size_t n = s->n;
 
@@ -235,7 +235,7 @@ scale(qdot_saddle *s)
 
         for (size_t i = 0; i < n; i++)
             row[i] = s->A[k * n + i] * s->d[i];
-        s->e[k] = scale_of(size_of_row(s, k, sqrt(dot(n, row, row))), false);
+        s->e[k] = scale_of(size_of_row(s, k, sqrt(dot_product(n, row, row))), false);
         for (size_t i = 0; i < n; i++)
             row[i] *= s->e[k];
         s->pivot[k] = k;
@@ -251,7 +251,7 @@ bring_forward(qdot_saddle *s, size_t k)
     size_t best = k;
 
     for (size_t j = k; j < s->m; j++) {
-        double norm = dot(n - k, s->R + j * n + k, s->R + j * n + k);
+        double norm = dot_product(n - k, s->R + j * n + k, s->R + j * n + k);
 
         if (norm > most) {
             most = norm;
@@ -278,16 +278,16 @@ static void
 reflect(const qdot_saddle *s, size_t k, double *x)
 {
     const double *v = s->R + k * s->n;
-    double sum = x[k] + dot(s->n - k - 1, v + k + 1, x + k + 1);
+    double sum = x[k] + dot_product(s->n - k - 1, v + k + 1, x + k + 1);
 
     sum *= s->beta[k];
     x[k] -= sum;
-    add(s->n - k - 1, -sum, v + k + 1, x + k + 1);
+    add_multiple(s->n - k - 1, -sum, v + k + 1, x + k + 1);
 }
 
 /* Householder's step on column k, whose norm below is there. */
 static void
-eliminate(qdot_saddle *s, size_t k, double norm)
+column_reflect(qdot_saddle *s, size_t k, double norm)
 {
     const size_t n = s->n;
     double *column = s->R + k * n, head = column[k];
@@ -330,7 +330,7 @@ triangulate(qdot_saddle *s, size_t *failed)
         s->quality = first > 0 ? norm / first : 0;
         if (known && !(norm > lost * first))
             break;
-        eliminate(s, k, norm);
+        column_reflect(s, k, norm);
     }
     s->last = k;
     if (!isfinite(norm) || (known && k < s->rank)) {
@@ -362,7 +362,7 @@ static void
 times_mass(const qdot_saddle *s, const double *x, double *y)
 {
     for (size_t i = 0; i < s->n; i++)
-        y[i] = dot(s->n, s->S + i * s->n, x);
+        y[i] = dot_product(s->n, s->S + i * s->n, x);
 }
 
 static qdot_status
@@ -376,7 +376,7 @@ factor_free(qdot_saddle *s, size_t *failed)
         QDOT_TRY(qdot_interrupt_check());
         times_mass(s, s->Q + (r + j) * n, s->w);
         for (size_t i = j; i < f; i++)
-            s->N[i * f + j] = dot(n, s->Q + (r + i) * n, s->w);
+            s->N[i * f + j] = dot_product(n, s->Q + (r + i) * n, s->w);
     }
     if (f == 0)
         return qdot_interrupt_check();
@@ -410,12 +410,12 @@ orthogonalise(qdot_saddle *s)
             s->T[i * m + j] = 0;
         for (int twice = 0; twice < 2; twice++)
             for (size_t i = 0; i < j; i++) {
-                double c = dot(m, s->V + i * m, v);
+                double c = dot_product(m, s->V + i * m, v);
 
                 s->T[i * m + j] += c;
-                add(m, -c, s->V + i * m, v);
+                add_multiple(m, -c, s->V + i * m, v);
             }
-        norm = sqrt(dot(m, v, v));
+        norm = sqrt(dot_product(m, v, v));
         s->T[j * m + j] = norm;
         for (size_t k = 0; k < m; k++)
             v[k] /= norm;
@@ -457,7 +457,7 @@ qdot_saddle_factor_fully(qdot_saddle *s, size_t *failed)
 {
     s->factored++;
     s->direct = false;
-    scale(s);
+    saddle_scale(s);
     QDOT_TRY(triangulate(s, failed));
     form_Q(s);
     QDOT_TRY(factor_free(s, failed));
@@ -531,7 +531,7 @@ multipliers(qdot_saddle *s, double *u, double *mu)
 
 /* Solve by the null space. */
 static void
-solve(qdot_saddle *s)
+saddle_solve_null_space(qdot_saddle *s)
 {
     const size_t n = s->n, r = s->rank, f = n - r;
     double *x = s->x, *c = s->x + n, *u = s->u, *w = s->w, *y = s->y;
@@ -545,7 +545,7 @@ solve(qdot_saddle *s)
     }
     memset(y, 0, n * sizeof *y);
     for (size_t j = 0; j < r; j++)
-        add(n, u[j], s->Q + j * n, y);
+        add_multiple(n, u[j], s->Q + j * n, y);
     for (size_t i = 0; i < n; i++)
         x[i] *= s->d[i];
     if (f > 0) {
@@ -553,19 +553,19 @@ solve(qdot_saddle *s)
         for (size_t i = 0; i < n; i++)
             w[i] = x[i] - w[i];
         for (size_t j = 0; j < f; j++)
-            u[j] = dot(n, s->Q + (r + j) * n, w);
+            u[j] = dot_product(n, s->Q + (r + j) * n, w);
         if (s->indefinite)
             qdot_ldlt_solve(&s->ldlt, s->N, u);
         else
             qdot_cholesky_solve(s->N, f, NULL, u);
         for (size_t j = 0; j < f; j++)
-            add(n, u[j], s->Q + (r + j) * n, y);
+            add_multiple(n, u[j], s->Q + (r + j) * n, y);
     }
     times_mass(s, y, w);
     for (size_t i = 0; i < n; i++)
         w[i] = x[i] - w[i];
     for (size_t j = 0; j < r; j++)
-        u[j] = dot(n, s->Q + j * n, w);
+        u[j] = dot_product(n, s->Q + j * n, w);
     for (size_t i = 0; i < n; i++)
         x[i] = y[i] * s->d[i];
     multipliers(s, u, c);
@@ -577,12 +577,12 @@ qdot_saddle_solve(qdot_saddle *s)
     if (s->direct)
         qdot_sparse_solve(&s->sparse, s->x);
     else
-        solve(s);
+        saddle_solve_null_space(s);
 }
 
 /* sum += a b, in twice the precision */
 static void
-add_product(qdot_sum *sum, double a, double b)
+sum_add_product(qdot_sum *sum, double a, double b)
 {
     double p = a * b;
 
@@ -600,9 +600,9 @@ subtract_product(const qdot_saddle *s, const double *x, double *b)
         qdot_sum left = {.sum = b[i]};
 
         for (size_t j = 0; j < n; j++)
-            add_product(&left, i < n ? -s->M[i * n + j] : -s->A[(i - n) * n + j], x[j]);
+            sum_add_product(&left, i < n ? -s->M[i * n + j] : -s->A[(i - n) * n + j], x[j]);
         for (size_t k = 0; i < n && k < m; k++)
-            add_product(&left, -s->A[k * n + i], x[n + k]);
+            sum_add_product(&left, -s->A[k * n + i], x[n + k]);
         b[i] = qdot_sum_value(&left);
     }
 }
@@ -626,13 +626,13 @@ qdot_saddle_solve_refined(qdot_saddle *s)
         b[i] = first;
     }
     qdot_saddle_solve(s);
-    add(all, 1, b, x);
+    add_multiple(all, 1, b, x);
 }
 
 void
 qdot_saddle_prepare(qdot_saddle *s)
 {
-    const size_t all = s->n + s->m, w = width(s);
+    const size_t all = s->n + s->m, w = saddle_row_width(s);
 
     for (size_t j = 0; s->inverse && j < all; j++) {
         memset(s->x, 0, all * sizeof *s->x);
@@ -651,6 +651,6 @@ qdot_saddle_apply(qdot_saddle *s)
         qdot_saddle_solve(s);
         return;
     }
-    qdot_series_kernels_get()->multiply(width(s), all, s->inverse, s->x, s->keep);
+    qdot_series_kernels_get()->multiply(saddle_row_width(s), all, s->inverse, s->x, s->keep);
     memcpy(s->x, s->keep, all * sizeof *s->x);
 }

@@ -41,7 +41,7 @@ typedef struct {
 } graph;
 
 static void
-join(graph *g, uint32_t a, uint32_t b)
+graph_join(graph *g, uint32_t a, uint32_t b)
 {
     if (a == b || g->beside[a * g->n + b])
         return;
@@ -53,7 +53,7 @@ join(graph *g, uint32_t a, uint32_t b)
 }
 
 static uint32_t
-next(const graph *g)
+graph_next_pivot(const graph *g)
 {
     uint32_t best = 0;
     size_t least = SIZE_MAX;
@@ -68,7 +68,7 @@ next(const graph *g)
 
 /* Eliminate u: its neighbours become neighbours of each other; returns their number. */
 static size_t
-eliminate(graph *g, uint32_t u)
+graph_eliminate(graph *g, uint32_t u)
 {
     size_t count = 0;
 
@@ -82,7 +82,7 @@ eliminate(graph *g, uint32_t u)
     g->degree[u] = SIZE_MAX;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)
-            join(g, g->near[i], g->near[j]);
+            graph_join(g, g->near[i], g->near[j]);
     return count;
 }
 
@@ -93,8 +93,8 @@ static qdot_status
 find_order(qdot_sparse *s, graph *g, numbers *columns)
 {
     for (size_t k = 0; k < s->n; k++) {
-        uint32_t u = next(g);
-        size_t count = eliminate(g, u);
+        uint32_t u = graph_next_pivot(g);
+        size_t count = graph_eliminate(g, u);
 
         s->order[k] = u;
         s->column_start[k + 1] = s->column_start[k] + count;
@@ -105,7 +105,7 @@ find_order(qdot_sparse *s, graph *g, numbers *columns)
 }
 
 static qdot_status
-search(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, numbers *columns)
+sparse_order(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, numbers *columns)
 {
     const size_t n = s->n;
     graph g = {.n = n, .positive = s->positive};
@@ -117,7 +117,7 @@ search(qdot_sparse *s, size_t count, const qdot_sparse_entry *entries, numbers *
     g.near = qdot_calloc(n + 1, sizeof *g.near);
     if (g.beside && g.degree && g.waits && g.near) {
         for (size_t i = 0; i < count; i++)
-            join(&g, entries[i].row, entries[i].column);
+            graph_join(&g, entries[i].row, entries[i].column);
         status = find_order(s, &g, columns);
     }
     qdot_free(g.beside);
@@ -146,7 +146,7 @@ by_row(const void *a, const void *b)
 }
 
 static void
-add_up(size_t n, size_t *start)
+counts_to_starts(size_t n, size_t *start)
 {
     for (size_t k = 0; k < n; k++)
         start[k + 1] += start[k];
@@ -172,7 +172,7 @@ lay_out(qdot_sparse *s, const uint32_t *place, const numbers *columns)
         s->column_row[i] = place[columns->at[i]];
         s->row_start[s->column_row[i] + 1]++;
     }
-    add_up(n, s->row_start);
+    counts_to_starts(n, s->row_start);
     memcpy(at, s->row_start, n * sizeof *at);
     for (size_t k = 0; k < n; k++) {
         size_t from = s->column_start[k], to = s->column_start[k + 1];
@@ -204,7 +204,7 @@ take_entries(qdot_sparse *s, const uint32_t *place, size_t count,
         s->given_start[s->given[i].row + 1]++;
     }
     qsort(s->given, count, sizeof *s->given, by_row);
-    add_up(s->n, s->given_start);
+    counts_to_starts(s->n, s->given_start);
     return QDOT_OK;
 }
 
@@ -226,7 +226,7 @@ qdot_sparse_init(qdot_sparse *s, size_t n, size_t positive, size_t count,
     s->low = qdot_calloc(n + 1, sizeof *s->low);
     if (place && s->order && s->given_start && s->row_start && s->column_start &&
         s->inverse && s->y && s->low)
-        status = search(s, count, entries, &columns);
+        status = sparse_order(s, count, entries, &columns);
     for (size_t k = 0; status == QDOT_OK && k < n; k++)
         place[s->order[k]] = (uint32_t)k;
     if (status == QDOT_OK)
@@ -312,7 +312,7 @@ qdot_sparse_solve(const qdot_sparse *s, double *b)
 
 /* *hi + *low -= a x */
 static inline void
-subtract(double a, double x, double *hi, double *low)
+two_subtract_product(double a, double x, double *hi, double *low)
 {
     double p = -a * x, rest = fma(-a, x, -p), lost;
 
@@ -328,9 +328,9 @@ qdot_sparse_subtract(const qdot_sparse *s, const double *x, double *b)
         const qdot_sparse_entry *g = s->given + e;
         const uint32_t i = s->order[g->row], j = s->order[g->column];
 
-        subtract(*g->value, x[j], b + i, s->low + i);
+        two_subtract_product(*g->value, x[j], b + i, s->low + i);
         if (i != j)
-            subtract(*g->value, x[i], b + j, s->low + j);
+            two_subtract_product(*g->value, x[i], b + j, s->low + j);
     }
     for (size_t i = 0; i < s->n; i++)
         b[i] += s->low[i];

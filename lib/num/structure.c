@@ -4,7 +4,7 @@
 #include "base/memory.h"
 
 static size_t
-root(size_t *parent, size_t i)
+block_root(size_t *parent, size_t i)
 {
     while (parent[i] != i) {
         parent[i] = parent[parent[i]];
@@ -15,10 +15,10 @@ root(size_t *parent, size_t i)
 
 /* The smaller root wins, so a block's root is its first member. */
 static void
-join(size_t *parent, size_t i, size_t j)
+blocks_join(size_t *parent, size_t i, size_t j)
 {
-    i = root(parent, i);
-    j = root(parent, j);
+    i = block_root(parent, i);
+    j = block_root(parent, j);
     if (i < j)
         parent[j] = i;
     else
@@ -27,10 +27,10 @@ join(size_t *parent, size_t i, size_t j)
 
 /* Count the members of each block, then place them: a counting sort by block. */
 static void
-collect(qdot_structure *s, size_t *parent, size_t *block)
+blocks_collect(qdot_structure *s, size_t *parent, size_t *block)
 {
     for (size_t i = 0; i < s->n; i++) {
-        size_t r = root(parent, i);
+        size_t r = block_root(parent, i);
 
         block[i] = r == i ? s->blocks++ : block[r];
         s->start[block[i] + 1]++;
@@ -60,8 +60,8 @@ qdot_structure_find(const bool *pattern, size_t n, qdot_structure *out)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
                 if (i != j && pattern[i * n + j])
-                    join(parent, i, j);
-        collect(out, parent, block);
+                    blocks_join(parent, i, j);
+        blocks_collect(out, parent, block);
         status = QDOT_OK;
     } else {
         qdot_structure_clear(out);

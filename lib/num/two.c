@@ -22,7 +22,7 @@ static const qdot_two sixth = {0x1.5555555555555p-3, 0x1.5555555555555p-57};
 static const qdot_two sixth_of_a_fourth = {0x1.5555555555555p-5, 0x1.5555555555555p-59};
 
 static qdot_two
-split(mpfr_ptr x)
+two_of_mpfr(mpfr_ptr x)
 {
     qdot_two r = {mpfr_get_d(x, MPFR_RNDN), 0};
 
@@ -54,7 +54,7 @@ fill_tables(void)
     mpfr_set_ui(c, 1, MPFR_RNDN);
     for (unsigned i = 0; i < QUARTER; i++) { /* the next angle */
         mpfr_set(x, s, MPFR_RNDN);
-        sines[i] = split(x);
+        sines[i] = two_of_mpfr(x);
         mpfr_fmma(x, s, c1, c, s1, MPFR_RNDN);
         mpfr_fmms(c, c, c1, s, s1, MPFR_RNDN);
         mpfr_swap(s, x);
@@ -64,7 +64,7 @@ fill_tables(void)
     for (unsigned i = 0; i < POWERS; i++) {
         mpfr_set_d(x, (double)i / POWERS, MPFR_RNDN);
         mpfr_exp2(x, x, MPFR_RNDN);
-        powers[i] = split(x);
+        powers[i] = two_of_mpfr(x);
     }
     mpfr_const_log2(step, MPFR_RNDN);
     mpfr_div_ui(step, step, POWERS, MPFR_RNDN);
@@ -89,8 +89,8 @@ sincos_beyond(qdot_two x, qdot_two *sine, qdot_two *cosine)
     mpfr_set_d(s, x.hi, MPFR_RNDN);
     mpfr_add_d(s, s, x.lo, MPFR_RNDN);
     mpfr_sin_cos(s, c, s, MPFR_RNDN);
-    *sine = split(s);
-    *cosine = split(c);
+    *sine = two_of_mpfr(s);
+    *cosine = two_of_mpfr(c);
     mpfr_clears(s, c, (mpfr_ptr)0);
 }
 

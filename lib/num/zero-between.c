@@ -9,7 +9,7 @@ enum { MOST_STEPS = 60, PARTS = 16 };
 
 /* f(u) of the one function, NaN where it cannot be had; its error into s->error[0]. */
 static qdot_status
-value_at(qdot_zero_search *s, double u, double *f)
+between_value(qdot_zero_search *s, double u, double *f)
 {
     QDOT_TRY(s->p->at(&u, f, s->error, NULL, s->p->user));
     return QDOT_OK;
@@ -27,7 +27,7 @@ search_signs(qdot_zero_search *s, double *end, double *f, bool *found)
         const double u = i == PARTS ? high : low + (high - low) * i / PARTS;
         double one;
 
-        QDOT_TRY(value_at(s, u, &one));
+        QDOT_TRY(between_value(s, u, &one));
         *found = (last < 0 && one >= 0) || (last > 0 && one <= 0);
         if (*found) {
             end[0] = at;
@@ -57,7 +57,7 @@ next_place(const qdot_zero_search *s, const double *end, double slope, double la
 
 /* Newton and bisection between ends [2] where f [2] differs in sign. */
 static qdot_status
-enclose(qdot_zero_search *s, double *end, double *f)
+between_refine(qdot_zero_search *s, double *end, double *f)
 {
     qdot_zero_result *r = s->r;
     double move = INFINITY;
@@ -102,12 +102,12 @@ qdot_zero_find_between(qdot_zero_search *s)
     double end[2] = {s->p->low[0], s->p->high[0]}, f[2];
     bool found;
 
-    QDOT_TRY(value_at(s, end[0], &f[0]));
-    QDOT_TRY(value_at(s, end[1], &f[1]));
+    QDOT_TRY(between_value(s, end[0], &f[0]));
+    QDOT_TRY(between_value(s, end[1], &f[1]));
     found = (f[0] < 0 && f[1] > 0) || (f[0] > 0 && f[1] < 0);
     if (!found)
         QDOT_TRY(search_signs(s, end, f, &found));
     s->r->answer = QDOT_ZERO_SLOW;
-    return found ? enclose(s, end, f) : qdot_zero_descend(s);
+    return found ? between_refine(s, end, f) : qdot_zero_descend(s);
 }
 

@@ -197,7 +197,7 @@ qdot_zero_descend(qdot_zero_search *s)
 /* --- all ----------------------------------------------------------------------------------------- */
 
 static bool
-allocate(qdot_zero_search *s)
+zero_search_allocate(qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m, rows = m > n ? m : n;
     double *room = qdot_calloc(m * n + 8 * n + 4 * m + 1, sizeof *room);
@@ -234,7 +234,7 @@ qdot_zero_find(const qdot_zero_problem *p, qdot_zero_result *r)
     qdot_status status = QDOT_ENOMEM;
 
     r->steps = 0;
-    if (allocate(&s))
+    if (zero_search_allocate(&s))
         status = between ? qdot_zero_find_between(&s) : qdot_zero_descend(&s);
     if (status == QDOT_OK)
         status = qdot_zero_verify_family(&s);

@@ -76,7 +76,7 @@ qdot_zero_choose_units(qdot_zero_search *s)
 
 /* J = U S V^T in these units, more rows than columns or as many. */
 static void
-decompose(qdot_zero_search *s)
+slope_decompose(qdot_zero_search *s)
 {
     const size_t n = s->p->n, m = s->p->m;
 
@@ -171,7 +171,7 @@ qdot_zero_find_step(qdot_zero_search *s)
     for (size_t i = 0; i < m * n; i++)
         if (!isfinite(s->slope[i]))
             return false;
-    decompose(s);
+    slope_decompose(s);
     most = gsl_vector_get(s->singular, 0);
     noise = fmax(least_singular * most, slope_noise(s));
     s->strongest = fmax(s->strongest, most);
