@@ -99,7 +99,7 @@ write_bytes(qdot_asm *m, size_t n, const unsigned char *bytes)
                 (const unsigned char[]){__VA_ARGS__})
 
 static void
-write_number(qdot_asm *m, uint32_t value)
+asm_write_number(qdot_asm *m, uint32_t value)
 {
     unsigned char bytes[4];
 
@@ -109,9 +109,9 @@ write_number(qdot_asm *m, uint32_t value)
 
 /* A place in the code, seen from behind this number. */
 static void
-write_place(qdot_asm *m, size_t place)
+asm_write_place(qdot_asm *m, size_t place)
 {
-    write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
+    asm_write_number(m, (uint32_t)(place - (m->bytes.n + 4)));
 }
 
 /* A byte with the number of a register in its low bits; in the three above them. */
@@ -174,7 +174,7 @@ narrow_prefix(unsigned char *at, int name, bool wide, int reg, int first, qdot_o
 
 /* Offsets that are a multiple of what is read take a byte, if that multiple does. */
 static unsigned char *
-operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
+asm_operands(const qdot_asm *m, unsigned char *at, int reg, qdot_operand b, int size)
 {
     const unsigned char form = low(middle(0, reg), b.reg);
 
@@ -202,7 +202,7 @@ three_operands(qdot_asm *m, bool narrow, int name, bool wide, int reg, int first
     at = narrow ? narrow_prefix(at, name, wide, reg, first, b)
                 : prefix(m, at, name, wide, reg, first, b);
     *at++ = opcode(name, wide);
-    written(m, start, operands(m, at, reg, b, narrow ? 1 : whole ? 64 : 8));
+    written(m, start, asm_operands(m, at, reg, b, narrow ? 1 : whole ? 64 : 8));
 }
 
 /* --- SSE2: reg <- f(reg, b) ------------------------------------------------------------- */
@@ -218,12 +218,12 @@ two_operands(qdot_asm *m, int name, bool wide, int reg, qdot_operand b)
         *at++ = registers;
     *at++ = 0x0f;
     *at++ = opcode(name, wide);
-    written(m, start, operands(m, at, reg, b, 1));
+    written(m, start, asm_operands(m, at, reg, b, 1));
 }
 
 /* All of a register, or as much of what is in memory as the instruction reads. */
 static void
-load(qdot_asm *m, bool wide, int reg, qdot_operand b)
+asm_load(qdot_asm *m, bool wide, int reg, qdot_operand b)
 {
     two_operands(m, QDOT_ASM_LOAD, wide || !b.memory, reg, b);
 }
@@ -233,11 +233,11 @@ static void
 from_two(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     if (b.memory ? wide : b.reg == reg && reg != first) {
-        load(m, wide, scratch, b);
+        asm_load(m, wide, scratch, b);
         b = qdot_asm_in(scratch);
     }
     if (reg != first)
-        load(m, wide, reg, qdot_asm_in(first));
+        asm_load(m, wide, reg, qdot_asm_in(first));
     two_operands(m, name, wide, reg, b);
 }
 
@@ -251,7 +251,7 @@ product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_oper
     const qdot_operand in_scratch = qdot_asm_in(scratch), term = over ? b : in_scratch;
 
     if (!over)
-        load(m, wide, scratch, b);
+        asm_load(m, wide, scratch, b);
     two_operands(m, QDOT_ASM_MUL, wide, over ? reg : scratch, qdot_asm_in(first));
     if (product != other && over == other) {
         two_operands(m, QDOT_ASM_SUB, wide, reg, term);
@@ -263,21 +263,21 @@ product_then_sum(qdot_asm *m, int name, bool wide, int reg, int first, qdot_oper
             return;
         two_operands(m, QDOT_X86_XOR, true, scratch, in_scratch);
     } else if (over) {
-        load(m, wide, scratch, b);
+        asm_load(m, wide, scratch, b);
     }
     two_operands(m, QDOT_ASM_SUB, wide, scratch, qdot_asm_in(reg));
-    load(m, wide, reg, in_scratch);
+    asm_load(m, wide, reg, in_scratch);
 }
 
 static void
 by_sse2(qdot_asm *m, int name, bool wide, int reg, int first, qdot_operand b)
 {
     switch (name) {
-    case QDOT_ASM_LOAD: load(m, wide, reg, b); break;
+    case QDOT_ASM_LOAD: asm_load(m, wide, reg, b); break;
     case QDOT_ASM_STORE:
     case QDOT_ASM_ROOT: two_operands(m, name, wide, reg, b); break;
     case QDOT_ASM_SPREAD:
-        load(m, false, reg, b);
+        asm_load(m, false, reg, b);
         qdot_x86_move_lanes(m, QDOT_X86_PAIRS, reg, reg, qdot_asm_in(reg), 0);
         break;
     default: (is_fused(name) ? product_then_sum : from_two)(m, name, wide, reg, first, b);
@@ -333,7 +333,7 @@ void
 qdot_x86_set_mask(qdot_asm *m, int r, unsigned lanes)
 {
     BYTES(m, 0xb8); /* mov eax, lanes */
-    write_number(m, lanes);
+    asm_write_number(m, lanes);
     BYTES(m, 0xc5, 0xf8, 0x92, middle(0xc0, r)); /* kmovw r, eax */
 }
 
@@ -357,7 +357,7 @@ qdot_asm_set(qdot_asm *m, qdot_asm_base to, qdot_asm_base from, int32_t offset)
     const int reg = general[to], base = general[from];
 
     BYTES(m, high(0x48, reg, base), 0x8d, low(middle(0x80, reg), base)); /* lea */
-    write_number(m, (uint32_t)offset);
+    asm_write_number(m, (uint32_t)offset);
 }
 
 void
@@ -365,14 +365,14 @@ qdot_asm_set_code(qdot_asm *m, qdot_asm_base to, size_t place)
 {
     BYTES(m, high(0x48, general[to], 0), 0x8d,
           middle(0x05, general[to])); /* lea [rip + ...] */
-    write_place(m, place);
+    asm_write_place(m, place);
 }
 
 size_t
 qdot_asm_repeat(qdot_asm *m, int times)
 {
     BYTES(m, 0xb9); /* mov ecx, times */
-    write_number(m, (uint32_t)times);
+    asm_write_number(m, (uint32_t)times);
     return m->bytes.n;
 }
 
@@ -380,7 +380,7 @@ size_t
 qdot_asm_repeat_as(qdot_asm *m, qdot_operand times)
 {
     BYTES(m, 0x8b, low(0x88, general[times.reg])); /* mov ecx, times */
-    write_number(m, (uint32_t)times.offset);
+    asm_write_number(m, (uint32_t)times.offset);
     return m->bytes.n;
 }
 
@@ -388,7 +388,7 @@ void
 qdot_asm_again(qdot_asm *m, size_t from)
 {
     BYTES(m, 0xff, 0xc9, 0x0f, 0x85); /* dec ecx; jnz from */
-    write_place(m, from);
+    asm_write_place(m, from);
 }
 
 void
@@ -407,7 +407,7 @@ void
 qdot_asm_enter(qdot_asm *m, size_t place)
 {
     BYTES(m, 0xe8);
-    write_place(m, place);
+    asm_write_place(m, place);
 }
 
 void
@@ -457,8 +457,8 @@ qdot_asm_call(qdot_asm *m, void (*function)(void))
     const uint64_t address = (uint64_t)(uintptr_t)function;
 
     BYTES(m, 0x48, 0xb8); /* mov rax, address */
-    write_number(m, (uint32_t)address);
-    write_number(m, (uint32_t)(address >> 32));
+    asm_write_number(m, (uint32_t)address);
+    asm_write_number(m, (uint32_t)(address >> 32));
     BYTES(m, 0xff, 0xd0);                   /* call rax */
     BYTES(m, 0x48, 0x8b, 0x7c, 0x24, 0x10); /* mov rdi, [rsp + 16] */
     BYTES(m, 0x48, 0x8b, 0x74, 0x24, 0x08); /* mov rsi, [rsp + 8] */
