@@ -97,7 +97,7 @@ is_trigonometric(const qdot_node *node)
 
 /* The rational factor of a term and the rest. */
 static qdot_expr
-strip(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
+term_strip_coefficient(qdot_pool *pool, qdot_expr e, qdot_expr *coefficient)
 {
     *coefficient = QDOT_ONE;
     if (qdot_expr_kind(pool, e) == QDOT_PROD) {
@@ -136,7 +136,7 @@ read_argument(qdot_angles *a, qdot_expr e)
 {
     qdot_pool *pool = a->pool;
     argument arg = {.first = a->parts.n};
-    qdot_expr c, constant = QDOT_ZERO, term = strip(pool, e, &c);
+    qdot_expr c, constant = QDOT_ZERO, term = term_strip_coefficient(pool, e, &c);
 
     if (qdot_keymap_get(&a->by_expr, e, 0, 0, 0) != NONE)
         return QDOT_OK;
@@ -292,7 +292,7 @@ find_sums(qdot_angles *a)
 
 /* Compose the argument or give it its own call; returns the added cost. */
 static long
-turn(qdot_angles *a, argument *arg, bool composed)
+argument_set_composed(qdot_angles *a, argument *arg, bool composed)
 {
     long change = composed ? -a->call : a->call;
     const uint32_t before = composed ? 0 : 1; /* uses where this one alone matters */
@@ -349,7 +349,7 @@ try_without(qdot_angles *a, uint32_t b, bool *changed)
         changed[i] =
             arg->composed && !is_base(a, arg) && (b == NONE || holds_base(a, arg, b));
         if (changed[i]) {
-            change += turn(a, arg, false);
+            change += argument_set_composed(a, arg, false);
             n++;
         }
     }
@@ -357,19 +357,19 @@ try_without(qdot_angles *a, uint32_t b, bool *changed)
         return n > 0;
     for (size_t i = 0; i < a->arguments.n; i++)
         if (changed[i])
-            turn(a, a->arguments.at + i, true);
+            argument_set_composed(a, a->arguments.at + i, true);
     return false;
 }
 
 static qdot_status
-choose(qdot_angles *a)
+angles_choose_composed(qdot_angles *a)
 {
     bool *changed = qdot_malloc(a->arguments.n * sizeof *changed), again = true;
 
     if (!changed)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < a->arguments.n; i++)
-        turn(a, a->arguments.at + i, true);
+        argument_set_composed(a, a->arguments.at + i, true);
     try_without(a, NONE, changed);
     for (int round = 0; again && round < 8; round++) {
         again = false;
@@ -380,10 +380,10 @@ choose(qdot_angles *a)
 
             if (!arg->composed || is_base(a, arg))
                 continue;
-            if (turn(a, arg, false) < 0)
+            if (argument_set_composed(a, arg, false) < 0)
                 again = true;
             else
-                turn(a, arg, true);
+                argument_set_composed(a, arg, true);
         }
     }
     qdot_free(changed);
@@ -414,7 +414,7 @@ qdot_angles_new(qdot_pool *pool, const qdot_walk *walk, bool series,
     if (status == QDOT_OK)
         status = find_sums(a);
     if (status == QDOT_OK)
-        status = choose(a);
+        status = angles_choose_composed(a);
     if (status != QDOT_OK) {
         qdot_angles_free(a);
         a = NULL;

@@ -13,7 +13,7 @@ const qdot_operation qdot_operations[QDOT_OP_COUNT] = {
 };
 
 static qdot_value
-append(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value c)
+code_append(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value c)
 {
     qdot_code_value v = {op, a, b, c};
 
@@ -53,7 +53,7 @@ qdot_code_init(qdot_code *code, qdot_pool *pool, size_t inputs)
     code->inputs = inputs;
     power_chain(code->chain);
     for (size_t i = 0; i < inputs; i++)
-        append(code, QDOT_OP_INPUT, (qdot_value)i, 0, 0);
+        code_append(code, QDOT_OP_INPUT, (qdot_value)i, 0, 0);
 }
 
 void
@@ -86,7 +86,7 @@ qdot_code_op(qdot_code *code, qdot_op op, qdot_value a, qdot_value b, qdot_value
     value = qdot_keymap_get(&code->seen, op, a, b, c);
     if (value != QDOT_KEYMAP_NONE)
         return value;
-    value = append(code, op, a, b, c);
+    value = code_append(code, op, a, b, c);
     if (code->status == QDOT_OK)
         code->status = qdot_keymap_set(&code->seen, op, a, b, c, value);
     return value;
@@ -115,7 +115,7 @@ qdot_code_constant(qdot_code *code, qdot_expr e)
         code->status = qdot_vec_push(&code->exact, e);
     if (code->status != QDOT_OK)
         return 0;
-    value = append(code, QDOT_OP_CONSTANT, (qdot_value)(code->constants.n - 1), 0, 0);
+    value = code_append(code, QDOT_OP_CONSTANT, (qdot_value)(code->constants.n - 1), 0, 0);
     if (code->status == QDOT_OK)
         code->status = qdot_keymap_set(&code->by_expr, e, 0, 0, 0, value);
     return value;

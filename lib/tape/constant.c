@@ -31,7 +31,7 @@ ball_abs(arb_t y, const arb_t x, slong bits)
 }
 
 /* The functions of one argument. A function of function.def that stands neither here
- * nor in apply() is refused when it is met. */
+ * nor in ball_apply_function() is refused when it is met. */
 static void (*const unary[QDOT_FUNCTION_KINDS])(arb_t, const arb_t, slong) = {
     [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
     [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
@@ -165,7 +165,7 @@ qdot_constant_unset_all(const qdot_pool *pool, size_t n, const qdot_expr *e)
 /* x^e for a rational e. At the highest precision a ball around 0 counts as touching it: a
  * square root of what is 0 in exact arithmetic is 0. */
 static void
-power(arb_t y, const arb_t x, const fmpq_t e, slong bits)
+ball_power(arb_t y, const arb_t x, const fmpq_t e, slong bits)
 {
     if (fmpz_is_one(fmpq_denref(e)))
         arb_pow_fmpz(y, x, fmpq_numref(e), bits);
@@ -182,7 +182,7 @@ power(arb_t y, const arb_t x, const fmpq_t e, slong bits)
 
 /* 1, 0, or the ball of both where the relation is not decided. */
 static void
-relation(arb_t y, qdot_rel_op op, const arb_t a, const arb_t b)
+ball_relation(arb_t y, qdot_rel_op op, const arb_t a, const arb_t b)
 {
     bool yes = false, no = false;
 
@@ -207,7 +207,7 @@ relation(arb_t y, qdot_rel_op op, const arb_t a, const arb_t b)
 }
 
 static void
-logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
+ball_logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
 {
     bool open = false, decided = false;
 
@@ -231,7 +231,7 @@ logic(arb_t y, qdot_logic_op op, uint32_t n, const arb_struct *const *x)
 }
 
 static void
-choose(arb_t y, const arb_struct *const *x, slong bits)
+ball_if(arb_t y, const arb_struct *const *x, slong bits)
 {
     if (arb_is_exact(x[0]))
         arb_set(y, arb_is_zero(x[0]) ? x[2] : x[1]);
@@ -241,7 +241,7 @@ choose(arb_t y, const arb_struct *const *x, slong bits)
 
 /* y = f(x[0] ... x[n-1]); false if f has no ball evaluation. */
 static bool
-apply(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits)
+ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits)
 {
     if (unary[f]) {
         unary[f](y, x[0], bits);
@@ -264,7 +264,7 @@ apply(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits
         arb_sub(y, x[0], y, bits);
         return true;
     case QDOT_IF:
-        choose(y, x, bits);
+        ball_if(y, x, bits);
         return true;
     default:
         return false;
@@ -342,7 +342,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
             const fmpq *p = qdot_expr_rational(pool, qdot_expr_arg(pool, e, k + 1));
 
             if (p)
-                power(x, v->args[k], p, bits);
+                ball_power(x, v->args[k], p, bits);
             else
                 arb_pow(x, v->args[k], v->args[k + 1], bits);
             arb_mul(y, y, x, bits);
@@ -350,15 +350,15 @@ evaluate_node(evaluation *v, size_t i, slong bits)
         arb_clear(x);
         return QDOT_OK;
     case QDOT_FUN:
-        if (!apply(y, (qdot_fun_id)node->op, n, v->args, bits))
+        if (!ball_apply_function(y, (qdot_fun_id)node->op, n, v->args, bits))
             return qdot_fail(QDOT_ENOTBUILT, "not built yet: the value of %s",
                              qdot_fun_name((qdot_fun_id)node->op));
         return QDOT_OK;
     case QDOT_REL:
-        relation(y, (qdot_rel_op)node->op, v->args[0], v->args[1]);
+        ball_relation(y, (qdot_rel_op)node->op, v->args[0], v->args[1]);
         return QDOT_OK;
     case QDOT_LOGIC:
-        logic(y, (qdot_logic_op)node->op, n, v->args);
+        ball_logic(y, (qdot_logic_op)node->op, n, v->args);
         return QDOT_OK;
     case QDOT_UFUN:
         return refuse_unset(v);
@@ -372,7 +372,7 @@ evaluate_node(evaluation *v, size_t i, slong bits)
 
 /* The side of `value` on which the ball lies; 0 if the ball contains it. */
 static int
-side_of(const arb_t ball, double value)
+ball_side_of(const arb_t ball, double value)
 {
     arb_t x;
     int side = 0;
@@ -437,7 +437,7 @@ rest_of(const arb_t ball, double value)
 }
 
 static qdot_status
-evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
+constant_evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
 {
     const arb_struct *y;
 
@@ -449,7 +449,7 @@ evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
         if (decided(ball_of(v, e), value)) {
             if (!isfinite(*value))
                 return no_value(v->pool, e, "is beyond what a double holds");
-            *side = side_of(ball_of(v, e), *value);
+            *side = ball_side_of(ball_of(v, e), *value);
             *low = *side ? rest_of(ball_of(v, e), *value) : 0;
             return QDOT_OK;
         }
@@ -464,9 +464,9 @@ evaluate(evaluation *v, qdot_expr e, double *value, int *side, double *low)
     return QDOT_OK;
 }
 
-/* The walk of e with a ball for each node; qdot_free and walk_end by release(). */
+/* The walk of e with a ball for each node; qdot_free and walk_end by constant_release(). */
 static qdot_status
-prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
+constant_prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
 {
     *v = (evaluation){.pool = pool};
     if (e == QDOT_NIL) {
@@ -485,7 +485,7 @@ prepare(evaluation *v, qdot_pool *pool, qdot_expr e)
 }
 
 static void
-release(evaluation *v)
+constant_release(evaluation *v)
 {
     for (size_t i = 0; i < v->walk.n; i++)
         arb_clear(v->ball + i);
@@ -526,15 +526,15 @@ qdot_constant_split(qdot_pool *pool, qdot_expr e, double *value, int *side, doub
         split_small((double)rational->num, (double)rational->den, value, side, low);
         return QDOT_OK;
     }
-    QDOT_TRY(prepare(&v, pool, e));
-    status = evaluate(&v, e, value, side, low);
-    release(&v);
+    QDOT_TRY(constant_prepare(&v, pool, e));
+    status = constant_evaluate(&v, e, value, side, low);
+    constant_release(&v);
     return status;
 }
 
 /* Whether the ball is known to `bits`, or is 0 to many more. */
 static bool
-is_known(const arb_t ball, slong bits)
+ball_is_known(const arb_t ball, slong bits)
 {
     return arb_is_exact(ball) || arb_rel_accuracy_bits(ball) >= bits + 2
            || (arb_contains_zero(ball) && mag_cmp_2exp_si(arb_radref(ball), -8 * bits) < 0);
@@ -551,7 +551,7 @@ evaluate_real(evaluation *v, qdot_expr e, mpfr_ptr x)
             QDOT_TRY(qdot_interrupt_check());
             QDOT_TRY(evaluate_node(v, i, b));
         }
-        if (!arb_is_finite(y) || !is_known(y, bits))
+        if (!arb_is_finite(y) || !ball_is_known(y, bits))
             continue;
         if (arb_contains_zero(y))
             mpfr_set_zero(x, 1);
@@ -571,9 +571,9 @@ qdot_constant_real(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
     evaluation v;
     qdot_status status;
 
-    QDOT_TRY(prepare(&v, pool, e));
+    QDOT_TRY(constant_prepare(&v, pool, e));
     status = evaluate_real(&v, e, x);
-    release(&v);
+    constant_release(&v);
     return status;
 }
 

@@ -29,8 +29,8 @@ qdot_derivative_work(const qdot_tape *tape)
 /* Set the initial values; the derivatives of the inputs from ... from + count - 1 are the unit
  * directions, all others 0. */
 static void
-load(const qdot_tape *tape, const double *in, size_t from, size_t count, double *work,
-     double *slopes)
+derivative_load(const qdot_tape *tape, const double *in, size_t from, size_t count, double *work,
+                double *slopes)
 {
     const size_t loaded = tape->inputs + tape->constants;
 
@@ -52,7 +52,7 @@ qdot_derivative_eval(const qdot_tape *tape, const double *in, size_t from, size_
     for (size_t done = 0; done < columns || done == 0; done += QDOT_LANES) {
         size_t count = columns - done < QDOT_LANES ? columns - done : QDOT_LANES;
 
-        load(tape, in, from + done, count, work, slopes);
+        derivative_load(tape, in, from + done, count, work, slopes);
         kinds[qdot_batch_kind()](tape, work, slopes);
         for (size_t k = 0; k < tape->outputs; k++)
             memcpy(J + k * columns + done, slopes + tape->output[k] * QDOT_LANES,

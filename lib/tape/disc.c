@@ -12,7 +12,7 @@
 
 /* x y, with 0 times infinity = 0 */
 static double
-times(double x, double y)
+radius_times(double x, double y)
 {
     return x == 0 || y == 0 ? 0 : x * y;
 }
@@ -20,14 +20,14 @@ times(double x, double y)
 static double
 of_product(double a, double ra, double b, double rb)
 {
-    return times(fabs(a), rb) + times(fabs(b), ra) + times(ra, rb);
+    return radius_times(fabs(a), rb) + radius_times(fabs(b), ra) + radius_times(ra, rb);
 }
 
 /* (a + u)/(b + v) - d = (u - d v)/(b + v), d = a/b */
 static double
 of_quotient(double d, double ra, double b, double rb)
 {
-    return fabs(b) > rb ? (ra + times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
+    return fabs(b) > rb ? (ra + radius_times(fabs(d), rb)) / (fabs(b) - rb) : NAN;
 }
 
 /* f(c + w) - f(c) = f'(c) sin w - f(c) (1 - cos w), and the like of hyperbolic ones */
@@ -87,7 +87,7 @@ of_angle(double y, double ry, double x, double rx)
 /* a^b, d at the centres. Of a whole number b >= 0 it is a polynomial; else |1 + w|^b for
  * |w| <= ra/a goes farthest on the real line. */
 static double
-of_power(double a, double ra, double b, double rb, double d)
+disc_power_radius(double a, double ra, double b, double rb, double d)
 {
     const double part = ra / fabs(a);
 
@@ -124,14 +124,14 @@ qdot_disc_work(const qdot_tape *tape)
 
 /* Add rounding to a radius that is not 0. */
 static double
-settle(double d, double rd)
+radius_add_rounding(double d, double rd)
 {
     return isnan(d) ? NAN : rd != 0 ? rd + DBL_EPSILON * fabs(d) : 0;
 }
 
 /* The centre and the radius of the result of an instruction. */
 static void
-step(const qdot_instruction *i, double *work, double *radius)
+disc_execute(const qdot_instruction *i, double *work, double *radius)
 {
     const double a = work[i->x], ra = radius[i->x];
     double b = 0, c = 0, d = 0, e = 0, rb = 0, rc = 0, rd = 0, re = 0;
@@ -161,16 +161,16 @@ step(const qdot_instruction *i, double *work, double *radius)
         }
     (void)c;
     work[i->to] = d;
-    radius[i->to] = settle(d, rd);
+    radius[i->to] = radius_add_rounding(d, rd);
     if (i->op == QDOT_OP_SINCOS) {
         work[i->y] = e;
-        radius[i->y] = settle(e, re);
+        radius[i->y] = radius_add_rounding(e, re);
     }
 }
 
 /* r NULL: all 0 */
 static void
-load(const qdot_tape *tape, const double *c, const double *r, double *work)
+disc_load(const qdot_tape *tape, const double *c, const double *r, double *work)
 {
     double *radius = work + tape->places;
 
@@ -192,9 +192,9 @@ qdot_disc_eval(const qdot_tape *tape, const double *c, const double *r, double *
 {
     double *radius = work + tape->places;
 
-    load(tape, c, r, work);
+    disc_load(tape, c, r, work);
     for (size_t k = 0; k < tape->length; k++)
-        step(tape->code + k, work, radius);
+        disc_execute(tape->code + k, work, radius);
     for (size_t k = 0; k < tape->outputs; k++) {
         C[k] = work[tape->output[k]];
         R[k] = radius[tape->output[k]];
@@ -259,7 +259,7 @@ reach_of(const qdot_instruction *i, const double *value, const double *radius)
 
     switch (i->op) {
     case QDOT_OP_POW:
-        return times(fabs(value[i->y]), ra / a) + times(fabs(log(a)), radius[i->y]);
+        return radius_times(fabs(value[i->y]), ra / a) + radius_times(fabs(log(a)), radius[i->y]);
     case QDOT_OP_DIV: {
         const double part = radius[i->y] / fabs(value[i->y]);
 
@@ -277,7 +277,7 @@ qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double *c, co
     double *radius = work + tape->places;
     size_t found = 0;
 
-    load(tape, c, r, work);
+    disc_load(tape, c, r, work);
     for (size_t k = 0; k < tape->length; k++) {
         const qdot_instruction *i = tape->code + k;
 
@@ -285,7 +285,7 @@ qdot_disc_hiders(const qdot_tape *tape, qdot_disc_hiding by, const double *c, co
             *last = k;
             found++;
         }
-        step(i, work, radius);
+        disc_execute(i, work, radius);
     }
     return found;
 }
@@ -295,13 +295,13 @@ typedef struct {
 } disc;
 
 static disc
-product(disc a, disc b)
+disc_product(disc a, disc b)
 {
     return (disc){a.c * b.c, of_product(a.c, a.r, b.c, b.r)};
 }
 
 static disc
-sum(disc a, disc b)
+disc_sum(disc a, disc b)
 {
     return (disc){a.c + b.c, a.r + b.r};
 }
@@ -313,7 +313,7 @@ negative(disc a)
 }
 
 static bool
-is_nothing(disc a)
+disc_is_zero(disc a)
 {
     return a.c == 0 && a.r == 0;
 }
@@ -323,20 +323,20 @@ is_nothing(disc a)
 static bool
 multiple_of(uint32_t op, const disc *B, const disc *x, disc *of)
 {
-    const bool a = !is_nothing(B[0]), b = !is_nothing(B[1]), c = !is_nothing(B[2]);
-    const disc ab = a ? product(B[0], x[1]) : b ? product(B[1], x[0]) : (disc){0};
+    const bool a = !disc_is_zero(B[0]), b = !disc_is_zero(B[1]), c = !disc_is_zero(B[2]);
+    const disc ab = a ? disc_product(B[0], x[1]) : b ? disc_product(B[1], x[0]) : (disc){0};
 
     *of = (disc){0};
     if (!a && !b && !c)
         return true;
     switch (op) {
     case QDOT_OP_NEG: *of = negative(B[0]); return true;
-    case QDOT_OP_ADD: *of = sum(B[0], B[1]); return true;
-    case QDOT_OP_SUB: *of = sum(B[0], negative(B[1])); return true;
+    case QDOT_OP_ADD: *of = disc_sum(B[0], B[1]); return true;
+    case QDOT_OP_SUB: *of = disc_sum(B[0], negative(B[1])); return true;
     case QDOT_OP_MUL: *of = ab; return !(a && b);
-    case QDOT_OP_MADD: *of = sum(ab, B[2]); return !(a && b);
-    case QDOT_OP_MSUB: *of = sum(ab, negative(B[2])); return !(a && b);
-    case QDOT_OP_NMADD: *of = sum(B[2], negative(ab)); return !(a && b);
+    case QDOT_OP_MADD: *of = disc_sum(ab, B[2]); return !(a && b);
+    case QDOT_OP_MSUB: *of = disc_sum(ab, negative(B[2])); return !(a && b);
+    case QDOT_OP_NMADD: *of = disc_sum(B[2], negative(ab)); return !(a && b);
     case QDOT_OP_DIV:
         of->c = B[0].c / x[1].c;
         of->r = of_quotient(of->c, B[0].r, x[1].c, x[1].r);
@@ -357,7 +357,7 @@ qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const doubl
 
     if (f != QDOT_OP_TANH && f != QDOT_OP_EXP && f != QDOT_OP_SINH)
         return false;
-    load(tape, c, r, work);
+    disc_load(tape, c, r, work);
     memset(B, 0, 2 * tape->places * sizeof *B);
     for (size_t j = 0; j < tape->length; j++) {
         const qdot_instruction *i = tape->code + j;
@@ -370,7 +370,7 @@ qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const doubl
         }
         if (j != k && !multiple_of(i->op, multiples, x, &of))
             return false;
-        step(i, work, radius);
+        disc_execute(i, work, radius);
         B[i->to] = of.c;
         RB[i->to] = of.r;
         if (i->op == QDOT_OP_SINCOS)
@@ -380,7 +380,7 @@ qdot_disc_is_plain(const qdot_tape *tape, size_t k, const double *c, const doubl
     for (size_t j = 0; j < tape->outputs; j++) {
         const disc of = {B[tape->output[j]], RB[tape->output[j]]};
 
-        if (!is_nothing(of) && !(fabs(of.c) > far * of.r))
+        if (!disc_is_zero(of) && !(fabs(of.c) > far * of.r))
             return false;
         *most = fmax(*most, fabs(of.c) + of.r);
     }
@@ -392,11 +392,11 @@ qdot_disc_argument(const qdot_tape *tape, size_t k, const double *x, double *res
 {
     double argument;
 
-    load(tape, x, NULL, work);
+    disc_load(tape, x, NULL, work);
     for (size_t j = 0; j < k; j++)
-        step(tape->code + j, work, work + tape->places);
+        disc_execute(tape->code + j, work, work + tape->places);
     argument = work[tape->code[k].x];
-    step(tape->code + k, work, work + tape->places);
+    disc_execute(tape->code + k, work, work + tape->places);
     *result = work[tape->code[k].to];
     return argument;
 }

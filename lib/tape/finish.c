@@ -16,14 +16,14 @@ typedef struct {
 } finish;
 
 static qdot_code_value *
-at(finish *f, qdot_value v)
+code_value_at(finish *f, qdot_value v)
 {
     return f->code->values.at + v;
 }
 
 /* The operands of a value: how many of a, b, c. */
 static int
-operands(const qdot_code_value *v)
+value_operands(const qdot_code_value *v)
 {
     if (v->op == QDOT_OP_INPUT || v->op == QDOT_OP_CONSTANT)
         return 0;
@@ -33,10 +33,10 @@ operands(const qdot_code_value *v)
 static void
 add_uses(finish *f, qdot_value v, uint32_t change)
 {
-    const qdot_code_value *x = at(f, v);
+    const qdot_code_value *x = code_value_at(f, v);
     const qdot_value args[3] = {x->a, x->b, x->c};
 
-    for (int i = 0; i < operands(x); i++)
+    for (int i = 0; i < value_operands(x); i++)
         f->uses[args[i]] += change;
 }
 
@@ -59,19 +59,19 @@ static void
 split_pairs(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
-        qdot_code_value *x = at(f, (qdot_value)v);
+        qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_SECOND && f->uses[v] > 0 && f->uses[x->a] == 1) {
             /* Read by its second result alone. */
-            *x = (qdot_code_value){QDOT_OP_COS, at(f, x->a)->a, 0, 0};
+            *x = (qdot_code_value){QDOT_OP_COS, code_value_at(f, x->a)->a, 0, 0};
         }
     }
     count_uses(f);
     for (size_t v = 0; v + 1 < f->code->values.n; v++) {
-        qdot_code_value *x = at(f, (qdot_value)v);
+        qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_SINCOS && f->uses[v] > 0) {
-            const qdot_code_value *next = at(f, (qdot_value)v + 1);
+            const qdot_code_value *next = code_value_at(f, (qdot_value)v + 1);
 
             if (next->op != QDOT_OP_SECOND || f->uses[v + 1] == 0)
                 x->op = QDOT_OP_SIN;
@@ -83,14 +83,14 @@ split_pairs(finish *f)
 static const qdot_code_value *
 lone_product(finish *f, qdot_value v)
 {
-    return f->uses[v] == 1 && at(f, v)->op == QDOT_OP_MUL ? at(f, v) : NULL;
+    return f->uses[v] == 1 && code_value_at(f, v)->op == QDOT_OP_MUL ? code_value_at(f, v) : NULL;
 }
 
 static void
 fuse(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
-        qdot_code_value *x = at(f, (qdot_value)v);
+        qdot_code_value *x = code_value_at(f, (qdot_value)v);
         const qdot_code_value *p;
 
         if (f->uses[v] == 0)
@@ -114,12 +114,12 @@ static void
 find_last(finish *f)
 {
     for (size_t v = 0; v < f->code->values.n; v++) {
-        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_code_value *x = code_value_at(f, (qdot_value)v);
         const qdot_value args[3] = {x->a, x->b, x->c};
 
         f->last[v] = (uint32_t)v;
         if (f->uses[v] > 0)
-            for (int i = 0; i < operands(x); i++)
+            for (int i = 0; i < value_operands(x); i++)
                 f->last[args[i]] = (uint32_t)v;
     }
     for (size_t i = 0; i < f->m; i++)
@@ -142,7 +142,7 @@ take_place(places *p)
 static bool
 is_computed(finish *f, size_t v)
 {
-    qdot_op op = at(f, (qdot_value)v)->op;
+    qdot_op op = code_value_at(f, (qdot_value)v)->op;
 
     return f->uses[v] > 0 && op < QDOT_OP_COUNT;
 }
@@ -154,16 +154,16 @@ pack(finish *f, qdot_tape *tape, places *p)
     size_t n = f->code->values.n;
 
     for (size_t v = 0; v < n; v++) {
-        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_code_value *x = code_value_at(f, (qdot_value)v);
         const qdot_value args[3] = {x->a, x->b, x->c};
         qdot_instruction i = {.op = x->op};
         uint32_t *const arg_places[3] = {&i.x, &i.y, &i.z};
 
         if (!is_computed(f, v))
             continue;
-        for (int k = 0; k < operands(x); k++)
+        for (int k = 0; k < value_operands(x); k++)
             *arg_places[k] = f->place[args[k]];
-        for (int k = 0; k < operands(x); k++) {
+        for (int k = 0; k < value_operands(x); k++) {
             qdot_value a = args[k];
             bool again = (k > 0 && args[0] == a) || (k > 1 && args[1] == a);
 
@@ -182,7 +182,7 @@ pack(finish *f, qdot_tape *tape, places *p)
 }
 
 static qdot_status
-build(finish *f, qdot_tape *tape)
+tape_build(finish *f, qdot_tape *tape)
 {
     size_t n = f->code->values.n, computed = 0;
     places p = {0};
@@ -190,7 +190,7 @@ build(finish *f, qdot_tape *tape)
     tape->inputs = f->code->inputs;
     tape->outputs = f->m;
     for (size_t v = 0; v < n; v++) {
-        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_CONSTANT && f->uses[v] > 0)
             f->constant[v] = (uint32_t)tape->constants++;
@@ -209,7 +209,7 @@ build(finish *f, qdot_tape *tape)
         return QDOT_ENOMEM;
     }
     for (size_t v = 0; v < n; v++) {
-        const qdot_code_value *x = at(f, (qdot_value)v);
+        const qdot_code_value *x = code_value_at(f, (qdot_value)v);
 
         if (x->op == QDOT_OP_INPUT)
             f->place[v] = x->a;
@@ -254,7 +254,7 @@ qdot_code_finish(qdot_code *code, size_t m, const qdot_value *outputs, qdot_tape
         fuse(&f);
         count_uses(&f);
         find_last(&f);
-        status = build(&f, *tape);
+        status = tape_build(&f, *tape);
     }
     qdot_free(f.uses);
     if (status != QDOT_OK) {

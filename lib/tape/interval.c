@@ -27,7 +27,7 @@ either(bool surely, bool never)
 }
 
 static double
-softplus(double x)
+softplus_of_double(double x)
 {
     return fmax(x, 0) + log1p(exp(-fabs(x)));
 }
@@ -63,7 +63,7 @@ on_points(const qdot_instruction *i, double a, double b, double c, qdot_interval
 }
 
 static void
-step(const qdot_instruction *i, qdot_interval *work)
+interval_execute(const qdot_instruction *i, qdot_interval *work)
 {
     const int operands = qdot_operations[i->op].operands;
     const qdot_interval a = work[i->x],
@@ -98,7 +98,7 @@ qdot_interval_eval(const qdot_tape *tape, const qdot_interval *in, qdot_interval
     for (size_t k = 0; k < tape->constants; k++)
         work[tape->inputs + k] = qdot_interval_point(tape->constant[k]);
     for (size_t k = 0; k < tape->length; k++)
-        step(tape->code + k, work);
+        interval_execute(tape->code + k, work);
     for (size_t k = 0; k < tape->outputs; k++)
         out[k] = work[tape->output[k]];
 }

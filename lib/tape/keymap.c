@@ -7,7 +7,7 @@ enum { WIDTH = 5 };
 
 /* Index of the entry with that key, or of the free entry for it. */
 static size_t
-find(const uint32_t *entries, size_t size, const uint32_t key[4])
+keymap_find_entry(const uint32_t *entries, size_t size, const uint32_t key[4])
 {
     uint64_t h = 0x9e3779b97f4a7c15u;
 
@@ -25,7 +25,7 @@ find(const uint32_t *entries, size_t size, const uint32_t key[4])
 }
 
 static void
-put(uint32_t *e, const uint32_t key[4], uint32_t value)
+keymap_write_entry(uint32_t *e, const uint32_t key[4], uint32_t value)
 {
     for (int i = 0; i < 4; i++)
         e[i] = key[i];
@@ -33,7 +33,7 @@ put(uint32_t *e, const uint32_t key[4], uint32_t value)
 }
 
 static qdot_status
-grow(qdot_keymap *map)
+keymap_grow(qdot_keymap *map)
 {
     size_t size = map->size ? 2 * map->size : 64;
     uint32_t *entries = qdot_malloc(size * WIDTH * sizeof *entries);
@@ -46,7 +46,7 @@ grow(qdot_keymap *map)
         const uint32_t *e = map->entries + WIDTH * i;
 
         if (e[4] != QDOT_KEYMAP_NONE)
-            put(entries + WIDTH * find(entries, size, e), e, e[4]);
+            keymap_write_entry(entries + WIDTH * keymap_find_entry(entries, size, e), e, e[4]);
     }
     qdot_free(map->entries);
     map->entries = entries;
@@ -68,7 +68,7 @@ qdot_keymap_get(const qdot_keymap *map, uint32_t a, uint32_t b, uint32_t c, uint
 
     if (map->size == 0)
         return QDOT_KEYMAP_NONE;
-    return map->entries[WIDTH * find(map->entries, map->size, key) + 4];
+    return map->entries[WIDTH * keymap_find_entry(map->entries, map->size, key) + 4];
 }
 
 qdot_status
@@ -79,9 +79,9 @@ qdot_keymap_set(qdot_keymap *map, uint32_t a, uint32_t b, uint32_t c, uint32_t d
     uint32_t *e;
 
     if (2 * (map->used + 1) > map->size)
-        QDOT_TRY(grow(map));
-    e = map->entries + WIDTH * find(map->entries, map->size, key);
+        QDOT_TRY(keymap_grow(map));
+    e = map->entries + WIDTH * keymap_find_entry(map->entries, map->size, key);
     map->used += e[4] == QDOT_KEYMAP_NONE;
-    put(e, key, value);
+    keymap_write_entry(e, key, value);
     return QDOT_OK;
 }

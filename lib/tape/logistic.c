@@ -142,7 +142,7 @@ absorb(qdot_pool *pool, denominator *x, qdot_expr *left)
 
 /* log(1 + e^d) */
 static qdot_expr
-softplus(qdot_pool *pool, qdot_expr d)
+softplus_of(qdot_pool *pool, qdot_expr d)
 {
     const qdot_expr e = qdot_fun1(pool, QDOT_EXP, d);
 
@@ -159,9 +159,9 @@ exponent_of(qdot_pool *pool, const denominator *x)
     qdot_expr sum = QDOT_ZERO;
 
     if (up != QDOT_ZERO)
-        sum = qdot_mul(pool, up, softplus(pool, d));
+        sum = qdot_mul(pool, up, softplus_of(pool, d));
     if (down != QDOT_ZERO)
-        sum = qdot_add(pool, sum, qdot_mul(pool, down, softplus(pool, qdot_neg(pool, d))));
+        sum = qdot_add(pool, sum, qdot_mul(pool, down, softplus_of(pool, qdot_neg(pool, d))));
     return qdot_neg(pool, sum);
 }
 
@@ -371,7 +371,7 @@ over_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 
 /* Whether e is such a sum, but none of two exponentials of one sign (read_sum). */
 static bool
-factor(qdot_pool *pool, qdot_expr e, factored *f)
+factor_exponentials(qdot_pool *pool, qdot_expr e, factored *f)
 {
     denominator x;
 
@@ -389,7 +389,7 @@ with_factors(qdot_pool *pool, qdot_expr e)
         const qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         factored by;
 
-        if (!is_negative_number(pool, p) || !factor(pool, b, &by))
+        if (!is_negative_number(pool, p) || !factor_exponentials(pool, b, &by))
             continue;
         f = qdot_div(pool, f, qdot_pow(pool, b, p));
         f = qdot_mul(pool, f, qdot_mul(pool, qdot_pow(pool, by.large, p),
@@ -417,7 +417,7 @@ as_sum(qdot_pool *pool, qdot_expr b)
 
 /* Sort the factors of e. */
 static void
-sort(quotients *q, qdot_expr e)
+quotients_sort(quotients *q, qdot_expr e)
 {
     qdot_pool *pool = q->pool;
 
@@ -497,7 +497,7 @@ form_of(qdot_pool *pool, qdot_expr e, void *user)
     e = with_tangents(pool, e);
     if (e == QDOT_NIL || qdot_expr_kind(pool, e) != QDOT_PROD)
         return e;
-    sort(&q, e);
+    quotients_sort(&q, e);
     if (q.n == 0)
         return e;
     if (q.sum != QDOT_NIL && grows(pool, q.sum))
@@ -527,11 +527,11 @@ logarithm_of_sum(qdot_pool *pool, const denominator *x)
     qdot_expr sum;
 
     if (x->v == QDOT_ZERO)
-        return qdot_add(pool, c, softplus(pool, at));
+        return qdot_add(pool, c, softplus_of(pool, at));
     if (x->w == QDOT_ZERO)
         return qdot_add(pool, qdot_add(pool, c, qdot_fun1(pool, QDOT_LOG, x->ratio)),
-                        softplus(pool, minus));
-    sum = qdot_add(pool, softplus(pool, at), softplus(pool, minus));
+                        softplus_of(pool, minus));
+    sum = qdot_add(pool, softplus_of(pool, at), softplus_of(pool, minus));
     sum = qdot_add(pool, sum, qdot_fun1(pool, QDOT_LOG, x->ratio));
     sum = qdot_add(pool, sum, qdot_add(pool, x->v, x->w));
     return qdot_add(pool, c, qdot_mul(pool, QDOT_HALF, qdot_expand(pool, sum)));
@@ -563,7 +563,7 @@ logarithm(qdot_pool *pool, qdot_expr e, void *user)
         return e;
     if (read_sum(pool, S, &x))
         return has_sign(pool, x.c, QDOT_POS) ? logarithm_of_sum(pool, &x) : e;
-    if (!factor(pool, S, &f))
+    if (!factor_exponentials(pool, S, &f))
         return e;
     return qdot_add(pool, logarithm_of(pool, f.large), qdot_fun1(pool, QDOT_LOG, f.scaled));
 }

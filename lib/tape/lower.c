@@ -50,7 +50,7 @@ op(lowering *l, qdot_op id, qdot_value a, qdot_value b)
 }
 
 static qdot_value
-value_of(lowering *l, qdot_expr e)
+node_value_of(lowering *l, qdot_expr e)
 {
     return qdot_constant_is(l->pool, e) ? qdot_code_constant(&l->code, e)
                                         : (qdot_value)qdot_walk_get(&l->walk, e);
@@ -71,7 +71,7 @@ without_sign(lowering *l, qdot_value v, bool *minus)
 
 /* Add coefficient * v to the groups of terms that share |coefficient|. */
 static qdot_status
-add_term(lowering *l, qdot_expr coefficient, qdot_value v)
+groups_add_term(lowering *l, qdot_expr coefficient, qdot_value v)
 {
     bool minus = qdot_expr_is_negative(l->pool, coefficient);
     qdot_expr magnitude = minus ? qdot_neg(l->pool, coefficient) : coefficient;
@@ -147,7 +147,7 @@ lower_sum(lowering *l, qdot_expr e, known *k)
         if (qdot_constant_is(pool, x))
             constant = qdot_add(pool, constant, qdot_mul(pool, c, x));
         else
-            QDOT_TRY(add_term(l, qdot_mul(pool, c, kt->factor), kt->bare));
+            QDOT_TRY(groups_add_term(l, qdot_mul(pool, c, kt->factor), kt->bare));
     }
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
@@ -191,14 +191,14 @@ typedef struct {
 } product;
 
 static void
-times(lowering *l, product *p, qdot_value v)
+product_times(lowering *l, product *p, qdot_value v)
 {
     *p = (product){true, p->some ? op(l, QDOT_OP_MUL, p->value, v) : v};
 }
 
 /* Twice a rational exponent if that is an integer of reasonable size; else 0. */
 static long
-twice(const qdot_pool *pool, qdot_expr exponent)
+exponent_twice(const qdot_pool *pool, qdot_expr exponent)
 {
     const fmpq *x = qdot_expr_rational(pool, exponent);
 
@@ -217,14 +217,14 @@ times_power(lowering *l, product *over, product *under, const known *k, qdot_val
 
     if (half % 2 == 0 && !(half < 0 && shared && k->root)) {
         if (half > 0 || shared)
-            times(l, over, qdot_code_power(&l->code, v, half / 2));
+            product_times(l, over, qdot_code_power(&l->code, v, half / 2));
         else
-            times(l, under, qdot_code_power(&l->code, v, -half / 2));
+            product_times(l, under, qdot_code_power(&l->code, v, -half / 2));
         return;
     }
     root = op(l, QDOT_OP_SQRT, v, 0);
     if (half < 0 && shared) {
-        times(l, over, qdot_code_power(&l->code, root, half));
+        product_times(l, over, qdot_code_power(&l->code, root, half));
         return;
     }
     if (half < 0) {
@@ -232,8 +232,8 @@ times_power(lowering *l, product *over, product *under, const known *k, qdot_val
         half = -half;
     }
     if (half > 1)
-        times(l, over, qdot_code_power(&l->code, v, half / 2));
-    times(l, over, root);
+        product_times(l, over, qdot_code_power(&l->code, v, half / 2));
+    product_times(l, over, root);
 }
 
 static qdot_status
@@ -248,13 +248,13 @@ lower_product(lowering *l, qdot_expr e, known *k)
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i), p = qdot_expr_arg(pool, e, i + 1);
         bool constant = qdot_constant_is(pool, b);
-        long half = twice(pool, p);
+        long half = exponent_twice(pool, p);
 
         if (constant && qdot_constant_is(pool, p))
             factor = qdot_mul(pool, factor, qdot_pow(pool, b, p));
         else if (half != 0) {
             const known *kb = l->known + qdot_walk_index(&l->walk, b);
-            qdot_value v = value_of(l, b);
+            qdot_value v = node_value_of(l, b);
             bool odd = false;
 
             if (half % 2 == 0)
@@ -263,12 +263,12 @@ lower_product(lowering *l, qdot_expr e, known *k)
                 minus = !minus;
             times_power(l, &over, &under, kb, v, half);
         } else
-            times(l, &over, op(l, QDOT_OP_POW, value_of(l, b), value_of(l, p)));
+            product_times(l, &over, op(l, QDOT_OP_POW, node_value_of(l, b), node_value_of(l, p)));
     }
     if (qdot_pool_failed(pool))
         return qdot_pool_check(pool);
     if (under.some && !over.some)
-        times(l, &over, qdot_code_constant(&l->code, QDOT_ONE));
+        product_times(l, &over, qdot_code_constant(&l->code, QDOT_ONE));
     k->bare = under.some ? op(l, QDOT_OP_DIV, over.value, under.value) : over.value;
     k->factor = minus ? qdot_neg(pool, factor) : factor;
     return QDOT_OK;
@@ -285,7 +285,7 @@ count_negatives(lowering *l)
         if (qdot_expr_kind(l->pool, e) != QDOT_PROD)
             continue;
         for (uint32_t k = 1; k + 1 < n; k += 2) {
-            long half = twice(l->pool, qdot_expr_arg(l->pool, e, k + 1));
+            long half = exponent_twice(l->pool, qdot_expr_arg(l->pool, e, k + 1));
             known *b = l->known + qdot_walk_index(&l->walk, qdot_expr_arg(l->pool, e, k));
 
             if (half < 0) {
@@ -316,16 +316,16 @@ static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
 static qdot_value
 fold(lowering *l, qdot_op id, qdot_expr e)
 {
-    qdot_value v = value_of(l, qdot_expr_arg(l->pool, e, 0));
+    qdot_value v = node_value_of(l, qdot_expr_arg(l->pool, e, 0));
 
     for (uint32_t i = 1; i < qdot_expr_count(l->pool, e); i++)
-        v = op(l, id, v, value_of(l, qdot_expr_arg(l->pool, e, i)));
+        v = op(l, id, v, node_value_of(l, qdot_expr_arg(l->pool, e, i)));
     return v;
 }
 
 /* A held value includes its factor; only its sign is left to its readers. */
 static void
-hold(lowering *l, qdot_expr x, known *k)
+lower_hold(lowering *l, qdot_expr x, known *k)
 {
     const known *inner = l->known + qdot_walk_index(&l->walk, x);
     bool minus = qdot_expr_is_negative(l->pool, inner->factor);
@@ -353,7 +353,7 @@ error_function(lowering *l, qdot_fun_id f, qdot_value x)
 
 /* log(1 + e^d) reads its slope (1 + tanh(d/2))/2 too, of which log(1 + e^-d) has the same tanh. */
 static qdot_value
-softplus(lowering *l, qdot_expr d)
+lower_softplus(lowering *l, qdot_expr d)
 {
     const known *k = l->known + qdot_walk_index(&l->walk, d);
     const bool minus = qdot_expr_is_negative(l->pool, k->factor);
@@ -364,7 +364,7 @@ softplus(lowering *l, qdot_expr d)
         x = op(l, QDOT_OP_MUL, x, qdot_code_constant(&l->code, half));
     y = op(l, QDOT_OP_MUL, op(l, QDOT_OP_TANH, x, 0), one_half);
     y = op(l, minus ? QDOT_OP_SUB : QDOT_OP_ADD, one_half, y);
-    return op(l, QDOT_OP_SOFTPLUS, value_of(l, d), y);
+    return op(l, QDOT_OP_SOFTPLUS, node_value_of(l, d), y);
 }
 
 static qdot_status
@@ -375,28 +375,28 @@ lower_function(lowering *l, qdot_expr e, known *k)
     qdot_value s, c;
 
     if (f == QDOT_HOLD) {
-        hold(l, x, k);
+        lower_hold(l, x, k);
         return QDOT_OK;
     }
     d = qdot_logistic_argument(l->pool, e);
     if (d != QDOT_NIL && !qdot_constant_is(l->pool, d)) {
-        k->bare = softplus(l, d);
+        k->bare = lower_softplus(l, d);
         return QDOT_OK;
     }
     if (direct[f] == QDOT_OP_SELECT) {
-        k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, value_of(l, x),
-                               value_of(l, qdot_expr_arg(l->pool, e, 1)),
-                               value_of(l, qdot_expr_arg(l->pool, e, 2)));
+        k->bare = qdot_code_op(&l->code, QDOT_OP_SELECT, node_value_of(l, x),
+                               node_value_of(l, qdot_expr_arg(l->pool, e, 1)),
+                               node_value_of(l, qdot_expr_arg(l->pool, e, 2)));
         return QDOT_OK;
     }
     if (direct[f] != QDOT_OP_NEG) {
         k->bare = qdot_operations[direct[f]].operands == 1
-                      ? op(l, direct[f], value_of(l, x), 0)
+                      ? op(l, direct[f], node_value_of(l, x), 0)
                       : fold(l, direct[f], e);
         return QDOT_OK;
     }
     if (f == QDOT_ERF || f == QDOT_ERFC) {
-        k->bare = error_function(l, f, value_of(l, x));
+        k->bare = error_function(l, f, node_value_of(l, x));
         return QDOT_OK;
     }
     switch ((int)f) {
@@ -451,7 +451,7 @@ lower_node(lowering *l, size_t i)
         return QDOT_OK;
     case QDOT_LOGIC:
         k->bare = node->op == QDOT_NOT
-                      ? op(l, QDOT_OP_NOT, value_of(l, qdot_expr_arg(l->pool, e, 0)), 0)
+                      ? op(l, QDOT_OP_NOT, node_value_of(l, qdot_expr_arg(l->pool, e, 0)), 0)
                       : fold(l, logics[node->op], e);
         return QDOT_OK;
     case QDOT_VEC:
@@ -464,7 +464,7 @@ lower_node(lowering *l, size_t i)
 
 /* Lower a node from the values of its children. */
 static qdot_value
-whole(lowering *l, const known *k)
+value_with_factor(lowering *l, const known *k)
 {
     bool minus = qdot_expr_is_negative(l->pool, k->factor);
     qdot_expr magnitude = minus ? qdot_neg(l->pool, k->factor) : k->factor;
@@ -497,7 +497,7 @@ refuse_unset(lowering *l)
 }
 
 static qdot_status
-lower_all(lowering *l, size_t n, const qdot_expr *inputs)
+lower_nodes(lowering *l, size_t n, const qdot_expr *inputs)
 {
     count_negatives(l);
     for (size_t i = 0; i < n; i++) {
@@ -516,15 +516,15 @@ lower_all(lowering *l, size_t n, const qdot_expr *inputs)
         if (qdot_walk_get(&l->walk, e) >> 32 || qdot_constant_is(l->pool, e))
             continue;
         QDOT_TRY(lower_node(l, i));
-        qdot_walk_set(&l->walk, e, whole(l, l->known + i));
+        qdot_walk_set(&l->walk, e, value_with_factor(l, l->known + i));
         QDOT_TRY(l->code.status);
     }
     return qdot_pool_check(l->pool);
 }
 
 static qdot_status
-lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr *outputs,
-      qdot_tape **tape)
+lower_outputs(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr *outputs,
+              qdot_tape **tape)
 {
     qdot_value *results = qdot_malloc(m * sizeof *results);
     qdot_status status = results ? QDOT_OK : QDOT_ENOMEM;
@@ -535,10 +535,10 @@ lower(lowering *l, size_t n, const qdot_expr *inputs, size_t m, const qdot_expr 
     if (status == QDOT_OK)
         status = qdot_angles_new(l->pool, &l->walk, l->series, &l->angles);
     if (status == QDOT_OK)
-        status = lower_all(l, n, inputs);
+        status = lower_nodes(l, n, inputs);
     if (status == QDOT_OK) {
         for (size_t i = 0; i < m; i++)
-            results[i] = value_of(l, outputs[i]);
+            results[i] = node_value_of(l, outputs[i]);
         status = qdot_code_finish(&l->code, m, results, tape);
     }
     qdot_free(results);
@@ -586,7 +586,7 @@ tape_new(qdot_pool *pool, bool series, size_t n, const qdot_expr *inputs, size_t
         outputs = finite;
     }
     qdot_code_init(&l.code, pool, n);
-    status = lower(&l, n, inputs, m, outputs, tape);
+    status = lower_outputs(&l, n, inputs, m, outputs, tape);
     qdot_free(finite);
     qdot_code_clear(&l.code);
     qdot_angles_free(l.angles);

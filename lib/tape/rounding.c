@@ -28,7 +28,7 @@ adds_product(uint32_t op)
 }
 
 static void
-look(const qdot_instruction *i, const double *work, results *r)
+instruction_look(const qdot_instruction *i, const double *work, results *r)
 {
     const double none = 0, a = work[i->x];
     double b = 0, c = 0, d = 0, e = 0;
@@ -89,28 +89,28 @@ own(uint32_t op)
 }
 
 static uint32_t
-place_of(const qdot_instruction *i, int operand)
+operand_place(const qdot_instruction *i, int operand)
 {
     return operand == 0 ? i->x : operand == 1 ? i->y : i->z;
 }
 
 /* A slope times what it meets, which may be nothing. */
 static double
-part(double slope, double by)
+slope_times(double slope, double by)
 {
     return by == 0 ? 0 : slope * by;
 }
 
 /* The error of a result, from those of the operands. */
 static double
-error_of(const qdot_instruction *i, const results *r, int result, const double *errors)
+result_error(const qdot_instruction *i, const results *r, int result, const double *errors)
 {
     const double *slope = r->slope[result], sum = own(i->op) * unit * r->value[result],
                  product = unit * r->product;
     double square = sum * sum + product * product;
 
     for (int k = 0; k < qdot_operations[i->op].operands; k++) {
-        const double by = part(slope[k], errors[place_of(i, k)]);
+        const double by = slope_times(slope[k], errors[operand_place(i, k)]);
 
         square += by * by;
     }
@@ -118,7 +118,7 @@ error_of(const qdot_instruction *i, const results *r, int result, const double *
 }
 
 static void
-load(const qdot_tape *tape, const double *in, double *work)
+rounding_load(const qdot_tape *tape, const double *in, double *work)
 {
     if (tape->inputs)
         memcpy(work, in, tape->inputs * sizeof *work);
@@ -133,7 +133,7 @@ qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_i
     double *errors = work + tape->places;
     results r = {0};
 
-    load(tape, in, work);
+    rounding_load(tape, in, work);
     memset(errors, 0, tape->places * sizeof *errors);
     if (of_in)
         memcpy(errors, of_in, tape->inputs * sizeof *errors);
@@ -142,9 +142,9 @@ qdot_rounding_bounds(const qdot_tape *tape, const double *in, const double *of_i
     for (const qdot_instruction *i = tape->code; i < tape->code + tape->length; i++) {
         double e[2];
 
-        look(i, work, &r);
+        instruction_look(i, work, &r);
         for (int k = 0; k < 2; k++)
-            e[k] = error_of(i, &r, k, errors);
+            e[k] = result_error(i, &r, k, errors);
         work[i->to] = r.value[0];
         errors[i->to] = e[0];
         if (i->op == QDOT_OP_SINCOS) {
@@ -194,7 +194,7 @@ mixed(size_t i, size_t k)
 }
 
 static void
-begin(marking *m, size_t state)
+marking_begin(marking *m, size_t state)
 {
     const size_t inputs = m->tape->inputs;
     double *in = m->work;
@@ -219,7 +219,7 @@ begin(marking *m, size_t state)
 /* From here on operand x is off by a factor: by so many doubles above 1, or below it, where they lie
  * twice as near to each other. */
 static void
-move(marking *m, uint32_t x, signed char side)
+marking_shift_operand(marking *m, uint32_t x, signed char side)
 {
     m->shown[FACTORS][x] += (side > 0 ? 2 : 1) * side * unit * m->work[x];
     m->errors[x] = unit * fabs(m->work[x]);
@@ -234,12 +234,12 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
     int up = (shown > 0) - (shown < 0);
 
     for (int k = 0; k < qdot_operations[i->op].operands; k++) {
-        const uint32_t x = place_of(i, k);
+        const uint32_t x = operand_place(i, k);
         const double units = m->errors[x] / (unit * fabs(m->work[x]));
         signed char *side = m->sides + OPERANDS * at + k;
         const int way = slope[k] * m->work[x] > 0 ? 1 : -1;
 
-        if (fabs(part(slope[k], m->errors[x])) < counts * error || !isfinite(units))
+        if (fabs(slope_times(slope[k], m->errors[x])) < counts * error || !isfinite(units))
             continue;
         if (up == 0) /* downwards, where the factor may be nearer to 1 */
             up = -way;
@@ -248,18 +248,18 @@ mark(marking *m, size_t at, const double *slope, double error, double shown)
             *side = (signed char)fmax(*side, fmin(FARTHEST, ceil(units / 2)));
         else
             *side = (signed char)fmin(*side, -fmin(FARTHEST, ceil(units)));
-        move(m, x, *side);
+        marking_shift_operand(m, x, *side);
     }
 }
 
 /* What is shown of a result. */
 static void
-show(const marking *m, const qdot_instruction *i, const double *slope, double *by)
+marking_show_result(const marking *m, const qdot_instruction *i, const double *slope, double *by)
 {
     for (int k = 0; k < SHOWN; k++) {
         by[k] = 0;
         for (int o = 0; o < qdot_operations[i->op].operands; o++)
-            by[k] += part(slope[o], m->shown[k][place_of(i, o)]);
+            by[k] += slope_times(slope[o], m->shown[k][operand_place(i, o)]);
     }
 }
 
@@ -275,7 +275,7 @@ is_hidden(double error, double value, const double *by)
 
 /* Carry out instruction `at`, with factors that it has and those that it needs. */
 static void
-carry_out(marking *m, size_t at)
+marking_carry_out(marking *m, size_t at)
 {
     const qdot_instruction *i = m->tape->code + at;
     double error[2], by[2][SHOWN];
@@ -283,19 +283,19 @@ carry_out(marking *m, size_t at)
 
     for (int k = 0; k < OPERANDS; k++)
         if (m->sides[OPERANDS * at + k])
-            move(m, place_of(i, k), m->sides[OPERANDS * at + k]);
-    look(i, m->work, &r);
+            marking_shift_operand(m, operand_place(i, k), m->sides[OPERANDS * at + k]);
+    instruction_look(i, m->work, &r);
     for (int k = 0; k < 2; k++) {
         const double *slope = r.slope[k];
 
-        show(m, i, slope, by[k]);
-        error[k] = error_of(i, &r, k, m->errors);
+        marking_show_result(m, i, slope, by[k]);
+        error[k] = result_error(i, &r, k, m->errors);
         if (is_hidden(error[k], r.value[k], by[k]))
             mark(m, at, slope, error[k], by[k][FACTORS]);
     }
     for (int k = 0; k < 2; k++) {
-        show(m, i, r.slope[k], by[k]);
-        error[k] = error_of(i, &r, k, m->errors);
+        marking_show_result(m, i, r.slope[k], by[k]);
+        error[k] = result_error(i, &r, k, m->errors);
     }
     for (int k = 0; k < (i->op == QDOT_OP_SINCOS ? 2 : 1); k++) {
         const uint32_t to = k ? i->y : i->to;
@@ -311,7 +311,7 @@ carry_out(marking *m, size_t at)
 
 /* Room for `more` constants behind those of the tape. */
 static qdot_status
-make_room(qdot_tape *t, size_t more)
+factors_make_room(qdot_tape *t, size_t more)
 {
     const size_t n = t->constants + more;
     double *constant = qdot_realloc(t->constant, n * sizeof *constant), *low;
@@ -338,7 +338,7 @@ moved_on(const qdot_tape *t, uint32_t place, size_t more)
 
 /* The constant 1 with that side, among those from `first` on; it is made if there is none. */
 static uint32_t
-factor(qdot_tape *t, size_t first, size_t *made, signed char side)
+factor_constant(qdot_tape *t, size_t first, size_t *made, signed char side)
 {
     size_t k = first;
 
@@ -368,7 +368,7 @@ put_factors(qdot_tape *t, const marking *m)
             sides[m->sides[k] + FARTHEST] = true;
             most++;
         }
-    if (!code || make_room(t, most) != QDOT_OK) {
+    if (!code || factors_make_room(t, most) != QDOT_OK) {
         qdot_free(code);
         return QDOT_ENOMEM;
     }
@@ -377,11 +377,11 @@ put_factors(qdot_tape *t, const marking *m)
 
         for (int k = 0; k < OPERANDS; k++) {
             const signed char side = m->sides[OPERANDS * at + k];
-            const uint32_t x = moved_on(t, place_of(&i, k), most);
+            const uint32_t x = moved_on(t, operand_place(&i, k), most);
 
             if (side)
                 *to++ = (qdot_instruction){.op = QDOT_OP_MUL, .to = x, .x = x,
-                                           .y = factor(t, constants, &made, side)};
+                                           .y = factor_constant(t, constants, &made, side)};
         }
         i.to = moved_on(t, i.to, most);
         i.x = moved_on(t, i.x, most);
@@ -413,9 +413,9 @@ qdot_rounding_show(qdot_tape *tape)
         for (int k = 0; k < SHOWN; k++)
             m.shown[k] = m.errors + (size_t)(k + 1) * tape->places;
         for (size_t state = 0; state < STATES; state++) {
-            begin(&m, state);
+            marking_begin(&m, state);
             for (size_t at = 0; at < tape->length; at++)
-                carry_out(&m, at);
+                marking_carry_out(&m, at);
         }
         if (m.count > 0)
             status = put_factors(tape, &m);

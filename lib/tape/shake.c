@@ -9,7 +9,7 @@
 #include "tape/instruction.h"
 
 static void *
-copy(const void *from, size_t size)
+copy_bytes(const void *from, size_t size)
 {
     void *to = qdot_malloc(size);
 
@@ -21,17 +21,17 @@ copy(const void *from, size_t size)
 qdot_status
 qdot_tape_shake(const qdot_tape *tape, qdot_tape **shaken)
 {
-    qdot_tape *t = copy(tape, sizeof *t);
+    qdot_tape *t = copy_bytes(tape, sizeof *t);
 
     *shaken = NULL;
     if (!t)
         return QDOT_ENOMEM;
-    t->constant = copy(tape->constant, t->constants * sizeof *t->constant);
-    t->side = copy(tape->side, t->constants * sizeof *t->side);
+    t->constant = copy_bytes(tape->constant, t->constants * sizeof *t->constant);
+    t->side = copy_bytes(tape->side, t->constants * sizeof *t->side);
     t->low = qdot_calloc(t->constants, sizeof *t->low);
-    t->exact = copy(tape->exact, t->constants * sizeof *t->exact);
-    t->output = copy(tape->output, t->outputs * sizeof *t->output);
-    t->code = copy(tape->code, t->length * sizeof *t->code);
+    t->exact = copy_bytes(tape->exact, t->constants * sizeof *t->exact);
+    t->output = copy_bytes(tape->output, t->outputs * sizeof *t->output);
+    t->code = copy_bytes(tape->code, t->length * sizeof *t->code);
     if (!t->constant || !t->side || !t->low || !t->exact || !t->output || !t->code) {
         qdot_tape_free(t);
         return QDOT_ENOMEM;
