@@ -34,7 +34,7 @@ typedef struct {
 
 /* Whether series have been faster for long enough, and there is something left to gain. */
 static qdot_status
-look(turns *a, double t, const double *y)
+turns_compare_pace(turns *a, double t, const double *y)
 {
     const double pace = fabs(t - a->t) / (a->meter->work - a->work);
     double h = 0;
@@ -67,7 +67,7 @@ look_at_series(turns *a, double t)
 }
 
 static qdot_status
-accepted(double t, const double *y, bool *stop, void *user)
+turns_accepted(double t, const double *y, bool *stop, void *user)
 {
     turns *a = user;
 
@@ -80,7 +80,7 @@ accepted(double t, const double *y, bool *stop, void *user)
     if (a->now->series)
         look_at_series(a, t);
     else
-        QDOT_TRY(look(a, t, y));
+        QDOT_TRY(turns_compare_pace(a, t, y));
     *stop = a->over;
     return QDOT_OK;
 }
@@ -111,7 +111,7 @@ take_turn(turns *a, double t, bool first, double *y, qdot_ode_result *result, bo
 
     own.alternates = false;
     own.now = NULL;
-    own.accepted = accepted;
+    own.accepted = turns_accepted;
     own.expanded = a->options->expanded ? expanded : NULL;
     own.user = a;
     own.meter = a->meter;

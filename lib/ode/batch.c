@@ -77,7 +77,7 @@ typedef struct {
 
 /* Put lane l at a member's start; without a member it stays as it is and is ignored. */
 static void
-take(batch *b, size_t l)
+lane_enter(batch *b, size_t l)
 {
     qdot_batch_run *run = b->run;
     lanes *a = &b->at;
@@ -108,7 +108,7 @@ take(batch *b, size_t l)
 }
 
 static void
-leave(batch *b, size_t l, qdot_batch_outcome outcome)
+lane_leave(batch *b, size_t l, qdot_batch_outcome outcome)
 {
     const lanes *a = &b->at;
 
@@ -118,13 +118,13 @@ leave(batch *b, size_t l, qdot_batch_outcome outcome)
                                                         .rejected = (size_t)a->rejected[l]};
     for (size_t i = 0; i < b->n; i++)
         b->run->y[a->member[l] * b->n + i] = b->y[i * L + l];
-    take(b, l);
+    lane_enter(b, l);
 }
 
 /* --- steps -------------------------------------------------------------------------- */
 
 static void
-begin(batch *b)
+lanes_begin_series(batch *b)
 {
     lanes *a = &b->at;
     double t[L], *y = b->value; /* free here */
@@ -143,7 +143,7 @@ series_of(const batch *b)
 }
 
 static const double *
-coefficient(const batch *b, size_t i, int k)
+series_coefficient(const batch *b, size_t i, int k)
 {
     return b->system->x + (i * b->system->stride + (size_t)k) * L;
 }
@@ -179,13 +179,13 @@ reject(batch *b, size_t l)
     a->ended[l] = 0;
     a->unit[l] = a->direction[l] * qdot_step_unit(a->most[l]);
     if (++a->tries[l] > most_tries || a->most[l] < qdot_step_floor(a->t[l]))
-        leave(b, l, QDOT_BATCH_STUCK);
+        lane_leave(b, l, QDOT_BATCH_STUCK);
 }
 
 /* Accept or reject the steps tried by the series begun at their ends. Returns whether some lane
  * must begin anew. */
 static bool
-judge(batch *b)
+lanes_judge(batch *b)
 {
     lanes *a = &b->at;
     int64_t taken[L], odd[L];
@@ -197,7 +197,7 @@ judge(batch *b)
     b->kernels->blend(b->moving, taken, b->next_carry, b->carry);
     for (size_t l = 0; b->system->taken && l < L; l++)
         if (taken[l] && b->system->taken(l, b->system->looker)) {
-            leave(b, l, QDOT_BATCH_LEFT);
+            lane_leave(b, l, QDOT_BATCH_LEFT);
             odd[l] = 0;
             again = true; /* with the member that came */
         }
@@ -205,11 +205,11 @@ judge(batch *b)
         if (!odd[l])
             continue;
         if (!a->tried[l])
-            leave(b, l, QDOT_BATCH_UNDEFINED);
+            lane_leave(b, l, QDOT_BATCH_UNDEFINED);
         else if (!taken[l])
             reject(b, l);
         else
-            leave(b, l, a->t[l] == a->t1[l] ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
+            lane_leave(b, l, a->t[l] == a->t1[l] ? QDOT_BATCH_DONE : QDOT_BATCH_LIMIT);
     }
     memset(a->tried, 0, sizeof a->tried);
     return again;
@@ -217,7 +217,7 @@ judge(batch *b)
 
 /* Try a step of h at most: cut to end on a double, on t1 where that is near. */
 static void
-try_step(batch *b, size_t l, double h)
+lane_try_step(batch *b, size_t l, double h)
 {
     lanes *a = &b->at;
     double rest = a->direction[l] * (a->t1[l] - a->t[l]), end = a->t1[l];
@@ -234,7 +234,7 @@ try_step(batch *b, size_t l, double h)
     a->end[l] = end;
     a->h[l] = h = end - a->t[l];
     if (end != a->t1[l] && qdot_step_is_too_short(a->t[l], fabs(h))) {
-        leave(b, l, QDOT_BATCH_STUCK);
+        lane_leave(b, l, QDOT_BATCH_STUCK);
         return;
     }
     a->tried[l] = -1;
@@ -277,12 +277,12 @@ choose_step(batch *b, size_t l, double step, const double *weight)
         a->unit[l] = ldexp(a->unit[l], (int)fmax(-300, fmin(300, floor(far))));
         a->rescales[l]++;
         if (!(fabs(a->unit[l]) >= DBL_MIN && isfinite(a->unit[l])))
-            leave(b, l, QDOT_BATCH_STUCK);
+            lane_leave(b, l, QDOT_BATCH_STUCK);
     } else if (isnan(step)) {
         a->h[l] = a->unit[l]; /* the point is good, only what is beyond it is not */
         reject(b, l);
     } else
-        try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
+        lane_try_step(b, l, fabs(a->unit[l]) * qdot_rough_exp2(step));
 }
 
 /* Choose a step for each lane from its series, or another unit. */
@@ -303,7 +303,7 @@ choose_steps(batch *b)
 
 /* The end of each lane's step, and the values that will confirm it. */
 static void
-go(batch *b)
+lanes_evaluate_ends(batch *b)
 {
     const qdot_ode_batch *system = b->system;
     const qdot_batch_series series = series_of(b);
@@ -313,7 +313,7 @@ go(batch *b)
                         (qdot_batch_sum){b->y, b->carry},
                         (qdot_batch_sum){b->next, b->next_carry});
     for (size_t i = system->checked; i < b->moving; i++)
-        memcpy(b->first + i * L, coefficient(b, i, 1), L * sizeof *b->first);
+        memcpy(b->first + i * L, series_coefficient(b, i, 1), L * sizeof *b->first);
     if (system->project) {
         double t[L];
 
@@ -345,13 +345,13 @@ come_near(batch *b)
             continue;
         a->unit[l] = a->old_unit[l];
         a->tried[l] = 0;
-        try_step(b, l, near[l] * fabs(a->old_unit[l]));
+        lane_try_step(b, l, near[l] * fabs(a->old_unit[l]));
     }
 }
 
 /* Show the steps that lanes are to try. */
 static qdot_status
-show(const batch *b)
+lanes_show(const batch *b)
 {
     const qdot_ode_batch *system = b->system;
     const lanes *a = &b->at;
@@ -383,31 +383,31 @@ is_active(const batch *b)
 }
 
 static qdot_status
-loop(batch *b)
+batch_loop(batch *b)
 {
     const qdot_ode_batch *system = b->system;
 
     for (size_t l = 0; l < L; l++)
-        take(b, l);
+        lane_enter(b, l);
     while (is_active(b)) {
         QDOT_TRY(qdot_interrupt_check());
-        begin(b);
-        while (judge(b)) /* a member may be undefined where it starts */
-            begin(b);
+        lanes_begin_series(b);
+        while (lanes_judge(b)) /* a member may be undefined where it starts */
+            lanes_begin_series(b);
         if (!is_active(b))
             break;
         system->extend(b->run->order, system->user);
         b->run->expansions++;
         choose_steps(b);
         come_near(b);
-        QDOT_TRY(show(b));
-        go(b);
+        QDOT_TRY(lanes_show(b));
+        lanes_evaluate_ends(b);
     }
     return QDOT_OK;
 }
 
 static qdot_status
-check(const qdot_ode_batch *system, const qdot_batch_run *run)
+batch_check(const qdot_ode_batch *system, const qdot_batch_run *run)
 {
     if (system->n == 0)
         return qdot_fail(QDOT_EINVAL, "there is nothing to integrate");
@@ -442,7 +442,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
     qdot_status status;
 
     run->expansions = 0;
-    QDOT_TRY(check(system, run));
+    QDOT_TRY(batch_check(system, run));
     memory = qdot_calloc(7 * size + line / sizeof *memory, sizeof *memory);
     if (!memory)
         return QDOT_ENOMEM;
@@ -460,7 +460,7 @@ qdot_ode_batch_run(const qdot_ode_batch *system, qdot_batch_run *run)
         b.upper[k] = qdot_step_fall(b.log_aim, run->order) * (run->order - k);
         b.lower[k] = qdot_step_term(log2(qdot_step_aim(term_tol, false)));
     }
-    status = loop(&b);
+    status = batch_loop(&b);
     qdot_free(memory);
     return status;
 }

@@ -14,7 +14,7 @@ static const double most = 4;
 static const double largest = 0.1432;
 
 static void
-evaluate(size_t n, const double *P, const double *y0, double x, double *y)
+between_evaluate(size_t n, const double *P, const double *y0, double x, double *y)
 {
     for (size_t i = 0; i < n; i++) {
         double sum = 0;
@@ -26,7 +26,7 @@ evaluate(size_t n, const double *P, const double *y0, double x, double *y)
 }
 
 static qdot_status
-find(qdot_ode_stepper *s, double t0, double h, const double *y1, double *P, bool *good)
+between_find(qdot_ode_stepper *s, double t0, double h, const double *y1, double *P, bool *good)
 {
     const size_t n = s->system->n;
     double *room = P + QDOT_BETWEEN_DEGREE * n;
@@ -66,10 +66,10 @@ qdot_between_read(qdot_between *b, qdot_ode_stepper *s, double t0, double h, con
     if (!b->P)
         return QDOT_ENOMEM;
     if (!b->known)
-        QDOT_TRY(find(s, t0, h, y1, b->P, &b->good));
+        QDOT_TRY(between_find(s, t0, h, y1, b->P, &b->good));
     b->known = true;
     *done = b->good;
     if (b->good)
-        evaluate(n, b->P, s->y, x, y);
+        between_evaluate(n, b->P, s->y, x, y);
     return QDOT_OK;
 }

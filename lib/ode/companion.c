@@ -82,7 +82,7 @@ struct qdot_companion {
 };
 
 static qdot_status
-look(double t, const double *y, bool *stop, void *user)
+follower_look(double t, const double *y, bool *stop, void *user)
 {
     const follower *f = user;
     const qdot_companion *c = f->of;
@@ -100,7 +100,7 @@ run_by(follower *f, const qdot_companion_plan *by)
     const qdot_companion *c = f->of;
     const qdot_ode_options options = {.tol = by->tol,
                                       .first_share = qdot_companion_first_share(f->number),
-                                      .accepted = look,
+                                      .accepted = follower_look,
                                       .user = f,
                                       .order_more = qdot_companion_orders(f->number),
                                       .term_tol = qdot_companion_term_tol(c->tol, f->number),
@@ -138,7 +138,7 @@ qdot_companion_leads_nowhere(const qdot_ode_method *method, bool failed,
 /* The way is given up: count its work, and keep where it was when it could first be seen to cost too much,
  * which does not depend on how fast the run came. */
 static void
-give_up(follower *f)
+follower_give_up(follower *f)
 {
     const qdot_companion *c = f->of;
     const double *times = f->tr->t, direction = c->t1 < f->t0 ? -1 : 1;
@@ -176,12 +176,12 @@ run_ways(follower *f)
         if (f->result.outcome != QDOT_ODE_FAILED
             || !qdot_companion_leads_nowhere(c->run, true, &f->meter))
             return;
-        give_up(f);
+        follower_give_up(f);
     }
 }
 
 static void
-run_all(follower *f)
+follower_run_all(follower *f)
 {
     f->result = (qdot_ode_result){0};
     f->way = QDOT_COMPANION_SERIES;
@@ -196,12 +196,12 @@ thread_main(void *user)
 {
     follower *f = user;
 
-    run_all(f);
+    follower_run_all(f);
     return NULL;
 }
 
 static void
-release(qdot_companion *c)
+companion_release(qdot_companion *c)
 {
     for (size_t k = 0; k < c->count; k++) {
         qdot_free(c->at[k].start);
@@ -263,7 +263,7 @@ qdot_companion_show(qdot_companion *c, size_t k, const double *y)
 
 /* max_i |a_i - b_i| / max(s_i, min(|a_i|, |b_i|)). */
 static double
-apart(const qdot_companion *c, const double *scales, const double *a, const double *b)
+scaled_distance(const qdot_companion *c, const double *scales, const double *a, const double *b)
 {
     double worst = 0;
 
@@ -338,7 +338,7 @@ median_between(const qdot_companion *c, const double *scales)
 }
 
 static qdot_status
-prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
+follower_prepare(qdot_companion *c, const qdot_companion_request *request, size_t number)
 {
     follower *f = c->at + number;
 
@@ -390,11 +390,11 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
     c->floor = unit;
     c->shown = qdot_malloc(PLACES * c->n * sizeof *c->shown);
     atomic_init(&c->leave, false);
-    status = c->shown ? prepare(c, request, 0) : QDOT_ENOMEM;
+    status = c->shown ? follower_prepare(c, request, 0) : QDOT_ENOMEM;
     if (status == QDOT_OK && request->twin)
-        status = prepare(c, request, 1);
+        status = follower_prepare(c, request, 1);
     if (status != QDOT_OK) {
-        release(c);
+        companion_release(c);
         return status;
     }
     for (size_t k = 0; k < c->count && request->threaded; k++)
@@ -407,13 +407,13 @@ qdot_companion_start(const qdot_companion_request *request, qdot_companion **out
 /* It arrived, before the run had, at a price that is too high beside that of the whole run: the
  * other ways. */
 static void
-judge(follower *f)
+follower_judge_cost(follower *f)
 {
     double work;
 
     while (f->of->meter && f->way != QDOT_COMPANION_WAYS
            && f->result.outcome != QDOT_ODE_FAILED && qdot_ode_meter_exceeds(&f->meter, &work)) {
-        give_up(f);
+        follower_give_up(f);
         f->way++;
         f->given_up = true;
         f->result.outcome = QDOT_ODE_FAILED;
@@ -425,7 +425,7 @@ judge(follower *f)
 
 /* Its state where the run ended before t1. */
 static void
-read_end(follower *f)
+follower_read_end(follower *f)
 {
     const qdot_companion *c = f->of;
 
@@ -473,10 +473,10 @@ arrive(follower *f, bool whole, qdot_companion_estimate *out)
     double each;
 
     if (!f->finished)
-        run_all(f);
-    judge(f);
+        follower_run_all(f);
+    follower_judge_cost(f);
     if (!whole && (f->result.outcome != QDOT_ODE_FAILED || failed_beyond(f)))
-        read_end(f);
+        follower_read_end(f);
     f->arrived = f->result.outcome == QDOT_ODE_DONE;
     if (f->number == 0 || (out->known && !f->given_up))
         out->result = f->result;
@@ -520,15 +520,15 @@ is_refuted(const follower *f)
     coarse = own + c->n;
     read = qdot_trajectory_at(c->course, c->of_course, f->t_left, own) == QDOT_OK
            && qdot_trajectory_at(f->tr, &f->system, f->t_left, coarse) == QDOT_OK;
-    shown = read ? apart(c, c->scales, own, f->left) : 0;
-    said = read ? apart(c, c->scales, own, coarse) : 0;
+    shown = read ? scaled_distance(c, c->scales, own, f->left) : 0;
+    said = read ? scaled_distance(c, c->scales, own, coarse) : 0;
     qdot_free(own);
     return shown > refutes * fmax(said, c->tol);
 }
 
 /* The error of the end y relative to these scales; `between`: that of states before it, too. */
 static double
-error_of(const qdot_companion *c, const double *scales, const double *y, bool between)
+end_error_of(const qdot_companion *c, const double *scales, const double *y, bool between)
 {
     const double error = fmax(c->floor, bound_at(c, scales, y, SIZE_MAX));
 
@@ -562,13 +562,13 @@ qdot_companion_finish(qdot_companion *c, double t_end, const double *y,
     c->arrived = c->count == 2 && c->at[1].arrived ? 2 : 1;
     if (whole && c->n_shown > 0 && c->meter) /* the run's own */
         out->work += c->meter->work / fmax(1, c->steps) * (double)c->n_shown;
-    out->error = out->known ? error_of(c, c->scales, y, between) : NAN;
-    out->plain = out->known ? error_of(c, NULL, y, between) : NAN;
+    out->error = out->known ? end_error_of(c, c->scales, y, between) : NAN;
+    out->plain = out->known ? end_error_of(c, NULL, y, between) : NAN;
     for (size_t i = 0; i < c->n && difference; i++) {
         const double ends[] = {c->at[0].y[i], c->count == 2 ? c->at[1].y[i] : 0};
 
         difference[i] =
             out->known ? qdot_companion_bound_of(y[i], c->arrived, ends) : NAN;
     }
-    release(c);
+    companion_release(c);
 }

@@ -36,7 +36,7 @@ ratio_of(double e5, double e3)
 
 /* The increment into s->z, the state into s->trial, from k_0 .. k_11. */
 static double
-finish(qdot_ode_stepper *s, double h)
+dop853_finish(qdot_ode_stepper *s, double h)
 {
     const size_t n = s->system->n;
     const double *k = s->stages, *y = s->y, unit = fabs(h) / s->tol;
@@ -68,7 +68,7 @@ finish(qdot_ode_stepper *s, double h)
 }
 
 static qdot_status
-step(qdot_ode_stepper *s, double t, double h, double *ratio)
+dop853_step(qdot_ode_stepper *s, double t, double h, double *ratio)
 {
     const size_t n = s->system->n;
     const double *y = s->y, *carry = s->carry;
@@ -79,7 +79,7 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
 #define STAGE(row, c, terms) EVALUATE(row, c, terms)
 #include "ode/dop853.def"
 
-    *ratio = finish(s, h);
+    *ratio = dop853_finish(s, h);
     return QDOT_OK;
 }
 
@@ -107,7 +107,7 @@ dense(qdot_ode_stepper *s, double t, double h, double *F)
 }
 
 static void
-at(size_t n, const double *F, const double *y0, double x, double *y)
+dop853_at(size_t n, const double *F, const double *y0, double x, double *y)
 {
     for (size_t i = 0; i < n; i++) {
         double p = F[6 * n + i] * x;
@@ -119,4 +119,4 @@ at(size_t n, const double *F, const double *y0, double x, double *y)
 }
 
 const qdot_ode_kernel qdot_dop853 = {
-    .stages = rows, .powers = degree, .step = step, .dense = dense, .at = at};
+    .stages = rows, .powers = degree, .step = dop853_step, .dense = dense, .at = dop853_at};

@@ -59,7 +59,7 @@ work_at(const qdot_ode_meter *run, double t, double *work)
 
 /* Whether t lies beyond where the run, which has ended, ended. */
 static bool
-is_beyond(const qdot_ode_meter *m, double t)
+is_beyond_end(const qdot_ode_meter *m, double t)
 {
     return m->direction * (t - m->beside->far) > 4 * DBL_EPSILON * fabs(m->beside->far);
 }
@@ -72,7 +72,7 @@ is_too_much(const qdot_ode_meter *m, double t, double work, bool *known)
     double w;
 
     *known = work_at(m->beside, m->direction * INFINITY, &w);
-    if (*known && is_beyond(m, t))
+    if (*known && is_beyond_end(m, t))
         return false;
     if (*known && m->spent + work > m->factor * w + m->allowance)
         return true;

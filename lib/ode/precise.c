@@ -77,7 +77,7 @@ static const double hopeless = 1e10;
 
 /* Make space for one point more, a chunk at a time, between steps. */
 static qdot_status
-reserve(qdot_precise_run *run, double max_bytes)
+precise_reserve(qdot_precise_run *run, double max_bytes)
 {
     const size_t numbers = QDOT_PRECISE_CHUNK * (run->n + 1);
 
@@ -150,14 +150,14 @@ log2_step(const state *s, int from)
 }
 
 static qdot_status
-begin(state *s, mpfr_srcptr t, const mpfr_t *y)
+precise_begin_series(state *s, mpfr_srcptr t, const mpfr_t *y)
 {
     s->extended = false;
     return s->system->begin(t, y, s->system->user);
 }
 
 static qdot_status
-extend(state *s)
+precise_extend_series(state *s)
 {
     if (!s->extended) {
         s->run->result.stats.evaluations++;
@@ -171,8 +171,8 @@ extend(state *s)
 
 /* y = sum_k x_k h^k, and its slope [n] where that is wanted. */
 static void
-evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t *y, mpfr_t *slope,
-         mpfr_ptr w)
+precise_evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t *y, mpfr_t *slope,
+                 mpfr_ptr w)
 {
     for (size_t i = 0; i < system->n; i++) {
         const mpfr_t *x = system->x + i * system->stride;
@@ -195,7 +195,7 @@ evaluate(const qdot_precise_system *system, int p, mpfr_srcptr h, mpfr_t *y, mpf
 /* Places inside the step, from the series in doubles: x_k h^k = (x_k 2^(e k)) m^k with
  * h = m 2^e keeps the powers within what a double holds. */
 static void
-sample(const state *s)
+precise_sample_inside(const state *s)
 {
     const qdot_precise_system *system = s->system;
     double *to = s->run->inside
@@ -262,16 +262,16 @@ confirms_inside(state *s, bool *good)
 
     for (size_t k = 0; k < 2 && *good && status == QDOT_OK; k++) {
         mpfr_mul_d(s->v, s->h, places[k], RN);
-        evaluate(s->system, s->p, s->v, s->next, s->slope, s->w);
+        precise_evaluate(s->system, s->p, s->v, s->next, s->slope, s->w);
         keep_first(s);
         mpfr_add(s->v, s->v, s->t, RN);
-        status = begin(s, s->v, s->next);
+        status = precise_begin_series(s, s->v, s->next);
         if (status == QDOT_OK) {
             *good = confirms(s);
-            status = begin(s, s->t, s->y);
+            status = precise_begin_series(s, s->t, s->y);
         }
         if (status == QDOT_OK)
-            status = extend(s);
+            status = precise_extend_series(s);
     }
     return status;
 }
@@ -281,17 +281,17 @@ confirms_inside(state *s, bool *good)
 /* Try a step of s->h to s->end. On QDOT_OK and *good it has been accepted, and the series is
  * begun at its end. */
 static qdot_status
-try_step(state *s, bool unsure, bool *good)
+precise_try_step(state *s, bool unsure, bool *good)
 {
     *good = true;
     if (unsure)
         QDOT_TRY(confirms_inside(s, good));
     if (!*good)
         return QDOT_OK;
-    evaluate(s->system, s->p, s->h, s->next, s->slope, s->w);
+    precise_evaluate(s->system, s->p, s->h, s->next, s->slope, s->w);
     keep_first(s);
-    sample(s);
-    QDOT_TRY(begin(s, s->end, s->next));
+    precise_sample_inside(s);
+    QDOT_TRY(precise_begin_series(s, s->end, s->next));
     *good = confirms(s);
     if (!*good)
         return QDOT_OK;
@@ -303,7 +303,7 @@ try_step(state *s, bool unsure, bool *good)
 }
 
 static qdot_status
-too_small(const state *s)
+precise_too_small(const state *s)
 {
     double t = mpfr_get_d(s->t, RN);
 
@@ -342,7 +342,7 @@ cut_step(state *s, double log2_h)
 }
 
 static qdot_status
-advance(state *s)
+precise_advance(state *s)
 {
     double most = INFINITY, least;
     qdot_ode_stats *stats = &s->run->result.stats;
@@ -355,9 +355,9 @@ advance(state *s)
 
         QDOT_TRY(qdot_interrupt_check());
         if (tries > 0)
-            status = begin(s, s->t, s->y);
+            status = precise_begin_series(s, s->t, s->y);
         if (status == QDOT_OK)
-            status = extend(s);
+            status = precise_extend_series(s);
         if (status == QDOT_OK) {
             log2_h = log2_step(s, s->p / 2 + 1);
             if (isnan(log2_h))
@@ -372,8 +372,8 @@ advance(state *s)
             cut_step(s, log2_h);
             log2_h = qdot_real_log2(s->h);
             if (log2_h < least && !mpfr_equal_p(s->end, s->t1))
-                return too_small(s);
-            status = try_step(s, unsure, &good);
+                return precise_too_small(s);
+            status = precise_try_step(s, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         }
@@ -385,13 +385,13 @@ advance(state *s)
             s->undefined = *qdot_last_error();
         most = log2_h - 2;
         if (isnan(most) || tries == max_tries || most < least)
-            return too_small(s);
+            return precise_too_small(s);
     }
 }
 
 /* As that of trajectory.c. */
 static qdot_status
-foresee(const state *s)
+precise_foresee(const state *s)
 {
     const double t0 = mpfr_get_d(qdot_precise_point(s->run, 0)[0], RN);
     const double t = mpfr_get_d(s->t, RN), t1 = mpfr_get_d(s->t1, RN);
@@ -406,22 +406,22 @@ foresee(const state *s)
 }
 
 static qdot_status
-loop(state *s)
+precise_loop(state *s)
 {
     const double max_bytes = s->options->max_bytes > 0 ? s->options->max_bytes : 2e9;
     const uint64_t max_steps = s->options->max_steps ? s->options->max_steps : 50000000;
     qdot_ode_result *result = &s->run->result;
     qdot_status status;
 
-    QDOT_TRY(reserve(s->run, max_bytes));
+    QDOT_TRY(precise_reserve(s->run, max_bytes));
     store(s->run, s->t, s->y);
     if (mpfr_equal_p(s->t, s->t1))
         return QDOT_OK;
-    status = begin(s, s->t, s->y);
+    status = precise_begin_series(s, s->t, s->y);
     if (qdot_ode_may_be_undefined(status)) {
         s->undefined = *qdot_last_error();
         s->met = true;
-        return too_small(s);
+        return precise_too_small(s);
     }
     QDOT_TRY(status);
     while (!mpfr_equal_p(s->t, s->t1) && result->outcome != QDOT_ODE_STOPPED) {
@@ -430,12 +430,12 @@ loop(state *s)
         if (result->stats.steps + result->stats.rejected >= max_steps)
             return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps",
                              mpfr_get_d(s->t, RN), (unsigned long long)max_steps);
-        QDOT_TRY(reserve(s->run, max_bytes));
-        QDOT_TRY(advance(s));
+        QDOT_TRY(precise_reserve(s->run, max_bytes));
+        QDOT_TRY(precise_advance(s));
         qdot_progress_at(mpfr_get_d(s->t, RN));
         store(s->run, s->t, s->y);
         if (s->run->count % looks == 0)
-            QDOT_TRY(foresee(s));
+            QDOT_TRY(precise_foresee(s));
         if (s->options->accepted)
             QDOT_TRY(s->options->accepted(s->t, (const mpfr_t *)s->y, &stop,
                                           s->options->user));
@@ -446,7 +446,7 @@ loop(state *s)
 }
 
 static qdot_status
-prepare(state *s, mpfr_srcptr t0, mpfr_srcptr t1, const mpfr_t *y0)
+precise_prepare(state *s, mpfr_srcptr t0, mpfr_srcptr t1, const mpfr_t *y0)
 {
     mpfr_ptr *singles[] = {&s->t, &s->t1, &s->h, &s->end, &s->rest, &s->w, &s->v};
     const size_t n = s->n, extra = sizeof singles / sizeof *singles;
@@ -488,9 +488,9 @@ qdot_precise_integrate(const qdot_precise_system *system,
     run->n = system->n;
     run->bits = system->bits;
     run->order = options->order;
-    status = prepare(&s, t0, t1, y0);
+    status = precise_prepare(&s, t0, t1, y0);
     if (status == QDOT_OK)
-        status = loop(&s);
+        status = precise_loop(&s);
     run->result.t =
         mpfr_get_d(run->count ? qdot_precise_point(run, run->count - 1)[0] : t0, RN);
     qdot_reals_clear(&s.numbers);
@@ -507,7 +507,7 @@ qdot_precise_integrate(const qdot_precise_system *system,
 
 /* The last point that is not beyond t. */
 static size_t
-locate(const qdot_precise_run *run, mpfr_srcptr t, bool backwards)
+precise_locate(const qdot_precise_run *run, mpfr_srcptr t, bool backwards)
 {
     size_t lo = 0, hi = run->count;
 
@@ -543,7 +543,7 @@ qdot_precise_at(const qdot_precise_run *run, const qdot_precise_system *system,
         return qdot_fail(QDOT_EDOMAIN,
                          "t = %.15g is outside the run, which covers %.15g to %.15g",
                          mpfr_get_d(t, RN), mpfr_get_d(first, RN), mpfr_get_d(last, RN));
-    k = locate(run, t, backwards);
+    k = precise_locate(run, t, backwards);
     point = (const mpfr_t *)qdot_precise_point(run, k);
     if (mpfr_equal_p(t, point[0])) {
         for (size_t i = 0; i < run->n; i++)
@@ -558,7 +558,7 @@ qdot_precise_at(const qdot_precise_run *run, const qdot_precise_system *system,
     }
     QDOT_TRY(qdot_reals_init(&w, 2, system->bits));
     mpfr_sub(w.at[0], t, point[0], RN);
-    evaluate(system, run->order, w.at[0], y, NULL, w.at[1]);
+    precise_evaluate(system, run->order, w.at[0], y, NULL, w.at[1]);
     qdot_reals_clear(&w);
     return QDOT_OK;
 }

@@ -68,7 +68,7 @@ find_eigenvalues(size_t s, const double *N, double complex *lambda)
 
 /* The real one first, then one of each pair, into the basis. */
 static void
-sort(qdot_radau_basis *b, const double complex *lambda)
+basis_sort_eigenvalues(qdot_radau_basis *b, const double complex *lambda)
 {
     size_t at = 1;
 
@@ -161,7 +161,7 @@ find_weights(qdot_radau_basis *b)
 }
 
 static void
-make(qdot_radau_basis *b, size_t stages)
+basis_make(qdot_radau_basis *b, size_t stages)
 {
     double N[MOST + 1];
     double complex lambda[MOST];
@@ -179,26 +179,26 @@ make(qdot_radau_basis *b, size_t stages)
     find_weights(b);
     find_nodal(b, N);
     find_eigenvalues(stages, N, lambda);
-    sort(b, lambda);
+    basis_sort_eigenvalues(b, lambda);
     find_vectors(b, N);
 }
 
 static void
 make_first(void)
 {
-    make(bases, 3);
+    basis_make(bases, 3);
 }
 
 static void
 make_second(void)
 {
-    make(bases + 1, 5);
+    basis_make(bases + 1, 5);
 }
 
 static void
 make_third(void)
 {
-    make(bases + 2, 7);
+    basis_make(bases + 2, 7);
 }
 
 const qdot_radau_basis *

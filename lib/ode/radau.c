@@ -75,7 +75,7 @@ typedef struct {
 /* --- memory --------------------------------------------------------------------------- */
 
 static void
-drop(qdot_ode_stepper *s)
+radau_drop(qdot_ode_stepper *s)
 {
     radau *r = s->own;
 
@@ -88,7 +88,7 @@ drop(qdot_ode_stepper *s)
 }
 
 static qdot_status
-make(qdot_ode_stepper *s)
+radau_make(qdot_ode_stepper *s)
 {
     radau *r = s->own = qdot_calloc(1, sizeof *r);
 
@@ -162,7 +162,7 @@ over_stages(size_t stages, const double *w, const double *x, size_t stride)
 
 /* Positions of the stages, less q, from velocities. */
 static void
-follow(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
+stages_positions(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
 {
     radau *r = s->own;
 
@@ -198,7 +198,7 @@ predict(const qdot_ode_stepper *s, const qdot_radau_basis *b, double h)
         for (size_t l = r->p; l < r->w; l++)
             r->Z[i * r->w + l] = over_stages(old->stages, w, r->before + l, r->w);
     }
-    follow(s, b, h);
+    stages_positions(s, b, h);
 }
 
 /* a_i = 1/h sum_j (A^-1)_ij Z_j */
@@ -233,7 +233,7 @@ residuals(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h)
 
 /* The change of the velocities, from the residuals, in place of `a`. */
 static void
-solve(radau *r, const qdot_radau_basis *b)
+newton_solve(radau *r, const qdot_radau_basis *b)
 {
     const size_t m = r->m;
 
@@ -254,7 +254,7 @@ solve(radau *r, const qdot_radau_basis *b)
 
 /* Add the change, in `a`, to the stages. Returns its size in tolerances. */
 static double
-change(radau *r, const qdot_radau_basis *b, double h)
+newton_apply_change(radau *r, const qdot_radau_basis *b, double h)
 {
     double size = 0;
 
@@ -281,7 +281,7 @@ change(radau *r, const qdot_radau_basis *b, double h)
 
 /* What rounding of f may make of the change of a stage, in tolerances. */
 static double
-noise_of(const qdot_ode_stepper *s, double h)
+newton_noise(const qdot_ode_stepper *s, double h)
 {
     radau *r = s->own;
     const double part = h / r->linear.basis->lambda_re[0];
@@ -333,7 +333,7 @@ weigh_algebraic(radau *r, double h)
 
 /* The sum of the sizes of what makes f - M a in row l of stage i: of forces as where slopes were taken. */
 static double
-terms(const radau *r, size_t i, size_t l)
+defect_terms(const radau *r, size_t i, size_t l)
 {
     const double *mass = r->linear.mass + l * r->m, *dv = r->linear.dv + l * r->m;
     double sum = r->forces[l];
@@ -362,10 +362,10 @@ forces_agree(radau *r, const qdot_radau_basis *b)
             const double matters = harmless * fabs(r->linear.mass[l * r->m + l] / r->h) / r->weight[r->p + l];
             const double fall = first ? r->fall : missing / fmax(before, DBL_MIN);
 
-            if (left * missing > agree * r->forces[l] && left * missing > agree * terms(r, i, l))
+            if (left * missing > agree * r->forces[l] && left * missing > agree * defect_terms(r, i, l))
                 return false;
             if (missing > matters && (first ? fall * missing > matters : fall > fell_by)
-                && missing > agree_roundings * DBL_EPSILON * terms(r, i, l))
+                && missing > agree_roundings * DBL_EPSILON * defect_terms(r, i, l))
                 return false;
             if (!first && before > matters)
                 worst = fmax(worst, fall);
@@ -384,8 +384,8 @@ raise(double x)
 
 /* Whether it converged; the stages, and `a` by them. */
 static qdot_status
-iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
-        bool *converged)
+newton_iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
+               bool *converged)
 {
     radau *r = s->own;
     const int most = 7 + (int)(b->stages - 3) * 5 / 2;
@@ -406,8 +406,8 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
         r->R_before = r->R;
         r->R = R;
         QDOT_TRY(residuals(s, b, t, h));
-        solve(r, b);
-        size = change(r, b, h);
+        newton_solve(r, b);
+        size = newton_apply_change(r, b, h);
         if (!isfinite(size))
             return QDOT_OK;
         if (r->iterations >= judged) {
@@ -415,7 +415,7 @@ iterate(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h,
 
             r->rate = r->iterations == judged ? rate : sqrt(rate * r->rate_before);
             r->rate_before = rate;
-            if (size > enough && rate > stagnates && size <= noise_of(s, h)) {
+            if (size > enough && rate > stagnates && size <= newton_noise(s, h)) {
                 *converged = true; /* as far as rounding lets it */
                 accelerate(r, b, h);
                 return QDOT_OK;
@@ -485,7 +485,7 @@ spare_noise(qdot_ode_stepper *s, double h, double *ratio)
 
     if (*ratio <= grows || !isfinite(*ratio))
         return;
-    noise = noise_of(s, h);
+    noise = newton_noise(s, h);
     if (!(noise > grows))
         return;
     *ratio = fmax(*ratio - noise, grows);
@@ -495,7 +495,7 @@ spare_noise(qdot_ode_stepper *s, double h, double *ratio)
 /* Where a motion is stiff and off its slow course the defect is large, and the error is not: once
  * more with f at the state that the estimate leads to. */
 static qdot_status
-judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double *ratio)
+radau_judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double *ratio)
 {
     radau *r = s->own;
 
@@ -515,7 +515,7 @@ judge(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, double
 /* --- steps ----------------------------------------------------------------------------- */
 
 static qdot_status
-prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
+radau_prepare(qdot_ode_stepper *s, const qdot_radau_basis *b, double t, double h, bool *regular)
 {
     radau *r = s->own;
 
@@ -557,7 +557,7 @@ falls(radau *r, const qdot_radau_basis *b, double h, double ratio)
 }
 
 static qdot_status
-step(qdot_ode_stepper *s, double t, double h, double *ratio)
+radau_step(qdot_ode_stepper *s, double t, double h, double *ratio)
 {
     radau *r = s->own;
     const qdot_radau_basis *b = qdot_radau_basis_get(r->kind);
@@ -567,16 +567,16 @@ step(qdot_ode_stepper *s, double t, double h, double *ratio)
         r->weight[l] = 1 / (s->tol * qdot_ode_size(s->system->scales, l, s->y[l]));
     r->h = h;
     while (!converged) {
-        QDOT_TRY(prepare(s, b, t, h, &regular));
+        QDOT_TRY(radau_prepare(s, b, t, h, &regular));
         if (regular)
-            QDOT_TRY(iterate(s, b, t, h, &converged));
+            QDOT_TRY(newton_iterate(s, b, t, h, &converged));
         if (converged || r->fresh)
             break;
         r->slopes = false;
     }
     *ratio = INFINITY;
     if (converged)
-        QDOT_TRY(judge(s, b, t, h, ratio));
+        QDOT_TRY(radau_judge(s, b, t, h, ratio));
     else
         r->most = shorter * fabs(h), r->cautious = steady;
     if (!converged && regular && r->rate < 1) /* as the loop aims at a tenth (whole.c) */
@@ -620,7 +620,7 @@ choose_stages(const qdot_ode_stepper *s)
 }
 
 static void
-accepted(qdot_ode_stepper *s)
+radau_accepted(qdot_ode_stepper *s)
 {
     radau *r = s->own;
     double *Z = r->before;
@@ -638,7 +638,7 @@ accepted(qdot_ode_stepper *s)
 }
 
 static double
-power(const qdot_ode_stepper *s)
+radau_power(const qdot_ode_stepper *s)
 {
     const radau *r = s->own;
 
@@ -670,7 +670,7 @@ dense(qdot_ode_stepper *s, double t, double h, double *F)
 }
 
 static void
-at(size_t n, const double *F, const double *y0, double x, double *y)
+radau_at(size_t n, const double *F, const double *y0, double x, double *y)
 {
     const qdot_radau_basis *b = qdot_radau_basis_get((size_t)F[MOST * n]);
     double w[MOST];
@@ -686,14 +686,14 @@ at(size_t n, const double *F, const double *y0, double x, double *y)
 }
 
 const qdot_ode_kernel qdot_radau = {.powers = MOST + 1,
-                                    .step = step,
+                                    .step = radau_step,
                                     .dense = dense,
-                                    .at = at,
-                                    .open = make,
-                                    .close = drop,
+                                    .at = radau_at,
+                                    .open = radau_make,
+                                    .close = radau_drop,
                                     .restart = restart,
-                                    .accepted = accepted,
-                                    .power = power,
+                                    .accepted = radau_accepted,
+                                    .power = radau_power,
                                     .another = another,
                                     .keeps_step = true,
                                     .forward = true};

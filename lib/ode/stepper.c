@@ -31,7 +31,7 @@ qdot_ode_stepper_rhs(qdot_ode_stepper *s, double t, const double *y, double *dyd
 }
 
 static inline void
-add_up(qdot_ode_stepper *s, const double *z, double *y)
+increment_add(qdot_ode_stepper *s, const double *z, double *y)
 {
     for (size_t i = 0; i < s->system->n; i++)
         y[i] = s->y[i] + (s->carry[i] + s->scale[i] * z[i]);
@@ -47,7 +47,7 @@ inner_rhs(double t, const double *z, double *zdot, void *user)
     if (s->method->multistep) {
         s->broken = qdot_ode_stepper_rhs(s, t, z, zdot);
     } else {
-        add_up(s, z, s->trial);
+        increment_add(s, z, s->trial);
         s->broken = qdot_ode_stepper_rhs(s, t, s->trial, zdot);
         if (s->method->stiff)
             for (size_t i = 0; i < s->system->n; i++)
@@ -64,7 +64,7 @@ inner_jacobian(double t, const double *z, double *dfdy, double *dfdt, void *user
     const double *y = z;
 
     if (!s->method->multistep) {
-        add_up(s, z, s->trial);
+        increment_add(s, z, s->trial);
         y = s->trial;
     }
     s->jacobians++;
@@ -145,7 +145,7 @@ static const gsl_odeiv2_control_type control_type = {
 };
 
 static bool
-allocate(qdot_ode_stepper *s, size_t n)
+stepper_allocate(qdot_ode_stepper *s, size_t n)
 {
     const gsl_odeiv2_step_type *const *type = s->method->stepper;
     const size_t stages = s->method->kernel ? s->method->kernel->stages : 0;
@@ -187,7 +187,7 @@ qdot_ode_stepper_new(const qdot_ode_system *system, const qdot_ode_method *metho
     s->method = method;
     s->system = system;
     s->tol = tol;
-    if (!allocate(s, system->n)) {
+    if (!stepper_allocate(s, system->n)) {
         qdot_ode_stepper_free(s);
         return QDOT_ENOMEM;
     }
@@ -241,7 +241,7 @@ qdot_ode_stepper_start(qdot_ode_stepper *s, const double *y)
 
 /* Ratio of the step tried; INFINITY where anything in it is not finite. */
 static double
-judge(const qdot_ode_stepper *s)
+stepper_error_ratio(const qdot_ode_stepper *s)
 {
     double ratio = 0;
 
@@ -284,7 +284,7 @@ apply_onestep(qdot_ode_stepper *s, double t, double h)
     gsl = gsl_odeiv2_step_apply(s->step, t, h, s->z, s->error, s->zdot, NULL, &s->inner);
     if (s->method->stiff) /* of an extrapolation of order 2k: k + 1 matrices */
         s->factorisations += gsl_odeiv2_step_order(s->step) / 2 + 1;
-    add_up(s, s->z, s->trial);
+    increment_add(s, s->z, s->trial);
     return gsl;
 }
 
@@ -297,7 +297,7 @@ apply_gsl(qdot_ode_stepper *s, double t, double h, double *ratio)
     if (s->broken != QDOT_OK)
         return s->broken;
     if (gsl == GSL_SUCCESS)
-        *ratio = judge(s);
+        *ratio = stepper_error_ratio(s);
     return QDOT_OK;
 }
 

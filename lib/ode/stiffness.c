@@ -35,7 +35,7 @@ qdot_ode_stiffness_clear(qdot_ode_stiffness *s)
 
 /* Whether component i lies on the parabola through its first, middle and last place. */
 static bool
-is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_step *at)
+component_is_smooth(const qdot_ode_stiffness *s, size_t i, const qdot_ode_stiff_step *at)
 {
     enum { LAST = QDOT_ODE_STIFF_PLACES - 1, MIDDLE = LAST / 2 };
     const size_t n = at->n;
@@ -62,7 +62,7 @@ static bool
 are_smooth(const qdot_ode_stiffness *s, const qdot_ode_stiff_step *at)
 {
     for (size_t i = 0; i < at->n; i++)
-        if (!is_smooth(s, i, at))
+        if (!component_is_smooth(s, i, at))
             return false;
     return true;
 }
@@ -133,7 +133,7 @@ steps_between(const qdot_ode_stiffness *s)
 
 /* Keep the state; whether there are places enough to judge. */
 static qdot_status
-keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
+stiffness_keep(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at, bool *enough)
 {
     if (!s->y)
         s->y = qdot_malloc(QDOT_ODE_STIFF_PLACES * at->n * sizeof *s->y);
@@ -180,7 +180,7 @@ qdot_ode_stiffness_look(qdot_ode_stiffness *s, const qdot_ode_stiff_step *at,
     bool enough;
 
     s->high = at->high;
-    QDOT_TRY(keep(s, at, &enough));
+    QDOT_TRY(stiffness_keep(s, at, &enough));
     if (!enough)
         return QDOT_OK;
     step = (at->t - s->t[0]) / steps_between(s);

@@ -166,7 +166,7 @@ confirms_inside(run *r, double h, bool *good)
 
 /* Project the state at the end of the step tried. */
 static qdot_status
-project(run *r, double t_end, double *moved)
+taylor_project(run *r, double t_end, double *moved)
 {
     double undefined = 0;
 
@@ -274,7 +274,7 @@ is_noise(run *r, double before, double h, double *most)
 /* Try a step of h from t to t_end. On QDOT_OK and *good it has been accepted, and the
  * series is begun at its end. Otherwise only the series has changed. */
 static qdot_status
-try_step(run *r, double h, double t_end, bool unsure, bool *good)
+taylor_try_step(run *r, double h, double t_end, bool unsure, bool *good)
 {
     const double old_held = r->held;
     const bool fixed = r->options->h_fixed > 0;
@@ -299,7 +299,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
     advance_state(r, r->cut, h * r->per_unit);
     if (r->options->leading)
         QDOT_TRY(advance_in_two(r, t_end));
-    QDOT_TRY(project(r, t_end, &moved));
+    QDOT_TRY(taylor_project(r, t_end, &moved));
     *good = fixed || moved <= 100 * r->held + rounding_of_projection;
     if (!*good)
         return QDOT_OK;
@@ -338,7 +338,7 @@ try_step(run *r, double h, double t_end, bool unsure, bool *good)
 /* --- the loop ----------------------------------------------------------------------- */
 
 static qdot_status
-too_small(const run *r)
+taylor_too_small(const run *r)
 {
     if (r->direction * (r->undefined_at - r->t) >= 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: %s", r->t,
@@ -365,7 +365,7 @@ end_of_step(const run *r, double h)
 
 /* One step from where the run is. */
 static qdot_status
-advance(run *r)
+taylor_advance(run *r)
 {
     double h = 0, most = INFINITY, before = 0;
 
@@ -393,8 +393,8 @@ advance(run *r)
             end = end_of_step(r, h);
             h = r->direction * (end - r->t);
             if (end != r->t1 && qdot_step_is_too_short(r->t, h))
-                return too_small(r);
-            status = try_step(r, end - r->t, end, unsure, &good);
+                return taylor_too_small(r);
+            status = taylor_try_step(r, end - r->t, end, unsure, &good);
             if (status == QDOT_OK && good)
                 return QDOT_OK;
         } else if (qdot_ode_may_be_undefined(status)) {
@@ -414,13 +414,13 @@ advance(run *r)
         most = 0.25 * h;
         if (tries == max_undefined || most < qdot_step_floor(r->t) ||
             r->options->h_fixed > 0)
-            return too_small(r);
+            return taylor_too_small(r);
     }
 }
 
 /* The work since it was counted last. */
 static qdot_status
-count_work(run *r)
+taylor_count_work(run *r)
 {
     /* what is rejected was begun once more */
     const uint64_t now = r->result->stats.evaluations + r->result->stats.rejected;
@@ -463,7 +463,7 @@ look_for_misfit(run *r)
 }
 
 static qdot_status
-loop(run *r)
+taylor_loop(run *r)
 {
     qdot_status status;
 
@@ -481,9 +481,9 @@ loop(run *r)
     }
     QDOT_TRY(status);
     while (r->t != r->t1 && r->result->outcome != QDOT_ODE_STOPPED) {
-        QDOT_TRY(advance(r));
+        QDOT_TRY(taylor_advance(r));
         if (r->options->meter)
-            QDOT_TRY(count_work(r));
+            QDOT_TRY(taylor_count_work(r));
         qdot_progress_at(r->t);
         QDOT_TRY(look_for_misfit(r));
         QDOT_TRY(qdot_ode_crawl_look(&r->crawl, r->t, r->t1, r->max_steps));
@@ -510,7 +510,7 @@ list_arrays(run *r, double ***arrays)
 }
 
 static qdot_status
-make_room(run *r)
+taylor_make_room(run *r)
 {
     const qdot_ode_following *f = r->system->following;
     double **arrays[ARRAYS];
@@ -539,7 +539,7 @@ make_room(run *r)
 }
 
 static qdot_status
-prepare(run *r, double t0, double t1, const double *y)
+taylor_prepare(run *r, double t0, double t1, const double *y)
 {
     const double term_tol = r->options->term_tol != 0 ? r->options->term_tol : r->tol;
 
@@ -549,7 +549,7 @@ prepare(run *r, double t0, double t1, const double *y)
     if (!r->series)
         return qdot_fail(QDOT_EINVAL, "taylor needs the Taylor series of the equations");
     QDOT_TRY(qdot_ode_check_tolerance(r->tol));
-    QDOT_TRY(make_room(r));
+    QDOT_TRY(taylor_make_room(r));
     memcpy(r->y, y, r->n * sizeof *y);
     if (r->options->carry)
         memcpy(r->carry, r->options->carry, r->n * sizeof *y);
@@ -568,7 +568,7 @@ prepare(run *r, double t0, double t1, const double *y)
 }
 
 static void
-release(run *r)
+taylor_release(run *r)
 {
     double **arrays[ARRAYS];
 
@@ -609,7 +609,7 @@ qdot_ode_taylor_first_step(const qdot_ode_system *system, const qdot_ode_options
     const qdot_ode_options plain = {.tol = options->tol, .goes_on = true};
     qdot_ode_result result = {0};
     run r = run_of(system, &plain, t, t1, &result);
-    qdot_status status = prepare(&r, t, t1, y);
+    qdot_status status = taylor_prepare(&r, t, t1, y);
 
     *h = 0;
     if (status == QDOT_OK) {
@@ -618,7 +618,7 @@ qdot_ode_taylor_first_step(const qdot_ode_system *system, const qdot_ode_options
     }
     if (status == QDOT_OK)
         status = qdot_ode_taylor_run_length(&r, INFINITY, h);
-    release(&r);
+    taylor_release(&r);
     if (status != QDOT_OK)
         *h = 0;
     return qdot_grave(status);
@@ -634,16 +634,16 @@ qdot_ode_taylor_integrate(const qdot_ode_system *system, const qdot_ode_options 
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    status = prepare(&r, t0, t1, y);
+    status = taylor_prepare(&r, t0, t1, y);
     if (status == QDOT_OK)
         status = qdot_ode_enter(system, r.options, t0, y);
     if (status == QDOT_OK) {
-        status = loop(&r);
+        status = taylor_loop(&r);
         memcpy(y, r.y, r.n * sizeof *y);
         if (r.options->end_low)
             memcpy(r.options->end_low, r.carry, r.n * sizeof *y);
     }
-    release(&r);
+    taylor_release(&r);
     result->stats.cpu = qdot_cpu_now() - cpu_start;
     qdot_ode_end(result, r.t, status);
     return status;

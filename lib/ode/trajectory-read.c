@@ -85,7 +85,7 @@ open_stepper(qdot_trajectory_cursor *c)
 
 /* Use the system of that piece from now on. */
 static qdot_status
-enter(qdot_trajectory_cursor *c, size_t piece)
+cursor_enter_piece(qdot_trajectory_cursor *c, size_t piece)
 {
     const size_t first = c->tr->pieces.at[piece].first;
     const qdot_ode_system *system = c->systems + c->tr->pieces.at[piece].mode;
@@ -148,7 +148,7 @@ qdot_trajectory_open(const qdot_trajectory *tr, const qdot_ode_system *system,
         return QDOT_ENOMEM;
     c->tr = tr;
     c->systems = system;
-    status = tr->n_tracks > 0 ? open_tracks(c) : enter(c, 0);
+    status = tr->n_tracks > 0 ? open_tracks(c) : cursor_enter_piece(c, 0);
     if (status != QDOT_OK) {
         qdot_trajectory_close(c);
         return status;
@@ -284,7 +284,7 @@ read_polynomial(qdot_trajectory_cursor *c, double t, double *y)
 
 /* Derive the components that are not integrated, at the state read. */
 static qdot_status
-derive(const qdot_trajectory_cursor *c, double t, double *y)
+cursor_derive(const qdot_trajectory_cursor *c, double t, double *y)
 {
     const qdot_ode_following *f = c->system->following;
 
@@ -306,18 +306,18 @@ qdot_trajectory_read_tracks(qdot_trajectory_cursor *c, double t, double *y)
 
 /* The state within the step from point c->at on. */
 static qdot_status
-read_step(qdot_trajectory_cursor *c, double t, double *y)
+cursor_read_step(qdot_trajectory_cursor *c, double t, double *y)
 {
     if (c->tracks)
         return qdot_trajectory_read_tracks(c, t, y);
     if (c->series) {
         QDOT_TRY(read_series(c, t, y));
-        return derive(c, t, y);
+        return cursor_derive(c, t, y);
     }
     if (c->F) {
         QDOT_TRY(read_polynomial(c, t, y));
         if (c->good)
-            return derive(c, t, y);
+            return cursor_derive(c, t, y);
     }
     if (!c->fresh) {
         qdot_ode_stepper_start(c->s, c->tr->y + c->at * c->tr->n);
@@ -330,7 +330,7 @@ read_step(qdot_trajectory_cursor *c, double t, double *y)
         QDOT_TRY(qdot_between_read(&c->between, c->s, *t0, h, c->tr->y + (c->at + 1) * c->tr->n,
                                    (t - *t0) / h, y, &done));
         if (done)
-            return derive(c, t, y);
+            return cursor_derive(c, t, y);
     }
     QDOT_TRY(walk(c, t));
     memcpy(y, c->s->trial, c->tr->n * sizeof *y);
@@ -351,7 +351,7 @@ read_by_clock(qdot_trajectory_cursor *c, double t, double *y)
     for (int tries = 0; tries < most; tries++) {
         double gap, next;
 
-        QDOT_TRY(read_step(c, s, y));
+        QDOT_TRY(cursor_read_step(c, s, y));
         gap = y[tr->clock] - t;
         if (gap == 0)
             break;
@@ -381,7 +381,7 @@ read_from(qdot_trajectory_cursor *c, size_t k, double t, double *y)
         memcpy(y, tr->y + k * tr->n, tr->n * sizeof *y);
         return QDOT_OK;
     }
-    return tr->s ? read_by_clock(c, t, y) : read_step(c, t, y);
+    return tr->s ? read_by_clock(c, t, y) : cursor_read_step(c, t, y);
 }
 
 qdot_status
@@ -401,7 +401,7 @@ qdot_trajectory_read(qdot_trajectory_cursor *c, double t, double *y)
     while (piece + 1 < tr->pieces.n && tr->pieces.at[piece + 1].first <= k)
         piece++;
     if (!c->tracks)
-        QDOT_TRY(enter(c, piece));
+        QDOT_TRY(cursor_enter_piece(c, piece));
     return read_from(c, k, t, y);
 }
 
@@ -413,7 +413,7 @@ qdot_trajectory_read_piece(qdot_trajectory_cursor *c, size_t piece, double t, do
     const size_t last = qdot_trajectory_last_of(tr, piece);
 
     if (!c->tracks)
-        QDOT_TRY(enter(c, piece));
+        QDOT_TRY(cursor_enter_piece(c, piece));
     if (not_beyond(tr, t, tr->t[low]))
         return read_from(c, low, tr->t[low], y);
     if (not_beyond(tr, tr->t[last], t))

@@ -68,7 +68,7 @@ at_least(size_t wanted, size_t least)
 
 /* Make space for one point more. */
 static qdot_status
-make_room(qdot_trajectory *tr, double t)
+trajectory_make_room(qdot_trajectory *tr, double t)
 {
     const size_t wanted = tr->count + 1;
 
@@ -93,7 +93,7 @@ qdot_trajectory_store(qdot_trajectory *tr, double t, const double *y)
 
     /* a power of two at a time: the limit is looked at with each */
     if (tr->count == tr->t_capacity || (tr->count + 1) * n > tr->y_capacity)
-        QDOT_TRY(make_room(tr, t));
+        QDOT_TRY(trajectory_make_room(tr, t));
     to = tr->y + tr->count * n;
     tr->t[tr->count++] = t;
     for (size_t i = 0; i < n; i++)
@@ -117,7 +117,7 @@ store_low(qdot_trajectory *tr, const double *low)
 
 /* Stop a run that has made little progress in many steps before it reaches the limit of steps. */
 static qdot_status
-foresee(const recorder *r, double t)
+recorder_foresee(const recorder *r, double t)
 {
     const double steps = (double)r->tr->count, t0 = r->tr->t[0];
     const double all = steps * ((r->t1 - t0) / (t - t0));
@@ -138,7 +138,7 @@ record(double t, const double *y, bool *stop, void *user)
     const qdot_ode_meter *meter = r->options->meter;
 
     if (r->tr->count % looks == 0 && !(meter && meter->beside)) /* a companion goes as far as its run */
-        QDOT_TRY(foresee(r, t));
+        QDOT_TRY(recorder_foresee(r, t));
     if (r->options->now)
         *r->options->now = r->now;
     if (r->options->accepted)

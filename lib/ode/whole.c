@@ -150,7 +150,7 @@ to_a_double(const run *r, double h)
 /* The step to try now. If the rest after it would be too short for a step, the step includes it
  * or is shortened so that both are equal. */
 static double
-choose(const run *r, bool *last)
+whole_choose_step(const run *r, bool *last)
 {
     double rest = remaining(r);
 
@@ -186,7 +186,7 @@ control(run *r, double h, double ratio, bool accepted)
 
 /* Handle a step in which f is undefined somewhere. */
 static qdot_status
-undefined(run *r, double h, qdot_status status)
+whole_undefined(run *r, double h, qdot_status status)
 {
     if (!qdot_ode_may_be_undefined(status))
         return status;
@@ -206,7 +206,7 @@ undefined(run *r, double h, qdot_status status)
 }
 
 static qdot_status
-too_small(run *r)
+whole_too_small(run *r)
 {
     /* a place where f is undefined, and not passed yet, is the cause */
     if (r->direction * (r->undefined_at - r->t) >= 0)
@@ -247,7 +247,7 @@ crawls(run *r)
 
 /* The error of the step tried is small enough: accept it, unless the caller objects. */
 static qdot_status
-take(run *r, double h, double ratio, bool last, bool *stop)
+whole_accept(run *r, double h, double ratio, bool last, bool *stop)
 {
     qdot_ode_result *result = r->result;
     double t = r->t, t_carry = r->t_carry;
@@ -262,7 +262,7 @@ take(run *r, double h, double ratio, bool last, bool *stop)
         qdot_status status = r->options->accepted(t, r->s->trial, stop, r->options->user);
 
         if (status == QDOT_EDOMAIN)
-            return undefined(r, h, status);
+            return whole_undefined(r, h, status);
         QDOT_TRY(status);
     }
     r->longest = fmax(r->longest, h);
@@ -279,7 +279,7 @@ take(run *r, double h, double ratio, bool last, bool *stop)
 
 /* Whether the step tried goes over nothing that acts for less than it; else it is shortened. */
 static qdot_status
-look(run *r, double h, double end, bool *clear)
+whole_look(run *r, double h, double end, bool *clear)
 {
     const qdot_ode_system *system = r->s->system;
     qdot_ode_look step = {.t = r->t,
@@ -304,10 +304,10 @@ look(run *r, double h, double end, bool *clear)
 }
 
 static qdot_status
-advance(run *r, bool *stop)
+whole_advance(run *r, bool *stop)
 {
     bool last, clear;
-    double h = choose(r, &last), ratio;
+    double h = whole_choose_step(r, &last), ratio;
     qdot_status status;
 
     QDOT_TRY(qdot_interrupt_check());
@@ -319,35 +319,35 @@ advance(run *r, bool *stop)
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.6g after %llu evaluations", r->t,
                          (unsigned long long)r->options->max_evaluations);
     if (!last && h < floor_of_step(r))
-        return too_small(r);
+        return whole_too_small(r);
     status = qdot_ode_stepper_try(r->s, r->t, r->direction * h, &ratio);
     if (status != QDOT_OK)
-        return undefined(r, h, status);
+        return whole_undefined(r, h, status);
     if (ratio <= 1)
         status = qdot_ode_stepper_project(
             r->s, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &ratio);
     if (status != QDOT_OK)
-        return undefined(r, h, status);
+        return whole_undefined(r, h, status);
     if (r->options->h_fixed > 0 && ratio < INFINITY)
         ratio = fmin(ratio, 1);
     if (ratio <= 1) {
-        QDOT_TRY(look(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
+        QDOT_TRY(whole_look(r, h, last ? r->t1 : r->t + (r->t_carry + r->direction * h), &clear));
         if (!clear)
             return QDOT_OK;
-        QDOT_TRY(take(r, h, ratio, last, stop));
-        return r->result->stats.steps % seldom == 0 && crawls(r) ? too_small(r) : QDOT_OK;
+        QDOT_TRY(whole_accept(r, h, ratio, last, stop));
+        return r->result->stats.steps % seldom == 0 && crawls(r) ? whole_too_small(r) : QDOT_OK;
     }
     r->result->stats.rejected++;
     r->just_rejected = true;
     control(r, h, ratio, false);
     if (r->options->h_fixed > 0)
         return qdot_fail(QDOT_EFAILED, "stopped at t = %.17g: the step overflows", r->t);
-    return r->h < floor_of_step(r) || crawls(r) ? too_small(r) : QDOT_OK;
+    return r->h < floor_of_step(r) || crawls(r) ? whole_too_small(r) : QDOT_OK;
 }
 
 /* The work since it was counted last. */
 static qdot_status
-count_work(run *r)
+whole_count_work(run *r)
 {
     const qdot_ode_stats stats = {.evaluations = r->s->evaluations + r->looked,
                                   .jacobians = r->s->jacobians,
@@ -379,7 +379,7 @@ look_for_stiffness(run *r)
 }
 
 static qdot_status
-loop(run *r)
+whole_loop(run *r)
 {
     double distance = fabs(r->t1 - r->t);
     bool stop = false;
@@ -399,9 +399,9 @@ loop(run *r)
         QDOT_TRY(status);
     }
     while (r->t != r->t1) {
-        QDOT_TRY(advance(r, &stop));
+        QDOT_TRY(whole_advance(r, &stop));
         if (r->options->meter)
-            QDOT_TRY(count_work(r));
+            QDOT_TRY(whole_count_work(r));
         if (qdot_ode_stiffness_is_due(&r->stiffness) && r->h > coarse * floor_of_step(r))
             QDOT_TRY(look_for_stiffness(r));
         qdot_progress_at(r->t);
@@ -414,7 +414,7 @@ loop(run *r)
 }
 
 static void
-collect(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
+whole_collect_stats(qdot_ode_result *result, const qdot_ode_stepper *s, double cpu_start)
 {
     result->stats.evaluations = s->evaluations;
     result->stats.jacobians = s->jacobians;
@@ -452,9 +452,9 @@ qdot_ode_whole_integrate(const qdot_ode_system *system, const qdot_ode_method *m
         status = qdot_ode_stepper_new(system, method, tol, &r.s);
     if (status == QDOT_OK && r.s) {
         qdot_ode_stepper_start(r.s, y);
-        status = loop(&r);
+        status = whole_loop(&r);
         memcpy(y, r.s->y, system->n * sizeof *y);
-        collect(result, r.s, cpu_start);
+        whole_collect_stats(result, r.s, cpu_start);
         result->stats.evaluations += r.looked;
         qdot_ode_stepper_free(r.s);
         qdot_ode_stiffness_clear(&r.stiffness);

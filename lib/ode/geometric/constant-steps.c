@@ -54,7 +54,7 @@ qdot_geometric_velocity(qdot_geometric *g, double t, const double *q, const doub
 
 /* The forces themselves. */
 static qdot_status
-evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
+forces_evaluate(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
     const qdot_ode_phase *phase = g->system->phase;
     const size_t n = g->n;
@@ -72,7 +72,7 @@ qdot_status
 qdot_geometric_force(qdot_geometric *g, double t, const double *q, const double *v, double *F)
 {
     g->evaluations++;
-    QDOT_TRY(evaluate(g, t, q, v, F));
+    QDOT_TRY(forces_evaluate(g, t, q, v, F));
     return qdot_ode_all_finite(F, g->n)
                ? QDOT_OK
                : qdot_fail(QDOT_EDOMAIN, "the right-hand side is not finite");
@@ -102,7 +102,7 @@ write_end(run *r, double t, double *y)
 }
 
 static void
-keep(run *r)
+state_keep(run *r)
 {
     memcpy(r->before, r->g.y, 4 * r->g.n * sizeof *r->before);
 }
@@ -115,7 +115,7 @@ go_back(run *r)
 }
 
 static qdot_status
-step(run *r, double t, double h)
+kernel_step(run *r, double t, double h)
 {
     const qdot_status status = r->g.kernel->step(&r->g, t, h);
 
@@ -126,20 +126,20 @@ step(run *r, double t, double h)
 /* Measure a step of signed length h from the state, and take it: its end is in r->full. On a failure
  * the state is that of before. */
 static qdot_status
-measure(run *r, double h, double *ratio)
+step_measure(run *r, double h, double *ratio)
 {
     qdot_status status;
 
-    keep(r);
+    state_keep(r);
     r->g.known = false;
-    status = step(r, r->t, 0.5 * h);
+    status = kernel_step(r, r->t, 0.5 * h);
     if (status == QDOT_OK)
-        status = step(r, r->t + 0.5 * h, 0.5 * h);
+        status = kernel_step(r, r->t + 0.5 * h, 0.5 * h);
     if (status == QDOT_OK)
         status = write_state(&r->g, r->t + h, r->halves);
     go_back(r);
     if (status == QDOT_OK)
-        status = step(r, r->t, h);
+        status = kernel_step(r, r->t, h);
     if (status == QDOT_OK)
         status = write_end(r, r->t + h, r->full);
     if (status != QDOT_OK) {
@@ -183,7 +183,7 @@ first_length(run *r, double distance)
 }
 
 static qdot_status
-too_small(const run *r)
+step_too_small(const run *r)
 {
     return qdot_fail(QDOT_EFAILED,
                      "stopped at t = %.17g: no step down to %.2g keeps the error below %.2g", r->t,
@@ -214,7 +214,7 @@ typedef struct {
 } lengths;
 
 static void
-note(lengths *l, double h)
+lengths_note(lengths *l, double h)
 {
     if (l->longest == 0)
         l->first = h;
@@ -244,7 +244,7 @@ try_lengths(run *r, lengths *l)
     for (int k = 0; fabs(r->t - t0) < distance * (1 - sliver) && goes_on(l, k); k++) {
         const double whole = r->h, h = fmin(whole, distance - fabs(r->t - t0));
         double ratio;
-        const qdot_status status = measure(r, r->direction * h, &ratio);
+        const qdot_status status = step_measure(r, r->direction * h, &ratio);
 
         if (qdot_ode_may_be_undefined(status) && h > least_length(r)) {
             r->h = 0.25 * h;
@@ -255,12 +255,12 @@ try_lengths(run *r, lengths *l)
         if (ratio > 1) {
             go_back(r);
             if (!(r->h > least_length(r)))
-                return too_small(r);
+                return step_too_small(r);
             continue;
         }
         r->t += r->direction * h;
         if (r->h < most_growth * h) /* else the tolerance did not limit it */
-            note(l, r->h);
+            lengths_note(l, r->h);
         else if (h < whole) /* cut at the end */
             r->h = fmax(r->h, whole);
     }
@@ -284,7 +284,7 @@ choose_length(run *r, const lengths *l)
 
 /* Find the length by a trial, after which the state is that of the start. */
 static qdot_status
-find_length(run *r)
+find_step_length(run *r)
 {
     const double t0 = r->t;
     double *start = qdot_malloc(4 * r->g.n * sizeof *start);
@@ -310,7 +310,7 @@ find_length(run *r)
 
 /* f is undefined somewhere in the step. */
 static qdot_status
-undefined(run *r, double h, qdot_status status)
+step_undefined(run *r, double h, qdot_status status)
 {
     if (!qdot_ode_may_be_undefined(status))
         return status;
@@ -323,7 +323,7 @@ undefined(run *r, double h, qdot_status status)
 
 /* The step just made is accepted, unless the caller objects. */
 static qdot_status
-take(run *r, double h, bool last, bool *stop)
+step_accept(run *r, double h, bool last, bool *stop)
 {
     double t = r->t, t_low = r->t_low;
 
@@ -339,7 +339,7 @@ take(run *r, double h, bool last, bool *stop)
         if (status != QDOT_OK)
             go_back(r);
         if (status == QDOT_EDOMAIN)
-            return undefined(r, h, status);
+            return step_undefined(r, h, status);
         QDOT_TRY(status);
     }
     r->t = t;
@@ -355,8 +355,8 @@ step_plainly(run *r, double h)
 {
     qdot_status status;
 
-    keep(r);
-    status = step(r, r->t, h);
+    state_keep(r);
+    status = kernel_step(r, r->t, h);
     if (status == QDOT_OK)
         status = write_end(r, r->t + h, r->full);
     if (status != QDOT_OK)
@@ -366,7 +366,7 @@ step_plainly(run *r, double h)
 
 /* The step after one from near a singular place, until the length of the others is reached. */
 static void
-grow(run *r, double h, double ratio)
+step_grow(run *r, double h, double ratio)
 {
     r->h = fmin(r->length, h * factor_of(r, ratio));
     if (r->h == r->length)
@@ -374,7 +374,7 @@ grow(run *r, double h, double ratio)
 }
 
 static qdot_status
-advance(run *r, bool *stop)
+constant_steps_advance(run *r, bool *stop)
 {
     const double rest = r->direction * ((r->t1 - r->t) - r->t_low);
     const bool last = r->h >= rest * (1 - sliver);
@@ -388,22 +388,22 @@ advance(run *r, bool *stop)
     if (r->result->stats.steps + r->result->stats.rejected >= qdot_ode_most_steps(r->options))
         return qdot_fail(QDOT_ELIMIT, "stopped at t = %.17g after %llu steps", r->t,
                          (unsigned long long)qdot_ode_most_steps(r->options));
-    status = look ? measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
+    status = look ? step_measure(r, r->direction * h, &ratio) : step_plainly(r, r->direction * h);
     if (status != QDOT_OK)
-        return undefined(r, h, status);
+        return step_undefined(r, h, status);
     if (ratio <= 1) {
         if (r->length > 0 && !last)
-            grow(r, h, ratio);
-        return take(r, h, last, stop);
+            step_grow(r, h, ratio);
+        return step_accept(r, h, last, stop);
     }
     go_back(r);
     r->result->stats.rejected++;
     r->h = h * fmin(safe, factor_of(r, ratio));
-    return r->h > least_length(r) ? QDOT_OK : too_small(r);
+    return r->h > least_length(r) ? QDOT_OK : step_too_small(r);
 }
 
 static qdot_status
-count_work(run *r)
+constant_steps_count_work(run *r)
 {
     const qdot_ode_stats stats = {.evaluations = r->g.evaluations};
     const double now = qdot_ode_work(r->g.system, &stats), more = now - r->work;
@@ -414,7 +414,7 @@ count_work(run *r)
 
 /* Whether so many steps are allowed. */
 static qdot_status
-check_length(const run *r)
+step_check_length(const run *r)
 {
     const double steps = fabs(r->t1 - r->t) / fmax(r->h, r->length);
 
@@ -427,7 +427,7 @@ check_length(const run *r)
 }
 
 static qdot_status
-loop(run *r)
+constant_steps_loop(run *r)
 {
     const double distance = fabs(r->t1 - r->t);
     bool stop = false;
@@ -437,12 +437,12 @@ loop(run *r)
     if (r->options->h_fixed > 0)
         r->h = distance / ceil(distance / r->options->h_fixed * (1 - 1e-12));
     else
-        QDOT_TRY(find_length(r));
-    QDOT_TRY(check_length(r));
+        QDOT_TRY(find_step_length(r));
+    QDOT_TRY(step_check_length(r));
     while (r->t != r->t1) {
-        QDOT_TRY(advance(r, &stop));
+        QDOT_TRY(constant_steps_advance(r, &stop));
         if (r->options->meter)
-            QDOT_TRY(count_work(r));
+            QDOT_TRY(constant_steps_count_work(r));
         qdot_progress_at(r->t);
         if (stop) {
             r->result->outcome = QDOT_ODE_STOPPED;
@@ -455,7 +455,7 @@ loop(run *r)
 /* --- the whole ---------------------------------------------------------------------- */
 
 static qdot_status
-check(const run *r, double t0, const double *y)
+constant_steps_check(const run *r, double t0, const double *y)
 {
     if (!r->g.system->halves && (!r->g.system->phase || r->g.kernel->separable))
         return qdot_fail(QDOT_EINVAL, "this method is for q' = v, v' = F alone");
@@ -467,7 +467,7 @@ check(const run *r, double t0, const double *y)
 
 /* All arrays in one. */
 static qdot_status
-allocate(run *r, double **all)
+constant_steps_allocate(run *r, double **all)
 {
     const size_t n = r->g.n;
     const size_t m = r->g.system->bonds ? r->g.system->bonds->m : 0;
@@ -490,7 +490,7 @@ allocate(run *r, double **all)
 
 /* Begin at y: with its momenta, if the system has such. */
 static qdot_status
-enter(run *r, const double *y)
+constant_steps_begin_at(run *r, const double *y)
 {
     const qdot_ode_phase *phase = r->g.system->phase;
     const size_t n = r->g.n;
@@ -518,18 +518,18 @@ qdot_geometric_integrate(const qdot_ode_system *system, const qdot_ode_method *m
     qdot_status status;
 
     *result = (qdot_ode_result){.outcome = QDOT_ODE_DONE, .t = t0};
-    status = check(&r, t0, y);
+    status = constant_steps_check(&r, t0, y);
     if (status == QDOT_OK)
-        status = allocate(&r, &all);
+        status = constant_steps_allocate(&r, &all);
     if (status == QDOT_OK) {
         memcpy(r.g.y, y, system->n * sizeof *y);
         if (options->carry)
             memcpy(r.g.low, options->carry, system->n * sizeof *y);
         if (r.g.kernel->begin)
             r.g.kernel->begin(&r.g);
-        status = enter(&r, y);
+        status = constant_steps_begin_at(&r, y);
         if (status == QDOT_OK)
-            status = loop(&r);
+            status = constant_steps_loop(&r);
         if (result->stats.steps > 0) {
             const qdot_error why = *qdot_last_error();
 

@@ -33,7 +33,7 @@ qdot_composition_lengths(double h, double *length, double *rest)
 
 /* x += a d + b d */
 static void
-advance(size_t n, double *x, double *low, double a, double b, const double *d)
+advance_by_forces(size_t n, double *x, double *low, double a, double b, const double *d)
 {
     for (size_t i = 0; i < n; i++)
         qdot_sum_advance_by(&x[i], &low[i], a * d[i], b * d[i]);
@@ -41,7 +41,7 @@ advance(size_t n, double *x, double *low, double a, double b, const double *d)
 
 /* Stages of these lengths, the middle one longer by `rest`; work: F at the state. */
 static qdot_status
-split(qdot_geometric *g, double t, int stages, const double *length, double rest)
+splitting_stages(qdot_geometric *g, double t, int stages, const double *length, double rest)
 {
     const size_t n = g->n;
     double *q = g->y, *p = q + n, *q_low = g->low, *p_low = q_low + n, *F = g->work;
@@ -52,11 +52,11 @@ split(qdot_geometric *g, double t, int stages, const double *length, double rest
     for (int s = 0; s < stages; s++) {
         const double h = length[s], more = s == stages / 2 ? rest : 0;
 
-        advance(n, p, p_low, 0.5 * h, 0.5 * more, F);
-        advance(n, q, q_low, h, more, p);
+        advance_by_forces(n, p, p_low, 0.5 * h, 0.5 * more, F);
+        advance_by_forces(n, q, q_low, h, more, p);
         t += h;
         QDOT_TRY(qdot_geometric_force(g, t, q, p, F));
-        advance(n, p, p_low, 0.5 * h, 0.5 * more, F);
+        advance_by_forces(n, p, p_low, 0.5 * h, 0.5 * more, F);
     }
     g->known = true;
     return QDOT_OK;
@@ -65,7 +65,7 @@ split(qdot_geometric *g, double t, int stages, const double *length, double rest
 static qdot_status
 verlet(qdot_geometric *g, double t, double h)
 {
-    return split(g, t, 1, &h, 0);
+    return splitting_stages(g, t, 1, &h, 0);
 }
 
 static qdot_status
@@ -74,7 +74,7 @@ composition8(qdot_geometric *g, double t, double h)
     double length[QDOT_COMPOSITION_STAGES], rest;
 
     qdot_composition_lengths(h, length, &rest);
-    return split(g, t, QDOT_COMPOSITION_STAGES, length, rest);
+    return splitting_stages(g, t, QDOT_COMPOSITION_STAGES, length, rest);
 }
 
 const qdot_geometric_kernel qdot_verlet = {2, true, 0, 1, 0, 0, NULL, verlet};

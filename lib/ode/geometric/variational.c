@@ -66,7 +66,7 @@ state_of(const qdot_geometric *g)
 
 /* The inverse of C, column by column. */
 static void
-invert(const step_state *w)
+invert_weights(const step_state *w)
 {
     enum { r = stages - 1 };
     double C[r * r], column[r];
@@ -89,7 +89,7 @@ invert(const step_state *w)
 }
 
 static void
-begin(qdot_geometric *g)
+variational_begin(qdot_geometric *g)
 {
     const size_t s = stages, r = s - 1;
     const step_state w = state_of(g);
@@ -114,13 +114,13 @@ begin(qdot_geometric *g)
                 x *= k == j ? 1 : (1 + w.at.c[i] - w.at.c[k]) / (w.at.c[j] - w.at.c[k]);
             w.beyond[i * r + j] = x;
         }
-    invert(&w);
+    invert_weights(&w);
 }
 
 /* F += A^T lambda at stage i */
 static qdot_status
-pull(const qdot_geometric *g, const step_state *w, double t, size_t i,
-     const double *lambda, double *F)
+stage_add_reactions(const qdot_geometric *g, const step_state *w, double t, size_t i,
+                    const double *lambda, double *F)
 {
     const qdot_ode_bonds *bonds = g->system->bonds;
 
@@ -160,13 +160,13 @@ add_pulls(const qdot_geometric *g, const step_state *w, double t, double h)
 
     memcpy(w->G, w->at.F, (stages - 1) * n * sizeof *w->G);
     for (size_t i = 0; i + 1 < stages; i++)
-        QDOT_TRY(pull(g, w, t + w->at.c[i] * h, i, w->lambda + i * w->m, w->G + i * n));
+        QDOT_TRY(stage_add_reactions(g, w, t + w->at.c[i] * h, i, w->lambda + i * w->m, w->G + i * n));
     return QDOT_OK;
 }
 
 /* Once round: P, W, X, lambda, F, G. */
 static qdot_status
-once(qdot_geometric *g, const qdot_stages *at, double t, double h, double *change)
+variational_iterate(qdot_geometric *g, const qdot_stages *at, double t, double h, double *change)
 {
     const step_state w = state_of(g);
     const size_t n = at->n;
@@ -210,7 +210,7 @@ tie_velocities(qdot_geometric *g, const step_state *w, double t)
 
 /* F, W, X, lambda, G to begin with. */
 static qdot_status
-guess(qdot_geometric *g, const step_state *w, double t, double h)
+variational_guess(qdot_geometric *g, const step_state *w, double t, double h)
 {
     const bool on = g->known && h == g->h;
 
@@ -230,9 +230,9 @@ variational(qdot_geometric *g, double t, double h)
     const step_state w = state_of(g);
     const size_t n = g->n, last = (stages - 1) * n;
 
-    QDOT_TRY(guess(g, &w, t, h));
+    QDOT_TRY(variational_guess(g, &w, t, h));
     g->known = false;
-    QDOT_TRY(qdot_stages_iterate(g, &w.at, t, h, w.m ? patience : 1, once));
+    QDOT_TRY(qdot_stages_iterate(g, &w.at, t, h, w.m ? patience : 1, variational_iterate));
     QDOT_TRY(qdot_geometric_force(g, t + h, w.at.X + last, w.at.W + last, w.at.F + last));
     memcpy(w.G + last, w.at.F + last, n * sizeof *w.G);
     for (size_t k = 0; k < n; k++) {
@@ -252,6 +252,6 @@ const qdot_geometric_kernel qdot_variational = {
     .more =
         QDOT_STAGES_MORE(stages) + 2 * stages * stages + 2 * (stages - 1) * (stages - 1),
     .of_bonds = 2 * (stages - 1) + 1,
-    .begin = begin,
+    .begin = variational_begin,
     .step = variational,
 };
