@@ -196,7 +196,7 @@ make_memory(qdot_lanes_code *c, const qdot_lanes_writer *w)
 
 /* *code NULL if it cannot be. */
 static qdot_status
-make(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
+lanes_code_build(qdot_lanes_writer *w, qdot_lanes_write *write, void *user, qdot_lanes_code **code)
 {
     qdot_lanes_code *c = qdot_calloc(1, sizeof *c);
     qdot_status status = QDOT_ENOMEM;
@@ -253,7 +253,7 @@ qdot_lanes_code_new(const qdot_lanes_rows *at, size_t numbers, qdot_lanes_write 
     w.moment = w.chains;
     w.windows = w.registers == QDOT_ASM_REGISTERS;
     w.first_free = w.moment + 1 + (w.windows ? 2 * w.block : 0);
-    status = make(&w, write, user, code);
+    status = lanes_code_build(&w, write, user, code);
     qdot_free(w.rows);
     qdot_free(w.steps);
     qdot_free(w.scalars.at);

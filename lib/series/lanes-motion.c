@@ -29,13 +29,13 @@ struct qdot_lanes_motion {
 /* 1/(k + 1), 1/((k + 1)(k + 2)); and in low orders what these are beyond their doubles, for
  * which a division is exact but for the last bit (series/program.h). */
 static double
-once(int k)
+inverse_once(int k)
 {
     return 1.0 / (k + 1);
 }
 
 static double
-twice(int k)
+inverse_twice(int k)
 {
     return 1.0 / ((k + 1) * (k + 2));
 }
@@ -49,17 +49,17 @@ beyond(double inverse, int k, int divisor)
 static double
 once_beyond(int k)
 {
-    return beyond(once(k), k, k + 1);
+    return beyond(inverse_once(k), k, k + 1);
 }
 
 static double
 twice_beyond(int k)
 {
-    return beyond(twice(k), k, (k + 1) * (k + 2));
+    return beyond(inverse_twice(k), k, (k + 1) * (k + 2));
 }
 
 static double
-rate(int k)
+rate_factor(int k)
 {
     return k + 1;
 }
@@ -89,7 +89,7 @@ write_rates(qdot_lanes_writer *w, int k)
 {
     for (int lead = 0; lead < QDOT_LANES_LEADS; lead++) {
         if (qdot_lanes_wants_rate(w, false, lead))
-            write_factor(w, PER_UNIT, rate, k + lead, qdot_lanes_rate(w, false, lead));
+            write_factor(w, PER_UNIT, rate_factor, k + lead, qdot_lanes_rate(w, false, lead));
         if (qdot_lanes_wants_rate(w, true, lead))
             write_factor(w, PER_UNIT_SQUARE, rate_of_rate, k + lead,
                          qdot_lanes_rate(w, true, lead));
@@ -98,7 +98,7 @@ write_rates(qdot_lanes_writer *w, int k)
 
 /* Unknown i of those solved for, at order k. */
 static qdot_lanes_at
-unknown(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
+unknown_at_order(const qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t i, int k)
 {
     const qdot_program_row row = c->motion->unknowns.at[c->motion->solved.at[i]].row;
 
@@ -119,20 +119,20 @@ write_solution(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k
 
         qdot_lanes_add(w, &y, true, (qdot_lanes_at){m->equations.at[first + i], k});
         for (size_t j = 0; j < i; j++)
-            qdot_lanes_add_product(w, &y, true, unknown(w, c, first + j, k),
+            qdot_lanes_add_product(w, &y, true, unknown_at_order(w, c, first + j, k),
                                    qdot_lanes_number(w, L + i * n + j));
         qdot_lanes_scale(w, &y, qdot_lanes_number(w, L + i * n + i));
-        qdot_lanes_store(w, y, unknown(w, c, first + i, k));
+        qdot_lanes_store(w, y, unknown_at_order(w, c, first + i, k));
     }
     for (size_t i = n; i-- > 0;) {
         qdot_lanes_sum a = QDOT_LANES_NOTHING;
 
-        qdot_lanes_add(w, &a, false, unknown(w, c, first + i, k));
+        qdot_lanes_add(w, &a, false, unknown_at_order(w, c, first + i, k));
         for (size_t j = i + 1; j < n; j++)
-            qdot_lanes_add_product(w, &a, true, unknown(w, c, first + j, k),
+            qdot_lanes_add_product(w, &a, true, unknown_at_order(w, c, first + j, k),
                                    qdot_lanes_number(w, L + j * n + i));
         qdot_lanes_scale(w, &a, qdot_lanes_number(w, L + i * n + i));
-        qdot_lanes_store(w, a, unknown(w, c, first + i, k));
+        qdot_lanes_store(w, a, unknown_at_order(w, c, first + i, k));
     }
 }
 
@@ -154,7 +154,7 @@ write_block(qdot_lanes_writer *w, const qdot_lanes_motion *c, size_t b, int k)
             qdot_lanes_add_product(w, &a, false,
                                    (qdot_lanes_at){m->equations.at[first + j], k},
                                    qdot_lanes_number(w, c->inverse[b] + i * n + j));
-        qdot_lanes_store(w, a, unknown(w, c, first + i, k));
+        qdot_lanes_store(w, a, unknown_at_order(w, c, first + i, k));
     }
 }
 
@@ -197,8 +197,8 @@ write_stage(qdot_lanes_writer *w, int m, void *user)
 
     write_rates(w, k);
     qdot_lanes_steps_without(w, motion, k);
-    write_factor(w, UNIT, once, k, qdot_lanes_number(w, ONCE));
-    write_factor(w, UNIT_SQUARE, twice, k, qdot_lanes_number(w, TWICE));
+    write_factor(w, UNIT, inverse_once, k, qdot_lanes_number(w, ONCE));
+    write_factor(w, UNIT_SQUARE, inverse_twice, k, qdot_lanes_number(w, TWICE));
     for (size_t b = 0; b + 1 < motion->blocks.n; b++)
         write_block(w, c, b, k);
     for (size_t i = 0; i < motion->equations.n; i++)
@@ -208,7 +208,7 @@ write_stage(qdot_lanes_writer *w, int m, void *user)
 
         write_integrals(w, c, u,
                         u->value != QDOT_NO_ROW ? (qdot_lanes_at){u->value, k}
-                                                : unknown(w, c, solved++, k),
+                                                : unknown_at_order(w, c, solved++, k),
                         k);
     }
     for (size_t i = 0; i < motion->solved.n; i++)
@@ -230,7 +230,7 @@ write_stages(qdot_lanes_writer *w, void *user)
 /* --- building -------------------------------------------------------------------------- */
 
 static qdot_status
-make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)
+lanes_motion_make(qdot_lanes_motion *c, const qdot_lanes_rows *rows, qdot_lanes_motion **code)
 {
     const qdot_motion *m = c->motion;
     size_t numbers = INVERSES;
@@ -267,7 +267,7 @@ qdot_lanes_motion_new(const qdot_lanes_rows *rows, const qdot_motion *motion, in
         return QDOT_ENOMEM;
     *c = (qdot_lanes_motion){
         .motion = motion, .group = rows->group, .to = to, .factored = factored};
-    status = make(c, rows, code);
+    status = lanes_motion_make(c, rows, code);
     if (!*code)
         qdot_lanes_motion_free(c);
     return status;

@@ -9,7 +9,7 @@
 enum { L = QDOT_LANES };
 
 static bool
-may_hide(int op)
+may_hide_nearness(int op)
 {
     return qdot_recurrence_exponential(op) > 0 || qdot_recurrence_divisor(op);
 }
@@ -20,7 +20,7 @@ qdot_lanes_may_hide(const qdot_lanes *lanes)
     const qdot_program *p = qdot_lanes_program(lanes);
 
     for (size_t i = p->still; i < p->length; i++)
-        if (may_hide(p->steps.at[i].op))
+        if (may_hide_nearness(p->steps.at[i].op))
             return true;
     return false;
 }
@@ -59,8 +59,8 @@ find_falling(const qdot_lanes_rows *rows, qdot_program_row row, int p, const dou
 
 /* In a lane in which it may. */
 static double
-near_divisor(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p,
-             double s)
+lane_divisor_nearness(const qdot_lanes_rows *rows, const qdot_program_step *step, size_t lane, int p,
+                      double s)
 {
     double b[QDOT_SERIES_MOST + 1], quotient[QDOT_SERIES_MOST + 1];
 
@@ -93,7 +93,7 @@ qdot_lanes_near(qdot_lanes *lanes, int p, const double *s, const double *least, 
         const bool exponential = qdot_recurrence_exponential(step->op) > 0;
         bool may[L];
 
-        if (!may_hide(step->op))
+        if (!may_hide_nearness(step->op))
             continue;
         if (!exponential)
             find_falling(&rows, divisor_of(step), p, near, may);
@@ -104,7 +104,7 @@ qdot_lanes_near(qdot_lanes *lanes, int p, const double *s, const double *least, 
                 near[l] = qdot_near_taken(near[l], near_argument(&rows, step, l, p, near[l]),
                                           QDOT_NEAR_FINER * least[l]);
             else if (may[l])
-                near[l] = qdot_near_taken(near[l], near_divisor(&rows, step, l, p, near[l]), least[l]);
+                near[l] = qdot_near_taken(near[l], lane_divisor_nearness(&rows, step, l, p, near[l]), least[l]);
         }
     }
 }

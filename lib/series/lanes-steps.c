@@ -11,13 +11,13 @@ typedef struct {
 } step;
 
 static qdot_lanes_at
-at(qdot_program_row row, int order)
+row_at(qdot_program_row row, int order)
 {
     return (qdot_lanes_at){row, order};
 }
 
 static double
-inverse(int k)
+inverse_of_order(int k)
 {
     return 1.0 / k;
 }
@@ -43,39 +43,39 @@ store(const step *s, qdot_lanes_sum sum, qdot_program_row to)
     if (w->without && sum == QDOT_LANES_NOTHING)
         w->rows[to].absent = true;
     else
-        qdot_lanes_store(w, sum, at(to, s->k));
+        qdot_lanes_store(w, sum, row_at(to, s->k));
 }
 
 /* sum +- what a term has at this order */
 static void
-add_term(const step *s, qdot_lanes_sum *sum, bool minus, qdot_writer_addend t)
+step_add_term(const step *s, qdot_lanes_sum *sum, bool minus, qdot_writer_addend t)
 {
     minus ^= t.minus;
     if (t.rates == 0)
-        qdot_lanes_add(s->w, sum, minus, at(t.row, s->k));
+        qdot_lanes_add(s->w, sum, minus, row_at(t.row, s->k));
     else {
         s->w->rates |= 1U << ((t.rates > 1) * QDOT_LANES_LEADS + s->s->lead);
         qdot_lanes_add_product(s->w, sum, minus,
                                qdot_lanes_rate(s->w, t.rates > 1, s->s->lead),
-                               at(t.row, s->k + t.rates));
+                               row_at(t.row, s->k + t.rates));
     }
 }
 
 static void
-add_row(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row row)
+step_add_row(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row row)
 {
-    add_term(s, sum, minus, qdot_writer_expand(s->w, row));
+    step_add_term(s, sum, minus, qdot_writer_expand(s->w, row));
 }
 
 /* to = x'/unit */
 static void
-rate(const step *s)
+step_write_rate(const step *s)
 {
     qdot_writer_addend t = qdot_writer_expand(s->w, s->s->x);
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     t.rates++;
-    add_term(s, &sum, false, t);
+    step_add_term(s, &sum, false, t);
     store(s, sum, s->s->to);
 }
 
@@ -84,13 +84,13 @@ static void
 with_newest(const step *s, qdot_lanes_sum *sum, bool minus, qdot_program_row x,
             qdot_program_row y)
 {
-    qdot_lanes_add_product(s->w, sum, minus, at(x, 0), at(y, s->k));
+    qdot_lanes_add_product(s->w, sum, minus, row_at(x, 0), row_at(y, s->k));
 }
 
 /* --- what needs no coefficient k ---------------------------------------------------- */
 
 static qdot_program_row
-row_of(const step *s, unsigned name)
+step_row_of(const step *s, unsigned name)
 {
     return qdot_program_step_row(s->s, name);
 }
@@ -108,13 +108,13 @@ before(const step *s, qdot_lanes_sum *sums)
         const int i = o->r == QDOT_OF_U2;
 
         if (o->verb == QDOT_DO_SQUARED) {
-            sums[i] = qdot_writer_square(s->w, row_of(s, o->a), s->k);
+            sums[i] = qdot_writer_square(s->w, step_row_of(s, o->a), s->k);
         } else if (o->verb == QDOT_DO_SUM && o->paired) {
-            qdot_writer_pair(s->w, row_of(s, o->a), row_of(s, o->b), row_of(s, o[1].b), s->k,
+            qdot_writer_pair(s->w, step_row_of(s, o->a), step_row_of(s, o->b), step_row_of(s, o[1].b), s->k,
                              sums);
             o++;
         } else if (o->verb == QDOT_DO_SUM) {
-            pairs[i][n[i]++] = (qdot_lanes_pair){row_of(s, o->a), row_of(s, o->b)};
+            pairs[i][n[i]++] = (qdot_lanes_pair){step_row_of(s, o->a), step_row_of(s, o->b)};
         }
     }
     for (const qdot_program_step *p = qdot_writer_within(s->w, s->s); p;
@@ -157,7 +157,7 @@ products(const step *s, qdot_lanes_sum sum)
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
         last = p;
     if (last->op != QDOT_T_MUL)
-        add_row(s, &sum, last->op == QDOT_T_MSUB, last->z);
+        step_add_row(s, &sum, last->op == QDOT_T_MSUB, last->z);
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
         with_newest(s, &sum, false, p->x, p->y);
     for (const qdot_program_step *p = s->s; p; p = qdot_writer_within(s->w, p))
@@ -175,13 +175,13 @@ static const number nothing = {.sum = QDOT_LANES_NOTHING};
 
 /* v +- a coefficient k, or U1 or U2, which is used up. */
 static void
-add_number(const step *s, number *v, bool minus, unsigned name, number *u)
+step_add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 {
     number *other;
 
     minus ^= v->minus;
     if (name < QDOT_OF_U1) {
-        add_row(s, &v->sum, minus, row_of(s, name));
+        step_add_row(s, &v->sum, minus, step_row_of(s, name));
         return;
     }
     other = u + (name - QDOT_OF_U1);
@@ -192,12 +192,12 @@ add_number(const step *s, number *v, bool minus, unsigned name, number *u)
 
 /* What begins with it. */
 static number
-take(const step *s, unsigned name, number *u)
+step_number_of(const step *s, unsigned name, number *u)
 {
     number v = nothing;
 
     if (name < QDOT_OF_U1) {
-        add_number(s, &v, false, name, u);
+        step_add_number(s, &v, false, name, u);
     } else {
         v = u[name - QDOT_OF_U1];
         u[name - QDOT_OF_U1] = nothing;
@@ -208,18 +208,18 @@ take(const step *s, unsigned name, number *u)
 static bool
 is_folded(const step *s, unsigned name)
 {
-    return qdot_writer_expand(s->w, row_of(s, name)).row != row_of(s, name);
+    return qdot_writer_expand(s->w, step_row_of(s, name)).row != step_row_of(s, name);
 }
 
 /* q, which nothing reads behind a step whose y is left out. */
 static number
 take_sum(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    const qdot_lanes_at z = at(s->s->z, s->k);
+    const qdot_lanes_at z = row_at(s->s->z, s->k);
 
     if (s->s->op == QDOT_T_SCALEADD && s->w->rows[s->s->y].absent && is_last_reader(s, z.row))
         return (number){.sum = qdot_lanes_continue_last(s->w, z)};
-    return take(s, o->q, u);
+    return step_number_of(s, o->q, u);
 }
 
 /* p (1 + b_0) */
@@ -238,31 +238,31 @@ static number
 with_product(const step *s, const qdot_recurrence_operation *o, number *u)
 {
     const bool minus = o->verb == QDOT_DO_MINUS_TIMES;
-    const qdot_program_row b = row_of(s, o->b);
+    const qdot_program_row b = step_row_of(s, o->b);
     number v = o->verb == QDOT_DO_TIMES ? nothing : take_sum(s, o, u);
 
     if (o->p < QDOT_OF_U1) {
-        with_newest(s, &v.sum, minus ^ v.minus, b, row_of(s, o->p));
+        with_newest(s, &v.sum, minus ^ v.minus, b, step_row_of(s, o->p));
     } else if (o->verb == QDOT_DO_PLUS_TIMES && o->p == o->q) {
-        times_more(s, &v, at(b, 0));
+        times_more(s, &v, row_at(b, 0));
     } else {
-        qdot_lanes_scale(s->w, &u[o->p - QDOT_OF_U1].sum, at(b, 0));
-        add_number(s, &v, minus, o->p, u);
+        qdot_lanes_scale(s->w, &u[o->p - QDOT_OF_U1].sum, row_at(b, 0));
+        step_add_number(s, &v, minus, o->p, u);
     }
     return v;
 }
 
 /* What an operation makes. */
 static number
-result(const step *s, const qdot_recurrence_operation *o, number *u)
+step_result(const step *s, const qdot_recurrence_operation *o, number *u)
 {
-    const qdot_program_row a = row_of(s, o->a), b = row_of(s, o->b);
+    const qdot_program_row a = step_row_of(s, o->a), b = step_row_of(s, o->b);
     number v;
 
     switch (o->verb) {
     case QDOT_DO_SUM:
     case QDOT_DO_SQUARED:
-        v = take(s, o->r == QDOT_OF_U2 ? QDOT_OF_U2 : QDOT_OF_U1, u);
+        v = step_number_of(s, o->r == QDOT_OF_U2 ? QDOT_OF_U2 : QDOT_OF_U1, u);
         if (o->from == 0)
             with_newest(s, &v.sum, false, a, b);
         if (o->below == 0)
@@ -273,8 +273,8 @@ result(const step *s, const qdot_recurrence_operation *o, number *u)
     case QDOT_DO_MINUS_TIMES: return with_product(s, o, u);
     case QDOT_DO_SUB:
         if (o->q >= QDOT_OF_U1 && o->p < QDOT_OF_U1 && !is_folded(s, o->p)) {
-            v = take(s, o->q, u);
-            qdot_lanes_take_from(s->w, &v.sum, at(row_of(s, o->p), s->k));
+            v = step_number_of(s, o->q, u);
+            qdot_lanes_take_from(s->w, &v.sum, row_at(step_row_of(s, o->p), s->k));
             return v;
         }
         break;
@@ -282,14 +282,14 @@ result(const step *s, const qdot_recurrence_operation *o, number *u)
         if (o->p >= QDOT_OF_U1)
             break;
         v = nothing;
-        add_number(s, &v, true, o->p, u);
+        step_add_number(s, &v, true, o->p, u);
         return v;
     default: break;
     }
-    v = take(s, o->p, u);
+    v = step_number_of(s, o->p, u);
     switch (o->verb) {
-    case QDOT_DO_ADD: add_number(s, &v, false, o->q, u); break;
-    case QDOT_DO_SUB: add_number(s, &v, true, o->q, u); break;
+    case QDOT_DO_ADD: step_add_number(s, &v, false, o->q, u); break;
+    case QDOT_DO_SUB: step_add_number(s, &v, true, o->q, u); break;
     case QDOT_DO_NEG: v.minus ^= true; break;
     case QDOT_DO_SIGNED: v.minus ^= s->s->sign < 0; break;
     case QDOT_DO_ORDERS:
@@ -297,7 +297,7 @@ result(const step *s, const qdot_recurrence_operation *o, number *u)
         break;
     case QDOT_DO_PER_ORDER:
         qdot_lanes_scale(s->w, &v.sum,
-                         qdot_lanes_scalar_of(s->w, v.minus ? minus_inverse : inverse, s->k));
+                         qdot_lanes_scalar_of(s->w, v.minus ? minus_inverse : inverse_of_order, s->k));
         v.minus = false;
         break;
     default: qdot_lanes_scale(s->w, &v.sum, qdot_writer_inverse(s->i)); /* OVER */
@@ -311,7 +311,7 @@ after(const step *s, const qdot_lanes_sum *sums)
     number u[] = {{.sum = sums[0]}, {.sum = sums[1]}};
 
     if (s->s->op == QDOT_T_RATE) {
-        rate(s);
+        step_write_rate(s);
         return;
     }
     if (qdot_writer_within(s->w, s->s)) {
@@ -320,7 +320,7 @@ after(const step *s, const qdot_lanes_sum *sums)
     }
     for (const qdot_recurrence_operation *o = qdot_recurrence_operations(s->s->op);
          o->verb != QDOT_DO_END; o++) {
-        number v = result(s, o, u);
+        number v = step_result(s, o, u);
 
         if (o->r >= QDOT_OF_U1) {
             u[o->r - QDOT_OF_U1] = v;
@@ -328,7 +328,7 @@ after(const step *s, const qdot_lanes_sum *sums)
         }
         if (v.minus)
             qdot_lanes_negate(s->w, &v.sum);
-        store(s, v.sum, row_of(s, o->r));
+        store(s, v.sum, step_row_of(s, o->r));
     }
 }
 
@@ -359,12 +359,12 @@ lacks_argument(const step *s)
 
 /* to_k = k x_k */
 static void
-by_order(const step *s, qdot_program_row x, qdot_program_row to)
+step_multiply_by_order(const step *s, qdot_program_row x, qdot_program_row to)
 {
     qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
     qdot_lanes_add_product(s->w, &sum, false, qdot_lanes_scalar_of(s->w, itself, s->k),
-                           at(x, s->k));
+                           row_at(x, s->k));
     store(s, sum, to);
 }
 
@@ -373,12 +373,12 @@ add_argument(const step *s)
 {
     const qdot_program_row to[] = {s->s->to, s->s->second};
 
-    by_order(s, s->s->x, s->s->d);
+    step_multiply_by_order(s, s->s->x, s->s->d);
     for (int i = 0; i < 2; i++) {
         qdot_lanes_sum sum = QDOT_LANES_NOTHING;
 
         if (qdot_writer_is_kept(s->w, s->i, i))
-            sum = qdot_lanes_continue(s->w, at(to[i], s->k));
+            sum = qdot_lanes_continue(s->w, row_at(to[i], s->k));
         with_newest(s, &sum, i == 1 && s->s->op == QDOT_T_SINCOS, to[1 - i], s->s->x);
         store(s, sum, to[i]);
     }
@@ -429,7 +429,7 @@ qdot_lanes_steps_without(qdot_lanes_writer *w, const qdot_motion *m, int k)
         const qdot_program_step *s = w->t->steps.at + i;
 
         if (s->newest && !w->steps[i].lacks && !w->rows[s->to].equation)
-            qdot_lanes_unread(w, at(s->to, k + s->lead));
+            qdot_lanes_unread(w, row_at(s->to, k + s->lead));
     }
 }
 

@@ -128,7 +128,7 @@ clear_chains(qdot_lanes_writer *w)
 
 /* The chains of a sum become the first of them. */
 static int
-add_up(qdot_lanes_writer *w, int products, int product, int i)
+chains_add_up(qdot_lanes_writer *w, int products, int product, int i)
 {
     const int to = chain(w, products, product, i, 0), n = chains_of(w, products);
 
@@ -139,7 +139,7 @@ add_up(qdot_lanes_writer *w, int products, int product, int i)
 }
 
 static qdot_lanes_at
-ahead(const qdot_lanes_writer *w, size_t sum, int i)
+number_ahead(const qdot_lanes_writer *w, size_t sum, int i)
 {
     return qdot_lanes_number(w, w->numbers + QDOT_WRITER_RESTS * w->t->length +
                                     sum * (size_t)(w->block - 1) + (size_t)i - 1);
@@ -168,10 +168,10 @@ share_out(qdot_lanes_writer *w, size_t sum, int products, int product, int n)
     if (n > 0) {
         first = qdot_writer_take(w);
         qdot_writer_emit(w, QDOT_ASM_LOAD, first, 0,
-                         qdot_asm_in(add_up(w, products, product, 0)));
+                         qdot_asm_in(chains_add_up(w, products, product, 0)));
     }
     for (int i = 1; i < w->block && i < n; i++)
-        qdot_writer_put(w, add_up(w, products, product, i), ahead(w, sum, i));
+        qdot_writer_put(w, chains_add_up(w, products, product, i), number_ahead(w, sum, i));
     if (w->status == QDOT_OK)
         w->ahead.at[sum] = n;
     return first;
@@ -183,7 +183,7 @@ take_ahead(qdot_lanes_writer *w, size_t sum)
     qdot_lanes_sum value = QDOT_LANES_NOTHING;
 
     if (w->status == QDOT_OK && w->ahead.at[sum] > w->phase)
-        qdot_lanes_add(w, &value, false, ahead(w, sum, w->phase));
+        qdot_lanes_add(w, &value, false, number_ahead(w, sum, w->phase));
     return value;
 }
 

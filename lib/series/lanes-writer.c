@@ -20,7 +20,7 @@ is_newest(const qdot_lanes_writer *w, qdot_lanes_at a)
 
 /* A coefficient of a row is 0 and nothing writes it, or left out. */
 static bool
-vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
+coefficient_vanishes(const qdot_lanes_writer *w, qdot_lanes_at a)
 {
     return is_row(w, a.row) && a.order > 0 &&
            (!w->rows[a.row].moving || (w->rows[a.row].absent && is_newest(w, a)));
@@ -145,7 +145,7 @@ qdot_writer_emit(qdot_lanes_writer *w, qdot_asm_operation name, int reg, int fir
 }
 
 static void
-settle(qdot_lanes_writer *w, int reg)
+register_store_ahead(qdot_lanes_writer *w, int reg)
 {
     if (w->reg[reg].ahead)
         qdot_writer_emit(w, QDOT_ASM_STORE, reg, 0, qdot_writer_place(w, w->reg[reg].at));
@@ -160,14 +160,14 @@ qdot_writer_settle(qdot_lanes_writer *w)
 
         if (reg->ahead && is_row(w, reg->at.row) && !w->rows[reg->at.row].kept)
             reg->holds = reg->ahead = false;
-        settle(w, r);
+        register_store_ahead(w, r);
     }
 }
 
 static void
-leave(qdot_lanes_writer *w, int reg)
+register_leave(qdot_lanes_writer *w, int reg)
 {
-    settle(w, reg);
+    register_store_ahead(w, reg);
     w->reg[reg].holds = false;
 }
 
@@ -175,16 +175,16 @@ void
 qdot_writer_leave(qdot_lanes_writer *w, int end)
 {
     for (int r = 0; r < end; r++)
-        leave(w, r);
+        register_leave(w, r);
 }
 
 /* The least recently used from `lowest` on that is not taken. */
 static int
-fresh(qdot_lanes_writer *w, int lowest)
+register_fresh(qdot_lanes_writer *w, int lowest)
 {
     const int reg = qdot_asm_fresh(&w->m, lowest, w->registers);
 
-    leave(w, reg);
+    register_leave(w, reg);
     return reg;
 }
 
@@ -198,7 +198,7 @@ first_taken(const qdot_lanes_writer *w)
 int
 qdot_writer_take(qdot_lanes_writer *w)
 {
-    const int reg = fresh(w, first_taken(w));
+    const int reg = register_fresh(w, first_taken(w));
 
     w->m.taken[reg] = true;
     return reg;
@@ -221,7 +221,7 @@ fetch(qdot_lanes_writer *w, int reg, qdot_lanes_at a)
 }
 
 static int
-load(qdot_lanes_writer *w, qdot_lanes_at a)
+register_load(qdot_lanes_writer *w, qdot_lanes_at a)
 {
     int reg = holder(w, a);
 
@@ -229,7 +229,7 @@ load(qdot_lanes_writer *w, qdot_lanes_at a)
         qdot_asm_use(&w->m, reg);
         return reg;
     }
-    reg = fresh(w, 0);
+    reg = register_fresh(w, 0);
     fetch(w, reg, a);
     w->reg[reg].holds = true;
     w->reg[reg].at = a;
@@ -238,11 +238,11 @@ load(qdot_lanes_writer *w, qdot_lanes_at a)
 
 /* A register that holds it, or its place. */
 static qdot_operand
-operand(qdot_lanes_writer *w, qdot_lanes_at a)
+writer_operand(qdot_lanes_writer *w, qdot_lanes_at a)
 {
     if (a.row < QDOT_WRITER_SCALARS && holder(w, a) < 0)
         return qdot_writer_place(w, a);
-    return qdot_asm_in(load(w, a));
+    return qdot_asm_in(register_load(w, a));
 }
 
 void
@@ -263,7 +263,7 @@ qdot_lanes_continue(qdot_lanes_writer *w, qdot_lanes_at a)
     if (held < first_taken(w) || w->reg[held].ahead) {
         if (held >= 0)
             qdot_asm_use(&w->m, held);
-        reg = fresh(w, first_taken(w));
+        reg = register_fresh(w, first_taken(w));
         if (held >= 0)
             qdot_writer_emit(w, QDOT_ASM_LOAD, reg, 0, qdot_asm_in(held));
         else
@@ -290,9 +290,9 @@ qdot_lanes_add(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus, qdot_lanes
 {
     qdot_operand rm;
 
-    if (vanishes(w, a))
+    if (coefficient_vanishes(w, a))
         return;
-    rm = operand(w, a);
+    rm = writer_operand(w, a);
     if (*sum == QDOT_LANES_NOTHING) {
         *sum = qdot_writer_take(w);
         if (!minus) {
@@ -309,10 +309,10 @@ qdot_lanes_take_from(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
 {
     if (*sum == QDOT_LANES_NOTHING)
         qdot_lanes_add(w, sum, false, a);
-    else if (vanishes(w, a))
+    else if (coefficient_vanishes(w, a))
         qdot_lanes_negate(w, sum);
     else
-        qdot_writer_emit(w, QDOT_ASM_SUB, *sum, load(w, a), qdot_asm_in(*sum));
+        qdot_writer_emit(w, QDOT_ASM_SUB, *sum, register_load(w, a), qdot_asm_in(*sum));
 }
 
 void
@@ -323,7 +323,7 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
     int reg;
     qdot_operand rm;
 
-    if (vanishes(w, a) || vanishes(w, b))
+    if (coefficient_vanishes(w, a) || coefficient_vanishes(w, b))
         return;
     if (holder(w, a) < 0 && holder(w, b) >= 0) {
         const qdot_lanes_at other = a;
@@ -332,8 +332,8 @@ qdot_lanes_add_product(qdot_lanes_writer *w, qdot_lanes_sum *sum, bool minus,
         b = other;
     }
     passing = is_row(w, a.row) && !is_newest(w, a) && holder(w, a) < 0;
-    reg = load(w, a);
-    rm = operand(w, b);
+    reg = register_load(w, a);
+    rm = writer_operand(w, b);
     if (passing)
         w->m.used[reg] = 0;
     if (*sum == QDOT_LANES_NOTHING) {
@@ -352,12 +352,12 @@ qdot_lanes_scale(qdot_lanes_writer *w, qdot_lanes_sum *sum, qdot_lanes_at a)
 {
     if (*sum == QDOT_LANES_NOTHING)
         return;
-    if (vanishes(w, a)) {
+    if (coefficient_vanishes(w, a)) {
         w->m.taken[*sum] = false;
         *sum = QDOT_LANES_NOTHING;
         return;
     }
-    qdot_writer_emit(w, QDOT_ASM_MUL, *sum, *sum, operand(w, a));
+    qdot_writer_emit(w, QDOT_ASM_MUL, *sum, *sum, writer_operand(w, a));
 }
 
 void

@@ -64,8 +64,8 @@ struct qdot_lanes {
 };
 
 static void
-evaluate(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double *in,
-         double *out, double *work)
+lanes_evaluate_tape(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double *in,
+                    double *out, double *work)
 {
     size_t n = tape->inputs * QDOT_LANES;
 
@@ -83,13 +83,13 @@ evaluate(const qdot_tape *tape, const qdot_batch_kernels *kernels, const double 
 void
 qdot_lanes_eval(const qdot_tape *tape, const double *in, double *out, double *work)
 {
-    evaluate(tape, NULL, in, out, work);
+    lanes_evaluate_tape(tape, NULL, in, out, work);
 }
 
 void
 qdot_lanes_eval_near(const qdot_tape *tape, const double *in, double *out, double *work)
 {
-    evaluate(tape, qdot_batch_kernels_get(), in, out, work);
+    lanes_evaluate_tape(tape, qdot_batch_kernels_get(), in, out, work);
 }
 
 void
@@ -104,14 +104,14 @@ qdot_lanes_free(qdot_lanes *t)
 }
 
 static double *
-place(const qdot_lanes *t, qdot_program_row row)
+lanes_place(const qdot_lanes *t, qdot_program_row row)
 {
     return row == QDOT_NO_ROW ? NULL : t->coefficients + (size_t)row * t->stride * QDOT_LANES;
 }
 
 /* Rows have orders up to `most`. */
 static qdot_status
-allocate(qdot_lanes *t, int most)
+lanes_allocate(qdot_lanes *t, int most)
 {
     const qdot_program *p = t->program;
     const size_t line = 64;
@@ -145,7 +145,7 @@ set_constant(qdot_lanes *t, double *row, const qdot_program_constant *c, bool sh
 }
 
 static void
-set_constants(qdot_lanes *t, bool shaken)
+lanes_set_constants(qdot_lanes *t, bool shaken)
 {
     const qdot_program *p = t->program;
 
@@ -153,9 +153,9 @@ set_constants(qdot_lanes *t, bool shaken)
         const qdot_program_row_info *row = p->rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            set_constant(t, place(t, r), p->constants.at + row->at, shaken);
+            set_constant(t, lanes_place(t, r), p->constants.at + row->at, shaken);
         for (size_t l = 0; l < QDOT_LANES && row->source == QDOT_ROW_WHOLE; l++)
-            place(t, r)[l] = row->at;
+            lanes_place(t, r)[l] = row->at;
     }
 }
 
@@ -175,23 +175,23 @@ set_steps(qdot_lanes *t)
             .newest = t->motion ? s->newest : UCHAR_MAX,
             .still = s->still,
             .kept = s->kept || !t->motion,
-            .to = place(t, s->to),
-            .second = place(t, s->second),
-            .third = place(t, s->third),
-            .d = place(t, s->d),
+            .to = lanes_place(t, s->to),
+            .second = lanes_place(t, s->second),
+            .third = lanes_place(t, s->third),
+            .d = lanes_place(t, s->d),
             .c = s->op == QDOT_T_RATE ? t->per_unit : t->inverses + i * QDOT_LANES,
-            .x = place(t, s->x),
-            .y = place(t, s->y),
-            .z = place(t, s->z)};
+            .x = lanes_place(t, s->x),
+            .y = lanes_place(t, s->y),
+            .z = lanes_place(t, s->z)};
     }
 }
 
 /* Once it has its program. */
 static qdot_status
-fill(qdot_lanes *t, bool shaken, int most)
+lanes_fill(qdot_lanes *t, bool shaken, int most)
 {
-    QDOT_TRY(allocate(t, most));
-    set_constants(t, shaken);
+    QDOT_TRY(lanes_allocate(t, most));
+    lanes_set_constants(t, shaken);
     set_steps(t);
     for (int k = 1; k <= QDOT_SERIES_MOST; k++)
         t->inverse[k] = 1.0 / k;
@@ -202,8 +202,8 @@ fill(qdot_lanes *t, bool shaken, int most)
 
 /* Of a program, which may be that of a motion. */
 static qdot_status
-make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
-     qdot_lanes **lanes)
+lanes_make(const qdot_program *program, const qdot_motion *motion, bool shaken, int most,
+           qdot_lanes **lanes)
 {
     qdot_lanes *t;
     qdot_status status;
@@ -216,7 +216,7 @@ make(const qdot_program *program, const qdot_motion *motion, bool shaken, int mo
         return QDOT_ENOMEM;
     t->program = program;
     t->motion = motion;
-    status = fill(t, shaken, most);
+    status = lanes_fill(t, shaken, most);
     if (status != QDOT_OK) {
         qdot_lanes_free(t);
         return status;
@@ -228,13 +228,13 @@ make(const qdot_program *program, const qdot_motion *motion, bool shaken, int mo
 qdot_status
 qdot_lanes_of_program(const qdot_program *program, bool shaken, int most, qdot_lanes **lanes)
 {
-    return make(program, NULL, shaken, most, lanes);
+    return lanes_make(program, NULL, shaken, most, lanes);
 }
 
 qdot_status
 qdot_lanes_of_motion(const qdot_motion *motion, bool shaken, int most, qdot_lanes **lanes)
 {
-    return make(&motion->program, motion, shaken, most + 1, lanes);
+    return lanes_make(&motion->program, motion, shaken, most + 1, lanes);
 }
 
 const qdot_program *
@@ -264,13 +264,13 @@ qdot_lanes_stride(const qdot_lanes *t)
 const double *
 qdot_lanes_output(const qdot_lanes *t, size_t i)
 {
-    return place(t, t->program->outputs.at[i]);
+    return lanes_place(t, t->program->outputs.at[i]);
 }
 
 const double *
 qdot_lanes_series(const qdot_lanes *t, qdot_program_row row)
 {
-    return place(t, row);
+    return lanes_place(t, row);
 }
 
 bool
@@ -287,7 +287,7 @@ qdot_lanes_draw(qdot_lanes *t, const double *time)
 
 /* Steps from `from` on, those that lead by so much being at order k + lead. */
 static void
-begin(qdot_lanes *t, int k, size_t from)
+lanes_begin_steps(qdot_lanes *t, int k, size_t from)
 {
     for (size_t i = from; i < t->program->length; i++) {
         const lanes_step *s = t->steps + i;
@@ -305,7 +305,7 @@ qdot_lanes_order(qdot_lanes *t, int k)
     const qdot_program *p = t->program;
 
     if (k <= 0)
-        begin(t, k, k > -p->lead ? p->still : 0);
+        lanes_begin_steps(t, k, k > -p->lead ? p->still : 0);
     else
         t->kind->order(t->kernels, t->steps + p->still, p->length - p->still, k, t->inverse);
 }
@@ -330,9 +330,9 @@ qdot_lanes_set_unit(qdot_lanes *t, const double *unit)
 
 /* Order k of an unknown, and what that makes of its integrals. */
 static void
-put(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
+lanes_put_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 {
-    double *row = place(t, u->row), *once = place(t, u->once), *twice = place(t, u->twice);
+    double *row = lanes_place(t, u->row), *once = lanes_place(t, u->once), *twice = lanes_place(t, u->twice);
 
     if (row)
         memcpy(row + k * QDOT_LANES, a, QDOT_LANES * sizeof *a);
@@ -344,10 +344,10 @@ put(const qdot_lanes *t, const qdot_motion_unknown *u, const double *a, int k)
 }
 
 static void
-clear(const qdot_lanes *t, qdot_program_row row, int k)
+lanes_clear_row(const qdot_lanes *t, qdot_program_row row, int k)
 {
     if (row != QDOT_NO_ROW)
-        memset(place(t, row) + k * QDOT_LANES, 0, QDOT_LANES * sizeof(double));
+        memset(lanes_place(t, row) + k * QDOT_LANES, 0, QDOT_LANES * sizeof(double));
 }
 
 void
@@ -358,23 +358,23 @@ qdot_lanes_stage(qdot_lanes *t, int k)
     for (size_t i = 0; i < m->solved.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[i];
 
-        clear(t, u->row, k);
-        clear(t, u->once, k + 1);
-        clear(t, u->twice, k + 2);
+        lanes_clear_row(t, u->row, k);
+        lanes_clear_row(t, u->once, k + 1);
+        lanes_clear_row(t, u->twice, k + 2);
     }
     qdot_lanes_order(t, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
 
         if (u->value != QDOT_NO_ROW)
-            put(t, u, place(t, u->value) + k * QDOT_LANES, k);
+            lanes_put_unknown(t, u, lanes_place(t, u->value) + k * QDOT_LANES, k);
     }
 }
 
 static void
 change_unknown(const qdot_lanes *t, const qdot_motion_unknown *u, const double *by, int k)
 {
-    double *row = place(t, u->row), *once = place(t, u->once), *twice = place(t, u->twice);
+    double *row = lanes_place(t, u->row), *once = lanes_place(t, u->once), *twice = lanes_place(t, u->twice);
     double by_once[QDOT_LANES], by_twice[QDOT_LANES];
     const size_t note = t->stride - 1;
 

@@ -25,7 +25,7 @@ writes_of(const qdot_program_step *s, qdot_program_row rows[WRITES])
 
 /* By how much a step reads ahead of what it writes. */
 static int
-ahead(const qdot_program_step *s)
+step_reads_ahead(const qdot_program_step *s)
 {
     return s->op == QDOT_T_RATE;
 }
@@ -53,15 +53,15 @@ find_leads(qdot_program *p)
         for (int k = 0; k < READS; k++) {
             qdot_program_row_info *row = p->rows.at + rows[k];
 
-            if (row->lead < s->lead + ahead(s))
-                row->lead = s->lead + ahead(s);
+            if (row->lead < s->lead + step_reads_ahead(s))
+                row->lead = s->lead + step_reads_ahead(s);
         }
     }
 }
 
 /* An input is known so far ahead; newest [rows]: those that hold what is solved for. */
 static qdot_status
-settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
+row_settle(qdot_motion *m, qdot_program_row at, int known, bool solved, bool *newest)
 {
     qdot_program_row_info *row;
 
@@ -81,9 +81,9 @@ settle_unknown(qdot_motion *m, const qdot_motion_unknown *u, bool *newest)
 {
     const bool solved = u->value == QDOT_NO_ROW;
 
-    QDOT_TRY(settle(m, u->row, 0, solved, newest));
-    QDOT_TRY(settle(m, u->once, solved ? 1 : 0, solved, newest));
-    return settle(m, u->twice, solved ? 2 : 0, solved, newest);
+    QDOT_TRY(row_settle(m, u->row, 0, solved, newest));
+    QDOT_TRY(row_settle(m, u->once, solved ? 1 : 0, solved, newest));
+    return row_settle(m, u->twice, solved ? 2 : 0, solved, newest);
 }
 
 /* A row is read at its newest order where it leads no further than that. */
@@ -98,7 +98,7 @@ find_newest(qdot_program *p, bool *newest)
         s->newest = 0;
         reads_of(s, rows);
         for (int k = 0; k < READS; k++)
-            if (newest[rows[k]] && p->rows.at[rows[k]].lead == s->lead + ahead(s))
+            if (newest[rows[k]] && p->rows.at[rows[k]].lead == s->lead + step_reads_ahead(s))
                 s->newest |= (unsigned char)(QDOT_X_NEWEST << k);
         writes_of(s, rows);
         for (int k = 0; k < WRITES; k++)
@@ -139,7 +139,7 @@ find_kept(qdot_program *p, bool *read)
         reads_of(s, rows);
         for (int k = 0; k < READS; k++)
             read[rows[k]] = read[rows[k]] || s->kept || sums_over(s, k)
-                            || p->rows.at[rows[k]].lead > s->lead + ahead(s);
+                            || p->rows.at[rows[k]].lead > s->lead + step_reads_ahead(s);
     }
 }
 
@@ -205,7 +205,7 @@ qdot_motion_end_block(qdot_motion *m)
 }
 
 static void
-add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u, qdot_motion_line *to)
+line_add_product(qdot_program_builder *b, qdot_program_row K, qdot_program_row u, qdot_motion_line *to)
 {
     if (to->right == QDOT_NO_ROW)
         return;
@@ -227,9 +227,9 @@ qdot_motion_write(const qdot_motion *m, qdot_program_builder *b, size_t from,
 
             if (m->program.rows.n > 0 /* none: its end fails */ && m->program.rows.at[x->at].still != number)
                 continue;
-            add_product(b, x->at, lines[x->j].u, lines + x->i);
+            line_add_product(b, x->at, lines[x->j].u, lines + x->i);
             if (x->i != x->j)
-                add_product(b, x->at, lines[x->i].u, lines + x->j);
+                line_add_product(b, x->at, lines[x->i].u, lines + x->j);
         }
     for (size_t i = first; i < end; i++)
         if (lines[i].right != QDOT_NO_ROW && lines[i].E == QDOT_NO_ROW)

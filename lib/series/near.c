@@ -88,7 +88,7 @@ static const double well_before = 8;
 enum { quarters = 4, shorter = 40 };
 
 static double
-value(int p, const double *b, double s)
+polynomial_value(int p, const double *b, double s)
 {
     double sum = b[p];
 
@@ -102,7 +102,7 @@ static int
 falls_in(int p, const double *b, double s)
 {
     for (int j = 1; j <= quarters; j++)
-        if (!(value(p, b, s * j / quarters) / b[0] >= QDOT_NEAR_LEFT))
+        if (!(polynomial_value(p, b, s * j / quarters) / b[0] >= QDOT_NEAR_LEFT))
             return j;
     return 0;
 }
@@ -135,7 +135,7 @@ qdot_near_divisor(int p, const double *b, bool root, double s)
 
         if (j == 0)
             return s;
-        if (root && value(p, b, s * j / quarters) / b[0] <= 0)
+        if (root && polynomial_value(p, b, s * j / quarters) / b[0] <= 0)
             return whole;
         s *= j > 1 ? (double)(j - 1) / quarters : 0.5 / quarters;
     }

@@ -30,7 +30,7 @@ enum { QDOT_PRECISE_NEAR = 200 };
 #define RN MPFR_RNDN
 
 static inline mpfr_t *
-place(const qdot_precise *p, qdot_program_row row)
+precise_place(const qdot_precise *p, qdot_program_row row)
 {
     return p->numbers.at + (size_t)row * p->stride;
 }
@@ -52,7 +52,7 @@ convolve(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, const mpfr_t *b, int k,
 
 /* sum = sum_{j=from..k-from} a_j a_{k-j}; w[2] is used */
 static void
-square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
+convolve_square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 {
     int n = (k + 1) / 2 - from;
 
@@ -70,7 +70,7 @@ square(qdot_precise *p, mpfr_ptr sum, const mpfr_t *a, int k, int from)
 
 /* d = a - b floor(a/b) */
 static void
-modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
+mpfr_modulo(mpfr_ptr d, mpfr_srcptr a, mpfr_srcptr b, mpfr_ptr w)
 {
     mpfr_div(w, a, b, RN);
     mpfr_floor(w, w);
@@ -89,7 +89,7 @@ hyperbolic_tangent(mpfr_ptr d, mpfr_ptr slope, mpfr_srcptr a)
 
 /* d = log(1 + e^a) */
 static void
-softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
+mpfr_softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
 {
     const bool positive = mpfr_sgn(a) > 0;
 
@@ -105,10 +105,10 @@ softplus(mpfr_ptr d, mpfr_srcptr a, mpfr_ptr w)
 }
 
 static void
-value(qdot_precise *p, const qdot_program_step *i)
+precise_value(qdot_precise *p, const qdot_program_step *i)
 {
-    mpfr_srcptr a = place(p, i->x)[0], b = place(p, i->y)[0], c = place(p, i->z)[0];
-    mpfr_ptr d = place(p, i->to)[0], w = p->w[0];
+    mpfr_srcptr a = precise_place(p, i->x)[0], b = precise_place(p, i->y)[0], c = precise_place(p, i->z)[0];
+    mpfr_ptr d = precise_place(p, i->to)[0], w = p->w[0];
 
     switch (i->zero) {
     case QDOT_OP_NEG: mpfr_neg(d, a, RN); break;
@@ -122,15 +122,15 @@ value(qdot_precise *p, const qdot_program_step *i)
     case QDOT_OP_SQRT: mpfr_sqrt(d, a, RN); break;
     case QDOT_OP_POW: mpfr_pow(d, a, b, RN); break;
     case QDOT_ZERO_POWER: mpfr_pow(d, b, c, RN); break;
-    case QDOT_OP_SINCOS: mpfr_sin_cos(d, place(p, i->second)[0], a, RN); break;
-    case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, place(p, i->second)[0], a, RN); break;
-    case QDOT_OP_TANH: hyperbolic_tangent(d, place(p, i->second)[0], a); break;
+    case QDOT_OP_SINCOS: mpfr_sin_cos(d, precise_place(p, i->second)[0], a, RN); break;
+    case QDOT_ZERO_SINHCOSH: mpfr_sinh_cosh(d, precise_place(p, i->second)[0], a, RN); break;
+    case QDOT_OP_TANH: hyperbolic_tangent(d, precise_place(p, i->second)[0], a); break;
     case QDOT_OP_ATAN2: mpfr_atan2(d, a, b, RN); break;
     case QDOT_OP_EXP: mpfr_exp(d, a, RN); break;
     case QDOT_OP_LOG: mpfr_log(d, a, RN); break;
     case QDOT_OP_ERF: mpfr_erf(d, a, RN); break;
     case QDOT_OP_ERFC: mpfr_erfc(d, a, RN); break;
-    case QDOT_OP_SOFTPLUS: softplus(d, a, w); break;
+    case QDOT_OP_SOFTPLUS: mpfr_softplus(d, a, w); break;
     case QDOT_OP_ASIN: mpfr_asin(d, a, RN); break;
     case QDOT_OP_ACOS: mpfr_acos(d, a, RN); break;
     case QDOT_OP_ATAN: mpfr_atan(d, a, RN); break;
@@ -146,7 +146,7 @@ value(qdot_precise *p, const qdot_program_step *i)
         break;
     case QDOT_OP_MIN: mpfr_set(d, mpfr_nan_p(a) || mpfr_less_p(a, b) ? a : b, RN); break;
     case QDOT_OP_MAX: mpfr_set(d, mpfr_nan_p(a) || mpfr_greater_p(a, b) ? a : b, RN); break;
-    case QDOT_OP_MOD: modulo(d, a, b, w); break;
+    case QDOT_OP_MOD: mpfr_modulo(d, a, b, w); break;
     case QDOT_OP_FLOOR: mpfr_floor(d, a); break;
     case QDOT_OP_LT: mpfr_set_ui(d, mpfr_less_p(a, b) != 0, RN); break;
     case QDOT_OP_LE: mpfr_set_ui(d, mpfr_lessequal_p(a, b) != 0, RN); break;
@@ -155,25 +155,25 @@ value(qdot_precise *p, const qdot_program_step *i)
     case QDOT_OP_OR: mpfr_set_ui(d, !mpfr_zero_p(a) || !mpfr_zero_p(b), RN); break;
     case QDOT_OP_NOT: mpfr_set_ui(d, mpfr_zero_p(a) != 0, RN); break;
     case QDOT_OP_SELECT: mpfr_set(d, !mpfr_zero_p(a) ? b : c, RN); break;
-    case QDOT_ZERO_RATE: mpfr_set(d, place(p, i->x)[1], RN); break;
+    case QDOT_ZERO_RATE: mpfr_set(d, precise_place(p, i->x)[1], RN); break;
     default: mpfr_set_nan(d); /* an operation without a value here does not pass the tests */
     }
 }
 
 /* --- order k ------------------------------------------------------------------------- */
 
-#define ROW(row) place(precise, i->row)
+#define ROW(row) precise_place(precise, i->row)
 #define U1 precise->w[0]
 #define U2 precise->w[1]
 
 static void
-order(qdot_precise *precise, const qdot_program_step *i, int k)
+precise_order(qdot_precise *precise, const qdot_program_step *i, int k)
 {
     switch (i->op) {
 #define NEWEST(row) ROW(row)[k]
 #define SUM(r, a, b, from, below) convolve(precise, r, ROW(a), ROW(b), k, from, below);
 #define PAIR(r, s, a, b, c) SUM(r, a, b, 1, 0) SUM(s, a, c, 1, 0)
-#define SQUARED(r, a, from) square(precise, r, ROW(a), k, from);
+#define SQUARED(r, a, from) convolve_square(precise, r, ROW(a), k, from);
 #include "series/precise.def"
     case QDOT_T_RATE: mpfr_mul_ui(ROW(to)[k], ROW(x)[k + 1], (unsigned long)k + 1, RN);
     }
@@ -187,25 +187,25 @@ qdot_precise_order(qdot_precise *p, int k)
 
     for (; i->op != QDOT_T_END; i++)
         if (k + i->lead > 0)
-            order(p, i, k + i->lead);
+            precise_order(p, i, k + i->lead);
         else if (k + i->lead == 0 || i->still)
-            value(p, i);
+            precise_value(p, i);
 }
 
 /* --- unknowns ------------------------------------------------------------------------ */
 
 /* Coefficient k of a row, where there is one. */
 static mpfr_ptr
-at(const qdot_precise *p, qdot_program_row row, int k)
+precise_at(const qdot_precise *p, qdot_program_row row, int k)
 {
-    return row != QDOT_NO_ROW && (size_t)k < p->stride ? place(p, row)[k] : NULL;
+    return row != QDOT_NO_ROW && (size_t)k < p->stride ? precise_place(p, row)[k] : NULL;
 }
 
 /* What order k of an unknown makes of its integrals. */
 static void
-integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, int k)
+precise_integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, int k)
 {
-    mpfr_ptr once = at(p, u->once, k + 1), twice = at(p, u->twice, k + 2);
+    mpfr_ptr once = precise_at(p, u->once, k + 1), twice = precise_at(p, u->twice, k + 2);
 
     if (once)
         mpfr_div_ui(once, a, (unsigned long)k + 1, RN);
@@ -214,9 +214,9 @@ integrate(const qdot_precise *p, const qdot_motion_unknown *u, mpfr_srcptr a, in
 }
 
 static void
-clear(const qdot_precise *p, const qdot_motion_unknown *u, int k)
+precise_clear_unknown(const qdot_precise *p, const qdot_motion_unknown *u, int k)
 {
-    const mpfr_ptr newest[] = {at(p, u->row, k), at(p, u->once, k + 1), at(p, u->twice, k + 2)};
+    const mpfr_ptr newest[] = {precise_at(p, u->row, k), precise_at(p, u->once, k + 1), precise_at(p, u->twice, k + 2)};
 
     for (size_t i = 0; i < sizeof newest / sizeof *newest; i++)
         if (newest[i])
@@ -229,7 +229,7 @@ qdot_precise_stage(qdot_precise *p, int k)
     const qdot_motion *m = p->motion;
 
     for (size_t i = 0; i < m->solved.n && k >= 0; i++)
-        clear(p, m->unknowns.at + m->solved.at[i], k);
+        precise_clear_unknown(p, m->unknowns.at + m->solved.at[i], k);
     qdot_precise_order(p, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
@@ -237,8 +237,8 @@ qdot_precise_stage(qdot_precise *p, int k)
         if (u->value == QDOT_NO_ROW)
             continue;
         if (u->row != QDOT_NO_ROW)
-            mpfr_set(place(p, u->row)[k], place(p, u->value)[k], RN);
-        integrate(p, u, place(p, u->value)[k], k);
+            mpfr_set(precise_place(p, u->row)[k], precise_place(p, u->value)[k], RN);
+        precise_integrate(p, u, precise_place(p, u->value)[k], k);
     }
 }
 
@@ -281,9 +281,9 @@ note_step(qdot_precise *precise, const qdot_program_step *i, int k)
 
 /* Row `at` has changed by its note. */
 static void
-change(qdot_precise *p, qdot_program_row row, int k)
+precise_apply_note(qdot_precise *p, qdot_program_row row, int k)
 {
-    mpfr_ptr x = at(p, row, k);
+    mpfr_ptr x = precise_at(p, row, k);
 
     if (x)
         mpfr_add(x, x, p->notes.at[row], RN);
@@ -324,17 +324,17 @@ qdot_precise_change(qdot_precise *p, int k, const mpfr_t *by)
         const qdot_motion_unknown *u = m->unknowns.at + m->solved.at[j];
 
         note_unknown(p, u, by[j], k);
-        change(p, u->row, k);
-        change(p, u->once, k + 1);
-        change(p, u->twice, k + 2);
+        precise_apply_note(p, u->row, k);
+        precise_apply_note(p, u->once, k + 1);
+        precise_apply_note(p, u->twice, k + 2);
     }
     note_steps(p, k, false);
     for (; i->op != QDOT_T_END; i++)
         if (i->kept) {
-            change(p, i->to, k + i->lead);
-            change(p, i->second, k + i->lead);
-            change(p, i->third, k + i->lead);
-            change(p, i->d, k + i->lead);
+            precise_apply_note(p, i->to, k + i->lead);
+            precise_apply_note(p, i->second, k + i->lead);
+            precise_apply_note(p, i->third, k + i->lead);
+            precise_apply_note(p, i->d, k + i->lead);
         }
 }
 
@@ -377,10 +377,10 @@ in_parts(const mpfr_t *x, int k, double log2_h, double *out)
 }
 
 static double
-near_divisor(const qdot_precise *p, const qdot_program_step *i, int k, double log2_h)
+precise_divisor_nearness(const qdot_precise *p, const qdot_program_step *i, int k, double log2_h)
 {
     const char which = qdot_recurrence_divisor(i->op);
-    const mpfr_t *x = place(p, which == 'x' ? i->x : which == 'y' ? i->y : i->z);
+    const mpfr_t *x = precise_place(p, which == 'x' ? i->x : which == 'y' ? i->y : i->z);
     double terms[QDOT_PRECISE_NEAR + 1], most = INFINITY, part;
 
     if (mpfr_zero_p(x[0]))
@@ -395,8 +395,8 @@ near_divisor(const qdot_precise *p, const qdot_program_step *i, int k, double lo
         if (!qdot_near_may_fall(k, terms, 1))
             return log2_h;
     }
-    if (i->op == QDOT_T_DIV && !isinf(log2_h) && !mpfr_zero_p(place(p, i->to)[0])) {
-        in_parts(place(p, i->to), k, log2_h, terms);
+    if (i->op == QDOT_T_DIV && !isinf(log2_h) && !mpfr_zero_p(precise_place(p, i->to)[0])) {
+        in_parts(precise_place(p, i->to), k, log2_h, terms);
         if (!qdot_near_diverges(k, terms, 1))
             return log2_h;
     }
@@ -418,9 +418,9 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
         const double times = qdot_recurrence_exponential(i->op);
 
         if (times > 0)
-            log2_h = near_argument(place(p, i->x), k, times, digits, log2_h);
+            log2_h = near_argument(precise_place(p, i->x), k, times, digits, log2_h);
         else if (qdot_recurrence_divisor(i->op))
-            log2_h = near_divisor(p, i, k, log2_h);
+            log2_h = precise_divisor_nearness(p, i, k, log2_h);
     }
     return log2_h;
 }
@@ -428,23 +428,23 @@ qdot_precise_near(const qdot_precise *p, int k, double log2_h)
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
-set_constants(qdot_precise *p, qdot_pool *pool)
+precise_set_constants(qdot_precise *p, qdot_pool *pool)
 {
     for (qdot_program_row r = 0; r < p->program->rows.n; r++) {
         const qdot_program_row_info *row = p->program->rows.at + r;
 
         if (row->source == QDOT_ROW_CONSTANT)
             QDOT_TRY(qdot_constant_real(pool, p->program->constants.at[row->at].exact,
-                                        place(p, r)[0]));
+                                        precise_place(p, r)[0]));
         else if (row->source == QDOT_ROW_WHOLE)
-            mpfr_set_si(place(p, r)[0], row->at, RN);
+            mpfr_set_si(precise_place(p, r)[0], row->at, RN);
     }
     return QDOT_OK;
 }
 
 /* Its rows, once it has its program. */
 static qdot_status
-make(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
+precise_make_rows(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
 {
     p->stride = (size_t)(most + p->program->lead) + 1;
     QDOT_TRY(qdot_reals_init(&p->numbers, p->program->rows.n * p->stride, bits));
@@ -455,7 +455,7 @@ make(qdot_precise *p, qdot_pool *pool, int most, mpfr_prec_t bits)
     p->work = qdot_calloc(qdot_real_dot_work(bits), sizeof *p->work);
     if (!p->work)
         return QDOT_ENOMEM;
-    return set_constants(p, pool);
+    return precise_set_constants(p, pool);
 }
 
 static qdot_status
@@ -473,7 +473,7 @@ make_new(qdot_pool *pool, const qdot_tape *tape, const qdot_motion *motion, int 
     if (!motion)
         status = qdot_program_init(tape, qdot_tape_inputs(tape), most == 0, &p->own);
     if (status == QDOT_OK)
-        status = make(p, pool, most, bits);
+        status = precise_make_rows(p, pool, most, bits);
     if (status != QDOT_OK) {
         qdot_precise_free(p);
         return status;
@@ -512,7 +512,7 @@ qdot_precise_free(qdot_precise *p)
 mpfr_t *
 qdot_precise_input(qdot_precise *p, size_t i)
 {
-    return place(p, (qdot_program_row)i);
+    return precise_place(p, (qdot_program_row)i);
 }
 
 size_t
@@ -524,7 +524,7 @@ qdot_precise_stride(const qdot_precise *p)
 const mpfr_t *
 qdot_precise_row(const qdot_precise *p, qdot_program_row row)
 {
-    return (const mpfr_t *)place(p, row);
+    return (const mpfr_t *)precise_place(p, row);
 }
 
 const mpfr_t *

@@ -32,13 +32,13 @@ new_row(builder *b, qdot_program_source source, int at, bool still)
 }
 
 static bool
-is_constant(const builder *b, row r)
+row_is_constant(const builder *b, row r)
 {
     return b->status == QDOT_OK && b->program->rows.at[r].still;
 }
 
 static void
-add(builder *b, qdot_program_step step)
+program_add_step(builder *b, qdot_program_step step)
 {
     if (b->status == QDOT_OK)
         b->status = qdot_vec_push(&b->program->steps, step);
@@ -63,13 +63,13 @@ qdot_recurrence_cost(int op)
 }
 
 static row
-emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
+program_emit(builder *b, qdot_recurrence op, int zero, row x, row y, row z)
 {
-    const bool still = is_constant(b, x) && is_constant(b, y) && is_constant(b, z);
+    const bool still = row_is_constant(b, x) && row_is_constant(b, y) && row_is_constant(b, z);
     const row to = new_row(b, QDOT_ROW_COMPUTED, 0, still);
 
     b->program->convolutions += still ? 0 : qdot_recurrence_cost(op);
-    add(b, (qdot_program_step){.op = (uint16_t)op,
+    program_add_step(b, (qdot_program_step){.op = (uint16_t)op,
                               .zero = (uint16_t)zero,
                               .sign = 1,
                               .still = still,
@@ -110,7 +110,7 @@ with_third(builder *b)
 
 /* A constant times x, and z. */
 static row
-scaled(builder *b, qdot_op op, row constant, row x, row z)
+emit_scaled(builder *b, qdot_op op, row constant, row x, row z)
 {
     static const qdot_recurrence scale[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_SCALE,
                                                         [QDOT_OP_MADD] = QDOT_T_SCALEADD,
@@ -118,11 +118,11 @@ scaled(builder *b, qdot_op op, row constant, row x, row z)
                                                         [QDOT_OP_NMADD] =
                                                             QDOT_T_SCALEOFF};
 
-    return emit(b, scale[op], op, constant, x, z);
+    return program_emit(b, scale[op], op, constant, x, z);
 }
 
 static row
-product(builder *b, qdot_op op, row x, row y, row z)
+emit_product(builder *b, qdot_op op, row x, row y, row z)
 {
     static const qdot_recurrence plain[QDOT_OP_COUNT] = {[QDOT_OP_MUL] = QDOT_T_MUL,
                                                         [QDOT_OP_MADD] = QDOT_T_MADD,
@@ -130,19 +130,19 @@ product(builder *b, qdot_op op, row x, row y, row z)
                                                         [QDOT_OP_NMADD] = QDOT_T_NMADD};
     row square;
 
-    if (is_constant(b, x))
-        return scaled(b, op, x, y, z);
-    if (is_constant(b, y))
-        return scaled(b, op, y, x, z);
+    if (row_is_constant(b, x))
+        return emit_scaled(b, op, x, y, z);
+    if (row_is_constant(b, y))
+        return emit_scaled(b, op, y, x, z);
     if (x != y) /* the newer factor first: rows follow each other as they are computed */
-        return x > y ? emit(b, plain[op], op, x, y, z) : emit(b, plain[op], op, y, x, z);
-    square = emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
+        return x > y ? program_emit(b, plain[op], op, x, y, z) : program_emit(b, plain[op], op, y, x, z);
+    square = program_emit(b, QDOT_T_SQUARE, QDOT_OP_MUL, x, x, x);
     if (op == QDOT_OP_MADD)
-        return emit(b, QDOT_T_ADD, QDOT_OP_ADD, square, z, z);
+        return program_emit(b, QDOT_T_ADD, QDOT_OP_ADD, square, z, z);
     if (op == QDOT_OP_MSUB)
-        return emit(b, QDOT_T_SUB, QDOT_OP_SUB, square, z, z);
+        return program_emit(b, QDOT_T_SUB, QDOT_OP_SUB, square, z, z);
     if (op == QDOT_OP_NMADD)
-        return emit(b, QDOT_T_SUB, QDOT_OP_SUB, z, square, square);
+        return program_emit(b, QDOT_T_SUB, QDOT_OP_SUB, z, square, square);
     return square;
 }
 
@@ -160,7 +160,7 @@ pair(builder *b, qdot_recurrence op, row x, row *cosine)
         *cosine = *made + 1;
         return *made;
     }
-    to = emit(b, op, op == QDOT_T_SINCOS ? QDOT_OP_SINCOS : QDOT_ZERO_SINHCOSH, x, x, x);
+    to = program_emit(b, op, op == QDOT_T_SINCOS ? QDOT_OP_SINCOS : QDOT_ZERO_SINHCOSH, x, x, x);
     with_second(b);
     with_d(b);
     *cosine = to + 1;
@@ -170,15 +170,15 @@ pair(builder *b, qdot_recurrence op, row x, row *cosine)
 }
 
 static row
-whole(builder *b, int n)
+whole_number_row(builder *b, int n)
 {
     return new_row(b, QDOT_ROW_WHOLE, n, true);
 }
 
 static row
-sum(builder *b, qdot_op op, row x, row y)
+emit_sum(builder *b, qdot_op op, row x, row y)
 {
-    return emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
+    return program_emit(b, op == QDOT_OP_ADD ? QDOT_T_ADD : QDOT_T_SUB, op, x, y, y);
 }
 
 /* What the derivative of a function is divided by. */
@@ -189,22 +189,22 @@ denominator(builder *b, qdot_op f, row x)
 
     if (f == QDOT_OP_LOG)
         return x;
-    square = product(b, QDOT_OP_MUL, x, x, x);
-    one = whole(b, 1);
+    square = emit_product(b, QDOT_OP_MUL, x, x, x);
+    one = whole_number_row(b, 1);
     switch (f) {
-    case QDOT_OP_ATAN: return sum(b, QDOT_OP_ADD, one, square);
-    case QDOT_OP_ATANH: return sum(b, QDOT_OP_SUB, one, square);
-    case QDOT_OP_ASINH: square = sum(b, QDOT_OP_ADD, one, square); break;
-    case QDOT_OP_ACOSH: square = sum(b, QDOT_OP_SUB, square, one); break;
-    default: square = sum(b, QDOT_OP_SUB, one, square);
+    case QDOT_OP_ATAN: return emit_sum(b, QDOT_OP_ADD, one, square);
+    case QDOT_OP_ATANH: return emit_sum(b, QDOT_OP_SUB, one, square);
+    case QDOT_OP_ASINH: square = emit_sum(b, QDOT_OP_ADD, one, square); break;
+    case QDOT_OP_ACOSH: square = emit_sum(b, QDOT_OP_SUB, square, one); break;
+    default: square = emit_sum(b, QDOT_OP_SUB, one, square);
     }
-    return emit(b, QDOT_T_SQRT, QDOT_OP_SQRT, square, square, square);
+    return program_emit(b, QDOT_T_SQRT, QDOT_OP_SQRT, square, square, square);
 }
 
 static row
 ratio(builder *b, qdot_op f, row x)
 {
-    row u = denominator(b, f, x), to = emit(b, QDOT_T_RATIO, f, x, u, u);
+    row u = denominator(b, f, x), to = program_emit(b, QDOT_T_RATIO, f, x, u, u);
 
     last(b)->sign = f == QDOT_OP_ACOS ? -1 : 1;
     with_d(b);
@@ -212,17 +212,17 @@ ratio(builder *b, qdot_op f, row x)
 }
 
 static row
-power(builder *b, row x, row exponent)
+emit_power(builder *b, row x, row exponent)
 {
     row to, l;
 
-    if (is_constant(b, exponent)) {
-        to = emit(b, QDOT_T_POW, QDOT_OP_POW, x, exponent, exponent);
+    if (row_is_constant(b, exponent)) {
+        to = program_emit(b, QDOT_T_POW, QDOT_OP_POW, x, exponent, exponent);
         with_d(b);
         return to;
     }
-    l = product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, x), exponent, exponent);
-    to = emit(b, QDOT_T_EXP, QDOT_ZERO_POWER, l, x, exponent);
+    l = emit_product(b, QDOT_OP_MUL, ratio(b, QDOT_OP_LOG, x), exponent, exponent);
+    to = program_emit(b, QDOT_T_EXP, QDOT_ZERO_POWER, l, x, exponent);
     with_d(b);
     return to;
 }
@@ -230,8 +230,8 @@ power(builder *b, row x, row exponent)
 static row
 arctangent(builder *b, row y, row x)
 {
-    row xx = product(b, QDOT_OP_MUL, x, x, x), u = product(b, QDOT_OP_MADD, y, y, xx);
-    row to = emit(b, QDOT_T_ATAN2, QDOT_OP_ATAN2, y, x, u);
+    row xx = emit_product(b, QDOT_OP_MUL, x, x, x), u = emit_product(b, QDOT_OP_MADD, y, y, xx);
+    row to = program_emit(b, QDOT_T_ATAN2, QDOT_OP_ATAN2, y, x, u);
 
     with_second(b);
     with_third(b);
@@ -255,9 +255,9 @@ build_one(builder *b, const qdot_instruction *i, row *second)
     case QDOT_OP_MADD:
     case QDOT_OP_MSUB:
     case QDOT_OP_NMADD: return qdot_program_operation(b, op, x, y, z);
-    case QDOT_OP_DIV: return emit(b, QDOT_T_DIV, op, x, y, y);
-    case QDOT_OP_SQRT: return emit(b, QDOT_T_SQRT, op, x, x, x);
-    case QDOT_OP_POW: return power(b, x, y);
+    case QDOT_OP_DIV: return program_emit(b, QDOT_T_DIV, op, x, y, y);
+    case QDOT_OP_SQRT: return program_emit(b, QDOT_T_SQRT, op, x, x, x);
+    case QDOT_OP_POW: return emit_power(b, x, y);
     case QDOT_OP_SINCOS: return pair(b, QDOT_T_SINCOS, x, second);
     case QDOT_OP_SIN: return pair(b, QDOT_T_SINCOS, x, &other);
     case QDOT_OP_COS: return pair(b, QDOT_T_SINCOS, x, &other), other;
@@ -265,22 +265,22 @@ build_one(builder *b, const qdot_instruction *i, row *second)
     case QDOT_OP_COSH: return pair(b, QDOT_T_SINHCOSH, x, &other), other;
     case QDOT_OP_ATAN2: return arctangent(b, x, y);
     case QDOT_OP_EXP:
-        to = emit(b, QDOT_T_EXP, op, x, x, x);
+        to = program_emit(b, QDOT_T_EXP, op, x, x, x);
         with_d(b);
         return to;
     case QDOT_OP_ERF:
     case QDOT_OP_ERFC:
     case QDOT_OP_SOFTPLUS:
-        to = emit(b, QDOT_T_ALONG, op, x, y, y);
+        to = program_emit(b, QDOT_T_ALONG, op, x, y, y);
         with_d(b);
         return to;
     case QDOT_OP_TANH:
-        to = emit(b, QDOT_T_TANH, op, x, x, x);
+        to = program_emit(b, QDOT_T_TANH, op, x, x, x);
         with_second(b);
         with_d(b);
         return to;
     default:
-        return op >= QDOT_OP_ABS ? emit(b, QDOT_T_VALUE, op, x, y, z) : ratio(b, op, x);
+        return op >= QDOT_OP_ABS ? program_emit(b, QDOT_T_VALUE, op, x, y, z) : ratio(b, op, x);
     }
 }
 
@@ -359,21 +359,21 @@ row
 qdot_program_operation(builder *b, qdot_op op, row x, row y, row z)
 {
     switch (op) {
-    case QDOT_OP_NEG: return emit(b, QDOT_T_NEG, op, x, x, x);
+    case QDOT_OP_NEG: return program_emit(b, QDOT_T_NEG, op, x, x, x);
     case QDOT_OP_ADD:
-    case QDOT_OP_SUB: return sum(b, op, x, y);
-    default: return product(b, op, x, y, z);
+    case QDOT_OP_SUB: return emit_sum(b, op, x, y);
+    default: return emit_product(b, op, x, y, z);
     }
 }
 
 row
 qdot_program_rate(builder *b, row x)
 {
-    return emit(b, QDOT_T_RATE, QDOT_ZERO_RATE, x, x, x);
+    return program_emit(b, QDOT_T_RATE, QDOT_ZERO_RATE, x, x, x);
 }
 
 static void
-append(builder *b, const qdot_tape *tape, const row *in, row *out)
+program_append_tape(builder *b, const qdot_tape *tape, const row *in, row *out)
 {
     for (size_t i = 0; i < tape->inputs; i++)
         b->at[i] = in[i];
@@ -406,7 +406,7 @@ qdot_program_append(builder *b, const qdot_tape *tape, const row *in, row *out)
     if (b->status == QDOT_OK && !b->at)
         b->status = QDOT_ENOMEM;
     if (b->status == QDOT_OK)
-        append(b, tape, in, out);
+        program_append_tape(b, tape, in, out);
     else
         memset(out, 0, tape->outputs * sizeof *out);
     qdot_free(b->at);
@@ -420,7 +420,7 @@ qdot_program_end(builder *b)
     if (status == QDOT_OK)
         status = still_ones_first(b->program);
     if (status == QDOT_OK) {
-        add(b, (qdot_program_step){.op = QDOT_T_END});
+        program_add_step(b, (qdot_program_step){.op = QDOT_T_END});
         status = b->status;
     }
     if (status != QDOT_OK)

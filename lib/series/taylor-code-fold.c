@@ -14,7 +14,7 @@ typedef struct {
 } use;
 
 static bool
-is_linear(qdot_recurrence op)
+step_is_linear(qdot_recurrence op)
 {
     return op >= QDOT_T_NEG && op <= QDOT_T_SCALEOFF;
 }
@@ -82,13 +82,13 @@ find_uses(const qdot_generator *g, use *uses)
 static int
 own_terms(const qdot_generator *g, const qdot_taylor_step *s)
 {
-    return is_linear(s->op) ? (s->op == QDOT_T_NEG || s->op == QDOT_T_SCALE ? 1 : 2)
+    return step_is_linear(s->op) ? (s->op == QDOT_T_NEG || s->op == QDOT_T_SCALE ? 1 : 2)
                             : 2 * g->lag + 2;
 }
 
 /* From the first step on: what is folded into a step is known when that is. */
 static void
-choose(qdot_generator *g, const use *uses, int *terms, int *depth)
+folds_choose(qdot_generator *g, const use *uses, int *terms, int *depth)
 {
     const qdot_taylor *t = g->t;
 
@@ -103,7 +103,7 @@ choose(qdot_generator *g, const use *uses, int *terms, int *depth)
         size_t into = u->reader;
 
         g->maker[row] = (uint32_t)i;
-        if (!is_linear(s->op) && !is_product(s->op))
+        if (!step_is_linear(s->op) && !is_product(s->op))
             continue;
         if (u->wanted || u->readers != 1 || into >= t->length
             || g->row_vector[row] != QDOT_CODE_NONE
@@ -126,7 +126,7 @@ qdot_code_fold(qdot_generator *g)
     g->fold_slots = QDOT_CODE_SLOTS + g->n_slots;
     if (uses && terms) {
         find_uses(g, uses);
-        choose(g, uses, terms, terms + length + 1);
+        folds_choose(g, uses, terms, terms + length + 1);
     }
     qdot_free(terms);
     qdot_free(uses);

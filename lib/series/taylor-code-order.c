@@ -3,7 +3,7 @@
 #include "series/taylor-code-sum.h"
 
 static qdot_operand
-inverse(const qdot_generator *g)
+code_inverse(const qdot_generator *g)
 {
     return qdot_code_entry(QDOT_CODE_INVERSES, g->k);
 }
@@ -13,11 +13,11 @@ inverse(const qdot_generator *g)
 static qdot_operand
 by_c(qdot_generator *g, const qdot_taylor_step *s, const double *x, int i)
 {
-    return qdot_code_composed(g, qdot_code_c(g, s), at(g, x, i));
+    return qdot_code_composed(g, qdot_code_c(g, s), code_at(g, x, i));
 }
 
 static qdot_operand
-twice(qdot_generator *g, qdot_operand a)
+code_twice(qdot_generator *g, qdot_operand a)
 {
     return qdot_code_composed(g, a, qdot_code_work(QDOT_CODE_ORDERS + 2));
 }
@@ -26,10 +26,10 @@ twice(qdot_generator *g, qdot_operand a)
 static qdot_operand
 first_over_order(qdot_generator *g, const qdot_taylor_step *s)
 {
-    const int reg = fresh(g);
+    const int reg = code_fresh_register(g);
 
-    do_one(g, QDOT_ASM_LOAD, reg, 0, at(g, s->d, 1));
-    do_one(g, QDOT_ASM_MUL, reg, reg, inverse(g));
+    do_one(g, QDOT_ASM_LOAD, reg, 0, code_at(g, s->d, 1));
+    do_one(g, QDOT_ASM_MUL, reg, reg, code_inverse(g));
     return qdot_asm_in(reg);
 }
 
@@ -45,16 +45,16 @@ add_products(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence
     add_past(g, v, false, NULL, s, i);
     if (o->verb == QDOT_DO_SQUARED) {
         if (g->lag > 1 && g->k > 1)
-            late(g, v, false, g->k == 2 ? at(g, a, 1) : twice(g, at(g, a, 1)), a);
+            late(g, v, false, g->k == 2 ? code_at(g, a, 1) : code_twice(g, code_at(g, a, 1)), a);
         if (o->from == 0)
-            times(g, v, false, twice(g, at(g, a, 0)), a, g->k);
+            sum_add_scaled(g, v, false, code_twice(g, code_at(g, a, 0)), a, g->k);
         return;
     }
-    lately(g, v, false, at(g, a, 1), b, at(g, b, 1), a);
+    lately(g, v, false, code_at(g, a, 1), b, code_at(g, b, 1), a);
     if (o->from == 0)
-        times(g, v, false, at(g, a, 0), b, g->k);
+        sum_add_scaled(g, v, false, code_at(g, a, 0), b, g->k);
     if (o->below == 0)
-        times(g, v, false, at(g, b, 0), a, g->k);
+        sum_add_scaled(g, v, false, code_at(g, b, 0), a, g->k);
 }
 
 static void
@@ -67,7 +67,7 @@ negate(sum *v)
 
 /* v + other */
 static void
-append(qdot_generator *g, sum *v, const sum *other)
+sum_append(qdot_generator *g, sum *v, const sum *other)
 {
     if (v->v.reg < 0)
         v->v = other->v;
@@ -88,7 +88,7 @@ factor_by_c(qdot_generator *g, const qdot_taylor_step *s, const term *t)
         return c;
     if (t->factor.reg != order.reg || t->factor.offset != order.offset)
         return qdot_code_composed(g, c, t->factor);
-    reg = fresh(g);
+    reg = code_fresh_register(g);
     do_one(g, QDOT_ASM_LOAD, reg, 0, order);
     do_one(g, QDOT_ASM_MUL, reg, reg, c);
     do_one(g, QDOT_ASM_STORE, reg, 0, qdot_code_work(QDOT_CODE_MOMENT));
@@ -128,8 +128,8 @@ per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
 
         if (x && t.row == d && t.k == g->k)
             t.row = qdot_code_row(g, x);
-        else if (x && !t.plain && t.factor.offset == at(g, s->d, 1).offset
-                 && t.factor.reg == at(g, s->d, 1).reg)
+        else if (x && !t.plain && t.factor.offset == code_at(g, s->d, 1).offset
+                 && t.factor.reg == code_at(g, s->d, 1).reg)
             t.factor = first_over_order(g, s);
         else {
             early.terms[early.n++] = t;
@@ -139,18 +139,18 @@ per_order(qdot_generator *g, const qdot_taylor_step *s, sum *v)
     }
     if (early.n == 1 && early.v.reg < 0 && early.terms->plain) {
         early.terms->plain = false;
-        early.terms->factor = inverse(g);
+        early.terms->factor = code_inverse(g);
     } else {
-        scale_sum(g, &early, inverse(g));
+        scale_sum(g, &early, code_inverse(g));
     }
-    append(g, &early, &rest);
+    sum_append(g, &early, &rest);
     *v = early;
 }
 
 /* Whether U1 and U2 are divided in the end. They are times c from the beginning: so all factors
  * that no order changes are known at order 1. */
 static bool
-divides(const qdot_taylor_step *s)
+step_divides(const qdot_taylor_step *s)
 {
     return qdot_recurrence_find(s->op, QDOT_DO_OVER) ||
            qdot_recurrence_find(s->op, QDOT_DO_OVER_TWICE);
@@ -158,8 +158,8 @@ divides(const qdot_taylor_step *s)
 
 /* v +- coefficient k of a row, times a factor (NULL: none), or U1 or U2, which is used up. */
 static void
-add_number(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
-           bool minus, unsigned name, sum *u)
+sum_add_coefficient(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *factor, sum *v,
+                    bool minus, unsigned name, sum *u)
 {
     sum *other;
 
@@ -170,17 +170,17 @@ add_number(qdot_generator *g, const qdot_taylor_step *s, const qdot_operand *fac
     other = u + (name - QDOT_OF_U1);
     if (minus)
         negate(other);
-    append(g, v, other);
+    sum_append(g, v, other);
     *other = (sum){.v = {.reg = -1}};
 }
 
 /* What an operation makes; `sums` counts those of the step. */
 static sum
-result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
-       int *sums, sum *u)
+operation_result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_operation *o,
+                 int *sums, sum *u)
 {
     const qdot_operand c = qdot_code_c(g, s);
-    const qdot_operand *const factor = o->r >= QDOT_OF_U1 && divides(s) ? &c : NULL;
+    const qdot_operand *const factor = o->r >= QDOT_OF_U1 && step_divides(s) ? &c : NULL;
     sum v = {.v = {.reg = -1}};
 
     switch (o->verb) {
@@ -188,18 +188,18 @@ result(qdot_generator *g, const qdot_taylor_step *s, const qdot_recurrence_opera
     case QDOT_DO_SQUARED:
     case QDOT_DO_ORDERS:
         if (o->verb == QDOT_DO_ORDERS)
-            times(g, &v, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k),
-                  qdot_code_named(s, o->p), g->k);
+            sum_add_scaled(g, &v, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k),
+                           qdot_code_named(s, o->p), g->k);
         else
             add_products(g, s, o, (*sums)++, &v);
         if (factor)
             times_c(g, s, &v);
         return v;
-    default: add_number(g, s, factor, &v, false, o->p, u);
+    default: sum_add_coefficient(g, s, factor, &v, false, o->p, u);
     }
     switch (o->verb) {
-    case QDOT_DO_ADD: add_number(g, s, factor, &v, false, o->q, u); break;
-    case QDOT_DO_SUB: add_number(g, s, factor, &v, true, o->q, u); break;
+    case QDOT_DO_ADD: sum_add_coefficient(g, s, factor, &v, false, o->q, u); break;
+    case QDOT_DO_SUB: sum_add_coefficient(g, s, factor, &v, true, o->q, u); break;
     case QDOT_DO_NEG: negate(&v); break;
     case QDOT_DO_SIGNED:
         if (s->sign < 0)
@@ -222,7 +222,7 @@ tabled(qdot_generator *g, const qdot_taylor_step *s)
 
     for (const qdot_recurrence_operation *o = qdot_recurrence_operations(s->op);
          o->verb != QDOT_DO_END; o++) {
-        sum v = result(g, s, o, &sums, u);
+        sum v = operation_result(g, s, o, &sums, u);
 
         if (o->r < QDOT_OF_U1)
             finish_sum(g, &v, qdot_code_named(s, o->r));
@@ -249,30 +249,30 @@ weighted(qdot_generator *g, const double *x, const double *to)
 {
     sum d = {.v = {.reg = -1}};
 
-    times(g, &d, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k), x, g->k);
+    sum_add_scaled(g, &d, false, qdot_code_entry(QDOT_CODE_ORDERS, g->k), x, g->k);
     finish_sum(g, &d, to);
 }
 
 /* ((r + 1)/k sum d p - sum x p)/x_0 */
 static void
-power(qdot_generator *g, const qdot_taylor_step *s)
+write_power(qdot_generator *g, const qdot_taylor_step *s)
 {
     const qdot_operand c = qdot_code_c(g, s), r = by_c(g, s, s->z, 0);
     sum sum = past(g, s, 0), other = past(g, s, 1);
     int slopes;
 
     weighted(g, s->x, s->d);
-    lately(g, &sum, false, at(g, s->d, 1), s->to, at(g, s->to, 1), s->d);
-    scale_sum(g, &sum, inverse(g));
+    lately(g, &sum, false, code_at(g, s->d, 1), s->to, code_at(g, s->to, 1), s->d);
+    scale_sum(g, &sum, code_inverse(g));
     slopes = sum.v.reg;
     scale_sum(g, &sum, r);
     if (slopes >= 0)
-        add_product(g, &sum.v, false, c, slopes);
+        value_add_product(g, &sum.v, false, c, slopes);
     if (other.v.reg >= 0)
-        add_product(g, &sum.v, true, c, other.v.reg);
+        value_add_product(g, &sum.v, true, c, other.v.reg);
     if (g->lag > 1 && g->k > 1)
         lately(g, &sum, true, by_c(g, s, s->x, 1), s->to, by_c(g, s, s->to, 1), s->x);
-    times(g, &sum, false, qdot_code_composed(g, r, at(g, s->to, 0)), s->x, g->k);
+    sum_add_scaled(g, &sum, false, qdot_code_composed(g, r, code_at(g, s->to, 0)), s->x, g->k);
     finish_sum(g, &sum, s->to);
 }
 
@@ -282,14 +282,14 @@ integral(qdot_generator *g, const qdot_taylor_step *s)
     sum once = {.v = {.reg = -1}}, twice = once;
 
     if (g->exact) {
-        times(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE_LOW, g->k), s->x, g->k);
-        times(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE_LOW, g->k), s->x, g->k);
+        sum_add_scaled(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE_LOW, g->k), s->x, g->k);
+        sum_add_scaled(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE_LOW, g->k), s->x, g->k);
     }
-    times(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE, g->k), s->x, g->k);
-    times(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE, g->k), s->x, g->k);
-    finish(g, total(g, &once), s->to, g->k + 1);
+    sum_add_scaled(g, &once, false, qdot_code_entry(QDOT_CODE_ONCE, g->k), s->x, g->k);
+    sum_add_scaled(g, &twice, false, qdot_code_entry(QDOT_CODE_TWICE, g->k), s->x, g->k);
+    value_finish(g, total(g, &once), s->to, g->k + 1);
     if (s->second)
-        finish(g, total(g, &twice), s->second, g->k + 2);
+        value_finish(g, total(g, &twice), s->second, g->k + 2);
 }
 
 void
@@ -297,7 +297,7 @@ qdot_code_order(qdot_generator *g, const qdot_taylor_step *s)
 {
     switch (s->op) {
     case QDOT_T_LINK: integral(g, s); break;
-    case QDOT_T_POW: power(g, s); break;
+    case QDOT_T_POW: write_power(g, s); break;
     case QDOT_T_SQUARE: tabled(g, s); break;
     default:
         if (s->op <= QDOT_T_NMADD)

@@ -3,7 +3,7 @@
 
 /* L, then M_0^-1. */
 static qdot_operand
-factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
+code_factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
     return qdot_code_work(g->block_slots[block] + i * g->t->blocks[block].n + j);
 }
@@ -11,12 +11,12 @@ factor_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 static qdot_operand
 inverse_at(const qdot_generator *g, size_t block, size_t i, size_t j)
 {
-    return factor_at(g, block, g->t->blocks[block].n + i, j);
+    return code_factor_at(g, block, g->t->blocks[block].n + i, j);
 }
 
 /* What the sum has so far becomes its first term. */
 static void
-settle(qdot_generator *g, sum *s, int more)
+sum_make_room(qdot_generator *g, sum *s, int more)
 {
     if (s->n + more <= QDOT_CODE_TERMS)
         return;
@@ -34,11 +34,11 @@ add_couplings(qdot_generator *g, const qdot_taylor_block *b, size_t i, bool late
 
         if (m->i != i)
             continue;
-        settle(g, s, 2);
+        sum_make_room(g, s, 2);
         if (late)
-            times(g, s, true, at(g, m->a, 0), m->M, g->k);
+            sum_add_scaled(g, s, true, code_at(g, m->a, 0), m->M, g->k);
         else
-            lately(g, s, true, at(g, m->M, 1), m->a, at(g, m->a, 1), m->M);
+            lately(g, s, true, code_at(g, m->M, 1), m->a, code_at(g, m->a, 1), m->M);
     }
 }
 
@@ -50,19 +50,19 @@ right_hand_side(qdot_generator *g, const qdot_taylor_block *b, size_t i)
     add_past_of(g, &s, true, NULL, g->unknown_sums[qdot_code_row(g, b->r[i])]);
     add_couplings(g, b, i, false, &s);
     add_couplings(g, b, i, true, &s);
-    settle(g, &s, 1);
-    add(g, &s, false, b->f[i]);
+    sum_make_room(g, &s, 1);
+    sum_add_row(g, &s, false, b->f[i]);
     finish_sum(g, &s, b->r[i]);
 }
 
 /* The sum over entry i of the diagonal: the rounding of its inverse would be that of every
  * order. */
 static void
-divide(qdot_generator *g, size_t block, size_t i, sum *s)
+sum_divide_by_diagonal(qdot_generator *g, size_t block, size_t i, sum *s)
 {
     s->v = total(g, s);
     s->n = 0;
-    scale_by(g, QDOT_ASM_DIV, &s->v, factor_at(g, block, i, i));
+    scale_by(g, QDOT_ASM_DIV, &s->v, code_factor_at(g, block, i, i));
 }
 
 /* r becomes L^-1 r, then a = L^-T r. */
@@ -74,23 +74,23 @@ by_factor(qdot_generator *g, size_t block)
     for (size_t i = 0; i < b->n; i++) {
         sum s = {.v = {.reg = -1}};
 
-        add(g, &s, false, b->r[i]);
+        sum_add_row(g, &s, false, b->r[i]);
         for (size_t j = 0; j < i; j++) {
-            settle(g, &s, 1);
-            times(g, &s, true, factor_at(g, block, i, j), b->r[j], g->k);
+            sum_make_room(g, &s, 1);
+            sum_add_scaled(g, &s, true, code_factor_at(g, block, i, j), b->r[j], g->k);
         }
-        divide(g, block, i, &s);
+        sum_divide_by_diagonal(g, block, i, &s);
         finish_sum(g, &s, b->r[i]);
     }
     for (size_t i = b->n; i-- > 0;) {
         sum s = {.v = {.reg = -1}};
 
-        add(g, &s, false, b->r[i]);
+        sum_add_row(g, &s, false, b->r[i]);
         for (size_t j = i + 1; j < b->n; j++) {
-            settle(g, &s, 1);
-            times(g, &s, true, factor_at(g, block, j, i), b->a[j], g->k);
+            sum_make_room(g, &s, 1);
+            sum_add_scaled(g, &s, true, code_factor_at(g, block, j, i), b->a[j], g->k);
         }
-        divide(g, block, i, &s);
+        sum_divide_by_diagonal(g, block, i, &s);
         finish_sum(g, &s, b->a[i]);
     }
 }
@@ -104,8 +104,8 @@ by_inverse(qdot_generator *g, size_t block)
         sum s = {.v = {.reg = -1}};
 
         for (size_t j = 0; j < b->n; j++) {
-            settle(g, &s, 1);
-            times(g, &s, false, inverse_at(g, block, i, j), b->r[j], g->k);
+            sum_make_room(g, &s, 1);
+            sum_add_scaled(g, &s, false, inverse_at(g, block, i, j), b->r[j], g->k);
         }
         finish_sum(g, &s, b->a[i]);
     }

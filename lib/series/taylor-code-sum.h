@@ -27,7 +27,7 @@ touch(qdot_generator *g, int reg)
 }
 
 static inline int
-fresh(qdot_generator *g)
+code_fresh_register(qdot_generator *g)
 {
     const int reg = qdot_asm_fresh(&g->m, g->first_scalar, g->behind_scalars);
 
@@ -36,7 +36,7 @@ fresh(qdot_generator *g)
 }
 
 static inline void
-hold(qdot_generator *g, int reg, uint32_t row, int k)
+code_hold(qdot_generator *g, int reg, uint32_t row, int k)
 {
     g->held[reg] = row;
     g->held_order[reg] = k;
@@ -45,16 +45,16 @@ hold(qdot_generator *g, int reg, uint32_t row, int k)
 
 /* The register with coefficient k of a row that moves. */
 static inline int
-coefficient(qdot_generator *g, uint32_t row, int k)
+code_coefficient_register(qdot_generator *g, uint32_t row, int k)
 {
     unsigned char *where = &g->where[4 * row + (uint32_t)(k & 3)];
     int reg = *where;
 
     if (g->held[reg] == row && g->held_order[reg] == k)
         return touch(g, reg);
-    reg = fresh(g);
+    reg = code_fresh_register(g);
     do_one(g, QDOT_ASM_LOAD, reg, 0, qdot_code_coefficient(g, row, k));
-    hold(g, reg, row, k);
+    code_hold(g, reg, row, k);
     return reg;
 }
 
@@ -83,13 +83,13 @@ typedef struct {
 } sum;
 
 static inline qdot_operand
-at(const qdot_generator *g, const double *row, int k)
+code_at(const qdot_generator *g, const double *row, int k)
 {
     return qdot_code_coefficient(g, qdot_code_row(g, row), k);
 }
 
 static inline void
-times(qdot_generator *g, sum *s, bool minus, qdot_operand factor, const double *x, int k)
+sum_add_scaled(qdot_generator *g, sum *s, bool minus, qdot_operand factor, const double *x, int k)
 {
     const uint32_t row = qdot_code_row(g, x);
 
@@ -103,7 +103,7 @@ add_value(qdot_generator *g, value *v, bool minus, int b)
     const int a = v->reg;
 
     touch(g, a);
-    v->reg = fresh(g);
+    v->reg = code_fresh_register(g);
     if (v->negative && !minus)
         do_one(g, QDOT_ASM_SUB, v->reg, b, qdot_asm_in(a));
     else if (v->negative != minus)
@@ -115,12 +115,12 @@ add_value(qdot_generator *g, value *v, bool minus, int b)
 }
 
 static inline void
-add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, int b)
+value_add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, int b)
 {
     const int a = v->reg;
 
     if (a < 0) {
-        v->reg = fresh(g);
+        v->reg = code_fresh_register(g);
         do_one(g, QDOT_ASM_MUL, v->reg, b, factor);
         v->negative = minus;
     } else if (v->own) {
@@ -128,7 +128,7 @@ add_product(qdot_generator *g, value *v, bool minus, qdot_operand factor, int b)
         v->negative = false;
     } else {
         touch(g, a);
-        v->reg = fresh(g);
+        v->reg = code_fresh_register(g);
         do_one(g, QDOT_ASM_LOAD, v->reg, 0, factor);
         do_one(g, qdot_asm_fused(true, minus, v->negative), v->reg, b, qdot_asm_in(a));
         v->negative = false;
@@ -162,7 +162,7 @@ term_ready(qdot_generator *g, const term *t)
 
 /* What is known last is added last. */
 static inline void
-sort(qdot_generator *g, sum *s, int *when)
+sum_sort_terms(qdot_generator *g, sum *s, int *when)
 {
     for (int i = 0; i < s->n; i++) {
         const term now = s->terms[i];
@@ -195,7 +195,7 @@ past_register(qdot_generator *g, uint32_t n)
     int reg = v->reg[0];
 
     if (reg < 0)
-        do_one(g, QDOT_ASM_LOAD, reg = fresh(g), 0, qdot_code_work(v->at));
+        do_one(g, QDOT_ASM_LOAD, reg = code_fresh_register(g), 0, qdot_code_work(v->at));
     return reg;
 }
 
@@ -203,7 +203,7 @@ past_register(qdot_generator *g, uint32_t n)
 static inline value
 less(qdot_generator *g, const term *t, int when)
 {
-    const int b = coefficient(g, t->row, t->k), reg = fresh(g);
+    const int b = code_coefficient_register(g, t->row, t->k), reg = code_fresh_register(g);
 
     do_one(g, QDOT_ASM_LOAD, reg, 0, t->factor);
     do_one(g, QDOT_ASM_NMADD_OVER, reg, b, qdot_code_work(QDOT_CODE_ORDERS));
@@ -212,7 +212,7 @@ less(qdot_generator *g, const term *t, int when)
 
 /* When a term is there that is added behind what is there at `before`. */
 static inline int
-behind(int before, int when)
+time_behind(int before, int when)
 {
     return (before > when ? before : when) + latency;
 }
@@ -226,16 +226,16 @@ in_two(int first, const int *when, int n)
     for (int i = 0; i < n; i++) {
         const int shorter = row[1] < row[0];
 
-        one = behind(one, when[i]);
-        row[shorter] = behind(row[shorter], when[i]);
+        one = time_behind(one, when[i]);
+        row[shorter] = time_behind(row[shorter], when[i]);
     }
-    return n > 3 && behind(row[0], row[1]) + latency < one;
+    return n > 3 && time_behind(row[0], row[1]) + latency < one;
 }
 
 static inline void
-add_term(qdot_generator *g, value *v, const term *t, int when)
+value_add_term(qdot_generator *g, value *v, const term *t, int when)
 {
-    const int b = t->row != QDOT_CODE_NONE ? coefficient(g, t->row, t->k)
+    const int b = t->row != QDOT_CODE_NONE ? code_coefficient_register(g, t->row, t->k)
                                            : past_register(g, t->past);
 
     if (t->plain && v->reg < 0) {
@@ -245,8 +245,8 @@ add_term(qdot_generator *g, value *v, const term *t, int when)
     if (t->plain)
         add_value(g, v, t->minus, b);
     else
-        add_product(g, v, t->minus, t->factor, b);
-    v->ready = behind(v->ready, when);
+        value_add_product(g, v, t->minus, t->factor, b);
+    v->ready = time_behind(v->ready, when);
 }
 
 static inline value
@@ -256,15 +256,15 @@ total(qdot_generator *g, sum *s)
     value v[2] = {s->v, {.reg = -1}};
     bool two;
 
-    sort(g, s, when);
+    sum_sort_terms(g, s, when);
     if (s->n == 1 && v->reg < 0 && s->terms->minus && !s->terms->plain &&
         s->terms->factor.memory && s->terms->row != QDOT_CODE_NONE)
         return less(g, s->terms, when[0]);
     two = in_two(v->ready, when, s->n);
     for (int i = 0; i < s->n; i++)
-        add_term(g, v + (two && v[1].ready < v[0].ready), s->terms + i, when[i]);
+        value_add_term(g, v + (two && v[1].ready < v[0].ready), s->terms + i, when[i]);
     if (v[1].reg >= 0) {
-        const int ready = behind(v[0].ready, v[1].ready);
+        const int ready = time_behind(v[0].ready, v[1].ready);
 
         if (v[0].negative && !v[1].negative) {
             const value first = v[0];
@@ -287,14 +287,14 @@ scale_by(qdot_generator *g, qdot_asm_operation name, value *v, qdot_operand fact
     if (a < 0)
         return;
     touch(g, a);
-    v->reg = fresh(g);
+    v->reg = code_fresh_register(g);
     do_one(g, name, v->reg, a, factor);
     v->own = true;
     v->ready += name == QDOT_ASM_DIV ? latency_of_division : latency;
 }
 
 static inline void
-scale(qdot_generator *g, value *v, qdot_operand factor)
+value_scale(qdot_generator *g, value *v, qdot_operand factor)
 {
     scale_by(g, QDOT_ASM_MUL, v, factor);
 }
@@ -305,32 +305,32 @@ scale_sum(qdot_generator *g, sum *s, qdot_operand factor)
 {
     s->v = total(g, s);
     s->n = 0;
-    scale(g, &s->v, factor);
+    value_scale(g, &s->v, factor);
 }
 
 /* Coefficient k of a row. */
 static inline void
-finish(qdot_generator *g, value v, const double *to, int k)
+value_finish(qdot_generator *g, value v, const double *to, int k)
 {
     const uint32_t row = qdot_code_row(g, to);
 
     if (v.reg < 0) {
-        v.reg = fresh(g);
+        v.reg = code_fresh_register(g);
         v.own = true;
         do_one(g, QDOT_ASM_LOAD, v.reg, 0, qdot_code_work(QDOT_CODE_ORDERS));
     }
     if (v.negative)
-        scale(g, &v, qdot_code_work(QDOT_CODE_INVERSES));
+        value_scale(g, &v, qdot_code_work(QDOT_CODE_INVERSES));
     do_one(g, QDOT_ASM_STORE, v.reg, 0, qdot_code_coefficient(g, row, k));
     *qdot_code_ready(g, row, k) = v.ready;
     if (v.own)
-        hold(g, v.reg, row, k);
+        code_hold(g, v.reg, row, k);
 }
 
 static inline void
 finish_sum(qdot_generator *g, sum *s, const double *to)
 {
-    finish(g, total(g, s), to, g->k);
+    value_finish(g, total(g, s), to, g->k);
 }
 
 /* --- products of lower orders ------------------------------------------------------- */
@@ -373,7 +373,7 @@ static inline void
 late(qdot_generator *g, sum *s, bool minus, qdot_operand x1, const double *y)
 {
     if (g->lag > 1)
-        times(g, s, minus, x1, y, g->k - 1);
+        sum_add_scaled(g, s, minus, x1, y, g->k - 1);
 }
 
 /* Both, x_1 and y_1 given where they are found, perhaps with a factor. */
@@ -413,7 +413,7 @@ add_scaled(qdot_generator *g, sum *s, bool minus, const qdot_operand *scale,
 }
 
 static inline void
-add(qdot_generator *g, sum *s, bool minus, const double *x)
+sum_add_row(qdot_generator *g, sum *s, bool minus, const double *x)
 {
     add_scaled(g, s, minus, NULL, x);
 }
@@ -433,14 +433,14 @@ add_product_terms(qdot_generator *g, sum *sum, bool minus, const qdot_operand *s
 
     add_past(g, sum, minus, scale, s, 0);
     if (x && y && g->lag > 1 && g->k > 1) {
-        times(g, sum, minus, composed(g, scale, at(g, s->x, 1)), s->y, g->k - 1);
+        sum_add_scaled(g, sum, minus, composed(g, scale, code_at(g, s->x, 1)), s->y, g->k - 1);
         if (g->k > 2)
-            times(g, sum, minus, composed(g, scale, at(g, s->y, 1)), s->x, g->k - 1);
+            sum_add_scaled(g, sum, minus, composed(g, scale, code_at(g, s->y, 1)), s->x, g->k - 1);
     }
     if (y)
-        times(g, sum, minus, composed(g, scale, at(g, s->x, 0)), s->y, g->k);
+        sum_add_scaled(g, sum, minus, composed(g, scale, code_at(g, s->x, 0)), s->y, g->k);
     if (x)
-        times(g, sum, minus, composed(g, scale, at(g, s->y, 0)), s->x, g->k);
+        sum_add_scaled(g, sum, minus, composed(g, scale, code_at(g, s->y, 0)), s->x, g->k);
 }
 
 /* +- a sum or a product times a factor (NULL: none). What is folded stands at most a few
@@ -464,7 +464,7 @@ add_terms(qdot_generator *g, sum *sum, bool minus, const qdot_operand *scale,
     case QDOT_T_SCALEOFF:
         if (s->op != QDOT_T_SCALE)
             add_scaled(g, sum, minus != (s->op == QDOT_T_SCALESUB), scale, s->z);
-        factor = composed(g, scale, at(g, s->x, 0));
+        factor = composed(g, scale, code_at(g, s->x, 0));
         add_scaled(g, sum, minus != (s->op == QDOT_T_SCALEOFF), &factor, s->y);
         return;
     default:

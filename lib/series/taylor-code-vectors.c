@@ -33,7 +33,7 @@ block_at(const qdot_generator *g, const qdot_code_vector *v, int b)
 
 /* Coefficient m of a row beside those below it. */
 static void
-insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
+vector_insert(qdot_generator *g, const qdot_code_vector *v, uint32_t row, int m, int b)
 {
     const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
 
@@ -58,7 +58,7 @@ begin_spreads(qdot_generator *g)
 
 /* The register with coefficient m of a row in every lane. */
 static int
-spread(qdot_generator *g, uint32_t row, int m)
+vector_spread(qdot_generator *g, uint32_t row, int m)
 {
     int i = 0, reg;
 
@@ -77,8 +77,8 @@ spread(qdot_generator *g, uint32_t row, int m)
 
 /* to += coefficient m of a row times block b of another, in these lanes. */
 static void
-multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
-         qdot_asm_lane_set lanes)
+vector_add_multiple(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
+                    qdot_asm_lane_set lanes)
 {
     const qdot_code_vector *v = &g->rows.at[g->row_vector[other]];
 
@@ -88,7 +88,7 @@ multiply(qdot_generator *g, int to, uint32_t row, int m, uint32_t other, int b,
         one.spread = true;
         do_all(g, QDOT_ASM_MADD, to, v->reg[b], one);
     } else {
-        const int one = spread(g, row, m);
+        const int one = vector_spread(g, row, m);
 
         qdot_asm_add_product(&g->m, to, one,
                              g->as_they_stand
@@ -140,11 +140,11 @@ add_order(qdot_generator *g, const qdot_code_phase *p, const qdot_code_sum *s, i
         else if (v->reg[b] < 0)
             do_all(g, QDOT_ASM_LOAD, to, 0, block_at(g, v, b));
         if (whole || now == BEFORE)
-            multiply(g, to, other, m, last, b,
-                     entered && whole ? QDOT_ASM_OLDER_LANES : QDOT_ASM_ALL_LANES);
+            vector_add_multiple(g, to, other, m, last, b,
+                                entered && whole ? QDOT_ASM_OLDER_LANES : QDOT_ASM_ALL_LANES);
         if (whole || now == AFTER)
-            multiply(g, to, last, m, other, b,
-                     entered && g->as_they_stand ? QDOT_ASM_KNOWN_LANES
+            vector_add_multiple(g, to, last, m, other, b,
+                                entered && g->as_they_stand ? QDOT_ASM_KNOWN_LANES
                                                  : QDOT_ASM_ALL_LANES);
         if (v->reg[b] < 0)
             do_all(g, QDOT_ASM_STORE, to, 0, block_at(g, v, b));
@@ -158,14 +158,14 @@ qdot_code_add_order(qdot_generator *g, const qdot_code_phase *p, int m)
     for (size_t i = 0; i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m, BEFORE);
     for (size_t i = 0; p->inserted >= 0 && !g->as_they_stand && i < g->rows.n; i++)
-        insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
+        vector_insert(g, g->rows.at + i, g->row_of.at[i], m, p->inserted);
     for (size_t i = 0; p->inserted >= 0 && i < g->sums.n; i++)
         add_order(g, p, g->sums.at + i, m, AFTER);
 }
 
 /* A vector becomes 0. */
 static void
-clear(qdot_generator *g, const qdot_code_vector *v)
+vector_clear(qdot_generator *g, const qdot_code_vector *v)
 {
     for (int b = 0; b < g->blocks; b++) {
         const int reg = v->reg[b] >= 0 ? v->reg[b] : temporary;
@@ -181,9 +181,9 @@ qdot_code_begin_vectors(qdot_generator *g)
 {
     for (size_t i = 0; i < g->sums.n; i++)
         if (!g->sums.at[i].further)
-            clear(g, &g->sums.at[i].v);
+            vector_clear(g, &g->sums.at[i].v);
     for (size_t i = 0; !g->as_they_stand && i < g->rows.n; i++)
-        clear(g, g->rows.at + i);
+        vector_clear(g, g->rows.at + i);
     qdot_asm_begin_lanes(&g->m);
 }
 

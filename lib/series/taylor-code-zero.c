@@ -7,13 +7,13 @@
 static int
 zero(qdot_generator *g, const double *row)
 {
-    return coefficient(g, qdot_code_row(g, row), 0);
+    return code_coefficient_register(g, qdot_code_row(g, row), 0);
 }
 
 static void
 is(qdot_generator *g, int reg, const double *to, int k)
 {
-    finish(g, (value){.reg = reg, .own = true}, to, k);
+    value_finish(g, (value){.reg = reg, .own = true}, to, k);
 }
 
 /* to <- x op y */
@@ -21,7 +21,7 @@ static void
 simple(qdot_generator *g, qdot_asm_operation name, int x, qdot_operand y,
        const double *to)
 {
-    const int reg = fresh(g);
+    const int reg = code_fresh_register(g);
 
     do_one(g, name, reg, x, y);
     is(g, reg, to, 0);
@@ -39,7 +39,7 @@ simple_of_rows(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation 
 static void
 with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name)
 {
-    const int x = zero(g, s->x), y = zero(g, s->y), z = zero(g, s->z), reg = fresh(g);
+    const int x = zero(g, s->x), y = zero(g, s->y), z = zero(g, s->z), reg = code_fresh_register(g);
 
     do_one(g, QDOT_ASM_LOAD, reg, 0, qdot_asm_in(z));
     do_one(g, name, reg, x, qdot_asm_in(y));
@@ -50,7 +50,7 @@ with_third(qdot_generator *g, const qdot_taylor_step *s, qdot_asm_operation name
 static void
 keep_inverse(qdot_generator *g, const qdot_taylor_step *s, qdot_operand a, int b)
 {
-    const int reg = fresh(g);
+    const int reg = code_fresh_register(g);
 
     do_one(g, QDOT_ASM_LOAD, reg, 0, a);
     do_one(g, QDOT_ASM_DIV, reg, reg, qdot_asm_in(b));
@@ -65,7 +65,7 @@ quotient(qdot_generator *g, const qdot_taylor_step *s)
 }
 
 static void
-root(qdot_generator *g, const qdot_taylor_step *s)
+write_root(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int x = zero(g, s->x);
 
@@ -80,7 +80,7 @@ waves(double x, double *sine, double *cosine)
 }
 
 static void
-call(qdot_generator *g, void (*function)(void))
+write_call(qdot_generator *g, void (*function)(void))
 {
     qdot_asm_call(&g->m, function);
     qdot_code_forget(g);
@@ -89,10 +89,10 @@ call(qdot_generator *g, void (*function)(void))
 static void
 sine_and_cosine(qdot_generator *g, const qdot_taylor_step *s)
 {
-    do_one(g, QDOT_ASM_LOAD, 0, 0, at(g, s->x, 0));
-    qdot_asm_set(&g->m, QDOT_ASM_CONSTANTS, QDOT_ASM_ROWS, at(g, s->second, 0).offset);
-    qdot_asm_set(&g->m, QDOT_ASM_ROWS, QDOT_ASM_ROWS, at(g, s->to, 0).offset);
-    call(g, (void (*)(void))waves);
+    do_one(g, QDOT_ASM_LOAD, 0, 0, code_at(g, s->x, 0));
+    qdot_asm_set(&g->m, QDOT_ASM_CONSTANTS, QDOT_ASM_ROWS, code_at(g, s->second, 0).offset);
+    qdot_asm_set(&g->m, QDOT_ASM_ROWS, QDOT_ASM_ROWS, code_at(g, s->to, 0).offset);
+    write_call(g, (void (*)(void))waves);
 }
 
 static void
@@ -100,11 +100,11 @@ any_other(qdot_generator *g, const qdot_taylor_step *s)
 {
     qdot_asm_set(&g->m, QDOT_ASM_ROWS, QDOT_ASM_CONSTANTS,
                  (int32_t)((size_t)(s - g->t->steps) * sizeof *s));
-    call(g, (void (*)(void))qdot_taylor_value);
+    write_call(g, (void (*)(void))qdot_taylor_value);
 }
 
 static void
-value_of(qdot_generator *g, const qdot_taylor_step *s)
+write_step_value(qdot_generator *g, const qdot_taylor_step *s)
 {
     switch (s->zero) {
     case QDOT_OP_NEG:
@@ -117,7 +117,7 @@ value_of(qdot_generator *g, const qdot_taylor_step *s)
     case QDOT_OP_MADD: with_third(g, s, QDOT_ASM_MADD); break;
     case QDOT_OP_MSUB: with_third(g, s, QDOT_ASM_MSUB); break;
     case QDOT_OP_NMADD: with_third(g, s, QDOT_ASM_NMADD); break;
-    case QDOT_OP_SQRT: root(g, s); break;
+    case QDOT_OP_SQRT: write_root(g, s); break;
     case QDOT_OP_SINCOS: sine_and_cosine(g, s); break;
     default: any_other(g, s);
     }
@@ -128,16 +128,16 @@ static void
 link_zero(qdot_generator *g, const qdot_taylor_step *s)
 {
     const int x = zero(g, s->x), y = s->second ? zero(g, s->to) : 0;
-    int reg = fresh(g);
+    int reg = code_fresh_register(g);
 
     do_one(g, QDOT_ASM_MUL, reg, x, qdot_code_work(QDOT_CODE_ONCE));
     is(g, reg, s->to, 1);
     if (!s->second)
         return;
-    reg = fresh(g);
+    reg = code_fresh_register(g);
     do_one(g, QDOT_ASM_MUL, reg, y, qdot_code_work(QDOT_CODE_ONCE));
     is(g, reg, s->second, 1);
-    reg = fresh(g);
+    reg = code_fresh_register(g);
     do_one(g, QDOT_ASM_MUL, reg, x, qdot_code_work(QDOT_CODE_TWICE));
     is(g, reg, s->second, 2);
 }
@@ -150,7 +150,7 @@ qdot_code_zero(qdot_generator *g)
     qdot_code_forget(g);
     qdot_asm_frame(&g->m);
     for (size_t i = 0; i < t->length; i++)
-        value_of(g, t->steps + i);
+        write_step_value(g, t->steps + i);
     for (size_t i = 0; i < t->n_links && t->n_blocks == 0; i++)
         link_zero(g, t->steps + t->length + i);
     qdot_asm_unframe(&g->m);

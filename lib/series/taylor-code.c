@@ -488,7 +488,7 @@ generate(qdot_generator *g, qdot_taylor_text *text, const char **why)
 }
 
 static qdot_status
-write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why)
+code_write_text(const qdot_taylor *t, int n, qdot_taylor_text *text, const char **why)
 {
     qdot_generator g = {.m = {.kind = qdot_asm_kind()}, .t = t, .n = n};
     qdot_status status = generate(&g, text, why);
@@ -523,7 +523,7 @@ find_text(const qdot_taylor *t, qdot_taylor_orders orders, bool kept, qdot_taylo
         pthread_mutex_lock(&writing);
     status = qdot_taylor_text_take(t, orders, text);
     if (status == QDOT_OK && !(*text)->memory && !kept) {
-        status = write_text(t, orders.most, *text, why);
+        status = code_write_text(t, orders.most, *text, why);
         if (status == QDOT_OK && !*why)
             qdot_taylor_text_keep(*text);
     }

@@ -8,7 +8,7 @@
 
 /* Without the steps that write explicit equations: products of K are summed apart. */
 static qdot_status
-take_apart(qdot_taylor *t, int most, int solved)
+motion_split_off_written(qdot_taylor *t, int most, int solved)
 {
     const size_t length = t->length - t->motion->written;
 
@@ -62,7 +62,7 @@ qdot_taylor_of_motion(const qdot_motion *motion, bool shaken, int most, int solv
                                 apart ? motion->solved.n : 0,
                                 is_explicit ? 0 : motion->program.length, shaken);
     if (status == QDOT_OK && apart)
-        status = take_apart(t, most, solved);
+        status = motion_split_off_written(t, most, solved);
     if (status == QDOT_OK)
         status = qdot_taylor_find_unknowns(t, is_explicit);
     if (status == QDOT_OK && apart && !is_explicit)
@@ -120,7 +120,7 @@ is_explicit(const qdot_taylor *t)
 
 /* Order k of an integral is so much of order k - 1 of what it is of. */
 static double
-part(const qdot_taylor *t, int k)
+integral_part(const qdot_taylor *t, int k)
 {
     return t->unit / k;
 }
@@ -138,9 +138,9 @@ integrate_given(const qdot_taylor *t, int k)
 
         if (u->value == QDOT_NO_ROW || !once)
             continue;
-        once[k + 1] = part(t, k + 1) * qdot_taylor_place(t, u->value)[k];
+        once[k + 1] = integral_part(t, k + 1) * qdot_taylor_place(t, u->value)[k];
         if (twice)
-            twice[k + 2] = part(t, k + 2) * once[k + 1];
+            twice[k + 2] = integral_part(t, k + 2) * once[k + 1];
     }
 }
 

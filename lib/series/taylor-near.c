@@ -14,7 +14,7 @@ qdot_taylor_may_hide(const qdot_taylor *t)
 }
 
 static double
-near_divisor(const qdot_taylor_step *step, int p, double s)
+step_divisor_nearness(const qdot_taylor_step *step, int p, double s)
 {
     const char which = qdot_recurrence_divisor(step->op);
     const double *b = which == 'x' ? step->x : which == 'y' ? step->y : step->z;
@@ -38,7 +38,7 @@ qdot_taylor_near(const qdot_taylor *t, int p, double s, double least)
             s = qdot_near_taken(s, qdot_near_argument(p, step->x, times, s),
                                 QDOT_NEAR_FINER * least);
         else if (qdot_recurrence_divisor(step->op))
-            s = qdot_near_taken(s, near_divisor(step, p, s), least);
+            s = qdot_near_taken(s, step_divisor_nearness(step, p, s), least);
     }
     return s;
 }

@@ -93,7 +93,7 @@ order_zero(const qdot_taylor *t)
 
 /* Order k of the first n steps but those that have none, of an order's functions. */
 static inline void
-order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
+taylor_order(const qdot_taylor *t, size_t n, qdot_taylor_function *const *function)
 {
     const qdot_series_kernels *kernels = t->kernels;
     qdot_taylor_step *s = t->steps + t->still, *const end = t->steps + n;
@@ -108,7 +108,7 @@ void
 qdot_taylor_order(qdot_taylor *t, int k)
 {
     if (k > 0) {
-        order(t, t->length, t->functions[k]);
+        taylor_order(t, t->length, t->functions[k]);
         return;
     }
     if (t->code && t->n_blocks > 0)
@@ -193,5 +193,5 @@ qdot_taylor_extend(qdot_taylor *t, int from, int to)
         return;
     }
     for (int k = from; k <= to; k++)
-        order(t, n, function[k]);
+        taylor_order(t, n, function[k]);
 }

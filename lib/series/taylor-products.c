@@ -23,7 +23,7 @@ struct qdot_taylor_products {
 /* --- building ------------------------------------------------------------------------ */
 
 static void
-add(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylor_coupling *c)
+products_add(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylor_coupling *c)
 {
     const double *entry = positive ? positive : c->M;
     size_t j = 0;
@@ -38,7 +38,7 @@ add(qdot_taylor_products *p, const double *positive, size_t to, const qdot_taylo
 
 /* Those of all blocks. */
 static void
-add_all(qdot_taylor_products *p, const qdot_taylor *t)
+products_add_all(qdot_taylor_products *p, const qdot_taylor *t)
 {
     size_t first = 0;
 
@@ -48,14 +48,14 @@ add_all(qdot_taylor_products *p, const qdot_taylor *t)
         for (size_t i = 0; i < block->n_couplings; i++) {
             const qdot_taylor_coupling *c = block->couplings + i;
 
-            add(p, t->negated[qdot_taylor_row(t, c->M)], first + c->i, c);
+            products_add(p, t->negated[qdot_taylor_row(t, c->M)], first + c->i, c);
         }
         first += block->n;
     }
 }
 
 static qdot_status
-make(qdot_taylor_products *p, const qdot_taylor *t, int most)
+products_make(qdot_taylor_products *p, const qdot_taylor *t, int most)
 {
     size_t count = 1;
 
@@ -66,7 +66,7 @@ make(qdot_taylor_products *p, const qdot_taylor *t, int most)
     p->parts = qdot_calloc(count, sizeof *p->parts);
     if (!p->entry || !p->by || !p->parts)
         return QDOT_ENOMEM;
-    add_all(p, t);
+    products_add_all(p, t);
     p->members = (p->n + lanes - 1) / lanes * lanes;
     p->entries = qdot_calloc((size_t)most * p->members + 1, sizeof *p->entries);
     p->unknowns = qdot_calloc((size_t)most * p->members + 1, sizeof *p->unknowns);
@@ -80,7 +80,7 @@ qdot_taylor_products_new(const qdot_taylor *t, int most, qdot_taylor_products **
     qdot_taylor_products *p = qdot_calloc(1, sizeof *p);
 
     *products = p;
-    return p ? make(p, t, most) : QDOT_ENOMEM;
+    return p ? products_make(p, t, most) : QDOT_ENOMEM;
 }
 
 size_t

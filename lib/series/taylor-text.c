@@ -34,7 +34,7 @@ static atomic_uint next_place;
 enum { OF_ALL = 9, OF_STEP = 10, OF_BLOCK = 3, OF_UNKNOWN = 3, OF_COUPLING = 3 };
 
 static uint32_t
-row(const qdot_taylor *t, const double *x)
+text_row(const qdot_taylor *t, const double *x)
 {
     return x ? qdot_taylor_row(t, x) : UINT32_MAX;
 }
@@ -56,13 +56,13 @@ put_step(const qdot_taylor *t, const qdot_taylor_step *s, uint32_t *to)
     const uint32_t words[OF_STEP] = {s->op,
                                      s->zero,
                                      (uint32_t)s->sign,
-                                     row(t, s->to),
-                                     row(t, s->second),
-                                     row(t, s->third),
-                                     row(t, s->d),
-                                     row(t, s->x),
-                                     row(t, s->y),
-                                     row(t, s->z)};
+                                     text_row(t, s->to),
+                                     text_row(t, s->second),
+                                     text_row(t, s->third),
+                                     text_row(t, s->d),
+                                     text_row(t, s->x),
+                                     text_row(t, s->y),
+                                     text_row(t, s->z)};
 
     memcpy(to, words, sizeof words);
     return to + OF_STEP;
@@ -75,14 +75,14 @@ put_block(const qdot_taylor *t, const qdot_taylor_block *b, uint32_t *to)
     *to++ = (uint32_t)b->solved;
     *to++ = (uint32_t)b->n_couplings;
     for (size_t i = 0; i < b->n; i++) {
-        *to++ = row(t, b->f[i]);
-        *to++ = row(t, b->a[i]);
-        *to++ = row(t, b->r[i]);
+        *to++ = text_row(t, b->f[i]);
+        *to++ = text_row(t, b->a[i]);
+        *to++ = text_row(t, b->r[i]);
     }
     for (size_t c = 0; c < b->n_couplings; c++) {
         *to++ = b->couplings[c].i;
-        *to++ = row(t, b->couplings[c].M);
-        *to++ = row(t, b->couplings[c].a);
+        *to++ = text_row(t, b->couplings[c].M);
+        *to++ = text_row(t, b->couplings[c].a);
     }
     return to;
 }
@@ -98,7 +98,7 @@ put_all(const qdot_taylor *t, uint32_t *to)
     memcpy(to, words, sizeof words);
     to += OF_ALL;
     for (size_t i = 0; i < t->outputs; i++)
-        *to++ = row(t, t->output[i]);
+        *to++ = text_row(t, t->output[i]);
     for (size_t i = 0; i < t->length + t->n_links; i++)
         to = put_step(t, t->steps + i, to);
     for (size_t k = 0; k < t->n_blocks; k++)
@@ -123,7 +123,7 @@ qdot_taylor_text_give(qdot_taylor_text *text)
 
 /* What is kept under a key and serves these orders, used once more; NULL. */
 static qdot_taylor_text *
-find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
+shelf_find(const uint32_t *key, size_t length, qdot_taylor_orders orders)
 {
     for (size_t i = 0; i < kept; i++) {
         qdot_taylor_text *text = atomic_exchange(shelf + i, NULL), *none = NULL;
@@ -161,7 +161,7 @@ qdot_taylor_text_take(const qdot_taylor *t, qdot_taylor_orders orders, qdot_tayl
         return QDOT_ENOMEM;
     }
     put_all(t, empty->key);
-    *text = find(empty->key, length, orders);
+    *text = shelf_find(empty->key, length, orders);
     if (*text)
         qdot_taylor_text_give(empty);
     else

@@ -8,7 +8,7 @@
 
 /* Empty, for n unknowns with up to `count` couplings. */
 static qdot_status
-add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
+taylor_add_block(qdot_taylor *t, size_t n, size_t count, int solved, qdot_taylor_block **block)
 {
     size_t capacity = t->n_blocks;
     qdot_taylor_block *b;
@@ -37,8 +37,8 @@ count_coupling(const qdot_motion *m, const qdot_motion_entry *e, size_t is_expli
 }
 
 static void
-couple(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t is_explicit,
-       size_t *next)
+block_add_coupling(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t is_explicit,
+                   size_t *next)
 {
     const qdot_motion *m = t->motion;
     const double *M = qdot_taylor_place(t, e->at);
@@ -54,7 +54,7 @@ couple(qdot_taylor *t, qdot_taylor_block *b, const qdot_motion_entry *e, size_t 
 /* Entries of a motion are those of its first block, then of the next: *entry is where those of
  * block k begin, then where they end. rows [solved + 1] is scratch. */
 static qdot_status
-solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
+taylor_solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
 {
     const qdot_motion *m = t->motion;
     const uint32_t first = m->blocks.at[k], end = m->blocks.at[k + 1];
@@ -77,7 +77,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
         rows[i] = count;
         count += of_row;
     }
-    QDOT_TRY(add_block(t, n, count, solved, &b));
+    QDOT_TRY(taylor_add_block(t, n, count, solved, &b));
     b->n_couplings = count;
     for (size_t i = 0; i < n; i++) {
         b->f[i] = i < is_explicit ? qdot_taylor_place(t, m->right.at[first + i]) : NULL;
@@ -89,7 +89,7 @@ solve_block(qdot_taylor *t, size_t k, int solved, size_t *entry, size_t *rows)
 
         e.i -= first;
         e.j -= first;
-        couple(t, b, &e, is_explicit, rows);
+        block_add_coupling(t, b, &e, is_explicit, rows);
     }
     return QDOT_OK;
 }
@@ -102,7 +102,7 @@ qdot_taylor_solve_motion(qdot_taylor *t, int solved)
     qdot_status status = rows ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k + 1 < m->blocks.n && status == QDOT_OK; k++)
-        status = solve_block(t, k, solved, &entry, rows);
+        status = taylor_solve_block(t, k, solved, &entry, rows);
     qdot_free(rows);
     return status;
 }

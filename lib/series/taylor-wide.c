@@ -52,7 +52,7 @@ struct qdot_taylor_wide {
 };
 
 static inline void
-copy(const group *g, double *at)
+group_copy(const group *g, double *at)
 {
     for (size_t i = 0; i < g->count; i++)
         at[g->to + i] = at[g->from[i]];
@@ -122,7 +122,7 @@ typedef struct {
 } builder;
 
 static size_t
-row_of(const qdot_taylor_wide *w, const double *row)
+wide_row_of(const qdot_taylor_wide *w, const double *row)
 {
     return (size_t)(row - w->coefficients) / w->stride;
 }
@@ -200,13 +200,13 @@ first_lanes(builder *b)
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
 
-        w->lane[row_of(w, s->to)] = 0; /* to come */
+        w->lane[wide_row_of(w, s->to)] = 0; /* to come */
         if (s->second)
-            w->lane[row_of(w, s->second)] = 0;
+            w->lane[wide_row_of(w, s->second)] = 0;
         if (s->third)
-            w->lane[row_of(w, s->third)] = 0;
+            w->lane[wide_row_of(w, s->third)] = 0;
         if (s->d)
-            w->lane[row_of(w, s->d)] = 0;
+            w->lane[wide_row_of(w, s->d)] = 0;
     }
     at = w->width;
     for (size_t r = t->inputs; r < w->rows; r++)
@@ -223,16 +223,16 @@ find_members(builder *b)
 
     for (size_t i = t->still; i < t->length; i++) {
         const qdot_taylor_step *s = t->steps + i;
-        const size_t x = b->level[row_of(b->w, s->x)], y = b->level[row_of(b->w, s->y)];
-        const size_t z = b->level[row_of(b->w, s->z)];
+        const size_t x = b->level[wide_row_of(b->w, s->x)], y = b->level[wide_row_of(b->w, s->y)];
+        const size_t z = b->level[wide_row_of(b->w, s->z)];
         size_t level = (x > y ? x : y) > z ? (x > y ? x : y) : z;
 
         b->members[b->n_members++] = (member){.step = s, .level = ++level};
-        b->level[row_of(b->w, s->to)] = level;
+        b->level[wide_row_of(b->w, s->to)] = level;
         if (s->second)
-            b->level[row_of(b->w, s->second)] = level;
+            b->level[wide_row_of(b->w, s->second)] = level;
         if (s->third)
-            b->level[row_of(b->w, s->third)] = level;
+            b->level[wide_row_of(b->w, s->third)] = level;
         b->deepest = level > b->deepest ? level : b->deepest;
     }
 }
@@ -268,9 +268,9 @@ add_group(builder *b, member *m, size_t n)
     const double vectors = (double)(g.lanes / QDOT_WIDE_LANES);
 
     for (size_t i = 0; i < n; i++) {
-        m[i].x = w->lane[row_of(w, m[i].step->x)];
-        m[i].y = w->lane[row_of(w, m[i].step->y)];
-        m[i].z = w->lane[row_of(w, m[i].step->z)];
+        m[i].x = w->lane[wide_row_of(w, m[i].step->x)];
+        m[i].y = w->lane[wide_row_of(w, m[i].step->y)];
+        m[i].z = w->lane[wide_row_of(w, m[i].step->z)];
         m[i].first = changes(w, m[i].x) ? m[i].x : changes(w, m[i].y) ? m[i].y : m[i].z;
     }
     qsort(m, n, sizeof *m, by_operands);
@@ -282,13 +282,13 @@ add_group(builder *b, member *m, size_t n)
     g.third = m->step->third ? take_lanes(w, n) : g.to;
     g.d = m->step->d ? take_lanes(w, n) : g.to;
     for (size_t i = 0; i < n; i++) {
-        w->lane[row_of(w, m[i].step->to)] = g.to + i;
+        w->lane[wide_row_of(w, m[i].step->to)] = g.to + i;
         if (m->step->second)
-            w->lane[row_of(w, m[i].step->second)] = g.second + i;
+            w->lane[wide_row_of(w, m[i].step->second)] = g.second + i;
         if (m->step->third)
-            w->lane[row_of(w, m[i].step->third)] = g.third + i;
+            w->lane[wide_row_of(w, m[i].step->third)] = g.third + i;
         if (m->step->d)
-            w->lane[row_of(w, m[i].step->d)] = g.d + i;
+            w->lane[wide_row_of(w, m[i].step->d)] = g.d + i;
     }
     w->convolutions += ceil(qdot_recurrence_cost(g.op)) * vectors; /* squares as products */
     return qdot_vec_push(&w->groups, g);
@@ -319,7 +319,7 @@ add_groups(builder *b)
 }
 
 static qdot_status
-build(builder *b, bool *built)
+wide_build(builder *b, bool *built)
 {
     const size_t rows = b->w->rows;
 
@@ -356,7 +356,7 @@ qdot_taylor_wide_new(const qdot_taylor *t, size_t n, const size_t *lane, size_t 
     w->stride = t->stride;
     w->orders = (int)t->stride;
     w->coefficients = t->coefficients;
-    status = build(&b, &built);
+    status = wide_build(&b, &built);
     qdot_free(b.level);
     qdot_free(b.lanes);
     qdot_free(b.members);
@@ -399,7 +399,7 @@ qdot_taylor_wide_at(const qdot_taylor_wide *w, int k)
 size_t
 qdot_taylor_wide_lane(const qdot_taylor_wide *w, const double *row)
 {
-    return w->lane[row_of(w, row)];
+    return w->lane[wide_row_of(w, row)];
 }
 
 qdot_status
@@ -430,7 +430,7 @@ qdot_taylor_wide_begin(qdot_taylor_wide *w, const qdot_taylor *t)
         w->X[w->width + w->lane[r]] = t->coefficients[r * w->stride + 1];
     for (const group *g = w->groups.at; g < w->groups.at + w->groups.n; g++)
         if (g->op >= COPIED)
-            copy(g, w->X);
+            group_copy(g, w->X);
 }
 
 void

@@ -15,7 +15,7 @@
 enum { LINE = 8 }; /* doubles of a line of the cache */
 
 static qdot_status
-allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)
+taylor_allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t more)
 {
     /* an odd number of cache lines apart, so that rows do not share a few sets */
     t->stride = (((size_t)most + 2 + 7) / 8 | 1) * 8;
@@ -44,7 +44,7 @@ allocate(qdot_taylor *t, const qdot_program *p, int most, size_t spare, size_t m
 
 /* Numbers get to their rows; which of them are drawn. Shaken, they are their other neighbours. */
 static void
-set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
+taylor_set_constants(qdot_taylor *t, const qdot_program *p, bool shaken)
 {
     for (size_t r = 0; r < t->spare; r++) {
         const qdot_program_row_info *row = p->rows.at + r;
@@ -68,8 +68,8 @@ qdot_status
 qdot_taylor_settle(qdot_taylor *t, const qdot_program *p, int most, size_t spare,
                    size_t more, bool shaken)
 {
-    QDOT_TRY(allocate(t, p, most, spare, more));
-    set_constants(t, p, shaken);
+    QDOT_TRY(taylor_allocate(t, p, most, spare, more));
+    taylor_set_constants(t, p, shaken);
     for (size_t i = 0; i < p->steps.n; i++) {
         const qdot_program_step *s = p->steps.at + i;
 

@@ -21,7 +21,7 @@ struct qdot_tape_two {
 };
 
 static inline qdot_two *
-place(const qdot_tape_two *t, qdot_program_row row)
+two_place(const qdot_tape_two *t, qdot_program_row row)
 {
     return t->numbers + (size_t)row * t->stride;
 }
@@ -41,7 +41,7 @@ is_less(qdot_two a, qdot_two b)
 }
 
 static inline qdot_two
-whole_part(qdot_two a)
+two_whole_part(qdot_two a)
 {
     const double hi = floor(a.hi);
 
@@ -60,7 +60,7 @@ hyperbolic_tangent(const qdot_two_functions *f, qdot_two a, qdot_two *slope)
 
 /* log(1 + e^a) */
 static qdot_two
-softplus(const qdot_two_functions *f, qdot_two a)
+two_softplus(const qdot_two_functions *f, qdot_two a)
 {
     const bool positive = a.hi > 0;
     const qdot_two below = f->exp(positive ? qdot_two_neg(a) : a);
@@ -70,10 +70,10 @@ softplus(const qdot_two_functions *f, qdot_two a)
 }
 
 static void
-value(const qdot_tape_two *t, const qdot_program_step *i)
+two_value(const qdot_tape_two *t, const qdot_program_step *i)
 {
     const qdot_two_functions *f = t->functions;
-    const qdot_two a = place(t, i->x)[0], b = place(t, i->y)[0], c = place(t, i->z)[0];
+    const qdot_two a = two_place(t, i->x)[0], b = two_place(t, i->y)[0], c = two_place(t, i->z)[0];
     qdot_two d;
 
     switch (i->zero) {
@@ -88,15 +88,15 @@ value(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_SQRT: d = qdot_two_sqrt(a); break;
     case QDOT_OP_POW: d = f->pow(a, b); break;
     case QDOT_ZERO_POWER: d = f->pow(b, c); break;
-    case QDOT_OP_SINCOS: f->sincos(a, &d, place(t, i->second)); break;
-    case QDOT_ZERO_SINHCOSH: f->sinhcosh(a, &d, place(t, i->second)); break;
-    case QDOT_OP_TANH: d = hyperbolic_tangent(f, a, place(t, i->second)); break;
+    case QDOT_OP_SINCOS: f->sincos(a, &d, two_place(t, i->second)); break;
+    case QDOT_ZERO_SINHCOSH: f->sinhcosh(a, &d, two_place(t, i->second)); break;
+    case QDOT_OP_TANH: d = hyperbolic_tangent(f, a, two_place(t, i->second)); break;
     case QDOT_OP_ATAN2: d = f->atan2(a, b); break;
     case QDOT_OP_EXP: d = f->exp(a); break;
     case QDOT_OP_LOG: d = f->log(a); break;
     case QDOT_OP_ERF: d = f->erf(a); break;
     case QDOT_OP_ERFC: d = f->erfc(a); break;
-    case QDOT_OP_SOFTPLUS: d = softplus(f, a); break;
+    case QDOT_OP_SOFTPLUS: d = two_softplus(f, a); break;
     case QDOT_OP_ASIN: d = f->asin(a); break;
     case QDOT_OP_ACOS: d = f->acos(a); break;
     case QDOT_OP_ATAN: d = f->atan(a); break;
@@ -108,9 +108,9 @@ value(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_MIN: d = isnan(a.hi) || is_less(a, b) ? a : b; break;
     case QDOT_OP_MAX: d = isnan(a.hi) || is_less(b, a) ? a : b; break;
     case QDOT_OP_MOD:
-        d = qdot_two_sub(a, qdot_two_mul(b, whole_part(qdot_two_div(a, b))));
+        d = qdot_two_sub(a, qdot_two_mul(b, two_whole_part(qdot_two_div(a, b))));
         break;
-    case QDOT_OP_FLOOR: d = whole_part(a); break;
+    case QDOT_OP_FLOOR: d = two_whole_part(a); break;
     case QDOT_OP_LT: d = truth(is_less(a, b)); break;
     case QDOT_OP_LE: d = truth(is_less(a, b) || (a.hi == b.hi && a.lo == b.lo)); break;
     case QDOT_OP_EQ: d = truth(a.hi == b.hi && a.lo == b.lo); break;
@@ -118,10 +118,10 @@ value(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_OR: d = truth(a.hi != 0 || b.hi != 0); break;
     case QDOT_OP_NOT: d = truth(a.hi == 0); break;
     case QDOT_OP_SELECT: d = a.hi != 0 ? b : c; break;
-    case QDOT_ZERO_RATE: d = qdot_two_scale(place(t, i->x)[1], 1 / t->unit); break;
+    case QDOT_ZERO_RATE: d = qdot_two_scale(two_place(t, i->x)[1], 1 / t->unit); break;
     default: d = truth(NAN); /* an operation without a value here does not pass the tests */
     }
-    place(t, i->to)[0] = d;
+    two_place(t, i->to)[0] = d;
 }
 
 /* --- order k ------------------------------------------------------------------------ */
@@ -148,7 +148,7 @@ qdot_tape_two_order(qdot_tape_two *t, int k)
         if (k + i->lead > 0)
             t->order(t, i, k + i->lead);
         else if (k + i->lead == 0 || i->still)
-            value(t, i);
+            two_value(t, i);
 }
 
 /* --- unknowns ------------------------------------------------------------------------ */
@@ -162,17 +162,17 @@ integral(const qdot_tape_two *t, qdot_two rate, int k)
 
 /* Order k of an unknown, and what that makes of its integrals. */
 static void
-put(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
+two_put_unknown(const qdot_tape_two *t, const qdot_motion_unknown *u, qdot_two a, int k)
 {
     qdot_two once;
 
     if (u->row != QDOT_NO_ROW)
-        place(t, u->row)[k] = a;
+        two_place(t, u->row)[k] = a;
     if (u->once == QDOT_NO_ROW)
         return;
-    place(t, u->once)[k + 1] = once = integral(t, a, k);
+    two_place(t, u->once)[k + 1] = once = integral(t, a, k);
     if (u->twice != QDOT_NO_ROW && (size_t)k + 2 < t->stride)
-        place(t, u->twice)[k + 2] = integral(t, once, k + 1);
+        two_place(t, u->twice)[k + 2] = integral(t, once, k + 1);
 }
 
 void
@@ -181,22 +181,22 @@ qdot_tape_two_stage(qdot_tape_two *t, int k, const double *guess)
     const qdot_motion *m = t->motion;
 
     for (size_t i = 0; i < m->solved.n && k >= 0; i++)
-        put(t, m->unknowns.at + m->solved.at[i], (qdot_two){guess[i], 0}, k);
+        two_put_unknown(t, m->unknowns.at + m->solved.at[i], (qdot_two){guess[i], 0}, k);
     qdot_tape_two_order(t, k);
     for (size_t i = 0; i < m->unknowns.n && k >= 0; i++) {
         const qdot_motion_unknown *u = m->unknowns.at + i;
 
         if (u->value != QDOT_NO_ROW)
-            put(t, u, place(t, u->value)[k], k);
+            two_put_unknown(t, u, two_place(t, u->value)[k], k);
     }
 }
 
 /* A row takes on its note, at the order that it has at stage k. */
 static void
-change(qdot_tape_two *t, qdot_program_row row, int order)
+two_apply_note(qdot_tape_two *t, qdot_program_row row, int order)
 {
     if (row != QDOT_NO_ROW && (size_t)order < t->stride)
-        place(t, row)[order] = qdot_two_add_double(place(t, row)[order], t->note[row]);
+        two_place(t, row)[order] = qdot_two_add_double(two_place(t, row)[order], t->note[row]);
 }
 
 static void
@@ -208,9 +208,9 @@ change_unknown(qdot_tape_two *t, const qdot_motion_unknown *u, double d, int k)
         t->note[u->once] = d *= t->unit / (k + 1);
     if (u->twice != QDOT_NO_ROW)
         t->note[u->twice] = d * t->unit / (k + 2);
-    change(t, u->row, k);
-    change(t, u->once, k + 1);
-    change(t, u->twice, k + 2);
+    two_apply_note(t, u->row, k);
+    two_apply_note(t, u->once, k + 1);
+    two_apply_note(t, u->twice, k + 2);
 }
 
 /* The notes of a step's rows from those of what it reads. */
@@ -231,7 +231,7 @@ note_step(const qdot_tape_two *t, const qdot_program_step *i, int k)
 #define note_third note[i->third]
 #define note_d note[i->d]
 #define NOTE(row) note_##row
-#define ZERO(row) place(t, i->row)[0].hi
+#define ZERO(row) two_place(t, i->row)[0].hi
 #define OVER_ZERO(p, row) (p) / ZERO(row)
 #define OVER_TWICE_ZERO(p, row) 0.5 * (p) / ZERO(row)
 #define FUSED(a, b, c) (a) * (b) + (c)
@@ -249,32 +249,32 @@ qdot_tape_two_change(qdot_tape_two *t, int k, const double *by)
     for (; i->op != QDOT_T_END; i++)
         if (i->newest) {
             note_step(t, i, k + i->lead);
-            change(t, i->to, k + i->lead);
-            change(t, i->second, k + i->lead);
-            change(t, i->third, k + i->lead);
-            change(t, i->d, k + i->lead);
+            two_apply_note(t, i->to, k + i->lead);
+            two_apply_note(t, i->second, k + i->lead);
+            two_apply_note(t, i->third, k + i->lead);
+            two_apply_note(t, i->d, k + i->lead);
         }
 }
 
 /* --- building ------------------------------------------------------------------------ */
 
 static void
-set_constants(qdot_tape_two *t)
+two_set_constants(qdot_tape_two *t)
 {
     for (qdot_program_row r = 0; r < t->program->rows.n; r++) {
         const qdot_program_row_info *row = t->program->rows.at + r;
         const qdot_program_constant *c = t->program->constants.at + row->at;
 
         if (row->source == QDOT_ROW_CONSTANT)
-            place(t, r)[0] = (qdot_two){c->value, c->low};
+            two_place(t, r)[0] = (qdot_two){c->value, c->low};
         else if (row->source == QDOT_ROW_WHOLE)
-            place(t, r)[0] = (qdot_two){row->at, 0};
+            two_place(t, r)[0] = (qdot_two){row->at, 0};
     }
 }
 
 /* Its rows, once it has its program. */
 static qdot_status
-make(qdot_tape_two *t, int most)
+two_make_rows(qdot_tape_two *t, int most)
 {
     t->stride = (size_t)most + 1;
     t->functions = qdot_two_functions_get();
@@ -290,7 +290,7 @@ make(qdot_tape_two *t, int most)
     t->note = qdot_calloc(t->program->rows.n + 1, sizeof *t->note);
     if (!t->numbers || !t->note)
         return QDOT_ENOMEM;
-    set_constants(t);
+    two_set_constants(t);
     return QDOT_OK;
 }
 
@@ -310,7 +310,7 @@ make_new(const qdot_tape *tape, const qdot_motion *motion, int most, size_t movi
     if (!motion)
         status = qdot_program_init(tape, moving, most == 0, &t->own);
     if (status == QDOT_OK)
-        status = make(t, most);
+        status = two_make_rows(t, most);
     if (status != QDOT_OK) {
         qdot_tape_two_free(t);
         return status;
@@ -342,9 +342,9 @@ qdot_tape_two_rounding(const qdot_tape_two *t)
 
 /* Where the step stands that switches; 0: on the border of two sides. */
 static int64_t
-side_of(const qdot_tape_two *t, const qdot_program_step *i)
+switch_side_of(const qdot_tape_two *t, const qdot_program_step *i)
 {
-    const qdot_two a = place(t, i->x)[0], b = place(t, i->y)[0];
+    const qdot_two a = two_place(t, i->x)[0], b = two_place(t, i->y)[0];
     qdot_two u;
 
     switch (i->zero) {
@@ -357,7 +357,7 @@ side_of(const qdot_tape_two *t, const qdot_program_step *i)
     case QDOT_OP_EQ: u = qdot_two_sub(a, b); break;
     case QDOT_OP_MOD:
     case QDOT_OP_FLOOR: {
-        const qdot_two q = i->zero == QDOT_OP_MOD ? qdot_two_div(a, b) : a, whole = whole_part(q);
+        const qdot_two q = i->zero == QDOT_OP_MOD ? qdot_two_div(a, b) : a, whole = two_whole_part(q);
 
         if (!(fabs(whole.hi) < 0x1p62))
             return 0;
@@ -374,7 +374,7 @@ qdot_tape_two_sides(const qdot_tape_two *t)
     uint64_t sides = 1;
 
     for (const qdot_program_step *i = t->program->steps.at; i->op != QDOT_T_END; i++) {
-        const int64_t side = side_of(t, i);
+        const int64_t side = switch_side_of(t, i);
 
         if (side == 0)
             return 0;
@@ -403,7 +403,7 @@ qdot_tape_two_set_unit(qdot_tape_two *t, double unit)
 qdot_two *
 qdot_tape_two_input(qdot_tape_two *t, size_t i)
 {
-    return place(t, (qdot_program_row)i);
+    return two_place(t, (qdot_program_row)i);
 }
 
 size_t
@@ -415,11 +415,11 @@ qdot_tape_two_stride(const qdot_tape_two *t)
 const qdot_two *
 qdot_tape_two_row(const qdot_tape_two *t, qdot_program_row row)
 {
-    return place(t, row);
+    return two_place(t, row);
 }
 
 const qdot_two *
 qdot_tape_two_output(const qdot_tape_two *t, size_t i)
 {
-    return place(t, t->program->outputs.at[i]);
+    return two_place(t, t->program->outputs.at[i]);
 }
