@@ -25,7 +25,7 @@ typedef struct {
 /* --- from the scene to the plane ---------------------------------------------------- */
 
 static void
-cross(const double u[3], const double v[3], double w[3])
+cross_product(const double u[3], const double v[3], double w[3])
 {
     for (int d = 0; d < 3; d++)
         w[d] = u[(d + 1) % 3] * v[(d + 2) % 3] - u[(d + 2) % 3] * v[(d + 1) % 3];
@@ -46,7 +46,7 @@ aim(view *w)
     size = sqrt(e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2]);
     for (int d = 0; d < 3; d++)
         e1[d] /= size;
-    cross(u, e1, e2);
+    cross_product(u, e1, e2);
     for (int d = 0; d < 3; d++) {
         w->right[d] = cos(yaw) * e1[d] + sin(yaw) * e2[d];
         w->up[d] = cos(pitch) * u[d] - sin(pitch) * (sin(yaw) * e1[d] - cos(yaw) * e2[d]);
@@ -54,7 +54,7 @@ aim(view *w)
 }
 
 static place
-project(const view *w, const double r[3])
+view_project(const view *w, const double r[3])
 {
     place p = {0, 0};
 
@@ -81,7 +81,7 @@ where(const view *w, size_t point, size_t frame)
     double r[3];
 
     position(w->a, point, frame, r);
-    return project(w, r);
+    return view_project(w, r);
 }
 
 static void
@@ -249,7 +249,7 @@ add_round(const view *w, const double c[3], const double u[3], const double v[3]
 
         for (int d = 0; d < 3; d++)
             r[d] = c[d] + cos(at) * u[d] + sin(at) * v[d];
-        add_place(out, project(w, r));
+        add_place(out, view_project(w, r));
     }
     qdot_text_char(out, '\n');
 }
@@ -281,7 +281,7 @@ add_flat(const view *w, const qdot_animation_body *b, const double r[3],
 }
 
 static void
-add_bodies(const view *w, size_t frame, qdot_text *out)
+gif_add_bodies(const view *w, size_t frame, qdot_text *out)
 {
     const qdot_animation *a = w->a;
 
@@ -293,7 +293,7 @@ add_bodies(const view *w, size_t frame, qdot_text *out)
         for (unsigned k = 0; k < (a->dimension == 3 ? 6 : 2); k++)
             m[k] = a->values[b->axes[k] * a->frames + frame];
         for (size_t k = 0; k < b->n_arms; k++) {
-            add_place(out, project(w, r));
+            add_place(out, view_project(w, r));
             add_place(out, where(w, b->arms[k], frame));
             qdot_text_char(out, '\n');
         }
@@ -302,7 +302,7 @@ add_bodies(const view *w, size_t frame, qdot_text *out)
             continue;
         }
         memcpy(own, m, sizeof m);
-        cross(own[0], own[1], own[2]);
+        cross_product(own[0], own[1], own[2]);
         for (int k = 0; k < 3; k++)
             for (int d = 0; d < 3; d++)
                 axis[k][d] = b->half[k] * (b->principal[3 * k] * own[0][d] +
@@ -372,7 +372,7 @@ add_layer(const view *w, int layer, size_t frame, qdot_text *out)
     case 1: add_links(w, QDOT_ANIMATION_ROD, frame, out); break;
     case 2: add_links(w, QDOT_ANIMATION_SPRING, frame, out); break;
     case 3: add_links(w, QDOT_ANIMATION_DAMPER, frame, out); break;
-    case 4: add_bodies(w, frame, out); break;
+    case 4: gif_add_bodies(w, frame, out); break;
     default: add_dots(w, frame, out);
     }
 }

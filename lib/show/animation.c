@@ -57,7 +57,7 @@ add_string(qdot_text *out, const char *text)
 }
 
 static void
-add_field(qdot_text *out, const char *name, double x, int digits)
+json_add_field(qdot_text *out, const char *name, double x, int digits)
 {
     qdot_text_format(out, "\"%s\":", name);
     qdot_text_double(out, isfinite(x) ? x : 0, digits);
@@ -111,7 +111,7 @@ add_base64(qdot_text *out, const unsigned char *bytes, size_t n)
 
 /* [*lo, *hi] of what is finite; false: nothing is. */
 static bool
-range_of(const double *x, size_t n, double *lo, double *hi)
+finite_range(const double *x, size_t n, double *lo, double *hi)
 {
     bool any = false;
 
@@ -130,7 +130,7 @@ static void
 add_column(qdot_text *out, const double *x, size_t n)
 {
     double lo = 0, hi = 0, step;
-    bool any = range_of(x, n, &lo, &hi);
+    bool any = finite_range(x, n, &lo, &hi);
     unsigned char bytes[PORTION];
     size_t used = 0;
 
@@ -162,7 +162,7 @@ add_column(qdot_text *out, const double *x, size_t n)
 /* --- what is drawn ------------------------------------------------------------------ */
 
 static void
-add_bodies(const qdot_animation *a, qdot_text *out)
+animation_add_bodies(const qdot_animation *a, qdot_text *out)
 {
     for (size_t i = 0; i < a->bodies.n; i++) {
         const qdot_animation_body *b = &a->bodies.at[i];
@@ -216,7 +216,7 @@ add_things(const qdot_animation *a, qdot_text *out)
                          i > 0 ? "," : "", kinds[a->links.at[i].kind],
                          a->links.at[i].ends[0], a->links.at[i].ends[1]);
     qdot_text_add(out, "],\n\"bodies\":[");
-    add_bodies(a, out);
+    animation_add_bodies(a, out);
 }
 
 static void
@@ -285,10 +285,10 @@ qdot_animation_section(const qdot_animation *a, qdot_text *out)
         qdot_text_add(out, ",\n");
     }
     qdot_text_format(out, "\"dimension\":%u,", a->dimension);
-    add_field(out, "t0", a->t0, 15);
-    add_field(out, "t1", a->t1, 15);
-    add_field(out, "speed", a->speed, 6);
-    add_field(out, "trail", a->trail, 6);
+    json_add_field(out, "t0", a->t0, 15);
+    json_add_field(out, "t1", a->t1, 15);
+    json_add_field(out, "speed", a->speed, 6);
+    json_add_field(out, "trail", a->trail, 6);
     qdot_text_format(out, "\"frames\":%zu", a->frames);
     add_numbers(out, "up", a->up, 3);
     qdot_text_add(out, ",\n");

@@ -60,7 +60,7 @@ says(const qdot_boxes *b, uint32_t i, const char *text)
 }
 
 static qdot_status
-finish(reader *r, qdot_box x)
+box_finish(reader *r, qdot_box x)
 {
     QDOT_TRY(qdot_vec_push(&r->to->box, x));
     return qdot_vec_push(&r->done, (uint32_t)(r->to->box.n - 1));
@@ -78,7 +78,7 @@ finish_text(reader *r, size_t from, qdot_box_role role)
         return qdot_fail(QDOT_ELIMIT, "the formula is too long to be laid out");
     x.count = (uint32_t)(t->n - from);
     x.columns = x.count > 0 ? (uint32_t)qdot_utf8_columns(t->at + from, x.count) : 0;
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 /* The characters up to the next tag, entities decoded. */
@@ -130,7 +130,7 @@ static const struct {
 
 /* Whether an operator stands where a term begins: a sign there is no sign of two. */
 static bool
-begins(const reader *r)
+term_begins(const reader *r)
 {
     const size_t first = r->open.n > 1 ? r->open.at[r->open.n - 2].children : 0;
     uint8_t role;
@@ -165,14 +165,14 @@ finish_operator(reader *r, size_t from)
 
         if (t->n == from || *sign != t->at[from] || strcmp(t->at + from, sign) != 0)
             continue;
-        if (operators[i].role == QDOT_BOX_SIGN && begins(r))
+        if (operators[i].role == QDOT_BOX_SIGN && term_begins(r))
             return finish_text(r, from, QDOT_BOX_NAME);
         qdot_text_truncate(t, from);
         qdot_text_add(t, operators[i].written);
         return finish_text(r, from, operators[i].role);
     }
     if (strcmp(t->n > from ? t->at + from : "", "|") == 0)
-        return finish_text(r, from, begins(r) ? QDOT_BOX_OPENING : QDOT_BOX_CLOSING);
+        return finish_text(r, from, term_begins(r) ? QDOT_BOX_OPENING : QDOT_BOX_CLOSING);
     return finish_text(r, from, QDOT_BOX_NAME);
 }
 
@@ -318,7 +318,7 @@ finish_row(reader *r, qdot_box x)
     for (uint32_t k = 0; k < x.count; k++)
         beside(&x, b->box.at + b->children.at[x.first + k]);
     stretch(b, &x);
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 /* ½ where there is such a character. */
@@ -347,7 +347,7 @@ finish_fraction(reader *r, qdot_box x)
     x.columns = up->columns > down->columns ? up->columns : down->columns;
     x.above = qdot_box_height(up);
     x.below = qdot_box_height(down);
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 /* The script by characters of its own, in the row of its base; *own: it has them. */
@@ -400,7 +400,7 @@ finish_script(reader *r, qdot_box x)
     x.columns = base->columns + script->columns;
     x.above = super ? base->above + qdot_box_height(script) - (base->above > 0) : base->above;
     x.below = super ? base->below : base->below + qdot_box_height(script);
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 /* A mark over the first letter: θ and ˙ become θ̇. */
@@ -437,7 +437,7 @@ finish_root(reader *r, qdot_box x)
     x.columns = under->columns + qdot_box_root_sign(under);
     x.above = under->above + 1;
     x.below = under->below;
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 /* The finished boxes of an element become its children: one row, where it wants one. */
@@ -496,7 +496,7 @@ end_element(reader *r)
         x.kind = QDOT_BOX_TABLE;
         x.across = e.across;
         QDOT_TRY(measure_table(r->to, &x));
-        return finish(r, x);
+        return box_finish(r, x);
     default: break;
     }
     if (count != 2)
@@ -558,7 +558,7 @@ read_tag(reader *r, const char **at)
 }
 
 static qdot_status
-read_all(reader *r, const char *at)
+box_read_all(reader *r, const char *at)
 {
     const element all = {.tag = MROW};
     qdot_box x = {.kind = QDOT_BOX_ROW};
@@ -574,7 +574,7 @@ read_all(reader *r, const char *at)
     QDOT_TRY(take_children(r, &all, false, &x));
     for (uint32_t k = 0; k < x.count; k++)
         beside(&x, r->to->box.at + r->to->children.at[x.first + k]);
-    return finish(r, x);
+    return box_finish(r, x);
 }
 
 qdot_status
@@ -584,7 +584,7 @@ qdot_boxes_read(const char *mathml, qdot_boxes *boxes)
     qdot_status status;
 
     *boxes = (qdot_boxes){0};
-    status = read_all(&r, mathml);
+    status = box_read_all(&r, mathml);
     qdot_free(r.open.at);
     qdot_free(r.done.at);
     qdot_text_clear(&r.spelled);

@@ -45,7 +45,7 @@ qdot_csv_fail(const char *name, const qdot_csv_place *place, const char *format,
 }
 
 static qdot_csv_place
-place_of(const reader *r, const char *at)
+csv_place_of(const reader *r, const char *at)
 {
     return (qdot_csv_place){r->number,
                             1 + qdot_utf8_columns(r->line.at, (size_t)(at - r->line.at))};
@@ -60,7 +60,7 @@ is_blank(char c)
 }
 
 static void
-strip(piece *p)
+piece_strip(piece *p)
 {
     while (p->at < p->end && is_blank(*p->at))
         p->at++;
@@ -91,19 +91,19 @@ next_cell(const reader *r, const char **at, piece *cell)
     }
     cell->end = c;
     *at = c + 1;
-    strip(cell);
+    piece_strip(cell);
     if (cell->end - cell->at > 1 && (*cell->at == '"' || *cell->at == '\'')
         && cell->end[-1] == *cell->at) {
         cell->at++;
         cell->end--;
-        strip(cell);
+        piece_strip(cell);
     }
     return true;
 }
 
 /* Whether it is written as a decimal number: 1, -.5, 2.5e-3. */
 static bool
-is_number(piece p)
+piece_is_number(piece p)
 {
     const char *c = p.at;
     size_t digits = 0;
@@ -143,7 +143,7 @@ is_no_number(piece p)
 static qdot_status
 say_cell(const reader *r, piece cell)
 {
-    const qdot_csv_place place = place_of(r, cell.at);
+    const qdot_csv_place place = csv_place_of(r, cell.at);
     const int shown = cell.end - cell.at > SHOWN ? SHOWN : (int)(cell.end - cell.at);
     piece before = {cell.at, memchr(cell.at, ',', (size_t)(cell.end - cell.at))};
     piece behind = {before.end ? before.end + 1 : cell.end, cell.end};
@@ -153,7 +153,7 @@ say_cell(const reader *r, piece cell)
         return qdot_hint("take the row out: each has a number in every column");
     }
     (void)qdot_csv_fail(r->name, &place, "`%.*s` is not a number", shown, cell.at);
-    if (before.end && is_number(before) && is_number(behind) &&
+    if (before.end && piece_is_number(before) && piece_is_number(behind) &&
         !memchr(cell.at, '.', (size_t)(cell.end - cell.at)))
         return qdot_hint("numbers have a decimal point: %.*s.%.*s", (int)(before.end - before.at),
                          before.at, (int)(behind.end - behind.at), behind.at);
@@ -171,7 +171,7 @@ read_cell(const reader *r, piece cell, double *x)
     char *own = n < sizeof buffer ? buffer : NULL, *allocated = NULL;
     qdot_csv_place place;
 
-    if (!is_number(cell))
+    if (!piece_is_number(cell))
         return say_cell(r, cell);
     if (own == NULL)
         own = allocated = qdot_malloc(n + 1);
@@ -183,7 +183,7 @@ read_cell(const reader *r, piece cell, double *x)
     qdot_free(allocated);
     if (isfinite(*x))
         return QDOT_OK;
-    place = place_of(r, cell.at);
+    place = csv_place_of(r, cell.at);
     return qdot_csv_fail(r->name, &place, "`%.*s` is too large for a double",
                          n > SHOWN ? SHOWN : (int)n, cell.at);
 }
@@ -211,7 +211,7 @@ has_number(reader *r)
 
     r->separator = find_separator(r->line);
     while (!found && next_cell(r, &at, &cell))
-        found = is_number(cell);
+        found = piece_is_number(cell);
     return found;
 }
 
@@ -225,7 +225,7 @@ read_names(reader *r)
     if (r->csv->names.n > 0)
         return QDOT_OK;
     while (next_cell(r, &at, &cell)) {
-        qdot_csv_name name = {qdot_strndup(cell.at, (size_t)(cell.end - cell.at)), place_of(r, cell.at)};
+        qdot_csv_name name = {qdot_strndup(cell.at, (size_t)(cell.end - cell.at)), csv_place_of(r, cell.at)};
 
         if (name.word == NULL || qdot_vec_push(&r->csv->names, name) != QDOT_OK) {
             qdot_free(name.word);
@@ -249,20 +249,20 @@ read_row(reader *r)
             && (r->rows == 0 || n == r->columns))
             break; /* a separator ends the line */
         if (r->rows > 0 && n == r->columns) {
-            const qdot_csv_place place = place_of(r, cell.at);
+            const qdot_csv_place place = csv_place_of(r, cell.at);
 
             return qdot_csv_fail(r->name, &place, "the row has more than the %zu numbers of the first",
                                  r->columns);
         }
         QDOT_TRY(read_cell(r, cell, &x));
         QDOT_TRY(qdot_vec_push(&r->values, x));
-        QDOT_TRY(qdot_vec_push(&r->places, place_of(r, cell.at)));
+        QDOT_TRY(qdot_vec_push(&r->places, csv_place_of(r, cell.at)));
         n++;
     }
     if (r->rows == 0)
         r->columns = n;
     if (n < r->columns) {
-        const qdot_csv_place place = place_of(r, r->line.end);
+        const qdot_csv_place place = csv_place_of(r, r->line.end);
 
         return qdot_csv_fail(r->name, &place, "the row has %zu number%s, the first has %zu", n,
                              n == 1 ? "" : "s", r->columns);
@@ -277,7 +277,7 @@ read_line(reader *r, piece line)
     r->line = line;
     for (const char *c = line.at; c < line.end; c++) {
         if (*c == '\0') {
-            const qdot_csv_place place = place_of(r, c);
+            const qdot_csv_place place = csv_place_of(r, c);
 
             return qdot_csv_fail(r->name, &place, "a byte 0: this is no text file");
         }
@@ -286,9 +286,9 @@ read_line(reader *r, piece line)
             break;
         }
     }
-    strip(&line);
+    piece_strip(&line);
     line = r->line;
-    strip(&line);
+    piece_strip(&line);
     r->line.end = line.end; /* columns count from the line's begin */
     if (line.at >= line.end)
         return QDOT_OK;

@@ -11,7 +11,7 @@ enum { EXACT = 17, CHUNK = 1 << 16 };
 /* RFC 4180, 2.5-2.7: quotes round a field that holds a comma, a quote or a line break;
  * quotes within it are doubled. A blank at either end is kept by quoting too. */
 static void
-add_field(qdot_text *line, const char *field)
+csv_add_field(qdot_text *line, const char *field)
 {
     size_t n = strlen(field);
 
@@ -36,7 +36,7 @@ put_rows(qdot_sink *sink, size_t columns, const qdot_column *column,
     for (size_t j = 0; j < columns; j++) {
         if (j > 0)
             qdot_text_char(text, ',');
-        add_field(text, column[j].label);
+        csv_add_field(text, column[j].label);
     }
     qdot_text_char(text, '\n');
     for (size_t i = 0; i < rows; i++) {
@@ -44,7 +44,7 @@ put_rows(qdot_sink *sink, size_t columns, const qdot_column *column,
             if (j > 0)
                 qdot_text_char(text, ',');
             if (texts != NULL && texts[j] != NULL)
-                add_field(text, texts[j][i]);
+                csv_add_field(text, texts[j][i]);
             else
                 qdot_text_double(text, column[j].at[i], EXACT);
         }

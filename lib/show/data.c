@@ -25,7 +25,7 @@ pass_on(qdot_sink *sink, qdot_text *text, size_t least)
 typedef qdot_status writer(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text);
 
 static qdot_status
-write_file(const qdot_data *data, int digits, writer *write, const char *path)
+data_write_file(const qdot_data *data, int digits, writer *write, const char *path)
 {
     qdot_text text = {0};
     qdot_sink sink;
@@ -109,7 +109,7 @@ write_json(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text)
 qdot_status
 qdot_data_json(const qdot_data *data, const char *path)
 {
-    return write_file(data, EXACT, write_json, path);
+    return data_write_file(data, EXACT, write_json, path);
 }
 
 /* --- HTML ------------------------------------------------------------------------------- */
@@ -186,5 +186,5 @@ write_html(const qdot_data *data, int digits, qdot_sink *sink, qdot_text *text)
 qdot_status
 qdot_data_html(const qdot_data *data, int digits, const char *path)
 {
-    return write_file(data, digits, write_html, path);
+    return data_write_file(data, digits, write_html, path);
 }

@@ -25,7 +25,7 @@ typedef struct {
 } canvas;
 
 static void
-put(canvas *c, size_t x, size_t y, uint32_t character)
+canvas_put(canvas *c, size_t x, size_t y, uint32_t character)
 {
     if (x < c->columns && y < c->rows)
         c->grid[y * c->columns + x].c = character;
@@ -53,7 +53,7 @@ draw_text(canvas *c, const char *text, size_t bytes, size_t x, size_t y)
         const uint32_t character = qdot_utf8_decode(text + i, &n);
 
         if (qdot_utf8_columns(text + i, n) > 0)
-            put(c, x++, y, character);
+            canvas_put(c, x++, y, character);
         else if (x > 0 && x - 1 < c->columns && y < c->rows)
             c->grid[y * c->columns + x - 1].mark = character;
     }
@@ -77,10 +77,10 @@ draw_bracket(canvas *c, const qdot_box *b, size_t x, size_t y)
         if (strlen(tall[i].sign) != b->count || memcmp(tall[i].sign, text, b->count) != 0)
             continue;
         for (size_t r = 0; r < height; r++)
-            put(c, x, first + r,
-                r == 0            ? tall[i].top
-                : r + 1 == height ? tall[i].bottom
-                : r == height / 2 ? tall[i].middle
+            canvas_put(c, x, first + r,
+                       r == 0            ? tall[i].top
+                       : r + 1 == height ? tall[i].bottom
+                       : r == height / 2 ? tall[i].middle
                                   : tall[i].on);
     }
 }
@@ -92,7 +92,7 @@ draw_fraction(canvas *c, const qdot_box *b, size_t x, size_t y)
     const qdot_box *up = box_at(c, of[0]), *down = box_at(c, of[1]);
 
     for (size_t i = 0; i < b->columns; i++)
-        put(c, x + i, y, 0x2500);
+        canvas_put(c, x + i, y, 0x2500);
     later(c, of[0], x + (b->columns - up->columns) / 2, y - up->below - 1);
     later(c, of[1], x + (b->columns - down->columns) / 2, y + down->above + 1);
 }
@@ -105,13 +105,13 @@ draw_root(canvas *c, const qdot_box *b, size_t x, size_t y)
     const size_t sign = qdot_box_root_sign(under), height = qdot_box_height(under);
 
     for (size_t i = height > 1 ? sign - 1 : sign; i < b->columns; i++)
-        put(c, x + i, y - under->above - 1, '_');
+        canvas_put(c, x + i, y - under->above - 1, '_');
     if (height == 1) {
-        put(c, x, y, 0x221A);
+        canvas_put(c, x, y, 0x221A);
     } else {
-        put(c, x, y + under->below, 0x2572);
+        canvas_put(c, x, y + under->below, 0x2572);
         for (size_t r = 0; r < height; r++)
-            put(c, x + 1 + r, y + under->below - r, 0x2571);
+            canvas_put(c, x + 1 + r, y + under->below - r, 0x2571);
     }
     later(c, of, x + sign, y);
 }
@@ -170,7 +170,7 @@ draw_row(canvas *c, const qdot_box *b, size_t x, size_t y)
 }
 
 static void
-draw(canvas *c, task t)
+box_draw(canvas *c, task t)
 {
     const qdot_box *b = box_at(c, t.box);
 
@@ -211,7 +211,7 @@ add_character(qdot_text *out, uint32_t c)
 
 /* Lines without the spaces at their ends; on the baseline the first columns in colour. */
 static void
-write_grid(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
+canvas_write(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdot_text *out)
 {
     for (size_t y = 0; y < c->rows; y++) {
         const cell *row = c->grid + y * c->columns;
@@ -241,8 +241,8 @@ write_grid(const canvas *c, size_t baseline, const qdot_draw_colour *colour, qdo
 
 /* Rows above and below the baseline of what stands beside each other. */
 static void
-measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
-        size_t *below)
+items_measure(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n, size_t *above,
+              size_t *below)
 {
     *above = *below = 0;
     for (size_t i = 0; i < n; i++) {
@@ -258,7 +258,7 @@ qdot_draw_height(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n)
 {
     size_t above, below;
 
-    measure(boxes, items, n, &above, &below);
+    items_measure(boxes, items, n, &above, &below);
     return above + 1 + below;
 }
 
@@ -270,7 +270,7 @@ qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n,
     size_t above, below;
     qdot_status status;
 
-    measure(boxes, items, n, &above, &below);
+    items_measure(boxes, items, n, &above, &below);
     for (size_t i = 0; i < n; i++) {
         const qdot_box *b = boxes->box.at + items[i].box;
 
@@ -286,10 +286,10 @@ qdot_draw_line(const qdot_boxes *boxes, const qdot_draw_item *items, size_t n,
     for (size_t i = 0; i < n; i++) {
         later(&c, items[i].box, items[i].x, above);
         while (c.status == QDOT_OK && c.todo.n > 0)
-            draw(&c, c.todo.at[--c.todo.n]);
+            box_draw(&c, c.todo.at[--c.todo.n]);
     }
     if (c.status == QDOT_OK)
-        write_grid(&c, above, colour, out);
+        canvas_write(&c, above, colour, out);
     *lines += c.rows;
     status = c.status;
     qdot_free(c.grid);

@@ -38,7 +38,7 @@ typedef struct {
 /* --- values ----------------------------------------------------------------------------- */
 
 static int
-operands(uint32_t op)
+operation_operands(uint32_t op)
 {
     if (op == QDOT_OP_COUNT)
         return 0;
@@ -75,7 +75,7 @@ read_tape(writer *w)
         const uint32_t args[3] = {x->x, x->y, x->z};
         value v = {.op = x->op, .truth = is_truth(x->op)};
 
-        for (int k = 0; k < operands(x->op); k++)
+        for (int k = 0; k < operation_operands(x->op); k++)
             v.args[k] = at[args[k]];
         at[x->to] = (uint32_t)w->n;
         w->values[w->n++] = v;
@@ -108,7 +108,7 @@ count_uses(writer *w)
         w->values[w->outputs[i]].uses++;
     for (size_t v = w->n; v-- > 0;)
         if (w->values[v].uses > 0)
-            for (int k = 0; k < operands(w->values[v].op); k++)
+            for (int k = 0; k < operation_operands(w->values[v].op); k++)
                 w->values[w->values[v].args[k]].uses++;
 }
 
@@ -126,7 +126,7 @@ qdot_export_number(double x, qdot_text *out)
 }
 
 static void
-operand(const writer *w, uint32_t v, int least, qdot_text *out)
+add_operand(const writer *w, uint32_t v, int least, qdot_text *out)
 {
     bool bracket = w->values[v].binds < least;
 
@@ -140,9 +140,9 @@ static void
 infix(const writer *w, uint32_t left, int least, const char *sign, uint32_t right, int right_least,
       qdot_text *out)
 {
-    operand(w, left, least, out);
+    add_operand(w, left, least, out);
     qdot_text_add(out, sign);
-    operand(w, right, right_least, out);
+    add_operand(w, right, right_least, out);
 }
 
 static int
@@ -153,11 +153,11 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
     switch (v->op) {
     case QDOT_OP_NEG:
         qdot_text_char(out, '-');
-        operand(w, a, PRODUCT, out);
+        add_operand(w, a, PRODUCT, out);
         return SUM;
     case QDOT_OP_ADD:
         if (w->values[b].op == QDOT_OP_COUNT && *w->values[b].text == '-') { /* x + (-1.0) */
-            operand(w, a, SUM, out);
+            add_operand(w, a, SUM, out);
             qdot_text_format(out, " - %s", w->values[b].text + 1);
         } else {
             infix(w, a, SUM, " + ", b, PRODUCT, out);
@@ -169,15 +169,15 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
     case QDOT_OP_MADD:
         infix(w, a, PRODUCT, "*", b, WHOLE, out);
         qdot_text_add(out, " + ");
-        operand(w, c, PRODUCT, out);
+        add_operand(w, c, PRODUCT, out);
         return SUM;
     case QDOT_OP_MSUB:
         infix(w, a, PRODUCT, "*", b, WHOLE, out);
         qdot_text_add(out, " - ");
-        operand(w, c, PRODUCT, out);
+        add_operand(w, c, PRODUCT, out);
         return SUM;
     default: /* NMADD */
-        operand(w, c, SUM, out);
+        add_operand(w, c, SUM, out);
         qdot_text_add(out, " - ");
         infix(w, a, PRODUCT, "*", b, WHOLE, out);
         return SUM;
@@ -185,7 +185,7 @@ arithmetic(const writer *w, const value *v, qdot_text *out)
 }
 
 static const char *
-form(const writer *w, const value *v)
+operation_form(const writer *w, const value *v)
 {
     uint32_t op = v->op == QDOT_OP_SINCOS ? v->second ? QDOT_OP_COS : QDOT_OP_SIN : v->op;
 
@@ -195,13 +195,13 @@ form(const writer *w, const value *v)
 static int
 write_value(const writer *w, const value *v, qdot_text *out)
 {
-    const char *text = form(w, v);
+    const char *text = operation_form(w, v);
 
     if (text == NULL)
         return arithmetic(w, v, out);
     for (; *text != '\0'; text++)
         if ((*text == '&' || *text == '#') && text[1] >= 'a' && text[1] <= 'c') {
-            operand(w, v->args[text[1] - 'a'], *text == '#' ? WHOLE : SUM, out);
+            add_operand(w, v->args[text[1] - 'a'], *text == '#' ? WHOLE : SUM, out);
             text++;
         } else {
             qdot_text_char(out, *text);
@@ -224,7 +224,7 @@ repeats(const char *text, char operand_name)
 
 /* A printf format with one text, of our own tables. */
 static void
-say(qdot_text *out, const char *format, const char *text)
+add_formatted(qdot_text *out, const char *format, const char *text)
 {
     const char *at = strstr(format, "%s");
 
@@ -238,12 +238,12 @@ declare(writer *w, const char *word, bool truth, const char *text)
 {
     qdot_text line = {0};
 
-    say(&line, truth ? w->frame->syntax->truth : w->frame->syntax->number, word);
+    add_formatted(&line, truth ? w->frame->syntax->truth : w->frame->syntax->number, word);
     if (line.failed) {
         w->out->failed = true; /* a format cut short has no place for the text */
     } else {
         qdot_text_add(w->out, w->frame->indent);
-        say(w->out, qdot_text_str(&line), text);
+        add_formatted(w->out, qdot_text_str(&line), text);
         qdot_text_char(w->out, '\n');
     }
     qdot_text_clear(&line);
@@ -251,7 +251,7 @@ declare(writer *w, const char *word, bool truth, const char *text)
 
 /* Keep the text as that of the value; or name the value and keep the name. */
 static qdot_status
-keep(writer *w, value *v, qdot_text *text, int binds, bool name)
+value_keep_text(writer *w, value *v, qdot_text *text, int binds, bool name)
 {
     char word[40];
 
@@ -306,8 +306,8 @@ mark_repeated(const writer *w, bool *must)
     for (size_t i = 0; i < w->n; i++) {
         const value *v = &w->values[i];
 
-        for (int k = 0; v->uses > 0 && k < operands(v->op); k++)
-            if (repeats(form(w, v), (char)('a' + k)))
+        for (int k = 0; v->uses > 0 && k < operation_operands(v->op); k++)
+            if (repeats(operation_form(w, v), (char)('a' + k)))
                 must[v->args[k]] = true;
     }
 }
@@ -328,7 +328,7 @@ write_values(writer *w)
         if (v->uses == 0)
             continue;
         binds = write_value(w, v, &text);
-        status = keep(w, v, &text, binds, must[i]);
+        status = value_keep_text(w, v, &text, binds, must[i]);
         qdot_text_clear(&text);
     }
     qdot_free(must);
@@ -365,7 +365,7 @@ static void
 set_target(writer *w, const char *target, const char *text)
 {
     qdot_text_add(w->out, w->frame->indent);
-    say(w->out, target, text);
+    add_formatted(w->out, target, text);
     qdot_text_char(w->out, '\n');
 }
 

@@ -133,7 +133,7 @@ names(writer *w, size_t n, const qdot_export_name *list)
 }
 
 static qdot_status
-start(writer *w)
+write_start(writer *w)
 {
     for (size_t i = 0; i < 2 * w->system->n; i++) {
         separate(w, i);
@@ -269,7 +269,7 @@ method(writer *w, const char *word, const char *indent)
 /* --- words ---------------------------------------------------------------------------------- */
 
 static bool
-is_one_of(const char *word, const char *list)
+word_is_in_list(const char *word, const char *list)
 {
     char between[40];
 
@@ -302,7 +302,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
             qdot_text_format(w->out, "%zu", counts[i].count);
             return QDOT_OK;
         }
-    if (is_one_of(word, " t0 t1 ")) {
+    if (word_is_in_list(word, " t0 t1 ")) {
         qdot_export_write_number(w, word[1] == '0' ? x->t0 : x->t1);
         return QDOT_OK;
     }
@@ -310,7 +310,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
         qdot_text_format(w->out, "%.3g", x->tol);
         return QDOT_OK;
     }
-    if (is_one_of(word, " nodes stages fifth third curve "))
+    if (word_is_in_list(word, " nodes stages fifth third curve "))
         return method(w, word, indent);
     if (strncmp(word, "event ", 6) == 0)
         return events(w, word[6]);
@@ -319,7 +319,7 @@ qdot_export_motion_word(writer *w, const char *word, const char *indent)
     return strcmp(word, "fields") == 0        ? fields(w, indent)
            : strcmp(word, "parameters") == 0  ? declare_parameters(w, indent)
            : strcmp(word, "checks") == 0      ? checks(w, indent)
-           : strcmp(word, "start") == 0       ? start(w)
+           : strcmp(word, "start") == 0       ? write_start(w)
            : strcmp(word, "coordinates") == 0 ? names(w, x->n, x->q)
            : strcmp(word, "multipliers") == 0 ? names(w, x->m, x->lambda)
            : strcmp(word, "orders") == 0      ? orders(w)

@@ -49,7 +49,7 @@ is_reserved(const qdot_export_syntax *s, const char *word)
 }
 
 static bool
-is_taken(const writer *w, size_t n, const char *word)
+word_is_taken(const writer *w, size_t n, const char *word)
 {
     for (size_t i = 0; i < n; i++)
         if (strcmp(w->words[i], word) == 0)
@@ -65,7 +65,7 @@ add_word(writer *w, size_t i, const char *name)
     qdot_status status;
 
     as_word(name, &word);
-    while (is_taken(w, i, qdot_text_str(&word)) && !word.failed)
+    while (word_is_taken(w, i, qdot_text_str(&word)) && !word.failed)
         qdot_text_char(&word, '_');
     status = qdot_text_status(&word);
     if (status == QDOT_OK && (w->words[i] = qdot_strdup(word.at)) == NULL)
@@ -98,7 +98,7 @@ add_element(writer *w, size_t i, const char *name, const char *primes, const cha
 }
 
 static qdot_status
-add_parameter(writer *w, size_t i, const char *name)
+export_add_parameter(writer *w, size_t i, const char *name)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -131,7 +131,7 @@ name_system(writer *w)
     for (size_t i = 0; i < x->m; i++)
         QDOT_TRY(add_element(w, 1 + 3 * n + i, x->lambda[i].name, "", w->syntax->multiplier, i));
     for (size_t i = 0; i < x->k; i++)
-        QDOT_TRY(add_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
+        QDOT_TRY(export_add_parameter(w, qdot_export_first_parameter(x) + i, x->parameters[i].name));
     for (size_t i = 0; i < x->s; i++)
         QDOT_TRY(add_element(w, qdot_export_first_parameter(x) + x->k + i, "side", "",
                              w->syntax->side, i));
@@ -226,7 +226,7 @@ qdot_export_write_number(const writer *w, double x)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
 static qdot_status
-arguments(writer *w, bool more)
+write_arguments(writer *w, bool more)
 {
     if (w->value->k == 0 && !more)
         qdot_text_add(w->out, w->syntax->no_argument);
@@ -293,7 +293,7 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
     else if (strcmp(word, "origin") == 0)
         return comments(w, w->system != NULL ? w->system->origin : w->value->origin);
     else if (w->system == NULL && strncmp(word, "arguments", 9) == 0)
-        return arguments(w, word[9] == ',');
+        return write_arguments(w, word[9] == ',');
     else if (w->system == NULL && strcmp(word, "code") == 0)
         return qdot_export_write_code(w, &w->value->value, indent, NULL);
     else if (w->system == NULL && strcmp(word, "shape") == 0)
@@ -306,7 +306,7 @@ common_word(writer *w, const char *word, const char *indent, bool *known)
 }
 
 static bool
-has(const writer *w, char what)
+export_has(const writer *w, char what)
 {
     const qdot_tape *tape = w->system == NULL ? w->value->value.tape : NULL;
 
@@ -327,7 +327,7 @@ has(const writer *w, char what)
 
 /* One line; a word alone in its line writes lines of its own, with its indent. */
 static qdot_status
-write_line(writer *w, const char *line, size_t n)
+export_write_line(writer *w, const char *line, size_t n)
 {
     const char *const end = line + n;
     char word[32], indent[32];
@@ -368,18 +368,18 @@ write_template(writer *w, const char *text)
 
         text += n + 1;
         while ((line[0] == '?' || line[0] == '!') && line[2] == ' ') {
-            wanted &= has(w, line[1]) == (line[0] == '?');
+            wanted &= export_has(w, line[1]) == (line[0] == '?');
             line += 3;
             n -= 3;
         }
         if (wanted)
-            QDOT_TRY(write_line(w, line, n));
+            QDOT_TRY(export_write_line(w, line, n));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-write_file(writer *w, const char *file, const char *text)
+export_write_file(writer *w, const char *file, const char *text)
 {
     qdot_status status = choose_name(w, file);
 
@@ -414,7 +414,7 @@ qdot_export_system_write(const qdot_export_system *system, qdot_export_language 
                 .inputs = qdot_export_first_parameter(system) + system->k + system->s,
                 .out = out};
 
-    return write_file(&w, system->file, w.syntax->system);
+    return export_write_file(&w, system->file, w.syntax->system);
 }
 
 qdot_status
@@ -423,6 +423,6 @@ qdot_export_expression_write(const qdot_export_expression *e, qdot_export_langua
 {
     writer w = {.syntax = languages[language], .value = e, .inputs = e->k, .out = out};
 
-    return write_file(&w, e->file,
-                      e->value.block[0].array == NULL ? w.syntax->value : w.syntax->values);
+    return export_write_file(&w, e->file,
+                             e->value.block[0].array == NULL ? w.syntax->value : w.syntax->values);
 }

@@ -296,8 +296,8 @@ add_moved(qdot_text *markup, char name, const qdot_figure_axis *a,
 
 /* The label in quotes and how it is read. */
 static void
-add_text(qdot_text *script, char name, const qdot_figure_axis *a,
-         const qdot_figure_label *label)
+axis_add_label(qdot_text *script, char name, const qdot_figure_axis *a,
+               const qdot_figure_label *label)
 {
     qdot_text markup = {0};
 
@@ -324,7 +324,7 @@ qdot_figure_add_axis_label(qdot_text *script, char name, const qdot_figure_axis 
         qdot_text_add(script, "unset ylabel\nset label 1 ");
     else
         qdot_text_format(script, "set %clabel ", name);
-    add_text(script, name, a, label);
+    axis_add_label(script, name, a, label);
     qdot_text_add(script, above         ? " at graph 0, graph 1 offset -4,0.9 left\n"
                           : name == 'x' ? " offset 0,0.5\n"
                                         : "\n");
@@ -341,7 +341,7 @@ qdot_figure_add_edge_label(qdot_text *script, int k, const qdot_figure_axis *axe
         {axes[0].least, axes[1].least, axes[2].most}};
 
     qdot_text_format(script, "set label %d ", k + 2);
-    add_text(script, "xyz"[k], &axes[k], label);
+    axis_add_label(script, "xyz"[k], &axes[k], label);
     qdot_text_add(script, " at first ");
     for (int i = 0; i < 3; i++) { /* to a thousandth of the axis */
         const double part = pow(10, floor(log10(axes[i].most - axes[i].least)) - 3);

@@ -39,7 +39,7 @@ static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static const qdot_figure_kind *
-kind_of(const char *path)
+figure_kind_of(const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot;
 
@@ -179,7 +179,7 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
         if (figure->panels[i].n == 0 && figure->panels[i].map == NULL)
             return qdot_fail(QDOT_EINVAL, "a plot needs a curve");
     if (path != NULL) {
-        d.kind = kind_of(path);
+        d.kind = figure_kind_of(path);
         if (d.kind == NULL) {
             qdot_fail(QDOT_EINVAL, "`%.200s` does not say what figure it is to be", path);
             return qdot_hint("end its name in .svg, .png or .pdf");

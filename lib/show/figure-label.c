@@ -52,7 +52,7 @@ qdot_figure_add_quoted(qdot_text *script, const char *text)
 /* --- formulas ----------------------------------------------------------------------- */
 
 static bool
-is_letter(const char *c)
+label_is_letter(const char *c)
 {
     return isalpha((unsigned char)*c) || (unsigned char)*c >= 0x80;
 }
@@ -60,7 +60,7 @@ is_letter(const char *c)
 static bool
 continues_name(const char *c)
 {
-    return is_letter(c) || isdigit((unsigned char)*c) || *c == '_';
+    return label_is_letter(c) || isdigit((unsigned char)*c) || *c == '_';
 }
 
 /* Where the bracket that opens at `open` closes; NULL if it does not. */
@@ -79,7 +79,7 @@ closing(const char *open)
 
 /* The exponent behind `^`; where it ends. */
 static const char *
-add_power(qdot_text *out, const char *c, bool markup)
+label_add_power(qdot_text *out, const char *c, bool markup)
 {
     const char *end = c;
 
@@ -88,7 +88,7 @@ add_power(qdot_text *out, const char *c, bool markup)
     else if (isdigit((unsigned char)*c))
         while (isdigit((unsigned char)*end))
             end++;
-    else if (is_letter(c))
+    else if (label_is_letter(c))
         while (continues_name(end))
             end++;
     qdot_text inner = {0};
@@ -124,7 +124,7 @@ add_subscripted(qdot_text *out, const char *text, bool letters, const char **aft
     qdot_text_add_n(out, text, (size_t)(below - text));
     if (raised) { /* above the index, which takes the room */
         qdot_text_char(out, '@');
-        *after = add_power(out, *after + 1, markup);
+        *after = label_add_power(out, *after + 1, markup);
     }
     /* of another size: gnuplot's SVG leaves out the size where it is that of the power */
     qdot_text_add(out, raised ? "_{/*0.97 " : "_{");
@@ -140,7 +140,7 @@ add_subscripted(qdot_text *out, const char *text, bool letters, const char **aft
 /* The name at `c` with its index and primes; where it ends. One or two primes stand as dots over
  * a single letter. */
 static const char *
-add_name(qdot_text *out, const char *c, bool markup)
+label_add_name(qdot_text *out, const char *c, bool markup)
 {
     qdot_text name = {0}, shown = {0}, letters = {0};
     const char *start = c, *none = "";
@@ -159,7 +159,7 @@ add_name(qdot_text *out, const char *c, bool markup)
         primes++;
     qdot_print_name(NULL, qdot_text_str(&name), QDOT_UNICODE, &shown);
     /* the letters before digits, `_` and brackets */
-    for (first = 0; qdot_text_str(&name)[first] != '\0' && is_letter(name.at + first); first++)
+    for (first = 0; qdot_text_str(&name)[first] != '\0' && label_is_letter(name.at + first); first++)
         ;
     qdot_text_add_n(&letters, qdot_text_str(&name), first);
     qdot_text_truncate(&name, 0);
@@ -183,7 +183,7 @@ add_name(qdot_text *out, const char *c, bool markup)
 
 /* 9.81, 1e-9 as 10^-9; where it ends. */
 static const char *
-add_number(qdot_text *out, const char *c, bool markup)
+label_add_number(qdot_text *out, const char *c, bool markup)
 {
     const char *start = c, *end;
 
@@ -219,16 +219,16 @@ void
 qdot_figure_add_formula(qdot_text *out, const char *formula, bool markup)
 {
     for (const char *c = formula; *c != '\0';) {
-        if (is_letter(c)) {
-            c = add_name(out, c, markup);
+        if (label_is_letter(c)) {
+            c = label_add_name(out, c, markup);
             continue;
         }
         if (isdigit((unsigned char)*c)) {
-            c = add_number(out, c, markup);
+            c = label_add_number(out, c, markup);
             continue;
         }
         if (*c == '^') {
-            c = add_power(out, c + 1, markup);
+            c = label_add_power(out, c + 1, markup);
             continue;
         }
         if (*c == '*')

@@ -35,14 +35,14 @@ typedef struct {
 } extent;
 
 static void
-widen(extent *e, int axis, double value)
+extent_widen(extent *e, int axis, double value)
 {
     e->least[axis] = e->points == 0 ? value : fmin(e->least[axis], value);
     e->most[axis] = e->points == 0 ? value : fmax(e->most[axis], value);
 }
 
 static bool
-is_inside(const qdot_figure_range *range, double value)
+range_contains(const qdot_figure_range *range, double value)
 {
     return !range->set || (value >= range->least && value <= range->most);
 }
@@ -50,7 +50,7 @@ is_inside(const qdot_figure_range *range, double value)
 /* Points beyond the range of one axis say nothing of the other; but a course is shown over all of its
  * abscissa. */
 static qdot_status
-measure(const qdot_panel *panel, extent *e)
+panel_measure(const qdot_panel *panel, extent *e)
 {
     double from = INFINITY, to = -INFINITY; /* of x, wherever y is */
 
@@ -69,16 +69,16 @@ measure(const qdot_panel *panel, extent *e)
                 QDOT_TRY(qdot_interrupt_check());
             up = up && (k == 0 || !(c->x[k] < c->x[k - 1]));
             down = down && (k == 0 || !(c->x[k] > c->x[k - 1]));
-            if (!qdot_figure_shows(panel, c, k) || !is_inside(&panel->range[0], c->x[k]))
+            if (!qdot_figure_shows(panel, c, k) || !range_contains(&panel->range[0], c->x[k]))
                 continue;
             from = fmin(from, c->x[k]);
             to = fmax(to, c->x[k]);
-            if (!is_inside(&panel->range[1], c->y[k]))
+            if (!range_contains(&panel->range[1], c->y[k]))
                 continue;
-            widen(e, 0, c->x[k]);
-            widen(e, 1, c->y[k]);
+            extent_widen(e, 0, c->x[k]);
+            extent_widen(e, 1, c->y[k]);
             if (c->z != NULL)
-                widen(e, 2, c->z[k]);
+                extent_widen(e, 2, c->z[k]);
             e->points++;
         }
         e->course = e->course && (up || down);
@@ -198,7 +198,7 @@ measure_shared(const qdot_figure *figure, size_t i, extent *e)
 {
     size_t first = i, last = i;
 
-    QDOT_TRY(measure(&figure->panels[i], e));
+    QDOT_TRY(panel_measure(&figure->panels[i], e));
     while (first > 0 && qdot_figure_is_shared(figure, first - 1))
         first--;
     while (qdot_figure_is_shared(figure, last))
@@ -208,7 +208,7 @@ measure_shared(const qdot_figure *figure, size_t i, extent *e)
 
         if (k == i)
             continue;
-        QDOT_TRY(measure(&figure->panels[k], &other));
+        QDOT_TRY(panel_measure(&figure->panels[k], &other));
         e->least[0] = fmin(e->least[0], other.least[0]);
         e->most[0] = fmax(e->most[0], other.most[0]);
         e->course = e->course && other.course;

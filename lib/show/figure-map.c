@@ -21,7 +21,7 @@ qdot_figure_map_place(const qdot_figure_map *map, int axis, size_t i)
 
 /* Half of a cell. */
 static double
-half(const qdot_figure_map *map, int axis)
+map_half_cell(const qdot_figure_map *map, int axis)
 {
     return map->n[axis] > 1
                ? (map->most[axis] - map->least[axis]) / (2 * ((double)map->n[axis] - 1))
@@ -31,8 +31,8 @@ half(const qdot_figure_map *map, int axis)
 void
 qdot_figure_map_edges(const qdot_figure_map *map, int axis, double *least, double *most)
 {
-    *least = map->least[axis] - half(map, axis);
-    *most = map->most[axis] + half(map, axis);
+    *least = map->least[axis] - map_half_cell(map, axis);
+    *most = map->most[axis] + map_half_cell(map, axis);
 }
 
 qdot_status

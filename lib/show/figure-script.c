@@ -38,7 +38,7 @@ enum {
 
 /* The points of a curve, one a line; a blank line where it is interrupted. */
 static qdot_status
-add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
+curve_add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
 {
     bool open = false;
 
@@ -65,7 +65,7 @@ add_points(qdot_text *out, const qdot_panel *panel, const qdot_curve *curve)
 
 /* All curves as data blocks $p<panel>c<curve>. */
 static qdot_status
-add_blocks(const qdot_figure_drawing *d)
+figure_add_data(const qdot_figure_drawing *d)
 {
     for (size_t i = 0; i < d->figure->n; i++) {
         if (d->figure->panels[i].map != NULL) {
@@ -75,8 +75,8 @@ add_blocks(const qdot_figure_drawing *d)
         }
         for (size_t k = 0; k < d->figure->panels[i].n; k++) {
             qdot_text_format(d->script, "$p%zuc%zu << END\n", i, k);
-            QDOT_TRY(add_points(d->script, &d->figure->panels[i],
-                                &d->figure->panels[i].curves[k]));
+            QDOT_TRY(curve_add_points(d->script, &d->figure->panels[i],
+                                      &d->figure->panels[i].curves[k]));
             qdot_text_add(d->script, "END\n");
         }
     }
@@ -106,7 +106,7 @@ qdot_figure_add_data(const qdot_figure *figure, qdot_text *out)
         }
         for (size_t k = 0; k < panel->n; k++) {
             begin_index(out, i + k == 0, panel->curves[k].label.text);
-            QDOT_TRY(add_points(out, panel, &panel->curves[k]));
+            QDOT_TRY(curve_add_points(out, panel, &panel->curves[k]));
         }
     }
     return qdot_text_status(out);
@@ -482,7 +482,7 @@ letters_left(const qdot_figure_drawing *d, double *letters)
 
 /* The axes of all panels are equally high, and begin and end at the same places. */
 static qdot_status
-place(const qdot_figure_drawing *d, size_t i, double *high)
+panel_place(const qdot_figure_drawing *d, size_t i, double *high)
 {
     const qdot_figure *f = d->figure;
     double free = d->height, top = d->height, above, below, left;
@@ -524,7 +524,7 @@ add_panel(const qdot_figure_drawing *d, size_t i)
 
     QDOT_TRY(choose_axes(d, i, axes));
     if (d->figure->n > 1 || !qdot_figure_is_space(panel))
-        QDOT_TRY(place(d, i, &high));
+        QDOT_TRY(panel_place(d, i, &high));
     add_title(d, panel);
     add_axes(d, i, axes);
     add_key(d, panel, high);
@@ -543,7 +543,7 @@ qdot_figure_add_script(const qdot_figure_drawing *d)
 {
     qdot_text_add(d->script, look);
     if (d->data == NULL)
-        QDOT_TRY(add_blocks(d));
+        QDOT_TRY(figure_add_data(d));
     qdot_text_add(d->script, d->figure->n > 1 ? "set multiplot\n" : "");
     for (size_t i = 0; i < d->figure->n; i++)
         QDOT_TRY(add_panel(d, i));

@@ -48,7 +48,7 @@ end_mark(const page *p)
 }
 
 static bool
-begins(const char *text, const char *with)
+line_begins(const char *text, const char *with)
 {
     return strncmp(text, with, strlen(with)) == 0;
 }
@@ -64,7 +64,7 @@ static qdot_status
 add_cut(page *p, const sign_row *rows, size_t n, const char *formula, size_t at)
 {
     for (size_t i = 0; i < n; i++)
-        if (begins(formula + at, rows[i].sign))
+        if (line_begins(formula + at, rows[i].sign))
             return qdot_vec_push(&p->cuts,
                                  ((cut){rows[i].kind, at, strlen(rows[i].sign)}));
     return QDOT_OK;
@@ -74,9 +74,9 @@ add_cut(page *p, const sign_row *rows, size_t n, const char *formula, size_t at)
 static int
 latex_depth(const char *at)
 {
-    if (*at == '{' || begins(at, "\\left") || begins(at, "\\begin"))
+    if (*at == '{' || line_begins(at, "\\left") || line_begins(at, "\\begin"))
         return 1;
-    return *at == '}' || begins(at, "\\right") || begins(at, "\\end") ? -1 : 0;
+    return *at == '}' || line_begins(at, "\\right") || line_begins(at, "\\end") ? -1 : 0;
 }
 
 static qdot_status
@@ -120,7 +120,7 @@ mathml_cuts(page *p, const char *formula, size_t n)
         if (depth == 0 && operand)
             QDOT_TRY(add_cut(p, rows, sizeof rows / sizeof *rows, formula, i));
         if (depth == 0)
-            operand = !begins(formula + i, "<mo>");
+            operand = !line_begins(formula + i, "<mo>");
         depth++;
     }
     return QDOT_OK;
@@ -185,7 +185,7 @@ mathml_width(const char *at, size_t n)
             while (i < n && at[i] != '>')
                 i++;
         } else if (at[i] == '&') {
-            width += !begins(at + i, "&#x206");
+            width += !line_begins(at + i, "&#x206");
             while (i < n && at[i] != ';')
                 i++;
         } else {
@@ -196,7 +196,7 @@ mathml_width(const char *at, size_t n)
 }
 
 static size_t
-width(const page *p, const char *at, size_t n)
+formula_width(const page *p, const char *at, size_t n)
 {
     return p->kind == LATEX ? latex_width(at, n) : mathml_width(at, n);
 }
@@ -273,7 +273,7 @@ mathml_row(page *p, const row *r)
 }
 
 static void
-add_row(page *p, const row *r)
+page_add_row(page *p, const row *r)
 {
     if (p->kind == LATEX)
         latex_row(p, r);
@@ -296,17 +296,17 @@ end_block(page *p)
 static void
 add_lines(page *p, const char *formula, size_t from, size_t to, row r, size_t k)
 {
-    size_t taken = r.left_n > 0 ? width(p, r.left, r.left_n) : 0;
+    size_t taken = r.left_n > 0 ? formula_width(p, r.left, r.left_n) : 0;
 
     for (size_t best = SIZE_MAX; from < to; best = SIZE_MAX) {
         size_t end = to;
 
-        if (taken + width(p, formula + from, to - from) > LINE) {
+        if (taken + formula_width(p, formula + from, to - from) > LINE) {
             for (; k < p->cuts.n && p->cuts.at[k].at < to; k++) {
                 if (p->cuts.at[k].kind != SIGN || p->cuts.at[k].at <= from)
                     continue;
                 if (best != SIZE_MAX &&
-                    taken + width(p, formula + from, p->cuts.at[k].at - from) > LINE)
+                    taken + formula_width(p, formula + from, p->cuts.at[k].at - from) > LINE)
                     break;
                 best = k;
             }
@@ -315,7 +315,7 @@ add_lines(page *p, const char *formula, size_t from, size_t to, row r, size_t k)
         }
         r.right = formula + from;
         r.right_n = end - from;
-        add_row(p, &r);
+        page_add_row(p, &r);
         if (end == to)
             return;
         r = (row){.left = "",
@@ -365,7 +365,7 @@ add_formula(page *p, const char *formula, size_t n)
     }
     r.sign = formula + p->cuts.at[relation].at;
     r.sign_n = p->cuts.at[relation].n;
-    if (width(p, formula + from, p->cuts.at[relation].at - from) > LINE / 2) {
+    if (formula_width(p, formula + from, p->cuts.at[relation].at - from) > LINE / 2) {
         add_lines(p, formula, from, p->cuts.at[relation].at, (row){.left = ""}, k);
     } else {
         r.left = formula + from;
@@ -443,11 +443,11 @@ heading(const char *line, size_t n)
 {
     size_t digits = strspn(line, "0123456789");
 
-    return digits > 0 && digits + 2 < n && begins(line + digits, ". ") ? digits + 2 : 0;
+    return digits > 0 && digits + 2 < n && line_begins(line + digits, ". ") ? digits + 2 : 0;
 }
 
 static void
-add_text(page *p, const char *line, size_t n)
+page_add_text(page *p, const char *line, size_t n)
 {
     const char *const end = line + n;
     const size_t blanks = strspn(line, " ");
@@ -489,7 +489,7 @@ add_words(page *p, const char *words, size_t n)
 }
 
 static qdot_status
-add_line(page *p, const char *line, size_t n)
+page_add_line(page *p, const char *line, size_t n)
 {
     const size_t blanks = strspn(line, " "), mark = strlen(begin_mark(p));
     const char *formula;
@@ -499,12 +499,12 @@ add_line(page *p, const char *line, size_t n)
     if (formula == line + blanks && blanks + size == n)
         return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
     if (formula != NULL && blanks > 0 && formula + size == line + n &&
-        begins(formula - 2, ": ")) {
+        line_begins(formula - 2, ": ")) {
         add_words(p, line + blanks, (size_t)(formula - line) - blanks - 1);
         return add_formula(p, formula + mark, size - mark - strlen(end_mark(p)));
     }
     if (blanks < n)
-        add_text(p, line, n);
+        page_add_text(p, line, n);
     else
         end_block(p);
     return QDOT_OK;
@@ -519,7 +519,7 @@ add_answers(page_kind kind, const char *answers, qdot_text *out)
     while (*answers != '\0' && status == QDOT_OK) {
         size_t n = strcspn(answers, "\n");
 
-        status = add_line(&p, answers, n);
+        status = page_add_line(&p, answers, n);
         answers += n + (answers[n] == '\n');
     }
     end_block(&p);

@@ -120,14 +120,14 @@ spawn_with(pid_t *child, const plumbing *p, posix_spawn_file_actions_t *actions,
 }
 
 static qdot_status
-missing(void)
+gnuplot_missing(void)
 {
     qdot_fail(QDOT_EIO, "figures are drawn by gnuplot, which is not installed");
     return qdot_hint("apt install gnuplot-nox");
 }
 
 static qdot_status
-start(pid_t *child, const plumbing *p)
+gnuplot_start(pid_t *child, const plumbing *p)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -144,7 +144,7 @@ start(pid_t *child, const plumbing *p)
     if (failed == 0)
         return QDOT_OK;
     if (failed == ENOENT)
-        return missing();
+        return gnuplot_missing();
     errno = failed;
     return broken("start gnuplot");
 }
@@ -170,7 +170,7 @@ drain(int fd, qdot_text *out)
 
 /* Wait; the raw status, 0 where someone else has reaped the child. */
 static int
-finish(pid_t child, bool stop)
+gnuplot_finish(pid_t child, bool stop)
 {
     int status = 0;
 
@@ -214,7 +214,7 @@ complain(int said, int ended)
             line = found;
     }
     if (found == NULL && WIFEXITED(ended) && WEXITSTATUS(ended) == 127)
-        status = missing();
+        status = gnuplot_missing();
     else
         status = qdot_fail(QDOT_EIO, "gnuplot failed: %.300s", line);
     qdot_text_clear(&all);
@@ -233,7 +233,7 @@ qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
     QDOT_TRY(qdot_text_status(script));
     status = plumb(&p, script, image != NULL);
     if (status == QDOT_OK)
-        status = start(&child, &p);
+        status = gnuplot_start(&child, &p);
     if (status != QDOT_OK) {
         qdot_error first = *qdot_last_error();
 
@@ -244,7 +244,7 @@ qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
     p.fd[OUT] = -1;
     if (image != NULL)
         status = drain(p.from, image);
-    ended = finish(child, status != QDOT_OK);
+    ended = gnuplot_finish(child, status != QDOT_OK);
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))

@@ -30,7 +30,7 @@ strange(const file *f)
 }
 
 static uint64_t
-number(const unsigned char *at, int bytes)
+read_little_endian(const unsigned char *at, int bytes)
 {
     uint64_t x = 0;
 
@@ -41,7 +41,7 @@ number(const unsigned char *at, int bytes)
 
 /* The bytes of a regular file (a pipe would be waited for, a device may have no end); Ctrl-C is heard between blocks. */
 static qdot_status
-load(const char *path, qdot_text *out)
+hdf5_load(const char *path, qdot_text *out)
 {
     enum { BLOCK = 1 << 24 };
     qdot_status status = QDOT_OK;
@@ -85,7 +85,7 @@ open_object(const file *f, uint64_t address, messages *m)
 
     if (address > f->n || f->n - address < 10 || memcmp(f->at + address, "OHDR\2\2", 6) != 0)
         return strange(f);
-    n = number(f->at + address + 6, 4);
+    n = read_little_endian(f->at + address + 6, 4);
     if (n > f->n - address - 10)
         return strange(f);
     *m = (messages){.at = f->at + address + 10};
@@ -94,12 +94,12 @@ open_object(const file *f, uint64_t address, messages *m)
 }
 
 static bool
-next(messages *m)
+messages_next(messages *m)
 {
     if (m->end - m->at < HEAD)
         return false;
     m->type = m->at[0];
-    m->size = (size_t)number(m->at + 1, 2);
+    m->size = (size_t)read_little_endian(m->at + 1, 2);
     m->body = m->at + HEAD;
     if ((size_t)(m->end - m->body) < m->size)
         return false;
@@ -125,15 +125,15 @@ read_column(const file *f, uint64_t address, const unsigned char *name, size_t l
     c.label[length] = '\0';
     QDOT_TRY(qdot_vec_push(&out->at, c));
     QDOT_TRY(open_object(f, address, &m));
-    while (next(&m)) {
+    while (messages_next(&m)) {
         if (m.type == DATASPACE && m.size == 12)
-            rows = number(m.body + 4, 8);
+            rows = read_little_endian(m.body + 4, 8);
         if (m.type == DATATYPE && m.size >= 8) {
             texts = m.body[0] == 0x13;
-            size = number(m.body + 4, 4);
+            size = read_little_endian(m.body + 4, 4);
         }
         if (m.type == LAYOUT && m.size == 18)
-            where = number(m.body + 2, 8);
+            where = read_little_endian(m.body + 2, 8);
     }
     if (size == 0 || (out->at.n > 1 && rows != out->rows) || (!texts && size != 8)
         || (rows > 0 && (where > f->n || rows > (f->n - where) / size)))
@@ -160,17 +160,17 @@ take_message(const file *f, const messages *m, qdot_data_columns *out)
     size_t name, type;
 
     if (m->type == LINK && m->size > 13) {
-        name = (size_t)number(b + 3, 2);
+        name = (size_t)read_little_endian(b + 3, 2);
         if (m->size != 13 + name)
             return strange(f);
         if (name == strlen("parameters") && memcmp(b + 5, "parameters", name) == 0)
             return QDOT_OK;
-        return read_column(f, number(b + 5 + name, 8), b + 5, name, out);
+        return read_column(f, read_little_endian(b + 5 + name, 8), b + 5, name, out);
     }
     if (m->type != ATTRIBUTE || m->size < 9)
         return QDOT_OK;
-    name = (size_t)number(b + 2, 2);
-    type = (size_t)number(b + 4, 2);
+    name = (size_t)read_little_endian(b + 2, 2);
+    type = (size_t)read_little_endian(b + 4, 2);
     if (name == 0 || 9 + name + type + 4 > m->size || b[9 + name - 1] != '\0')
         return strange(f);
     if (strcmp((const char *)b + 9, out->fact) == 0 && m->body[m->size - 1] == '\0')
@@ -182,18 +182,18 @@ qdot_status
 qdot_data_read_hdf5(const char *path, const char *fact, qdot_data_columns *out)
 {
     qdot_text bytes = {0};
-    qdot_status status = load(path, &bytes);
+    qdot_status status = hdf5_load(path, &bytes);
     const file f = {path, (const unsigned char *)bytes.at, bytes.n};
     messages m = {0};
 
     out->fact = fact;
     if (status == QDOT_OK
         && (f.n < SUPERBLOCK || memcmp(f.at, "\211HDF\r\n\032\n\2\10\10", 11) != 0
-            || number(f.at + 28, 8) > f.n))
+            || read_little_endian(f.at + 28, 8) > f.n))
         status = strange(&f);
     if (status == QDOT_OK)
-        status = open_object(&f, number(f.at + 36, 8), &m);
-    while (status == QDOT_OK && next(&m))
+        status = open_object(&f, read_little_endian(f.at + 36, 8), &m);
+    while (status == QDOT_OK && messages_next(&m))
         status = take_message(&f, &m, out);
     qdot_text_clear(&bytes);
     return status;
@@ -214,7 +214,7 @@ qdot_data_columns_clear(qdot_data_columns *c)
 double
 qdot_data_read_number(const qdot_data_read_column *c, size_t row)
 {
-    const uint64_t bits = number((const unsigned char *)c->bytes + 8 * row, 8);
+    const uint64_t bits = read_little_endian((const unsigned char *)c->bytes + 8 * row, 8);
     double x;
 
     memcpy(&x, &bits, sizeof x);

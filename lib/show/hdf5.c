@@ -49,7 +49,7 @@ real(qdot_text *out, double x)
 }
 
 static uint32_t
-turn(uint32_t x, int k)
+rotate_left(uint32_t x, int k)
 {
     return x << k | x >> (32 - k);
 }
@@ -75,25 +75,25 @@ checksum(const char *text, size_t n)
         a += word(key, 4);
         b += word(key + 4, 4);
         c += word(key + 8, 4);
-        a -= c, a ^= turn(c, 4), c += b;
-        b -= a, b ^= turn(a, 6), a += c;
-        c -= b, c ^= turn(b, 8), b += a;
-        a -= c, a ^= turn(c, 16), c += b;
-        b -= a, b ^= turn(a, 19), a += c;
-        c -= b, c ^= turn(b, 4), b += a;
+        a -= c, a ^= rotate_left(c, 4), c += b;
+        b -= a, b ^= rotate_left(a, 6), a += c;
+        c -= b, c ^= rotate_left(b, 8), b += a;
+        a -= c, a ^= rotate_left(c, 16), c += b;
+        b -= a, b ^= rotate_left(a, 19), a += c;
+        c -= b, c ^= rotate_left(b, 4), b += a;
     }
     if (n == 0)
         return c;
     a += word(key, n);
     b += n > 4 ? word(key + 4, n - 4) : 0;
     c += n > 8 ? word(key + 8, n - 8) : 0;
-    c ^= b, c -= turn(b, 14);
-    a ^= c, a -= turn(c, 11);
-    b ^= a, b -= turn(a, 25);
-    c ^= b, c -= turn(b, 16);
-    a ^= c, a -= turn(c, 4);
-    b ^= a, b -= turn(a, 14);
-    c ^= b, c -= turn(b, 24);
+    c ^= b, c -= rotate_left(b, 14);
+    a ^= c, a -= rotate_left(c, 11);
+    b ^= a, b -= rotate_left(a, 25);
+    c ^= b, c -= rotate_left(b, 16);
+    a ^= c, a -= rotate_left(c, 4);
+    b ^= a, b -= rotate_left(a, 14);
+    c ^= b, c -= rotate_left(b, 24);
     return c;
 }
 
@@ -271,7 +271,7 @@ typedef struct {
 
 /* The messages of the root: facts, links to the parameters and to the columns. */
 static void
-root(const qdot_data *data, const places *at, qdot_text *messages)
+hdf5_add_root(const qdot_data *data, const places *at, qdot_text *messages)
 {
     qdot_text name = {0};
 
@@ -339,7 +339,7 @@ headers(const qdot_data *data, qdot_text *out)
     group(&parameters);
     for (size_t i = 0; i < data->n_parameters; i++)
         attribute(&parameters, &data->parameters[i]);
-    root(data, &at, &messages);
+    hdf5_add_root(data, &at, &messages);
     at.parameters = SUPERBLOCK + OBJECT + messages.n;
     at.headers = at.parameters + OBJECT + parameters.n;
     failed |= column_headers(data, &at, columns, NULL);
@@ -348,7 +348,7 @@ headers(const qdot_data *data, qdot_text *out)
     at.columns = columns;
     qdot_text_truncate(&messages, 0);
     superblock(at.end, out);
-    root(data, &at, &messages);
+    hdf5_add_root(data, &at, &messages);
     object(out, &messages);
     object(out, &parameters);
     failed |= messages.failed || parameters.failed;

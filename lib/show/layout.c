@@ -42,7 +42,7 @@ box_of(const layout *l, uint32_t box)
 
 /* What is pushed last stands first. */
 static void
-push(layout *l, uint32_t box, uint32_t depth)
+layout_push(layout *l, uint32_t box, uint32_t depth)
 {
     const item x = {box, depth};
 
@@ -64,7 +64,7 @@ push_text(layout *l, const char *text, qdot_box_role role, uint32_t depth)
     if (l->status == QDOT_OK)
         l->status = qdot_vec_push(&l->boxes.box, x);
     if (l->status == QDOT_OK)
-        push(l, (uint32_t)(l->boxes.box.n - 1), depth);
+        layout_push(l, (uint32_t)(l->boxes.box.n - 1), depth);
 }
 
 /* In brackets, unless it is a name. */
@@ -75,14 +75,14 @@ push_bracketed(layout *l, uint32_t box, uint32_t depth)
 
     if (!name)
         push_text(l, ")", QDOT_BOX_CLOSING, depth);
-    push(l, box, depth + !name);
+    layout_push(l, box, depth + !name);
     if (!name)
         push_text(l, "(", QDOT_BOX_OPENING, depth);
 }
 
 /* Its brackets are those of a line. */
 static void
-push_row(layout *l, const qdot_box *row, uint32_t depth)
+layout_push_row(layout *l, const qdot_box *row, uint32_t depth)
 {
     uint32_t inside = 0;
 
@@ -96,7 +96,7 @@ push_row(layout *l, const qdot_box *row, uint32_t depth)
             x->above = x->below = 0;
             inside = x->role == QDOT_BOX_CLOSING;
         }
-        push(l, child, depth + (bracket ? 0 : inside));
+        layout_push(l, child, depth + (bracket ? 0 : inside));
     }
 }
 
@@ -104,7 +104,7 @@ static void
 push_table(layout *l, const qdot_box *table, uint32_t depth)
 {
     for (uint32_t k = table->count; k-- > 0;) {
-        push(l, l->boxes.children.at[table->first + k], depth);
+        layout_push(l, l->boxes.children.at[table->first + k], depth);
         if (k > 0)
             push_text(l, k % table->across > 0 ? ", " : ";",
                       k % table->across > 0 ? QDOT_BOX_COMMA : QDOT_BOX_END, depth);
@@ -117,7 +117,7 @@ push_parts(layout *l, qdot_box x, uint32_t depth)
     const uint32_t *of = l->boxes.children.at + x.first;
 
     switch (x.kind) {
-    case QDOT_BOX_ROW: push_row(l, &x, depth); break;
+    case QDOT_BOX_ROW: layout_push_row(l, &x, depth); break;
     case QDOT_BOX_TABLE: push_table(l, &x, depth); break;
     case QDOT_BOX_ROOT:
         push_bracketed(l, of[0], depth);
@@ -169,13 +169,13 @@ is_drawn(const layout *l, const qdot_box *b)
 /* The formula as boxes that fit into a line. What is drawn may have all of it but the usual
  * indent. */
 static qdot_status
-take_apart(layout *l)
+layout_split_formula(layout *l)
 {
     const uint32_t all = (uint32_t)(l->boxes.box.n - 1);
 
     l->indent = indent_of(l);
 
-    push_row(l, box_of(l, all), 0);
+    layout_push_row(l, box_of(l, all), 0);
     while (l->status == QDOT_OK && l->todo.n > 0) {
         const item x = l->todo.at[--l->todo.n];
         const qdot_box *b = box_of(l, x.box);
@@ -315,7 +315,7 @@ count_relations(layout *l)
 
 /* One line, items [from, end) from column x on; only counted if enough are drawn. */
 static qdot_status
-write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
+layout_write_line(layout *l, size_t from, size_t end, size_t x, qdot_text *out, qdot_layout_size *size)
 {
     qdot_draw_colour colour = {.code = l->request->paint, .end = l->request->end};
 
@@ -346,7 +346,7 @@ write_lines(layout *l, qdot_text *out, qdot_layout_size *size)
         if (from > 0)
             QDOT_TRY(trim_first(l, from));
         end = end_of_line(l, from, x);
-        QDOT_TRY(write_line(l, from, end, x, out, size));
+        QDOT_TRY(layout_write_line(l, from, end, x, out, size));
     }
     return QDOT_OK;
 }
@@ -360,7 +360,7 @@ qdot_layout_part(const char *mathml, const qdot_layout_request *request, qdot_te
     qdot_status status = qdot_boxes_read(mathml, &l.boxes);
 
     if (status == QDOT_OK)
-        status = take_apart(&l);
+        status = layout_split_formula(&l);
     count_labels(&l);
     count_relations(&l);
     if (status == QDOT_OK)

@@ -41,7 +41,7 @@ down(const frame *f, double y)
 /* --- parts of a figure -------------------------------------------------------------- */
 
 static void
-begin(qdot_text *out, int height, const char *caption, const char *behind)
+svg_begin(qdot_text *out, int height, const char *caption, const char *behind)
 {
     qdot_text_format(out,
                      "<figure>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"",
@@ -51,7 +51,7 @@ begin(qdot_text *out, int height, const char *caption, const char *behind)
 }
 
 static void
-end(qdot_text *out, const char *caption, const char *behind)
+svg_end(qdot_text *out, const char *caption, const char *behind)
 {
     qdot_text_add(out, "</svg>\n<figcaption>");
     qdot_animation_escape(out, caption);
@@ -123,7 +123,7 @@ nice_step(double span, double most)
 }
 
 static void
-add_number(qdot_text *out, double x, double step)
+svg_add_number(qdot_text *out, double x, double step)
 {
     if (x <= -1e-6 * step)
         qdot_text_add(out, "\u2212");
@@ -139,11 +139,11 @@ add_axes(qdot_text *out, const frame *f)
 
     for (double k = ceil(lo / dx - 1e-9); k * dx <= hi + 1e-9 * dx; k++) {
         grid_x(out, f, k * dx);
-        add_number(out, k * dx, dx);
+        svg_add_number(out, k * dx, dx);
     }
     for (double k = ceil(f->y0 / dy - 1e-9); k * dy <= f->y1 + 1e-9 * dy; k++) {
         grid_y(out, f, k * dy);
-        add_number(out, k * dy, dy);
+        svg_add_number(out, k * dy, dy);
     }
 }
 
@@ -206,7 +206,7 @@ qdot_page_courses(qdot_text *out, const char *name, size_t n,
 
     if (n == 0 || !find_ranges(n, list, &f))
         return;
-    begin(out, n > 1 ? LOW + KEY : LOW, name, " against t");
+    svg_begin(out, n > 1 ? LOW + KEY : LOW, name, " against t");
     add_axes(out, &f);
     if (n == 1)
         add_course(out, &f, &list[0]);
@@ -219,7 +219,7 @@ qdot_page_courses(qdot_text *out, const char *name, size_t n,
         add_key(out, x + 32, key, list[i].label);
         qdot_text_add(out, "</g>\n");
     }
-    end(out, name, " against t");
+    svg_end(out, name, " against t");
 }
 
 /* --- logarithmic axes --------------------------------------------------------------- */
@@ -252,7 +252,7 @@ find_decades(size_t n, const qdot_page_points *list, frame *f)
 }
 
 static void
-add_power(qdot_text *out, double exponent)
+svg_add_power(qdot_text *out, double exponent)
 {
     qdot_text_format(out, "10<tspan dy=\"-5\" font-size=\"9\">%s%.0f</tspan></text>",
                      exponent < 0 ? "\u2212" : "", fabs(exponent));
@@ -266,11 +266,11 @@ add_decades(qdot_text *out, const frame *f, const char *x, const char *y)
 
     for (double k = f->x0; k <= f->x1; k += dx) {
         grid_x(out, f, k);
-        add_power(out, k);
+        svg_add_power(out, k);
     }
     for (double k = f->y0; k <= f->y1; k += dy) {
         grid_y(out, f, k);
-        add_power(out, k);
+        svg_add_power(out, k);
     }
     qdot_text_format(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">",
                      (LEFT + WIDE - RIGHT) / 2, f->bottom + 36);
@@ -284,7 +284,7 @@ add_decades(qdot_text *out, const frame *f, const char *x, const char *y)
 }
 
 static void
-add_points(qdot_text *out, const frame *f, const qdot_page_points *p, size_t i, size_t n)
+svg_add_points(qdot_text *out, const frame *f, const qdot_page_points *p, size_t i, size_t n)
 {
     const double key = key_at(i, n);
     bool open = false;
@@ -313,9 +313,9 @@ qdot_page_log_log(qdot_text *out, const char *caption, const char *x, const char
 
     if (!find_decades(n, list, &f))
         return;
-    begin(out, TALL, caption, "");
+    svg_begin(out, TALL, caption, "");
     add_decades(out, &f, x, y);
     for (size_t i = 0; i < n; i++)
-        add_points(out, &f, &list[i], i, n);
-    end(out, caption, "");
+        svg_add_points(out, &f, &list[i], i, n);
+    svg_end(out, caption, "");
 }

@@ -52,20 +52,20 @@ escape_n(qdot_text *out, const char *text, size_t n)
 }
 
 static bool
-begins(const char *text, const char *with)
+text_begins(const char *text, const char *with)
 {
     return strncmp(text, with, strlen(with)) == 0;
 }
 
 /* The operator before which a formula may be divided; its length, 0: none. */
 static size_t
-divides(const char *at)
+break_before(const char *at)
 {
     static const char *const operators[] = {"<mo>=</mo>", "<mo>+</mo>",
                                             "<mo>\u2212</mo>"};
 
     for (size_t i = 0; i < sizeof operators / sizeof *operators; i++)
-        if (begins(at, operators[i]))
+        if (text_begins(at, operators[i]))
             return strlen(operators[i]);
     return 0;
 }
@@ -85,7 +85,7 @@ add_formula(qdot_text *out, const char *at, size_t n)
     qdot_text_add(out, "<math>");
     while (at < end) {
         const char *close = memchr(at, '>', (size_t)(end - at));
-        size_t mark = depth == 0 && operand ? divides(at) : 0;
+        size_t mark = depth == 0 && operand ? break_before(at) : 0;
 
         if (mark > 0) {
             /* the blank is the room before it */

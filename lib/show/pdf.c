@@ -50,7 +50,7 @@ make_folder(qdot_text *folder)
 
 /* Start the first browser that there is, silent, with SIGINT as usual. */
 static qdot_status
-start(char *const arguments[], pid_t *child)
+browser_start(char *const arguments[], pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome",
                                         "chrome"};
@@ -112,7 +112,7 @@ wait_for(pid_t child)
 
 /* The file that the browser wrote becomes the report. */
 static qdot_status
-copy(const char *from, const char *path)
+report_copy(const char *from, const char *path)
 {
     FILE *file = fopen(from, "rbe");
     qdot_text bytes = {0};
@@ -162,11 +162,11 @@ print_in(const char *folder, const char *path)
     arguments[n++] = page.at;
     arguments[n] = NULL;
     if (status == QDOT_OK)
-        status = start(arguments, &child);
+        status = browser_start(arguments, &child);
     if (status == QDOT_OK)
         status = wait_for(child);
     if (status == QDOT_OK)
-        status = copy(strchr(output.at, '=') + 1, path);
+        status = report_copy(strchr(output.at, '=') + 1, path);
     qdot_text_clear(&profile);
     qdot_text_clear(&output);
     qdot_text_clear(&page);

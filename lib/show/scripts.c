@@ -10,7 +10,7 @@ static const char begin[] = "<msup>", end[] = "</msup>", row[] = "<mrow>",
                   index_end[] = "</msub>";
 
 static bool
-begins(const char *at, const char *stop, const char *with)
+tag_begins(const char *at, const char *stop, const char *with)
 {
     const size_t n = strlen(with);
 
@@ -19,10 +19,10 @@ begins(const char *at, const char *stop, const char *with)
 
 /* Behind the element whose begin, a tag such as <msub>, stands before `at`; NULL: it does not end. */
 static const char *
-behind(const char *at, const char *stop, const char *opens, const char *closes)
+behind_element(const char *at, const char *stop, const char *opens, const char *closes)
 {
     for (int depth = 1; at < stop; at++) {
-        depth += begins(at, stop, opens) ? 1 : begins(at, stop, closes) ? -1 : 0;
+        depth += tag_begins(at, stop, opens) ? 1 : tag_begins(at, stop, closes) ? -1 : 0;
         if (depth == 0)
             return at + strlen(closes);
     }
@@ -40,19 +40,19 @@ find_raised(const char *at, const char *stop, raised *r)
 {
     bool in_row;
 
-    if (!begins(at, stop, begin))
+    if (!tag_begins(at, stop, begin))
         return false;
     at += sizeof begin - 1;
-    in_row = begins(at, stop, row);
+    in_row = tag_begins(at, stop, row);
     at += in_row ? sizeof row - 1 : 0;
-    if (!begins(at, stop, index_begin))
+    if (!tag_begins(at, stop, index_begin))
         return false;
     r->base = at + sizeof index_begin - 1;
-    r->index = behind(r->base, stop, index_begin, index_end);
-    if (r->index == NULL || (in_row && !begins(r->index, stop, end_row)))
+    r->index = behind_element(r->base, stop, index_begin, index_end);
+    if (r->index == NULL || (in_row && !tag_begins(r->index, stop, end_row)))
         return false;
     r->power = r->index + (in_row ? sizeof end_row - 1 : 0);
-    r->after = behind(r->power, stop, begin, end);
+    r->after = behind_element(r->power, stop, begin, end);
     return r->after != NULL;
 }
 
@@ -63,17 +63,17 @@ static const char opening[] = "<mo>(</mo>", closing[] = "<mo>)</mo>",
 
 /* Whether the bracket at `at` is about nothing higher than a line. */
 static bool
-is_flat(const char *at, const char *stop)
+bracket_is_flat(const char *at, const char *stop)
 {
     static const char *const high[] = {"<mfrac", "<mtable", "<msqrt", "<mroot", "<munder"};
     int depth = 0;
 
     for (; at < stop; at++) {
-        depth += begins(at, stop, opening) ? 1 : begins(at, stop, closing) ? -1 : 0;
+        depth += tag_begins(at, stop, opening) ? 1 : tag_begins(at, stop, closing) ? -1 : 0;
         if (depth == 0)
             return true;
         for (size_t i = 0; i < sizeof high / sizeof *high; i++)
-            if (begins(at, stop, high[i]))
+            if (tag_begins(at, stop, high[i]))
                 return false;
     }
     return false;
@@ -84,19 +84,19 @@ static bool
 is_applied(const char *at, const char *stop)
 {
     static const char power[] = "<msup><mrow><mi>", name[] = "<mi>";
-    const bool raised = begins(at, stop, power);
+    const bool raised = tag_begins(at, stop, power);
     const char *end_of_name;
 
-    if (!raised && !begins(at, stop, name))
+    if (!raised && !tag_begins(at, stop, name))
         return false;
     at += raised ? sizeof power - 1 : sizeof name - 1;
     end_of_name = memchr(at, '<', (size_t)(stop - at));
     if (end_of_name == NULL || end_of_name - at < 2 || *at < 'a' || *at > 'z')
         return false;
     if (!raised)
-        return begins(end_of_name, stop, "</mi><mo>&#x2061;</mo>");
-    at = behind(end_of_name, stop, begin, end);
-    return at != NULL && begins(at, stop, apply);
+        return tag_begins(end_of_name, stop, "</mi><mo>&#x2061;</mo>");
+    at = behind_element(end_of_name, stop, begin, end);
+    return at != NULL && tag_begins(at, stop, apply);
 }
 
 void
@@ -107,17 +107,17 @@ qdot_page_add_mathml(qdot_text *out, const char *mathml, size_t n)
     raised r;
 
     while (at < stop) {
-        const bool opens = begins(at, stop, opening);
+        const bool opens = tag_begins(at, stop, opening);
 
-        if (opens || begins(at, stop, closing)) {
+        if (opens || tag_begins(at, stop, closing)) {
             if (opens)
-                flat = flat << 1 | is_flat(at, stop);
+                flat = flat << 1 | bracket_is_flat(at, stop);
             qdot_text_add(out, flat & 1 ? "<mo stretchy=\"false\">" : "<mo>");
             qdot_text_add(out, opens ? "(</mo>" : ")</mo>");
             if (!opens)
                 flat >>= 1;
             at += sizeof opening - 1;
-        } else if (begins(at, stop, times) &&
+        } else if (tag_begins(at, stop, times) &&
                    is_applied(at + sizeof times - 1, stop)) {
             qdot_text_add(out, times);
             qdot_text_add(out, "<mspace width=\"0.17em\"></mspace>");

@@ -89,7 +89,7 @@ create_beside(qdot_sink *sink, const struct stat *old)
 }
 
 static void
-forget(qdot_sink *sink)
+sink_forget_names(qdot_sink *sink)
 {
     qdot_free(sink->beside);
     qdot_free(sink->place);
@@ -147,7 +147,7 @@ qdot_sink_close(qdot_sink *sink)
     status = reason == 0 ? QDOT_OK : lost(sink, reason);
     if (reason != 0 && sink->beside != NULL)
         (void)unlink(sink->beside);
-    forget(sink);
+    sink_forget_names(sink);
     return status;
 }
 
@@ -159,7 +159,7 @@ qdot_sink_abandon(qdot_sink *sink)
     if (sink->file != NULL && sink->beside != NULL)
         (void)unlink(sink->beside);
     sink->file = NULL;
-    forget(sink);
+    sink_forget_names(sink);
 }
 
 qdot_status

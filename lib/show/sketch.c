@@ -25,7 +25,7 @@ static const char dashes[LOOKS][DASHES + 1] = {"********", "*****   ", "*   *   
 
 /* Dot (x, y), y from above, unless it falls into a gap. */
 static void
-put(grid *g, double x, double y)
+grid_put(grid *g, double x, double y)
 {
     static const unsigned char bits[DOWN][ACROSS] = {
         {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
@@ -44,7 +44,7 @@ put(grid *g, double x, double y)
 
 /* A path in space is seen from in front, to the right and above. */
 static void
-place(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
+grid_place(const qdot_figure_view *v, const qdot_curve *c, size_t k, const grid *g, double *at)
 {
     double part[3] = {0, 0, 0};
     const double x[3] = {c->x[k], c->y[k], c->z != NULL ? c->z[k] : 0};
@@ -69,7 +69,7 @@ draw_line(grid *g, const double *a, const double *b)
     const double most = (double)(ACROSS * g->columns + DOWN * g->rows);
 
     for (double k = 0; k <= n && n < 8 * most; k++)
-        put(g, a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n);
+        grid_put(g, a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n);
 }
 
 static void
@@ -83,10 +83,10 @@ draw_curve(grid *g, const qdot_panel *panel, const qdot_figure_view *v, const qd
             open = false;
             continue;
         }
-        place(v, c, k, g, here);
+        grid_place(v, c, k, g, here);
         if (open)
             draw_line(g, last, here);
-        put(g, here[0], here[1]);
+        grid_put(g, here[0], here[1]);
         memcpy(last, here, sizeof last);
         open = !c->points;
     }
@@ -108,12 +108,12 @@ draw_map(grid *g, const qdot_figure_map *map, bool ascii)
                                     1 - ((double)y + 0.5) / (double)down};
 
             if (qdot_figure_map_dot(map, ends, part, ascii ? x / ACROSS : x, ascii ? y / DOWN : y))
-                put(g, (double)i, (double)j);
+                grid_put(g, (double)i, (double)j);
         }
 }
 
 static void
-add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
+sketch_add_cell(qdot_text *out, unsigned char dots, size_t look, bool ascii)
 {
     if (ascii || dots == 0) {
         qdot_text_char(out, dots != 0 ? marks[look] : ' ');
@@ -152,8 +152,8 @@ write_key(const qdot_panel *panel, bool ascii, qdot_text *out)
 
 /* The ends of the ordinate to the left, of the abscissa below, with what stands there. */
 static void
-write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
-           qdot_text *out)
+sketch_write(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bool ascii,
+             qdot_text *out)
 {
     char left[32], right[32];
     qdot_text label = {0};
@@ -172,8 +172,8 @@ write_grid(const grid *g, const qdot_panel *panel, const qdot_figure_view *v, bo
         while (n > 0 && g->cells[r * g->columns + n - 1] == 0)
             n--;
         for (size_t i = 0; i < n; i++)
-            add_cell(out, g->cells[r * g->columns + i],
-                     (size_t)fmax(g->looks[r * g->columns + i] - 1.0, 0), ascii);
+            sketch_add_cell(out, g->cells[r * g->columns + i],
+                            (size_t)fmax(g->looks[r * g->columns + i] - 1.0, 0), ascii);
         qdot_text_char(out, '\n');
     }
     if (panel->axis[2].text != NULL)
@@ -215,7 +215,7 @@ qdot_figure_sketch(const qdot_figure *figure, size_t i, size_t columns, size_t r
     }
     if (panel->n > 1 || (figure->n > 1 && panel->map == NULL))
         write_key(panel, ascii, out);
-    write_grid(&g, panel, &view, ascii, out);
+    sketch_write(&g, panel, &view, ascii, out);
     qdot_free(g.cells);
     return qdot_text_status(out);
 }

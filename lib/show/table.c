@@ -36,7 +36,7 @@ add_blanks(qdot_text *out, size_t n)
 /* Everything right-aligned: numbers of one column then stand under each other. mark NULL: the first
  * of a row. */
 static void
-add_cell(qdot_text *out, const char *text, size_t taken, size_t width, const char *mark)
+aligned_add_cell(qdot_text *out, const char *text, size_t taken, size_t width, const char *mark)
 {
     qdot_text_add(out, mark != NULL ? mark : "");
     add_blanks(out, width - taken + (mark == NULL ? 0 : GAP));
@@ -44,8 +44,8 @@ add_cell(qdot_text *out, const char *text, size_t taken, size_t width, const cha
 }
 
 static qdot_status
-measure(size_t columns, const qdot_column *column, size_t rows, int digits,
-        qdot_text *cell, size_t *width)
+columns_measure(size_t columns, const qdot_column *column, size_t rows, int digits,
+                qdot_text *cell, size_t *width)
 {
     for (size_t j = 0; j < columns; j++) {
         width[j] = qdot_utf8_columns(column[j].label, strlen(column[j].label));
@@ -60,19 +60,19 @@ measure(size_t columns, const qdot_column *column, size_t rows, int digits,
 }
 
 static qdot_status
-add_rows(size_t columns, const qdot_column *column, size_t rows, int digits,
-         const char *mark, const size_t *width, qdot_text *cell, qdot_text *out)
+table_add_rows(size_t columns, const qdot_column *column, size_t rows, int digits,
+               const char *mark, const size_t *width, qdot_text *cell, qdot_text *out)
 {
     for (size_t j = 0; j < columns; j++)
-        add_cell(out, column[j].label,
-                 qdot_utf8_columns(column[j].label, strlen(column[j].label)), width[j],
-                 j == 0 ? NULL : mark);
+        aligned_add_cell(out, column[j].label,
+                         qdot_utf8_columns(column[j].label, strlen(column[j].label)), width[j],
+                         j == 0 ? NULL : mark);
     qdot_text_char(out, '\n');
     for (size_t i = 0; i < rows; i++) {
         for (size_t j = 0; j < columns; j++) {
             size_t n = write_cell(cell, column[j].at[i], digits);
 
-            add_cell(out, qdot_text_str(cell), n, width[j], j == 0 ? NULL : mark);
+            aligned_add_cell(out, qdot_text_str(cell), n, width[j], j == 0 ? NULL : mark);
         }
         qdot_text_char(out, '\n');
         if (i % 1024 == 1023)
@@ -94,9 +94,9 @@ qdot_table_text(size_t columns, const qdot_column *column, size_t rows, int digi
         return qdot_fail(QDOT_EINVAL, "a table needs a column");
     if ((width = qdot_calloc(columns, sizeof *width)) == NULL)
         return QDOT_ENOMEM;
-    status = measure(columns, column, rows, digits, &cell, width);
+    status = columns_measure(columns, column, rows, digits, &cell, width);
     if (status == QDOT_OK)
-        status = add_rows(columns, column, rows, digits, mark, width, &cell, out);
+        status = table_add_rows(columns, column, rows, digits, mark, width, &cell, out);
     qdot_text_clear(&cell);
     qdot_free(width);
     return status;

@@ -22,7 +22,7 @@ qdot_trace_clear(qdot_trace *p)
 
 /* n points without numbers. */
 static qdot_status
-reserve(qdot_trace *p, size_t axes, size_t n)
+trace_reserve(qdot_trace *p, size_t axes, size_t n)
 {
     bool good;
 
@@ -48,7 +48,7 @@ qdot_trace_begin(const qdot_trace_source *source, size_t n, const double *s,
 
     *p = (qdot_trace){0};
     if (status == QDOT_OK)
-        status = reserve(p, source->axes, n);
+        status = trace_reserve(p, source->axes, n);
     if (status == QDOT_OK) {
         memcpy(p->s, s, n * sizeof *s);
         status = source->values(source->user, n, s, values);
@@ -92,7 +92,7 @@ seen(const qdot_figure_view *v, const qdot_trace *p, size_t axes, size_t k)
 
 /* Whether both ends lie beyond the same side. */
 static bool
-is_beyond(const place *a, const place *b)
+segment_is_outside(const place *a, const place *b)
 {
     for (int i = 0; i < 3; i++)
         if (a->side[i] != 0 && a->side[i] == b->side[i])
@@ -108,14 +108,14 @@ is_across(const place *a, const place *b)
 }
 
 static double
-length_of(const place *a, const place *b)
+segment_length(const place *a, const place *b)
 {
     return hypot(hypot(b->at[0] - a->at[0], b->at[1] - a->at[1]), b->at[2] - a->at[2]);
 }
 
 /* The angle at b between a-b and b-c. */
 static double
-turn(const place *a, const place *b, const place *c)
+segment_turn(const place *a, const place *b, const place *c)
 {
     double u[3], w[3], dot = 0, cross = 0;
 
@@ -146,10 +146,10 @@ mark(const place *places, size_t n, bool jumps, bool *halve)
             halve[k] = true;
         if (k + 2 >= n || !a->shown || !b->shown || !c->shown)
             continue;
-        if (!(turn(a, b, c) > bend))
+        if (!(segment_turn(a, b, c) > bend))
             continue;
-        halve[k] = halve[k] || (length_of(a, b) > shortest && !is_beyond(a, b));
-        halve[k + 1] = length_of(b, c) > shortest && !is_beyond(b, c);
+        halve[k] = halve[k] || (segment_length(a, b) > shortest && !segment_is_outside(a, b));
+        halve[k + 1] = segment_length(b, c) > shortest && !segment_is_outside(b, c);
     }
     for (size_t k = 0; k + 1 < n; k++)
         marked += halve[k];
@@ -160,12 +160,12 @@ mark(const place *places, size_t n, bool jumps, bool *halve)
 
 /* The points with those of `more` after each segment that was halved. */
 static qdot_status
-merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
+trace_merge(qdot_trace *p, const qdot_trace *more, size_t axes, const bool *halve)
 {
     qdot_trace all;
     size_t at = 0, next = 0;
 
-    QDOT_TRY(reserve(&all, axes, p->n + more->n));
+    QDOT_TRY(trace_reserve(&all, axes, p->n + more->n));
     for (size_t k = 0; k < p->n; k++) {
         const bool follows = k + 1 < p->n && halve[k];
 
@@ -211,7 +211,7 @@ halve_once(const qdot_trace_source *source, const qdot_figure_view *view,
         if (n > 0)
             status = qdot_trace_begin(source, n, s, &more);
         if (status == QDOT_OK && n > 0)
-            status = merge(p, &more, source->axes, halve);
+            status = trace_merge(p, &more, source->axes, halve);
     }
     qdot_trace_clear(&more);
     qdot_free(places);
