@@ -41,8 +41,8 @@ fill_constraint(qdot_scene *s, size_t k, size_t row, size_t size, qdot_expr *A,
 }
 
 static qdot_status
-solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
-      const size_t *which)
+accelerations_solve(qdot_scene *s, qdot_expr *A, qdot_expr *b, qdot_expr *x, size_t size,
+                    const size_t *which)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -104,7 +104,7 @@ accels_get(qdot_scene *s)
             which[size++ - n] = k;
     work = which ? qdot_calloc(size * size + 2 * size + 1, sizeof *work) : NULL;
     if (work &&
-        solve(s, work, work + size * size, work + size * size + size, size, which) ==
+        accelerations_solve(s, work, work + size * size, work + size * size + size, size, which) ==
             QDOT_OK &&
         qdot_derived_array(s, &d->accel, n)) {
         for (size_t i = 0; i < n; i++)

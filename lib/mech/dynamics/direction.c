@@ -24,7 +24,7 @@ qdot_is_inverse_magnitude(const qdot_pool *pool, qdot_expr product, uint32_t k, 
 /* The first |u| whose odd negative power is a factor in one of e [m], where u holds a velocity and |u| is not among
  * tried [n]; nil if there is none. */
 static qdot_expr
-find_length(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n, const qdot_expr *tried)
+find_speed_power(qdot_pool *pool, size_t m, const qdot_expr *e, size_t n, const qdot_expr *tried)
 {
     qdot_expr found = QDOT_NIL;
     long power;
@@ -73,7 +73,7 @@ put_symbols(qdot_pool *pool, qdot_expr node, void *user)
 
 /* Whether a negative power of w is a factor anywhere in e. True also on failure: the pool keeps it. */
 static bool
-divides(qdot_pool *pool, qdot_expr e, qdot_expr w)
+has_negative_power(qdot_pool *pool, qdot_expr e, qdot_expr w)
 {
     bool found = false;
     qdot_walk walk;
@@ -109,7 +109,7 @@ divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
     shifted = qdot_add(pool, v0, w);
     B = qdot_expand(pool, qdot_subs(pool, C, 1, &v, &shifted));
     B = qdot_expand(pool, qdot_div(pool, B, w));
-    if (qdot_pool_failed(pool) || divides(pool, B, w))
+    if (qdot_pool_failed(pool) || has_negative_power(pool, B, w))
         return QDOT_NIL;
     back = qdot_sub(pool, v, v0);
     return qdot_div(pool, qdot_subs(pool, B, 1, &w, &back), a);
@@ -117,7 +117,7 @@ divide_by(qdot_pool *pool, qdot_expr C, qdot_expr u, qdot_expr v)
 
 /* B, where C = B u, by the first velocity in which u is linear and that gives one; nil if none does. */
 static qdot_expr
-divide(qdot_pool *pool, qdot_expr C, qdot_expr u)
+divide_by_velocity(qdot_pool *pool, qdot_expr C, qdot_expr u)
 {
     qdot_expr B = QDOT_NIL;
     qdot_walk walk;
@@ -134,7 +134,7 @@ divide(qdot_pool *pool, qdot_expr C, qdot_expr u)
 
 /* e with B sign(u) for C/|u|, where |u| is `length`; e itself if e does not divide by |u| or C is no multiple of u. */
 static qdot_expr
-read_one(qdot_pool *pool, qdot_expr e, qdot_expr length)
+read_direction(qdot_pool *pool, qdot_expr e, qdot_expr length)
 {
     direction d = {.length = length,
                    .u = qdot_expr_arg(pool, length, 0),
@@ -146,7 +146,7 @@ read_one(qdot_pool *pool, qdot_expr e, qdot_expr length)
 
     if (qdot_pool_failed(pool) || qdot_expr_contains(pool, C, d.inverse))
         return e;
-    B = divide(pool, C, d.u);
+    B = divide_by_velocity(pool, C, d.u);
     if (qdot_pool_failed(pool) || B == QDOT_NIL)
         return e;
     rest = qdot_subs(pool, all, 1, &d.inverse, &zero);
@@ -160,10 +160,10 @@ with_signs(qdot_pool *pool, qdot_expr e)
     qdot_expr tried[MOST_DIRECTIONS];
 
     for (size_t n = 0; n < MOST_DIRECTIONS && !qdot_pool_failed(pool); n++) {
-        tried[n] = find_length(pool, 1, &e, n, tried);
+        tried[n] = find_speed_power(pool, 1, &e, n, tried);
         if (tried[n] == QDOT_NIL)
             break;
-        e = read_one(pool, e, tried[n]);
+        e = read_direction(pool, e, tried[n]);
     }
     return qdot_pool_failed(pool) ? QDOT_NIL : e;
 }
@@ -171,7 +171,7 @@ with_signs(qdot_pool *pool, qdot_expr e)
 void
 qdot_directions_as_signs(qdot_pool *pool, size_t n, qdot_expr *e)
 {
-    if (qdot_pool_failed(pool) || find_length(pool, n, e, 0, NULL) == QDOT_NIL)
+    if (qdot_pool_failed(pool) || find_speed_power(pool, n, e, 0, NULL) == QDOT_NIL)
         return; /* as in most scenes: one walk tells */
     for (size_t i = 0; i < n; i++)
         e[i] = with_signs(pool, e[i]);

@@ -171,7 +171,7 @@ enum { MOST_ADDED = 2000 };
 
 /* Terms of e, multiplied out. */
 static uint32_t
-terms(qdot_pool *pool, qdot_expr e)
+expanded_terms(qdot_pool *pool, qdot_expr e)
 {
     e = e == QDOT_NIL ? e : qdot_expand(pool, e);
     if (e == QDOT_NIL || e == QDOT_ZERO)
@@ -196,7 +196,7 @@ energy_by_parts(qdot_scene *s)
     c = qdot_neg(pool, qdot_mech_tidy(s, c));
     V = qdot_mech_tidy(s, V);
     if (c != QDOT_ZERO && qdot_expr_size(pool, V) < MOST_ADDED &&
-        terms(pool, qdot_add(pool, c, V)) < terms(pool, c) + terms(pool, V))
+        expanded_terms(pool, qdot_add(pool, c, V)) < expanded_terms(pool, c) + expanded_terms(pool, V))
         return QDOT_NIL;
     return qdot_add(pool, T, qdot_add(pool, c, V));
 }

@@ -89,8 +89,8 @@ add_derivatives(qdot_scene *s, qdot_expr *e, qdot_constraint_kind *kind, size_t 
 
 /* The slopes of equation k by what it holds. */
 static qdot_status
-add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
-           size_t *columns)
+equation_add_slopes(qdot_scene *s, problem *p, size_t k, qdot_constraint_kind kind, size_t *capacity,
+                    size_t *columns)
 {
     qdot_expr atoms = qdot_expr_atoms(s->pool, p->e[k], false);
 
@@ -130,7 +130,7 @@ problem_fill(qdot_scene *s, problem *p, size_t c, const qdot_expr *f,
     for (size_t k = 0; k < c; k++)
         p->e[k] = f[k];
     for (size_t k = 0; k < c; k++)
-        QDOT_TRY(add_slopes(s, p, k, kind[k], &capacity, &columns));
+        QDOT_TRY(equation_add_slopes(s, p, k, kind[k], &capacity, &columns));
     p->first[c] = p->slopes;
     p->value = qdot_calloc(c + p->slopes + 2 * m + c * c + c + c * n + 1, sizeof *p->value);
     if (!p->value)
@@ -164,7 +164,7 @@ problem_init(qdot_scene *s, problem *p)
 }
 
 static qdot_status
-evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
+constraints_evaluate(qdot_scene *s, problem *p, uint64_t seed, double *size)
 {
     *size = 0;
     QDOT_TRY(qdot_generic_evaluate(s->pool, p->c + p->slopes, p->e,
@@ -204,7 +204,7 @@ fill_gram(problem *p, double *row)
 
 /* step = A^T (A A^T + mu 1)^-1 f, by Cholesky of the damped Gram matrix. */
 static void
-newton_step(problem *p, double mu)
+damped_newton_step(problem *p, double mu)
 {
     const double *A = p->value + p->c;
     size_t c = p->c;
@@ -246,7 +246,7 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
     *found = false;
     for (size_t i = 0; i < p->m; i++)
         p->at[i] = qdot_generic_value(s->pool, p->z[i], seed + 77);
-    QDOT_TRY(evaluate(s, p, seed, &size));
+    QDOT_TRY(constraints_evaluate(s, p, seed, &size));
     for (int k = 0; k < STEPS && isfinite(size); k++) {
         double before = size, scale = 1;
 
@@ -256,18 +256,18 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
             *found = true;
             return QDOT_OK;
         }
-        newton_step(p, size < 1e-3 ? 0 : mu);
+        damped_newton_step(p, size < 1e-3 ? 0 : mu);
         for (int half = 0; half < 12; half++, scale /= 2) {
             for (size_t i = 0; i < p->m; i++)
                 p->at[i] -= scale * p->step[i];
-            QDOT_TRY(evaluate(s, p, seed, &size));
+            QDOT_TRY(constraints_evaluate(s, p, seed, &size));
             if (size < before)
                 break;
             for (size_t i = 0; i < p->m; i++)
                 p->at[i] += scale * p->step[i];
         }
         if (!(size < before))
-            QDOT_TRY(evaluate(s, p, seed, &size));
+            QDOT_TRY(constraints_evaluate(s, p, seed, &size));
         if (!(size < before) || (size < 1e-10 && size > before / 2)) {
             p->off = size; /* what is left is rounding, or the damping's */
             *found = size < 1e-10;
@@ -284,7 +284,7 @@ assemble(qdot_scene *s, problem *p, uint64_t seed, bool *found)
  * beside the `found` rows by Gram-Schmidt, twice: more than the place is off. Then it is one more of
  * them. */
 static bool
-add_row(const problem *p, size_t k, size_t low, size_t width, double *rows, size_t found)
+rank_add_row(const problem *p, size_t k, size_t low, size_t width, double *rows, size_t found)
 {
     const double nothing = fmax(1e-6, 100 * sqrt(p->off));
     double *row = rows + found * width, norm = 0, left = 0;
@@ -328,7 +328,7 @@ rank(qdot_scene *s, problem *p, bool *independent)
     for (size_t k = 0; k < p->constraints; k++) {
         const size_t low = p->n * (size_t)s->constraints.at[k].kind;
 
-        independent[k] = found < p->n && add_row(p, k, low, p->n, p->rows, found);
+        independent[k] = found < p->n && rank_add_row(p, k, low, p->n, p->rows, found);
         found += independent[k];
     }
     return found;
@@ -357,7 +357,7 @@ rank_of_kinds(const selection *of, int least, int most, int lowest)
         if ((p->of[k] > of->last && !of->independent[p->of[k]]) || (int)p->kind[k] < least
             || (int)p->kind[k] > most)
             continue;
-        found += add_row(p, k, low, width, of->rows, found);
+        found += rank_add_row(p, k, low, width, of->rows, found);
     }
     return found;
 }

@@ -119,7 +119,7 @@ scatter(const char *name, uint64_t seed)
 }
 
 static bool
-bound(const qdot_pool *pool, qdot_expr e, double *value)
+number_bound(const qdot_pool *pool, qdot_expr e, double *value)
 {
     const fmpq *x = e == QDOT_NIL ? NULL : qdot_expr_rational(pool, e);
 
@@ -135,7 +135,7 @@ qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 {
     const qdot_symbol *x = qdot_expr_symbol(pool, e);
     double u = scatter(x->name, seed), lo = 0, hi = 0;
-    bool above = bound(pool, x->lo, &lo), below = bound(pool, x->hi, &hi);
+    bool above = number_bound(pool, x->lo, &lo), below = number_bound(pool, x->hi, &hi);
 
     if (e == QDOT_PI)
         return M_PI;
@@ -151,14 +151,14 @@ qdot_generic_value(const qdot_pool *pool, qdot_expr e, uint64_t seed)
 }
 
 static double
-power(double b, double e)
+double_power(double b, double e)
 {
     return e == 1 ? b : e == -1 ? 1 / b : pow(b, e);
 }
 
 /* One node from its children's values x [n]. */
 static double
-combine(const qdot_node *node, const double *x)
+node_combine(const qdot_node *node, const double *x)
 {
     double v;
 
@@ -171,7 +171,7 @@ combine(const qdot_node *node, const double *x)
     case QDOT_PROD:
         v = x[0];
         for (uint32_t i = 1; i + 1 < node->n; i += 2)
-            v *= power(x[i], x[i + 1]);
+            v *= double_power(x[i], x[i + 1]);
         return v;
     case QDOT_FUN:
         return functions[node->op] ? functions[node->op](x, node->n) : NAN;
@@ -251,7 +251,7 @@ qdot_generic_evaluate(const qdot_pool *pool, size_t n, const qdot_expr *e,
             break;
         for (uint32_t k = 0; k < node->n; k++)
             x.at[k] = get(&w, qdot_expr_args(pool, w.at[i])[k]);
-        set(&w, w.at[i], combine(node, x.at));
+        set(&w, w.at[i], node_combine(node, x.at));
     }
     qdot_free(x.at);
     for (size_t i = 0; i < n && status == QDOT_OK; i++)

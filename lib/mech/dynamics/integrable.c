@@ -133,7 +133,7 @@ choose_pivot(const forms *f, qdot_expr *row, size_t *pivot)
 
 /* row -= row[pivot] by, whose entry there is 1 */
 static void
-eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
+form_eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
 {
     qdot_expr head = row[pivot];
 
@@ -151,7 +151,7 @@ eliminate(const forms *f, qdot_expr *row, const qdot_expr *by, size_t pivot)
 
 /* B: dx_pivot = - sum over the others, of the forms that are in. */
 static qdot_status
-reduce(forms *f)
+forms_reduce(forms *f)
 {
     f->rank = 0;
     for (size_t k = 0; k < f->m; k++) {
@@ -162,7 +162,7 @@ reduce(forms *f)
             continue;
         memcpy(row, f->a + k * f->n, f->n * sizeof *row);
         for (size_t r = 0; r < f->rank; r++)
-            eliminate(f, row, f->B + r * f->n, f->pivot[r]);
+            form_eliminate(f, row, f->B + r * f->n, f->pivot[r]);
         QDOT_TRY(qdot_pool_check(f->pool));
         QDOT_TRY(choose_pivot(f, row, &p));
         if (p == f->n)
@@ -174,7 +174,7 @@ reduce(forms *f)
                          : qdot_mech_tidy(f->s, qdot_div(f->pool, row[i], head));
         row[p] = QDOT_ONE;
         for (size_t r = 0; r < f->rank; r++)
-            eliminate(f, f->B + r * f->n, row, p);
+            form_eliminate(f, f->B + r * f->n, row, p);
         f->pivot[f->rank++] = p;
         QDOT_TRY(qdot_pool_check(f->pool));
     }
@@ -203,7 +203,7 @@ curl(const forms *f, size_t k, size_t i, size_t j)
 
 /* dw(u_i, u_j), u_i = x_i - sum_r B_ri x_pivot(r). */
 static qdot_expr
-component(const forms *f, size_t k, size_t i, size_t j)
+curl_component(const forms *f, size_t k, size_t i, size_t j)
 {
     qdot_pool *pool = f->pool;
     qdot_expr sum = curl(f, k, i, j);
@@ -224,7 +224,7 @@ component(const forms *f, size_t k, size_t i, size_t j)
 /* Whether dw of form k vanishes on what the system leaves: the first component that does
  * not, else one that is undecided, else proved. */
 static qdot_status
-vanishes(const forms *f, size_t k, qdot_integrability *result)
+curl_vanishes(const forms *f, size_t k, qdot_integrability *result)
 {
     result->decision = (qdot_decision){.verdict = QDOT_PROVED};
     for (size_t i = 0; i < f->n; i++)
@@ -234,7 +234,7 @@ vanishes(const forms *f, size_t k, qdot_integrability *result)
 
             if (is_pivot(f, i) || is_pivot(f, j))
                 continue;
-            c = component(f, k, i, j);
+            c = curl_component(f, k, i, j);
             QDOT_TRY(qdot_pool_check(f->pool));
             if (c == QDOT_ZERO)
                 continue;
@@ -365,8 +365,8 @@ decide_alone(forms *f, size_t k, qdot_integrability *result)
 {
     memset(f->in, 0, f->m * sizeof *f->in);
     f->in[k] = true;
-    QDOT_TRY(reduce(f));
-    QDOT_TRY(vanishes(f, k, result));
+    QDOT_TRY(forms_reduce(f));
+    QDOT_TRY(curl_vanishes(f, k, result));
     result->alone = result->decision.verdict == QDOT_PROVED;
     return QDOT_OK;
 }
@@ -386,14 +386,14 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
         size_t out = 0;
 
         changed = false;
-        QDOT_TRY(reduce(f));
-        QDOT_TRY(vanishes(f, k, result));
+        QDOT_TRY(forms_reduce(f));
+        QDOT_TRY(curl_vanishes(f, k, result));
         if (result->decision.verdict != QDOT_PROVED)
             break;
         for (size_t j = 0; j < f->m; j++) {
             if (!f->in[j] || j == k)
                 continue;
-            QDOT_TRY(vanishes(f, j, &one));
+            QDOT_TRY(curl_vanishes(f, j, &one));
             if (one.decision.verdict != QDOT_PROVED) {
                 f->in[j] = false;
                 changed = true;
@@ -407,7 +407,7 @@ decide_together(forms *f, size_t k, qdot_integrability *result)
 }
 
 static qdot_status
-decide(forms *f, size_t k, bool alone, qdot_integrability *result)
+integrability_decide(forms *f, size_t k, bool alone, qdot_integrability *result)
 {
     bool *held, jump;
     qdot_status status;
@@ -463,7 +463,7 @@ qdot_mech_integrable(qdot_scene *s, size_t k, bool alone, qdot_integrability *re
                            "is of those that are",
                            c->name);
     if (status == QDOT_OK)
-        status = decide(&f, row, alone, result);
+        status = integrability_decide(&f, row, alone, result);
     forms_clear(&f);
     return status;
 }
@@ -502,13 +502,13 @@ decide_all(forms *f, bool *yes)
         return QDOT_OK;
     for (size_t j = 0; j < f->m; j++)
         f->in[j] = true;
-    QDOT_TRY(reduce(f));
+    QDOT_TRY(forms_reduce(f));
     for (size_t j = 0; j < f->m && *yes; j++) {
         qdot_integrability one = {0};
 
         if (f->s->constraints.at[f->of[j]].kind == QDOT_HOLONOMIC)
             continue;
-        QDOT_TRY(vanishes(f, j, &one));
+        QDOT_TRY(curl_vanishes(f, j, &one));
         *yes = one.decision.verdict == QDOT_PROVED;
     }
     return QDOT_OK;

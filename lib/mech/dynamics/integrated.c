@@ -41,7 +41,7 @@ has_smooth_powers(const qdot_pool *pool, qdot_expr product)
 /* Whether e is smooth wherever coordinates and t are finite: polynomials of these and of entire
  * functions. */
 static qdot_status
-is_smooth(qdot_scene *s, qdot_expr e, bool *yes)
+is_smooth_everywhere(qdot_scene *s, qdot_expr e, bool *yes)
 {
     qdot_pool *pool = s->pool;
     qdot_walk w;
@@ -86,7 +86,7 @@ find_one(qdot_scene *s, size_t k, qdot_expr *F, qdot_expr *mu)
         qdot_expr slope = qdot_diff(s->pool, found.integral, s->coordinates.at[i]);
 
         QDOT_TRY(qdot_pool_check(s->pool));
-        QDOT_TRY(is_smooth(s, slope, &smooth));
+        QDOT_TRY(is_smooth_everywhere(s, slope, &smooth));
     }
     if (smooth) {
         *F = found.integral;

@@ -15,8 +15,8 @@
  * */
 
 static qdot_status
-add_term(qdot_scene *s, qdot_kinematics *k, qdot_expr w, qdot_expr x, qdot_expr y,
-         int axis)
+kinematics_add_term(qdot_scene *s, qdot_kinematics *k, qdot_expr w, qdot_expr x, qdot_expr y,
+                    int axis)
 {
     qdot_inertial term = {w, x, y, axis};
 
@@ -34,7 +34,7 @@ add_place(qdot_scene *s, qdot_kinematics *k, qdot_expr mass, qdot_expr r)
     for (uint32_t d = 0; d < n; d++) {
         qdot_expr x = qdot_mech_component(s->pool, r, d);
 
-        QDOT_TRY(add_term(s, k, mass, x, x, (int)d));
+        QDOT_TRY(kinematics_add_term(s, k, mass, x, x, (int)d));
     }
     return QDOT_OK;
 }
@@ -65,9 +65,9 @@ add_body(qdot_scene *s, qdot_kinematics *k, const qdot_body *b)
             qdot_expr J = second_moment(s, b, dim, i, j);
 
             for (uint32_t d = 0; d < dim && J != QDOT_ZERO; d++)
-                QDOT_TRY(add_term(s, k, J,
-                                  qdot_expr_arg(s->pool, b->rotation, dim * d + i),
-                                  qdot_expr_arg(s->pool, b->rotation, dim * d + j), -1));
+                QDOT_TRY(kinematics_add_term(s, k, J,
+                                             qdot_expr_arg(s->pool, b->rotation, dim * d + i),
+                                             qdot_expr_arg(s->pool, b->rotation, dim * d + j), -1));
         }
     return QDOT_OK;
 }
@@ -341,7 +341,7 @@ add_entries(qdot_scene *s, summands *m, qdot_expr x, uint32_t p, entries *out)
  * */
 
 static int
-by_place(const void *a, const void *b)
+compare_entries(const void *a, const void *b)
 {
     const entry *x = a, *y = b;
 
@@ -368,13 +368,13 @@ by_expression(const void *a, const void *b)
  * stay apart, so that a chain's links share them; only equal ones are counted together.
  * */
 static qdot_status
-combine(qdot_scene *s, entries *all, bool slopes)
+entries_combine(qdot_scene *s, entries *all, bool slopes)
 {
     size_t kept = 0;
     qdot_expr first = QDOT_NIL; /* what the last entry kept began with */
 
     if (all->n > 1)
-        qsort(all->at, all->n, sizeof *all->at, by_place);
+        qsort(all->at, all->n, sizeof *all->at, compare_entries);
     for (size_t i = 0; i < all->n; i++) {
         entry *last = kept ? &all->at[kept - 1] : NULL;
 
@@ -394,7 +394,7 @@ combine(qdot_scene *s, entries *all, bool slopes)
 static qdot_status
 group(qdot_scene *s, qdot_kinematics *k, entries *all, want want, qdot_groups *out)
 {
-    QDOT_TRY(combine(s, all, want == SLOPES));
+    QDOT_TRY(entries_combine(s, all, want == SLOPES));
     if (all->n > 1)
         qsort(all->at, all->n, sizeof *all->at, by_expression);
     for (size_t i = 0, j; i < all->n; i = j) {
@@ -454,7 +454,7 @@ group_all(qdot_scene *s, qdot_kinematics *k, want want, bool of_y, qdot_groups *
 }
 
 static qdot_status
-build(qdot_scene *s, qdot_kinematics *k)
+kinematics_build(qdot_scene *s, qdot_kinematics *k)
 {
     size_t n = k->n = s->coordinates.n;
     qdot_status status = QDOT_OK;
@@ -499,7 +499,7 @@ qdot_kinematics_get(qdot_scene *s)
 
     if (!d->kinematics_ready) {
         qdot_kinematics_clear(&d->kinematics); /* of an attempt that failed */
-        if (build(s, &d->kinematics) != QDOT_OK) {
+        if (kinematics_build(s, &d->kinematics) != QDOT_OK) {
             qdot_pool_fail(s->pool);
             return NULL;
         }

@@ -39,7 +39,7 @@ by_pair(const void *a, const void *b)
 
 /* Contributions of dM to equation i; those by t in *linear, coefficients of q_j'. */
 static qdot_status
-collect(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
+collect_mass_slopes(qdot_scene *s, uint32_t i, coefficient *out, size_t *n_out, qdot_expr *linear)
 {
     qdot_pool *pool = s->pool;
     const qdot_derived *d = s->derived;
@@ -140,7 +140,7 @@ qdot_lagrange_rest(qdot_scene *s, size_t i)
     }
     for (size_t j = 0; j < n; j++)
         linear[j] = QDOT_ZERO;
-    if (collect(s, (uint32_t)i, all, &m, linear) != QDOT_OK) {
+    if (collect_mass_slopes(s, (uint32_t)i, all, &m, linear) != QDOT_OK) {
         qdot_pool_fail(pool);
         goto done;
     }

@@ -120,7 +120,7 @@ typedef struct {
 } bill;
 
 static bool
-moves(const bill *b, qdot_expr e)
+bill_moves(const bill *b, qdot_expr e)
 {
     return qdot_mech_holds(b->s, e) & (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_TIME |
                                        QDOT_HAS_UFUN);
@@ -139,8 +139,8 @@ has_factor(const bill *b, qdot_expr e)
     if (own != QDOT_ONE && own != QDOT_MINUS_ONE)
         return true;
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2)
-        if (!moves(b, qdot_expr_arg(pool, e, i)) &&
-            !moves(b, qdot_expr_arg(pool, e, i + 1)))
+        if (!bill_moves(b, qdot_expr_arg(pool, e, i)) &&
+            !bill_moves(b, qdot_expr_arg(pool, e, i + 1)))
             return true;
     return false;
 }
@@ -154,7 +154,7 @@ bill_sum(bill *b, qdot_expr e)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, e); i += 2) {
         qdot_expr x = qdot_expr_arg(pool, e, i), c = qdot_expr_arg(pool, e, i + 1);
 
-        if (!moves(b, x)) {
+        if (!bill_moves(b, x)) {
             others = 1;
             continue;
         }
@@ -174,7 +174,7 @@ bill_product(bill *b, qdot_expr e)
         qdot_expr x = qdot_expr_arg(pool, e, i), power = qdot_expr_arg(pool, e, i + 1);
         long n;
 
-        if (!moves(b, x) && !moves(b, power))
+        if (!bill_moves(b, x) && !bill_moves(b, power))
             continue;
         factors++;
         if (!qdot_expr_to_int(pool, power, &n))
@@ -218,7 +218,7 @@ bill_function(bill *b, qdot_expr e)
     if (qdot_expr_kind(pool, x) != QDOT_SUM)
         return bill_angle(b, x);
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, x); i += 2)
-        if (moves(b, qdot_expr_arg(pool, x, i))) {
+        if (bill_moves(b, qdot_expr_arg(pool, x, i))) {
             b->units += i > 1 ? 3 : 0;
             if (!bill_angle(b, qdot_expr_arg(pool, x, i)))
                 return false;
@@ -240,7 +240,7 @@ cost(qdot_scene *s, size_t n, const qdot_expr *e, uint64_t *units)
     for (size_t i = 0; i < w.n && done; i++) {
         qdot_kind kind = qdot_expr_kind(s->pool, w.at[i]);
 
-        if (!moves(&b, w.at[i]))
+        if (!bill_moves(&b, w.at[i]))
             continue;
         if (kind == QDOT_SUM)
             bill_sum(&b, w.at[i]);
@@ -274,7 +274,7 @@ wants_both(qdot_scene *s, const qdot_expr *raw, size_t size)
 /* The cheapest of M for people or not with f for people or not, into e [n n + n]; of equals
  * that for people, whose angles are fewer sums. */
 static bool
-choose(qdot_scene *s, size_t n, qdot_expr *e)
+choose_cheapest(qdot_scene *s, size_t n, qdot_expr *e)
 {
     size_t masses = n * n, size = masses + n;
     qdot_expr *short_form = qdot_calloc(2 * size, sizeof *short_form);
@@ -360,7 +360,7 @@ numeric_get(qdot_scene *s)
             e[i * n + j] = e[j * n + i] = raw_mass(s, i, j, V);
     }
     if (!qdot_pool_failed(pool) && raw_forcings(s, e + n * n) && wants_both(s, e, size))
-        choose(s, n, e);
+        choose_cheapest(s, n, e);
     qdot_directions_as_signs(pool, n, e + n * n);
     if (!qdot_pool_failed(pool)) {
         d->numeric_mass = qdot_matrix(pool, (uint32_t)n, (uint32_t)n, e);

@@ -85,7 +85,7 @@ typedef struct {
 } moving;
 
 static void
-split(qdot_scene *s, qdot_expr term, qdot_expr coefficient, moving *m)
+split_moving(qdot_scene *s, qdot_expr term, qdot_expr coefficient, moving *m)
 {
     qdot_pool *pool = s->pool;
 
@@ -126,8 +126,8 @@ collected(qdot_scene *s, qdot_expr e)
         moving m;
         uint32_t same = 0;
 
-        split(s, sum ? qdot_expr_arg(pool, e, 2 * i + 1) : e,
-              sum ? qdot_expr_arg(pool, e, 2 * i + 2) : QDOT_ONE, &m);
+        split_moving(s, sum ? qdot_expr_arg(pool, e, 2 * i + 1) : e,
+                     sum ? qdot_expr_arg(pool, e, 2 * i + 2) : QDOT_ONE, &m);
         while (same < kept && at[same].rest != m.rest)
             same++;
         if (same == kept)

@@ -24,20 +24,20 @@ qdot_squares_clear(qdot_squares *q)
 }
 
 static bool
-moves(const qdot_scene *s, qdot_expr e)
+pivot_moves(const qdot_scene *s, qdot_expr e)
 {
     return (qdot_mech_holds(s, e) & ~(uint32_t)(QDOT_HAS_PARAM | QDOT_HAS_FUN)) != 0;
 }
 
 /* D = key * rest, the key without coordinates and t. */
 static void
-split(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *rest)
+split_constant_factor(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *rest)
 {
     qdot_pool *pool = s->pool;
 
     *key = D;
     *rest = QDOT_ONE;
-    if (!moves(s, D))
+    if (!pivot_moves(s, D))
         return;
     *key = QDOT_ONE;
     *rest = D;
@@ -47,7 +47,7 @@ split(qdot_scene *s, qdot_expr D, qdot_expr *key, qdot_expr *rest)
     for (uint32_t i = 1; i < qdot_expr_count(pool, D); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, D, i);
 
-        if (!moves(s, b))
+        if (!pivot_moves(s, b))
             *key = qdot_mul(pool, *key, qdot_pow(pool, b, qdot_expr_arg(pool, D, i + 1)));
     }
     *rest = qdot_div(pool, D, *key);
@@ -60,7 +60,7 @@ qdot_squares_add(qdot_squares *q, qdot_expr D, qdot_expr u)
     qdot_square one;
     qdot_expr rest;
 
-    split(q->s, D, &one.key, &rest);
+    split_constant_factor(q->s, D, &one.key, &rest);
     one.sum = qdot_mul(pool, rest, qdot_pow_int(pool, u, 2));
     for (size_t i = 0; i < q->at.n; i++)
         if (q->at.at[i].key == one.key) {
@@ -112,11 +112,11 @@ has_sum(const qdot_scene *s, qdot_expr e)
     const qdot_pool *pool = s->pool;
 
     if (qdot_expr_kind(pool, e) == QDOT_SUM)
-        return moves(s, e);
+        return pivot_moves(s, e);
     for (uint32_t i = 1;
          qdot_expr_kind(pool, e) == QDOT_PROD && i < qdot_expr_count(pool, e); i += 2)
         if (qdot_expr_kind(pool, qdot_expr_arg(pool, e, i)) == QDOT_SUM &&
-            moves(s, qdot_expr_arg(pool, e, i)))
+            pivot_moves(s, qdot_expr_arg(pool, e, i)))
             return true;
     return false;
 }
@@ -155,8 +155,8 @@ clear_denominators(qdot_pool *pool, size_t n, qdot_expr *D, qdot_expr *l)
 
 /* Eliminate in the order given; the squares D [n], u [n]. False where a D will not do. */
 static bool
-eliminate(qdot_scene *s, size_t n, const qdot_expr *A, const qdot_expr *v,
-          const int *order, qdot_expr *D, qdot_expr *u)
+squares_eliminate(qdot_scene *s, size_t n, const qdot_expr *A, const qdot_expr *v,
+                  const int *order, qdot_expr *D, qdot_expr *u)
 {
     qdot_pool *pool = s->pool;
     qdot_facts facts = qdot_scene_facts(s);
@@ -211,7 +211,7 @@ qdot_squares_complete(qdot_squares *q, size_t n, const qdot_expr *A, const qdot_
         qdot_expr sum = QDOT_ZERO;
         uint64_t size;
 
-        if (!eliminate(q->s, n, A, v, orders[k], D, u))
+        if (!squares_eliminate(q->s, n, A, v, orders[k], D, u))
             continue;
         for (size_t i = 0; i < n; i++)
             sum = qdot_add(pool, sum, qdot_mul(pool, D[i], qdot_pow_int(pool, u[i], 2)));

@@ -97,7 +97,7 @@ potential_force(qdot_scene *s, size_t k, size_t i, bool kane)
 
 /* Pull of a link, a scalar along u, by u . du/dq: -(pull) u.du. */
 static qdot_expr
-along(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
+pull_along(qdot_scene *s, const qdot_link *link, size_t i, bool kane)
 {
     qdot_expr u = qdot_value_sub(s->pool, link->at[0], link->at[1]);
 
@@ -122,12 +122,12 @@ spring_force(qdot_scene *s, size_t k, size_t i, bool kane)
         pull = qdot_mul(pool, pull,
                         qdot_sub(pool, QDOT_ONE, qdot_div(pool, spring->rest, d)));
     }
-    return qdot_neg(pool, qdot_mul(pool, pull, along(s, spring, i, true)));
+    return qdot_neg(pool, qdot_mul(pool, pull, pull_along(s, spring, i, true)));
 }
 
 /* e/2, a sum term by term: what is differentiated of a square has twos to lose. */
 static qdot_expr
-half(qdot_pool *pool, qdot_expr e)
+half_of_terms(qdot_pool *pool, qdot_expr e)
 {
     qdot_expr sum;
 
@@ -147,7 +147,7 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
 {
     qdot_pool *pool = s->pool;
     const qdot_link *damper = &s->dampers.at[k];
-    qdot_expr square, u, rate, slope = along(s, damper, i, kane);
+    qdot_expr square, u, rate, slope = pull_along(s, damper, i, kane);
 
     if (slope == QDOT_ZERO || slope == QDOT_NIL)
         return slope;
@@ -158,9 +158,9 @@ damper_force(qdot_scene *s, size_t k, size_t i, bool kane)
     }
     /* By u.u simplified: u.u' and u.du/dq are half its derivatives. */
     square = qdot_link_square(s, true, k);
-    rate = half(pool, qdot_ddt(pool, square));
+    rate = half_of_terms(pool, qdot_ddt(pool, square));
     if (!kane)
-        slope = half(pool, qdot_diff(pool, square, s->coordinates.at[i]));
+        slope = half_of_terms(pool, qdot_diff(pool, square, s->coordinates.at[i]));
     return qdot_neg(pool, qdot_mul(pool, damper->stiffness,
                                    qdot_div(pool, qdot_mul(pool, rate, slope), square)));
 }

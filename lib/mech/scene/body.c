@@ -14,7 +14,7 @@
 #include "normal/simplify/simplify.h"
 
 static qdot_expr
-turn(qdot_pool *pool, qdot_expr angle, uint32_t axis)
+rotation_about_axis(qdot_pool *pool, qdot_expr angle, uint32_t axis)
 {
     qdot_expr c = qdot_fun1(pool, QDOT_COS, angle), s = qdot_fun1(pool, QDOT_SIN, angle);
     qdot_expr minus = qdot_neg(pool, s), e[9];
@@ -32,9 +32,9 @@ turn(qdot_pool *pool, qdot_expr angle, uint32_t axis)
 qdot_expr
 qdot_scene_euler(qdot_pool *pool, qdot_expr phi, qdot_expr theta, qdot_expr psi)
 {
-    qdot_expr R = qdot_value_mul(pool, turn(pool, phi, 2), turn(pool, theta, 0));
+    qdot_expr R = qdot_value_mul(pool, rotation_about_axis(pool, phi, 2), rotation_about_axis(pool, theta, 0));
 
-    return qdot_value_mul(pool, R, turn(pool, psi, 2));
+    return qdot_value_mul(pool, R, rotation_about_axis(pool, psi, 2));
 }
 
 static qdot_expr

@@ -80,7 +80,7 @@ without_coordinates(void)
 }
 
 static qdot_status
-is_linear(qdot_scene *s, qdot_expr f, bool *linear)
+is_linear_in_velocities(qdot_scene *s, qdot_expr f, bool *linear)
 {
     *linear = true;
     for (size_t i = 0; i < s->coordinates.n && *linear; i++) {
@@ -98,12 +98,12 @@ make_linear(qdot_scene *s, const char *name, qdot_expr *f)
 {
     bool linear;
 
-    QDOT_TRY(is_linear(s, *f, &linear));
+    QDOT_TRY(is_linear_in_velocities(s, *f, &linear));
     if (linear)
         return QDOT_OK;
     *f = qdot_mech_tidy(s, *f);
     QDOT_TRY(qdot_pool_check(s->pool));
-    QDOT_TRY(is_linear(s, *f, &linear));
+    QDOT_TRY(is_linear_in_velocities(s, *f, &linear));
     if (linear)
         return QDOT_OK;
     qdot_fail(QDOT_EINVAL, "constraint %s is not linear in the accelerations", name);

@@ -24,11 +24,11 @@ qdot_scene_find_body(const qdot_scene *s, const char *label)
 
 /* Whether an item of s->list has that label in its field. */
 #define HAS(list, field)                                                                 \
-    has(s->list.at, s->list.n, sizeof *s->list.at,                                       \
-        offsetof(__typeof__(*s->list.at), field), label)
+    has_label(s->list.at, s->list.n, sizeof *s->list.at,                                       \
+              offsetof(__typeof__(*s->list.at), field), label)
 
 static bool
-has(const void *at, size_t n, size_t size, size_t offset, const char *label)
+has_label(const void *at, size_t n, size_t size, size_t offset, const char *label)
 {
     for (size_t i = 0; i < n; i++)
         if (qdot_label_is(*(char *const *)((const char *)at + i * size + offset), label))

@@ -7,7 +7,7 @@
 #include "mech/scene/scene.h"
 
 static qdot_status
-put(const qdot_scene *s, qdot_expr e, qdot_text *out)
+print_plain(const qdot_scene *s, qdot_expr e, qdot_text *out)
 {
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
 }
@@ -18,16 +18,16 @@ qdot_scene_print_domain(const qdot_scene *s, qdot_expr symbol, qdot_text *out)
     const qdot_symbol x = *qdot_expr_symbol(s->pool, symbol);
 
     if (x.lo != QDOT_NIL && x.hi != QDOT_NIL) {
-        QDOT_TRY(put(s, x.lo, out));
+        QDOT_TRY(print_plain(s, x.lo, out));
         qdot_text_add(out, x.lo_open ? " < " : " <= ");
     }
     qdot_text_add(out, x.name);
     if (x.hi != QDOT_NIL) {
         qdot_text_add(out, x.hi_open ? " < " : " <= ");
-        QDOT_TRY(put(s, x.hi, out));
+        QDOT_TRY(print_plain(s, x.hi, out));
     } else if (x.lo != QDOT_NIL) {
         qdot_text_add(out, x.lo_open ? " > " : " >= ");
-        QDOT_TRY(put(s, x.lo, out));
+        QDOT_TRY(print_plain(s, x.lo, out));
     }
     return QDOT_OK;
 }
@@ -37,7 +37,7 @@ static qdot_status
 put_option(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
 {
     qdot_text_format(out, " %s ", word);
-    return put(s, e, out);
+    return print_plain(s, e, out);
 }
 
 static qdot_status
@@ -53,7 +53,7 @@ put_inertia(const qdot_scene *s, qdot_expr I, qdot_text *out)
     qdot_text_add(out, " inertia (");
     for (uint32_t k = 0; k < 3; k++) {
         qdot_text_add(out, k ? ", " : "");
-        QDOT_TRY(put(s, qdot_expr_arg(pool, I, 4 * k), out));
+        QDOT_TRY(print_plain(s, qdot_expr_arg(pool, I, 4 * k), out));
     }
     qdot_text_char(out, ')');
     return QDOT_OK;
@@ -84,7 +84,7 @@ put_link(const qdot_scene *s, const qdot_link *link, bool damper, qdot_text *out
         if (link->end[k])
             qdot_text_add(out, link->end[k]);
         else
-            QDOT_TRY(put(s, link->at[k], out));
+            QDOT_TRY(print_plain(s, link->at[k], out));
     }
     QDOT_TRY(put_option(s, damper ? "coefficient" : "stiffness", link->stiffness, out));
     if (!damper && link->rest != QDOT_ZERO)
@@ -99,7 +99,7 @@ put_force(const qdot_scene *s, const qdot_force *f, qdot_text *out)
     qdot_text_add(out, "force ");
     if (f->name)
         qdot_text_format(out, "%s: ", f->name);
-    QDOT_TRY(put(s, f->force, out));
+    QDOT_TRY(print_plain(s, f->force, out));
     if (f->on)
         qdot_text_format(out, " on %s", f->on);
     if (f->material)
@@ -116,7 +116,7 @@ put_torque(const qdot_scene *s, const qdot_torque *t, qdot_text *out)
     qdot_text_add(out, t->force ? "force " : "torque ");
     if (t->name)
         qdot_text_format(out, "%s: ", t->name);
-    QDOT_TRY(put(s, t->torque, out));
+    QDOT_TRY(print_plain(s, t->torque, out));
     qdot_text_format(out, " on %s\n",
                      t->coordinate != QDOT_NIL
                          ? qdot_expr_symbol(s->pool, t->coordinate)->name
@@ -127,7 +127,7 @@ put_torque(const qdot_scene *s, const qdot_torque *t, qdot_text *out)
 /* Components of a vector constraint stand together; the place of one that was left out,
  * as it holds identically, is 0 = 0. */
 static long
-component(const qdot_constraint *c)
+constraint_component(const qdot_constraint *c)
 {
     const char *comma = strchr(c->name, ',');
 
@@ -139,25 +139,25 @@ together(const qdot_constraint *a, const qdot_constraint *b)
 {
     size_t stem = strcspn(a->name, ",");
 
-    return component(a) && component(b) > component(a) && strcspn(b->name, ",") == stem &&
-           strncmp(a->name, b->name, stem) == 0;
+    return constraint_component(a) && constraint_component(b) > constraint_component(a) &&
+           strcspn(b->name, ",") == stem && strncmp(a->name, b->name, stem) == 0;
 }
 
 static qdot_status
 put_side(const qdot_scene *s, size_t from, size_t to, bool right, qdot_text *out)
 {
     const qdot_constraint *c = s->constraints.at;
-    long place = 1, last = component(&c[to - 1]);
+    long place = 1, last = constraint_component(&c[to - 1]);
 
     if (last == 0)
-        return put(s, right ? c[from].right : c[from].left, out);
+        return print_plain(s, right ? c[from].right : c[from].left, out);
     if (last < 2)
         last = 2; /* the others were left out */
     qdot_text_char(out, '(');
     for (size_t i = from; place <= last; place++) {
         qdot_text_add(out, place > 1 ? ", " : "");
-        if (i < to && component(&c[i]) == place) {
-            QDOT_TRY(put(s, right ? c[i].right : c[i].left, out));
+        if (i < to && constraint_component(&c[i]) == place) {
+            QDOT_TRY(print_plain(s, right ? c[i].right : c[i].left, out));
             i++;
         } else {
             qdot_text_char(out, '0');
@@ -190,7 +190,7 @@ static qdot_status
 put_statement(const qdot_scene *s, const char *word, qdot_expr e, qdot_text *out)
 {
     qdot_text_format(out, "%s ", word);
-    QDOT_TRY(put(s, e, out));
+    QDOT_TRY(print_plain(s, e, out));
     qdot_text_char(out, '\n');
     return QDOT_OK;
 }
@@ -201,7 +201,7 @@ put_term(const qdot_scene *s, const char *word, const qdot_term *term, qdot_text
     qdot_text_format(out, "%s ", word);
     if (term->name)
         qdot_text_format(out, "%s: ", term->name);
-    QDOT_TRY(put(s, term->e, out));
+    QDOT_TRY(print_plain(s, term->e, out));
     qdot_text_char(out, '\n');
     return QDOT_OK;
 }
@@ -243,9 +243,9 @@ put_assumption(const qdot_scene *s, const qdot_assumption *said, qdot_text *out)
     if (!said->turned)
         return put_statement(s, "assume", said->relation, out);
     qdot_text_add(out, "assume ");
-    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 1), out));
+    QDOT_TRY(print_plain(s, qdot_expr_arg(s->pool, said->relation, 1), out));
     qdot_text_add(out, strict ? " > " : " >= ");
-    QDOT_TRY(put(s, qdot_expr_arg(s->pool, said->relation, 0), out));
+    QDOT_TRY(print_plain(s, qdot_expr_arg(s->pool, said->relation, 0), out));
     qdot_text_char(out, '\n');
     return QDOT_OK;
 }

@@ -96,7 +96,7 @@ typedef struct {
 } replacement;
 
 static qdot_expr
-replace(qdot_expr e, void *user)
+replace_in_scene(qdot_expr e, void *user)
 {
     const replacement *r = user;
 
@@ -106,5 +106,5 @@ replace(qdot_expr e, void *user)
 qdot_status
 qdot_scene_replace(qdot_scene *s, qdot_expr from, qdot_expr to)
 {
-    return qdot_scene_map(s, replace, &(replacement){s->pool, from, to});
+    return qdot_scene_map(s, replace_in_scene, &(replacement){s->pool, from, to});
 }

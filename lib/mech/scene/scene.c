@@ -438,7 +438,7 @@ add_relation(qdot_scene *s, qdot_expr e)
 /* A relation between undefined functions holds for all values of their arguments, so its
  * derivatives by these are relations too: the first and the second are kept. */
 static qdot_status
-add_slopes(qdot_scene *s, qdot_expr relation)
+relation_add_slopes(qdot_scene *s, qdot_expr relation)
 {
     qdot_pool *pool = s->pool;
     qdot_vec(qdot_expr) by = {0};
@@ -508,7 +508,7 @@ qdot_scene_assume(qdot_scene *s, qdot_expr relation, bool turned)
     if (status == QDOT_OK) {
         status = add_relation(s, f);
         if (status == QDOT_OK)
-            status = add_slopes(s, f);
+            status = relation_add_slopes(s, f);
         if (status != QDOT_OK) {
             s->assumed.n--;
             s->relations.n = before;

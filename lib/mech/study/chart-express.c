@@ -20,7 +20,7 @@ typedef struct {
 } rewriting;
 
 static qdot_status
-replace(rewriting *r, qdot_expr from, qdot_expr to)
+rewriting_add(rewriting *r, qdot_expr from, qdot_expr to)
 {
     QDOT_TRY(qdot_vec_push(&r->from, from));
     return qdot_vec_push(&r->to, to);
@@ -163,7 +163,7 @@ replace_functions(rewriting *r, qdot_expr e)
         if (holds_moved(r, angle, hyperbolic) && find_direction(r, angle, hyperbolic, &d))
             now = of_direction(r->pool, function, d);
         if (now != QDOT_NIL)
-            status = replace(r, found.at[i], now);
+            status = rewriting_add(r, found.at[i], now);
     }
     qdot_free(found.at);
     return status;
@@ -219,14 +219,14 @@ replace_coordinates(rewriting *r, uint32_t holds)
         const qdot_chart_moved *m = c->moved.at + i;
         qdot_expr first;
 
-        QDOT_TRY(replace(r, m->q, m->bare != QDOT_NIL ? m->bare : m->value));
+        QDOT_TRY(rewriting_add(r, m->q, m->bare != QDOT_NIL ? m->bare : m->value));
         if (!(holds & (QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION))
             || qdot_expr_symbol(pool, m->q)->class != QDOT_COORD)
             continue;
         first = moved_rate(c, m);
-        QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 1), first));
+        QDOT_TRY(rewriting_add(r, qdot_symbol_jet(pool, m->q, 1), first));
         if (holds & QDOT_HAS_ACCELERATION)
-            QDOT_TRY(replace(r, qdot_symbol_jet(pool, m->q, 2), qdot_chart_rate(c, first)));
+            QDOT_TRY(rewriting_add(r, qdot_symbol_jet(pool, m->q, 2), qdot_chart_rate(c, first)));
     }
     return QDOT_OK;
 }
@@ -379,7 +379,7 @@ put_angle(qdot_pool *pool, qdot_expr e, const qdot_chart_moved *m, long quarters
 
 /* The angles, roots and signs that e holds, once: values hold others. */
 static qdot_expr
-put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
+chart_put_values(const qdot_chart *c, qdot_expr e, const long *quarters, bool *turns)
 {
     qdot_pool *pool = c->pool;
 
@@ -423,7 +423,7 @@ qdot_chart_express(const qdot_chart *c, qdot_expr e, const long *quarters, bool 
     e = qdot_chart_put(c, e);
     /* v holds sinh u, that an angle, that a distance */
     for (int depth = 0; depth < 3 && e != QDOT_NIL; depth++)
-        e = put_values(c, e, quarters, &some);
+        e = chart_put_values(c, e, quarters, &some);
     if (turns)
         *turns = some;
     return e;

@@ -22,25 +22,25 @@ qdot_chart_size(qdot_chart_kind kind)
 }
 
 static qdot_expr
-coordinate(const qdot_chart *c, size_t i)
+chart_coordinate(const qdot_chart *c, size_t i)
 {
     return c->of->coordinates.at[i];
 }
 
 static const char *
-name_of(const qdot_chart *c, size_t i)
+coordinate_name(const qdot_chart *c, size_t i)
 {
-    return qdot_expr_symbol(c->pool, coordinate(c, i))->name;
+    return qdot_expr_symbol(c->pool, chart_coordinate(c, i))->name;
 }
 
 static qdot_expr
-apply(const qdot_chart *c, uint16_t function, qdot_expr e)
+chart_apply(const qdot_chart *c, uint16_t function, qdot_expr e)
 {
     return qdot_fun1(c->pool, function, e);
 }
 
 static qdot_expr
-times(const qdot_chart *c, qdot_expr a, qdot_expr b)
+chart_times(const qdot_chart *c, qdot_expr a, qdot_expr b)
 {
     return qdot_mul(c->pool, a, b);
 }
@@ -48,7 +48,7 @@ times(const qdot_chart *c, qdot_expr a, qdot_expr b)
 static qdot_expr
 half_of(const qdot_chart *c, qdot_expr e)
 {
-    return times(c, QDOT_HALF, e);
+    return chart_times(c, QDOT_HALF, e);
 }
 
 static qdot_expr
@@ -73,13 +73,13 @@ own_symbol(const qdot_chart *c, const char *what, size_t i)
 {
     char name[120];
 
-    snprintf(name, sizeof name, "%s#%.80s", what, name_of(c, i));
+    snprintf(name, sizeof name, "%s#%.80s", what, coordinate_name(c, i));
     return qdot_symbol_get(c->pool, QDOT_FORMAL, name);
 }
 
 /* Say that the group is written in its new coordinates k ..., or in `what`. */
 static void
-add_name(qdot_chart *c, size_t k, const char *what)
+chart_add_name(qdot_chart *c, size_t k, const char *what)
 {
     qdot_text *names = &c->names;
 
@@ -110,7 +110,7 @@ add_fresh(qdot_chart *c, qdot_expr given, qdot_expr *q)
 static qdot_status
 add_moved(qdot_chart *c, size_t i, qdot_chart_moved m)
 {
-    m.q = m.given = coordinate(c, i);
+    m.q = m.given = chart_coordinate(c, i);
     if (m.sort == QDOT_CHART_ANGLE && m.value == QDOT_NIL)
         m.bare = own_symbol(c, "angle", i);
     return qdot_vec_push(&c->moved, m);
@@ -126,7 +126,7 @@ add_length(qdot_chart *c, size_t i, qdot_expr value, size_t sign)
 
 /* The angle i = atan2(y, x), where x^2 + y^2 = norm^2. */
 static qdot_chart_moved
-angle_of(const qdot_chart *c, qdot_expr x, qdot_expr y, qdot_expr norm, size_t sign)
+chart_angle_of(const qdot_chart *c, qdot_expr x, qdot_expr y, qdot_expr norm, size_t sign)
 {
     return (qdot_chart_moved){.sort = QDOT_CHART_ANGLE,
                               .cosine = qdot_div(c->pool, x, norm),
@@ -152,7 +152,7 @@ add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *si
 {
     const qdot_expr N = own_symbol(c, "distance", i), s = own_symbol(c, "sign", i);
 
-    *signed_N = times(c, s, N);
+    *signed_N = chart_times(c, s, N);
     QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){.symbol = N, .square = square})));
     return qdot_vec_push(
         &c->signs, ((qdot_chart_sign){.symbol = s, .start = start, .distance = *signed_N}));
@@ -162,16 +162,16 @@ add_distance(qdot_chart *c, size_t i, qdot_expr square, int start, qdot_expr *si
 static qdot_status
 add_axis(qdot_chart *c, size_t i, qdot_expr across, int start, qdot_expr *x, qdot_expr *R)
 {
-    const qdot_expr phi = coordinate(c, i);
+    const qdot_expr phi = chart_coordinate(c, i);
     qdot_expr s;
 
-    QDOT_TRY(add_fresh(c, times(c, across, apply(c, QDOT_COS, phi)), x));
-    QDOT_TRY(add_fresh(c, times(c, across, apply(c, QDOT_SIN, phi)), x + 1));
+    QDOT_TRY(add_fresh(c, chart_times(c, across, chart_apply(c, QDOT_COS, phi)), x));
+    QDOT_TRY(add_fresh(c, chart_times(c, across, chart_apply(c, QDOT_SIN, phi)), x + 1));
     QDOT_TRY(add_distance(c, i, square_sum(c, 2, x), start, R));
     s = c->signs.at[c->signs.n - 1].symbol;
     return add_moved(c, i,
-                     angle_of(c, times(c, s, x[0]), times(c, s, x[1]),
-                              c->roots.at[c->roots.n - 1].symbol, c->signs.n));
+                     chart_angle_of(c, chart_times(c, s, x[0]), chart_times(c, s, x[1]),
+                                    c->roots.at[c->roots.n - 1].symbol, c->signs.n));
 }
 
 static qdot_status
@@ -179,7 +179,7 @@ put_plane(qdot_chart *c, const size_t *index, int start)
 {
     qdot_expr x[2], R;
 
-    QDOT_TRY(add_axis(c, index[1], coordinate(c, index[0]), start, x, &R));
+    QDOT_TRY(add_axis(c, index[1], chart_coordinate(c, index[0]), start, x, &R));
     return add_length(c, index[0], R, c->signs.n);
 }
 
@@ -189,17 +189,17 @@ put_space(qdot_chart *c, const qdot_chart_group *g, int start)
 {
     const bool sphere = g->kind == QDOT_CHART_SPHERE;
     const size_t i = g->index[sphere ? 0 : 1], j = g->index[sphere ? 1 : 2];
-    const qdot_expr theta = coordinate(c, i);
-    const qdot_expr r = sphere ? QDOT_ONE : coordinate(c, g->index[0]);
-    const qdot_expr across = apply(c, g->turned ? QDOT_COS : QDOT_SIN, theta);
-    const qdot_expr along = apply(c, g->turned ? QDOT_SIN : QDOT_COS, theta);
+    const qdot_expr theta = chart_coordinate(c, i);
+    const qdot_expr r = sphere ? QDOT_ONE : chart_coordinate(c, g->index[0]);
+    const qdot_expr across = chart_apply(c, g->turned ? QDOT_COS : QDOT_SIN, theta);
+    const qdot_expr along = chart_apply(c, g->turned ? QDOT_SIN : QDOT_COS, theta);
     qdot_expr x[3], R, norm;
     qdot_chart_moved tilt;
 
-    QDOT_TRY(add_axis(c, j, times(c, r, across), start, x, &R));
-    QDOT_TRY(add_fresh(c, times(c, r, along), x + 2));
+    QDOT_TRY(add_axis(c, j, chart_times(c, r, across), start, x, &R));
+    QDOT_TRY(add_fresh(c, chart_times(c, r, along), x + 2));
     norm = sphere ? QDOT_ONE : qdot_sqrt(c->pool, square_sum(c, 3, x));
-    tilt = angle_of(c, g->turned ? R : x[2], g->turned ? x[2] : R, norm, c->signs.n);
+    tilt = chart_angle_of(c, g->turned ? R : x[2], g->turned ? x[2] : R, norm, c->signs.n);
     end_angle(c, &tilt, g->turned);
     QDOT_TRY(add_moved(c, i, tilt));
     if (!sphere)
@@ -210,16 +210,16 @@ put_space(qdot_chart *c, const qdot_chart_group *g, int start)
 static qdot_status
 put_body(qdot_chart *c, const size_t *index, int start)
 {
-    const qdot_expr phi = coordinate(c, index[0]), theta = coordinate(c, index[1]),
-                    psi = coordinate(c, index[2]);
+    const qdot_expr phi = chart_coordinate(c, index[0]), theta = chart_coordinate(c, index[1]),
+                    psi = chart_coordinate(c, index[2]);
     const qdot_expr tilt = half_of(c, theta);
     const qdot_expr sum = half_of(c, qdot_add(c->pool, phi, psi));
     const qdot_expr difference = half_of(c, qdot_sub(c->pool, phi, psi));
-    const qdot_expr C = apply(c, QDOT_COS, tilt), S = apply(c, QDOT_SIN, tilt);
-    const qdot_expr given[] = {times(c, C, apply(c, QDOT_COS, sum)),
-                               times(c, S, apply(c, QDOT_COS, difference)),
-                               times(c, S, apply(c, QDOT_SIN, difference)),
-                               times(c, C, apply(c, QDOT_SIN, sum))};
+    const qdot_expr C = chart_apply(c, QDOT_COS, tilt), S = chart_apply(c, QDOT_SIN, tilt);
+    const qdot_expr given[] = {chart_times(c, C, chart_apply(c, QDOT_COS, sum)),
+                               chart_times(c, S, chart_apply(c, QDOT_COS, difference)),
+                               chart_times(c, S, chart_apply(c, QDOT_SIN, difference)),
+                               chart_times(c, C, chart_apply(c, QDOT_SIN, sum))};
     qdot_expr e[4], R[9], sN, s, N;
     qdot_chart_moved lean;
 
@@ -228,20 +228,20 @@ put_body(qdot_chart *c, const size_t *index, int start)
     QDOT_TRY(qdot_vec_push(&c->unit, qdot_sub(c->pool, square_sum(c, 4, e), QDOT_ONE)));
     qdot_chart_body_axes(c->pool, e, R);
     QDOT_TRY(add_distance(c, index[1],
-                          times(c, qdot_expr_int(c->pool, 4),
-                                times(c, square_sum(c, 2, e + 1),
-                                      square_sum(c, 2, (qdot_expr[]){e[0], e[3]}))),
+                          chart_times(c, qdot_expr_int(c->pool, 4),
+                                      chart_times(c, square_sum(c, 2, e + 1),
+                                                  square_sum(c, 2, (qdot_expr[]){e[0], e[3]}))),
                           start, &sN));
     s = c->signs.at[c->signs.n - 1].symbol;
     N = c->roots.at[c->roots.n - 1].symbol;
     QDOT_TRY(add_moved(c, index[0],
-                       angle_of(c, qdot_neg(c->pool, times(c, s, R[5])), times(c, s, R[2]),
-                                N, c->signs.n)));
-    lean = angle_of(c, R[8], sN, QDOT_ONE, c->signs.n);
+                       chart_angle_of(c, qdot_neg(c->pool, chart_times(c, s, R[5])), chart_times(c, s, R[2]),
+                                      N, c->signs.n)));
+    lean = chart_angle_of(c, R[8], sN, QDOT_ONE, c->signs.n);
     end_angle(c, &lean, false);
     QDOT_TRY(add_moved(c, index[1], lean));
     QDOT_TRY(add_moved(
-        c, index[2], angle_of(c, times(c, s, R[7]), times(c, s, R[6]), N, c->signs.n)));
+        c, index[2], chart_angle_of(c, chart_times(c, s, R[7]), chart_times(c, s, R[6]), N, c->signs.n)));
     return qdot_chart_body_replace(c->of, c->scene,
                                    qdot_scene_euler(c->pool, phi, theta, psi), R,
                                    c->hindrance, sizeof c->hindrance);
@@ -259,19 +259,19 @@ typedef struct {
 static void
 pair_given(const qdot_chart *c, const qdot_chart_group *g, qdot_expr *x)
 {
-    const qdot_expr u = coordinate(c, g->index[0]), v = coordinate(c, g->index[1]);
+    const qdot_expr u = chart_coordinate(c, g->index[0]), v = chart_coordinate(c, g->index[1]);
 
     if (g->kind == QDOT_CHART_PARABOLIC || g->kind == QDOT_CHART_PARABOLOIDS) {
-        x[0] = times(c, u, v);
+        x[0] = chart_times(c, u, v);
         x[1] = half_of(c, qdot_sub(c->pool, square_of(c, u), square_of(c, v)));
         return;
     }
-    x[0] = times(c, apply(c, QDOT_COSH, u), apply(c, g->turned ? QDOT_SIN : QDOT_COS, v));
-    x[1] = times(c, apply(c, QDOT_SINH, u), apply(c, g->turned ? QDOT_COS : QDOT_SIN, v));
+    x[0] = chart_times(c, chart_apply(c, QDOT_COSH, u), chart_apply(c, g->turned ? QDOT_SIN : QDOT_COS, v));
+    x[1] = chart_times(c, chart_apply(c, QDOT_SINH, u), chart_apply(c, g->turned ? QDOT_COS : QDOT_SIN, v));
 }
 
 static qdot_status
-add_pair(qdot_chart *c, const qdot_chart_group *g, int start, pair *p)
+chart_add_pair(qdot_chart *c, const qdot_chart_group *g, int start, pair *p)
 {
     const bool round = qdot_chart_size(g->kind) == 3;
     const size_t across = g->kind == QDOT_CHART_PROLATE ? 1 : 0;
@@ -315,8 +315,8 @@ static qdot_status
 add_turn(qdot_chart *c, const qdot_chart_group *g, const pair *p, qdot_expr x, qdot_expr y,
          qdot_expr given)
 {
-    const qdot_symbol *u = qdot_expr_symbol(c->pool, coordinate(c, g->index[0]));
-    const qdot_symbol *v = qdot_expr_symbol(c->pool, coordinate(c, g->index[1]));
+    const qdot_symbol *u = qdot_expr_symbol(c->pool, chart_coordinate(c, g->index[0]));
+    const qdot_symbol *v = qdot_expr_symbol(c->pool, chart_coordinate(c, g->index[1]));
     const bool second = is_positive(c->pool, c->of, g, 1);
 
     return qdot_vec_push(
@@ -343,16 +343,16 @@ put_parabolic(qdot_chart *c, const qdot_chart_group *g, int start)
     qdot_expr angle, size, rate[2];
     pair p;
 
-    QDOT_TRY(add_pair(c, g, start, &p));
-    size = qdot_sqrt(pool, times(c, qdot_expr_int(pool, 2), rho));
+    QDOT_TRY(chart_add_pair(c, g, start, &p));
+    size = qdot_sqrt(pool, chart_times(c, qdot_expr_int(pool, 2), rho));
     QDOT_TRY(add_turn(c, g, &p, p.Y, p.X,
-                      times(c, qdot_expr_int(pool, 2),
-                            qdot_fun(pool, QDOT_ATAN2, 2,
-                                     (qdot_expr[]){coordinate(c, j), coordinate(c, i)}))));
+                      chart_times(c, qdot_expr_int(pool, 2),
+                                  qdot_fun(pool, QDOT_ATAN2, 2,
+                                           (qdot_expr[]){chart_coordinate(c, j), chart_coordinate(c, i)}))));
     angle = half_of(c, c->moved.at[c->moved.n - 1].bare);
-    rate[0] = qdot_div(pool, half_of(c, qdot_add(pool, times(c, xi, p.dY), times(c, eta, p.dX))),
+    rate[0] = qdot_div(pool, half_of(c, qdot_add(pool, chart_times(c, xi, p.dY), chart_times(c, eta, p.dX))),
                        rho);
-    rate[1] = qdot_div(pool, half_of(c, qdot_sub(pool, times(c, xi, p.dX), times(c, eta, p.dY))),
+    rate[1] = qdot_div(pool, half_of(c, qdot_sub(pool, chart_times(c, xi, p.dX), chart_times(c, eta, p.dY))),
                        rho);
     QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){
                                           .symbol = xi,
@@ -360,12 +360,12 @@ put_parabolic(qdot_chart *c, const qdot_chart_group *g, int start)
                                           .partner = eta,
                                           .product = p.X,
                                           .rate = rate[0],
-                                          .value = times(c, size, apply(c, QDOT_COS, angle))})));
+                                          .value = chart_times(c, size, chart_apply(c, QDOT_COS, angle))})));
     QDOT_TRY(qdot_vec_push(&c->roots, ((qdot_chart_root){
                                           .symbol = eta,
                                           .square = qdot_sub(pool, rho, p.Y),
                                           .rate = rate[1],
-                                          .value = times(c, size, apply(c, QDOT_SIN, angle))})));
+                                          .value = chart_times(c, size, chart_apply(c, QDOT_SIN, angle))})));
     QDOT_TRY(qdot_vec_push(
         &c->roots, ((qdot_chart_root){.symbol = rho, .square = qdot_add(pool, p.XX, p.YY)})));
     for (size_t k = 0; k < 2; k++)
@@ -398,23 +398,23 @@ add_ellipse(qdot_chart *c, const pair *p, const ellipse *e)
          .square = half_of(c, qdot_add(pool, sum, e->S)),
          .partner = e->cos,
          .product = p->X,
-         .rate = times(c, e->sinh, e->du)},
+         .rate = chart_times(c, e->sinh, e->du)},
         {.symbol = e->sinh,
          .square = half_of(c, qdot_add(pool, less, e->S)),
          .partner = e->sin,
          .product = p->Y,
-         .rate = times(c, e->cosh, e->du),
-         .value = times(c, size, apply(c, QDOT_COS, angle))},
+         .rate = chart_times(c, e->cosh, e->du),
+         .value = chart_times(c, size, chart_apply(c, QDOT_COS, angle))},
         {.symbol = e->cos,
          .square = half_of(c, qdot_sub(pool, sum, e->S)),
-         .rate = qdot_neg(pool, times(c, e->sin, e->dv)),
+         .rate = qdot_neg(pool, chart_times(c, e->sin, e->dv)),
          .value = qdot_div(pool, p->X, e->cosh)},
         {.symbol = e->sin,
          .square = half_of(c, qdot_sub(pool, e->S, less)),
-         .rate = times(c, e->cos, e->dv),
-         .value = times(c, size, apply(c, QDOT_SIN, angle))},
+         .rate = chart_times(c, e->cos, e->dv),
+         .value = chart_times(c, size, chart_apply(c, QDOT_SIN, angle))},
         {.symbol = e->S,
-         .square = qdot_add(pool, square_of(c, less), times(c, qdot_expr_int(pool, 4), p->YY))},
+         .square = qdot_add(pool, square_of(c, less), chart_times(c, qdot_expr_int(pool, 4), p->YY))},
     };
 
     for (size_t k = 0; k < sizeof roots / sizeof *roots; k++)
@@ -427,7 +427,7 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
 {
     qdot_pool *pool = c->pool;
     const size_t i = g->index[0], j = g->index[1];
-    const qdot_expr u = coordinate(c, i), v = coordinate(c, j), two = qdot_expr_int(pool, 2);
+    const qdot_expr u = chart_coordinate(c, i), v = chart_coordinate(c, j), two = qdot_expr_int(pool, 2);
     ellipse e = {.cosh = own_symbol(c, "cosh", i),
                  .sinh = own_symbol(c, "sinh", i),
                  .cos = own_symbol(c, "cos", j),
@@ -438,21 +438,21 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
     qdot_chart_moved angle, own;
     pair p;
 
-    QDOT_TRY(add_pair(c, g, start, &p));
+    QDOT_TRY(chart_add_pair(c, g, start, &p));
     QDOT_TRY(add_turn(c, g, &p,
-                      qdot_sub(pool, qdot_add(pool, p.XX, p.YY), QDOT_ONE), times(c, two, p.Y),
-                      times(c, two,
-                            qdot_fun(pool, QDOT_ATAN2, 2,
-                                     (qdot_expr[]){apply(c, g->turned ? QDOT_COS : QDOT_SIN, v),
-                                                   apply(c, QDOT_SINH, u)}))));
+                      qdot_sub(pool, qdot_add(pool, p.XX, p.YY), QDOT_ONE), chart_times(c, two, p.Y),
+                      chart_times(c, two,
+                                  qdot_fun(pool, QDOT_ATAN2, 2,
+                                           (qdot_expr[]){chart_apply(c, g->turned ? QDOT_COS : QDOT_SIN, v),
+                                                   chart_apply(c, QDOT_SINH, u)}))));
     turn = c->moved.n - 1;
-    bp = times(c, e.sinh, e.cos);
-    aq = times(c, e.cosh, e.sin);
-    e.du = qdot_div(pool, qdot_add(pool, times(c, bp, p.dX), times(c, aq, p.dY)), e.S);
-    e.dv = qdot_div(pool, qdot_sub(pool, times(c, bp, p.dY), times(c, aq, p.dX)), e.S);
+    bp = chart_times(c, e.sinh, e.cos);
+    aq = chart_times(c, e.cosh, e.sin);
+    e.du = qdot_div(pool, qdot_add(pool, chart_times(c, bp, p.dX), chart_times(c, aq, p.dY)), e.S);
+    e.dv = qdot_div(pool, qdot_sub(pool, chart_times(c, bp, p.dY), chart_times(c, aq, p.dX)), e.S);
     QDOT_TRY(add_ellipse(c, &p, &e));
     QDOT_TRY(add_moved(c, i, (qdot_chart_moved){.sort = QDOT_CHART_HYPERBOLIC,
-                                                .value = apply(c, QDOT_ASINH, e.sinh),
+                                                .value = chart_apply(c, QDOT_ASINH, e.sinh),
                                                 .cosine = e.cosh,
                                                 .sine = e.sinh,
                                                 .ends = {g->kind == QDOT_CHART_PROLATE ||
@@ -470,7 +470,7 @@ put_elliptic(qdot_chart *c, const qdot_chart_group *g, int start)
                              .x = p.X,
                              .y = aq,
                              .half = turn,
-                             .factor = times(c, e.cosh, qdot_sqrt(pool, e.S)),
+                             .factor = chart_times(c, e.cosh, qdot_sqrt(pool, e.S)),
                              .bare = bare,
                              .rate = e.dv,
                              .given = g->turned ? qdot_sub(pool, half_of(c, QDOT_PI), v) : v,
@@ -527,9 +527,9 @@ qdot_chart_add(qdot_chart *c, const qdot_chart_group *g, int sign)
     default:
         QDOT_TRY(put_body(c, g->index, sign));
         snprintf(what, sizeof what, "the unit quaternion of %.50s, %.50s, %.50s",
-                 name_of(c, g->index[0]), name_of(c, g->index[1]), name_of(c, g->index[2]));
+                 coordinate_name(c, g->index[0]), coordinate_name(c, g->index[1]), coordinate_name(c, g->index[2]));
     }
-    add_name(c, before, g->kind == QDOT_CHART_BODY ? what : NULL);
+    chart_add_name(c, before, g->kind == QDOT_CHART_BODY ? what : NULL);
     return QDOT_OK;
 }
 

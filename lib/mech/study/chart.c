@@ -91,7 +91,7 @@ check_domain(qdot_chart *c, qdot_chart_moved *m)
 /* Whether e holds an angle outside of sin and cos that would jump after a turn, in a domain between
  * singular places it has no turns; or a root that may change its sign. */
 static bool
-jumps(qdot_chart *c, qdot_expr e)
+angle_jumps(qdot_chart *c, qdot_expr e)
 {
     qdot_expr now = qdot_chart_put(c, e);
 
@@ -121,7 +121,7 @@ static qdot_status
 copy_event(qdot_chart *c, const qdot_event *event)
 {
     qdot_event own = *event;
-    bool some = jumps(c, event->left) || jumps(c, event->right);
+    bool some = angle_jumps(c, event->left) || angle_jumps(c, event->right);
     qdot_status status = QDOT_OK;
 
     own.left = qdot_chart_express(c, event->left, NULL, NULL);
@@ -135,7 +135,7 @@ copy_event(qdot_chart *c, const qdot_event *event)
         some |= is_moved(c, target && target->base != QDOT_NIL ? target->base
                                                                : own.targets.at[i]);
         own.values.at[i] = qdot_chart_express(c, event->values.at[i], NULL, NULL);
-        some |= jumps(c, event->values.at[i]);
+        some |= angle_jumps(c, event->values.at[i]);
     }
     if (some)
         snprintf(c->hindrance, sizeof c->hindrance, "event %.80s needs the angle itself",
@@ -174,7 +174,7 @@ check_lengths(qdot_chart *c)
 }
 
 static qdot_status
-complete(qdot_chart *c)
+chart_complete(qdot_chart *c)
 {
     const qdot_scene *s = c->of;
 
@@ -193,7 +193,7 @@ complete(qdot_chart *c)
 }
 
 static bool
-is_taken(const qdot_chart_groups *groups, size_t i)
+coordinate_is_taken(const qdot_chart_groups *groups, size_t i)
 {
     for (size_t k = 0; k < groups->n; k++)
         for (size_t j = 0; j < qdot_chart_size(groups->at[k].kind); j++)
@@ -225,7 +225,7 @@ begin_scene(qdot_chart *c, const qdot_chart_groups *groups)
     for (size_t i = 0; i < s->coordinates.n; i++) {
         const qdot_expr q = s->coordinates.at[i];
 
-        if (!is_taken(groups, i)) {
+        if (!coordinate_is_taken(groups, i)) {
             QDOT_TRY(qdot_scene_coordinate(c->scene, q));
             continue;
         }
@@ -252,7 +252,7 @@ qdot_chart_make(qdot_scene *s, const qdot_chart_groups *groups, const int *sign,
     for (size_t i = 0; i < groups->n && c->hindrance[0] == '\0'; i++)
         QDOT_TRY(qdot_chart_add(c, groups->at + i, sign ? sign[i] : 1));
     if (c->hindrance[0] == '\0')
-        QDOT_TRY(complete(c));
+        QDOT_TRY(chart_complete(c));
     QDOT_TRY(qdot_text_status(&c->names));
     if (c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);
@@ -273,7 +273,7 @@ try_group(qdot_scene *s, bool open, qdot_chart_group g, qdot_chart_groups *group
     bool good;
 
     for (size_t k = 0; k < qdot_chart_size(g.kind); k++)
-        if (is_taken(groups, g.index[k]))
+        if (coordinate_is_taken(groups, g.index[k]))
             return QDOT_OK;
     status = qdot_chart_make(s, &one, NULL, open, &chart);
     good = chart.scene != NULL;
@@ -370,7 +370,7 @@ may_be(const joined *pairs, const size_t *index, size_t n)
 
 /* What can be seen of coordinates at once: not one is of a kind that needs functions of it. */
 static bool
-fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
+group_fits(const qdot_scene *s, const qdot_chart_group *g, const joined *pairs)
 {
     const size_t n = qdot_chart_size(g->kind);
 
@@ -404,11 +404,11 @@ try_kind(qdot_scene *s, bool open, qdot_chart_kind kind, bool turned, const join
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t k = 0; k < third; k++) {
-                /* what is not in the group is no index of it, for `fits` */
+                /* what is not in the group is no index of it, for `group_fits` */
                 const qdot_chart_group g = {
                     .kind = kind, .index = {i, j, third > 1 ? k : 0}, .turned = turned};
 
-                if (fits(s, &g, pairs))
+                if (group_fits(s, &g, pairs))
                     QDOT_TRY(try_group(s, open, g, groups));
             }
     return QDOT_OK;

@@ -17,7 +17,7 @@ holds_coordinates(const qdot_collision_equations *of, qdot_expr e)
 
 /* Whether e is a number. */
 static bool
-is_number(const qdot_collision_equations *of, qdot_expr e)
+is_numeral(const qdot_collision_equations *of, qdot_expr e)
 {
     return e != QDOT_NIL && qdot_expr_kind(of->pool, e) == QDOT_NUM;
 }
@@ -31,7 +31,7 @@ find_line(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *
     for (size_t i = 0; i < of->n; i++) {
         const qdot_expr slope = qdot_diff(of->pool, e, of->q[i]);
 
-        if (!is_number(of, slope))
+        if (!is_numeral(of, slope))
             return false;
         rest = qdot_subs(of->pool, rest, 1, of->q + i, (qdot_expr[]){QDOT_ZERO});
         if (slope != QDOT_ZERO && first == QDOT_NIL) {
@@ -39,7 +39,7 @@ find_line(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pair *
             pair->pivot[0] = i;
         }
     }
-    if (first == QDOT_NIL || !is_number(of, rest))
+    if (first == QDOT_NIL || !is_numeral(of, rest))
         return false;
     pair->d = 1;
     pair->x[0] = qdot_expand(of->pool, qdot_div(of->pool, e, first));
@@ -62,7 +62,7 @@ find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pai
 
         if (slope == QDOT_ZERO)
             continue;
-        if (pair->d == QDOT_COLLISION_MOST || !is_number(of, twice) || twice == QDOT_ZERO)
+        if (pair->d == QDOT_COLLISION_MOST || !is_numeral(of, twice) || twice == QDOT_ZERO)
             return false;
         if (pair->d == 0)
             pair->scale = qdot_mul(pool, QDOT_HALF, twice);
@@ -82,7 +82,7 @@ find_squares(const qdot_collision_equations *of, qdot_expr e, qdot_collision_pai
 /* --- what is divided by ------------------------------------------------------------ */
 
 static bool
-is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
+pair_is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
 {
     for (size_t i = 0; i < pairs->n; i++) {
         const qdot_collision_pair *p = pairs->at + i;
@@ -97,13 +97,13 @@ is_known(const qdot_collision_pairs *pairs, const qdot_collision_pair *x)
 }
 
 static qdot_status
-add(const qdot_collision_equations *of, qdot_expr base, bool line,
-    qdot_collision_pairs *pairs)
+pairs_add(const qdot_collision_equations *of, qdot_expr base, bool line,
+          qdot_collision_pairs *pairs)
 {
     qdot_collision_pair pair = {0};
 
     if (!(line ? find_line(of, base, &pair) : find_squares(of, base, &pair)) ||
-        is_known(pairs, &pair))
+        pair_is_known(pairs, &pair))
         return qdot_pool_check(of->pool);
     return qdot_vec_push(pairs, pair);
 }
@@ -138,7 +138,7 @@ list_divisors(const qdot_collision_equations *of, size_t m, const qdot_expr *exp
                             exponent = qdot_expr_arg(pool, w.at[i], f + 1);
             long k;
 
-            if (is_number(of, exponent) && qdot_expr_is_negative(pool, exponent) &&
+            if (is_numeral(of, exponent) && qdot_expr_is_negative(pool, exponent) &&
                 holds_coordinates(of, base))
                 status = qdot_vec_push(
                     list, ((divisor){base, qdot_expr_to_int(pool, exponent, &k)}));
@@ -166,7 +166,7 @@ qdot_collision_find(const qdot_collision_equations *of, size_t m, const qdot_exp
     qdot_status status = list_divisors(of, m, exprs, &list);
 
     for (size_t i = 0; i < list.n && status == QDOT_OK; i++)
-        status = add(of, list.at[i].e, list.at[i].whole, pairs);
+        status = pairs_add(of, list.at[i].e, list.at[i].whole, pairs);
     qdot_free(list.at);
     return status;
 }

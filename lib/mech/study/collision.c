@@ -46,30 +46,30 @@ typedef struct {
 /* --- small formulas -------------------------------------------------------------------------------- */
 
 static qdot_expr
-times(const work *k, qdot_expr a, qdot_expr b)
+collision_times(const work *k, qdot_expr a, qdot_expr b)
 {
     return qdot_mul(k->pool, a, b);
 }
 
 static qdot_expr
-velocity(const work *k, qdot_expr q)
+velocity_of(const work *k, qdot_expr q)
 {
     return qdot_symbol_jet(k->pool, q, 1);
 }
 
 static qdot_expr
-dot(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
+collision_dot(const work *k, size_t n, const qdot_expr *a, const qdot_expr *b)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t i = 0; i < n; i++)
-        sum = qdot_add(k->pool, sum, times(k, a[i], b[i]));
+        sum = qdot_add(k->pool, sum, collision_times(k, a[i], b[i]));
     return sum;
 }
 
 /* L(u), row i and column j: +-u of that index, from 1. */
 static qdot_expr
-entry(const work *k, size_t i, size_t j)
+ks_matrix_entry(const work *k, size_t i, size_t j)
 {
     static const int index[MOST][PARTS] = {{1, -2, -3, 4}, {2, 1, -4, -3}, {3, 4, 1, 2}};
     const int at = index[i][j];
@@ -79,22 +79,22 @@ entry(const work *k, size_t i, size_t j)
 }
 
 static qdot_expr
-row(const work *k, size_t i, const qdot_expr *b)
+ks_matrix_row(const work *k, size_t i, const qdot_expr *b)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t j = 0; j < k->m; j++)
-        sum = qdot_add(k->pool, sum, times(k, entry(k, i, j), b[j]));
+        sum = qdot_add(k->pool, sum, collision_times(k, ks_matrix_entry(k, i, j), b[j]));
     return sum;
 }
 
 static qdot_expr
-column(const work *k, size_t j, const qdot_expr *b)
+ks_matrix_column(const work *k, size_t j, const qdot_expr *b)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t i = 0; i < k->d; i++)
-        sum = qdot_add(k->pool, sum, times(k, entry(k, i, j), b[i]));
+        sum = qdot_add(k->pool, sum, collision_times(k, ks_matrix_entry(k, i, j), b[i]));
     return sum;
 }
 
@@ -133,7 +133,7 @@ divides_by(qdot_pool *pool, qdot_expr e, qdot_expr base)
 /* --- new coordinates ------------------------------------------------------------------------------- */
 
 static qdot_expr
-fresh(work *k, const char *what, const char *of)
+fresh_coordinate(work *k, const char *what, const char *of)
 {
     char name[120];
     qdot_expr q;
@@ -172,31 +172,31 @@ make_symbols(work *k)
     k->m = k->d == 3 ? 4 : k->d;
     for (size_t j = 0; j < k->m; j++) {
         snprintf(number, sizeof number, "%zu", j + 1);
-        k->u[j] = fresh(k, "u", number);
+        k->u[j] = fresh_coordinate(k, "u", number);
     }
-    k->c->time = fresh(k, "t", "");
-    k->energy = fresh(k, "h", "");
+    k->c->time = fresh_coordinate(k, "t", "");
+    k->energy = fresh_coordinate(k, "h", "");
     k->R = k->c->R = formal(k, "distance", 0);
     qdot_symbol_domain(k->pool, k->R, QDOT_ZERO, true, QDOT_NIL, false);
     for (size_t i = 0; i < k->d; i++) {
         qdot_expr v[PARTS];
 
         for (size_t j = 0; j < k->m; j++)
-            v[j] = velocity(k, k->u[j]);
+            v[j] = velocity_of(k, k->u[j]);
         k->x[i] = k->d > 1 ? formal(k, "x", i)
-                           : times(k, qdot_expr_int(k->pool, k->sign), k->R);
+                           : collision_times(k, qdot_expr_int(k->pool, k->sign), k->R);
         k->rate[i] = formal(k, "rate", i);
-        k->in_u[i] = qdot_expand(k->pool, row(k, i, k->u));
+        k->in_u[i] = qdot_expand(k->pool, ks_matrix_row(k, i, k->u));
         k->rate_u[i] =
-            qdot_div(k->pool, times(k, qdot_expr_int(k->pool, 2), row(k, i, v)), k->R);
+            qdot_div(k->pool, collision_times(k, qdot_expr_int(k->pool, 2), ks_matrix_row(k, i, v)), k->R);
     }
     for (size_t i = 0; i < k->of->n; i++) {
         const char *name = qdot_expr_symbol(k->pool, k->of->q[i])->name;
 
         if (is_pivot(k, i))
             continue;
-        k->Q[i] = fresh(k, "free", name);
-        k->w[i] = fresh(k, "way", name);
+        k->Q[i] = fresh_coordinate(k, "free", name);
+        k->w[i] = fresh_coordinate(k, "way", name);
     }
 }
 
@@ -230,7 +230,7 @@ split_accelerations(work *k)
         qdot_expr most, left;
 
         e = without_pivots(k, e);
-        e = qdot_expand(k->pool, times(k, e, qdot_pow_int(k->pool, k->R, power)));
+        e = qdot_expand(k->pool, collision_times(k, e, qdot_pow_int(k->pool, k->R, power)));
         if (e == QDOT_NIL || divides_by(k->pool, e, k->R)) {
             hinder(k, "the forces grow faster than 1/r^2");
             return;
@@ -240,16 +240,16 @@ split_accelerations(work *k)
             qdot_expr *c = k->pull + i * k->d + j;
 
             *c = k->d > 1 ? qdot_diff(k->pool, most, k->x[j])
-                          : times(k, qdot_expr_int(k->pool, k->sign), most);
+                          : collision_times(k, qdot_expr_int(k->pool, k->sign), most);
             if (k->d > 1)
-                left = qdot_sub(k->pool, left, times(k, *c, k->x[j]));
+                left = qdot_sub(k->pool, left, collision_times(k, *c, k->x[j]));
             if (qdot_expr_kind(k->pool, *c) != QDOT_NUM)
                 hinder(k, "the force between the points is not -k/r^2");
         }
         if (k->d > 1 && qdot_expand(k->pool, left) != QDOT_ZERO)
             hinder(k, "the force between the points is not -k/r^2");
-        k->rest[i] = qdot_expand(k->pool, times(k, qdot_sub(k->pool, e, most),
-                                                qdot_pow_int(k->pool, k->R, -power)));
+        k->rest[i] = qdot_expand(k->pool, collision_times(k, qdot_sub(k->pool, e, most),
+                                                          qdot_pow_int(k->pool, k->R, -power)));
     }
 }
 
@@ -266,8 +266,8 @@ find_pair(work *k)
 
             for (size_t j = 0; j < k->of->n; j++)
                 c = qdot_add(k->pool, c,
-                             times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]),
-                                   k->pull[j * k->d + l]));
+                             collision_times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]),
+                                             k->pull[j * k->d + l]));
             if (i == 0 && l == 0)
                 k->strength = qdot_neg(k->pool, c);
             if (c != (i == l ? qdot_neg(k->pool, k->strength) : QDOT_ZERO))
@@ -276,7 +276,7 @@ find_pair(work *k)
         for (size_t j = 0; j < k->of->n; j++)
             k->P[i] = qdot_add(
                 k->pool, k->P[i],
-                times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]), k->rest[j]));
+                collision_times(k, qdot_diff(k->pool, pair->x[i], k->of->q[j]), k->rest[j]));
     }
     if (!is_hindered(k) &&
         (k->strength == QDOT_ZERO || qdot_expr_is_negative(k->pool, k->strength)))
@@ -287,7 +287,7 @@ find_pair(work *k)
 static qdot_expr
 lag(const work *k, size_t i, const qdot_expr *x)
 {
-    return qdot_div(k->pool, dot(k, k->d, k->pull + i * k->d, x), k->strength);
+    return qdot_div(k->pool, collision_dot(k, k->d, k->pull + i * k->d, x), k->strength);
 }
 
 /* q and dq/dt of the coordinates given. */
@@ -299,7 +299,7 @@ express_coordinates(work *k)
     for (size_t i = 0; i < k->of->n; i++)
         if (!is_pivot(k, i)) {
             k->value[i] = qdot_sub(k->pool, k->Q[i], lag(k, i, k->x));
-            k->speed[i] = qdot_sub(k->pool, velocity(k, k->w[i]), lag(k, i, k->rate));
+            k->speed[i] = qdot_sub(k->pool, velocity_of(k, k->w[i]), lag(k, i, k->rate));
         }
     for (size_t j = k->d; j-- > 0;) {
         const size_t p = pair->pivot[j];
@@ -313,7 +313,7 @@ express_coordinates(work *k)
             if (slope == QDOT_ZERO)
                 continue;
             value = qdot_subs(k->pool, value, 1, k->of->q + i, k->value + i);
-            speed = qdot_sub(k->pool, speed, times(k, slope, k->speed[i]));
+            speed = qdot_sub(k->pool, speed, collision_times(k, slope, k->speed[i]));
         }
         k->value[p] = qdot_expand(k->pool, value);
         k->speed[p] = qdot_expand(k->pool, speed);
@@ -327,7 +327,7 @@ in_rates(const work *k, qdot_expr e)
     const qdot_expr now = QDOT_T;
 
     for (size_t i = 0; i < k->of->n; i++) {
-        const qdot_expr from[] = {k->of->q[i], velocity(k, k->of->q[i])};
+        const qdot_expr from[] = {k->of->q[i], velocity_of(k, k->of->q[i])};
         const qdot_expr to[] = {k->value[i], k->speed[i]};
 
         e = qdot_subs(k->pool, e, 2, from, to);
@@ -354,7 +354,7 @@ in_new(const work *k, qdot_expr e)
 static qdot_expr
 regular(work *k, qdot_expr e)
 {
-    const qdot_expr square = dot(k, k->m, k->u, k->u);
+    const qdot_expr square = collision_dot(k, k->m, k->u, k->u);
 
     e = qdot_expand(k->pool, e);
     if (e != QDOT_NIL && divides_by(k->pool, e, k->R)) {
@@ -396,10 +396,10 @@ start_of_u(const work *k, qdot_expr *u)
         return;
     }
     u[main] =
-        qdot_sqrt(k->pool, times(k, QDOT_HALF, qdot_add(k->pool, pair->distance, x)));
-    u[1 - main] = qdot_div(k->pool, pair->x[1], times(k, two, u[main]));
+        qdot_sqrt(k->pool, collision_times(k, QDOT_HALF, qdot_add(k->pool, pair->distance, x)));
+    u[1 - main] = qdot_div(k->pool, pair->x[1], collision_times(k, two, u[main]));
     if (k->d == 3)
-        u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], times(k, two, u[main]));
+        u[main ? 3 : 2] = qdot_div(k->pool, pair->x[2], collision_times(k, two, u[main]));
 }
 
 /* Take b dx/dt, a force along the velocity, out of P, in rates: b. As u'.(L^T L u') = R u'.u', for 4
@@ -414,45 +414,46 @@ take_along(const work *k, qdot_expr *P)
             qdot_expr_contains(k->pool, b, k->rate[i]))
             return QDOT_ZERO;
     for (size_t i = 0; i < k->d; i++)
-        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], times(k, b, k->rate[i])));
+        P[i] = qdot_expand(k->pool, qdot_sub(k->pool, P[i], collision_times(k, b, k->rate[i])));
     return b;
 }
 
 static qdot_status
-add_pair(work *k)
+collision_add_pair(work *k)
 {
-    const qdot_expr h = velocity(k, k->energy), two = qdot_expr_int(k->pool, 2);
+    const qdot_expr h = velocity_of(k, k->energy), two = qdot_expr_int(k->pool, 2);
     qdot_expr RP[MOST], u0[PARTS], v[PARTS], rate0[MOST], power = QDOT_ZERO, along;
     work at_start = *k;
 
     for (size_t j = 0; j < k->m; j++)
-        v[j] = velocity(k, k->u[j]);
+        v[j] = velocity_of(k, k->u[j]);
     for (size_t i = 0; i < k->d; i++)
         RP[i] = in_rates(k, k->P[i]);
     along = regular(k, in_u(k, take_along(k, RP)));
     for (size_t i = 0; i < k->d; i++) {
-        RP[i] = qdot_expand(k->pool, times(k, k->R, in_u(k, RP[i])));
+        RP[i] = qdot_expand(k->pool, collision_times(k, k->R, in_u(k, RP[i])));
         rate0[i] = qdot_ddt(k->pool, k->c->pair.x[i]);
-        power = qdot_add(k->pool, power, times(k, row(k, i, v), RP[i]));
+        power = qdot_add(k->pool, power, collision_times(k, ks_matrix_row(k, i, v), RP[i]));
     }
     start_of_u(k, u0);
     memcpy(at_start.u, u0, sizeof u0);
     for (size_t j = 0; j < k->m; j++) {
-        qdot_expr push = regular(k, times(k, QDOT_HALF, column(k, j, RP)));
+        qdot_expr push = regular(k, collision_times(k, QDOT_HALF, ks_matrix_column(k, j, RP)));
 
         push = qdot_add(k->pool, push,
-                        times(k, along, times(k, dot(k, k->m, k->u, k->u), v[j])));
-        push = qdot_add(k->pool, times(k, QDOT_HALF, times(k, h, k->u[j])), push);
+                        collision_times(k, along, collision_times(k, collision_dot(k, k->m, k->u, k->u), v[j])));
+        push = qdot_add(k->pool, collision_times(k, QDOT_HALF, collision_times(k, h, k->u[j])), push);
         QDOT_TRY(add_equation(k, k->u[j], push, u0[j],
-                              times(k, QDOT_HALF, column(&at_start, j, rate0))));
+                              collision_times(k, QDOT_HALF, ks_matrix_column(&at_start, j, rate0))));
     }
-    QDOT_TRY(add_equation(k, k->c->time, times(k, two, dot(k, k->m, k->u, v)), QDOT_T,
+    QDOT_TRY(add_equation(k, k->c->time, collision_times(k, two, collision_dot(k, k->m, k->u, v)), QDOT_T,
                           k->c->pair.distance));
-    power = regular(k, qdot_div(k->pool, times(k, two, power), k->R));
-    power = qdot_add(k->pool, power,
-                     times(k, qdot_expr_int(k->pool, 4), times(k, along, dot(k, k->m, v, v))));
+    power = regular(k, qdot_div(k->pool, collision_times(k, two, power), k->R));
+    power = qdot_add(
+        k->pool, power,
+        collision_times(k, qdot_expr_int(k->pool, 4), collision_times(k, along, collision_dot(k, k->m, v, v))));
     return add_equation(k, k->energy, power, QDOT_ZERO,
-                        qdot_sub(k->pool, times(k, QDOT_HALF, dot(k, k->d, rate0, rate0)),
+                        qdot_sub(k->pool, collision_times(k, QDOT_HALF, collision_dot(k, k->d, rate0, rate0)),
                                  qdot_div(k->pool, k->strength, k->c->pair.distance)));
 }
 
@@ -463,24 +464,24 @@ add_others(work *k)
     qdot_expr v[PARTS], change, rate0[MOST];
 
     for (size_t j = 0; j < k->m; j++)
-        v[j] = velocity(k, k->u[j]);
+        v[j] = velocity_of(k, k->u[j]);
     for (size_t i = 0; i < k->d; i++)
         rate0[i] = qdot_ddt(k->pool, pair->x[i]);
-    change = times(k, qdot_expr_int(k->pool, 2), dot(k, k->m, k->u, v));
+    change = collision_times(k, qdot_expr_int(k->pool, 2), collision_dot(k, k->m, k->u, v));
     for (size_t i = 0; i < k->of->n && !is_hindered(k); i++) {
         const qdot_expr q = k->of->q[i];
         qdot_expr second, free;
 
         if (is_pivot(k, i))
             continue;
-        free = qdot_add(k->pool, velocity(k, q), lag(k, i, rate0));
+        free = qdot_add(k->pool, velocity_of(k, q), lag(k, i, rate0));
         second = qdot_add(k->pool, k->rest[i], lag(k, i, k->P));
-        second = regular(k, times(k, k->R, in_new(k, second)));
+        second = regular(k, collision_times(k, k->R, in_new(k, second)));
         QDOT_TRY(add_equation(k, k->Q[i],
-                              qdot_add(k->pool, times(k, change, velocity(k, k->w[i])),
-                                       times(k, dot(k, k->m, k->u, k->u), second)),
+                              qdot_add(k->pool, collision_times(k, change, velocity_of(k, k->w[i])),
+                                       collision_times(k, collision_dot(k, k->m, k->u, k->u), second)),
                               qdot_add(k->pool, q, lag(k, i, pair->x)),
-                              times(k, pair->distance, free)));
+                              collision_times(k, pair->distance, free)));
         QDOT_TRY(add_equation(k, k->w[i], second, QDOT_ZERO, free));
     }
     return qdot_pool_check(k->pool);
@@ -489,9 +490,9 @@ add_others(work *k)
 /* --- expressions ----------------------------------------------------------------------------------- */
 
 static qdot_status
-replace(work *k, qdot_expr from, qdot_expr to)
+collision_replace(work *k, qdot_expr from, qdot_expr to)
 {
-    const qdot_expr square = dot(k, k->m, k->u, k->u);
+    const qdot_expr square = collision_dot(k, k->m, k->u, k->u);
 
     to = qdot_subs(k->pool, to, 1, &k->R, &square);
     QDOT_TRY(qdot_vec_push(&k->c->from, from));
@@ -505,13 +506,13 @@ list_replacements(work *k)
         qdot_expr e =
             qdot_collision_put_distance(k->pool, k->of->accels[i], &k->c->pair, k->R);
 
-        QDOT_TRY(replace(k, k->of->q[i], in_new(k, k->of->q[i])));
+        QDOT_TRY(collision_replace(k, k->of->q[i], in_new(k, k->of->q[i])));
         QDOT_TRY(
-            replace(k, velocity(k, k->of->q[i]), in_new(k, velocity(k, k->of->q[i]))));
-        QDOT_TRY(replace(k, qdot_symbol_jet(k->pool, k->of->q[i], 2), in_new(k, e)));
+            collision_replace(k, velocity_of(k, k->of->q[i]), in_new(k, velocity_of(k, k->of->q[i]))));
+        QDOT_TRY(collision_replace(k, qdot_symbol_jet(k->pool, k->of->q[i], 2), in_new(k, e)));
     }
-    QDOT_TRY(replace(k, QDOT_T, k->c->time));
-    QDOT_TRY(replace(k, k->R, k->R));
+    QDOT_TRY(collision_replace(k, QDOT_T, k->c->time));
+    QDOT_TRY(collision_replace(k, k->R, k->R));
     return qdot_pool_check(k->pool);
 }
 
@@ -531,18 +532,18 @@ express_energy(work *k)
               m, pole;
 
     e = in_rates(k, e);
-    pole = qdot_expand(k->pool, times(k, e, k->R));
+    pole = qdot_expand(k->pool, collision_times(k, e, k->R));
     if (pole == QDOT_NIL || divides_by(k->pool, pole, k->R))
         return;
     pole = qdot_subs(k->pool, pole, 1, &k->R, (qdot_expr[]){QDOT_ZERO});
     m = qdot_neg(k->pool, qdot_div(k->pool, pole, k->strength));
     e = qdot_sub(k->pool, e, qdot_div(k->pool, pole, k->R));
     e = qdot_add(k->pool, e,
-                 times(k, times(k, minus_half, m), dot(k, k->d, k->rate, k->rate)));
+                 collision_times(k, collision_times(k, minus_half, m), collision_dot(k, k->d, k->rate, k->rate)));
     e = in_u(k, qdot_expand(k->pool, e));
     k->c->energy =
-        qdot_subs(k->pool, qdot_add(k->pool, e, times(k, m, velocity(k, k->energy))), 1,
-                  &k->R, (qdot_expr[]){dot(k, k->m, k->u, k->u)});
+        qdot_subs(k->pool, qdot_add(k->pool, e, collision_times(k, m, velocity_of(k, k->energy))), 1,
+                  &k->R, (qdot_expr[]){collision_dot(k, k->m, k->u, k->u)});
 }
 
 /* Events set nothing that moves. */
@@ -583,7 +584,7 @@ check_domains(work *k)
 /* --- all of it --------------------------------------------------------------------------------------- */
 
 static qdot_status
-make(work *k)
+collision_build(work *k)
 {
     qdot_expr kinetic = QDOT_ZERO;
     qdot_scene *to = k->c->scene;
@@ -602,10 +603,10 @@ make(work *k)
     for (size_t i = 0; i < to->coordinates.n; i++)
         kinetic =
             qdot_add(k->pool, kinetic,
-                     times(k, QDOT_HALF,
-                           qdot_pow_int(k->pool, velocity(k, to->coordinates.at[i]), 2)));
+                     collision_times(k, QDOT_HALF,
+                                     qdot_pow_int(k->pool, velocity_of(k, to->coordinates.at[i]), 2)));
     QDOT_TRY(qdot_scene_lagrangian(to, kinetic));
-    QDOT_TRY(add_pair(k));
+    QDOT_TRY(collision_add_pair(k));
     QDOT_TRY(add_others(k));
     QDOT_TRY(list_replacements(k));
     if (k->of->energy != QDOT_NIL)
@@ -637,7 +638,7 @@ qdot_collision_make(qdot_scene *s, const qdot_collision_equations *of,
         k.rest = k.speed + n;
         k.pull = k.rest + n;
     }
-    status = room && c->scene ? make(&k) : QDOT_ENOMEM;
+    status = room && c->scene ? collision_build(&k) : QDOT_ENOMEM;
     qdot_free(room);
     if (status == QDOT_OK && c->hindrance[0] != '\0') {
         qdot_scene_free(c->scene);

@@ -25,7 +25,7 @@ typedef struct {
 } search;
 
 static bool
-moves(const qdot_pool *pool, qdot_expr e)
+holds_coordinates(const qdot_pool *pool, qdot_expr e)
 {
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_COORD) != 0;
 }
@@ -58,7 +58,7 @@ find_squares(search *w, qdot_expr D)
     for (uint32_t i = 1; i + 1 < qdot_expr_count(pool, D); i += 2) {
         const qdot_expr term = qdot_expr_arg(pool, D, i), c = qdot_expr_arg(pool, D, i + 1);
 
-        if (!moves(pool, term))
+        if (!holds_coordinates(pool, term))
             continue;
         if (n == w->n || (factor != QDOT_NIL && c != factor) ||
             !is_power(pool, term, qdot_expr_int(w->s->pool, 2), &w->square[n]))
@@ -72,7 +72,7 @@ find_squares(search *w, qdot_expr D)
 /* --- coordinates ---------------------------------------------------------------------- */
 
 static bool
-is_among(const expressions *list, qdot_expr e)
+expressions_have(const expressions *list, qdot_expr e)
 {
     for (size_t i = 0; i < list->n; i++)
         if (list->at[i] == e)
@@ -107,7 +107,7 @@ is_fixed_in(search *w, const qdot_body *b, qdot_expr P)
     if (own == QDOT_NIL || qdot_expr_size(pool, own) > LARGE)
         return false;
     own = qdot_simplify(pool, own, &w->facts);
-    return own != QDOT_NIL && !moves(pool, own);
+    return own != QDOT_NIL && !holds_coordinates(pool, own);
 }
 
 /* Where the other end is sought: in a body, at a particle, in space. */
@@ -125,7 +125,7 @@ is_there(search *w, const place *where, qdot_expr Q)
         return is_fixed_in(w, where->body, Q);
     return where->particle != NULL
                ? Q == qdot_expand(pool, where->particle->position)
-               : !moves(pool, Q);
+               : !holds_coordinates(pool, Q);
 }
 
 /* Try P in body b and Q at a place, of which the coordinates are `own` and `other`. */
@@ -144,7 +144,7 @@ try_place(search *w, const qdot_body *b, const expressions *own, const place *wh
     else if (where->particle != NULL)
         status = coordinates_of(w->s, where->particle->position, QDOT_NIL, &other);
     for (size_t i = 0; i < own->n && status == QDOT_OK; i++)
-        if (!is_among(&other, own->at[i]))
+        if (!expressions_have(&other, own->at[i]))
             status = qdot_vec_push(&only, own->at[i]);
     if (status == QDOT_OK && only.n > 0) {
         P = qdot_value_add(pool, qdot_mech_terms_of(pool, r, only.n, only.at, false),
@@ -232,7 +232,7 @@ qdot_status
 qdot_mech_distance_ends(qdot_scene *s, const qdot_constraint *c, qdot_expr ends[2])
 {
     search w = {.s = s, .n = qdot_scene_dimension(s)};
-    const bool left = moves(s->pool, c->left), right = moves(s->pool, c->right);
+    const bool left = holds_coordinates(s->pool, c->left), right = holds_coordinates(s->pool, c->right);
     const qdot_expr D = !right ? c->left : !left ? c->right : c->f;
 
     ends[0] = ends[1] = QDOT_NIL;

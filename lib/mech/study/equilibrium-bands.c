@@ -57,7 +57,7 @@ depends_on_u_alone(const line *l, qdot_expr e)
 
 /* Add a zero of the relations `which`; false: it cannot be told from another one. */
 static bool
-add_point(line *l, qdot_expr exact, double at, uint32_t which)
+line_add_point(line *l, qdot_expr exact, double at, uint32_t which)
 {
     for (size_t i = 0; i < l->points; i++) {
         qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
@@ -85,7 +85,7 @@ add_exact(line *l, qdot_expr value, uint32_t which)
     double at;
 
     return qdot_is_constant(l->pool, value) &&
-           qdot_ball_double(l->pool, value, NULL, NULL, &at) && add_point(l, value, at, which);
+           qdot_ball_double(l->pool, value, NULL, NULL, &at) && line_add_point(l, value, at, which);
 }
 
 /* The zeros of g by formulas: *all where these are proved to be all. */
@@ -132,7 +132,7 @@ numeric_zeros(line *l, qdot_expr g, uint32_t which, bool *all)
     *all = zeros.complete;
     for (size_t i = 0; i < zeros.count && *all; i++)
         *all = qdot_rest_is_sharp(1, zeros.at + i, zeros.radius + i) &&
-               add_point(l, QDOT_NIL, zeros.at[i], which);
+               line_add_point(l, QDOT_NIL, zeros.at[i], which);
     qdot_zeros_clear(&zeros);
     return QDOT_OK;
 }
@@ -237,7 +237,7 @@ turned(const line *l, qdot_expr value, bool turn)
 
 /* The k-th point as a value, `turn`: a turn further on. */
 static qdot_expr
-value_of(const line *l, size_t k, bool turn)
+point_value(const line *l, size_t k, bool turn)
 {
     const point *p = &l->at[k];
 
@@ -247,7 +247,7 @@ value_of(const line *l, size_t k, bool turn)
 
 /* A number between the k-th point and the one before it: beyond the ends too, or around the circle. */
 static qdot_expr
-between(const line *l, size_t k)
+number_between(const line *l, size_t k)
 {
     size_t n = l->points;
     double lo, hi;
@@ -262,7 +262,7 @@ between(const line *l, size_t k)
 /* The pieces of the line in their order, 0 ... 2 points: gap, point, gap, ... The last gap of a circle is the
  * first. Intervals are the runs of pieces that hold. */
 static qdot_status
-collect(const line *l, const bool *holds, qdot_bands *out)
+bands_collect(const line *l, const bool *holds, qdot_bands *out)
 {
     size_t pieces = 2 * l->points + (l->turn ? 0 : 1), first = 0;
 
@@ -289,13 +289,13 @@ collect(const line *l, const bool *holds, qdot_bands *out)
         if (!band.lo_open || from > 0 || l->turn) {
             size_t piece = band.lo_open ? from - 1 : from, p = piece % pieces / 2;
 
-            band.lo = value_of(l, p, piece >= pieces);
+            band.lo = point_value(l, p, piece >= pieces);
             band.numeric = l->at[p].exact == QDOT_NIL;
         }
         if (!band.hi_open || to + 1 < pieces || l->turn) {
             size_t piece = band.hi_open ? to + 1 : to, p = piece % pieces / 2;
 
-            band.hi = value_of(l, p, piece >= pieces);
+            band.hi = point_value(l, p, piece >= pieces);
             band.numeric = band.numeric || l->at[p].exact == QDOT_NIL;
         }
         for (size_t i = from + 1; i < to; i++)
@@ -346,12 +346,12 @@ by_zeros(line *l, qdot_bands *out, bool *found)
         size_t p = k / 2;
         answer yes;
 
-        QDOT_TRY(k % 2 == 0 ? hold_at(l, between(l, p), 0, &yes)
-                            : hold_at(l, value_of(l, p, false), l->at[p].zero_of, &yes));
+        QDOT_TRY(k % 2 == 0 ? hold_at(l, number_between(l, p), 0, &yes)
+                            : hold_at(l, point_value(l, p, false), l->at[p].zero_of, &yes));
         holds[k] = yes == YES;
         *found = yes != UNKNOWN;
     }
-    return *found ? collect(l, holds, out) : QDOT_OK;
+    return *found ? bands_collect(l, holds, out) : QDOT_OK;
 }
 
 /* --- linear relations, with parameters -------------------------------------------------- */

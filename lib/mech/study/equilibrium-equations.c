@@ -15,7 +15,7 @@
 enum { DERIVATIVES = 4 };
 
 static qdot_expr
-residual(qdot_pool *pool, qdot_expr equation)
+equation_residual(qdot_pool *pool, qdot_expr equation)
 {
     if (equation == QDOT_NIL)
         return QDOT_NIL;
@@ -35,7 +35,7 @@ qdot_rest_equations(qdot_rest *r, qdot_expr *list)
     if (e == NULL)
         return QDOT_ENOMEM;
     for (size_t i = 0; i < m; i++)
-        e[i] = i < n ? residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
+        e[i] = i < n ? equation_residual(r->pool, qdot_mech_equation(s, s->coordinates.at[i]))
                      : s->constraints.at[i - n].f;
     status = qdot_pool_check(r->pool);
     if (status == QDOT_OK)

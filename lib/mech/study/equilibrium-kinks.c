@@ -133,7 +133,7 @@ typedef struct {
 } rewriting;
 
 static qdot_expr
-half(qdot_pool *pool, qdot_expr e)
+half_of(qdot_pool *pool, qdot_expr e)
 {
     return qdot_div(pool, e, qdot_expr_int(pool, 2));
 }
@@ -169,7 +169,7 @@ function_by_signs(qdot_pool *pool, qdot_expr e, void *user)
         return e;
     }
     u = qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no));
-    return half(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
+    return half_of(pool, qdot_add(pool, u, qdot_add(pool, yes, no)));
 }
 
 /* A product with sign(u) u^k for |u|^k, k < 0 odd. */
@@ -226,8 +226,8 @@ slip_by_sign(qdot_pool *pool, qdot_expr e, void *user)
         return e;
     yes = qdot_expr_arg(pool, e, 1);
     no = qdot_expr_arg(pool, e, 2);
-    return half(pool, qdot_add(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no)),
-                               qdot_add(pool, yes, no)));
+    return half_of(pool, qdot_add(pool, qdot_mul(pool, qdot_fun1(pool, QDOT_SIGN, u), qdot_sub(pool, yes, no)),
+                                  qdot_add(pool, yes, no)));
 }
 
 qdot_expr

@@ -40,7 +40,7 @@ typedef struct {
 /* --- the problem ---------------------------------------------------------------------- */
 
 static double
-bound(const qdot_pool *pool, qdot_expr e, double otherwise)
+domain_end(const qdot_pool *pool, qdot_expr e, double otherwise)
 {
     double v;
 
@@ -87,8 +87,8 @@ problem_begin(problem *p, const qdot_rest *rest, const qdot_expr *r)
     }
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < n; i++) {
-        p->lo[i] = bound(p->pool, qdot_rest_domain_end(rest, i, 0), -INFINITY);
-        p->hi[i] = bound(p->pool, qdot_rest_domain_end(rest, i, 1), INFINITY);
+        p->lo[i] = domain_end(p->pool, qdot_rest_domain_end(rest, i, 0), -INFINITY);
+        p->hi[i] = domain_end(p->pool, qdot_rest_domain_end(rest, i, 1), INFINITY);
     }
     return qdot_pool_check(p->pool);
 }
@@ -107,7 +107,7 @@ problem_end(problem *p)
 
 /* The residuals at x, with the slopes if wanted: their largest, INFINITY where one has no value. */
 static qdot_status
-evaluate(problem *p, const double *x, bool slopes, double *most)
+residuals_evaluate(problem *p, const double *x, bool slopes, double *most)
 {
     size_t m = p->n + (slopes ? p->slopes : 0);
 
@@ -127,7 +127,7 @@ evaluate(problem *p, const double *x, bool slopes, double *most)
 }
 
 static double
-square(const problem *p)
+residual_square(const problem *p)
 {
     double sum = 0;
 
@@ -181,7 +181,7 @@ damped_step(problem *p, size_t first, double by)
 
 /* Newton's step by LU; false where J is singular. */
 static bool
-newton_step(problem *p)
+equilibrium_newton_step(problem *p)
 {
     gsl_vector_view step = gsl_vector_view_array(p->step, p->n);
     int sign;
@@ -219,7 +219,7 @@ typedef enum { NOWHERE, CANDIDATE, FLAT } end; /* FLAT: the equations hold, thei
 
 /* Whether what is left of the equations is rounding, beside what their slopes make of x. */
 static bool
-is_rounding(const problem *p, double most)
+residual_is_rounding(const problem *p, double most)
 {
     double scale = 0;
 
@@ -229,20 +229,20 @@ is_rounding(const problem *p, double most)
 }
 
 static qdot_status
-descend(problem *p, end *how)
+equilibrium_descend(problem *p, end *how)
 {
     double most, before, by = 1e-2, length = INFINITY;
     bool holds;
 
     *how = NOWHERE;
-    QDOT_TRY(evaluate(p, p->x, true, &most));
+    QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
     if (isfinite(most) && p->n > p->coordinates && damped_step(p, p->coordinates, 1e-12)) {
         for (size_t i = p->coordinates; i < p->n; i++)
             p->x[i] += p->step[i];
-        QDOT_TRY(evaluate(p, p->x, true, &most));
+        QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
     }
     for (int k = 0; k < STEPS && isfinite(most) && most > 0; k++) {
-        before = square(p);
+        before = residual_square(p);
         if (!damped_step(p, 0, by)) {
             by = fmax(10 * by, 1e-8);
             continue;
@@ -252,8 +252,8 @@ descend(problem *p, end *how)
             p->try[i] = p->x[i] + p->step[i];
             length = fmax(length, fabs(p->step[i]) / fmax(fabs(p->x[i]), 1e-3));
         }
-        QDOT_TRY(evaluate(p, p->try, true, &most));
-        if (isfinite(most) && square(p) < before) {
+        QDOT_TRY(residuals_evaluate(p, p->try, true, &most));
+        if (isfinite(most) && residual_square(p) < before) {
             for (size_t i = 0; i < p->n; i++)
                 p->x[i] = p->try[i];
             by = fmax(by * 0.1, 1e-14);
@@ -261,17 +261,17 @@ descend(problem *p, end *how)
                 break;
         } else {
             by *= 10;
-            QDOT_TRY(evaluate(p, p->x, true, &most));
+            QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
             if (by > 1e12)
                 break;
         }
     }
     if (!isfinite(most))
         return QDOT_OK;
-    holds = is_rounding(p, most);
+    holds = residual_is_rounding(p, most);
     length = INFINITY;
     for (int k = 0; k < NEWTON; k++) {
-        if (!newton_step(p))
+        if (!equilibrium_newton_step(p))
             break;
         length = 0;
         for (size_t i = 0; i < p->n; i++)
@@ -280,7 +280,7 @@ descend(problem *p, end *how)
             break;
         for (size_t i = 0; i < p->n; i++)
             p->x[i] += p->step[i];
-        QDOT_TRY(evaluate(p, p->x, true, &most));
+        QDOT_TRY(residuals_evaluate(p, p->x, true, &most));
         if (!isfinite(most))
             return QDOT_OK;
         if (length < 1e-12)
@@ -294,7 +294,7 @@ descend(problem *p, end *how)
 
 /* Angles turned into -pi < q <= pi; whether x lies within the domains. */
 static bool
-settle(const problem *p, double *x)
+place_normalise(const problem *p, double *x)
 {
     for (size_t i = 0; i < p->n; i++) {
         if (p->angle[i])
@@ -321,7 +321,7 @@ is_new(const double *found, size_t count, size_t n, const double *x)
 
 /* Ascending, by the first unknown, then the next. */
 static void
-sort(double *found, size_t count, size_t n)
+places_sort(double *found, size_t count, size_t n)
 {
     for (size_t a = 1; a < count; a++)
         for (size_t b = a; b > 0; b--) {
@@ -342,7 +342,7 @@ sort(double *found, size_t count, size_t n)
 }
 
 static qdot_status
-search(problem *p, qdot_isolate *isolate, qdot_places *out)
+places_search(problem *p, qdot_isolate *isolate, qdot_places *out)
 {
     size_t n = p->n;
 
@@ -352,9 +352,9 @@ search(problem *p, qdot_isolate *isolate, qdot_places *out)
 
         QDOT_TRY(qdot_interrupt_check());
         begin_at(p, start);
-        QDOT_TRY(descend(p, &how));
+        QDOT_TRY(equilibrium_descend(p, &how));
         out->starts++;
-        if (how == NOWHERE || !settle(p, p->x) || !is_new(out->at, out->n, n, p->x))
+        if (how == NOWHERE || !place_normalise(p, p->x) || !is_new(out->at, out->n, n, p->x))
             continue;
         for (size_t i = 0; i < n; i++)
             place[i] = p->x[i];
@@ -366,10 +366,10 @@ search(problem *p, qdot_isolate *isolate, qdot_places *out)
         for (size_t i = 0; i < n; i++)
             if (fabs(place[i]) <= radius[i]) /* 0 as far as is known */
                 place[i] = 0;
-        if (settle(p, place) && is_new(out->at, out->n, n, place))
+        if (place_normalise(p, place) && is_new(out->at, out->n, n, place))
             out->n++;
     }
-    sort(out->at, out->n, n);
+    places_sort(out->at, out->n, n);
     return QDOT_OK;
 }
 
@@ -397,7 +397,7 @@ search_from_starts(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     if (status == QDOT_OK)
         status = qdot_isolate_begin(&isolate, p.pool, p.n, r, p.u);
     if (status == QDOT_OK) {
-        status = search(&p, &isolate, out);
+        status = places_search(&p, &isolate, out);
         qdot_isolate_end(&isolate);
     }
     problem_end(&p);

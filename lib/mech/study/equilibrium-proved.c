@@ -13,7 +13,7 @@ enum { MOST = 4 };
 static const uint64_t budgets[MOST + 1] = {0, 20000, 60000, 120000, 80000};
 
 static bool
-is_constant(const qdot_pool *pool, qdot_expr e)
+domain_end_is_constant(const qdot_pool *pool, qdot_expr e)
 {
     return e == QDOT_NIL ||
            (qdot_expr_node(pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0;
@@ -30,7 +30,7 @@ qdot_rest_domain_end(const qdot_rest *rest, size_t k, int which)
 
 /* Where the k-th unknown is searched; false: its domain is not known in numbers. */
 static bool
-range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
+unknown_range(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range *range)
 {
     const qdot_symbol *q = qdot_expr_symbol(rest->pool, rest->system.unknowns.at[k]);
 
@@ -43,7 +43,7 @@ range_of(const qdot_rest *rest, size_t k, qdot_expr equations, qdot_zeros_range 
     range->hi_open = q->hi_open;
     range->turn = q->lo == QDOT_NIL && q->hi == QDOT_NIL &&
                   qdot_is_angle(rest->pool, equations, rest->system.unknowns.at[k], &rest->facts);
-    return is_constant(rest->pool, range->lo) && is_constant(rest->pool, range->hi);
+    return domain_end_is_constant(rest->pool, range->lo) && domain_end_is_constant(rest->pool, range->hi);
 }
 
 bool
@@ -68,7 +68,7 @@ qdot_rest_exclude(qdot_rest *rest, const qdot_expr *r, qdot_places *out)
     if (n == 0 || n > MOST)
         return QDOT_OK;
     for (size_t k = 0; k < n; k++)
-        if (!range_of(rest, k, equations, &range[k]))
+        if (!unknown_range(rest, k, equations, &range[k]))
             return QDOT_OK;
     QDOT_TRY(qdot_pool_check(rest->pool));
     status =

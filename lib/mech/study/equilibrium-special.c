@@ -101,7 +101,7 @@ is_zero_at_end(qdot_pool *pool, qdot_expr d, qdot_expr q)
 
 /* Whether the scene is regular where one group is replaced, or all, but for roots, which are smooth nowhere new. */
 static qdot_status
-is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
+scene_is_regular(qdot_scene *s, const qdot_chart_groups *all, size_t g, bool *regular)
 {
     const qdot_chart_groups one = {.at = all->at + g, .n = 1, .capacity = 1};
     int ways = 2, *sign = qdot_calloc(all->n, sizeof *sign);
@@ -154,7 +154,7 @@ qdot_rest_pole(const qdot_rest *r, const char **pole)
             bool regular = is_zero_at_end(r->pool, d, q);
 
             if (regular)
-                status = is_regular(r->s, &groups, g, &regular);
+                status = scene_is_regular(r->s, &groups, g, &regular);
             if (regular && status == QDOT_OK)
                 *pole = qdot_expr_symbol(r->pool, q)->name;
         }

@@ -17,7 +17,7 @@
 enum { WORK = 1500 };
 
 static bool
-holds_time(const qdot_rest *r, qdot_expr e)
+rest_holds_time(const qdot_rest *r, qdot_expr e)
 {
     return (qdot_mech_holds(r->s, e) & QDOT_HAS_TIME) != 0;
 }
@@ -94,7 +94,7 @@ keep_lasting(qdot_rest *r)
         if (status == QDOT_OK)
             status = qdot_rest_solve(r);
         for (size_t k = had; k < r->found.n; k++)
-            if (!holds_time(r, places_alone(r, r->found.at[k].equations)))
+            if (!rest_holds_time(r, places_alone(r, r->found.at[k].equations)))
                 r->found.at[kept++] = r->found.at[k];
         r->found.n = kept;
         if (kept == had && qdot_expr_count(r->pool, b.known) < r->system.places)
@@ -129,7 +129,7 @@ unset(const qdot_rest *r, qdot_expr e)
 
 /* Whether the place x [searched] is one of those known exactly. */
 static bool
-is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
+place_is_known(const qdot_rest *r, const double *x, qdot_binder bind, void *user)
 {
     for (size_t i = 0; i < r->found.n; i++) {
         qdot_expr all = r->found.at[i].equations;
@@ -182,7 +182,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user
         status = is_defined(r, places->at + k * n, energy, &defined);
         if (status != QDOT_OK || !defined)
             continue;
-        if (is_known(r, places->at + k * n, bind, user))
+        if (place_is_known(r, places->at + k * n, bind, user))
             continue;
         for (size_t i = 0; i < n; i++)
             list[i] = qdot_rel(r->pool, QDOT_EQ, r->system.unknowns.at[i],
@@ -197,7 +197,7 @@ add_places(qdot_rest *r, const qdot_places *places, qdot_binder bind, void *user
 }
 
 static qdot_status
-search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
+rest_search(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_pool *pool = r->pool;
     const size_t n = r->searched;
@@ -315,7 +315,7 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
 
 /* Stability; `first`: up to the first that is not unstable. */
 static qdot_status
-judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
+rest_judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
 {
     qdot_judge *judge;
     qdot_status status = qdot_judge_new(r->s, r->system.equations, bind, user, &judge);
@@ -375,7 +375,7 @@ qdot_status
 qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_expr equations = r->system.equations;
-    bool lasting = holds_time(r, r->system.equations);
+    bool lasting = rest_holds_time(r, r->system.equations);
 
     r->bind = bind;
     r->user = user;
@@ -386,7 +386,7 @@ qdot_rest_find(qdot_rest *r, qdot_binder bind, void *user, qdot_equilibria *out)
     if (lasting)
         QDOT_TRY(keep_lasting(r));
     else if (!r->system.complete)
-        QDOT_TRY(search(r, bind, user, out));
+        QDOT_TRY(rest_search(r, bind, user, out));
     QDOT_TRY(qdot_rest_leave_out_twice(r));
     QDOT_TRY(qdot_rest_ranges(r));
     QDOT_TRY(qdot_rest_tips(r));
@@ -440,7 +440,7 @@ keep_assumed(qdot_rest *r)
 }
 
 static qdot_status
-find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
+equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibria *out)
 {
     qdot_rest r;
     qdot_status status = qdot_rest_begin(&r, s);
@@ -451,7 +451,7 @@ find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qdot_equilibr
     if (status == QDOT_OK && first_only) /* the first one must be where coordinates are assumed to be */
         status = keep_assumed(&r);
     if (status == QDOT_OK)
-        status = judge(&r, first_only, bind, user);
+        status = rest_judge(&r, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
     if (status == QDOT_OK && !first_only)
@@ -481,11 +481,11 @@ qdot_equilibria_clear(qdot_equilibria *e)
 qdot_status
 qdot_equilibrium_find(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return find(s, false, bind, user, out);
+    return equilibria_find(s, false, bind, user, out);
 }
 
 qdot_status
 qdot_equilibrium_first(qdot_scene *s, qdot_binder bind, void *user, qdot_equilibria *out)
 {
-    return find(s, true, bind, user, out);
+    return equilibria_find(s, true, bind, user, out);
 }

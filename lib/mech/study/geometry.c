@@ -22,13 +22,13 @@ typedef struct {
 } geometry;
 
 static qdot_expr
-tidy(const geometry *m, qdot_expr e)
+geometry_tidy(const geometry *m, qdot_expr e)
 {
     return qdot_simplify(m->pool, e, &m->facts);
 }
 
 static void
-end(geometry *m)
+geometry_end(geometry *m)
 {
     qdot_free(m->q);
 }
@@ -45,7 +45,7 @@ is_diagonal(const geometry *m)
 
 /* det g and its inverse: n numbers where g is diagonal. */
 static void
-invert(geometry *m)
+metric_invert(geometry *m)
 {
     qdot_pool *pool = m->pool;
     uint32_t n = m->n;
@@ -60,22 +60,22 @@ invert(geometry *m)
                 m->inverse[i * n + j] = QDOT_ZERO;
             m->inverse[i * n + i] = qdot_pow_int(pool, m->g[i * n + i], -1);
         }
-        m->det = tidy(m, m->det);
+        m->det = geometry_tidy(m, m->det);
         return;
     }
     inverse = qdot_matrix(pool, n, n, m->g);
-    m->det = tidy(m, qdot_det(pool, inverse));
+    m->det = geometry_tidy(m, qdot_det(pool, inverse));
     if (m->det == QDOT_ZERO) {
         qdot_mech_fail(m->s, QDOT_EDOMAIN, "the metric is singular: its determinant is 0");
         return;
     }
     inverse = qdot_inverse(pool, inverse);
     for (uint32_t i = 0; i < n * n && inverse != QDOT_NIL; i++)
-        m->inverse[i] = tidy(m, qdot_expr_arg(pool, inverse, i));
+        m->inverse[i] = geometry_tidy(m, qdot_expr_arg(pool, inverse, i));
 }
 
 static bool
-begin(geometry *m, qdot_scene *s, qdot_expr R)
+geometry_begin(geometry *m, qdot_scene *s, qdot_expr R)
 {
     qdot_expr over = qdot_mech_metric_coordinates(s, R), g = qdot_mech_metric(s, R);
     uint32_t n;
@@ -96,9 +96,9 @@ begin(geometry *m, qdot_scene *s, qdot_expr R)
         m->q[i] = qdot_expr_arg(s->pool, over, i);
     for (uint32_t i = 0; i < n * n; i++)
         m->g[i] = qdot_expr_arg(s->pool, g, i);
-    invert(m);
+    metric_invert(m);
     if (qdot_pool_failed(s->pool)) {
-        end(m);
+        geometry_end(m);
         return false;
     }
     return true;
@@ -126,7 +126,7 @@ christoffel(geometry *m, uint32_t i, uint32_t j, uint32_t k)
                                        qdot_neg(pool, qdot_diff(pool, m->g[j * n + k], m->q[l]))});
         sum = qdot_add(pool, sum, qdot_mul(pool, m->inverse[i * n + l], slope));
     }
-    sum = tidy(m, qdot_mul(pool, QDOT_HALF, sum));
+    sum = geometry_tidy(m, qdot_mul(pool, QDOT_HALF, sum));
     *kept = m->gamma[(i * n + k) * n + j] = sum;
     return sum;
 }
@@ -147,7 +147,7 @@ riemann(geometry *m, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
                                      qdot_mul(pool, christoffel(m, i, k, a), christoffel(m, a, l, j)),
                                      qdot_neg(pool, qdot_mul(pool, christoffel(m, i, l, a),
                                                              christoffel(m, a, k, j)))});
-    return tidy(m, sum);
+    return geometry_tidy(m, sum);
 }
 
 static qdot_expr
@@ -157,7 +157,7 @@ ricci(geometry *m, uint32_t j, uint32_t l)
 
     for (uint32_t i = 0; i < m->n; i++)
         sum = qdot_add(m->pool, sum, riemann(m, i, j, i, l));
-    return tidy(m, sum);
+    return geometry_tidy(m, sum);
 }
 
 /* An n x n MAT of f(m, prefix, row, column). */
@@ -246,13 +246,13 @@ geodesic_of(geometry *m, const uint32_t *prefix, uint32_t i)
                                         (qdot_expr[]){christoffel(m, i, j, k),
                                                       qdot_symbol_jet(pool, m->q[j], 1),
                                                       qdot_symbol_jet(pool, m->q[k], 1)}));
-    return qdot_rel(pool, QDOT_EQ, tidy(m, sum), QDOT_ZERO);
+    return qdot_rel(pool, QDOT_EQ, geometry_tidy(m, sum), QDOT_ZERO);
 }
 
 static qdot_expr
 scale_factor(const geometry *m, uint32_t i)
 {
-    return tidy(m, qdot_sqrt(m->pool, m->g[i * m->n + i]));
+    return geometry_tidy(m, qdot_sqrt(m->pool, m->g[i * m->n + i]));
 }
 
 static qdot_expr
@@ -269,10 +269,10 @@ list_over(qdot_scene *s, qdot_expr R,
     geometry m;
     qdot_expr result;
 
-    if (!begin(&m, s, R))
+    if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
     result = list_of(&m, NULL, f);
-    end(&m);
+    geometry_end(&m);
     return result;
 }
 
@@ -306,10 +306,10 @@ qdot_geometry_ricci(qdot_scene *s, qdot_expr R)
     geometry m;
     qdot_expr result;
 
-    if (!begin(&m, s, R))
+    if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
     result = matrix_of(&m, NULL, ricci_entry);
-    end(&m);
+    geometry_end(&m);
     return result;
 }
 
@@ -319,15 +319,15 @@ qdot_geometry_scalar_curvature(qdot_scene *s, qdot_expr R)
     geometry m;
     qdot_expr sum = QDOT_ZERO;
 
-    if (!begin(&m, s, R))
+    if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
     for (uint32_t j = 0; j < m.n; j++)
         for (uint32_t l = 0; l < m.n; l++)
             if (m.inverse[j * m.n + l] != QDOT_ZERO)
                 sum = qdot_add(m.pool, sum,
                                qdot_mul(m.pool, m.inverse[j * m.n + l], ricci(&m, j, l)));
-    sum = tidy(&m, sum);
-    end(&m);
+    sum = geometry_tidy(&m, sum);
+    geometry_end(&m);
     return sum;
 }
 
@@ -337,10 +337,10 @@ qdot_geometry_volume_element(qdot_scene *s, qdot_expr R)
     geometry m;
     qdot_expr w;
 
-    if (!begin(&m, s, R))
+    if (!geometry_begin(&m, s, R))
         return QDOT_NIL;
-    w = tidy(&m, qdot_sqrt(m.pool, m.det));
-    end(&m);
+    w = geometry_tidy(&m, qdot_sqrt(m.pool, m.det));
+    geometry_end(&m);
     return w;
 }
 
@@ -349,19 +349,19 @@ qdot_geometry_volume_element(qdot_scene *s, qdot_expr R)
 static bool
 begin_orthogonal(geometry *m, qdot_scene *s, qdot_expr R)
 {
-    if (!begin(m, s, R))
+    if (!geometry_begin(m, s, R))
         return false;
     if (m->diagonal)
         return true;
     qdot_mech_fail(s, QDOT_ETYPE, "the vector operators need orthogonal coordinates; here the "
                                   "metric has entries off its diagonal");
-    end(m);
+    geometry_end(m);
     return false;
 }
 
 /* Whether F has as many components as there are coordinates. */
 static bool
-fits(const geometry *m, qdot_expr F)
+components_fit(const geometry *m, qdot_expr F)
 {
     uint32_t n = qdot_mech_dimension(m->pool, F);
 
@@ -375,7 +375,7 @@ fits(const geometry *m, qdot_expr F)
 }
 
 static bool
-is_number(const geometry *m, qdot_expr f)
+is_scalar_field(const geometry *m, qdot_expr f)
 {
     if (f != QDOT_NIL && qdot_expr_is_scalar(m->pool, f))
         return true;
@@ -416,13 +416,13 @@ qdot_geometry_gradient(qdot_scene *s, qdot_expr f, qdot_expr R)
     parts = qdot_calloc(m.n, sizeof *parts);
     if (parts == NULL) {
         qdot_pool_fail(m.pool);
-    } else if (is_number(&m, f)) {
+    } else if (is_scalar_field(&m, f)) {
         for (uint32_t i = 0; i < m.n; i++)
-            parts[i] = tidy(&m, qdot_div(m.pool, qdot_diff(m.pool, f, m.q[i]), scale_factor(&m, i)));
+            parts[i] = geometry_tidy(&m, qdot_div(m.pool, qdot_diff(m.pool, f, m.q[i]), scale_factor(&m, i)));
         result = m.n == 1 ? parts[0] : qdot_vector(m.pool, m.n, parts);
     }
     qdot_free(parts);
-    end(&m);
+    geometry_end(&m);
     return result;
 }
 
@@ -434,7 +434,7 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
 
     if (!begin_orthogonal(&m, s, R))
         return QDOT_NIL;
-    if (!fits(&m, F))
+    if (!components_fit(&m, F))
         sum = QDOT_NIL;
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
         qdot_expr e = weighted_slope(&m, qdot_mech_component(m.pool, F, i), i);
@@ -443,8 +443,8 @@ qdot_geometry_divergence(qdot_scene *s, qdot_expr F, qdot_expr R)
                      qdot_mul(m.pool, qdot_mech_component(m.pool, F, i), stretch(&m, i, i)));
         sum = qdot_add(m.pool, sum, qdot_div(m.pool, e, scale_factor(&m, i)));
     }
-    sum = sum == QDOT_NIL ? sum : tidy(&m, sum);
-    end(&m);
+    sum = sum == QDOT_NIL ? sum : geometry_tidy(&m, sum);
+    geometry_end(&m);
     return sum;
 }
 
@@ -456,15 +456,15 @@ qdot_geometry_laplacian(qdot_scene *s, qdot_expr f, qdot_expr R)
 
     if (!begin_orthogonal(&m, s, R))
         return QDOT_NIL;
-    if (!is_number(&m, f))
+    if (!is_scalar_field(&m, f))
         sum = QDOT_NIL;
     for (uint32_t i = 0; i < m.n && sum != QDOT_NIL; i++) {
         qdot_expr e = qdot_mul(m.pool, m.inverse[i * m.n + i], qdot_diff(m.pool, f, m.q[i]));
 
         sum = qdot_add(m.pool, sum, weighted_slope(&m, e, i));
     }
-    sum = sum == QDOT_NIL ? sum : tidy(&m, sum);
-    end(&m);
+    sum = sum == QDOT_NIL ? sum : geometry_tidy(&m, sum);
+    geometry_end(&m);
     return sum;
 }
 
@@ -484,7 +484,7 @@ handedness(const geometry *m)
             entries[i * n + d] = qdot_diff(pool, qdot_mech_component(pool, m->R, d), m->q[i]);
     for (uint32_t i = 0; i < n; i++)
         sign = qdot_mul(pool, sign, scale_factor(m, i));
-    return tidy(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
+    return geometry_tidy(m, qdot_div(pool, qdot_det(pool, qdot_matrix(pool, n, n, entries)), sign));
 }
 
 /* (1/h_i) (d_i F_j + F_j d_i h_j / h_j): d_i (h_j F_j) / (h_i h_j). */
@@ -517,16 +517,16 @@ qdot_geometry_curl(qdot_scene *s, qdot_expr F, qdot_expr R)
     if (m.n != 2 && m.n != 3) {
         qdot_mech_fail(s, QDOT_ETYPE, "curl needs 2 or 3 coordinates; here there %s %u",
                        m.n == 1 ? "is" : "are", m.n);
-    } else if (fits(&m, F)) {
+    } else if (components_fit(&m, F)) {
         turn = handedness(&m);
         if (m.n == 2) {
-            result = tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, 0, 1)));
+            result = geometry_tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, 0, 1)));
         } else {
             for (uint32_t i = 0; i < 3; i++)
-                c[i] = tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, (i + 1) % 3, (i + 2) % 3)));
+                c[i] = geometry_tidy(&m, qdot_mul(m.pool, turn, circulation(&m, F, (i + 1) % 3, (i + 2) % 3)));
             result = qdot_vector(m.pool, 3, c);
         }
     }
-    end(&m);
+    geometry_end(&m);
     return result;
 }

@@ -54,7 +54,7 @@ linear_form(legendre *l)
 }
 
 static bool
-solve(legendre *l)
+legendre_solve(legendre *l)
 {
     uint32_t pivot = 0;
     qdot_status status =
@@ -72,7 +72,7 @@ solve(legendre *l)
 
 /* 1/2 (p - b).A^-1 (p - b) over one block of A, as squares or solved for; which [m]. */
 static qdot_status
-add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
+legendre_add_block(legendre *l, qdot_squares *q, size_t m, const size_t *which)
 {
     qdot_pool *pool = l->pool;
     qdot_expr inverse[9], v[3], sum = QDOT_ZERO;
@@ -127,7 +127,7 @@ quadratic(legendre *l)
             if (block[k] == i)
                 which[m++] = k;
         if (m > 0)
-            status = add_block(l, &q, m, which);
+            status = legendre_add_block(l, &q, m, which);
     }
     if (status == QDOT_OK)
         sum = qdot_common_out(pool, qdot_squares_sum(&q));
@@ -145,7 +145,7 @@ quadratic(legendre *l)
 /* Solve the momenta of the coordinates q [n] for their velocities; l->q is the caller's to free.
  * False: the pool has the cause. */
 static bool
-begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
+legendre_begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     qdot_pool *pool = s->pool;
 
@@ -169,7 +169,7 @@ begin(legendre *l, qdot_scene *s, uint32_t n, const qdot_expr *q)
         l->qdot[i] = qdot_symbol_jet(pool, q[i], 1);
         l->p[i] = qdot_symbol_of(pool, QDOT_MOMENTUM, q[i]);
     }
-    return !qdot_pool_failed(pool) && linear_form(l) && solve(l);
+    return !qdot_pool_failed(pool) && linear_form(l) && legendre_solve(l);
 }
 
 /* sum p q' - L over the coordinates q [n], their velocities replaced. */
@@ -177,7 +177,7 @@ static qdot_expr
 transform(qdot_scene *s, uint32_t n, const qdot_expr *q)
 {
     legendre l;
-    qdot_expr result = begin(&l, s, n, q) ? quadratic(&l) : QDOT_NIL;
+    qdot_expr result = legendre_begin(&l, s, n, q) ? quadratic(&l) : QDOT_NIL;
 
     qdot_free(l.q);
     return result;
@@ -190,7 +190,7 @@ qdot_hamilton_in_momenta(qdot_scene *s, qdot_expr e)
 
     if (e == QDOT_NIL || !(qdot_expr_node(s->pool, e)->holds & QDOT_HAS_VELOCITY))
         return e;
-    e = begin(&l, s, (uint32_t)s->coordinates.n, s->coordinates.at)
+    e = legendre_begin(&l, s, (uint32_t)s->coordinates.n, s->coordinates.at)
             ? qdot_subs(s->pool, e, l.n, l.qdot, l.solved)
             : QDOT_NIL;
     qdot_free(l.q);

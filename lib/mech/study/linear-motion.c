@@ -85,7 +85,7 @@ value_at(const place *p, qdot_expr e)
 }
 
 static qdot_expr
-at(const place *p, qdot_expr e)
+value_at_place(const place *p, qdot_expr e)
 {
     return qdot_simplify(p->s->pool, value_at(p, e), &p->facts);
 }
@@ -138,7 +138,7 @@ echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
     size_t j = 0;
 
     for (size_t i = 0; i < e->n; i++)
-        row[i] = at(p, qdot_integrated_slope(p->s, k, i));
+        row[i] = value_at_place(p, qdot_integrated_slope(p->s, k, i));
     QDOT_TRY(qdot_pool_check(pool));
     for (size_t r = 0; r < e->rank; r++)
         QDOT_TRY(row_subtract(p, e->n, row, row[e->pivot[r]], e->A + r * e->n));
@@ -160,7 +160,7 @@ echelon_add(const place *p, echelon *e, size_t k, qdot_expr *pivot)
 /* The tangent space of the holonomic constraints: its columns, at stride n, a basis; which [n] the
  * coordinate of each. */
 static qdot_status
-tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
+constraint_tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
 {
     const size_t n = p->s->coordinates.n, c = p->s->constraints.n;
     echelon e = {.n = n};
@@ -193,7 +193,7 @@ tangents(const place *p, qdot_expr *N, qdot_linear_motion *out)
 
 /* v.X w, X [n*n], v and w columns of N [n*m]. */
 static qdot_expr
-form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot_expr *w, size_t m)
+bilinear_form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot_expr *w, size_t m)
 {
     size_t n = p->s->coordinates.n;
     qdot_expr sum = QDOT_ZERO;
@@ -210,11 +210,11 @@ form(const place *p, const qdot_expr *X, const qdot_expr *v, const qdot_expr *w,
 
 /* N^T X N, X [n*n], N [n*m]. */
 static qdot_status
-reduce(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_expr *out)
+project_on_tangents(const place *p, const qdot_expr *X, const qdot_expr *N, size_t m, qdot_expr *out)
 {
     for (size_t a = 0; a < m; a++)
         for (size_t b = 0; b < m; b++)
-            out[a * m + b] = form(p, X, N + a, N + b, m);
+            out[a * m + b] = bilinear_form(p, X, N + a, N + b, m);
     return qdot_pool_check(p->s->pool);
 }
 
@@ -231,7 +231,7 @@ slope_at(const place *p, qdot_expr left, size_t j, uint32_t order, qdot_expr *sl
     qdot_status status;
 
     out->exact = out->exact && e != QDOT_NIL && (qdot_mech_holds(s, e) & motion) == 0;
-    *slope = at(p, e);
+    *slope = value_at_place(p, e);
     if (order != 1 || *slope != QDOT_NIL)
         return QDOT_OK;
     status = qdot_pool_check(s->pool);
@@ -287,7 +287,7 @@ reduced(const place *p, const qdot_expr *X, const qdot_expr *columns,
         for (size_t a = 0; a < m; a++)
             out->N[i * m + a] = columns[i * n + a];
     for (int k = 0; k < 3; k++)
-        QDOT_TRY(reduce(p, X + (size_t)k * n * n, out->N, m, out->M + (size_t)k * m * m));
+        QDOT_TRY(project_on_tangents(p, X + (size_t)k * n * n, out->N, m, out->M + (size_t)k * m * m));
     return QDOT_OK;
 }
 
@@ -310,7 +310,7 @@ qdot_linear_motion_about(qdot_scene *s, qdot_expr equations, qdot_expr exists,
     if (status == QDOT_OK)
         status = linearise(&p, X, out);
     if (status == QDOT_OK)
-        status = tangents(&p, X + 3 * n * n, out);
+        status = constraint_tangents(&p, X + 3 * n * n, out);
     if (status == QDOT_OK)
         status = reduced(&p, X, X + 3 * n * n, out);
     qdot_free(X);

@@ -106,7 +106,7 @@ damping(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 
 /* Forces and torques: *yes where those at rest have a potential and the rest takes energy away. */
 static qdot_status
-declared(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
+declared_forces_dissipate(qdot_scene *s, const qdot_facts *facts, bool *yes, bool *used)
 {
     qdot_pool *pool = s->pool;
     size_t n = s->coordinates.n;
@@ -155,7 +155,7 @@ qdot_energy_law_of(qdot_scene *s, qdot_energy_law *law)
     if (yes)
         QDOT_TRY(damping(s, &facts, &yes, &used));
     if (yes)
-        QDOT_TRY(declared(s, &facts, &yes, &used));
+        QDOT_TRY(declared_forces_dissipate(s, &facts, &yes, &used));
     if (yes)
         *law = used ? QDOT_ENERGY_USED : QDOT_ENERGY_KEPT;
     return QDOT_OK;

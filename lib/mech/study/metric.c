@@ -16,7 +16,7 @@ is_element(const qdot_scene *s, qdot_expr R)
 }
 
 static bool
-check(qdot_scene *s, qdot_expr R)
+metric_check(qdot_scene *s, qdot_expr R)
 {
     uint32_t n = qdot_mech_dimension(s->pool, R);
 
@@ -45,7 +45,7 @@ element(qdot_scene *s, qdot_expr R, bool velocities)
     size_t n = s->coordinates.n;
     qdot_expr *slope, *step, sum = QDOT_ZERO;
 
-    if (!check(s, R))
+    if (!metric_check(s, R))
         return QDOT_NIL;
     slope = qdot_calloc(2 * n + 2, sizeof *slope);
     if (!slope)
@@ -99,7 +99,7 @@ qdot_mech_metric_coordinates(qdot_scene *s, qdot_expr R)
     size_t n = s->coordinates.n, m = 0;
     qdot_expr *members, list;
 
-    if (!check(s, R))
+    if (!metric_check(s, R))
         return QDOT_NIL;
     members = qdot_calloc(n + 1, sizeof *members);
     if (!members)

@@ -33,7 +33,7 @@ qdot_minimal_clear(qdot_minimal *m)
 }
 
 static bool
-moves(const work *w, qdot_expr e)
+minimal_moves(const work *w, qdot_expr e)
 {
     return qdot_mech_holds(w->s, e) &
            (QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_UFUN);
@@ -41,7 +41,7 @@ moves(const work *w, qdot_expr e)
 
 /* Coordinate i is `value` from now on, in those solved before too. */
 static void
-put(work *w, size_t i, qdot_expr value)
+put_solved(work *w, size_t i, qdot_expr value)
 {
     qdot_expr q = w->s->coordinates.at[i];
 
@@ -54,7 +54,7 @@ put(work *w, size_t i, qdot_expr value)
 
 /* f as the solved coordinates leave it. */
 static qdot_expr
-put_in(const work *w, qdot_expr f)
+put_solved_in(const work *w, qdot_expr f)
 {
     return qdot_mech_tidy(w->s, qdot_subs(w->pool, f, w->out->n, w->s->coordinates.at,
                                           w->out->given));
@@ -68,13 +68,13 @@ solve_linear(work *w, qdot_expr f, qdot_expr whole)
     for (size_t i = 0; i < w->out->n; i++) {
         qdot_expr x = w->s->coordinates.at[i], c = qdot_diff(w->pool, f, x), g;
 
-        if (w->gone[i] || c == QDOT_NIL || c == QDOT_ZERO || moves(w, c) ||
+        if (w->gone[i] || c == QDOT_NIL || c == QDOT_ZERO || minimal_moves(w, c) ||
             qdot_mech_holds(w->s, c) & QDOT_HAS_TIME)
             continue;
         g = qdot_mech_tidy(w->s, qdot_sub(w->pool, f, qdot_mul(w->pool, c, x)));
         if (g == QDOT_NIL || qdot_expr_contains(w->pool, g, x))
             continue;
-        put(w, i, qdot_mech_tidy(w->s, qdot_neg(w->pool, qdot_div(w->pool, g, c))));
+        put_solved(w, i, qdot_mech_tidy(w->s, qdot_neg(w->pool, qdot_div(w->pool, g, c))));
         return true;
     }
     return false;
@@ -95,7 +95,7 @@ is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
     qdot_pool *pool = w->pool;
     qdot_expr s = qdot_diff(pool, qdot_diff(pool, f, x[0]), x[0]);
 
-    if (s == QDOT_NIL || s == QDOT_ZERO || moves(w, s))
+    if (s == QDOT_NIL || s == QDOT_ZERO || minimal_moves(w, s))
         return false;
     of->square = QDOT_ZERO;
     for (size_t i = 0; i < m; i++) {
@@ -119,7 +119,7 @@ is_ball(const work *w, qdot_expr f, size_t m, const qdot_expr *x, ball *of)
                                             qdot_subs(pool, f, m, x, zero)),
                                    s));
     of->square = qdot_mech_tidy(w->s, of->square);
-    return of->square != QDOT_NIL && of->square != QDOT_ZERO && !moves(w, of->square);
+    return of->square != QDOT_NIL && of->square != QDOT_ZERO && !minimal_moves(w, of->square);
 }
 
 /* A new angle that is atan2(y, x) of the coordinates as given. */
@@ -138,7 +138,7 @@ new_angle(work *w, qdot_expr y, qdot_expr x)
 }
 
 static qdot_expr
-times(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
+times_function(qdot_pool *pool, qdot_expr a, qdot_fun_id f, qdot_expr u)
 {
     return qdot_mul(pool, a, qdot_fun1(pool, f, u));
 }
@@ -161,8 +161,8 @@ solve_circle(work *w, qdot_expr f, qdot_expr whole)
             l = qdot_mech_tidy(w->s, qdot_sqrt(pool, now.square));
             u = new_angle(w, qdot_sub(pool, x[0], given.centre[0]),
                           qdot_sub(pool, given.centre[1], x[1]));
-            put(w, i, qdot_add(pool, now.centre[0], times(pool, l, QDOT_SIN, u)));
-            put(w, j, qdot_sub(pool, now.centre[1], times(pool, l, QDOT_COS, u)));
+            put_solved(w, i, qdot_add(pool, now.centre[0], times_function(pool, l, QDOT_SIN, u)));
+            put_solved(w, j, qdot_sub(pool, now.centre[1], times_function(pool, l, QDOT_COS, u)));
             return true;
         }
     return false;
@@ -205,10 +205,10 @@ put_sphere(work *w, const size_t *index, const qdot_expr *x, const ball *now,
                                               qdot_mul(pool, dy, dy))),
                   dz);
     v = new_angle(w, dy, dx);
-    out = times(pool, l, QDOT_SIN, u);
-    put(w, index[i], qdot_add(pool, now->centre[i], times(pool, out, QDOT_COS, v)));
-    put(w, index[j], qdot_add(pool, now->centre[j], times(pool, out, QDOT_SIN, v)));
-    put(w, index[axis], qdot_sub(pool, now->centre[axis], times(pool, l, QDOT_COS, u)));
+    out = times_function(pool, l, QDOT_SIN, u);
+    put_solved(w, index[i], qdot_add(pool, now->centre[i], times_function(pool, out, QDOT_COS, v)));
+    put_solved(w, index[j], qdot_add(pool, now->centre[j], times_function(pool, out, QDOT_SIN, v)));
+    put_solved(w, index[axis], qdot_sub(pool, now->centre[axis], times_function(pool, l, QDOT_COS, u)));
     return true;
 }
 
@@ -273,7 +273,7 @@ solve_all(work *w)
 
                 if (w->solved[k])
                     continue;
-                f = put_in(w, whole);
+                f = put_solved_in(w, whole);
                 w->solved[k] = f == QDOT_ZERO ||
                                ways[way](w, f, whole);
                 progress = w->solved[k];

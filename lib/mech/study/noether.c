@@ -43,13 +43,13 @@ typedef struct {
 /* --- conditions --------------------------------------------------------------------- */
 
 static qdot_expr
-jet(const search *f, size_t i, uint32_t order)
+noether_jet(const search *f, size_t i, uint32_t order)
 {
     return qdot_mech_jet(f->s, i, order);
 }
 
 static qdot_expr
-slope(const search *f, uint32_t order, size_t i, size_t j)
+noether_slope(const search *f, uint32_t order, size_t i, size_t j)
 {
     return f->slope[(order * f->n + i) * f->n + j];
 }
@@ -62,15 +62,15 @@ variation(const search *f, const unknown *u, size_t i)
     qdot_expr sum = QDOT_ZERO;
 
     switch (u->kind) {
-    case TRANSLATION: return slope(f, 0, i, u->i);
+    case TRANSLATION: return noether_slope(f, 0, i, u->i);
     case TIME: return qdot_diff(pool, f->E[i], QDOT_T);
     case BOOST:
-        return qdot_add(pool, qdot_mul(pool, QDOT_T, slope(f, 0, i, u->i)),
-                        slope(f, 1, i, u->i));
+        return qdot_add(pool, qdot_mul(pool, QDOT_T, noether_slope(f, 0, i, u->i)),
+                        noether_slope(f, 1, i, u->i));
     case ROTATION:
         for (uint32_t order = 0; order < 3; order++)
             sum = qdot_add(pool, sum,
-                           qdot_mul(pool, jet(f, u->j, order), slope(f, order, i, u->i)));
+                           qdot_mul(pool, noether_jet(f, u->j, order), noether_slope(f, order, i, u->i)));
         return i == u->j ? qdot_add(pool, sum, f->E[u->i]) : sum;
     }
     return sum;
@@ -78,13 +78,13 @@ variation(const search *f, const unknown *u, size_t i)
 
 /* xi_j of one unknown. */
 static qdot_expr
-generator(const search *f, const unknown *u, size_t j)
+generator_component(const search *f, const unknown *u, size_t j)
 {
     if (u->kind == TIME || u->i != j)
         return QDOT_ZERO;
     return u->kind == TRANSLATION ? QDOT_ONE
            : u->kind == BOOST     ? QDOT_T
-                                  : jet(f, u->j, 0);
+                                  : noether_jet(f, u->j, 0);
 }
 
 /* sum_j (xi_j - tau q_j') F_j for a force F. */
@@ -94,9 +94,9 @@ work_of(const search *f, const unknown *u, const qdot_expr *F)
     qdot_expr sum = QDOT_ZERO;
 
     if (u->kind != TIME)
-        return qdot_mul(f->pool, generator(f, u, u->i), F[u->i]);
+        return qdot_mul(f->pool, generator_component(f, u, u->i), F[u->i]);
     for (size_t j = 0; j < f->n; j++)
-        sum = qdot_sub(f->pool, sum, qdot_mul(f->pool, jet(f, j, 1), F[j]));
+        sum = qdot_sub(f->pool, sum, qdot_mul(f->pool, noether_jet(f, j, 1), F[j]));
     return sum;
 }
 
@@ -123,7 +123,7 @@ rows(const search *f)
 
 /* All conditions, a column for each of the unknowns [m]. */
 static bool
-fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
+conditions_fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
 {
     qdot_expr *F = qdot_calloc(f->n + 1, sizeof *F);
 
@@ -153,7 +153,7 @@ fill(const search *f, const unknown *u, size_t m, qdot_expr *e)
 /* Values of e [m] stacked over many points, parameters the same at all: A [*height * columns],
  * each row of length about 1. */
 static qdot_status
-sample(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
+conditions_sample(const search *f, const qdot_expr *e, size_t columns, double *A, size_t height)
 {
     qdot_pool *pool = f->pool;
     size_t m = rows(f) * columns, at = 0;
@@ -209,7 +209,7 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
     qdot_status status = QDOT_ENOMEM;
 
     if (A != NULL && V != NULL && sigma != NULL && work != NULL)
-        status = sample(f, e, columns, A->data, height);
+        status = conditions_sample(f, e, columns, A->data, height);
     if (status == QDOT_OK) {
         /* not Jacobi's way: GSL's takes columns for noise that many rotations have met */
         gsl_linalg_SV_decomp(A, V, sigma, work);
@@ -233,13 +233,13 @@ reach(const search *f, const qdot_expr *e, size_t columns, bool *possible)
 
 /* sum_u v_u of(u). */
 static qdot_expr
-combine(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
+combine_generators(const search *f, const unknown *u, size_t m, const qdot_expr *v, size_t j)
 {
     qdot_expr sum = QDOT_ZERO;
 
     for (size_t k = 0; k < m; k++)
         if (v[k] != QDOT_ZERO)
-            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], generator(f, &u[k], j)));
+            sum = qdot_add(f->pool, sum, qdot_mul(f->pool, v[k], generator_component(f, &u[k], j)));
     return sum;
 }
 
@@ -253,10 +253,10 @@ gauge(const search *f, qdot_expr F, qdot_expr *K)
 
     *K = QDOT_ZERO;
     for (size_t i = 0; i <= f->n && rest != QDOT_ZERO; i++) {
-        qdot_expr x = i < f->n ? jet(f, i, 0) : QDOT_T, part;
+        qdot_expr x = i < f->n ? noether_jet(f, i, 0) : QDOT_T, part;
 
         part = qdot_antiderivative(
-            pool, i < f->n ? qdot_diff(pool, rest, jet(f, i, 1)) : rest, x, &f->facts);
+            pool, i < f->n ? qdot_diff(pool, rest, noether_jet(f, i, 1)) : rest, x, &f->facts);
         if (part == QDOT_NIL)
             break;
         *K = qdot_add(pool, *K, part);
@@ -325,7 +325,7 @@ denominators(qdot_pool *pool, size_t m, const qdot_expr *v)
 
 /* The sign as in books: the energy, x y' - y x', a translation. */
 static void
-turn(const search *f, const unknown *u, size_t m, qdot_expr *v)
+turn_sign(const search *f, const unknown *u, size_t m, qdot_expr *v)
 {
     qdot_pool *pool = f->pool;
     size_t lead = m;
@@ -377,7 +377,7 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
         if (u[k].kind == TIME)
             tau = v[k];
     for (size_t j = 0; j < f->n; j++) {
-        qdot_expr xi = combine(f, u, m, v, j), q = jet(f, j, 0), qdot = jet(f, j, 1);
+        qdot_expr xi = combine_generators(f, u, m, v, j), q = noether_jet(f, j, 0), qdot = noether_jet(f, j, 1);
 
         change = qdot_add(pool, change, qdot_mul(pool, xi, qdot_diff(pool, f->L, q)));
         change =
@@ -402,12 +402,12 @@ quantity(const search *f, const unknown *u, size_t m, const qdot_expr *e,
 
 /* The quantity of v, or of v without denominators where that is shorter. */
 static qdot_expr
-shortest(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
+shortest_quantity(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
 {
     qdot_pool *pool = f->pool;
     qdot_expr by, one, other;
 
-    turn(f, f->unknowns.at, m, v);
+    turn_sign(f, f->unknowns.at, m, v);
     one = quantity(f, f->unknowns.at, m, e, v);
     by = denominators(pool, m, v);
     if (one == QDOT_NIL || by == QDOT_ONE || by == QDOT_NIL)
@@ -426,7 +426,7 @@ shortest(const search *f, size_t m, const qdot_expr *e, qdot_expr *v)
 /* --- the search ----------------------------------------------------------------------- */
 
 static qdot_status
-add_unknown(search *f, int kind, size_t i, size_t j)
+noether_add_unknown(search *f, int kind, size_t i, size_t j)
 {
     unknown u = {.i = i, .j = j};
 
@@ -439,19 +439,19 @@ static qdot_status
 list_unknowns(search *f, const bool *cyclic, bool energy)
 {
     for (size_t i = f->n; i-- > 0;)
-        QDOT_TRY(add_unknown(f, BOOST, i, 0));
+        QDOT_TRY(noether_add_unknown(f, BOOST, i, 0));
     for (size_t i = f->n; i-- > 0;)
         for (size_t j = f->n; j-- > 0;)
             if (j >= i)
-                QDOT_TRY(add_unknown(f, ROTATION, i, j));
+                QDOT_TRY(noether_add_unknown(f, ROTATION, i, j));
     for (size_t i = f->n; i-- > 0;)
         for (size_t j = i; j-- > 0;)
-            QDOT_TRY(add_unknown(f, ROTATION, i, j));
+            QDOT_TRY(noether_add_unknown(f, ROTATION, i, j));
     if (!energy)
-        QDOT_TRY(add_unknown(f, TIME, 0, 0));
+        QDOT_TRY(noether_add_unknown(f, TIME, 0, 0));
     for (size_t i = f->n; i-- > 0;)
         if (!cyclic[i])
-            QDOT_TRY(add_unknown(f, TRANSLATION, i, 0));
+            QDOT_TRY(noether_add_unknown(f, TRANSLATION, i, 0));
     return QDOT_OK;
 }
 
@@ -466,13 +466,13 @@ euler_lagrange(search *f)
         return QDOT_ENOMEM;
     f->slope = f->E + n;
     for (size_t i = 0; i < n; i++) {
-        qdot_expr p = qdot_diff(pool, f->L, jet(f, i, 1));
+        qdot_expr p = qdot_diff(pool, f->L, noether_jet(f, i, 1));
 
-        f->E[i] = qdot_sub(pool, qdot_ddt(pool, p), qdot_diff(pool, f->L, jet(f, i, 0)));
+        f->E[i] = qdot_sub(pool, qdot_ddt(pool, p), qdot_diff(pool, f->L, noether_jet(f, i, 0)));
         for (uint32_t order = 0; order < 3; order++)
             for (size_t j = 0; j < n; j++)
                 f->slope[(order * n + i) * n + j] =
-                    qdot_diff(pool, f->E[i], jet(f, j, order));
+                    qdot_diff(pool, f->E[i], noether_jet(f, j, order));
     }
     return qdot_pool_check(pool);
 }
@@ -488,7 +488,7 @@ search_linear(search *f)
 
     if (e != NULL && possible != NULL)
         status = euler_lagrange(f);
-    if (status == QDOT_OK && !fill(f, f->unknowns.at, all, e))
+    if (status == QDOT_OK && !conditions_fill(f, f->unknowns.at, all, e))
         status = qdot_pool_check(f->pool);
     if (status == QDOT_OK)
         status = reach(f, e, all, possible);
@@ -496,13 +496,13 @@ search_linear(search *f)
         for (size_t j = 0; j < all; j++)
             if (possible[j])
                 f->unknowns.at[m++] = f->unknowns.at[j];
-        if (m > 0 && !fill(f, f->unknowns.at, m, e))
+        if (m > 0 && !conditions_fill(f, f->unknowns.at, m, e))
             status = qdot_pool_check(f->pool);
     }
     if (status == QDOT_OK && m > 0)
         status = qdot_null_space(f->pool, rows(f), m, e, &basis, &count);
     for (size_t k = count; k-- > 0 && status == QDOT_OK;) {
-        qdot_expr one = shortest(f, m, e, basis + k * m);
+        qdot_expr one = shortest_quantity(f, m, e, basis + k * m);
         bool jumps = true;
 
         status = qdot_pool_check(f->pool);

@@ -38,7 +38,7 @@ depends(const work *w, const thing *one, size_t j)
 
 /* d(position, turning)/dq_j as a column of numbers. */
 static uint32_t
-column(const work *w, const thing *one, size_t j, qdot_expr out[6])
+jacobian_column(const work *w, const thing *one, size_t j, qdot_expr out[6])
 {
     qdot_pool *pool = w->s->pool;
     qdot_expr q = w->s->coordinates.at[j];
@@ -58,8 +58,8 @@ column(const work *w, const thing *one, size_t j, qdot_expr out[6])
 
 /* x = J (J^T J)^-1 R, J [rows x k] by columns; of a square J that is J^-T R. */
 static qdot_status
-along(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, const qdot_expr *R,
-      qdot_expr *x)
+reactions_solve(const work *w, uint32_t rows, uint32_t k, const qdot_expr *J, const qdot_expr *R,
+                qdot_expr *x)
 {
     qdot_pool *pool = w->s->pool;
     qdot_facts facts = qdot_scene_facts(w->s);
@@ -132,7 +132,7 @@ reaction(work *w, const thing *one)
     for (uint32_t i = 0; i < k; i++) {
         qdot_expr slopes[6];
 
-        rows = column(w, one, own[i], slopes);
+        rows = jacobian_column(w, one, own[i], slopes);
         QDOT_TRY(qdot_pool_check(pool));
         if (rows < k) /* more coordinates than directions: not determined */
             return QDOT_OK;
@@ -142,7 +142,7 @@ reaction(work *w, const thing *one)
     moving = moving_rows(rows, k, J, kept);
     if (one->body && moving != k) /* a least force and torque would mix their units */
         return QDOT_OK;
-    status = along(w, moving, k, J, R, part);
+    status = reactions_solve(w, moving, k, J, R, part);
     if (status == QDOT_ESINGULAR)
         return QDOT_OK;
     QDOT_TRY(status);
@@ -171,7 +171,7 @@ thing_at(const qdot_scene *s, size_t i)
 }
 
 static qdot_status
-collect(work *w)
+collect_things(work *w)
 {
     qdot_scene *s = w->s;
     size_t things = s->particles.n + s->bodies.n;
@@ -209,7 +209,7 @@ qdot_mech_reactions(qdot_scene *s, qdot_reaction **list, size_t *n)
     w.R = qdot_calloc(w.n + 1, sizeof *w.R);
     w.uses = qdot_calloc(w.n + 1, sizeof *w.uses);
     w.told = qdot_calloc(w.n + 1, sizeof *w.told);
-    status = w.R && w.uses && w.told ? collect(&w) : QDOT_ENOMEM;
+    status = w.R && w.uses && w.told ? collect_things(&w) : QDOT_ENOMEM;
     qdot_free(w.R);
     qdot_free(w.uses);
     qdot_free(w.told);

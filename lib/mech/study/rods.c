@@ -26,7 +26,7 @@ typedef struct {
 } search;
 
 static bool
-moves(const qdot_pool *pool, qdot_expr e)
+point_moves(const qdot_pool *pool, qdot_expr e)
 {
     return (qdot_expr_node(pool, e)->holds & QDOT_HAS_COORD) != 0;
 }
@@ -42,16 +42,16 @@ distance2(qdot_pool *pool, qdot_expr a, qdot_expr b)
 
 /* Whether r(q) keeps the distance, which is not 0. */
 static bool
-is_kept(const search *w, qdot_expr a, qdot_expr b)
+keeps_distance(const search *w, qdot_expr a, qdot_expr b)
 {
     qdot_pool *pool = w->s->pool;
     qdot_expr D = distance2(pool, a, b);
 
     if (D == QDOT_NIL || qdot_expr_size(pool, D) > LARGE)
         return false;
-    if (moves(pool, D))
+    if (point_moves(pool, D))
         D = qdot_simplify(pool, D, &w->facts);
-    return D != QDOT_NIL && D != QDOT_ZERO && !moves(pool, D);
+    return D != QDOT_NIL && D != QDOT_ZERO && !point_moves(pool, D);
 }
 
 static qdot_status
@@ -95,7 +95,7 @@ is_point(const search *w, qdot_expr r)
 }
 
 static qdot_status
-add_point(search *w, qdot_expr r)
+rods_add_point(search *w, qdot_expr r)
 {
     return r == QDOT_NIL || is_point(w, r) ? qdot_pool_check(w->s->pool)
                                            : qdot_vec_push(&w->points, r);
@@ -116,16 +116,16 @@ find_points(search *w, uint32_t dimension)
     qdot_scene *s = w->s;
 
     for (size_t i = 0; i < s->particles.n; i++)
-        QDOT_TRY(add_point(w, qdot_expand(s->pool, s->particles.at[i].position)));
+        QDOT_TRY(rods_add_point(w, qdot_expand(s->pool, s->particles.at[i].position)));
     w->particles = w->points.n;
-    QDOT_TRY(add_point(w, origin(s->pool, dimension)));
+    QDOT_TRY(rods_add_point(w, origin(s->pool, dimension)));
     for (size_t i = 0; i < 2 * (s->springs.n + s->dampers.n); i++) {
         const qdot_link *link = i / 2 < s->springs.n
                                     ? &s->springs.at[i / 2]
                                     : &s->dampers.at[i / 2 - s->springs.n];
 
-        if (!moves(s->pool, link->at[i % 2]))
-            QDOT_TRY(add_point(w, qdot_expand(s->pool, link->at[i % 2])));
+        if (!point_moves(s->pool, link->at[i % 2]))
+            QDOT_TRY(rods_add_point(w, qdot_expand(s->pool, link->at[i % 2])));
     }
     return QDOT_OK;
 }
@@ -137,9 +137,9 @@ between_particles(search *w)
 {
     for (size_t i = 0; i < w->particles && w->particles <= ALL_PAIRS; i++)
         for (size_t j = 0; j < i; j++)
-            if ((moves(w->s->pool, w->points.at[i]) ||
-                 moves(w->s->pool, w->points.at[j])) &&
-                is_kept(w, w->points.at[i], w->points.at[j]))
+            if ((point_moves(w->s->pool, w->points.at[i]) ||
+                 point_moves(w->s->pool, w->points.at[j])) &&
+                keeps_distance(w, w->points.at[i], w->points.at[j]))
                 QDOT_TRY(add_rod(w, w->points.at[i], w->points.at[j], NULL));
     return qdot_pool_check(w->s->pool);
 }
@@ -159,12 +159,12 @@ to_hinges(search *w, qdot_expr r)
 
             if (c == QDOT_NIL || c == r)
                 continue;
-            known = is_point(w, c) || !moves(s->pool, c);
-            if ((!known && has_rod(w, r)) || !is_kept(w, r, c))
+            known = is_point(w, c) || !point_moves(s->pool, c);
+            if ((!known && has_rod(w, r)) || !keeps_distance(w, r, c))
                 continue;
             QDOT_TRY(add_rod(w, r, c, NULL));
             if (!known) {
-                QDOT_TRY(add_point(w, c));
+                QDOT_TRY(rods_add_point(w, c));
                 next = c;
             }
             break;
@@ -227,10 +227,10 @@ centre_of(const search *w, qdot_expr g, qdot_expr r)
             return QDOT_NIL;
         slope = qdot_expand(pool, qdot_diff(pool, g, x));
         second = qdot_expand(pool, qdot_diff(pool, slope, x));
-        if (second == QDOT_NIL || second == QDOT_ZERO || moves(pool, second))
+        if (second == QDOT_NIL || second == QDOT_ZERO || point_moves(pool, second))
             return QDOT_NIL;
         c[d] = qdot_expand(pool, qdot_sub(pool, x, qdot_div(pool, slope, second)));
-        if (c[d] == QDOT_NIL || moves(pool, c[d]))
+        if (c[d] == QDOT_NIL || point_moves(pool, c[d]))
             return QDOT_NIL;
     }
     return qdot_vector(pool, n, c);
@@ -256,7 +256,7 @@ of_constraint(search *w, const qdot_constraint *c)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
             if (keeps(w, c->f, w->points.at[i], w->points.at[j])) {
-                bool first = moves(pool, w->points.at[i]);
+                bool first = point_moves(pool, w->points.at[i]);
 
                 return add_rod(w, w->points.at[first ? i : j],
                                w->points.at[first ? j : i], c->label);
@@ -321,7 +321,7 @@ try_arm(qdot_scene *s, const qdot_body *b, qdot_expr P, qdot_arms *arms)
         return QDOT_OK;
     own = qdot_simplify(pool, own, &facts);
     QDOT_TRY(qdot_pool_check(pool));
-    if (moves(pool, own) || qdot_dot(pool, own, own) == QDOT_ZERO)
+    if (point_moves(pool, own) || qdot_dot(pool, own, own) == QDOT_ZERO)
         return qdot_pool_check(pool);
     return qdot_vec_push(arms, P);
 }

@@ -53,7 +53,7 @@ typedef struct {
 
 /* a or b: the one that is chosen by the sign of u for small eps > 0; where that is not known, o->known is false. */
 static qdot_expr
-chosen(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
+chosen_by_sign(one_side *o, qdot_expr e, qdot_expr u, qdot_expr a, qdot_expr b)
 {
     qdot_pool *pool = o->j->s->pool;
     const qdot_expr zero = QDOT_ZERO;
@@ -82,13 +82,13 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
     qdot_expr a = qdot_expr_arg(pool, e, 0), b, u;
 
     if (op == QDOT_SIGN)
-        return chosen(o, e, a, QDOT_ONE, QDOT_MINUS_ONE);
+        return chosen_by_sign(o, e, a, QDOT_ONE, QDOT_MINUS_ONE);
     if (op == QDOT_ABS)
-        return chosen(o, e, a, a, qdot_neg(pool, a));
+        return chosen_by_sign(o, e, a, a, qdot_neg(pool, a));
     if ((op == QDOT_MAX || op == QDOT_MIN) && n == 2) {
         b = qdot_expr_arg(pool, e, 1);
         u = qdot_sub(pool, a, b);
-        return op == QDOT_MAX ? chosen(o, e, u, a, b) : chosen(o, e, u, b, a);
+        return op == QDOT_MAX ? chosen_by_sign(o, e, u, a, b) : chosen_by_sign(o, e, u, b, a);
     }
     if (op == QDOT_MAX || op == QDOT_MIN) {
         for (uint32_t i = 1; i < n; i++) {
@@ -104,7 +104,7 @@ on_one_side(qdot_pool *pool, qdot_expr e, void *user)
         qdot_expr_node(pool, a)->op == QDOT_EQ)
         return e;
     u = qdot_sub(pool, qdot_expr_arg(pool, a, 1), qdot_expr_arg(pool, a, 0));
-    return chosen(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
+    return chosen_by_sign(o, e, u, qdot_expr_arg(pool, e, 1), qdot_expr_arg(pool, e, 2));
 }
 
 qdot_status
@@ -192,7 +192,7 @@ by_sides(qdot_judgement *j, qdot_equilibrium *e)
 /* --- the verdict ------------------------------------------------------------------------ */
 
 static qdot_stability
-conclude(qdot_definite how, qdot_stability verdict)
+conclude_if_definite(qdot_definite how, qdot_stability verdict)
 {
     return how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL ? verdict : QDOT_STABILITY_UNDECIDED;
 }
@@ -211,7 +211,7 @@ by_energy(qdot_judgement *j, qdot_equilibrium *e)
         QDOT_TRY(qdot_judgement_definiteness(j, j->m.n, j->m.M, &how));
     if (how == QDOT_DEFINITE_POSITIVE && j->when.n > before.when)
         how = QDOT_DEFINITE_CONDITIONAL;
-    e->stability = conclude(how, QDOT_STABLE);
+    e->stability = conclude_if_definite(how, QDOT_STABLE);
     if (e->stability != QDOT_STABLE)
         qdot_judgement_back_to(j, before);
     return QDOT_OK;

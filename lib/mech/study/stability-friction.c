@@ -81,7 +81,7 @@ jumps_are_own(held *h, size_t i, bool *yes)
 
 /* Whether the forces at rest have slopes everywhere. */
 static qdot_status
-is_smooth(held *h, bool *yes)
+forces_are_smooth(held *h, bool *yes)
 {
     qdot_pool *pool = h->j.s->pool;
     qdot_walk w;
@@ -130,7 +130,7 @@ split_forces(held *h, bool *yes)
     }
     for (size_t i = 0; i < s->coordinates.n && *yes; i++)
         QDOT_TRY(jumps_are_own(h, i, yes));
-    return *yes ? is_smooth(h, yes) : QDOT_OK;
+    return *yes ? forces_are_smooth(h, yes) : QDOT_OK;
 }
 
 /* Whether friction is below its limit: inside the region by its conditions, elsewhere asked. */

@@ -129,7 +129,7 @@ put_place(qdot_stability_numbers *x, const qdot_equilibrium *e)
 
 /* Values where the symbols say; false where a coefficient has none. */
 static qdot_status
-evaluate(qdot_stability_numbers *x, bool *finite)
+matrices_evaluate(qdot_stability_numbers *x, bool *finite)
 {
     const qdot_pool *pool = x->s->pool;
     size_t n = x->n, count = 3 * n * n + x->c * n;
@@ -152,7 +152,7 @@ evaluate(qdot_stability_numbers *x, bool *finite)
 /* A basis of the null space of A, the told coordinates' part first: N [n * m]. Free coordinates
  * stand in no constraint. */
 static bool
-tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
+numeric_tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
 {
     size_t n = x->n, c = x->c, rank = 0, column = 0, told = 0;
     gsl_matrix *A = gsl_matrix_calloc(n + c, n), *V = gsl_matrix_alloc(n, n);
@@ -191,7 +191,7 @@ tangents(const qdot_stability_numbers *x, gsl_matrix *N, motion *out)
 
 /* X <- N^T X N, m x m. */
 static void
-reduce(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
+project_numbers(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
 {
     for (size_t a = 0; a < m; a++)
         for (size_t b = 0; b < m; b++) {
@@ -205,7 +205,7 @@ reduce(const double *X, const gsl_matrix *N, size_t n, size_t m, double *out)
 }
 
 static double
-largest(size_t n, const double *x)
+largest_modulus(size_t n, const double *x)
 {
     double most = 0;
 
@@ -217,7 +217,7 @@ largest(size_t n, const double *x)
 /* Eigenvalues of the symmetric part of the leading k x k block of X [m * m], the least and the
  * greatest. */
 static bool
-range_of(const double *X, size_t m, size_t k, double *least, double *most)
+eigenvalue_range(const double *X, size_t m, size_t k, double *least, double *most)
 {
     gsl_matrix *A = gsl_matrix_alloc(k, k);
     gsl_vector *w = gsl_vector_alloc(k);
@@ -239,7 +239,7 @@ range_of(const double *X, size_t m, size_t k, double *least, double *most)
 
 /* The part of X that a transposition turns (sign 1: keeps) the sign of, its largest entry. */
 static double
-part(const double *X, size_t m, int sign)
+part_of_symmetry(const double *X, size_t m, int sign)
 {
     double most = 0;
 
@@ -286,7 +286,7 @@ normalise(motion *x)
     gsl_matrix_view M = gsl_matrix_view_array(x->M, m, m);
     double least = 0, most = 0;
 
-    if (!range_of(x->M, m, m, &least, &most) || least <= 1e-12 * most ||
+    if (!eigenvalue_range(x->M, m, m, &least, &most) || least <= 1e-12 * most ||
         gsl_linalg_cholesky_decomp1(&M.matrix) != GSL_SUCCESS)
         return false;
     for (int k = 0; k < 2; k++) {
@@ -311,7 +311,7 @@ normalise(motion *x)
 /* --- the verdict ------------------------------------------------------------------------ */
 
 static qdot_stability
-by_roots(const motion *x, double h, double g, bool definite)
+stability_by_roots(const motion *x, double h, double g, bool definite)
 {
     double *re = qdot_calloc(4 * x->m + 1, sizeof *re), *im, fast = fmax(sqrt(h), g);
     double decay = 0, growth = 0, gap = INFINITY, least, most;
@@ -332,12 +332,12 @@ by_roots(const motion *x, double h, double g, bool definite)
             verdict = QDOT_UNSTABLE;
         else if (x->told == x->m && decay < -DECAYS * fast)
             verdict = QDOT_STABLE;
-        else if (x->told == x->m && part(x->G, x->m, 1) <= SMALL * fast &&
+        else if (x->told == x->m && part_of_symmetry(x->G, x->m, 1) <= SMALL * fast &&
                  fabs(growth) < SMALL * fast && gap > AWAY * fast)
             verdict = QDOT_STABLE_TO_FIRST_ORDER;
     }
     if (verdict == QDOT_STABILITY_UNDECIDED && definite && x->told == x->m &&
-        range_of(x->G, x->m, x->m, &least, &most)) {
+        eigenvalue_range(x->G, x->m, x->m, &least, &most)) {
         if (least > SMALL * fmax(most, fast)) /* complete damping */
             verdict = QDOT_STABLE;
         else if (least >= -1e-12 * fmax(most, fast))
@@ -360,19 +360,19 @@ verdict_of(const qdot_judge *judge, const qdot_stability_numbers *numbers, motio
         return QDOT_STABILITY_UNDECIDED;
     if (all != NULL && roots(x, all->re, all->im))
         all->n = 2 * x->m;
-    h = largest(x->m * x->m, x->H);
-    g = largest(x->m * x->m, x->G);
-    if (!range_of(x->H, x->m, x->told, &least, &most))
+    h = largest_modulus(x->m * x->m, x->H);
+    g = largest_modulus(x->m * x->m, x->G);
+    if (!eigenvalue_range(x->H, x->m, x->told, &least, &most))
         return QDOT_STABILITY_UNDECIDED;
-    symmetric = part(x->H, x->m, -1) <= SMALL * h;
+    symmetric = part_of_symmetry(x->H, x->m, -1) <= SMALL * h;
     definite = symmetric && least > SMALL * h;
     if (definite && judge->law != QDOT_ENERGY_UNKNOWN)
         return QDOT_STABLE;
     if (judge->velocity_kink || judge->timed || !numbers->damped)
         return QDOT_STABILITY_UNDECIDED;
-    if (symmetric && least < -SMALL * h && part(x->G, x->m, -1) <= SMALL * fmax(g, sqrt(h)))
+    if (symmetric && least < -SMALL * h && part_of_symmetry(x->G, x->m, -1) <= SMALL * fmax(g, sqrt(h)))
         return QDOT_UNSTABLE;
-    return by_roots(x, h, g, definite);
+    return stability_by_roots(x, h, g, definite);
 }
 
 /* The verdict where the symbols say; the roots of the linear motion, if asked for. */
@@ -389,12 +389,12 @@ judge_there(const qdot_judge *judge, qdot_stability_numbers *numbers, qdot_stabi
 
     *verdict = QDOT_STABILITY_UNDECIDED;
     if (status == QDOT_OK)
-        status = evaluate(numbers, &finite);
-    if (status == QDOT_OK && finite && tangents(numbers, N, &x)) {
+        status = matrices_evaluate(numbers, &finite);
+    if (status == QDOT_OK && finite && numeric_tangents(numbers, N, &x)) {
         x.G = x.M + x.m * x.m;
         x.H = x.G + x.m * x.m;
         for (size_t k = 0; k < 3; k++)
-            reduce(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
+            project_numbers(numbers->value + k * n * n, N, n, x.m, x.M + k * x.m * x.m);
         *verdict = verdict_of(judge, numbers, &x, all);
     }
     gsl_set_error_handler(before);

@@ -117,7 +117,7 @@ completely_damped(qdot_judgement *j, const block *x, qdot_definite *how)
 /* --- one block ---------------------------------------------------------------------------- */
 
 static bool
-is_constant(const qdot_judgement *j, const block *x)
+block_is_constant(const qdot_judgement *j, const block *x)
 {
     bool yes = true;
 
@@ -142,8 +142,8 @@ constant_block(qdot_judgement *j, const block *x, motion *what)
 
 /* *what becomes what `how` means; where that is nothing, what was noted since `before` is forgotten. */
 static void
-settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
-       motion *what)
+motion_settle(qdot_judgement *j, qdot_judgement_point before, qdot_definite how, motion otherwise,
+              motion *what)
 {
     if (how == QDOT_DEFINITE_POSITIVE || how == QDOT_DEFINITE_CONDITIONAL) {
         *what = otherwise;
@@ -167,7 +167,7 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
         QDOT_TRY(hurwitz(j, x, &how));
     else if (!undamped && potential)
         QDOT_TRY(completely_damped(j, x, &how));
-    settle(j, before, how, DECAYS, what);
+    motion_settle(j, before, how, DECAYS, what);
     if (*what != OPEN || !mass)
         return QDOT_OK;
     how = QDOT_DEFINITE_UNKNOWN;
@@ -179,17 +179,17 @@ symbolic_block(qdot_judgement *j, const block *x, bool mass, motion *what)
         if (how == QDOT_DEFINITE_CONDITIONAL && undamped && x->n == 2) { /* also where H is not definite */
             qdot_judgement_back_to(j, before);
             QDOT_TRY(undamped_pair(j, x, &how));
-            settle(j, before, how, BOUNDED, what);
+            motion_settle(j, before, how, BOUNDED, what);
             if (*what != OPEN)
                 return QDOT_OK;
             QDOT_TRY(qdot_judgement_definiteness(j, x->n, x->H, &how));
         }
     }
-    settle(j, before, how, BOUNDED, what);
+    motion_settle(j, before, how, BOUNDED, what);
     if (*what != OPEN || !undamped || x->n != 2)
         return QDOT_OK;
     QDOT_TRY(undamped_pair(j, x, &how));
-    settle(j, before, how, BOUNDED, what);
+    motion_settle(j, before, how, BOUNDED, what);
     return QDOT_OK;
 }
 
@@ -202,7 +202,7 @@ block_motion(qdot_judgement *j, const block *x, motion *what)
     QDOT_TRY(qdot_judgement_is_definite(j, x->n, x->M, &mass));
     if (!mass && x->n != 1)
         return QDOT_OK;
-    if (mass && is_constant(j, x))
+    if (mass && block_is_constant(j, x))
         QDOT_TRY(constant_block(j, x, what));
     return *what == OPEN ? symbolic_block(j, x, mass, what) : QDOT_OK;
 }

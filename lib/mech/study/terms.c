@@ -20,7 +20,7 @@ is_chosen(const qdot_pool *pool, qdot_expr e, const choice *c)
 }
 
 static qdot_expr
-choose(qdot_pool *pool, qdot_expr e, void *user)
+choose_terms(qdot_pool *pool, qdot_expr e, void *user)
 {
     const choice *c = user;
     qdot_expr sum;
@@ -42,5 +42,5 @@ qdot_expr
 qdot_mech_terms_of(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols,
                    bool holding)
 {
-    return qdot_value_map(pool, e, choose, &(choice){n, symbols, holding});
+    return qdot_value_map(pool, e, choose_terms, &(choice){n, symbols, holding});
 }
