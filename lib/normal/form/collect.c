@@ -7,7 +7,7 @@
 #include "normal/form/items.h"
 
 static qdot_expr
-scaled(qdot_pool *pool, const fmpq_t c, qdot_expr e)
+scaled_by(qdot_pool *pool, const fmpq_t c, qdot_expr e)
 {
     return qdot_mul(pool, qdot_expr_fmpq(pool, c), e);
 }
@@ -41,10 +41,10 @@ say_scaled(qdot_form *form, const fmpq_t c, const fmpz_mpoly_t p)
     fmpq_mul_fmpz(k, c, content);
     out = fmpz_is_pm1(fmpq_numref(k))
               ? QDOT_NIL
-              : scaled(f->pool, k, qdot_form_coefficient(form, whole));
+              : scaled_by(f->pool, k, qdot_form_coefficient(form, whole));
     fmpz_mpoly_scalar_mul_fmpz(whole, whole, fmpq_numref(k), f->ctx);
     fmpz_one(fmpq_numref(k));
-    e = scaled(f->pool, k, qdot_form_coefficient(form, whole));
+    e = scaled_by(f->pool, k, qdot_form_coefficient(form, whole));
     if (out != QDOT_NIL &&
         qdot_expr_size(f->pool, out) <= qdot_expr_size(f->pool, e)) /* 2*(1 - x)*v' */
         e = out;
@@ -135,7 +135,7 @@ all_moving(qdot_field *f, const qdot_groups *groups)
 
 /* exp(c*t/m) stands before kinetic and potential part alike. */
 static bool
-holds_time(const qdot_form *form, const fmpz_mpoly_t g)
+factor_holds_time(const qdot_form *form, const fmpz_mpoly_t g)
 {
     qdot_field *f = form->f;
 
@@ -148,7 +148,7 @@ holds_time(const qdot_form *form, const fmpz_mpoly_t g)
 
 /* Of first degree in velocities: m*(x*y' - y*x' + w*x). */
 static bool
-is_linear(const qdot_form *form, const qdot_groups *groups)
+is_linear_in_velocities(const qdot_form *form, const qdot_groups *groups)
 {
     qdot_field *f = form->f;
 
@@ -176,7 +176,7 @@ is_one_thing(const qdot_form *form, const fmpz_mpoly_t g, const qdot_groups *gro
 
     if (form->quotient || all_moving(f, groups))
         return true;
-    return holds_time(form, g) || is_linear(form, groups);
+    return factor_holds_time(form, g) || is_linear_in_velocities(form, groups);
 }
 
 /* Whether g comes out as in a book: nothing of it is left in the quotients (m*L^2 comes
@@ -235,7 +235,7 @@ say_product(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
     form->depth++;
     if ((factors.n > 1 || (factors.n == 1 && factors.exp[0] > 1)) &&
         (form->quotient || comes_apart(f, &factors))) {
-        e = scaled(f->pool, c, qdot_form_integer(f->pool, factors.content));
+        e = scaled_by(f->pool, c, qdot_form_integer(f->pool, factors.content));
         for (slong i = 0; i < factors.n; i++)
             e = qdot_mul(f->pool, e,
                          qdot_pow_int(f->pool, qdot_form_say(form, factors.poly + i, one),
@@ -362,7 +362,7 @@ say_by_parameters(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
         sum = qdot_add(
             f->pool, sum,
             qdot_mul(f->pool, front,
-                     scaled(f->pool, c, qdot_form_plain(form, groups.poly + i))));
+                     scaled_by(f->pool, c, qdot_form_plain(form, groups.poly + i))));
     }
     qdot_factor_ungroup(f, &groups);
     fmpq_clear(one);
@@ -398,14 +398,14 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
         if (form->quotient && fmpz_is_one(fmpq_denref(c))) /* 2*(u*u' + v*v')/d */
             qdot_form_keep(
                 pool, &best,
-                scaled(pool, c, say_collected(form, &groups, unit, one, false)));
+                scaled_by(pool, c, say_collected(form, &groups, unit, one, false)));
         qdot_form_keep(pool, &best, say_collected(form, &groups, unit, c, true));
         common(f, g, &groups);
         out = qdot_form_coefficient(form, g);
         for (int merged = 0; merged < 2 && goes_out_whole(form, g, &groups); merged++) {
             qdot_expr inner = say_collected(form, &groups, g, one, merged);
 
-            qdot_form_keep(pool, &best, qdot_mul(pool, scaled(pool, c, out), inner));
+            qdot_form_keep(pool, &best, qdot_mul(pool, scaled_by(pool, c, out), inner));
             if (!all_moving(f, &groups)) /* r^2*(m*phi' + 1/2*q*B) */
                 qdot_form_keep(
                     pool, &best,
@@ -413,12 +413,12 @@ qdot_form_say(qdot_form *form, const fmpz_mpoly_t p, const fmpq_t c)
         }
         if (is_one_thing(form, g, &groups))
             qdot_form_keep(pool, &best, say_product(form, p, c));
-        if (!all_moving(f, &groups) && (form->quotient || is_linear(form, &groups)))
+        if (!all_moving(f, &groups) && (form->quotient || is_linear_in_velocities(form, &groups)))
             qdot_form_keep(pool, &best, say_apart(form, &groups, c));
         if (form->depth == 0 && !form->quotient)
             qdot_form_keep(pool, &best, say_by_degree(form, &groups, c));
         if (!qdot_form_has_trig(form, p)) {
-            if (is_linear(form, &groups))
+            if (is_linear_in_velocities(form, &groups))
                 qdot_form_keep(pool, &best, say_by_parameters(form, p, c));
             qdot_form_keep(pool, &best, qdot_form_squares(form, p, c));
         }

@@ -69,7 +69,7 @@ cancel(qdot_field *f, qdot_ratio *r)
 
 /* The coefficients, each cancelled; false where there are too few or too many. */
 static bool
-begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
+fractions_begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
 {
     qdot_field *f = form->f;
 
@@ -106,7 +106,7 @@ begin(struct parts *p, qdot_form *form, const qdot_ratio *r, const fmpq_t c)
 }
 
 static void
-end(struct parts *p)
+fractions_end(struct parts *p)
 {
     for (slong i = 0; i < p->n; i++) {
         qdot_ratio_clear(p->f, &p->at[i].r);
@@ -312,7 +312,7 @@ take_out(struct parts *p)
 /* What moves: derivatives of functions or differentials. Fractions over fractions are theirs, not
  * those of velocities and momenta. */
 static bool
-moves(const qdot_form *form, uint32_t differential)
+form_moves(const qdot_form *form, uint32_t differential)
 {
     const qdot_field *f = form->f;
 
@@ -329,7 +329,7 @@ static void
 say_each_way(struct parts *p, qdot_expr front, qdot_expr *best)
 {
     qdot_pool *pool = p->f->pool;
-    unsigned last = moves(p->form, 0) ? (ABOVE | BELOW) : ABOVE;
+    unsigned last = form_moves(p->form, 0) ? (ABOVE | BELOW) : ABOVE;
 
     qdot_form_keep(pool, best, qdot_mul(pool, front, say_all(p)));
     for (unsigned which = ABOVE; which <= last; which++)
@@ -343,9 +343,9 @@ qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c, qdot_e
     bool quotient = form->quotient;
     struct parts p;
 
-    if (begin(&p, form, r, c)) {
+    if (fractions_begin(&p, form, r, c)) {
         say_each_way(&p, QDOT_ONE, best);
-        if (moves(form, QDOT_HAS_DIFFERENTIAL) && take_out(&p)) {
+        if (form_moves(form, QDOT_HAS_DIFFERENTIAL) && take_out(&p)) {
             qdot_expr out = QDOT_NIL;
 
             say_each_way(&p,
@@ -357,6 +357,6 @@ qdot_form_say_apart(qdot_form *form, const qdot_ratio *r, const fmpq_t c, qdot_e
                 *best = out;
         }
     }
-    end(&p);
+    fractions_end(&p);
     form->quotient = quotient;
 }

@@ -264,7 +264,7 @@ sum_or_squares(qdot_form *form, const fmpz_mpoly_t p)
 
 /* The coefficients of roots by themselves: (m1 + m2)*(L1 + L2) - sqrt(...). Nil: there is no root. */
 static qdot_expr
-by_roots(qdot_form *form, const fmpz_mpoly_t p)
+collect_by_roots(qdot_form *form, const fmpz_mpoly_t p)
 {
     qdot_field *f = form->f;
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by), any = false;
@@ -341,7 +341,7 @@ qdot_form_plain(qdot_form *form, const fmpz_mpoly_t p)
             best = sum;
     }
     if (fmpz_mpoly_length(p, f->ctx) > 2)
-        qdot_form_keep(f->pool, &best, by_roots(form, p));
+        qdot_form_keep(f->pool, &best, collect_by_roots(form, p));
     if (fmpz_mpoly_length(p, f->ctx) > 2 || fmpz_mpoly_total_degree_si(p, f->ctx) > 1) {
         if (qdot_factor(f, &factors, p) == QDOT_OK) {
             qdot_form_keep(f->pool, &best, plain_product(form, &factors));

@@ -29,7 +29,7 @@ struct simplifier {
 };
 
 static void
-keep(struct simplifier *s, qdot_expr e)
+shortest_keep(struct simplifier *s, qdot_expr e)
 {
     qdot_form_keep(s->pool, &s->best, e);
 }
@@ -43,7 +43,7 @@ is_cosine(const qdot_field *f, slong v)
 /* r = from with c^2 = 1 - s^2 in the angle whose cosine is v, or in all (f->n) or none (-1), cancelled;
  * false: that cannot be. */
 static bool
-turn(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
+cosines_to_sines(qdot_field *f, qdot_ratio *r, const qdot_ratio *from, slong v)
 {
     qdot_ratio_set(f, r, from);
     for (slong c = 0; c < f->n && qdot_field_goes(f); c++)
@@ -74,7 +74,7 @@ say_turned(struct simplifier *s, const qdot_ratio *from)
             continue;
         turns++;
         qdot_ratio_init(f, &r);
-        if (turn(f, &r, from, v))
+        if (cosines_to_sines(f, &r, from, v))
             qdot_form_say_quotient(&s->form, &r, &s->best);
         qdot_ratio_clear(f, &r);
     }
@@ -109,10 +109,10 @@ say_rooted(struct simplifier *s, const qdot_ratio *from)
                 (!is_cosine(f, c) || fmpz_mpoly_degree_si(x.d, c, f->ctx) < 2))
                 continue;
             qdot_ratio_init(f, &r);
-            if (turn(f, &r, &x, c) && fmpz_mpoly_total_degree_si(r.d, f->ctx) <
+            if (cosines_to_sines(f, &r, &x, c) && fmpz_mpoly_total_degree_si(r.d, f->ctx) <
                                           fmpz_mpoly_total_degree_si(x.d, f->ctx)) {
                 qdot_form_say_quotient(&s->form, &r, &e);
-                keep(s, qdot_div(s->pool, e, f->gen[v].expr));
+                shortest_keep(s, qdot_div(s->pool, e, f->gen[v].expr));
             }
             qdot_ratio_clear(f, &r);
         }
@@ -135,7 +135,7 @@ all_candidates(struct simplifier *s, const qdot_ratio *r)
         say_rooted(s, r);
     if (qdot_form_has_trig(&s->form, r->d)) {
         say_turned(s, r);
-        keep(s, qdot_products_tangents(s->pool, s->best));
+        shortest_keep(s, qdot_products_tangents(s->pool, s->best));
     }
 }
 
@@ -301,9 +301,9 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
         qdot_form_end(&s.form);
         s.best = qdot_products_signs(pool, s.best);
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
-            keep(&s, qdot_products_out(pool, s.best));
+            shortest_keep(&s, qdot_products_out(pool, s.best));
         if (s.best != QDOT_NIL && (qdot_expr_node(pool, s.best)->holds & QDOT_HAS_FUN))
-            keep(&s, qdot_products_numbers(pool, s.best));
+            shortest_keep(&s, qdot_products_numbers(pool, s.best));
         if (s.best != QDOT_NIL && origins.map.n > 0) {
             qdot_expr back = qdot_walk_replace(pool, s.best, QDOT_PROD, roots_together, &origins.map);
 
@@ -328,7 +328,7 @@ outer(qdot_pool *pool, qdot_expr e, struct request *request)
     if ((qdot_expr_node(pool, e)->holds & QDOT_HAS_FUN) && is_beyond_doubles(pool, s.best, true)
         && !is_beyond_doubles(pool, e, false))
         return e;
-    keep(&s, e);
+    shortest_keep(&s, e);
     return s.best;
 }
 
@@ -435,7 +435,7 @@ inner(qdot_pool *pool, qdot_expr e, struct request *request)
 /* What stands with each product of roots by itself, if these are many: over one denominator with
  * all of them it would be larger by orders. *whole: it is not yet simplified. */
 static qdot_expr
-by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
+simplify_by_roots(qdot_pool *pool, qdot_expr e, struct request *request, bool *whole)
 {
     const bool spent = request->spent;
     qdot_root_parts parts = {.n = 1};
@@ -474,7 +474,7 @@ simplify_scalar(qdot_pool *pool, qdot_expr e, void *user)
 
     if (best != QDOT_NIL)
         return best;
-    best = free ? by_roots(pool, e, user, &whole) : e;
+    best = free ? simplify_by_roots(pool, e, user, &whole) : e;
     if (whole)
         best = outer(pool, best, user);
     if (best != QDOT_NIL && qdot_expr_is_scalar(pool, best))

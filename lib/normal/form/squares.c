@@ -25,7 +25,7 @@ exponents(const struct terms *t, slong i)
 /* c_i m_i, c_j m_j, c_k m_k as g common (a^2, b^2, +-2 a b): whether 4 c_i c_j = c_k^2,
  * m_i m_j = m_k^2 and both are squares but for what they share. */
 static bool
-fits(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
+fits_square(const struct terms *t, slong i, slong j, slong k, fmpz_t g)
 {
     const ulong *a = exponents(t, i), *b = exponents(t, j), *ab = exponents(t, k);
     bool good = fmpz_sgn(t->c + i) == fmpz_sgn(t->c + j), same = true;
@@ -79,7 +79,7 @@ root_of(const struct terms *t, slong i, slong other, const fmpz_t g, ulong *exp)
 
 /* g common (a +- b)^2, written with the first of both in front. */
 static qdot_expr
-square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
+written_square(const struct terms *t, slong i, slong j, slong k, const fmpz_t g, ulong *exp)
 {
     qdot_pool *pool = t->f->pool;
     qdot_expr a = root_of(t, i, j, g, exp), b = root_of(t, j, i, g, exp), e;
@@ -113,9 +113,9 @@ next_square(struct terms *t, ulong *exp)
     for (slong i = 0; i < t->n && e == QDOT_NIL; i++)
         for (slong j = i + 1; j < t->n && e == QDOT_NIL && !t->used[i]; j++)
             for (slong k = 0; k < t->n && e == QDOT_NIL && !t->used[j]; k++) {
-                if (k == i || k == j || t->used[k] || !fits(t, i, j, k, g))
+                if (k == i || k == j || t->used[k] || !fits_square(t, i, j, k, g))
                     continue;
-                e = square(t, i, j, k, g, exp);
+                e = written_square(t, i, j, k, g, exp);
                 t->used[i] = t->used[j] = t->used[k] = true;
             }
     fmpz_clear(g);

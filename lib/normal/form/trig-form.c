@@ -121,7 +121,7 @@ harmonic_at(struct fourier *x, const int *k)
 }
 
 static void
-clear(struct fourier *x)
+fourier_clear(struct fourier *x)
 {
     for (size_t i = 0; i < x->n; i++) {
         fmpq_clear(&x->at[i].s);
@@ -132,7 +132,7 @@ clear(struct fourier *x)
 
 /* Add a sin(k) + b cos(k), the first non-zero of k made positive. */
 static void
-add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
+fourier_add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
 {
     int plus[MOST_ANGLES], sign = 0;
     struct harmonic *h;
@@ -155,7 +155,7 @@ add(struct fourier *x, const int *k, const fmpq *a, const fmpq *b)
 /* y = x times sin (or cos) of the j-th angle; the signs of the product formulas are
  *   circular    s s' = (c- - c+)/2   hyperbolic  S S' = (C+ - C-)/2, all others alike. */
 static void
-times(struct fourier *y, const struct fourier *x, int j, bool sine, bool circular)
+fourier_times(struct fourier *y, const struct fourier *x, int j, bool sine, bool circular)
 {
     fmpq_t zero, s, c, minus;
 
@@ -173,17 +173,17 @@ times(struct fourier *y, const struct fourier *x, int j, bool sine, bool circula
         fmpq_div_2exp(s, &x->at[i].s, 1);
         fmpq_div_2exp(c, &x->at[i].c, 1);
         if (!sine) { /* s c' = (s+ + s-)/2, c c' = (c+ + c-)/2 */
-            add(y, up, s, c);
-            add(y, down, s, c);
+            fourier_add(y, up, s, c);
+            fourier_add(y, down, s, c);
             continue;
         }
         /* c s' = (s+ - s-)/2 */
         fmpq_neg(minus, c);
-        add(y, up, c, zero);
-        add(y, down, minus, zero);
+        fourier_add(y, up, c, zero);
+        fourier_add(y, down, minus, zero);
         fmpq_neg(minus, s);
-        add(y, circular ? down : up, zero, s);
-        add(y, circular ? up : down, zero, minus);
+        fourier_add(y, circular ? down : up, zero, s);
+        fourier_add(y, circular ? up : down, zero, minus);
     }
     fmpq_clear(zero);
     fmpq_clear(s);
@@ -339,7 +339,7 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
     for (slong i = 0; n > 0 && i < fmpz_mpoly_length(p, f->ctx) && !sum->full; i++) {
         fmpz_mpoly_get_term_coeff_fmpz(fmpq_numref(c), p, i, f->ctx);
         fmpz_mpoly_get_term_exp_ui(exp, p, i, f->ctx);
-        add(x, origin, zero, c);
+        fourier_add(x, origin, zero, c);
         for (int j = 0; j < n; j++)
             for (int sin_or_cos = 0; sin_or_cos < 2; sin_or_cos++) {
                 ulong k = exp[sin_or_cos == 0 ? sine[j] : (slong)f->gen[sine[j]].pair];
@@ -347,22 +347,22 @@ by_harmonics(qdot_field *f, const fmpz_mpoly_t p)
                 while (k-- > 0) {
                     struct fourier *swap = x;
 
-                    times(y, x, j, sin_or_cos == 0, circular);
-                    clear(x);
+                    fourier_times(y, x, j, sin_or_cos == 0, circular);
+                    fourier_clear(x);
                     sum->full |= y->full;
                     x = y;
                     y = swap;
                 }
             }
         for (size_t h = 0; h < x->n; h++)
-            add(sum, x->at[h].k, &x->at[h].s, &x->at[h].c);
-        clear(x);
+            fourier_add(sum, x->at[h].k, &x->at[h].s, &x->at[h].c);
+        fourier_clear(x);
     }
     if (n > 0 && !sum->full) {
         e = say_harmonics(f, sum, n, sine, circular);
         qdot_form_keep(f->pool, &e, with_square(f, sum, n, sine, circular));
     }
-    clear(sum);
+    fourier_clear(sum);
     fmpq_clear(c);
     fmpq_clear(zero);
     qdot_free(x < y ? x : y);
