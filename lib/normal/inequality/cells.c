@@ -93,7 +93,7 @@ level_of(const cells *c, const fmpz_mpoly_t p)
 }
 
 static bool
-holds(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
+polynomials_hold(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
 {
     for (size_t i = 0; i < list->n; i++)
         if (fmpz_mpoly_equal(list->at + i, p, c->f.ctx))
@@ -102,11 +102,11 @@ holds(const cells *c, const polynomials *list, const fmpz_mpoly_t p)
 }
 
 static void
-keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
+polynomials_keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
 {
     fmpz_mpoly_struct copy;
 
-    if (holds(c, list, p))
+    if (polynomials_hold(c, list, p))
         return;
     fmpz_mpoly_init(&copy, c->f.ctx);
     fmpz_mpoly_set(&copy, p, c->f.ctx);
@@ -118,7 +118,7 @@ keep(cells *c, polynomials *list, const fmpz_mpoly_t p)
 
 /* The irreducible factors of p into their levels, and into `also`. */
 static void
-add(cells *c, const fmpz_mpoly_t p, polynomials *also)
+level_add_factors(cells *c, const fmpz_mpoly_t p, polynomials *also)
 {
     fmpz_mpoly_factor_t factors;
     fmpz_mpoly_t q;
@@ -144,9 +144,9 @@ add(cells *c, const fmpz_mpoly_t p, polynomials *also)
         k = level_of(c, q);
         if (k < 0)
             continue;
-        keep(c, &c->level[k], q);
+        polynomials_keep(c, &c->level[k], q);
         if (also != NULL)
-            keep(c, also, q);
+            polynomials_keep(c, also, q);
     }
     fmpz_mpoly_clear(q, c->f.ctx);
     fmpz_mpoly_factor_clear(factors, c->f.ctx);
@@ -188,14 +188,14 @@ add_expression(cells *c, qdot_expr e, bool zeros)
         if (fmpz_mpoly_is_zero(p, c->f.ctx) && i == 0)
             c->too_much |= !fmpz_mpoly_is_zero(r->n, c->f.ctx);
         else if (!c->too_much)
-            add(c, p, zeros && i == 0 ? &c->zero : NULL);
+            level_add_factors(c, p, zeros && i == 0 ? &c->zero : NULL);
     }
     fmpz_mpoly_clear(p, c->f.ctx);
 }
 
 /* Leading coefficient, discriminant and resultants of what stands in a level. */
 static void
-project(cells *c, slong k)
+level_project(cells *c, slong k)
 {
     polynomials *l = &c->level[k];
     slong v = c->symbol[k];
@@ -209,20 +209,20 @@ project(cells *c, slong k)
         fmpz_mpoly_to_univar(u, l->at + i, v, c->f.ctx);
         fmpz_mpoly_univar_get_term_coeff(p, u, 0, c->f.ctx);
         fmpz_mpoly_univar_clear(u, c->f.ctx);
-        add(c, p, NULL);
+        level_add_factors(c, p, NULL);
         if (fmpz_mpoly_degree_si(l->at + i, v, c->f.ctx) > 1 && !c->too_much &&
             charge_resultant(c, l->at + i, l->at + i, v)) {
             if (!fmpz_mpoly_discriminant(p, l->at + i, v, c->f.ctx))
                 c->too_much = true;
             else
-                add(c, p, NULL);
+                level_add_factors(c, p, NULL);
         }
         for (size_t j = 0; j < i && !c->too_much; j++) {
             if (!charge_resultant(c, l->at + i, l->at + j, v) ||
                 !fmpz_mpoly_resultant(p, l->at + i, l->at + j, v, c->f.ctx))
                 c->too_much = true;
             else
-                add(c, p, NULL);
+                level_add_factors(c, p, NULL);
         }
     }
     fmpz_mpoly_clear(p, c->f.ctx);
@@ -231,7 +231,7 @@ project(cells *c, slong k)
 /* --- a point ---------------------------------------------------------------------------- */
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const cells *c = user;
 
@@ -248,7 +248,7 @@ value_of(void *user, qdot_expr atom, arb_t value, slong prec)
 
 /* e with the point put in is zero, exactly. */
 static bool
-vanishes(cells *c, qdot_expr e)
+cells_vanishes(cells *c, qdot_expr e)
 {
     qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
 
@@ -279,7 +279,7 @@ typedef enum { OUTSIDE, INSIDE, UNCLEAR } place;
 
 /* Whether conditions hold and roots are real, as far as symbols are chosen. */
 static place
-look_around(const cells *c)
+cells_look_around(const cells *c)
 {
     place p = INSIDE;
 
@@ -316,14 +316,14 @@ look_here(cells *c)
          prec *= 2) {
         if (!charge(c, prec / 4 * (int64_t)c->ball.walk.n))
             return false;
-        qdot_ball_eval(&c->ball, prec, value_of, c);
-        p = look_around(c);
+        qdot_ball_eval(&c->ball, prec, cells_value_of, c);
+        p = cells_look_around(c);
         s = sign_here(c, c->all[0]);
     }
     c->inside = p == INSIDE;
     if (p == OUTSIDE)
         return true;
-    if (p == UNCLEAR || (s == 2 && !vanishes(c, c->all[0]))) {
+    if (p == UNCLEAR || (s == 2 && !cells_vanishes(c, c->all[0]))) {
         c->too_much = true;
         return false;
     }
@@ -337,7 +337,7 @@ look_here(cells *c)
 
 /* p over the points chosen so far. */
 static void
-put_in(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
+polynomial_over_points(const cells *c, fmpz_poly_t r, const fmpz_mpoly_struct *p, slong k)
 {
     qdot_polynomial_over(r, p, k, c->symbol, c->x, c->f.ctx);
 }
@@ -361,7 +361,7 @@ zeros_of_level(cells *c, slong k, arb_ptr *zeros, slong *room)
     fmpz_poly_init(g);
     fmpz_poly_one(product);
     for (size_t i = 0; i < c->level[k].n; i++) {
-        put_in(c, p, c->level[k].at + i, k);
+        polynomial_over_points(c, p, c->level[k].at + i, k);
         if (fmpz_poly_degree(p) > 0)
             fmpz_poly_mul(product, product, p);
     }
@@ -402,7 +402,7 @@ is_outside(cells *c, arb_srcptr root, const fmpz_mpoly_struct *factor)
     c->chosen = 1;
     c->at_root = true;
     arb_set(c->root, root);
-    qdot_ball_eval(&c->ball, 256, value_of, c);
+    qdot_ball_eval(&c->ball, 256, cells_value_of, c);
     for (size_t i = 1; i < 1 + c->n_conditions + c->n_bases; i++)
         outside |= sign_here(c, c->all[i]) < 0 ||
                    (i <= c->n_conditions && !c->weak[i - 1] && factor != NULL &&
@@ -423,7 +423,7 @@ owner(cells *c, arb_srcptr root)
     fmpz_poly_init(p);
     arb_init(v);
     for (size_t i = 0; i < c->level[0].n; i++) {
-        put_in(c, p, c->level[0].at + i, 0);
+        polynomial_over_points(c, p, c->level[0].at + i, 0);
         arb_fmpz_poly_evaluate_arb(v, p, root, 256);
         if (arb_contains_zero(v)) {
             found = c->level[0].at + i;
@@ -454,8 +454,8 @@ lift(cells *c, slong k)
         if (!charge(c, 20 * (int64_t)c->ball.walk.n))
             break;
         if (k + 1 < c->n) { /* what is known to fail already */
-            qdot_ball_eval(&c->ball, 64, value_of, c);
-            if (look_around(c) == OUTSIDE)
+            qdot_ball_eval(&c->ball, 64, cells_value_of, c);
+            if (cells_look_around(c) == OUTSIDE)
                 continue;
         }
         go = lift(c, k + 1);
@@ -490,7 +490,7 @@ look_at_zeros(cells *c)
         slong n, room;
         arb_ptr zero;
 
-        put_in(c, p, c->zero.at + i, 0);
+        polynomial_over_points(c, p, c->zero.at + i, 0);
         room = fmpz_poly_degree(p);
         n = qdot_real_zeros(p, bits_needed(c), &zero);
         c->touches |= n < 0;
@@ -501,8 +501,8 @@ look_at_zeros(cells *c)
                 fmpz_poly_get_coeff_fmpz(fmpq_denref(&c->x[0]), p, 1);
                 fmpq_neg(&c->x[0], &c->x[0]);
                 fmpq_canonicalise(&c->x[0]);
-                qdot_ball_eval(&c->ball, 128, value_of, c);
-                if (vanishes(c, c->all[0]) && look_around(c) == INSIDE)
+                qdot_ball_eval(&c->ball, 128, cells_value_of, c);
+                if (cells_vanishes(c, c->all[0]) && cells_look_around(c) == INSIDE)
                     keep_point(c);
             }
         }
@@ -556,7 +556,7 @@ order_symbols(cells *c)
 
 /* What several linear bounds leave open is the closure of what is inside. */
 static bool
-is_linear(cells *c, qdot_expr g)
+is_linear_here(cells *c, qdot_expr g)
 {
     const qdot_ratio *r = qdot_field_value(&c->f, g);
 
@@ -582,7 +582,7 @@ gather_bases(cells *c)
         if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_is_constant(c->pool, of))
             continue;
         if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) &&
-            !is_linear(c, of))
+            !is_linear_here(c, of))
             return false; /* where it is 0 there may be none beside it where it is not */
         more = qdot_realloc(c->all, (n + 1) * sizeof *more);
         if (more == NULL)
@@ -606,7 +606,7 @@ only_roots(const cells *c)
 }
 
 static void
-search(cells *c, qdot_cells *result)
+cells_search(cells *c, qdot_cells *result)
 {
     size_t kept = 0;
     bool through;
@@ -614,7 +614,7 @@ search(cells *c, qdot_cells *result)
     if (!qdot_field_goes(&c->f) || !only_roots(c) || !choose_symbols(c))
         return;
     for (size_t i = 0; i < c->n_conditions; i++) {
-        if (c->n > 1 && c->weak[i] && !is_linear(c, c->all[1 + i]))
+        if (c->n > 1 && c->weak[i] && !is_linear_here(c, c->all[1 + i]))
             continue;
         c->weak[kept] = c->weak[i];
         c->all[1 + kept++] = c->all[1 + i];
@@ -628,7 +628,7 @@ search(cells *c, qdot_cells *result)
     for (size_t i = 0; i < 1 + c->n_conditions + c->n_bases; i++)
         add_expression(c, c->all[i], i == 0);
     for (slong k = c->n - 1; k > 0 && !c->too_much; k--)
-        project(c, k);
+        level_project(c, k);
     through = !c->too_much && lift(c, 0);
     if (!c->too_much && !through && c->point != QDOT_NIL)
         *result = QDOT_CELLS_NEGATIVE;
@@ -667,7 +667,7 @@ qdot_cells_decide(qdot_pool *pool, qdot_expr e, size_t n,
         fmpq_init(&c.x[k]);
     arb_init(c.root);
     qdot_field_begin(&c.f, pool, n + 1, c.all, WORK);
-    search(&c, result);
+    cells_search(&c, result);
     *at = c.point;
     for (int k = 0; k < MOST_SYMBOLS; k++) {
         for (size_t i = 0; i < c.level[k].n; i++)

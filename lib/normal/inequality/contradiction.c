@@ -7,7 +7,7 @@
 enum { MOST = 8, LARGEST = 200 };
 
 static bool
-is_small(const qdot_pool *pool, const qdot_facts *facts)
+is_small_question(const qdot_pool *pool, const qdot_facts *facts)
 {
     if (facts->n_conditions + facts->n_relations > MOST)
         return false;
@@ -22,8 +22,8 @@ is_small(const qdot_pool *pool, const qdot_facts *facts)
 
 /* *found: left < right (or <=) is proved under `facts`. */
 static qdot_status
-holds(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
-      const qdot_facts *facts, bool *found)
+less_is_proved(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+               const qdot_facts *facts, bool *found)
 {
     qdot_decision d;
 
@@ -40,8 +40,8 @@ of_condition(qdot_pool *pool, qdot_expr c, const qdot_facts *before, bool *found
     if (qdot_expr_kind(pool, c) != QDOT_REL || qdot_expr_node(pool, c)->op == QDOT_EQ)
         return QDOT_OK;
     /* u < v is false where v <= u, u <= v where v < u */
-    return holds(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0),
-                 qdot_expr_node(pool, c)->op == QDOT_LE, before, found);
+    return less_is_proved(pool, qdot_expr_arg(pool, c, 1), qdot_expr_arg(pool, c, 0),
+                          qdot_expr_node(pool, c)->op == QDOT_LE, before, found);
 }
 
 qdot_status
@@ -50,7 +50,7 @@ qdot_contradiction(qdot_pool *pool, const qdot_facts *facts, bool *found)
     qdot_facts before = {0};
 
     *found = false;
-    if (!is_small(pool, facts))
+    if (!is_small_question(pool, facts))
         return QDOT_OK;
     before.conditions = facts->conditions;
     before.relations = facts->relations;
@@ -61,9 +61,9 @@ qdot_contradiction(qdot_pool *pool, const qdot_facts *facts, bool *found)
     before.n_conditions = facts->n_conditions;
     for (size_t i = 0; i < facts->n_relations && !*found; i++) {
         before.n_relations = i;
-        QDOT_TRY(holds(pool, QDOT_ZERO, facts->relations[i], true, &before, found));
+        QDOT_TRY(less_is_proved(pool, QDOT_ZERO, facts->relations[i], true, &before, found));
         if (!*found)
-            QDOT_TRY(holds(pool, facts->relations[i], QDOT_ZERO, true, &before, found));
+            QDOT_TRY(less_is_proved(pool, facts->relations[i], QDOT_ZERO, true, &before, found));
     }
     return QDOT_OK;
 }

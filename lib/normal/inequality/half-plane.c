@@ -162,7 +162,7 @@ exactly(question *q)
 
 /* X [n x n] in balls. */
 static bool
-enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
+matrix_enclose(const qdot_ball *ball, const qdot_expr *X, arb_mat_t A)
 {
     slong n = arb_mat_nrows(A);
 
@@ -187,9 +187,9 @@ enclosed_polynomial(const question *q, const qdot_ball *ball, bool even, arb_pol
     arb_mat_init(M, n, n);
     arb_mat_init(X, n, n);
     arb_mat_init(A, all, all);
-    fine = enclose(ball, q->of[2], M);
+    fine = matrix_enclose(ball, q->of[2], M);
     for (int k = 0; k < (even ? 1 : 2) && fine; k++) {
-        fine = enclose(ball, q->of[k], X) && arb_mat_solve(X, M, X, bits);
+        fine = matrix_enclose(ball, q->of[k], X) && arb_mat_solve(X, M, X, bits);
         for (slong i = 0; i < n * n && fine; i++)
             arb_neg(arb_mat_entry(A, all - n + i / n, k * n + i % n),
                     arb_mat_entry(X, i / n, i % n));
@@ -294,7 +294,7 @@ in_balls(question *q)
 }
 
 static void
-answer(void *user)
+half_plane_answer(void *user)
 {
     question *q = user;
 
@@ -314,7 +314,7 @@ qdot_half_plane_of(qdot_pool *pool, size_t n, const qdot_expr *M, const qdot_exp
     *out = (qdot_half_plane){0};
     if (n == 0 || 2 * n > MOST_DEGREE)
         return QDOT_OK;
-    status = qdot_flint_run(pool, answer, &q);
+    status = qdot_flint_run(pool, half_plane_answer, &q);
     if (status == QDOT_OK)
         status = q.status;
     if (status == QDOT_OK)

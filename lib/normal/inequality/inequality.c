@@ -62,7 +62,7 @@ declared_bounds(qdot_pool *pool, qdot_question *q)
 }
 
 static void
-ask(qdot_pool *pool, qdot_question *q, qdot_expr e, const qdot_facts *facts)
+question_begin(qdot_pool *pool, qdot_question *q, qdot_expr e, const qdot_facts *facts)
 {
     *q = (qdot_question){.e = e, .exact = true, .too_much = e == QDOT_NIL};
     for (size_t i = 0; facts != NULL && i < facts->n_conditions; i++) {
@@ -91,7 +91,7 @@ first_choice(qdot_pool *pool, qdot_expr e)
 }
 
 static void
-put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
+question_put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
 {
     q->e = qdot_subs(pool, q->e, 1, &x, &to);
     for (size_t i = 0; i < q->n; i++)
@@ -101,7 +101,7 @@ put(qdot_pool *pool, qdot_question *q, qdot_expr x, qdot_expr to)
 
 /* Two questions instead of one: a is where the choice falls on the first side. */
 static void
-choose(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
+question_split_choice(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
 {
     qdot_expr u = qdot_expr_arg(pool, choice, 0), gap;
     bool strict;
@@ -109,8 +109,8 @@ choose(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
     if (qdot_expr_node(pool, choice)->op == QDOT_ABS) {
         qdot_question_demand(a, u, true);
         qdot_question_demand(b, qdot_neg(pool, u), true);
-        put(pool, a, choice, u);
-        put(pool, b, choice, qdot_neg(pool, u));
+        question_put(pool, a, choice, u);
+        question_put(pool, b, choice, qdot_neg(pool, u));
         return;
     }
     if (qdot_expr_kind(pool, u) != QDOT_REL || qdot_expr_node(pool, u)->op == QDOT_EQ) {
@@ -122,8 +122,8 @@ choose(qdot_pool *pool, qdot_expr choice, qdot_question *a, qdot_question *b)
     strict = qdot_expr_node(pool, u)->op == QDOT_LT;
     qdot_question_demand(a, gap, !strict);
     qdot_question_demand(b, qdot_neg(pool, gap), strict);
-    put(pool, a, choice, qdot_expr_arg(pool, choice, 1));
-    put(pool, b, choice, qdot_expr_arg(pool, choice, 2));
+    question_put(pool, a, choice, qdot_expr_arg(pool, choice, 1));
+    question_put(pool, b, choice, qdot_expr_arg(pool, choice, 2));
 }
 
 /* Conditions whose symbols have nothing to do with e, not even by others, left out. */
@@ -222,8 +222,8 @@ is_said(qdot_pool *pool, const qdot_question *q, bool strict)
 /* Without choices in it. *any: there are points inside. Where there are none the question is settled by
  * the other sides of absolute values: their points come as near as one likes. */
 static qdot_status
-settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
-       qdot_expr *at)
+question_settle(qdot_pool *pool, qdot_question *q, bool strict, bool *proved, bool *any,
+                qdot_expr *at)
 {
     qdot_cells result = QDOT_CELLS_UNKNOWN;
     qdot_expr point = QDOT_NIL;
@@ -283,7 +283,7 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
     *proved = status == QDOT_OK;
     if (status != QDOT_OK)
         return status;
-    ask(pool, &q[0], e, facts);
+    question_begin(pool, &q[0], e, facts);
     q[0].work = work;
     qdot_question_whole_parts(pool, &q[0]);
     while (n > 0 && *proved && status == QDOT_OK) {
@@ -294,14 +294,14 @@ by_cases(qdot_pool *pool, qdot_expr e, bool strict, const qdot_facts *facts,
 
         if (choice != QDOT_NIL && n < MOST_CASES && done + n < MOST_CASES) {
             q[n] = *last;
-            choose(pool, choice, last, &q[n]);
+            question_split_choice(pool, choice, last, &q[n]);
             n++;
             continue;
         }
         n--;
         done++;
         last->too_much |= choice != QDOT_NIL || last->e == QDOT_NIL;
-        status = settle(pool, last, strict, proved, &any, at);
+        status = question_settle(pool, last, strict, proved, &any, at);
         *proved &= !last->too_much;
     }
     *proved &= any;

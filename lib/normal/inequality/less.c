@@ -19,7 +19,7 @@
 enum { WORK = 4000000, MOST_ENDS = 5, MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
 
 static uint8_t
-times(uint8_t a, uint8_t b)
+bounds_of_product(uint8_t a, uint8_t b)
 {
     const uint8_t either = QDOT_GE0 | QDOT_LE0;
     uint8_t known = 0;
@@ -121,7 +121,7 @@ product_sign(qdot_field *f, const fmpz_mpoly_t p)
 
             if (factors.exp[i] % 2 == 0)
                 one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
-            sign = times(sign, one);
+            sign = bounds_of_product(sign, one);
         }
     }
     qdot_factor_clear(f, &factors);
@@ -145,11 +145,11 @@ sign_by_factors(qdot_pool *pool, qdot_expr e)
         qdot_ratio_set(&f, &x, r);
         qdot_ratio_cancel(&f, &x);
         if (qdot_field_goes(&f))
-            sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
+            sign = bounds_of_product(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
         for (slong v = 0; v < f.n && sign == 0 && qdot_field_goes(&f); v++)
             if (f.gen[v].kind == QDOT_GEN_COS &&
                 qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
-                sign = times(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
+                sign = bounds_of_product(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
         qdot_ratio_clear(&f, &x);
     }
     qdot_field_end(&f);
@@ -216,7 +216,7 @@ side(void *user, qdot_expr atom, arb_t value, slong prec)
 
 /* A bound without symbols as a double on its safe side. */
 static bool
-number(qdot_pool *pool, qdot_expr e, bool up, double *x)
+bound_as_double(qdot_pool *pool, qdot_expr e, bool up, double *x)
 {
     qdot_ball ball;
     arb_srcptr value;
@@ -262,8 +262,8 @@ positive_on_box(qdot_pool *pool, qdot_expr e)
 
         b.atom[i] = qdot_expr_arg(pool, atoms, i);
         s = qdot_expr_symbol(pool, b.atom[i]);
-        positive = s != NULL && number(pool, s->lo, false, &stack[0].lo[i]) &&
-                   number(pool, s->hi, true, &stack[0].hi[i]);
+        positive = s != NULL && bound_as_double(pool, s->lo, false, &stack[0].lo[i]) &&
+                   bound_as_double(pool, s->hi, true, &stack[0].hi[i]);
     }
     if (!positive || qdot_ball_begin(&ball, pool, 1, &e) != QDOT_OK) {
         qdot_free(stack);
@@ -473,8 +473,8 @@ has_both_signs(qdot_pool *pool, qdot_expr gap, const qdot_facts *facts, bool *ye
 }
 
 static qdot_status
-decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
-       const qdot_facts *facts, qdot_decision *d)
+less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
+            const qdot_facts *facts, qdot_decision *d)
 {
     qdot_expr gap, at;
     bool holds, given_up = false;
@@ -522,7 +522,7 @@ decide_order(void *user)
 {
     struct order *x = user;
 
-    x->status = decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
+    x->status = less_decide(x->pool, x->left, x->right, x->strict, x->facts, &x->d);
 }
 
 qdot_status

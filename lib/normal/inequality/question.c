@@ -56,8 +56,8 @@ stand_for(substitutes *s, qdot_expr from, qdot_expr to)
 
 /* lo < y < hi, or <=. */
 static qdot_expr
-bounded(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bool lo_weak,
-        bool hi_weak)
+bounded_unknown(substitutes *s, const char *what, qdot_expr lo, qdot_expr hi, bool lo_weak,
+                bool hi_weak)
 {
     qdot_expr y = fresh(s, what);
 
@@ -82,7 +82,7 @@ pi_itself(substitutes *s)
     qdot_expr lo = qdot_expr_ratio(s->pool, 3141592653589793, 1000000000000000);
     qdot_expr hi = qdot_expr_ratio(s->pool, 3141592653589794, 1000000000000000);
 
-    return bounded(s, "pi", lo, hi, false, false);
+    return bounded_unknown(s, "pi", lo, hi, false, false);
 }
 
 static qdot_expr
@@ -96,14 +96,14 @@ plain_function(substitutes *s, qdot_expr e)
 
     switch (op) {
     case QDOT_ATAN:
-        y = bounded(s, "atan", qdot_neg(pool, half), half, false, false);
+        y = bounded_unknown(s, "atan", qdot_neg(pool, half), half, false, false);
         break;
-    case QDOT_ASIN: y = bounded(s, "asin", qdot_neg(pool, half), half, true, true); break;
-    case QDOT_ACOS: y = bounded(s, "acos", QDOT_ZERO, QDOT_PI, true, true); break;
+    case QDOT_ASIN: y = bounded_unknown(s, "asin", qdot_neg(pool, half), half, true, true); break;
+    case QDOT_ACOS: y = bounded_unknown(s, "acos", QDOT_ZERO, QDOT_PI, true, true); break;
     case QDOT_ATAN2:
-        y = bounded(s, "atan2", qdot_neg(pool, QDOT_PI), QDOT_PI, false, true);
+        y = bounded_unknown(s, "atan2", qdot_neg(pool, QDOT_PI), QDOT_PI, false, true);
         break;
-    case QDOT_SIGN: y = bounded(s, "sign", QDOT_MINUS_ONE, QDOT_ONE, true, true); break;
+    case QDOT_SIGN: y = bounded_unknown(s, "sign", QDOT_MINUS_ONE, QDOT_ONE, true, true); break;
     default: y = fresh(s, "value"); break;
     }
     by_sign(s, y, sign);
@@ -244,14 +244,14 @@ apart(qdot_pool *pool, qdot_expr e, void *user)
         return QDOT_NIL;
     switch (qdot_expr_node(s->pool, e)->op) {
     case QDOT_FLOOR:
-        y = bounded(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
+        y = bounded_unknown(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
         stand_for(s, e, y); /* one more name */
         return qdot_sub(s->pool, qdot_expr_arg(s->pool, e, 0), y);
     case QDOT_MOD:
         m = qdot_expr_arg(s->pool, e, 1);
         if ((qdot_expr_node(s->pool, m)->sign & QDOT_POS) != QDOT_POS)
             return QDOT_NIL;
-        y = bounded(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
+        y = bounded_unknown(s, "part", QDOT_ZERO, QDOT_ONE, true, false);
         stand_for(s, e, y);
         return qdot_mul(s->pool, m, y);
     case QDOT_MAX:
