@@ -43,7 +43,7 @@ is_angle(const qdot_pool *pool, qdot_expr e)
 
 /* The simpler an angle, the earlier its column. */
 static qdot_status
-gather(struct basis *b, size_t n, const qdot_expr *e)
+basis_gather(struct basis *b, size_t n, const qdot_expr *e)
 {
     qdot_walk w;
 
@@ -70,7 +70,7 @@ gather(struct basis *b, size_t n, const qdot_expr *e)
 }
 
 static qdot_status
-evaluate(struct basis *b, const qdot_facts *facts)
+basis_evaluate(struct basis *b, const qdot_facts *facts)
 {
     qdot_expr list = qdot_list(b->pool, (uint32_t)b->n, b->column);
     qdot_sample s;
@@ -109,7 +109,7 @@ dot(const struct basis *b, const double *x, const double *y)
 
 /* The part of column j orthogonal to the columns before; taken twice because of rounding. */
 static void
-project(struct basis *b, size_t j)
+basis_project(struct basis *b, size_t j)
 {
     double *rest = b->base[j], before = sqrt(dot(b, b->value[j], b->value[j]));
 
@@ -202,17 +202,17 @@ qdot_angle_basis(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *fact
     size_t count = 0;
 
     *changed = false;
-    QDOT_TRY(gather(&b, n, e));
+    QDOT_TRY(basis_gather(&b, n, e));
     if (b.n < 2)
         return QDOT_OK;
-    QDOT_TRY(evaluate(&b, facts));
+    QDOT_TRY(basis_evaluate(&b, facts));
     if (b.points < b.n + 2)
         return QDOT_OK;
     for (size_t j = 0; j < b.n; j++) {
         bool equal = false;
         qdot_expr sum;
 
-        project(&b, j);
+        basis_project(&b, j);
         if (b.length[j] > 0)
             continue;
         sum = guess(&b, j);

@@ -122,7 +122,7 @@ squared(qdot_pool *pool, qdot_expr e)
 
 /* Times (re + i im)^k, conjugate for k < 0. */
 static void
-multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulus)
+sum_multiply(struct sum *s, long k, qdot_expr re, qdot_expr im, qdot_expr modulus)
 {
     qdot_pool *pool = s->pool;
     long n = k < 0 ? -k : k;
@@ -148,19 +148,19 @@ add_angle(struct sum *s, long k, qdot_expr e)
     switch (qdot_expr_node(pool, e)->op) {
     case QDOT_ATAN:
         other = root_of(pool, qdot_add(pool, QDOT_ONE, squared(pool, u)));
-        multiply(s, k, QDOT_ONE, u, other);
+        sum_multiply(s, k, QDOT_ONE, u, other);
         return;
     case QDOT_ATAN2: /* of y, x */
         other = qdot_expr_arg(pool, e, 1);
-        multiply(s, k, other, u,
-                 root_of(pool, qdot_add(pool, squared(pool, other), squared(pool, u))));
+        sum_multiply(s, k, other, u,
+                     root_of(pool, qdot_add(pool, squared(pool, other), squared(pool, u))));
         return;
     default:
         other = root_of(pool, qdot_sub(pool, QDOT_ONE, squared(pool, u)));
         if (qdot_expr_node(pool, e)->op == QDOT_ASIN)
-            multiply(s, k, other, u, QDOT_ONE);
+            sum_multiply(s, k, other, u, QDOT_ONE);
         else
-            multiply(s, k, u, other, QDOT_ONE);
+            sum_multiply(s, k, u, other, QDOT_ONE);
     }
 }
 
@@ -170,8 +170,8 @@ add_turn(struct sum *s, qdot_expr q)
     qdot_expr turn = qdot_mul(s->pool, q, QDOT_PI);
 
     add_bounds(s, 1, turn, false, turn, false);
-    multiply(s, 1, qdot_fun1(s->pool, QDOT_COS, turn), qdot_fun1(s->pool, QDOT_SIN, turn),
-             QDOT_ONE);
+    sum_multiply(s, 1, qdot_fun1(s->pool, QDOT_COS, turn), qdot_fun1(s->pool, QDOT_SIN, turn),
+                 QDOT_ONE);
 }
 
 /* --- sums in a polynomial ------------------------------------------------------------------- */

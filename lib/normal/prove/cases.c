@@ -144,7 +144,7 @@ is_proved(struct cases *c, qdot_expr a, qdot_expr b)
 
 /* The place in a list of what is proved to be e, or (turn not NULL) -e; n: there is none. */
 static size_t
-place_of(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
+leaf_place(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *turn)
 {
     size_t place = qdot_expr_place(n, list, e);
     qdot_expr other = turn == NULL || e == QDOT_NIL ? e : qdot_neg(c->pool, e);
@@ -177,7 +177,7 @@ place_of(struct cases *c, const qdot_expr *list, size_t n, qdot_expr e, int *tur
 static void
 add_leaf(struct cases *c, qdot_expr e)
 {
-    if (place_of(c, c->leaf, c->n_leaves, e, NULL) < c->n_leaves)
+    if (leaf_place(c, c->leaf, c->n_leaves, e, NULL) < c->n_leaves)
         return;
     if (c->n_leaves == LEAVES)
         c->too_much = true;
@@ -195,7 +195,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
 
     if (key != QDOT_NIL && qdot_is_constant(c->pool, key))
         return SIGNS;
-    k = place_of(c, c->sign, c->n_signs, key, &turned);
+    k = leaf_place(c, c->sign, c->n_signs, key, &turned);
     if (k == SIGNS || key == QDOT_NIL) {
         c->too_much = true;
         return SIGNS;
@@ -210,7 +210,7 @@ add_sign(struct cases *c, qdot_expr u, bool zero)
 
 /* What the comparisons in the condition of an if ask. */
 static qdot_status
-add_condition(struct cases *c, qdot_expr condition)
+cases_add_condition(struct cases *c, qdot_expr condition)
 {
     qdot_pool *pool = c->pool;
     qdot_walk w;
@@ -238,7 +238,7 @@ add_node(struct cases *c, qdot_expr e)
     }
     c->node[c->n++] = e;
     if (qdot_expr_is_function(pool, e, QDOT_IF))
-        return add_condition(c, qdot_expr_arg(pool, e, 0));
+        return cases_add_condition(c, qdot_expr_arg(pool, e, 0));
     if (is_extreme(pool, e)) {
         for (uint32_t i = 0; i < qdot_expr_count(pool, e); i++)
             if (!is_extreme(pool, qdot_expr_arg(pool, e, i)))
@@ -291,7 +291,7 @@ contradicts(const struct cases *c, const size_t *order, const int *sign)
 }
 
 static qdot_status
-gather(struct cases *c)
+cases_gather(struct cases *c)
 {
     qdot_walk w;
 
@@ -336,7 +336,7 @@ sign_in(struct cases *c, qdot_expr u, const int *sign)
         return 0;
     if (qdot_is_constant(c->pool, key))
         return turned * sign_of_constant(c, key);
-    k = place_of(c, c->sign, c->n_signs, key, &again);
+    k = leaf_place(c, c->sign, c->n_signs, key, &again);
     if (k == c->n_signs) {
         c->too_much = true;
         return 0;
@@ -395,7 +395,7 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
         qdot_expr x = qdot_expr_arg(c->pool, e, i);
         size_t inner = qdot_expr_place(k, c->node, x), at;
 
-        at = place_of(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
+        at = leaf_place(c, c->leaf, c->n_leaves, inner < k ? c->to[inner] : x, NULL);
         if (at == c->n_leaves) {
             c->too_much = true;
             return x;
@@ -410,7 +410,7 @@ chosen(struct cases *c, qdot_expr e, size_t k, const size_t *rank)
 
 /* order[]: the leaves, ascending; sign[]: 1, -1 or 0. */
 static void
-put_in(struct cases *c, const size_t *order, const int *sign)
+cases_put_in(struct cases *c, const size_t *order, const int *sign)
 {
     qdot_pool *pool = c->pool;
     size_t rank[LEAVES];
@@ -529,8 +529,8 @@ learn(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
 }
 
 static qdot_status
-prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
-      bool *equal)
+cases_prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *facts,
+            bool *equal)
 {
     size_t given = facts == NULL ? 0 : facts->n_conditions + facts->n_relations;
     qdot_expr *condition = qdot_malloc((given + 2 * SIGNS + LEAVES) * sizeof *condition);
@@ -545,7 +545,7 @@ prove(struct cases *c, const size_t *order, const int *sign, const qdot_facts *f
         return status;
     }
     QDOT_TRY(status);
-    put_in(c, order, sign);
+    cases_put_in(c, order, sign);
     for (int i = 0; i < 2; i++) {
         side[i] = qdot_subs(c->pool, c->side[i], c->n, c->node, c->to);
         for (size_t k = 0; k < c->n_signs && side[i] != QDOT_NIL; k++)
@@ -623,7 +623,7 @@ qdot_prove_cases(qdot_pool *pool, qdot_expr left, qdot_expr right,
     for (int i = 0; i < 2; i++)
         c.side[i] = qdot_walk_map(pool, c.side[i], signs_apart, NULL);
     QDOT_TRY(qdot_pool_check(pool));
-    QDOT_TRY(gather(&c));
+    QDOT_TRY(cases_gather(&c));
     if (c.too_much)
         return QDOT_OK;
     if (c.n == 0)
@@ -636,7 +636,7 @@ qdot_prove_cases(qdot_pool *pool, qdot_expr left, qdot_expr right,
         for (size_t i = 0; i < c.n_signs; i++)
             sign[i] = 1;
         do
-            QDOT_TRY(prove(&c, order, sign, facts, equal));
+            QDOT_TRY(cases_prove(&c, order, sign, facts, equal));
         while (*equal && next_signs(&c, sign));
     } while (*equal && next_order(order, c.n_leaves));
     return QDOT_OK;

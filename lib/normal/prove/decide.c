@@ -72,8 +72,8 @@ all_defined(const qdot_sample *s, qdot_expr list)
 
 /* Compare at one point. 1: the sides differ there; 0: they agree so far; -1: no point. */
 static int
-compare(qdot_sample *s, const struct sides *sides, const struct look *look,
-        qdot_decision *d, int *digits)
+compare_at_point(qdot_sample *s, const struct sides *sides, const struct look *look,
+                 qdot_decision *d, int *digits)
 {
     int result = -1;
     arb_t difference;
@@ -176,7 +176,7 @@ look_at_sides(qdot_pool *pool, const struct sides *sides, const qdot_facts *fact
             qdot_sample_point(&s, k);
         else if (!qdot_sample_edge(&s, k))
             break;
-        here = compare(&s, sides, look, d, &digits);
+        here = compare_at_point(&s, sides, look, d, &digits);
         if (here == 0) {
             d->points++;
             if (digits < d->digits || d->points == 1)
@@ -306,8 +306,8 @@ prove_parts(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *
 }
 
 static qdot_status
-decide(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
-       qdot_decision *d)
+decide_equal(qdot_pool *pool, qdot_expr left, qdot_expr right, const qdot_facts *facts,
+             qdot_decision *d)
 {
     bool equal;
 
@@ -372,7 +372,7 @@ decide_equality(void *user)
 {
     struct equality *x = user;
 
-    x->status = decide(x->pool, x->left, x->right, x->facts, &x->d);
+    x->status = decide_equal(x->pool, x->left, x->right, x->facts, &x->d);
 }
 
 qdot_status

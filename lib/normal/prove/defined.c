@@ -52,7 +52,7 @@ between_roots(struct job *j, qdot_expr g, bool weak, bool *done)
 }
 
 static qdot_status
-one_factor(struct job *j, qdot_expr g, bool weak)
+factor_is_defined(struct job *j, qdot_expr g, bool weak)
 {
     uint8_t sign = g == QDOT_NIL ? QDOT_GE0 : qdot_expr_node(j->pool, g)->sign;
     bool done;
@@ -122,7 +122,7 @@ qdot_defined_apart(qdot_pool *pool, qdot_expr gap, bool weak, qdot_defined_gap t
     qdot_field_end(&f);
     QDOT_TRY(qdot_grave(status));
     product = status == QDOT_OK && product != QDOT_NIL ? qdot_expand(pool, product) : gap;
-    return one_factor(&j, product, weak);
+    return factor_is_defined(&j, product, weak);
 }
 
 /* --- what each node asks ---------------------------------------------------------------- */
@@ -138,7 +138,7 @@ need(struct job *j, qdot_expr gap, bool weak)
 }
 
 static qdot_status
-function(struct job *j, qdot_expr e)
+function_is_defined(struct job *j, qdot_expr e)
 {
     qdot_pool *pool = j->pool;
     unsigned op = qdot_expr_node(pool, e)->op;
@@ -170,7 +170,7 @@ may_have_come_out(const qdot_pool *pool, qdot_expr b, qdot_expr x)
 }
 
 static qdot_status
-product(struct job *j, qdot_expr e)
+product_is_defined(struct job *j, qdot_expr e)
 {
     qdot_pool *pool = j->pool;
     uint32_t n = qdot_expr_count(pool, e);
@@ -213,9 +213,9 @@ qdot_defined(qdot_pool *pool, size_t n, const qdot_expr *e, qdot_defined_gap tel
             if (qdot_walk_index(&w, qdot_expr_arg(pool, at, k)) != SIZE_MAX)
                 qdot_walk_set(&w, qdot_expr_arg(pool, at, k), 1);
         if (kind == QDOT_FUN)
-            status = function(&j, at);
+            status = function_is_defined(&j, at);
         else if (kind == QDOT_PROD)
-            status = product(&j, at);
+            status = product_is_defined(&j, at);
     }
     qdot_walk_end(&w);
     return status;

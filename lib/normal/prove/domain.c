@@ -36,7 +36,7 @@ fresh(qdot_pool *pool, qdot_expr x, qdot_expr lo, bool lo_open, qdot_expr hi,
 
 /* x -> to, everywhere. */
 static void
-replace(job *j, qdot_expr x, qdot_expr to)
+domain_replace(job *j, qdot_expr x, qdot_expr to)
 {
     j->changed = true;
     for (size_t i = 0; i < j->n; i++)
@@ -91,7 +91,7 @@ inside_angle(const job *j, qdot_expr x)
 /* x with constant bounds: counted from the lower one if it alone is there or is not
  * negative, else from the upper one. Angles between two bounds stay as they are. */
 static void
-move(job *j, qdot_expr x, qdot_symbol s)
+domain_move_bounds(job *j, qdot_expr x, qdot_symbol s)
 {
     qdot_pool *pool = j->pool;
     bool two = s.lo != QDOT_NIL && s.hi != QDOT_NIL, angle = two && inside_angle(j, x);
@@ -103,7 +103,7 @@ move(job *j, qdot_expr x, qdot_symbol s)
 
         if (now->lo != s.lo || now->hi != s.hi || now->lo_open != s.lo_open ||
             now->hi_open != s.hi_open)
-            replace(j, x, fresh(pool, x, s.lo, s.lo_open, s.hi, s.hi_open));
+            domain_replace(j, x, fresh(pool, x, s.lo, s.lo_open, s.hi, s.hi_open));
     } else if (s.lo != QDOT_NIL && (!two || !surely_less(pool, s.lo, QDOT_ZERO))) {
         qdot_expr to = two ? qdot_sub(pool, s.hi, s.lo) : QDOT_NIL;
         const qdot_symbol *now = qdot_expr_symbol(pool, x);
@@ -112,12 +112,12 @@ move(job *j, qdot_expr x, qdot_symbol s)
             now->hi == s.hi && (now->hi_open || !s.hi_open))
             return;
         y = fresh(pool, x, QDOT_ZERO, s.lo_open, to, s.hi_open);
-        replace(j, x, qdot_add(pool, s.lo, y));
+        domain_replace(j, x, qdot_add(pool, s.lo, y));
     } else if (s.hi != QDOT_NIL) {
         qdot_expr to = two ? qdot_sub(pool, s.hi, s.lo) : QDOT_NIL;
 
         y = fresh(pool, x, QDOT_ZERO, s.hi_open, to, s.lo_open);
-        replace(j, x, qdot_sub(pool, s.hi, y));
+        domain_replace(j, x, qdot_sub(pool, s.hi, y));
     }
 }
 
@@ -177,7 +177,7 @@ tighten(job *j, qdot_expr x, qdot_expr c, qdot_expr rest, bool weak)
         s.hi = QDOT_NIL;
     if (s.lo != QDOT_NIL && s.hi != QDOT_NIL && !surely_less(j->pool, s.lo, s.hi))
         return; /* no room between them */
-    move(j, x, s);
+    domain_move_bounds(j, x, s);
 }
 
 /* Solve the gap for a symbol whose declared sign shows in what stands for it. */
@@ -205,7 +205,7 @@ solve_gap(job *j, qdot_expr gap, bool weak)
         need = qdot_expr_node(pool, x)->sign;
         have = qdot_expr_node(pool, to)->sign;
         if ((need & ~have) == 0) {
-            replace(j, x, to);
+            domain_replace(j, x, to);
             return true;
         }
     }
@@ -256,7 +256,7 @@ solve_relations(job *j, size_t nr)
                 continue;
             if (solvable(pool, j->e[i], x, &to)) {
                 QDOT_TRY(keep_bounds(j, x));
-                replace(j, x, to);
+                domain_replace(j, x, to);
                 j->e[i] = QDOT_ZERO;
                 break;
             }
@@ -270,7 +270,7 @@ solve_relations(job *j, size_t nr)
 /* --- all ------------------------------------------------------------------------ */
 
 static qdot_status
-tell(void *user, qdot_expr gap, bool weak)
+domain_add_gap(void *user, qdot_expr gap, bool weak)
 {
     job *j = user;
 
@@ -287,15 +287,15 @@ gather_implied(job *j, const qdot_facts *facts)
     size_t given = j->gap.n;
 
     for (size_t i = 0; i < given; i++)
-        QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], tell, j));
+        QDOT_TRY(qdot_defined_apart(j->pool, j->gap.at[i], j->weak.at[i], domain_add_gap, j));
     if (facts != NULL && facts->defined != QDOT_NIL)
-        QDOT_TRY(qdot_defined(j->pool, 1, &facts->defined, tell, j));
-    return qdot_defined(j->pool, 2, j->e, tell, j);
+        QDOT_TRY(qdot_defined(j->pool, 1, &facts->defined, domain_add_gap, j));
+    return qdot_defined(j->pool, 2, j->e, domain_add_gap, j);
 }
 
 /* The gaps of the conditions, and of declared bounds that hold symbols. */
 static qdot_status
-gather(job *j, const qdot_facts *facts, qdot_expr atoms)
+domain_gather(job *j, const qdot_facts *facts, qdot_expr atoms)
 {
     qdot_pool *pool = j->pool;
 
@@ -331,7 +331,7 @@ move_declared(job *j, qdot_expr atoms)
             (s.hi != QDOT_NIL && !qdot_is_constant(j->pool, s.hi)))
             continue;
         if (s.lo != QDOT_NIL || s.hi != QDOT_NIL)
-            move(j, x, s);
+            domain_move_bounds(j, x, s);
     }
 }
 
@@ -346,7 +346,7 @@ qdot_domain_unfold(qdot_pool *pool, const qdot_facts *facts, size_t n, qdot_expr
 
     *rest = (qdot_domain_rest){0};
     if (status == QDOT_OK && atoms != QDOT_NIL)
-        status = gather(&j, facts, atoms);
+        status = domain_gather(&j, facts, atoms);
     if (status == QDOT_OK && implied)
         status = gather_implied(&j, facts);
     if (status == QDOT_OK)

@@ -60,7 +60,7 @@ qdot_problem_in_field(qdot_problem *p, bool signs, bool *zero)
 /* The same of what stands with each product of roots, where these are many: over one
  * denominator with all of them it may be past the budget. */
 static qdot_status
-by_roots(qdot_problem *p, bool *zero)
+prove_by_roots(qdot_problem *p, bool *zero)
 {
     const qdot_expr left = p->e[0], right = p->e[1];
     qdot_root_parts parts = {.n = 1};
@@ -172,7 +172,7 @@ qdot_prove_equal(qdot_pool *pool, qdot_expr left, qdot_expr right,
     if (status == QDOT_OK)
         status = qdot_problem_prepare(&p);
     if (status == QDOT_OK)
-        status = by_roots(&p, equal);
+        status = prove_by_roots(&p, equal);
     if (status == QDOT_OK && !*equal)
         status = qdot_problem_in_field(&p, true, equal);
     return qdot_problem_finish(&p, status);

@@ -45,7 +45,7 @@ relate(qdot_pool *pool, qdot_expr f, long n, bool circular, qdot_nth_parts *rela
 }
 
 static qdot_status
-look_at(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *relations)
+argument_look_at(qdot_pool *pool, qdot_expr arg, bool circular, qdot_nth_parts *relations)
 {
     bool sum = qdot_expr_kind(pool, arg) == QDOT_SUM;
     uint32_t n = sum ? qdot_expr_count(pool, arg) : 3;
@@ -86,7 +86,7 @@ qdot_nth_part_relations(qdot_pool *pool, size_t n, const qdot_expr *e, qdot_nth_
                           : QDOT_FUNCTION_COUNT;
 
         if (op <= QDOT_COT || (op >= QDOT_SINH && op <= QDOT_TANH))
-            status = look_at(pool, qdot_expr_arg(pool, w.at[i], 0), op <= QDOT_COT, relations);
+            status = argument_look_at(pool, qdot_expr_arg(pool, w.at[i], 0), op <= QDOT_COT, relations);
     }
     qdot_walk_end(&w);
     return status;

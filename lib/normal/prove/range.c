@@ -12,7 +12,7 @@ enum { MOST_SQUARES = 2, LONGEST = 60 };
 #define EITHER (QDOT_GE0 | QDOT_LE0)
 
 static uint8_t
-times(uint8_t a, uint8_t b)
+range_of_product(uint8_t a, uint8_t b)
 {
     uint8_t known = 0;
 
@@ -154,7 +154,7 @@ monomial(const qdot_zero *z, const fmpz_mpoly_t p, slong i, ulong *exp)
     fmpz_mpoly_get_term_exp_ui(exp, p, i, f->ctx);
     for (slong v = 0; v < f->n && sign != 0; v++)
         if (exp[v] != 0)
-            sign = times(sign, exp[v] % 2 == 0
+            sign = range_of_product(sign, exp[v] % 2 == 0
                                    ? (uint8_t)(QDOT_GE0 | (z->sign[v] & QDOT_NE0))
                                    : z->sign[v]);
     return sign;
@@ -226,7 +226,7 @@ by_nodes(const qdot_zero *z, const fmpz_mpoly_t p)
             !fmpz_mpoly_divides(q, r->n, p, f->ctx) || !fmpz_mpoly_is_fmpz(q, f->ctx) ||
             fmpz_mpoly_is_zero(q, f->ctx))
             continue;
-        sign = times(here, times(by_terms(z, q), by_terms(z, r->d)));
+        sign = range_of_product(here, range_of_product(by_terms(z, q), by_terms(z, r->d)));
     }
     fmpz_mpoly_clear(q, f->ctx);
     return sign;
@@ -259,7 +259,7 @@ has_roots(const qdot_field *f, const fmpz_mpoly_t p)
     return false;
 }
 
-static uint8_t sign_of(qdot_zero *z, const fmpz_mpoly_t p, int depth);
+static uint8_t sign_of_polynomial(qdot_zero *z, const fmpz_mpoly_t p, int depth);
 
 /* A - B for A, B >= 0 has the sign of A^2 - B^2, which has fewer roots. depth bounds the
  * recursion. */
@@ -290,7 +290,7 @@ by_squares(qdot_zero *z, const fmpz_mpoly_t p, int depth)
         qdot_field_mul(f, part[0], part[0], part[0]);
         qdot_field_mul(f, part[1], part[1], part[1]);
         fmpz_mpoly_sub(term, part[0], part[1], f->ctx);
-        sign = qdot_field_goes(f) ? sign_of(z, term, depth - 1) : 0;
+        sign = qdot_field_goes(f) ? sign_of_polynomial(z, term, depth - 1) : 0;
     }
     fmpz_mpoly_clear(part[0], f->ctx);
     fmpz_mpoly_clear(part[1], f->ctx);
@@ -327,9 +327,9 @@ by_larger(qdot_zero *z, const fmpz_mpoly_t p, int depth)
     qdot_field_mul(f, r, P, P);
     fmpz_mpoly_sub(d, d, r, f->ctx);
     if (qdot_field_goes(f)) {
-        more = sign_of(z, d, depth - 1);
+        more = sign_of_polynomial(z, d, depth - 1);
         if (more & EITHER)
-            sign = sign_of(z, more & QDOT_GE0 ? Q : P, depth - 1);
+            sign = sign_of_polynomial(z, more & QDOT_GE0 ? Q : P, depth - 1);
         if (!(more & QDOT_NE0))
             sign &= EITHER;
     }
@@ -361,7 +361,7 @@ of_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 }
 
 static uint8_t
-sign_of(qdot_zero *z, const fmpz_mpoly_t p, int depth)
+sign_of_polynomial(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 {
     qdot_field *f = z->f;
     qdot_factors factors;
@@ -379,7 +379,7 @@ sign_of(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 
             if (factors.exp[i] % 2 == 0)
                 one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
-            sign = one & EITHER ? times(sign, one) : 0;
+            sign = one & EITHER ? range_of_product(sign, one) : 0;
         }
     }
     qdot_factor_clear(f, &factors);
@@ -389,5 +389,5 @@ sign_of(qdot_zero *z, const fmpz_mpoly_t p, int depth)
 uint8_t
 qdot_zero_sign(qdot_zero *z, const fmpz_mpoly_t p)
 {
-    return qdot_field_goes(z->f) ? sign_of(z, p, MOST_SQUARES) : 0;
+    return qdot_field_goes(z->f) ? sign_of_polynomial(z, p, MOST_SQUARES) : 0;
 }

@@ -85,7 +85,7 @@ power_of_log(qdot_pool *pool, qdot_expr arg)
 
 /* sinh, cosh, tanh of c log u, w = u^c, or of any argument by exp: (w - 1/w)/2 ... */
 static qdot_expr
-hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
+rewrite_hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
     qdot_expr arg = qdot_expr_arg(pool, e, 0), w = power_of_log(pool, arg), over, s, c;
 
@@ -106,7 +106,7 @@ hyperbolic(qdot_pool *pool, qdot_expr e, bool exponentials)
 }
 
 static qdot_expr
-function(qdot_pool *pool, qdot_expr e, bool exponentials)
+rewrite_function(qdot_pool *pool, qdot_expr e, bool exponentials)
 {
     qdot_expr v = qdot_expr_arg(pool, e, 0);
 
@@ -123,13 +123,13 @@ function(qdot_pool *pool, qdot_expr e, bool exponentials)
     case QDOT_FLOOR: return whole_part(pool, v);
     case QDOT_SINH:
     case QDOT_COSH:
-    case QDOT_TANH: return hyperbolic(pool, e, exponentials);
+    case QDOT_TANH: return rewrite_hyperbolic(pool, e, exponentials);
     default: return e;
     }
 }
 
 static qdot_expr
-product(qdot_pool *pool, qdot_expr e)
+rewrite_product(qdot_pool *pool, qdot_expr e)
 {
     uint32_t n = qdot_expr_count(pool, e);
     qdot_expr result = qdot_expr_arg(pool, e, 0);
@@ -164,9 +164,9 @@ qdot_rewrite(qdot_pool *pool, qdot_expr e, bool exponentials)
     for (size_t i = 0; i < w.n && result != QDOT_NIL; i++) {
         result = qdot_walk_rebuild(pool, &w, w.at[i]);
         if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_FUN)
-            result = function(pool, result, exponentials);
+            result = rewrite_function(pool, result, exponentials);
         else if (result != QDOT_NIL && qdot_expr_kind(pool, result) == QDOT_PROD)
-            result = product(pool, result);
+            result = rewrite_product(pool, result);
         qdot_walk_set(&w, w.at[i], result);
     }
     qdot_walk_end(&w);

@@ -61,7 +61,7 @@ some_undefined(const job *j)
 }
 
 static qdot_status
-evaluate(job *j, size_t n, const qdot_expr *e)
+unify_evaluate(job *j, size_t n, const qdot_expr *e)
 {
     int found = 0;
 
@@ -136,7 +136,7 @@ worth_a_look(const qdot_pool *pool, qdot_expr arg)
 
 /* *with: what stands for `arg` (whose old node has the index `at`), times *c. */
 static qdot_status
-find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
+unify_find(job *j, struct place p, qdot_expr arg, size_t at, qdot_expr *with, fmpq_t c)
 {
     qdot_status status = QDOT_OK;
     struct seen *new;
@@ -187,14 +187,14 @@ static class class_of(const job *j, uint32_t op)
 }
 
 static size_t
-index_of(const job *j, qdot_expr old, uint32_t i)
+argument_index(const job *j, qdot_expr old, uint32_t i)
 {
     return qdot_walk_index(&j->walk, qdot_expr_arg(j->pool, old, i));
 }
 
 /* now: a function made of `old`, its arguments unified already inside. */
 static qdot_status
-function(job *j, qdot_expr old, qdot_expr *now)
+unify_function(job *j, qdot_expr old, qdot_expr *now)
 {
     qdot_pool *pool = j->pool;
     uint32_t op = qdot_expr_node(pool, *now)->op, n = qdot_expr_count(pool, *now);
@@ -211,8 +211,8 @@ function(job *j, qdot_expr old, qdot_expr *now)
         args[i] = qdot_expr_arg(pool, *now, i);
         if (!worth_a_look(pool, args[i]))
             continue;
-        if (find(j, (struct place){class, op, QDOT_FUN}, args[i], index_of(j, old, i), &with,
-                 c) != QDOT_OK)
+        if (unify_find(j, (struct place){class, op, QDOT_FUN}, args[i], argument_index(j, old, i), &with,
+                       c) != QDOT_OK)
             break;
         if (with == QDOT_NIL)
             continue;
@@ -243,7 +243,7 @@ function(job *j, qdot_expr old, qdot_expr *now)
 }
 
 static qdot_status
-undefined(job *j, qdot_expr old, qdot_expr *now)
+unify_undefined(job *j, qdot_expr old, qdot_expr *now)
 {
     qdot_pool *pool = j->pool;
     uint32_t n = qdot_expr_count(pool, *now);
@@ -257,8 +257,8 @@ undefined(job *j, qdot_expr old, qdot_expr *now)
         args[i] = qdot_expr_arg(pool, *now, i);
         if (2 * i >= n) /* orders of derivatives */
             continue;
-        status = find(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
-                      args[i], index_of(j, old, i), &with, c);
+        status = unify_find(j, (struct place){OTHER, qdot_expr_node(pool, *now)->op, QDOT_UFUN},
+                            args[i], argument_index(j, old, i), &with, c);
         if (with != QDOT_NIL) {
             any |= with != args[i];
             args[i] = with;
@@ -275,7 +275,7 @@ undefined(job *j, qdot_expr old, qdot_expr *now)
 
 /* Powers with exponents that are not integers. */
 static qdot_status
-product(job *j, qdot_expr old, qdot_expr *now)
+unify_product(job *j, qdot_expr old, qdot_expr *now)
 {
     qdot_pool *pool = j->pool;
     uint32_t n = qdot_expr_count(pool, old);
@@ -297,8 +297,8 @@ product(job *j, qdot_expr old, qdot_expr *now)
             break;
         power = qdot_pow(pool, b, x);
         if (!qdot_expr_to_int(pool, x, &k) && worth_a_look(pool, b)) {
-            status = find(j, (struct place){BASE, 0, QDOT_PROD}, b, index_of(j, old, i),
-                          &with, c);
+            status = unify_find(j, (struct place){BASE, 0, QDOT_PROD}, b, argument_index(j, old, i),
+                                &with, c);
             if (with != QDOT_NIL && with != b) {
                 any = true;
                 power = qdot_mul(pool, qdot_pow(pool, qdot_expr_fmpq(pool, c), x),
@@ -318,7 +318,7 @@ product(job *j, qdot_expr old, qdot_expr *now)
 /* --- the pass ---------------------------------------------------------------------- */
 
 static qdot_status
-node(job *j, qdot_expr old, qdot_expr *now)
+unify_node(job *j, qdot_expr old, qdot_expr *now)
 {
     qdot_pool *pool = j->pool;
     uint32_t n = qdot_expr_count(pool, old);
@@ -339,9 +339,9 @@ node(job *j, qdot_expr old, qdot_expr *now)
         return QDOT_OK;
     switch (qdot_expr_kind(pool, old)) {
     case QDOT_FUN:
-        return qdot_expr_kind(pool, *now) == QDOT_FUN ? function(j, old, now) : QDOT_OK;
-    case QDOT_UFUN: return undefined(j, old, now);
-    case QDOT_PROD: return product(j, old, now);
+        return qdot_expr_kind(pool, *now) == QDOT_FUN ? unify_function(j, old, now) : QDOT_OK;
+    case QDOT_UFUN: return unify_undefined(j, old, now);
+    case QDOT_PROD: return unify_product(j, old, now);
     default: return QDOT_OK;
     }
 }
@@ -366,7 +366,7 @@ reserve(job *j)
 }
 
 static void
-release(job *j)
+unify_release(job *j)
 {
     for (int k = 0; k < POINTS; k++) {
         for (size_t i = 0; j->value[k] != NULL && i < j->walk.n; i++)
@@ -417,11 +417,11 @@ qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
     }
     status = reserve(&j);
     if (status == QDOT_OK)
-        status = evaluate(&j, n, e);
+        status = unify_evaluate(&j, n, e);
     for (size_t i = 0; i < j.walk.n && status == QDOT_OK; i++) {
         qdot_expr now = QDOT_NIL;
 
-        status = node(&j, j.walk.at[i], &now);
+        status = unify_node(&j, j.walk.at[i], &now);
         if (now == QDOT_NIL && status == QDOT_OK)
             status = QDOT_EFAILED; /* a wrong turn */
         qdot_walk_set(&j.walk, j.walk.at[i], now);
@@ -429,6 +429,6 @@ qdot_unify(qdot_pool *pool, size_t n, qdot_expr *e, const qdot_facts *facts,
     for (size_t i = 0; i < n && status == QDOT_OK && j.changed; i++)
         e[i] = (qdot_expr)qdot_walk_get(&j.walk, e[i]);
     *changed = status == QDOT_OK && j.changed;
-    release(&j);
+    unify_release(&j);
     return status == QDOT_EFAILED ? QDOT_OK : status;
 }

@@ -7,7 +7,7 @@
 
 /* Whether bound <= n/2 pi (below: >=), for a rational or a rational times pi. */
 static bool
-bounded(const qdot_pool *pool, qdot_expr bound, long n, bool below)
+bounded_by_quarters(const qdot_pool *pool, qdot_expr bound, long n, bool below)
 {
     const fmpq *x = qdot_expr_rational(pool, bound);
     fmpq_t limit, c;
@@ -48,8 +48,8 @@ lies_within(const qdot_pool *pool, qdot_expr x, long from, long to)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
-    return s != NULL && bounded(pool, s->lo, from, true) &&
-           bounded(pool, s->hi, to, false);
+    return s != NULL && bounded_by_quarters(pool, s->lo, from, true) &&
+           bounded_by_quarters(pool, s->hi, to, false);
 }
 
 /* The angle of which y = p sin(x), x = p cos(x), p > 0; nil: none. */
@@ -63,7 +63,7 @@ angle_of(qdot_pool *pool, qdot_expr y, qdot_expr x)
         const qdot_symbol *s = qdot_expr_symbol(pool, u);
 
         if (!lies_within(pool, u, -2, 2) ||
-            (s->lo != QDOT_NIL && !s->lo_open && !bounded(pool, s->lo, -1, true)))
+            (s->lo != QDOT_NIL && !s->lo_open && !bounded_by_quarters(pool, s->lo, -1, true)))
             continue;
         p = qdot_div(pool, y, qdot_fun1(pool, QDOT_SIN, u));
         if (p != QDOT_NIL && qdot_expr_node(pool, p)->sign == QDOT_POS &&

@@ -40,7 +40,7 @@ qdot_zero_end(qdot_zero *z)
 }
 
 static void
-reduce(qdot_zero *z, fmpz_mpoly_t p)
+zero_reduce(qdot_zero *z, fmpz_mpoly_t p)
 {
     fmpz_t scale;
 
@@ -117,7 +117,7 @@ init(qdot_field *f, struct split *s)
 }
 
 static void
-clear(qdot_field *f, struct split *s)
+root_split_clear(qdot_field *f, struct split *s)
 {
     fmpz_mpoly_clear(s->P, f->ctx);
     fmpz_mpoly_clear(s->Q, f->ctx);
@@ -242,7 +242,7 @@ opposite_signs(qdot_zero *z, const struct split *s)
 
 /* The domain is a product of intervals: bounds are constants. */
 static bool
-interval(const qdot_pool *pool, qdot_expr x)
+is_in_interval(const qdot_pool *pool, qdot_expr x)
 {
     const qdot_symbol *s = qdot_expr_symbol(pool, x);
 
@@ -307,7 +307,7 @@ is_analytic(const qdot_pool *pool, qdot_expr e)
         case QDOT_NUM:
         case QDOT_SUM:
         case QDOT_UFUN: break; /* a value of its own */
-        case QDOT_SYM: all = interval(pool, w.at[i]); break;
+        case QDOT_SYM: all = is_in_interval(pool, w.at[i]); break;
         case QDOT_PROD: all = analytic_product(pool, w.at[i]); break;
         case QDOT_FUN: all = analytic_function(pool, w.at[i]); break;
         default: all = false;
@@ -391,7 +391,7 @@ only_this_branch(qdot_zero *z, const fmpz_mpoly_t p, const struct split *s)
 
 /* --- all --------------------------------------------------------------------------- */
 
-static qdot_status prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
+static qdot_status zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero);
 
 /* Whether p is 0 if its norm is, by a root that the split takes out. */
 static bool
@@ -419,17 +419,17 @@ prove_factor(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
         if (found) {
             norm(f, n, &s);
             if (qdot_field_goes(f))
-                status = prove(z, n, depth - 1, zero);
+                status = zero_prove(z, n, depth - 1, zero);
         }
         fmpz_mpoly_clear(n, f->ctx);
-        clear(f, &s);
+        root_split_clear(f, &s);
     }
     return status;
 }
 
 /* depth bounds the recursion: a root less each time. */
 static qdot_status
-prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
+zero_prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 {
     qdot_field *f = z->f;
     qdot_status status = QDOT_OK;
@@ -439,7 +439,7 @@ prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
     *zero = false;
     fmpz_mpoly_init(q, f->ctx);
     fmpz_mpoly_set(q, p, f->ctx);
-    reduce(z, q);
+    zero_reduce(z, q);
     if (qdot_field_goes(f) && has_constants(f, q))
         status = drop_constants(f, q);
     if (status == QDOT_OK && qdot_field_goes(f)) {
@@ -465,5 +465,5 @@ prove(qdot_zero *z, const fmpz_mpoly_t p, int depth, bool *zero)
 qdot_status
 qdot_zero_prove(qdot_zero *z, const fmpz_mpoly_t p, bool *zero)
 {
-    return prove(z, p, MOST_DEPTH, zero);
+    return zero_prove(z, p, MOST_DEPTH, zero);
 }
