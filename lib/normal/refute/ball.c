@@ -42,7 +42,7 @@ static unary *const table[QDOT_FUNCTION_KINDS] = {
 };
 
 static size_t
-index_of(const qdot_ball *b, qdot_expr e, uint32_t i)
+ball_argument_index(const qdot_ball *b, qdot_expr e, uint32_t i)
 {
     return qdot_walk_index(&b->walk, qdot_expr_arg(b->pool, e, i));
 }
@@ -53,7 +53,7 @@ finite_args(const qdot_ball *b, qdot_expr e, uint32_t from)
     uint32_t n = qdot_expr_count(b->pool, e);
 
     for (uint32_t i = from; i < n; i++)
-        if (b->known[index_of(b, e, i)] != 1)
+        if (b->known[ball_argument_index(b, e, i)] != 1)
             return false;
     return true;
 }
@@ -73,36 +73,36 @@ eval_mod(arb_t z, const arb_t x, const arb_t y, slong prec)
 }
 
 static bool
-function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t op = qdot_expr_node(b->pool, e)->op, n = qdot_expr_count(b->pool, e);
 
     if (op == QDOT_IF) {
-        uint8_t truth = b->known[index_of(b, e, 0)];
+        uint8_t truth = b->known[ball_argument_index(b, e, 0)];
         size_t branch;
 
         if (truth == 0)
             return false;
-        branch = index_of(b, e, truth == 1 ? 1 : 2);
+        branch = ball_argument_index(b, e, truth == 1 ? 1 : 2);
         arb_set(y, b->value + branch);
         return b->known[branch] == 1;
     }
     if (!finite_args(b, e, 0))
         return false;
     if (table[op] != NULL) {
-        table[op](y, b->value + index_of(b, e, 0), prec);
+        table[op](y, b->value + ball_argument_index(b, e, 0), prec);
     } else if (op == QDOT_ATAN2) {
-        arb_srcptr v = b->value + index_of(b, e, 0), u = b->value + index_of(b, e, 1);
+        arb_srcptr v = b->value + ball_argument_index(b, e, 0), u = b->value + ball_argument_index(b, e, 1);
 
         if (arb_contains_zero(v) && (arb_contains_zero(u) || (!arb_is_zero(v) && !arb_is_positive(u))))
             return false; /* the origin, or both sides of the jump from pi to -pi */
         arb_atan2(y, v, u, prec);
     } else if (op == QDOT_MOD) {
-        eval_mod(y, b->value + index_of(b, e, 0), b->value + index_of(b, e, 1), prec);
+        eval_mod(y, b->value + ball_argument_index(b, e, 0), b->value + ball_argument_index(b, e, 1), prec);
     } else if (op == QDOT_MIN || op == QDOT_MAX) {
-        arb_set(y, b->value + index_of(b, e, 0));
+        arb_set(y, b->value + ball_argument_index(b, e, 0));
         for (uint32_t i = 1; i < n; i++)
-            (op == QDOT_MIN ? arb_min : arb_max)(y, y, b->value + index_of(b, e, i),
+            (op == QDOT_MIN ? arb_min : arb_max)(y, y, b->value + ball_argument_index(b, e, i),
                                                  prec);
     } else {
         return false;
@@ -113,7 +113,7 @@ function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 /* --- sums, products, relations ----------------------------------------------------- */
 
 static bool
-sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+ball_sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t n = qdot_expr_count(b->pool, e);
 
@@ -121,13 +121,13 @@ sum(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
         return false;
     arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
     for (uint32_t i = 1; i < n; i += 2)
-        arb_addmul(y, b->value + index_of(b, e, i), b->value + index_of(b, e, i + 1),
+        arb_addmul(y, b->value + ball_argument_index(b, e, i), b->value + ball_argument_index(b, e, i + 1),
                    prec);
     return true;
 }
 
 static bool
-power(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec)
+ball_power_of(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec)
 {
     if (x == NULL) {
         if (!arb_is_positive(base))
@@ -146,7 +146,7 @@ power(arb_t y, const arb_t base, const fmpq *x, const arb_t exponent, slong prec
 }
 
 static bool
-product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
+ball_product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 {
     uint32_t n = qdot_expr_count(b->pool, e);
     bool known = finite_args(b, e, 0);
@@ -157,9 +157,9 @@ product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
     arb_init(factor);
     arb_set_fmpq(y, qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, 0)), prec);
     for (uint32_t i = 1; i < n && known; i += 2) {
-        known = power(factor, b->value + index_of(b, e, i),
-                      qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, i + 1)),
-                      b->value + index_of(b, e, i + 1), prec);
+        known = ball_power_of(factor, b->value + ball_argument_index(b, e, i),
+                              qdot_expr_rational(b->pool, qdot_expr_arg(b->pool, e, i + 1)),
+                              b->value + ball_argument_index(b, e, i + 1), prec);
         arb_mul(y, y, factor, prec);
     }
     arb_clear(factor);
@@ -169,7 +169,7 @@ product(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
 static uint8_t
 relation(const qdot_ball *b, qdot_expr e)
 {
-    arb_srcptr l = b->value + index_of(b, e, 0), r = b->value + index_of(b, e, 1);
+    arb_srcptr l = b->value + ball_argument_index(b, e, 0), r = b->value + ball_argument_index(b, e, 1);
 
     if (!finite_args(b, e, 0))
         return 0;
@@ -187,12 +187,12 @@ logic(const qdot_ball *b, qdot_expr e)
     uint8_t all = op == QDOT_AND ? 1 : 2, decisive = op == QDOT_AND ? 2 : 1;
 
     if (op == QDOT_NOT) {
-        uint8_t x = b->known[index_of(b, e, 0)];
+        uint8_t x = b->known[ball_argument_index(b, e, 0)];
 
         return x == 0 ? 0 : (uint8_t)(3 - x);
     }
     for (uint32_t i = 0; i < n; i++) {
-        uint8_t x = b->known[index_of(b, e, i)];
+        uint8_t x = b->known[ball_argument_index(b, e, i)];
 
         if (x == decisive)
             return decisive;
@@ -257,9 +257,9 @@ qdot_ball_eval(qdot_ball *b, slong prec,
                 arb_const_pi(y, prec);
             break;
         case QDOT_UFUN: known = of && of(user, e, y, prec); break;
-        case QDOT_SUM: known = sum(b, y, e, prec); break;
-        case QDOT_PROD: known = product(b, y, e, prec); break;
-        case QDOT_FUN: known = function(b, y, e, prec); break;
+        case QDOT_SUM: known = ball_sum(b, y, e, prec); break;
+        case QDOT_PROD: known = ball_product(b, y, e, prec); break;
+        case QDOT_FUN: known = ball_function(b, y, e, prec); break;
         case QDOT_REL: b->known[i] = relation(b, e); continue;
         case QDOT_LOGIC: b->known[i] = logic(b, e); continue;
         default: break;

@@ -63,19 +63,19 @@ log2_sum(double a, double b)
 }
 
 static size
-add(size a, size b)
+size_add(size a, size b)
 {
     return (size){log2_sum(a.u + b.l, b.u + a.l), up(a.l + b.l)};
 }
 
 static size
-multiply(size a, size b)
+size_multiply(size a, size b)
 {
     return (size){up(a.u + b.u), up(a.l + b.l)};
 }
 
 static size
-number(const fmpq *x)
+size_of_number(const fmpq *x)
 {
     double n = log2_of(fmpq_numref(x));
 
@@ -87,7 +87,7 @@ number(const fmpq *x)
 
 /* (U L^(k-1))^(1/k) / L; the other way, over (U^(k-1) L)^(1/k), fails where U is 0. */
 static size
-root(size a, double k)
+size_of_root(size a, double k)
 {
     return (size){up((a.u + (k - 1) * a.l) / k), a.l};
 }
@@ -114,7 +114,7 @@ get(const bound *b, qdot_expr e)
 
 /* QDOT_EFAILED where the rules do not apply. */
 static qdot_status
-power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
+size_of_power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
 {
     const fmpq *x = qdot_expr_rational(b->pool, exponent);
     ulong p, q;
@@ -128,7 +128,7 @@ power(bound *b, qdot_expr base, qdot_expr exponent, size *s)
     *s = get(b, base);
     if (q > 1) {
         QDOT_TRY(note_root(b, base, q));
-        *s = root(*s, (double)q);
+        *s = size_of_root(*s, (double)q);
     }
     s->u = up(s->u * (double)p);
     s->l = up(s->l * (double)p);
@@ -155,7 +155,7 @@ multiple_of_pi(const qdot_pool *pool, qdot_expr e, fmpq_t c)
 }
 
 static qdot_status
-function(bound *b, qdot_expr e, size *s)
+size_of_function(bound *b, qdot_expr e, size *s)
 {
     uint32_t op = qdot_expr_node(b->pool, e)->op;
     qdot_expr arg = qdot_expr_arg(b->pool, e, 0);
@@ -182,34 +182,34 @@ function(bound *b, qdot_expr e, size *s)
 }
 
 static qdot_status
-node(bound *b, qdot_expr e, size *s)
+size_of_node(bound *b, qdot_expr e, size *s)
 {
     qdot_pool *pool = b->pool;
     uint32_t n = qdot_expr_count(pool, e);
     size one;
 
     switch (qdot_expr_kind(pool, e)) {
-    case QDOT_NUM: *s = number(qdot_expr_rational(pool, e)); return QDOT_OK;
+    case QDOT_NUM: *s = size_of_number(qdot_expr_rational(pool, e)); return QDOT_OK;
     case QDOT_SYM: /* pi: fit only as an angle */
         *s = (size){NAN, NAN};
         return e == QDOT_PI ? QDOT_OK : QDOT_EFAILED;
     case QDOT_SUM:
-        *s = number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+        *s = size_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < n; i += 2) {
-            one = multiply(get(b, qdot_expr_arg(pool, e, i)),
-                           get(b, qdot_expr_arg(pool, e, i + 1)));
-            *s = add(*s, one);
+            one = size_multiply(get(b, qdot_expr_arg(pool, e, i)),
+                                get(b, qdot_expr_arg(pool, e, i + 1)));
+            *s = size_add(*s, one);
         }
         return QDOT_OK;
     case QDOT_PROD:
-        *s = number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+        *s = size_of_number(qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
         for (uint32_t i = 1; i < n; i += 2) {
             QDOT_TRY(
-                power(b, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1), &one));
-            *s = multiply(*s, one);
+                size_of_power(b, qdot_expr_arg(pool, e, i), qdot_expr_arg(pool, e, i + 1), &one));
+            *s = size_multiply(*s, one);
         }
         return QDOT_OK;
-    case QDOT_FUN: return function(b, e, s);
+    case QDOT_FUN: return size_of_function(b, e, s);
     default: return QDOT_EFAILED;
     }
 }
@@ -232,7 +232,7 @@ separation(bound *b, qdot_expr e, double *bits)
     size s = {0, 0};
 
     for (size_t i = 0; i < b->walk.n && status == QDOT_OK; i++) {
-        status = node(b, b->walk.at[i], &b->of[i]);
+        status = size_of_node(b, b->walk.at[i], &b->of[i]);
         s = b->of[i];
     }
     if (status == QDOT_OK)
@@ -247,7 +247,7 @@ separation(bound *b, qdot_expr e, double *bits)
 /* Enclosures with more and more bits, until one has no zero in it or is smaller than
  * 2^-bits. */
 static qdot_status
-enclose(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_sign *sign)
+constant_enclose(qdot_pool *pool, qdot_expr e, double bits, qdot_constant_sign *sign)
 {
     slong most = (slong)bits * 3 + 512;
     qdot_status status = QDOT_OK;
@@ -310,5 +310,5 @@ qdot_constant_decide(qdot_pool *pool, qdot_expr e, qdot_constant_sign *sign)
     qdot_free(b.roots.at);
     if (status == QDOT_ENOMEM)
         return status;
-    return enclose(pool, e, bits, sign);
+    return constant_enclose(pool, e, bits, sign);
 }

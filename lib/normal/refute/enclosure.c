@@ -37,19 +37,19 @@ typedef struct {
 } image;
 
 static qdot_interval
-interval(double lo, double hi)
+interval_of(double lo, double hi)
 {
     return (qdot_interval){lo, hi};
 }
 
 static qdot_interval
-scaled(double c, qdot_interval a)
+interval_scaled(double c, qdot_interval a)
 {
     return qdot_interval_product(qdot_interval_point(c), a, false);
 }
 
 static qdot_interval
-square(qdot_interval a)
+interval_square(qdot_interval a)
 {
     return qdot_interval_product(a, a, true);
 }
@@ -67,7 +67,7 @@ inverse(qdot_interval a)
 }
 
 static qdot_interval
-root(qdot_interval a)
+interval_root(qdot_interval a)
 {
     return qdot_interval_rising(sqrt, qdot_interval_within(a, 0, INFINITY));
 }
@@ -123,19 +123,19 @@ circular(uint32_t op, qdot_interval a)
     case QDOT_COS: return (image){c, qdot_interval_negative(s), QDOT_ENCLOSURE_WHOLE};
     case QDOT_TAN:
         if (!holds_zero(c) && a.hi - a.lo < 3) /* within one branch, where it rises */
-            return (image){qdot_interval_rising(tan, a), inverse(square(c)),
+            return (image){qdot_interval_rising(tan, a), inverse(interval_square(c)),
                            QDOT_ENCLOSURE_WHOLE};
-        return fraction(s, c, inverse(square(c)));
-    case QDOT_COT: return fraction(c, s, qdot_interval_negative(inverse(square(s))));
-    case QDOT_SEC: return fraction(one, c, qdot_interval_quotient(s, square(c)));
+        return fraction(s, c, inverse(interval_square(c)));
+    case QDOT_COT: return fraction(c, s, qdot_interval_negative(inverse(interval_square(s))));
+    case QDOT_SEC: return fraction(one, c, qdot_interval_quotient(s, interval_square(c)));
     default:
         return fraction(one, s,
-                        qdot_interval_negative(qdot_interval_quotient(c, square(s))));
+                        qdot_interval_negative(qdot_interval_quotient(c, interval_square(s))));
     }
 }
 
 static image
-hyperbolic(uint32_t op, qdot_interval a)
+image_hyperbolic(uint32_t op, qdot_interval a)
 {
     qdot_interval s = qdot_interval_rising(sinh, a),
                   c = qdot_interval_rising(cosh, qdot_interval_size(a)), t;
@@ -146,7 +146,7 @@ hyperbolic(uint32_t op, qdot_interval a)
     if (op == QDOT_COSH)
         return (image){c, s, QDOT_ENCLOSURE_WHOLE};
     t = qdot_interval_within(qdot_interval_rising(tanh, a), -1, 1);
-    return (image){t, inverse(square(c)), QDOT_ENCLOSURE_WHOLE};
+    return (image){t, inverse(interval_square(c)), QDOT_ENCLOSURE_WHOLE};
 }
 
 static image
@@ -157,24 +157,24 @@ inverse_function(uint32_t op, qdot_interval a)
     switch (op) {
     case QDOT_ASIN:
     case QDOT_ACOS:
-        slope = inverse(root(plus(1, qdot_interval_negative(square(in)))));
+        slope = inverse(interval_root(plus(1, qdot_interval_negative(interval_square(in)))));
         if (op == QDOT_ASIN)
             return (image){qdot_interval_rising(asin, in), slope, inside(a, -1, 1, true)};
         return (image){qdot_interval_falling(acos, in), qdot_interval_negative(slope),
                        inside(a, -1, 1, true)};
     case QDOT_ATAN:
-        return (image){qdot_interval_rising(atan, a), inverse(plus(1, square(a))),
+        return (image){qdot_interval_rising(atan, a), inverse(plus(1, interval_square(a))),
                        QDOT_ENCLOSURE_WHOLE};
     case QDOT_ASINH:
-        return (image){qdot_interval_rising(asinh, a), inverse(root(plus(1, square(a)))),
+        return (image){qdot_interval_rising(asinh, a), inverse(interval_root(plus(1, interval_square(a)))),
                        QDOT_ENCLOSURE_WHOLE};
     case QDOT_ACOSH:
-        slope = inverse(root(plus(-1, square(qdot_interval_within(a, 1, INFINITY)))));
+        slope = inverse(interval_root(plus(-1, interval_square(qdot_interval_within(a, 1, INFINITY)))));
         return (image){qdot_interval_rising(acosh, qdot_interval_within(a, 1, INFINITY)),
                        slope, inside(a, 1, INFINITY, true)};
     default:
         return (image){qdot_interval_rising(atanh, in),
-                       inverse(plus(1, qdot_interval_negative(square(in)))),
+                       inverse(plus(1, qdot_interval_negative(interval_square(in)))),
                        inside(a, -1, 1, false)};
     }
 }
@@ -183,9 +183,9 @@ inverse_function(uint32_t op, qdot_interval a)
 static qdot_interval
 bell(qdot_interval a)
 {
-    return scaled(
+    return interval_scaled(
         M_2_SQRTPI,
-        qdot_interval_within(qdot_interval_rising(exp, qdot_interval_negative(square(a))),
+        qdot_interval_within(qdot_interval_rising(exp, qdot_interval_negative(interval_square(a))),
                              0, INFINITY));
 }
 
@@ -214,18 +214,18 @@ static image
 stepped(uint32_t op, qdot_interval a)
 {
     qdot_interval zero = qdot_interval_point(0),
-                  side = interval((a.lo > 0) - (a.lo < 0), (a.hi > 0) - (a.hi < 0));
+                  side = interval_of((a.lo > 0) - (a.lo < 0), (a.hi > 0) - (a.hi < 0));
     bool one_side = a.lo > 0 || a.hi < 0 || (a.lo == 0 && a.hi == 0);
 
     if (op == QDOT_ABS)
         return (image){qdot_interval_size(a),
-                       interval(a.lo < 0 ? -1 : 1, a.hi > 0 ? 1 : -1),
+                       interval_of(a.lo < 0 ? -1 : 1, a.hi > 0 ? 1 : -1),
                        QDOT_ENCLOSURE_WHOLE};
     if (op == QDOT_SIGN)
         return (image){side, zero,
                        one_side ? QDOT_ENCLOSURE_WHOLE : QDOT_ENCLOSURE_PARTLY};
     one_side = floor(a.lo) == floor(a.hi) && a.lo != floor(a.lo);
-    return (image){interval(floor(a.lo), floor(a.hi)), zero,
+    return (image){interval_of(floor(a.lo), floor(a.hi)), zero,
                    one_side ? QDOT_ENCLOSURE_WHOLE : QDOT_ENCLOSURE_PARTLY};
 }
 
@@ -241,7 +241,7 @@ of_one(uint32_t op, qdot_interval a)
     case QDOT_CSC: return circular(op, a);
     case QDOT_SINH:
     case QDOT_COSH:
-    case QDOT_TANH: return hyperbolic(op, a);
+    case QDOT_TANH: return image_hyperbolic(op, a);
     case QDOT_EXP:
     case QDOT_LOG:
     case QDOT_ERF:
@@ -264,8 +264,8 @@ worse(qdot_enclosure_state a, qdot_enclosure_state b)
 
 /* to += factor * slopes of v */
 static void
-add_slopes(const qdot_enclosure *s, qdot_enclosure_value *to, qdot_interval factor,
-           const qdot_enclosure_value *v)
+enclosure_add_slopes(const qdot_enclosure *s, qdot_enclosure_value *to, qdot_interval factor,
+                     const qdot_enclosure_value *v)
 {
     for (size_t j = 0; j < s->n && s->slopes; j++)
         if (v->slope[j].lo != 0 || v->slope[j].hi != 0)
@@ -288,13 +288,13 @@ eval_sum(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 
         to->y = qdot_interval_sum(to->y, qdot_interval_product(c, v->y, false));
         to->state = worse(to->state, v->state);
-        add_slopes(s, to, c, v);
+        enclosure_add_slopes(s, to, c, v);
     }
 }
 
 /* v^p and its slope by v. */
 static image
-power(qdot_interval a, qdot_interval p, bool integer)
+image_power(qdot_interval a, qdot_interval p, bool integer)
 {
     image f = {a, qdot_interval_point(1), QDOT_ENCLOSURE_WHOLE};
 
@@ -308,7 +308,7 @@ power(qdot_interval a, qdot_interval p, bool integer)
     }
     f.y = qdot_interval_power(a, p);
     if (p.lo == 2 && p.hi == 2)
-        f.slope = scaled(2, a);
+        f.slope = interval_scaled(2, a);
     else
         f.slope = qdot_interval_product(
             p,
@@ -330,10 +330,10 @@ general_power(const qdot_enclosure *s, const qdot_enclosure_value *v,
     if (s->slopes) { /* all of them at once: y (p' log v + p v'/v) */
         qdot_interval log_v = qdot_interval_rising(log, base);
 
-        add_slopes(s, to, qdot_interval_product(f.y, log_v, false), p);
-        add_slopes(s, to,
-                   qdot_interval_product(f.y, qdot_interval_quotient(p->y, base), false),
-                   v);
+        enclosure_add_slopes(s, to, qdot_interval_product(f.y, log_v, false), p);
+        enclosure_add_slopes(s, to,
+                             qdot_interval_product(f.y, qdot_interval_quotient(p->y, base), false),
+                             v);
     }
     return f;
 }
@@ -350,9 +350,9 @@ eval_product(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
         if (isnan(p.lo)) { /* the exponent stands behind its base */
             f = general_power(s, v, operand(s, k, ++i), &part);
         } else {
-            f = power(v->y, p, s->integer[k->at + i]);
+            f = image_power(v->y, p, s->integer[k->at + i]);
             f.state = worse(f.state, v->state);
-            add_slopes(s, &part, f.slope, v);
+            enclosure_add_slopes(s, &part, f.slope, v);
         }
         for (size_t j = 0; j < s->n && s->slopes; j++)
             to->slope[j] =
@@ -378,8 +378,8 @@ eval_extreme(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
             to->slope[j] = above   ? to->slope[j]
                            : below ? v->slope[j]
                                    : qdot_interval_around(to->slope[j], v->slope[j]);
-        to->y = most ? interval(fmax(to->y.lo, v->y.lo), fmax(to->y.hi, v->y.hi))
-                     : interval(fmin(to->y.lo, v->y.lo), fmin(to->y.hi, v->y.hi));
+        to->y = most ? interval_of(fmax(to->y.lo, v->y.lo), fmax(to->y.hi, v->y.hi))
+                     : interval_of(fmin(to->y.lo, v->y.lo), fmin(to->y.hi, v->y.hi));
         to->state = worse(to->state, v->state);
     }
 }
@@ -414,13 +414,13 @@ eval_two(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
 
     to->state = worse(a->state, b->state);
     if (k->op == QDOT_ATAN2) {
-        square_of_r = qdot_interval_sum(square(a->y), square(b->y));
+        square_of_r = qdot_interval_sum(interval_square(a->y), interval_square(b->y));
         to->y = qdot_interval_angle(a->y, b->y);
         if (holds_zero(a->y) && b->y.lo <= 0)
             to->state = worse(to->state, QDOT_ENCLOSURE_PARTLY);
-        add_slopes(s, to, qdot_interval_quotient(b->y, square_of_r), a);
-        add_slopes(s, to,
-                   qdot_interval_negative(qdot_interval_quotient(a->y, square_of_r)), b);
+        enclosure_add_slopes(s, to, qdot_interval_quotient(b->y, square_of_r), a);
+        enclosure_add_slopes(s, to,
+                             qdot_interval_negative(qdot_interval_quotient(a->y, square_of_r)), b);
         return;
     }
     q = qdot_interval_quotient(a->y, b->y);
@@ -428,8 +428,8 @@ eval_two(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
     if (!isfinite(q.lo) || !isfinite(q.hi) || floor(q.lo) != floor(q.hi) ||
         q.lo == floor(q.lo))
         to->state = worse(to->state, QDOT_ENCLOSURE_PARTLY);
-    add_slopes(s, to, qdot_interval_point(1), a);
-    add_slopes(s, to, qdot_interval_point(-floor(q.lo)), b);
+    enclosure_add_slopes(s, to, qdot_interval_point(1), a);
+    enclosure_add_slopes(s, to, qdot_interval_point(-floor(q.lo)), b);
 }
 
 static void
@@ -449,7 +449,7 @@ eval_function(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
     f = of_one(k->op, v->y);
     to->y = f.y;
     to->state = worse(v->state, f.state);
-    add_slopes(s, to, f.slope, v);
+    enclosure_add_slopes(s, to, f.slope, v);
 }
 
 /* 1 true, 0 false, 0..1 not known. */
@@ -482,7 +482,7 @@ eval_truth(const qdot_enclosure *s, const node *k, qdot_enclosure_value *to)
             never = all ? never || c.hi == 0 : never && c.hi == 0;
         }
     }
-    to->y = interval(sure, !never);
+    to->y = interval_of(sure, !never);
 }
 
 void
@@ -560,10 +560,10 @@ around_rational(const fmpq *x)
 }
 
 static void
-put(qdot_enclosure *s, uint32_t at, uint32_t arg, const fmpq *number)
+enclosure_put(qdot_enclosure *s, uint32_t at, uint32_t arg, const fmpq *number)
 {
     s->arg[at] = arg;
-    s->number[at] = number == NULL ? interval(NAN, NAN) : around_rational(number);
+    s->number[at] = number == NULL ? interval_of(NAN, NAN) : around_rational(number);
     s->integer[at] = number != NULL && fmpz_is_one(fmpq_denref(number));
 }
 
@@ -577,14 +577,14 @@ put_pairs(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, qdot_exp
     for (uint32_t i = 1; i + 1 < n; i += 2) {
         const fmpq *number = qdot_expr_rational(pool, qdot_expr_arg(pool, e, i + 1));
 
-        put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i)),
-            number);
+        enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i)),
+                      number);
         if (number == NULL)
-            put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i + 1)),
-                NULL);
+            enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, i + 1)),
+                          NULL);
     }
     k->n = *used - k->at;
-    put(s, (*used)++, 0, qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
+    enclosure_put(s, (*used)++, 0, qdot_expr_rational(pool, qdot_expr_arg(pool, e, 0)));
 }
 
 static bool
@@ -606,7 +606,7 @@ translate(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i
     case QDOT_SYM:
         k->unknown = qdot_expr_place(s->n, x, e);
         k->constant = k->unknown == s->n;
-        v->y = e == QDOT_PI ? interval(M_PI, nextafter(M_PI, 4))
+        v->y = e == QDOT_PI ? interval_of(M_PI, nextafter(M_PI, 4))
                             : qdot_interval_point(e == QDOT_TRUE);
         return !k->constant || e == QDOT_PI || e == QDOT_TRUE || e == QDOT_FALSE;
     case QDOT_SUM:
@@ -616,8 +616,8 @@ translate(qdot_enclosure *s, const qdot_pool *pool, const qdot_walk *w, size_t i
     case QDOT_LOGIC:
         k->n = qdot_expr_count(pool, e);
         for (uint32_t a = 0; a < k->n; a++)
-            put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, a)),
-                NULL);
+            enclosure_put(s, (*used)++, (uint32_t)qdot_walk_index(w, qdot_expr_arg(pool, e, a)),
+                          NULL);
         return true;
     default: return false;
     }

@@ -71,7 +71,7 @@ inside_another(qdot_field *f, const fmpz_mpoly_t p, slong v)
 }
 
 static qdot_expr
-coefficient(qdot_field *f, const qdot_groups *g, slong v, ulong k)
+coefficient_of(qdot_field *f, const qdot_groups *g, slong v, ulong k)
 {
     for (slong i = 0; i < g->n; i++)
         if (g->key[i * f->n + v] == k)
@@ -80,7 +80,7 @@ coefficient(qdot_field *f, const qdot_groups *g, slong v, ulong k)
 }
 
 static qdot_expr
-solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr either)
+solve_for_variable(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr either)
 {
     qdot_pool *pool = f->pool;
     bool *by = qdot_calloc((size_t)f->n + 1, sizeof *by);
@@ -91,9 +91,9 @@ solve_for(qdot_field *f, const fmpz_mpoly_t p, slong v, slong degree, qdot_expr 
         return qdot_pool_fail(pool);
     by[v] = true;
     if (qdot_factor_group(f, &groups, p, by) == QDOT_OK) {
-        c = coefficient(f, &groups, v, 0);
-        b = coefficient(f, &groups, v, 1);
-        a = coefficient(f, &groups, v, 2);
+        c = coefficient_of(f, &groups, v, 0);
+        b = coefficient_of(f, &groups, v, 1);
+        a = coefficient_of(f, &groups, v, 2);
         if (degree == 1) {
             x = qdot_neg(pool, qdot_div(pool, c, b));
         } else {
@@ -191,7 +191,7 @@ qdot_sample_solve(qdot_pool *pool, qdot_expr relation, size_t number, size_t n,
     }
     if (best >= 0) {
         out->atom = f.gen[best].expr;
-        out->solution = solve_for(&f, r->n, best, best_degree, either_sign(pool, number));
+        out->solution = solve_for_variable(&f, r->n, best, best_degree, either_sign(pool, number));
     }
     qdot_field_end(&f);
     if (best >= 0 && out->solution == QDOT_NIL && qdot_pool_check(pool) != QDOT_OK)
@@ -237,7 +237,7 @@ sign_at(qdot_sample *s, qdot_sample_atom *a, const arf_t x, slong prec, arf_t f)
 
 /* left < right, at which the signs differ; halved until they are not sure any more. */
 static bool
-bracket(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
+bracket_root(qdot_sample *s, qdot_sample_atom *a, arf_t left, arf_t right)
 {
     double lo, hi;
     int before = 0, sign;
@@ -345,7 +345,7 @@ qdot_sample_root(qdot_sample *s, qdot_sample_atom *a, slong prec)
     }
     arf_init(left);
     arf_init(right);
-    found = bracket(s, a, left, right) && sharpen(s, a, left, right, prec);
+    found = bracket_root(s, a, left, right) && sharpen(s, a, left, right, prec);
     arf_clear(left);
     arf_clear(right);
     a->ready = found;

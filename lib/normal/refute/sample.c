@@ -56,7 +56,7 @@ higher_derivatives(const qdot_pool *pool, qdot_expr atoms, qdot_expr relations,
 }
 
 static void
-add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
+sample_add_atom(qdot_sample *s, qdot_expr atom, qdot_expr solution, bool implicit)
 {
     qdot_sample_atom *a = &s->atom[s->n++];
 
@@ -80,7 +80,7 @@ add_solved(qdot_sample *s, size_t n, qdot_sample_solution *solved)
                         qdot_expr_contains(s->pool, solved[k].solution, solved[j].atom);
             if (waits)
                 continue;
-            add_atom(s, solved[k].atom, solved[k].solution, solved[k].implicit);
+            sample_add_atom(s, solved[k].atom, solved[k].solution, solved[k].implicit);
             solved[k].atom = QDOT_NIL;
             left--;
         }
@@ -189,13 +189,13 @@ add_atoms(qdot_sample *s, qdot_expr atoms, size_t n, qdot_sample_solution *solve
             qdot_expr a = qdot_expr_arg(s->pool, atoms, i);
 
             if (!qdot_sample_is_solved(n, solved, a) && bound_rank(s->pool, a) == rank)
-                add_atom(s, a, QDOT_NIL, false);
+                sample_add_atom(s, a, QDOT_NIL, false);
         }
     add_solved(s, n, solved);
 }
 
 static qdot_status
-gather(qdot_sample *s, size_t n, const qdot_expr *e)
+sample_gather(qdot_sample *s, size_t n, const qdot_expr *e)
 {
     static const qdot_facts nothing = {0};
     const qdot_facts *facts = s->facts == NULL ? &nothing : s->facts;
@@ -246,7 +246,7 @@ qdot_sample_begin(qdot_sample *s, qdot_pool *pool, size_t n, const qdot_expr *e,
     qdot_status status;
 
     *s = (qdot_sample){.pool = pool, .facts = facts, .possible = true};
-    status = gather(s, n, e);
+    status = sample_gather(s, n, e);
     for (size_t i = 0; status == QDOT_OK && i < s->facts->n_conditions; i++)
         status = bounds_by_condition(s, s->facts->conditions[i]);
     if (status == QDOT_OK)
@@ -278,7 +278,7 @@ qdot_sample_end(qdot_sample *s)
 /* --- points ------------------------------------------------------------------------ */
 
 static uint32_t
-draw(qdot_sample *s, uint32_t below)
+sample_draw(qdot_sample *s, uint32_t below)
 {
     s->seed ^= s->seed << 13;
     s->seed ^= s->seed >> 7;
@@ -304,7 +304,7 @@ qdot_sample_value(void *user, qdot_expr atom, arb_t value, slong prec)
 /* A rational with a small denominator strictly between lo and hi, about so far from the
  * one to the other. */
 static void
-between(fmpq_t x, double lo, double hi, double where, double about)
+rational_between(fmpq_t x, double lo, double hi, double where, double about)
 {
     double at = lo + (hi - lo) * where, margin = (hi - lo) * 1e-3;
 
@@ -330,7 +330,7 @@ static const double reach[] = {3, 1, 7, 0.5, 20, 2, 0.9, 0.1};
 
 /* The range narrowed by conditions, as far as the other atoms in them are chosen. */
 static void
-narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
+sample_narrow(qdot_sample *s, qdot_expr atom, double size, double *lo, double *hi)
 {
     double above = -HUGE_VAL, below = HUGE_VAL, x;
 
@@ -396,7 +396,7 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
         } else if (has_lo) {
             hi = lo + size;
         }
-        narrow(s, atom, size, &lo, &hi);
+        sample_narrow(s, atom, size, &lo, &hi);
     }
     if ((sign & QDOT_GE0) && lo < 0)
         lo = 0;
@@ -407,20 +407,20 @@ qdot_sample_range(qdot_sample *s, qdot_expr atom, double *from, double *to)
 }
 
 static void
-choose(qdot_sample *s, qdot_sample_atom *a)
+sample_choose(qdot_sample *s, qdot_sample_atom *a)
 {
-    double where = (1 + draw(s, 61)) / 63.0, lo, hi;
+    double where = (1 + sample_draw(s, 61)) / 63.0, lo, hi;
     double about = s->k < SIMPLE ? 0.1 : 0.01; /* integers first */
 
     if (qdot_sample_is_sign(s->pool, a->atom)) {
-        fmpq_set_si(&a->x, draw(s, 2) == 0 ? 1 : -1, 1);
+        fmpq_set_si(&a->x, sample_draw(s, 2) == 0 ? 1 : -1, 1);
         qdot_sample_set(a, 64);
         return;
     }
     qdot_sample_range(s, a->atom, &lo, &hi);
-    between(&a->x, lo, hi, where, about);
+    rational_between(&a->x, lo, hi, where, about);
     if (fmpq_is_zero(&a->x))
-        between(&a->x, lo, hi, where * 0.9 + 0.01, about);
+        rational_between(&a->x, lo, hi, where * 0.9 + 0.01, about);
     qdot_sample_set(a, 64);
 }
 
@@ -430,12 +430,12 @@ qdot_sample_point(qdot_sample *s, int k)
     s->k = k;
     s->seed = 0x9e3779b97f4a7c15u * (uint64_t)(k + 1);
     for (int i = 0; i < 8; i++)
-        draw(s, 2);
+        sample_draw(s, 2);
     for (size_t i = 0; i < s->n; i++)
         s->atom[i].ready = s->atom[i].turn = s->atom[i].edge = false;
     for (size_t i = 0; i < s->n; i++)
         if (s->atom[i].solution == QDOT_NIL)
-            choose(s, &s->atom[i]);
+            sample_choose(s, &s->atom[i]);
 }
 
 /* A solved value must surely lie in its domain. */
@@ -561,9 +561,9 @@ qdot_sample_list(qdot_sample *s)
 
             fmpq_init(rounded);
             arf_get_fmpq(rounded, arb_midref(s->atom[i].value));
-            between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
-                    arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5,
-                    0.1);
+            rational_between(rounded, arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) - 1e-6,
+                             arf_get_d(arb_midref(s->atom[i].value), ARF_RND_NEAR) + 1e-6, 0.5,
+                             0.1);
             x = qdot_expr_fmpq(s->pool, rounded);
             fmpq_clear(rounded);
         }
