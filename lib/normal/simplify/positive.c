@@ -80,7 +80,7 @@ sign_of_constant(job *j, qdot_expr e)
 
 /* Whether e is above 0 at some points, below 0 at others: then no sign is to be proved. */
 static void
-look(job *j, qdot_expr e, bool *above, bool *below)
+sample_signs(job *j, qdot_expr e, bool *above, bool *below)
 {
     qdot_sample sample;
 
@@ -100,7 +100,7 @@ look(job *j, qdot_expr e, bool *above, bool *below)
 }
 
 static bool
-is_known(const job *j, qdot_expr b)
+is_known_positive(const job *j, qdot_expr b)
 {
     if ((qdot_expr_node(j->pool, b)->sign & QDOT_POS) == QDOT_POS)
         return true;
@@ -121,12 +121,12 @@ is_of_known(const job *j, qdot_expr e)
     for (uint32_t i = 1; i < qdot_expr_count(pool, e); i += 2) {
         qdot_expr b = qdot_expr_arg(pool, e, i);
 
-        if (is_known(j, b))
+        if (is_known_positive(j, b))
             continue;
         if (qdot_expr_kind(pool, b) != QDOT_PROD || qdot_expr_is_negative(pool, b))
             return false;
         for (uint32_t k = 1; k < qdot_expr_count(pool, b); k += 2)
-            if (!is_known(j, qdot_expr_arg(pool, b, k)))
+            if (!is_known_positive(j, qdot_expr_arg(pool, b, k)))
                 return false;
     }
     return true;
@@ -134,7 +134,7 @@ is_of_known(const job *j, qdot_expr e)
 
 /* 1, -1: proved; 0: not known. */
 static int
-sign_of(job *j, qdot_expr e)
+proved_sign(job *j, qdot_expr e)
 {
     uint8_t sign = qdot_expr_node(j->pool, e)->sign;
     bool above, below;
@@ -152,7 +152,7 @@ sign_of(job *j, qdot_expr e)
         return 1;
     if ((qdot_expr_node(j->pool, e)->holds & ~(uint32_t)QDOT_HAS_FUN) == 0)
         return sign_of_constant(j, e);
-    look(j, e, &above, &below);
+    sample_signs(j, e, &above, &below);
     if (!below &&
         qdot_decide_less(j->pool, QDOT_ZERO, e, true, j->facts, &d) == QDOT_OK &&
         d.verdict == QDOT_PROVED)
@@ -184,7 +184,7 @@ keep_factors(job *j, const fmpz_mpoly_t p, bool below)
         if (e == QDOT_NIL)
             status = qdot_pool_check(j->pool);
         else if (sign == 0)
-            sign = sign_of(j, e);
+            sign = proved_sign(j, e);
         if (sign < 0 && !even)
             j->sign = -j->sign;
         if (sign == 0 && status == QDOT_OK)
@@ -239,7 +239,7 @@ leave_out_magnitudes(job *j)
 }
 
 static qdot_expr
-conclude(job *j)
+positive_conclude(job *j)
 {
     qdot_pool *pool = j->pool;
     qdot_expr rest;
@@ -300,7 +300,7 @@ reduce_condition(void *user)
             if (x->status == QDOT_OK)
                 x->status = keep_factors(j, r.d, true);
             if (x->status == QDOT_OK && qdot_field_goes(&f))
-                x->result = conclude(j);
+                x->result = positive_conclude(j);
         }
         qdot_ratio_clear(&f, &r);
     }
@@ -312,7 +312,7 @@ reduce_condition(void *user)
 }
 
 static qdot_expr
-ask(struct asking *x, qdot_expr unknown)
+positive_ask(struct asking *x, qdot_expr unknown)
 {
     qdot_pool *pool = x->j.pool;
     qdot_status status;
@@ -336,7 +336,7 @@ qdot_positive(qdot_pool *pool, qdot_expr e, const qdot_facts *facts, size_t n,
         .e = e,
     };
 
-    return ask(&x, qdot_positive_without_minus(pool, e));
+    return positive_ask(&x, qdot_positive_without_minus(pool, e));
 }
 
 qdot_expr
@@ -345,7 +345,7 @@ qdot_positive_exact(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     struct asking x = {
         .j = {.pool = pool, .asked = POSITIVE_EXACT, .facts = facts, .sign = 1}, .e = e};
 
-    return ask(&x, qdot_positive_without_minus(pool, e));
+    return positive_ask(&x, qdot_positive_without_minus(pool, e));
 }
 
 qdot_expr
@@ -354,7 +354,7 @@ qdot_nonzero(qdot_pool *pool, qdot_expr e, const qdot_facts *facts)
     struct asking x = {
         .j = {.pool = pool, .asked = POSITIVE_NONZERO, .facts = facts, .sign = 1}, .e = e};
 
-    return ask(&x, qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, e)));
+    return positive_ask(&x, qdot_rel(pool, QDOT_LT, QDOT_ZERO, qdot_fun1(pool, QDOT_ABS, e)));
 }
 
 qdot_expr
