@@ -92,7 +92,7 @@ held_residual(double t, const double *y, const double *a, const double *z, doubl
 }
 
 static qdot_status
-residual(double t, const double *y, const double *a, const double *z, double *r, void *user)
+bind_residual(double t, const double *y, const double *a, const double *z, double *r, void *user)
 {
     qdot_bind *b = user;
     const qdot_plan *p = b->plan;
@@ -143,8 +143,8 @@ put_mass(const qdot_plan *p, const qdot_plan_block *block, const double *out, do
 }
 
 static qdot_status
-slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv, double *M,
-       void *user)
+bind_slopes(double t, const double *y, const double *a, double *z, double *dq, double *dv, double *M,
+            void *user)
 {
     qdot_bind *b = user;
     const qdot_plan *p = b->plan;
@@ -186,7 +186,7 @@ qdot_bind_make_slopes(qdot_bind *b)
         b->mass_form = (qdot_ode_mass_form){p->n, p->constraints->m, held_residual, held_slopes, b};
         return QDOT_OK;
     }
-    b->mass_form = (qdot_ode_mass_form){p->n, 0, residual, slopes, b};
+    b->mass_form = (qdot_ode_mass_form){p->n, 0, bind_residual, bind_slopes, b};
     b->slopes_work =
         qdot_malloc((qdot_derivative_work(p->tape) + 1) * sizeof *b->slopes_work);
     b->slopes = qdot_malloc((qdot_tape_outputs(p->tape) * (2 * p->n + 1) + 1) *

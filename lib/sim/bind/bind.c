@@ -57,7 +57,7 @@ qdot_bind_free(qdot_bind *b)
 /* The accelerations of the blocks, from the outputs that begin at `out`; *end: the first output
  * after these. */
 static qdot_status
-solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
+blocks_solve(qdot_blocks *blocks, const double *out, double *a, const double **end)
 {
     for (size_t k = 0; k < blocks->plan->structure.blocks; k++) {
         const qdot_plan_block *block = blocks->plan->blocks + k;
@@ -109,7 +109,7 @@ qdot_bind_accelerate(qdot_bind *b, double *a)
     if (!p->tape)
         return begin_elsewhere(b, a);
     qdot_tape_eval(qdot_bind_equations(b), b->in, b->out, b->work);
-    QDOT_TRY(solve(&b->blocks, b->out, a, &end));
+    QDOT_TRY(blocks_solve(&b->blocks, b->out, a, &end));
     for (size_t i = 0; i < p->n; i++)
         if (!isfinite(a[i]))
             return qdot_fail(QDOT_EDOMAIN, "the acceleration of %s is undefined",
@@ -142,7 +142,7 @@ reduced_rhs(double t, const double *y, double *dydt, void *user)
     memcpy(dydt, y + n, n * sizeof *y);
     memset(dydt + n, 0, n * sizeof *y);
     qdot_tape_eval(reduced_equations(b), b->in, b->out, b->work);
-    QDOT_TRY(solve(&b->reduced_blocks, b->out, dydt + n, &rates));
+    QDOT_TRY(blocks_solve(&b->reduced_blocks, b->out, dydt + n, &rates));
     for (size_t k = 0; k < r->n_kept; k++)
         dydt[r->kept[k]] = rates[k];
     for (size_t i = 0; i < n; i++)
@@ -215,7 +215,7 @@ qdot_bind_roundings(const qdot_ode_system *system, double t, const double *y, co
 }
 
 static qdot_status
-project(double t, double *y, double *carry, double *moved, void *user)
+bind_project(double t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained *held = ((qdot_bind *)user)->held;
 
@@ -231,7 +231,7 @@ margin(double t, const double *y, void *user)
 
 /* Whether a step goes over forces that act for less than it (sim/bind/pulses.h). */
 static qdot_status
-look(qdot_ode_look *step, void *user)
+bind_look_at_step(qdot_ode_look *step, void *user)
 {
     qdot_bind *b = user;
     qdot_pulses_step s = {.a = step->t,
@@ -250,7 +250,7 @@ look(qdot_ode_look *step, void *user)
 }
 
 static bool
-may_hide(const qdot_bind *b)
+bind_may_hide(const qdot_bind *b)
 {
     return b->plan->tape && qdot_disc_may_hide(b->plan->tape, QDOT_HIDES_QUOTIENTS);
 }
@@ -276,10 +276,10 @@ qdot_bind_system(qdot_bind *b)
         .series = b->series,
         .leading = b->leading ? qdot_leading_get(b->leading) : NULL,
         .following = b->momenta ? qdot_momenta_following(b->momenta) : NULL,
-        .look = may_hide(b) ? look : NULL,
+        .look = bind_may_hide(b) ? bind_look_at_step : NULL,
         .parts = b->listed,
         .n_parts = b->listed ? b->plan->n_parts : 0,
-        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? project : NULL,
+        .project = b->held && b->plan->treatment == QDOT_RUN_PROJECT ? bind_project : NULL,
         .margin = b->held ? margin : NULL,
         .scales = b->scales,
     };
@@ -464,7 +464,7 @@ make_equations(qdot_bind *b, bool shaken)
 }
 
 static qdot_status
-make(qdot_bind *b, bool shaken)
+bind_make(qdot_bind *b, bool shaken)
 {
     const qdot_plan *p = b->plan;
     const qdot_tape *tapes[2] = {p->tape, p->reduced ? p->reduced->tape : NULL};
@@ -515,7 +515,7 @@ qdot_bind_new(const qdot_plan *plan, bool shaken, qdot_bind **bind)
         return QDOT_ENOMEM;
     b->plan = plan;
     b->shaken = shaken;
-    status = make(b, shaken);
+    status = bind_make(b, shaken);
     if (status != QDOT_OK) {
         qdot_bind_free(b);
         b = NULL;

@@ -99,7 +99,7 @@ noise_of(const qdot_polynomial_bounds *h, size_t k, double a, double b)
 }
 
 static void
-evaluate(qdot_polynomial_bounds *h)
+bounds_evaluate(qdot_polynomial_bounds *h)
 {
     qdot_disc_eval(h->tape, h->centre, h->radius, h->out, h->out_radius, h->work);
 }
@@ -109,7 +109,7 @@ qdot_polynomial_bounds_span(qdot_polynomial_bounds *h, double a, double b)
 {
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.5 * fabs(b - a);
-    evaluate(h);
+    bounds_evaluate(h);
 }
 
 void
@@ -163,7 +163,7 @@ go_around(qdot_polynomial_bounds *h, double a, double b, int nodes, double rho)
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = 0.25 * fabs(b - a) * (rho + 1 / rho);
     if (known)
-        evaluate(h);
+        bounds_evaluate(h);
     return known;
 }
 
@@ -241,6 +241,6 @@ qdot_polynomial_bounds_rounding(qdot_polynomial_bounds *h, double a, double b)
     }
     h->centre[h->time] = 0.5 * (a + b);
     h->radius[h->time] = DBL_EPSILON * fabs(h->centre[h->time]);
-    evaluate(h);
+    bounds_evaluate(h);
     return isfinite(h->out_radius[0]) ? h->out_radius[0] : 0;
 }

@@ -227,7 +227,7 @@ allow(qdot_pulses *p, const qdot_pulses_step *s)
 /* Whether the step is so short that what falls off like an exponential cannot fall off on it: its
  * state within what the ends and their velocities let it be, and as much again. */
 static bool
-is_short(qdot_pulses *p, const qdot_pulses_step *s)
+step_is_short(qdot_pulses *p, const qdot_pulses_step *s)
 {
     const size_t n = p->n;
     const double h = fabs(s->b - s->a);
@@ -256,7 +256,7 @@ is_short_part(qdot_pulses *p, qdot_pulses_step *s, double a, double b, bool *is)
 
     QDOT_TRY(state_at(p, s, a, p->ends));
     QDOT_TRY(state_at(p, s, b, p->ends + 2 * p->n));
-    *is = is_short(p, &part);
+    *is = step_is_short(p, &part);
     return QDOT_OK;
 }
 
@@ -319,7 +319,7 @@ find_begin(const qdot_pulses *p, size_t i, qdot_pulses_step *s)
 
 /* The disc about four numbers. */
 static void
-enclose(const double *x, double *centre, double *radius)
+disc_about(const double *x, double *centre, double *radius)
 {
     const double lo = fmin(fmin(x[0], x[1]), fmin(x[2], x[3])),
                  hi = fmax(fmax(x[0], x[1]), fmax(x[2], x[3]));
@@ -340,10 +340,10 @@ enclose_cubics(qdot_pulses *p, const qdot_pulses_step *s)
         const double x0 = s->from[i], x1 = s->to[i], v0 = s->from[n + i], v1 = s->to[n + i];
         const double between = 0.5 * (v0 + v1) + 3 * bend_of(p, s, i);
 
-        enclose((double[]){x0, x0 + third * v0, x1 - third * v1, x1}, bounds->centre + i,
-                bounds->radius + i);
-        enclose((double[]){v0, between, between, v1}, bounds->centre + n + i,
-                bounds->radius + n + i);
+        disc_about((double[]){x0, x0 + third * v0, x1 - third * v1, x1}, bounds->centre + i,
+                   bounds->radius + i);
+        disc_about((double[]){v0, between, between, v1}, bounds->centre + n + i,
+                   bounds->radius + n + i);
     }
 }
 
@@ -429,7 +429,7 @@ qdot_pulses_look(qdot_pulses *p, qdot_pulses_step *s)
     bool finite, all;
 
     s->missed = false;
-    if (is_short(p, s) || (!s->read && shows_at_ends(p, s)))
+    if (step_is_short(p, s) || (!s->read && shows_at_ends(p, s)))
         return QDOT_OK;
     qdot_polynomial_bounds_begin(&p->bounds, NULL);
     memset(p->allowed, 0, 2 * p->m * sizeof *p->allowed);
