@@ -16,7 +16,7 @@ struct qdot_ensemble_doubts {
 };
 
 static bool
-may_hide(const qdot_plan *plan)
+plan_may_hide(const qdot_plan *plan)
 {
     return plan->tape && qdot_disc_may_hide(plan->tape, QDOT_HIDES_EXPONENTIALS);
 }
@@ -27,19 +27,19 @@ qdot_ensemble_doubts_new(const qdot_plan *plan, qdot_ensemble_doubts **doubts)
     qdot_ensemble_doubts *d;
 
     *doubts = NULL;
-    if (!plan->constraints && !may_hide(plan))
+    if (!plan->constraints && !plan_may_hide(plan))
         return QDOT_OK;
     d = qdot_calloc(1, sizeof *d);
     if (!d)
         return QDOT_ENOMEM;
     d->plan = plan;
-    d->hides = may_hide(plan);
+    d->hides = plan_may_hide(plan);
     *doubts = d;
     return QDOT_OK;
 }
 
 static void
-forget(qdot_ensemble_doubts *d)
+doubts_forget(qdot_ensemble_doubts *d)
 {
     qdot_pulses_clear(&d->pulses);
     qdot_constrained_free(d->held);
@@ -51,14 +51,14 @@ qdot_ensemble_doubts_free(qdot_ensemble_doubts *d)
 {
     if (!d)
         return;
-    forget(d);
+    doubts_forget(d);
     qdot_free(d);
 }
 
 qdot_status
 qdot_ensemble_doubts_begin(qdot_ensemble_doubts *d)
 {
-    forget(d);
+    doubts_forget(d);
     if (d->plan->constraints)
         QDOT_TRY(qdot_constrained_new(d->plan, false, &d->held));
     return d->hides ? qdot_pulses_init(&d->pulses, d->plan, d->plan->tape,

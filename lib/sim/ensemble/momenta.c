@@ -14,7 +14,7 @@ struct qdot_ensemble_momenta {
 };
 
 static qdot_status
-make(qdot_ensemble_momenta *x)
+momenta_make(qdot_ensemble_momenta *x)
 {
     const qdot_plan *p = x->plan;
 
@@ -32,7 +32,7 @@ qdot_ensemble_momenta_new(const qdot_plan *reduced, qdot_ensemble_momenta **out)
     if (!x)
         return QDOT_ENOMEM;
     x->plan = reduced;
-    status = make(x);
+    status = momenta_make(x);
     if (status != QDOT_OK) {
         qdot_ensemble_momenta_free(x);
         return status;

@@ -40,7 +40,7 @@ course_of(qdot_run *run, size_t pass)
 }
 
 static qdot_status
-make(const qdot_ensemble_path_of *of, qdot_run *run)
+path_make(const qdot_ensemble_path_of *of, qdot_run *run)
 {
     qdot_run_report *report = &run->report;
 
@@ -65,7 +65,7 @@ qdot_status
 qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **out)
 {
     qdot_run *run = qdot_calloc(1, sizeof *run);
-    qdot_status status = run ? make(of, run) : QDOT_ENOMEM;
+    qdot_status status = run ? path_make(of, run) : QDOT_ENOMEM;
 
     *out = NULL;
     if (status != QDOT_OK)
@@ -77,7 +77,7 @@ qdot_ensemble_path_new(const qdot_ensemble_path_of *of, qdot_run **out)
 
 /* The points of a pass of the member into its course. */
 static qdot_status
-fill(const qdot_ensemble *e, size_t pass, size_t member, qdot_course *c)
+course_fill(const qdot_ensemble *e, size_t pass, size_t member, qdot_course *c)
 {
     const qdot_ode_series *series = c->systems.at[0].series;
     const size_t points = qdot_ensemble_points(e, pass, member), n = 2 * c->stage->n;
@@ -107,7 +107,7 @@ qdot_ensemble_path_take(const qdot_ensemble *e, size_t member, qdot_run *run, bo
     for (size_t pass = 0; pass < QDOT_ENSEMBLE_PASSES && *there; pass++) {
         *there = qdot_ensemble_points(e, pass, member) > 0;
         if (*there)
-            QDOT_TRY(fill(e, pass, member, course_of(run, pass)));
+            QDOT_TRY(course_fill(e, pass, member, course_of(run, pass)));
     }
     run->has_companion = run->has_twin = *there;
     return QDOT_OK;

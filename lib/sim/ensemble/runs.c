@@ -52,8 +52,8 @@ qdot_ensemble_free(qdot_ensemble *e)
 /* --- the scene ---------------------------------------------------------------------- */
 
 static qdot_status
-check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
-      const qdot_expr *varied)
+ensemble_check(const qdot_scene *scene, const qdot_run_request *request, size_t n_varied,
+               const qdot_expr *varied)
 {
     const qdot_event *acting = qdot_scene_acting_event(scene);
 
@@ -102,8 +102,8 @@ make_plan(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
 }
 
 static qdot_status
-make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
-     const qdot_expr *varied)
+ensemble_make(qdot_ensemble *e, qdot_scene *scene, const qdot_run_request *request,
+              const qdot_expr *varied)
 {
     qdot_pool *pool = scene->pool;
     double low;
@@ -126,7 +126,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     qdot_status status;
 
     *ensemble = NULL;
-    QDOT_TRY(check(scene, request, n_varied, varied));
+    QDOT_TRY(ensemble_check(scene, request, n_varied, varied));
     e = qdot_calloc(1, sizeof *e);
     if (!e)
         return QDOT_ENOMEM;
@@ -134,7 +134,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
     e->varied = n_varied;
     e->tol = request->tol;
     e->companions = QDOT_ENSEMBLE_PASSES - 1;
-    status = make(e, scene, request, varied);
+    status = ensemble_make(e, scene, request, varied);
     if (status != QDOT_OK) {
         qdot_ensemble_free(e);
         return status;
@@ -147,7 +147,7 @@ qdot_ensemble_new(qdot_scene *scene, const qdot_run_request *request, size_t n_v
 
 /* A state y [n] and parameters [varied], or as companion 1 or 2 begins beside them, one after the other. */
 static void
-put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
+member_put(size_t n, const double *y, size_t varied, const double *parameters, size_t companion, double *to)
 {
     if (companion)
         qdot_companion_beside(NULL, n, y, companion - 1, 0, to, NULL);
@@ -184,7 +184,7 @@ pass_init(qdot_ensemble_pass *p, const qdot_ensemble *e, size_t members, const d
 
         t0[m] = e->t0;
         t1s[m] = t1;
-        put(n, y + m * n, e->varied, e->varied > 0 ? parameters + m * e->varied : NULL, p->number, to);
+        member_put(n, y + m * n, e->varied, e->varied > 0 ? parameters + m * e->varied : NULL, p->number, to);
     }
     p->run.members = members;
     p->run.t0 = t0;
@@ -236,7 +236,7 @@ make_series(const qdot_ensemble *e, qdot_ensemble_pass *p)
 /* Replace velocities that follow from kept momenta by these. A member whose momenta are undefined
  * does not run. */
 static void
-enter(const qdot_ensemble *e, qdot_ensemble_pass *p)
+members_enter_velocities(const qdot_ensemble *e, qdot_ensemble_pass *p)
 {
     const size_t n = e->n, kept = qdot_ensemble_kept(e);
 
@@ -479,7 +479,7 @@ qdot_ensemble_run(qdot_ensemble *e, size_t members, double *y, const double *par
     if (status == QDOT_OK)
         status = start_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)
-        enter(e, e->passes + k);
+        members_enter_velocities(e, e->passes + k);
     if (status == QDOT_OK)
         status = run_passes(e, passes);
     for (size_t k = 0; k < passes && status == QDOT_OK; k++)

@@ -50,7 +50,7 @@ struct qdot_ensemble_steps {
 /* --- building ------------------------------------------------------------------------- */
 
 static void
-forget(qdot_ensemble_steps *s)
+steps_forget(qdot_ensemble_steps *s)
 {
     for (size_t m = 0; s->starts && m < s->members; m++)
         qdot_free(s->starts[m].at);
@@ -72,7 +72,7 @@ qdot_ensemble_steps_free(qdot_ensemble_steps *s)
 {
     if (!s)
         return;
-    forget(s);
+    steps_forget(s);
     for (size_t l = 0; l < L; l++) {
         qdot_free(s->lanes[l].roots.at);
         qdot_free(s->lanes[l].end);
@@ -108,7 +108,7 @@ make_lane(const qdot_ensemble_steps *s, const qdot_expr *g, lane *a)
 }
 
 static qdot_status
-make(qdot_ensemble_steps *s)
+steps_make(qdot_ensemble_steps *s)
 {
     const qdot_ensemble_watching *w = s->of.watching;
     qdot_expr *g = qdot_calloc(w->n_events + 1, sizeof *g);
@@ -144,7 +144,7 @@ qdot_ensemble_steps_new(const qdot_ensemble_steps_of *of, qdot_ensemble_steps **
     s->N = of->plan->n;
     s->varied = of->plan->n_states;
     s->n = s->N - s->varied;
-    status = make(s);
+    status = steps_make(s);
     if (status == QDOT_OK)
         *steps = s;
     else
@@ -157,7 +157,7 @@ qdot_ensemble_steps_begin(qdot_ensemble_steps *s, size_t members)
 {
     const size_t width = 2 * s->n + s->varied;
 
-    forget(s);
+    steps_forget(s);
     s->members = members;
     s->seen = qdot_calloc(members * s->of.n_times * width + 1, sizeof *s->seen);
     s->occurred = qdot_calloc(members * s->asked + 1, sizeof *s->occurred);
@@ -223,7 +223,7 @@ read_lane(double t, double *y, void *user)
 
 /* Where component i of a batch is in a state with parameters. */
 static size_t
-place(const qdot_ensemble_steps *s, size_t i)
+state_place(const qdot_ensemble_steps *s, size_t i)
 {
     return i < s->n ? i : i < 2 * s->n ? i + s->varied : i - s->n;
 }
@@ -234,9 +234,9 @@ copy_series(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     for (size_t i = 0; i < 2 * s->n + s->varied; i++) {
         const double *from = step->x + i * s->stride * L;
-        double *to = a->x + place(s, i) * STRIDE;
+        double *to = a->x + state_place(s, i) * STRIDE;
 
-        a->y[place(s, i)] = to[0] = step->y[i * L];
+        a->y[state_place(s, i)] = to[0] = step->y[i * L];
         for (int k = 1; k <= step->order && i < 2 * s->n; k++)
             to[k] = from[(size_t)k * L];
     }
@@ -264,7 +264,7 @@ begin_watch(const qdot_ensemble_steps *s, lane *a)
 
 /* Failures of the watch leave the member to a run alone. */
 static qdot_status
-search(const qdot_ensemble_steps *s, bool last, lane *a)
+lane_search_roots(const qdot_ensemble_steps *s, bool last, lane *a)
 {
     const qdot_root *roots;
     size_t n = 0;
@@ -305,7 +305,7 @@ is_near_bound(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 
 /* Look at the step, and for roots in it. */
 static qdot_status
-look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+lane_look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     qdot_pulses_step seen = {.a = step->t,
                              .b = step->t_end,
@@ -319,12 +319,12 @@ look(const qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
     QDOT_TRY(read_lane(step->t_end, a->end, a));
     if (a->doubts && !a->doubtful)
         QDOT_TRY(qdot_ensemble_doubts_look(a->doubts, &seen, &a->doubtful));
-    return a->watch ? search(s, step->last, a) : QDOT_OK;
+    return a->watch ? lane_search_roots(s, step->last, a) : QDOT_OK;
 }
 
 /* Take the lane's member as it stands at its start. */
 static qdot_status
-enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
+lane_enter_member(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 {
     a->member = step->member;
     a->begun = false;
@@ -336,7 +336,7 @@ enter(qdot_ensemble_steps *s, const qdot_batch_step *step, lane *a)
 
 /* Keep the start of a step, once. */
 static qdot_status
-keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
+member_keep_start(const qdot_ensemble_steps *s, const qdot_batch_step *step)
 {
     const size_t width = 2 * s->n + s->varied;
     qdot_ensemble_starts *starts = s->starts + step->member;
@@ -358,9 +358,9 @@ tried(const qdot_batch_step *step, void *user)
     double *sizes = s->sizes + step->member * 2 * s->n;
 
     if (a->member != step->member)
-        QDOT_TRY(enter(s, step, a));
+        QDOT_TRY(lane_enter_member(s, step, a));
     if (s->starts)
-        QDOT_TRY(keep_start(s, step));
+        QDOT_TRY(member_keep_start(s, step));
     a->next = a->passed;
     a->step.t_end = step->t_end;
     while (a->next < s->of.n_times
@@ -377,12 +377,12 @@ tried(const qdot_batch_step *step, void *user)
         if (size > sizes[i])
             sizes[i] = size;
     }
-    return a->watch || a->doubts ? look(s, step, a) : QDOT_OK;
+    return a->watch || a->doubts ? lane_look(s, step, a) : QDOT_OK;
 }
 
 /* Note the roots of the step; whether all that is asked of events has been found. */
 static bool
-note(qdot_ensemble_steps *s, lane *a)
+lane_note_roots(qdot_ensemble_steps *s, lane *a)
 {
     const qdot_ensemble_watching *w = s->of.watching;
     size_t *count = s->count + a->member * w->n_events;
@@ -420,7 +420,7 @@ taken(size_t l, void *user)
     if (!a->watch)
         return false;
     qdot_watch_take(a->watch);
-    return note(s, a) && s->of.watching->leave;
+    return lane_note_roots(s, a) && s->of.watching->leave;
 }
 
 void
