@@ -11,7 +11,7 @@
 
 /* f, M, A, gamma of a plan; NULL: no memory. */
 static qdot_expr *
-equations(const qdot_plan *p, size_t *count)
+bordered_equations(const qdot_plan *p, size_t *count)
 {
     const qdot_constraints *c = p->constraints;
     qdot_expr *out = qdot_calloc(p->n + c->n_masses + c->n_slopes + c->m, sizeof *out);
@@ -41,7 +41,7 @@ qdot_bordered_make(const qdot_plan *p, double tol, qdot_tape **tape)
         p->treatment == QDOT_RUN_BAUMGARTE || p->n + p->constraints->m > QDOT_BORDERED_MOST ||
         !qdot_taylor_may_be_code())
         return QDOT_OK;
-    out = equations(p, &count);
+    out = bordered_equations(p, &count);
     status = out ? qdot_pool_check(p->pool) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, count, out, tape);

@@ -21,7 +21,7 @@ typedef struct {
 
 /* Where M is of numbers momenta are velocities by another name. */
 static bool
-fits(const qdot_plan *p)
+canonical_fits(const qdot_plan *p)
 {
     bool moves = false;
 
@@ -38,7 +38,7 @@ fits(const qdot_plan *p)
 
 /* What H and the forces are made of; whether they can be had. */
 static qdot_status
-derive(builder *b, bool *there)
+canonical_derive(builder *b, bool *there)
 {
     qdot_pool *pool = b->plan->pool;
     const qdot_expr H = qdot_plan_substitute(b->plan, qdot_hamilton_hamiltonian(b->scene));
@@ -90,7 +90,7 @@ order(builder *b)
 }
 
 static qdot_status
-lower(builder *b)
+canonical_lower(builder *b)
 {
     const qdot_plan *p = b->plan;
     qdot_canonical *c = b->c;
@@ -176,7 +176,7 @@ make_motion(qdot_canonical *c)
 }
 
 static qdot_status
-build(builder *b, bool *there)
+canonical_build(builder *b, bool *there)
 {
     const size_t n = b->plan->n;
 
@@ -187,11 +187,11 @@ build(builder *b, bool *there)
     b->pull = b->slope + n;
     b->Q = b->pull + n;
     b->before = b->Q + n;
-    QDOT_TRY(derive(b, there));
+    QDOT_TRY(canonical_derive(b, there));
     if (!*there)
         return QDOT_OK;
     QDOT_TRY(order(b));
-    QDOT_TRY(lower(b));
+    QDOT_TRY(canonical_lower(b));
     return make_motion(b->c);
 }
 
@@ -203,12 +203,12 @@ qdot_canonical_new(qdot_scene *scene, const qdot_plan *plan, qdot_canonical **ca
     qdot_status status;
 
     *canonical = NULL;
-    if (!fits(plan))
+    if (!canonical_fits(plan))
         return QDOT_OK;
     b.c = qdot_calloc(1, sizeof *b.c);
     if (!b.c)
         return QDOT_ENOMEM;
-    status = build(&b, &there);
+    status = canonical_build(&b, &there);
     qdot_free(b.p);
     if (status != QDOT_OK || !there) {
         qdot_canonical_free(b.c);

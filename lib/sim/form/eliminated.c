@@ -96,7 +96,7 @@ form(elimination *e)
 /* S = L D L^T in its place; whether it has an inverse, as far as can be seen: constraints that
  * repeat each other leave none. */
 static bool
-factor(elimination *e)
+elimination_factor(elimination *e)
 {
     qdot_pool *pool = e->plan->pool;
     const size_t m = e->c->m;
@@ -120,7 +120,7 @@ factor(elimination *e)
 
 /* b becomes lambda. */
 static void
-solve(elimination *e)
+elimination_solve(elimination *e)
 {
     qdot_pool *pool = e->plan->pool;
     const size_t m = e->c->m;
@@ -154,7 +154,7 @@ add_reactions(const elimination *e, qdot_expr *f)
 /* --- the plan ----------------------------------------------------------------------- */
 
 static bool
-fits(const qdot_plan *p, double tol)
+elimination_fits(const qdot_plan *p, double tol)
 {
     const qdot_constraints *c = p->constraints;
 
@@ -169,7 +169,7 @@ fits(const qdot_plan *p, double tol)
 
 /* Coordinate by coordinate q'', then d_k and S_kk of the rows; *there: they could be had. */
 static qdot_status
-fill(qdot_plan *r, const qdot_plan *p, bool *there)
+elimination_fill(qdot_plan *r, const qdot_plan *p, bool *there)
 {
     elimination e = {.plan = p, .c = p->constraints};
     qdot_expr pivots[2 * most_rows];
@@ -184,10 +184,10 @@ fill(qdot_plan *r, const qdot_plan *p, bool *there)
     memcpy(r->M, p->M, n * n * sizeof *r->M);
     memcpy(r->f, p->f, n * sizeof *r->f);
     form(&e);
-    *there = factor(&e);
+    *there = elimination_factor(&e);
     if (!*there)
         return qdot_pool_check(p->pool);
-    solve(&e);
+    elimination_solve(&e);
     add_reactions(&e, r->f);
     for (size_t k = 0; k < m; k++) {
         pivots[k] = e.S[k][k];
@@ -205,11 +205,11 @@ qdot_eliminated_make(const qdot_plan *p, double tol, qdot_plan **eliminated)
     qdot_status status;
 
     *eliminated = NULL;
-    if (!fits(p, tol))
+    if (!elimination_fits(p, tol))
         return QDOT_OK;
     status = qdot_plan_of_part(p, p->n, 0, eliminated);
     if (status == QDOT_OK)
-        status = fill(*eliminated, p, &there);
+        status = elimination_fill(*eliminated, p, &there);
     if (status != QDOT_OK || !there) {
         qdot_plan_free(*eliminated);
         *eliminated = NULL;

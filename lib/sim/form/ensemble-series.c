@@ -88,7 +88,7 @@ evaluate_masses(const qdot_ensemble_series *e, const double *t, const double *y)
 }
 
 static void
-factor(const qdot_ensemble_series *e, const solver *s)
+lanes_factor(const qdot_ensemble_series *e, const solver *s)
 {
     const qdot_motion *m = e->motion;
 
@@ -129,7 +129,7 @@ stage(qdot_ensemble_series *e, int k)
                 x[i * L + l] = -E[l];
         }
         if (k == 0)
-            factor(e, s);
+            lanes_factor(e, s);
         if (inverted)
             e->kernels->multiply(s->n, s->inverse, x, by);
         else
@@ -139,7 +139,7 @@ stage(qdot_ensemble_series *e, int k)
 }
 
 static void
-begin(const double *t, const double *y, const double *unit, void *user)
+lanes_begin(const double *t, const double *y, const double *unit, void *user)
 {
     qdot_ensemble_series *e = user;
     const qdot_plan *p = e->plan;
@@ -168,7 +168,7 @@ begin(const double *t, const double *y, const double *unit, void *user)
 }
 
 static void
-extend(int p, void *user)
+lanes_extend(int p, void *user)
 {
     qdot_ensemble_series *e = user;
 
@@ -188,13 +188,13 @@ extend(int p, void *user)
 }
 
 static void
-project(const double *t, double *y, double *carry, double *moved, void *user)
+lanes_project(const double *t, double *y, double *carry, double *moved, void *user)
 {
     qdot_constrained_lanes_project(((qdot_ensemble_series *)user)->held, t, y, carry, moved);
 }
 
 static void
-near(int p, const double *s, const double *least, double *to, void *user)
+lanes_near(int p, const double *s, const double *least, double *to, void *user)
 {
     qdot_lanes_near(((qdot_ensemble_series *)user)->lanes, p - 2, s, least, to);
 }
@@ -229,7 +229,7 @@ best_order(const qdot_plan *plan, double tol)
 }
 
 static qdot_status
-make_masses(qdot_ensemble_series *e)
+lanes_make_masses(qdot_ensemble_series *e)
 {
     const qdot_tape *masses = e->plan->residual->masses;
 
@@ -242,7 +242,7 @@ make_masses(qdot_ensemble_series *e)
 }
 
 static qdot_status
-make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
+ensemble_series_make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
 {
     qdot_lanes_rows rows;
 
@@ -252,7 +252,7 @@ make(qdot_ensemble_series *e, bool shaken, double tol, int *order)
         *order = best_order(e->plan, tol);
     QDOT_TRY(qdot_lanes_of_motion(e->motion, shaken, *order, &e->lanes));
     if (is_by_residual(e->plan))
-        QDOT_TRY(make_masses(e));
+        QDOT_TRY(lanes_make_masses(e));
     if (e->plan->constraints)
         QDOT_TRY(qdot_constrained_lanes_new(e->plan, shaken, &e->held));
     e->stride = qdot_lanes_stride(e->lanes);
@@ -284,7 +284,7 @@ qdot_ensemble_series_new(const qdot_plan *plan, bool shaken, double tol, int *or
     e->numbers = plan->n_states;
     e->n = plan->n - e->numbers;
     e->kernels = qdot_batch_kernels_get();
-    status = make(e, shaken, tol, order);
+    status = ensemble_series_make(e, shaken, tol, order);
     if (status != QDOT_OK) {
         qdot_ensemble_series_free(e);
         return status;
@@ -316,7 +316,7 @@ qdot_ensemble_series_free(qdot_ensemble_series *e)
 }
 
 static bool
-is_kept(const qdot_plan *p, size_t i)
+momentum_is_kept(const qdot_plan *p, size_t i)
 {
     for (size_t c = 0; c < p->n_kept; c++)
         if (p->kept[c] == i)
@@ -330,7 +330,7 @@ still(const qdot_ensemble_series *e)
 {
     size_t k = 0;
 
-    while (k < e->n && is_kept(e->plan, e->n - 1 - k))
+    while (k < e->n && momentum_is_kept(e->plan, e->n - 1 - k))
         k++;
     return e->numbers + k;
 }
@@ -343,9 +343,9 @@ qdot_ensemble_series_system(qdot_ensemble_series *e)
                             .checked = e->n,
                             .x = e->q,
                             .stride = e->stride,
-                            .begin = begin,
-                            .extend = extend,
-                            .near = qdot_lanes_may_hide(e->lanes) ? near : NULL,
-                            .project = e->held ? project : NULL,
+                            .begin = lanes_begin,
+                            .extend = lanes_extend,
+                            .near = qdot_lanes_may_hide(e->lanes) ? lanes_near : NULL,
+                            .project = e->held ? lanes_project : NULL,
                             .user = e};
 }

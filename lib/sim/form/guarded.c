@@ -33,7 +33,7 @@ is_independent(const qdot_guarded *g)
 }
 
 static qdot_status
-prepare(int p, void *user)
+guarded_prepare(int p, void *user)
 {
     qdot_guarded *g = user;
 
@@ -45,7 +45,7 @@ prepare(int p, void *user)
 
 /* The first state is looked at in any case: where it is not for `own` no code is written. */
 static qdot_status
-begin(double t, const double *y, double unit, void *user)
+guarded_begin(double t, const double *y, double unit, void *user)
 {
     qdot_guarded *g = user;
     const qdot_ode_code *code = &g->own->code;
@@ -64,7 +64,7 @@ begin(double t, const double *y, double unit, void *user)
 }
 
 static qdot_status
-extend(int p, void *user)
+guarded_extend(int p, void *user)
 {
     const qdot_guarded *g = user;
 
@@ -88,7 +88,7 @@ ahead(void *user)
 }
 
 static double
-near(int p, double s, double least, void *user)
+guarded_near(int p, double s, double least, void *user)
 {
     const qdot_guarded *g = user;
 
@@ -96,7 +96,7 @@ near(int p, double s, double least, void *user)
 }
 
 static void
-make(qdot_guarded *g, const qdot_ode_cost *cost)
+guarded_make(qdot_guarded *g, const qdot_ode_cost *cost)
 {
     const qdot_ode_series *own = g->own, *other = g->other;
 
@@ -105,13 +105,13 @@ make(qdot_guarded *g, const qdot_ode_cost *cost)
                                   .stride = own->stride,
                                   .checked = own->checked,
                                   .cost = *cost,
-                                  .prepare = prepare,
+                                  .prepare = guarded_prepare,
                                   .code = own->code,
-                                  .begin = begin,
-                                  .extend = extend,
+                                  .begin = guarded_begin,
+                                  .extend = guarded_extend,
                                   .noise = other->noise ? noise : NULL,
                                   .ahead = other->ahead ? ahead : NULL,
-                                  .near = own->near || other->near ? near : NULL,
+                                  .near = own->near || other->near ? guarded_near : NULL,
                                   .user = g};
 }
 
@@ -135,7 +135,7 @@ qdot_guarded_new(const qdot_plan *plan, const qdot_plan *fast, bool shaken,
     g->as_code = fast == plan;
     g->n = plan->n;
     g->m = plan->constraints->m;
-    make(g, &plan->expansions);
+    guarded_make(g, &plan->expansions);
     *guarded = g;
     return QDOT_OK;
 }

@@ -59,7 +59,7 @@ take_entries(const qdot_leading *l, size_t k, size_t b)
 }
 
 static qdot_status
-factor(qdot_leading *l, const double *masses)
+leading_factor(qdot_leading *l, const double *masses)
 {
     size_t b = 0;
 
@@ -87,7 +87,7 @@ factor_residual(qdot_leading *l, const qdot_ode_place *at)
     memcpy(l->in, at->y, 2 * n * sizeof *l->in);
     l->in[2 * n] = at->t;
     qdot_tape_eval(l->plan->residual->masses, l->in, l->out, l->work);
-    return factor(l, l->out);
+    return leading_factor(l, l->out);
 }
 
 /* --- one order ----------------------------------------------------------------------- */
@@ -133,7 +133,7 @@ guess(qdot_leading *l, int k)
 }
 
 static qdot_status
-begin(const qdot_ode_place *at, double unit, void *user)
+leading_begin(const qdot_ode_place *at, double unit, void *user)
 {
     qdot_leading *l = user;
     const size_t n = l->plan->n;
@@ -163,7 +163,7 @@ next(int k, void *user)
     guess(l, k - 1);
     qdot_tape_two_stage(l->two, k - 1, l->newest);
     if (k == 1 && !l->plan->residual)
-        QDOT_TRY(factor(l, NULL));
+        QDOT_TRY(leading_factor(l, NULL));
     for (int tries = 0; tries < most_corrections && l->motion->solved.n > 0; tries++) {
         const double share = missing(l, k - 1);
 
@@ -184,7 +184,7 @@ next(int k, void *user)
 /* --- building ------------------------------------------------------------------------ */
 
 static qdot_status
-make_masses(qdot_leading *l)
+leading_make_masses(qdot_leading *l)
 {
     const qdot_tape *masses = l->plan->residual->masses;
 
@@ -195,13 +195,13 @@ make_masses(qdot_leading *l)
 }
 
 static qdot_status
-make(qdot_leading *l)
+leading_make(qdot_leading *l)
 {
     const size_t n = l->plan->n;
 
     if (l->plan->residual) {
         l->motion = &l->plan->residual->motion;
-        QDOT_TRY(make_masses(l));
+        QDOT_TRY(leading_make_masses(l));
     } else {
         l->motion = l->plan->motion;
     }
@@ -216,7 +216,7 @@ make(qdot_leading *l)
     if (!l->newest || !l->by)
         return QDOT_ENOMEM;
     l->leading =
-        (qdot_ode_leading){.x = l->q, .stride = l->stride, .begin = begin, .next = next, .user = l};
+        (qdot_ode_leading){.x = l->q, .stride = l->stride, .begin = leading_begin, .next = next, .user = l};
     return QDOT_OK;
 }
 
@@ -231,7 +231,7 @@ qdot_leading_new(const qdot_plan *plan, const qdot_ode_series *series, qdot_lead
         return QDOT_ENOMEM;
     l->plan = plan;
     l->series = series;
-    status = make(l);
+    status = leading_make(l);
     if (status != QDOT_OK) {
         qdot_leading_free(l);
         return status;

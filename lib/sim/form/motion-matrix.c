@@ -9,7 +9,7 @@
 /* --- while a series is expanded ---------------------------------------------------------- */
 
 static qdot_status
-factor(qdot_motion_matrix *K)
+matrix_factor(qdot_motion_matrix *K)
 {
     if (K->saddle)
         return qdot_saddle_solver_factor(K->saddle);
@@ -42,7 +42,7 @@ qdot_motion_matrix_begin(qdot_motion_matrix *K, double t, const double *y)
     K->refined = QDOT_SADDLE_REFINED;
     if (K->masses) {
         evaluate_masses(K, t, y);
-        QDOT_TRY(factor(K));
+        QDOT_TRY(matrix_factor(K));
     }
     return K->saddle ? qdot_saddle_solver_look(K->saddle, t, y) : QDOT_OK;
 }
@@ -54,7 +54,7 @@ qdot_motion_matrix_take_rows(qdot_motion_matrix *K)
         return QDOT_OK;
     for (size_t i = 0; i < K->n_entries; i++)
         *K->entries[i].to = *K->entries[i].from;
-    return factor(K);
+    return matrix_factor(K);
 }
 
 void
@@ -209,7 +209,7 @@ make_saddle(qdot_motion_matrix *K, qdot_taylor *taylor)
 }
 
 static qdot_status
-make_masses(qdot_motion_matrix *K, bool shaken)
+matrix_make_masses(qdot_motion_matrix *K, bool shaken)
 {
     if (shaken)
         QDOT_TRY(qdot_tape_shake(K->masses, &K->shaken));
@@ -226,7 +226,7 @@ make_blocks(qdot_motion_matrix *K, qdot_taylor *taylor, bool shaken)
     if (!K->by)
         return QDOT_ENOMEM;
     QDOT_TRY(make_solvers(K, shaken));
-    return K->masses ? make_masses(K, shaken) : make_entries(K, taylor);
+    return K->masses ? matrix_make_masses(K, shaken) : make_entries(K, taylor);
 }
 
 qdot_status

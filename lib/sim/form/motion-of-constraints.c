@@ -108,7 +108,7 @@ add_unknowns(const builder *b)
 }
 
 static qdot_status
-build(builder *b)
+build_constrained_motion(builder *b)
 {
     const size_t n = b->plan->n, m = b->c->m, inputs = 2 * n + 1;
     const size_t outputs = n + b->c->n_masses + b->c->n_slopes + m;
@@ -138,7 +138,7 @@ qdot_motion_of_constraints(qdot_plan *plan)
 
     qdot_motion_clear(motion);
     QDOT_TRY(qdot_program_begin(inputs, inputs, false, &motion->program, &b.program));
-    status = qdot_motion_complete(motion, b.program, build(&b));
+    status = qdot_motion_complete(motion, b.program, build_constrained_motion(&b));
     qdot_free(b.inputs);
     qdot_free(b.lines);
     return status;

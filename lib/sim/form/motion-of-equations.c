@@ -18,7 +18,7 @@ typedef struct {
 } builder;
 
 static bool
-is_number(const builder *b, size_t i)
+input_is_number(const builder *b, size_t i)
 {
     return i >= b->n && i < b->plan->n;
 }
@@ -105,7 +105,7 @@ add_blocks(builder *b)
 
         if (block->n > 1)
             QDOT_TRY(add_block(b, block, &at));
-        else if (is_number(b, i))
+        else if (input_is_number(b, i))
             at++;
         else
             QDOT_TRY(qdot_motion_give(b->motion, b->outputs[at++],
@@ -127,16 +127,16 @@ add_constrained(builder *b)
     size_t count = 0;
 
     for (size_t i = 0; i < n + c->m; i++)
-        if (!is_number(b, i))
+        if (!input_is_number(b, i))
             expect(b, i, count++, i < n ? b->outputs[i] : gamma[i - n]);
     for (size_t k = 0; k < c->n_masses; k++)
-        if (!is_number(b, c->masses[k].row))
+        if (!input_is_number(b, c->masses[k].row))
             QDOT_TRY(couple(b, c->masses[k].row, c->masses[k].column, M[k]));
     for (size_t k = 0; k < c->n_slopes; k++)
         QDOT_TRY(couple(b, n + c->slopes[k].row, c->slopes[k].column, A[k]));
     qdot_motion_write(b->motion, b->program, 0, b->lines, 0, count);
     for (size_t i = 0; i < n + c->m; i++)
-        if (!is_number(b, i))
+        if (!input_is_number(b, i))
             QDOT_TRY(solve_for(b, i));
     return qdot_motion_end_block(b->motion);
 }
@@ -156,7 +156,7 @@ input(const builder *b, size_t i)
 }
 
 static qdot_status
-build(builder *b)
+build_explicit_motion(builder *b)
 {
     const qdot_tape *tape = b->tape;
     const size_t outputs = qdot_tape_outputs(tape), inputs = qdot_tape_inputs(tape);
@@ -180,7 +180,7 @@ build(builder *b)
 }
 
 static qdot_status
-make(const qdot_plan *plan, size_t n, qdot_motion *motion)
+motion_make(const qdot_plan *plan, size_t n, qdot_motion *motion)
 {
     const qdot_tape *tape = plan->bordered ? plan->bordered : plan->tape;
     const size_t inputs = qdot_tape_inputs(tape) - (plan->n - n);
@@ -189,7 +189,7 @@ make(const qdot_plan *plan, size_t n, qdot_motion *motion)
 
     *motion = (qdot_motion){0};
     QDOT_TRY(qdot_program_begin(inputs, 2 * n + 1, false, &motion->program, &b.program));
-    status = qdot_motion_complete(motion, b.program, build(&b));
+    status = qdot_motion_complete(motion, b.program, build_explicit_motion(&b));
     qdot_free(b.outputs);
     qdot_free(b.lines);
     qdot_free(b.place);
@@ -199,11 +199,11 @@ make(const qdot_plan *plan, size_t n, qdot_motion *motion)
 qdot_status
 qdot_motion_of_equations(const qdot_plan *plan, qdot_motion *motion)
 {
-    return make(plan, plan->n, motion);
+    return motion_make(plan, plan->n, motion);
 }
 
 qdot_status
 qdot_motion_of_members(const qdot_plan *plan, qdot_motion *motion)
 {
-    return make(plan, plan->n - plan->n_states, motion);
+    return motion_make(plan, plan->n - plan->n_states, motion);
 }

@@ -15,7 +15,7 @@ typedef struct {
 } builder;
 
 static void
-add(builder *b, qdot_program_row *sum, qdot_program_row more)
+row_add(builder *b, qdot_program_row *sum, qdot_program_row more)
 {
     *sum = *sum == QDOT_NO_ROW
                ? more
@@ -38,7 +38,7 @@ add_tree(builder *b)
     for (size_t f = 0; f < r->functions; f++) {
         b->x[f] = qdot_program_rate(b->program, qdot_program_rate(b->program, b->places[f]));
         if (r->parent[f] != UINT32_MAX)
-            add(b, &b->x[f], b->x[r->parent[f]]);
+            row_add(b, &b->x[f], b->x[r->parent[f]]);
         b->F[f] = QDOT_NO_ROW;
     }
     for (size_t w = 0; w < r->n_weights; w++) {
@@ -46,14 +46,14 @@ add_tree(builder *b)
         const qdot_program_constant c = {weight->w, weight->low, weight->side, weight->exact};
 
         if (weight->exact == QDOT_ONE)
-            add(b, &b->F[weight->to], b->x[weight->from]);
+            row_add(b, &b->F[weight->to], b->x[weight->from]);
         else
             add_product(b, &b->F[weight->to], qdot_program_number(b->program, c),
                         b->x[weight->from]);
     }
     for (size_t f = r->functions; f-- > 0;)
         if (r->parent[f] != UINT32_MAX && b->F[f] != QDOT_NO_ROW)
-            add(b, &b->F[r->parent[f]], b->F[f]);
+            row_add(b, &b->F[r->parent[f]], b->F[f]);
 }
 
 static void
@@ -102,7 +102,7 @@ add_unknowns(builder *b)
 }
 
 static qdot_status
-build(builder *b)
+build_residual_motion(builder *b)
 {
     const qdot_residual *r = b->residual;
     const size_t inputs = 2 * b->plan->n + 1;
@@ -138,7 +138,7 @@ qdot_motion_of_residual(const qdot_plan *plan, const qdot_residual *residual,
 
     *motion = (qdot_motion){0};
     QDOT_TRY(qdot_program_begin(inputs, inputs, false, &motion->program, &b.program));
-    status = qdot_motion_complete(motion, b.program, build(&b));
+    status = qdot_motion_complete(motion, b.program, build_residual_motion(&b));
     qdot_free(b.inputs);
     return status;
 }

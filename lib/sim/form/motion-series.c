@@ -53,7 +53,7 @@ is_given(const qdot_motion_series *s)
 }
 
 static qdot_status
-check(const qdot_motion_series *s)
+accelerations_check(const qdot_motion_series *s)
 {
     for (size_t i = 0; i < s->plan->n; i++)
         if (!isfinite(s->at.v[i * s->at.stride + 1]))
@@ -74,11 +74,11 @@ expand_zero(qdot_motion_series *s, double t, const double *y)
     }
     if (s->plan->n_kept > 0)
         qdot_momentum_rows_show(&s->momenta, 1);
-    return check(s);
+    return accelerations_check(s);
 }
 
 static qdot_status
-begin(double t, const double *y, double unit, void *user)
+motion_series_begin(double t, const double *y, double unit, void *user)
 {
     qdot_motion_series *s = user;
     qdot_status status;
@@ -107,7 +107,7 @@ is_code_of_lanes(int p, void *user)
 }
 
 static qdot_status
-extend(int p, void *user)
+motion_series_extend(int p, void *user)
 {
     qdot_motion_series *s = user;
     const bool as_code = qdot_taylor_is_code(s->at.taylor, p - 1);
@@ -132,7 +132,7 @@ extend(int p, void *user)
 
 /* Orders of what leads least end two below that of q. */
 static double
-near(int p, double step, double least, void *user)
+motion_series_near(int p, double step, double least, void *user)
 {
     return qdot_taylor_near(((const qdot_motion_series *)user)->at.taylor, p - 2, step,
                             least);
@@ -230,7 +230,7 @@ choose_code(qdot_motion_series *s)
 }
 
 static qdot_status
-make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
+motion_series_make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const bool has_factor = !p->constraints;
@@ -246,11 +246,11 @@ make(qdot_motion_series *s, const qdot_tape *masses, bool shaken)
         .stride = s->at.stride,
         .checked = p->n,
         .cost = p->expansions,
-        .begin = begin,
-        .extend = extend,
+        .begin = motion_series_begin,
+        .extend = motion_series_extend,
         .noise = s->K.saddle ? noise : NULL,
         .ahead = s->K.saddle ? ahead : NULL,
-        .near = qdot_taylor_may_hide(s->at.taylor) ? near : NULL,
+        .near = qdot_taylor_may_hide(s->at.taylor) ? motion_series_near : NULL,
         .user = s};
     choose_code(s);
     return QDOT_OK;
@@ -269,7 +269,7 @@ qdot_motion_series_of_residual(const qdot_plan *plan, const qdot_motion *motion,
         return QDOT_ENOMEM;
     s->plan = plan;
     s->motion = motion;
-    status = make(s, masses, shaken);
+    status = motion_series_make(s, masses, shaken);
     if (status != QDOT_OK) {
         qdot_motion_series_free(s);
         return status;

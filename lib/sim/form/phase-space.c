@@ -127,8 +127,8 @@ qdot_phase_space_new(qdot_scene *scene, const qdot_plan *plan, qdot_phase_space 
 /* --- numbers ------------------------------------------------------------------------ */
 
 static void
-evaluate(qdot_phase *x, const qdot_tape *tape, double t, const double *q, const double *v,
-         double *out)
+phase_evaluate(qdot_phase *x, const qdot_tape *tape, double t, const double *q, const double *v,
+               double *out)
 {
     const size_t n = x->space->n;
 
@@ -144,7 +144,7 @@ momenta(double t, const double *q, const double *v, double *p, void *user)
 {
     qdot_phase *x = user;
 
-    evaluate(x, x->space->momenta, t, q, v, p);
+    phase_evaluate(x, x->space->momenta, t, q, v, p);
     return QDOT_OK;
 }
 
@@ -156,7 +156,7 @@ velocity(double t, const double *q, const double *p, double *v, void *user)
     const double *M = x->out + n;
     size_t failed;
 
-    evaluate(x, x->space->masses, t, q, NULL, x->out);
+    phase_evaluate(x, x->space->masses, t, q, NULL, x->out);
     for (size_t i = 0; i < n; i++) {
         v[i] = p[i] - x->out[i];
         for (size_t j = 0; j <= i; j++)
@@ -173,7 +173,7 @@ force(double t, const double *q, const double *v, double *F, void *user)
 {
     qdot_phase *x = user;
 
-    evaluate(x, x->space->forces, t, q, v, F);
+    phase_evaluate(x, x->space->forces, t, q, v, F);
     return QDOT_OK;
 }
 

@@ -183,7 +183,7 @@ say_singular(const qdot_precise_bind *e, const solver *s, size_t failed)
 }
 
 static qdot_status
-factor(qdot_precise_bind *e)
+precise_factor(qdot_precise_bind *e)
 {
     if (e->fixed && e->is_factored)
         return QDOT_OK;
@@ -210,7 +210,7 @@ accelerations(qdot_precise_bind *e, int k)
     if (k < 0)
         return QDOT_OK;
     if (k == 0)
-        QDOT_TRY(factor(e));
+        QDOT_TRY(precise_factor(e));
     for (size_t b = 0; b < e->blocks; b++) {
         solver *s = e->solvers + b;
 
@@ -241,7 +241,7 @@ find_momenta(qdot_precise_bind *e)
 }
 
 static qdot_status
-begin(mpfr_srcptr t, const mpfr_t *y, void *user)
+precise_begin(mpfr_srcptr t, const mpfr_t *y, void *user)
 {
     qdot_precise_bind *e = user;
     size_t n = e->plan->n;
@@ -265,7 +265,7 @@ begin(mpfr_srcptr t, const mpfr_t *y, void *user)
 }
 
 static qdot_status
-extend(int p, void *user)
+precise_extend(int p, void *user)
 {
     qdot_precise_bind *e = user;
 
@@ -319,13 +319,13 @@ make_solvers(qdot_precise_bind *e)
 
 /* Orders of forces end two below that of q. */
 static double
-near(int p, double log2_h, void *user)
+precise_near(int p, double log2_h, void *user)
 {
     return qdot_precise_near(((const qdot_precise_bind *)user)->series, p - 2, log2_h);
 }
 
 static qdot_status
-make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
+precise_make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
 {
     const qdot_plan *p = e->plan;
 
@@ -353,9 +353,9 @@ make(qdot_precise_bind *e, int most, mpfr_prec_t bits)
                                       .most = most,
                                       .x = (const mpfr_t *)e->q,
                                       .stride = e->stride,
-                                      .begin = begin,
-                                      .extend = extend,
-                                      .near = near,
+                                      .begin = precise_begin,
+                                      .extend = precise_extend,
+                                      .near = precise_near,
                                       .user = e};
     QDOT_TRY(make_solvers(e));
     if (!p->constraints)
@@ -375,7 +375,7 @@ qdot_precise_bind_new(const qdot_plan *plan, int most, mpfr_prec_t bits,
     if (!e)
         return QDOT_ENOMEM;
     e->plan = plan;
-    status = make(e, most, bits);
+    status = precise_make(e, most, bits);
     if (status != QDOT_OK) {
         qdot_precise_bind_free(e);
         return status;

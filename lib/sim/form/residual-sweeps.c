@@ -87,7 +87,7 @@ align_applied(const builder *b)
 }
 
 static qdot_status
-make_room(qdot_residual_sweeps *s, size_t orders)
+sweeps_make_room(qdot_residual_sweeps *s, size_t orders)
 {
     const size_t eights = s->m * s->slots / lanes;
     const size_t few = s->c * s->slots;
@@ -108,7 +108,7 @@ make_room(qdot_residual_sweeps *s, size_t orders)
 }
 
 static qdot_status
-build(builder *b)
+sweeps_build(builder *b)
 {
     qdot_residual_sweeps *s = b->s;
     const qdot_residual_tree *t = b->tree;
@@ -127,12 +127,12 @@ build(builder *b)
         }
     }
     QDOT_TRY(align_applied(b));
-    QDOT_TRY(make_room(s, qdot_taylor_stride(b->t)));
+    QDOT_TRY(sweeps_make_room(s, qdot_taylor_stride(b->t)));
     return qdot_taylor_wide_settle(s->places);
 }
 
 static qdot_status
-make(builder *b, const double *w, bool *made)
+sweeps_make(builder *b, const double *w, bool *made)
 {
     qdot_residual_sweeps *s = b->s;
     const qdot_residual_tree *t = b->tree;
@@ -154,7 +154,7 @@ make(builder *b, const double *w, bool *made)
     if (!s->places)
         return QDOT_OK;
     *made = true;
-    return build(b);
+    return sweeps_build(b);
 }
 
 qdot_status
@@ -174,7 +174,7 @@ qdot_residual_sweeps_new(const qdot_residual *r, size_t n, const qdot_taylor *pl
     b.s = qdot_calloc(1, sizeof *b.s);
     if (b.s) {
         b.s->n = n;
-        status = make(&b, w, &made);
+        status = sweeps_make(&b, w, &made);
     } else {
         status = QDOT_ENOMEM;
     }

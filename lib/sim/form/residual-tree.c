@@ -25,7 +25,7 @@ first_of(builder *b, uint32_t f)
 }
 
 static bool
-join(builder *b, uint32_t f, uint32_t g)
+frames_join(builder *b, uint32_t f, uint32_t g)
 {
     f = first_of(b, f);
     g = first_of(b, g);
@@ -47,20 +47,20 @@ join_all(builder *b)
     for (size_t i = 0; i < b->n; i++)
         b->first[i] = NONE;
     for (size_t w = 0; w < r->n_weights; w++)
-        join(b, r->weights[w].to, r->weights[w].from);
+        frames_join(b, r->weights[w].to, r->weights[w].from);
     for (size_t j = 0; j < r->n_slopes; j++) {
         uint32_t *first = b->first + r->slopes[j].coordinate;
 
         if (*first == NONE)
             *first = r->slopes[j].function;
-        join(b, *first, r->slopes[j].function);
+        frames_join(b, *first, r->slopes[j].function);
     }
     while (changed) {
         changed = false;
         for (uint32_t f = 0; f < r->functions; f++)
             for (uint32_t g = f; r->parent[f] != NONE && g-- > 0;)
                 if (r->parent[g] != NONE && first_of(b, f) == first_of(b, g))
-                    changed = join(b, r->parent[f], r->parent[g]) || changed;
+                    changed = frames_join(b, r->parent[f], r->parent[g]) || changed;
     }
 }
 
@@ -166,7 +166,7 @@ place_coordinates(builder *b)
 }
 
 static qdot_status
-build(builder *b, bool *is_tree)
+tree_build(builder *b, bool *is_tree)
 {
     const qdot_residual *r = b->r;
     qdot_residual_tree *t = b->t;
@@ -203,7 +203,7 @@ qdot_residual_tree_new(const qdot_residual *r, size_t n, qdot_residual_tree **tr
 
     *tree = NULL;
     b.t = qdot_calloc(1, sizeof *b.t);
-    status = b.t ? build(&b, &is_tree) : QDOT_ENOMEM;
+    status = b.t ? tree_build(&b, &is_tree) : QDOT_ENOMEM;
     qdot_free(b.group);
     qdot_free(b.first);
     if (status != QDOT_OK || !is_tree) {

@@ -130,7 +130,7 @@ note_places(builder *b, qdot_expr e)
 }
 
 static uint32_t
-place_of(const builder *b, qdot_expr term)
+term_place(const builder *b, qdot_expr term)
 {
     return qdot_keymap_get(&b->place, term, 0, 0, 0);
 }
@@ -147,7 +147,7 @@ terms_apart(const builder *b, qdot_expr e, qdot_expr g, size_t most)
     if (qdot_expr_kind(pool, g) != QDOT_SUM)
         return n - 1;
     for (uint32_t k = 0, common = 0; k < m && apart <= most; k++) {
-        const uint32_t i = place_of(b, term_at(pool, g, k));
+        const uint32_t i = term_place(b, term_at(pool, g, k));
 
         common += i != QDOT_KEYMAP_NONE && factor_at(pool, e, i) == factor_at(pool, g, k);
         apart = n + m > 2 * (common + (m - 1 - k)) ? n + m - 2 * (common + (m - 1 - k)) : 0;
@@ -179,7 +179,7 @@ difference_of(builder *b, qdot_expr e, qdot_expr g, qdot_expr *d)
     for (uint32_t k = 0; k < m; k++) {
         const qdot_expr term = term_at(pool, g, k);
         qdot_expr factor = qdot_neg(pool, factor_at(pool, g, k));
-        const uint32_t at = place_of(b, term);
+        const uint32_t at = term_place(b, term);
 
         for (; at != QDOT_KEYMAP_NONE && i < at; i++)
             QDOT_TRY(push_term(b, term_at(pool, e, i), factor_at(pool, e, i)));
@@ -308,7 +308,7 @@ lower_masses(builder *b)
 }
 
 static qdot_status
-build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr Q)
+residual_build(builder *b, const qdot_dalembert_term *terms, size_t n, qdot_expr Q)
 {
     const qdot_plan *p = b->plan;
     qdot_residual *r = b->r;
@@ -358,7 +358,7 @@ qdot_residual_new(qdot_scene *scene, const qdot_plan *plan, qdot_residual **resi
         return QDOT_OK;
     }
     b.r = qdot_calloc(1, sizeof *b.r);
-    status = b.r ? build(&b, terms, n, Q) : QDOT_ENOMEM;
+    status = b.r ? residual_build(&b, terms, n, Q) : QDOT_ENOMEM;
     qdot_free(terms);
     qdot_free(b.functions.at);
     qdot_keymap_clear(&b.place);

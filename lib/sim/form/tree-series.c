@@ -72,7 +72,7 @@ order(qdot_tree_series *s, int m)
 
 /* Whether M is singular, as Cholesky's method has it. */
 static qdot_status
-factor(qdot_tree_series *s)
+tree_factor(qdot_tree_series *s)
 {
     const size_t n = s->plan->n;
     double *M = qdot_calloc(n * n, sizeof *M);
@@ -90,7 +90,7 @@ factor(qdot_tree_series *s)
 
 /* Orders 0 and 1, and M eliminated. */
 static qdot_status
-eliminate(qdot_tree_series *s, const double *y)
+tree_eliminate(qdot_tree_series *s, const double *y)
 {
     double lost;
     bool good;
@@ -102,14 +102,14 @@ eliminate(qdot_tree_series *s, const double *y)
     s->eliminated++;
     if (good && lost >= least_pivot)
         return QDOT_OK;
-    QDOT_TRY(factor(s));
+    QDOT_TRY(tree_factor(s));
     return good
                ? QDOT_OK
                : qdot_fail(QDOT_ESINGULAR, "the mass matrix is singular within rounding");
 }
 
 static qdot_status
-begin(double t, const double *y, double unit, void *user)
+tree_begin(double t, const double *y, double unit, void *user)
 {
     qdot_tree_series *s = user;
     size_t n = s->plan->n;
@@ -119,7 +119,7 @@ begin(double t, const double *y, double unit, void *user)
     qdot_expansion_begin(&s->places, t, y, unit);
     if (s->forces.taylor)
         qdot_expansion_begin(&s->forces, t, y, unit);
-    QDOT_TRY(eliminate(s, y));
+    QDOT_TRY(tree_eliminate(s, y));
     order(s, 2);
     fill_rows(s, 2);
     for (size_t i = 0; i < n; i++)
@@ -130,7 +130,7 @@ begin(double t, const double *y, double unit, void *user)
 }
 
 static qdot_status
-extend(int p, void *user)
+tree_extend(int p, void *user)
 {
     qdot_tree_series *s = user;
 
@@ -142,7 +142,7 @@ extend(int p, void *user)
 
 /* Orders of forces end two below that of q. */
 static double
-near(int p, double step, double least, void *user)
+tree_near(int p, double step, double least, void *user)
 {
     const qdot_tree_series *s = user;
 
@@ -168,7 +168,7 @@ make_tapes(qdot_tree_series *s, bool shaken)
 }
 
 static qdot_status
-make(qdot_tree_series *s, bool shaken)
+tree_make(qdot_tree_series *s, bool shaken)
 {
     const qdot_plan *p = s->plan;
     const qdot_residual *r = s->residual;
@@ -199,12 +199,12 @@ make(qdot_tree_series *s, bool shaken)
                                   .stride = s->places.stride,
                                   .checked = p->n,
                                   .cost = p->expansions,
-                                  .begin = begin,
-                                  .extend = extend,
+                                  .begin = tree_begin,
+                                  .extend = tree_extend,
                                   .user = s};
     if (qdot_taylor_may_hide(s->places.taylor) ||
         (s->forces.taylor && qdot_taylor_may_hide(s->forces.taylor)))
-        s->series.near = near;
+        s->series.near = tree_near;
     return QDOT_OK;
 }
 
@@ -220,7 +220,7 @@ qdot_tree_series_new(const qdot_plan *plan, const qdot_residual *residual, bool 
         return QDOT_ENOMEM;
     s->plan = plan;
     s->residual = residual;
-    status = make(s, shaken);
+    status = tree_make(s, shaken);
     if (status == QDOT_OK && s->tree)
         *series = s;
     else
