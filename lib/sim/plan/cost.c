@@ -126,7 +126,7 @@ static const double middle_tol = 1e-9;
 /* --- models --------------------------------------------------------------------------- */
 
 static double
-sum(const double *by, const double *features)
+features_sum(const double *by, const double *features)
 {
     double s = 0;
 
@@ -136,7 +136,7 @@ sum(const double *by, const double *features)
 }
 
 static void
-apply(const model *m, const qdot_work *w, double *c)
+model_apply(const model *m, const qdot_work *w, double *c)
 {
     const double features[FEATURES] = {
         [ONE] = 1, [CALLS] = w->calls, [OPERATIONS] = w->operations, [LENGTH] = w->length,
@@ -146,9 +146,9 @@ apply(const model *m, const qdot_work *w, double *c)
         [FILLING] = w->filled > 0 ? w->filled * w->filled / w->unknowns : 0,
         [VECTORS] = w->vectors, [PRODUCTS] = w->products, [BEGUN] = w->begun};
 
-    c[0] = sum(m->start, features);
-    c[1] = sum(m->order, features);
-    c[2] = sum(m->pair, features);
+    c[0] = features_sum(m->start, features);
+    c[1] = features_sum(m->order, features);
+    c[2] = features_sum(m->pair, features);
 }
 
 qdot_ode_cost
@@ -158,13 +158,13 @@ qdot_cost_explicit(const qdot_work *w)
     const bool solves = w->unknowns > 0;
     qdot_ode_cost c = {0};
 
-    apply(&explicit_kernels, w, c.kernels);
+    model_apply(&explicit_kernels, w, c.kernels);
     if (!w->code)
         return c;
     c.worth = worth.of_explicit + worth.by_length / (w->length + 1);
     if (!qdot_taylor_may_be_code())
         return c;
-    apply(&explicit_code, w, c.code);
+    model_apply(&explicit_code, w, c.code);
     c.code[1] = kinds[kind].order * c.code[1] + w->squares;
     c.code[2] *= kinds[kind].pair;
     c.wider = kinds[kind].vector * w->convolutions;
@@ -180,9 +180,9 @@ qdot_cost_implicit(const qdot_work *w)
 {
     qdot_ode_cost c = {.worth = worth.of_implicit};
 
-    apply(&implicit_kernels, w, c.kernels);
+    model_apply(&implicit_kernels, w, c.kernels);
     if (w->code && qdot_lanes_may_be_code())
-        apply(&implicit_code, w, c.code);
+        model_apply(&implicit_code, w, c.code);
     return c;
 }
 
@@ -192,7 +192,7 @@ qdot_cost_tree(const qdot_work *w)
     const bool one = w->nodes == w->coordinates && w->nodes <= 8;
     qdot_ode_cost c = {0};
 
-    apply(&tree_vectors, w, c.kernels);
+    model_apply(&tree_vectors, w, c.kernels);
     for (int k = 0; k < 3 && !one && !qdot_kind_is_here(2); k++)
         c.kernels[k] *= by_halves;
     return c;
@@ -218,7 +218,7 @@ qdot_cost_constrained(const qdot_plan *p, const qdot_work *w)
 {
     qdot_ode_cost c = {0};
 
-    apply(w->inverted ? &constrained_inverse : &constrained_factor, w, c.kernels);
+    model_apply(w->inverted ? &constrained_inverse : &constrained_factor, w, c.kernels);
     if (w->inverted) /* a solution by the factor for each column */
         c.kernels[0] += 2.5 * w->filled * w->unknowns;
     c.kernels[0] += qdot_cost_projection(p);
@@ -251,7 +251,7 @@ qdot_cost_bordered(const qdot_work *w, const qdot_ode_cost *other)
                        .of_vector = 16,
                        .wider = loops * instructions > decoded ? 0.3 * instructions : 0};
 
-    apply(&bordered_code, w, c.code);
+    model_apply(&bordered_code, w, c.code);
     memcpy(c.kernels, other->kernels, sizeof c.kernels);
     return c;
 }
@@ -264,7 +264,7 @@ qdot_cost_least(size_t n, double convolutions)
                          .factored_cubes = m * m * m};
     qdot_ode_cost c = {0};
 
-    apply(&explicit_kernels, &w, c.kernels);
+    model_apply(&explicit_kernels, &w, c.kernels);
     return c;
 }
 
@@ -273,9 +273,9 @@ qdot_cost_lanes(const qdot_work *w)
 {
     qdot_ode_cost c = {0};
 
-    apply(&lanes_kernels, w, c.kernels);
+    model_apply(&lanes_kernels, w, c.kernels);
     if (qdot_lanes_may_be_code())
-        apply(&lanes_code, w, c.code);
+        model_apply(&lanes_code, w, c.code);
     return c;
 }
 

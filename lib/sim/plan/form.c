@@ -19,7 +19,7 @@
 static const double canonical_saves = 0.85;
 
 static void
-take(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
+plan_take_form(qdot_plan *p, qdot_form form, const qdot_ode_cost *cost)
 {
     p->form = form;
     p->expansions = *cost;
@@ -50,7 +50,7 @@ qdot_plan_measure(qdot_plan *p)
     work = qdot_motion_series_work(p);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_explicit(&work);
-    take(p, QDOT_FORM_EXPLICIT, &cost);
+    plan_take_form(p, QDOT_FORM_EXPLICIT, &cost);
     return QDOT_OK;
 }
 
@@ -144,7 +144,7 @@ qdot_plan_choose_form(qdot_plan *p, qdot_scene *scene, const qdot_run_request *r
     if (status == QDOT_OK)
         p->convolutions_residual = c.convolutions;
     if (status == QDOT_OK && is_cheaper(p, &c, request)) {
-        take(p, c.form, &c.cost);
+        plan_take_form(p, c.form, &c.cost);
         p->residual = c.residual;
         p->tree_nodes = c.nodes;
         p->tree_is_path = c.is_path;
@@ -184,7 +184,7 @@ measure_constrained(qdot_plan *p)
     work = qdot_motion_series_work_of_constraints(series);
     p->convolutions_derived = work.convolutions;
     cost = qdot_cost_constrained(p, &work);
-    take(p, QDOT_FORM_CONSTRAINED, &cost);
+    plan_take_form(p, QDOT_FORM_CONSTRAINED, &cost);
     qdot_motion_series_free(series);
     return QDOT_OK;
 }
@@ -214,7 +214,7 @@ offer_eliminated(qdot_plan *p, double tol, double *least)
         qdot_plan_free(e);
         return QDOT_OK;
     }
-    take(p, QDOT_FORM_ELIMINATED, &cost);
+    plan_take_form(p, QDOT_FORM_ELIMINATED, &cost);
     p->eliminated = e;
     *least = steps;
     return QDOT_OK;
@@ -239,7 +239,7 @@ offer_bordered(qdot_plan *p, double tol, const qdot_ode_cost *kernels, double *l
         qdot_plan_drop_bordered(p);
         return QDOT_OK;
     }
-    take(p, QDOT_FORM_BORDERED, &cost);
+    plan_take_form(p, QDOT_FORM_BORDERED, &cost);
     qdot_plan_free(p->eliminated);
     p->eliminated = NULL;
     *least = steps;

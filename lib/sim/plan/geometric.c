@@ -28,7 +28,7 @@ velocity_force(const qdot_plan *p)
 }
 
 static qdot_status
-refuse(const qdot_plan *p, const char *why, const char *name, const char *instead)
+geometric_refuse(const qdot_plan *p, const char *why, const char *name, const char *instead)
 {
     qdot_fail(QDOT_ENOTBUILT, "%s %s%s", p->method->name, why, name);
     return qdot_hint("method %s", instead);
@@ -42,11 +42,11 @@ check_constraints(const qdot_plan *p, const qdot_scene *scene, qdot_run_treatmen
 
     for (size_t k = 0; k < scene->constraints.n; k++)
         if (scene->constraints.at[k].kind != QDOT_HOLONOMIC)
-            return refuse(p, holds ? "needs constraints on positions, but velocities are in "
+            return geometric_refuse(p, holds ? "needs constraints on positions, but velocities are in "
                                    : "is for scenes without constraints, unlike ",
-                          scene->constraints.at[k].name, "taylor");
+                                    scene->constraints.at[k].name, "taylor");
     if (scene->constraints.n > 0 && !holds)
-        return refuse(p, "is for scenes without constraints", "", "variational");
+        return geometric_refuse(p, "is for scenes without constraints", "", "variational");
     if (scene->constraints.n > 0 && treatment != QDOT_RUN_PROJECT)
         return qdot_fail(QDOT_ENOTBUILT, "%s holds the constraints in every step: there is no drift "
                                          "to be treated", p->method->name);
@@ -64,12 +64,12 @@ qdot_plan_check_geometric(qdot_plan *p, qdot_scene *scene, qdot_run_treatment tr
     if (p->method->geometric->separable) {
         i = varying_mass(p);
         if (i < p->n)
-            return refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
-                          p->names[i], "gauss8");
+            return geometric_refuse(p, "needs constant masses, but the mass matrix varies in the row of ",
+                                    p->names[i], "gauss8");
         i = velocity_force(p);
         if (i < p->n)
-            return refuse(p, "needs forces without velocities, but there are some along ",
-                          p->names[i], "gauss8");
+            return geometric_refuse(p, "needs forces without velocities, but there are some along ",
+                                    p->names[i], "gauss8");
     } else {
         QDOT_TRY(qdot_phase_space_new(scene, p, &p->phase_space));
     }

@@ -29,7 +29,7 @@ release(kept_plan *k)
 }
 
 static void
-forget(kept_plans *all)
+kept_forget(kept_plans *all)
 {
     while (all->n > 0)
         release(&all->at[--all->n]);
@@ -38,7 +38,7 @@ forget(kept_plans *all)
 static void
 free_all(void *user)
 {
-    forget(user);
+    kept_forget(user);
     qdot_free(user);
 }
 
@@ -62,7 +62,7 @@ is_by_start(const qdot_plan *p)
 }
 
 static bool
-fits(const kept_plan *k, const qdot_run_request *r)
+kept_fits(const kept_plan *k, const qdot_run_request *r)
 {
     const qdot_plan *p = k->plan;
     const bool chosen = !r->method || strcmp(r->method, "auto") == 0;
@@ -94,7 +94,7 @@ qdot_kept_find(const qdot_scene *scene, const qdot_run_request *r)
     if (!all || all->version != scene->version || !may_be_kept(r))
         return NULL;
     for (size_t i = 0; i < all->n; i++)
-        if (fits(&all->at[i], r)) {
+        if (kept_fits(&all->at[i], r)) {
             all->at[i].plan->uses++;
             return all->at[i].plan;
         }
@@ -122,7 +122,7 @@ qdot_kept_add(qdot_scene *scene, const qdot_run_request *r, qdot_plan *plan)
     memcpy(k.start + n, r->v0, n * sizeof *r->v0);
     k.start[2 * n] = r->t0;
     if (all->version != scene->version)
-        forget(all);
+        kept_forget(all);
     all->version = scene->version;
     if (all->n == MOST)
         release(&all->at[--all->n]);

@@ -14,7 +14,7 @@ static const double worth = 2;
 
 /* Unite the groups of i and j. group [n]: the first coordinate of the group of each. */
 static void
-join(size_t *group, size_t n, size_t i, size_t j)
+groups_join(size_t *group, size_t n, size_t i, size_t j)
 {
     const size_t low = group[i] < group[j] ? group[i] : group[j];
     const size_t high = group[i] < group[j] ? group[j] : group[i];
@@ -36,7 +36,7 @@ join_all(const qdot_plan *p, size_t *group, size_t i, qdot_expr e)
             qdot_expr x = qdot_expr_arg(p->pool, atoms, k);
 
             if (x == p->inputs[j] || x == p->inputs[p->n + j])
-                join(group, p->n, i, j);
+                groups_join(group, p->n, i, j);
         }
     return QDOT_OK;
 }
@@ -52,7 +52,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++)
             if (p->M[i * n + j] != QDOT_ZERO)
-                join(group, n, i, j);
+                groups_join(group, n, i, j);
     *groups = 1;
     for (size_t i = 1; i < n; i++)
         *groups += group[i] == i;
@@ -71,7 +71,7 @@ find_groups(const qdot_plan *p, size_t *group, size_t *groups)
 
 /* Fill r with the equations of the n coordinates `index` of p. */
 static qdot_status
-fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
+part_fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 {
     r->place = qdot_calloc(n, sizeof *r->place);
     r->symbols = qdot_calloc(p->n_values + 1, sizeof *r->symbols);
@@ -98,7 +98,7 @@ fill(const qdot_plan *p, size_t n, const size_t *index, qdot_plan *r)
 }
 
 static qdot_status
-finish(qdot_plan *r, qdot_scene *scene, const qdot_run_request *request)
+part_finish(qdot_plan *r, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(qdot_plan_structure(r, NULL));
     QDOT_TRY(qdot_plan_lower(r, 2 * r->n + 1, 0, NULL));
@@ -123,9 +123,9 @@ make_part(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request,
     if (r)
         p->parts[p->n_parts++] = r;
     if (status == QDOT_OK)
-        status = fill(p, n, index, r);
+        status = part_fill(p, n, index, r);
     qdot_free(index);
-    return status == QDOT_OK ? finish(r, scene, request) : status;
+    return status == QDOT_OK ? part_finish(r, scene, request) : status;
 }
 
 /* The cost of one step of every part. */

@@ -145,7 +145,7 @@ name_coordinates(qdot_plan *p, qdot_scene *scene, const qdot_run_request *reques
 
 /* M and f of the scene with the values in place. */
 static qdot_status
-derive(qdot_plan *p, qdot_scene *scene)
+plan_derive(qdot_plan *p, qdot_scene *scene)
 {
     const size_t n = p->n, m = n - p->n_states;
     qdot_expr M = qdot_mech_numeric_mass(scene), f = qdot_mech_numeric_forcing(scene);
@@ -280,7 +280,7 @@ choose_in_lanes(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request
 }
 
 static qdot_status
-make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
+plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
 {
     QDOT_TRY(find_method(p, request->method));
     QDOT_TRY(copy_values(p, request));
@@ -288,7 +288,7 @@ make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
     QDOT_TRY(qdot_tree_alone_find(p, scene, request));
     if (p->residual)
         return QDOT_OK;
-    QDOT_TRY(derive(p, scene));
+    QDOT_TRY(plan_derive(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
     QDOT_TRY(check_massless(p, request));
     QDOT_TRY(check_exact(request));
@@ -335,7 +335,7 @@ qdot_plan_in_mode(qdot_scene *scene, const qdot_run_request *request,
     p->n_states = request->n_states;
     p->mode = switches;
     p->side = side;
-    status = make(p, scene, request);
+    status = plan_make(p, scene, request);
     p->mode = NULL;
     p->side = NULL;
     if (status != QDOT_OK) {

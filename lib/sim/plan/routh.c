@@ -47,7 +47,7 @@ typedef struct {
 
 /* Irregular numbers in (0.3, 1.7), an interval that most domains contain. */
 static double
-place(size_t i)
+sample_place(size_t i)
 {
     return 0.3 + 1.4 * fmod(0.5545497 * (double)(i + 1), 1);
 }
@@ -62,9 +62,9 @@ may_be_absent(const routh *e, size_t i)
 
     for (size_t k = 0; k < 2; k++) {
         for (size_t j = 0; j < inputs; j++)
-            e->in[j] = place(j + 7 * k);
+            e->in[j] = sample_place(j + 7 * k);
         qdot_tape_eval(tape, e->in, e->out, e->work);
-        e->in[i] = place(i + 7 * k + 3);
+        e->in[i] = sample_place(i + 7 * k + 3);
         qdot_tape_eval(tape, e->in, there, e->work);
         for (size_t j = 0; j < outputs; j++)
             if (fabs(e->out[j] - there[j]) > 1e-9 * (1 + fabs(there[j])))
@@ -186,7 +186,7 @@ take_out(routh *e)
 
 /* Solve row c for q_c' and eliminate it from the remaining rows. */
 static void
-eliminate(routh *e, size_t c)
+routh_eliminate(routh *e, size_t c)
 {
     qdot_pool *pool = e->pool;
     const size_t n = e->n;
@@ -275,7 +275,7 @@ begin_plan(const routh *e, qdot_plan **out)
 /* Replace the eliminated velocities in the equations of r, one after the other, by their
  * expressions, which are left in `rates` [h]. */
 static void
-put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
+routh_put_in(routh *e, qdot_plan *r, way how, qdot_expr *rates)
 {
     qdot_pool *pool = e->pool;
     const size_t n = e->n;
@@ -325,7 +325,7 @@ fill_plan(routh *e, way how, qdot_plan *r)
     for (size_t i = 0; left && i < n; i++)
         left[i] = !e->gone[i];
     if (status == QDOT_OK) {
-        put_in(e, r, how, rates);
+        routh_put_in(e, r, how, rates);
         status = qdot_pool_check(e->pool);
     }
     if (status == QDOT_OK)
@@ -370,7 +370,7 @@ cost_of_all(const qdot_plan *p)
 
 /* Find the cheapest way; the plan takes it if it is cheaper than the full equations. */
 static qdot_status
-choose(routh *e)
+routh_choose(routh *e)
 {
     double least = cost_of_all(e->p);
     const bool sums = has_sum(e);
@@ -534,7 +534,7 @@ routh_init(routh *e)
 }
 
 static qdot_status
-reduce(routh *e)
+routh_reduce(routh *e)
 {
     bool some, too_far = false;
 
@@ -544,11 +544,11 @@ reduce(routh *e)
     take_out(e);
     for (size_t c; !qdot_pool_failed(e->pool) && (c = shortest(e)) != SIZE_MAX;) {
         e->order[e->h++] = c;
-        eliminate(e, c);
+        routh_eliminate(e, c);
     }
     QDOT_TRY(qdot_pool_check(e->pool));
     if (e->h > 0)
-        QDOT_TRY(choose(e));
+        QDOT_TRY(routh_choose(e));
     if (e->p->reduced && has_sum(e) && e->request->q0 && e->request->v0) {
         e->p->by_start = true;
         QDOT_TRY(find_cancellation(e, &too_far));
@@ -572,7 +572,7 @@ qdot_routh_reduce(qdot_plan *plan, qdot_scene *scene, const qdot_run_request *re
     qdot_status status = request->by_clock ? QDOT_OK : routh_init(&e);
 
     if (status == QDOT_OK && !request->by_clock)
-        status = reduce(&e);
+        status = routh_reduce(&e);
     routh_clear(&e);
     /* a pivot vanishes, or an expression is not defined at 0: keep the full equations */
     if (status == QDOT_EDOMAIN || status == QDOT_ESINGULAR || status == QDOT_ELIMIT) {

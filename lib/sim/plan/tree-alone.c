@@ -75,7 +75,7 @@ is_constant(const qdot_plan *p)
 /* *suits: M is one coupled block, and no coordinate of it should be eliminated first. A coordinate
  * should be if it does not appear in h and is coupled with few others. */
 static qdot_status
-judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
+tree_judge(qdot_plan *p, const bool *pattern, bool *suits, double *least)
 {
     const size_t n = p->n;
     size_t entries = 0;
@@ -104,7 +104,7 @@ find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double
     if (!pattern)
         return QDOT_ENOMEM;
     find_pattern(tree, p->n, pattern);
-    status = judge(p, pattern, suits, least);
+    status = tree_judge(p, pattern, suits, least);
     qdot_free(pattern);
     if (status != QDOT_OK || !*suits)
         return status;
@@ -116,14 +116,14 @@ find_structure(qdot_plan *p, const qdot_residual_tree *tree, bool *suits, double
 }
 
 static bool
-may_hide(const qdot_residual *r)
+residual_may_hide(const qdot_residual *r)
 {
     return qdot_disc_may_hide(r->places, QDOT_HIDES_EXPONENTIALS)
            || (r->forces && qdot_disc_may_hide(r->forces, QDOT_HIDES_EXPONENTIALS));
 }
 
 static qdot_status
-decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
+tree_decide(qdot_plan *p, const qdot_residual_tree *tree, bool *taken)
 {
     qdot_tree_series *series;
     qdot_work work;
@@ -162,11 +162,11 @@ qdot_tree_alone_find(qdot_plan *p, qdot_scene *scene, const qdot_run_request *re
     QDOT_TRY(qdot_residual_new(scene, p, &p->residual));
     if (!p->residual)
         return QDOT_OK;
-    status = may_hide(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
+    status = residual_may_hide(p->residual) ? QDOT_OK : qdot_residual_tree_new(p->residual, p->n, &tree);
     if (tree)
         status = qdot_residual_add_energy(scene, p, p->residual);
     if (tree && status == QDOT_OK && p->residual->energy)
-        status = decide(p, tree, &taken);
+        status = tree_decide(p, tree, &taken);
     qdot_residual_tree_free(tree);
     if (status == QDOT_OK && taken) {
         p->smooth = true;
