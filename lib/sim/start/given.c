@@ -73,7 +73,7 @@ qdot_given_double(arb_srcptr b)
 }
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+given_value(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const qdot_given *g = user;
 
@@ -93,7 +93,7 @@ qdot_given_evaluate(const qdot_given *g, size_t m, const qdot_expr *e, double *o
     qdot_ball ball;
 
     QDOT_TRY(qdot_ball_begin(&ball, g->plan->pool, m, e));
-    qdot_ball_eval(&ball, QDOT_GIVEN_BITS, value_of, &of);
+    qdot_ball_eval(&ball, QDOT_GIVEN_BITS, given_value, &of);
     for (size_t k = 0; k < m; k++)
         out[k] = qdot_given_double(qdot_ball_get(&ball, e[k]));
     qdot_ball_end(&ball);

@@ -40,7 +40,7 @@ typedef struct {
 } search;
 
 static size_t
-place(const search *s, size_t i)
+unknown_place(const search *s, size_t i)
 {
     return s->p->first + s->index[i];
 }
@@ -59,7 +59,7 @@ measure_row(search *s, size_t k, double length)
 /* F and A at a point, |A_k|, and sum (F_k / |A_k|)^2 in units of `size`; infinite where
  * undefined. */
 static double
-evaluate(search *s, const double *at, bool measure)
+search_evaluate(search *s, const double *at, bool measure)
 {
     qdot_nearest *p = s->p;
     const double *A = p->value + p->m;
@@ -118,24 +118,24 @@ from_metric(const search *s, double *x)
 
 /* away = C^T (x - a); its length. */
 static double
-distance(search *s, const double *at)
+search_distance(search *s, const double *at)
 {
     for (size_t i = 0; i < s->n; i++) {
         s->away[i] = 0;
         for (size_t j = s->C ? i : 0; s->C && j < s->n; j++)
             s->away[i] +=
-                s->C[j * s->n + i] * (at[place(s, j)] - s->centre[place(s, j)]);
+                s->C[j * s->n + i] * (at[unknown_place(s, j)] - s->centre[unknown_place(s, j)]);
         if (!s->C)
-            s->away[i] = at[place(s, i)] - s->centre[place(s, i)];
+            s->away[i] = at[unknown_place(s, i)] - s->centre[unknown_place(s, i)];
     }
     return qdot_nearest_length(s->away, s->n);
 }
 
 static void
-move(const search *s, const double *from, double scale, const double *step, double *to)
+search_move(const search *s, const double *from, double scale, const double *step, double *to)
 {
     for (size_t i = 0; i < s->n; i++)
-        to[place(s, i)] = from[place(s, i)] + scale * step[i];
+        to[unknown_place(s, i)] = from[unknown_place(s, i)] + scale * step[i];
 }
 
 static double
@@ -144,13 +144,13 @@ relative(const search *s, const double *at, const double *step)
     double most = 0;
 
     for (size_t i = 0; i < s->n; i++)
-        most = fmax(most, fabs(step[i]) / (1 + fabs(at[place(s, i)])));
+        most = fmax(most, fabs(step[i]) / (1 + fabs(at[unknown_place(s, i)])));
     return most;
 }
 
-/* Whether every F_k is 0 within rounding; after evaluate(at, true). */
+/* Whether every F_k is 0 within rounding; after search_evaluate(at, true). */
 static bool
-holds(const search *s, const double *at)
+search_holds(const search *s, const double *at)
 {
     double size = 0;
 
@@ -171,7 +171,7 @@ restore(search *s, double *at)
     const qdot_nearest *p = s->p;
 
     for (int k = 0; k < MOST_NEWTON; k++) {
-        double before = evaluate(s, at, true), scale = 1, after = INFINITY, left;
+        double before = search_evaluate(s, at, true), scale = 1, after = INFINITY, left;
 
         if (!isfinite(before) || qdot_interrupt_flag)
             return false;
@@ -185,8 +185,8 @@ restore(search *s, double *at)
             break;
         memcpy(s->from, at, p->inputs * sizeof *at);
         for (int half = 0; half < 12; half++, scale /= 2) {
-            move(s, s->from, scale, s->step, at);
-            after = evaluate(s, at, false);
+            search_move(s, s->from, scale, s->step, at);
+            after = search_evaluate(s, at, false);
             if (after < before)
                 break;
         }
@@ -195,8 +195,8 @@ restore(search *s, double *at)
             break;
         }
     }
-    (void)evaluate(s, at, true);
-    return holds(s, at);
+    (void)search_evaluate(s, at, true);
+    return search_holds(s, at);
 }
 
 /* Along F = 0 against the gradient of the distance, each step brought back onto it. */
@@ -209,11 +209,11 @@ slide(search *s, double *at)
         double near, slope, scale = 1;
         bool nearer = false;
 
-        (void)evaluate(s, at, true);
+        (void)search_evaluate(s, at, true);
         factor_rows(s);
         if (s->rows.rank >= s->n || qdot_interrupt_flag)
             return;
-        near = distance(s, at);
+        near = search_distance(s, at);
         qdot_row_space_tangent(&s->rows, s->away);
         slope = qdot_nearest_length(s->away, s->n);
         if (!(slope > 1e-9 * (1 + near)))
@@ -224,10 +224,10 @@ slide(search *s, double *at)
         for (; scale > 1e-5 && !nearer; scale /= 2) {
             double now;
 
-            move(s, s->kept, -scale, s->slid, at);
+            search_move(s, s->kept, -scale, s->slid, at);
             if (!restore(s, at))
                 continue;
-            now = distance(s, at);
+            now = search_distance(s, at);
             nearer = now * now < near * near - 0.1 * scale * slope * slope;
         }
         if (!nearer) {
@@ -306,7 +306,7 @@ newton_system(search *s, const double *at, double *K, double *r)
                                 : 0;
 
             K[i * size + j] += w;
-            r[i] -= w * (at[place(s, j)] - s->centre[place(s, j)]);
+            r[i] -= w * (at[unknown_place(s, j)] - s->centre[unknown_place(s, j)]);
         }
     for (size_t c = 0; c < p->curves; c++) {
         double h = s->lambda[p->place[3 * c]] * s->curvature[c];
@@ -342,11 +342,11 @@ polish(search *s, double *at)
     double last = 1e-2, *K, *r;
     qdot_status status = QDOT_OK;
 
-    (void)evaluate(s, at, true);
+    (void)search_evaluate(s, at, true);
     factor_rows(s);
     if (s->rows.rank >= s->n)
         return QDOT_OK;
-    (void)distance(s, at);
+    (void)search_distance(s, at);
     for (size_t k = 0; k < p->m; k++) {
         s->b[k] = 0;
         for (size_t i = 0; i < s->n; i++)
@@ -382,10 +382,10 @@ polish(search *s, double *at)
         if (!(step < last))
             break;
         last = step;
-        move(s, at, 1, r, at);
+        search_move(s, at, 1, r, at);
         for (size_t i = 0; i < s->rows.rank; i++)
             s->lambda[s->rows.order[i]] += r[s->n + i];
-        if (!isfinite(evaluate(s, at, true)) || step < 1e-16)
+        if (!isfinite(search_evaluate(s, at, true)) || step < 1e-16)
             break;
     }
     if (last > 1e-6 && last < 1e-2) /* it went somewhere else */
@@ -419,20 +419,20 @@ choose_point(const search *s, int k, double *at)
     size = (size > 0 ? size : 1) * reach[(k + 1) / 2 % 3] * (k % 2 ? 1 : -1);
     (void)random_sign(&seed);
     for (size_t i = 0; i < s->n; i++)
-        at[place(s, i)] += size * random_sign(&seed);
+        at[unknown_place(s, i)] += size * random_sign(&seed);
 }
 
 static bool
 is_another(const search *s, const double *x, const double *y)
 {
     for (size_t i = 0; i < s->n; i++)
-        if (fabs(x[place(s, i)] - y[i]) > alike * (1 + fabs(y[i])))
+        if (fabs(x[unknown_place(s, i)] - y[i]) > alike * (1 + fabs(y[i])))
             return true;
     return false;
 }
 
 static qdot_status
-look(search *s, double *at, double *best, double *other, qdot_nearest_outcome *outcome)
+search_look_around(search *s, double *at, double *best, double *other, qdot_nearest_outcome *outcome)
 {
     const qdot_nearest *p = s->p;
     int points = !p->bent ? 1 : s->n <= 8 ? 33 : s->n <= 32 ? 17 : 9;
@@ -449,17 +449,17 @@ look(search *s, double *at, double *best, double *other, qdot_nearest_outcome *o
         slide(s, at);
         QDOT_TRY(qdot_interrupt_check());
         QDOT_TRY(polish(s, at));
-        (void)evaluate(s, at, true);
-        if (!holds(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))
+        (void)search_evaluate(s, at, true);
+        if (!search_holds(s, at) || (p->domains && qdot_domains_outside(p->domains, at)))
             continue;
-        far = distance(s, at);
+        far = search_distance(s, at);
         if (far > nearest + as_near * (1 + nearest))
             continue;
         if (far < nearest - as_near * (1 + nearest) || !isfinite(nearest)) {
             nearest = far;
             *outcome = QDOT_NEAREST_FOUND;
             for (size_t i = 0; i < s->n; i++)
-                best[i] = at[place(s, i)];
+                best[i] = at[unknown_place(s, i)];
         } else if (is_another(s, at, best)) {
             *outcome = QDOT_NEAREST_SEVERAL;
             memcpy(other, at + p->first, p->n * sizeof *other);
@@ -467,7 +467,7 @@ look(search *s, double *at, double *best, double *other, qdot_nearest_outcome *o
     }
     memcpy(at, s->centre, p->inputs * sizeof *at);
     for (size_t i = 0; i < s->n && *outcome != QDOT_NEAREST_NONE; i++)
-        at[place(s, i)] = best[i];
+        at[unknown_place(s, i)] = best[i];
     return QDOT_OK;
 }
 
@@ -553,7 +553,7 @@ qdot_nearest_find(qdot_nearest *p, const bool *free, const double *W, double *at
     if (status == QDOT_OK && !best)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK && s.n > 0)
-        status = look(&s, at, best, other, outcome);
+        status = search_look_around(&s, at, best, other, outcome);
     qdot_free(best);
     search_clear(&s);
     return status;

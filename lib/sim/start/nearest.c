@@ -35,7 +35,7 @@ typedef struct {
 } point;
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+point_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const point *x = user;
     const qdot_nearest *p = x->p;
@@ -63,12 +63,12 @@ value_of(void *user, qdot_expr atom, arb_t value, slong prec)
 
 /* Expressions [m], each rounded once. */
 static qdot_status
-evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
+point_evaluate(const point *x, size_t m, const qdot_expr *e, double *out)
 {
     qdot_ball ball;
 
     QDOT_TRY(qdot_ball_begin(&ball, x->p->pool, m, e));
-    qdot_ball_eval(&ball, QDOT_GIVEN_BITS, value_of, (void *)x);
+    qdot_ball_eval(&ball, QDOT_GIVEN_BITS, point_value_of, (void *)x);
     for (size_t k = 0; k < m; k++)
         out[k] = qdot_given_double(qdot_ball_get(&ball, e[k]));
     qdot_ball_end(&ball);
@@ -100,7 +100,7 @@ find_linear(qdot_nearest *p, const qdot_expr *out)
     p->constant = qdot_calloc(m + m * n + 1, sizeof *p->constant);
     if (!p->linear || !p->constant)
         return QDOT_ENOMEM;
-    QDOT_TRY(evaluate(&zero, m + m * n, out, p->constant));
+    QDOT_TRY(point_evaluate(&zero, m + m * n, out, p->constant));
     for (size_t k = 0; k < m; k++) {
         p->linear[k] = isfinite(p->constant[k]);
         for (size_t e = m + k * n; e < m + (k + 1) * n && p->linear[k]; e++)
@@ -178,7 +178,7 @@ qdot_nearest_distance(qdot_nearest *p, const double *at, double *distance, doubl
     const double *A = p->value + p->m;
     const point start = {.p = p, .unknowns = AS_GIVEN};
 
-    QDOT_TRY(evaluate(&start, p->m, p->F, distance));
+    QDOT_TRY(point_evaluate(&start, p->m, p->F, distance));
     qdot_nearest_evaluate(p, at);
     for (size_t k = 0; k < p->m; k++) {
         double F = distance[k], slope = qdot_nearest_length(A + k * p->n, p->n);
@@ -202,14 +202,14 @@ typedef struct {
 } refinement;
 
 static qdot_status
-refine(qdot_nearest *p, refinement *r, double *at, double *low)
+nearest_refine(qdot_nearest *p, refinement *r, double *at, double *low)
 {
     const point moved = {.p = p, .unknowns = MOVED, .at = at, .low = low};
 
     for (int k = 0; k < MOST_REFINEMENTS; k++) {
         double most = 0;
 
-        QDOT_TRY(evaluate(&moved, p->m, p->F, r->F));
+        QDOT_TRY(point_evaluate(&moved, p->m, p->F, r->F));
         qdot_nearest_evaluate(p, at);
         for (size_t i = 0; i < p->m; i++) {
             r->F[i] = -r->F[i];
@@ -253,7 +253,7 @@ qdot_nearest_refine(qdot_nearest *p, const bool *free, double *at, double *low)
         status = qdot_row_space_init(&r.rows, m, r.n);
     }
     if (status == QDOT_OK && r.n > 0)
-        status = refine(p, &r, at, low);
+        status = nearest_refine(p, &r, at, low);
     qdot_row_space_clear(&r.rows);
     qdot_free(r.index);
     qdot_free(r.F);

@@ -52,7 +52,7 @@ row_at(const level *l, size_t k)
 }
 
 static qdot_status
-push(level *l, size_t k, qdot_expr F)
+level_push(level *l, size_t k, qdot_expr F)
 {
     qdot_expr t = QDOT_T;
 
@@ -83,9 +83,9 @@ level_init(level *l)
         if (l->massless != (k >= scene->constraints.n))
             continue;
         if (row.kind == QDOT_HOLONOMIC)
-            QDOT_TRY(push(l, k, l->velocities ? qdot_ddt(scene->pool, row.f) : row.f));
+            QDOT_TRY(level_push(l, k, l->velocities ? qdot_ddt(scene->pool, row.f) : row.f));
         else if (row.kind == QDOT_VELOCITY && l->velocities)
-            QDOT_TRY(push(l, k, row.f));
+            QDOT_TRY(level_push(l, k, row.f));
     }
     return QDOT_OK;
 }
@@ -115,7 +115,7 @@ is_moving(const level *l, size_t i)
 
 /* The search over the equations F [m]. */
 static qdot_nearest
-equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
+level_equations(const level *l, size_t m, const qdot_expr *F, const qdot_domains *domains)
 {
     return (qdot_nearest){.pool = l->plan->pool,
                           .inputs = 2 * l->n,
@@ -189,7 +189,7 @@ fail(qdot_text *text, qdot_status built)
 }
 
 static qdot_status
-refuse(const level *l, const double *residual)
+level_refuse(const level *l, const double *residual)
 {
     qdot_constraints_row row;
     qdot_text text = {0};
@@ -313,7 +313,7 @@ can_hold(const level *l, const bool *kept, const qdot_domains *domains,
     for (size_t k = 0; k < l->m && status == QDOT_OK; k++)
         if (kept[k])
             F[m++] = l->F[k];
-    near = equations(l, m, F, domains);
+    near = level_equations(l, m, F, domains);
     if (status == QDOT_OK && m > 0) {
         status = qdot_nearest_begin(&near);
         if (status == QDOT_OK) {
@@ -426,7 +426,7 @@ move_all(level *l, const qdot_domains *domains, double *y, double *other,
 
 /* Solve for a start that breaks the equations. */
 static qdot_status
-solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
+level_solve(level *l, const qdot_domains *domains, double *y, qdot_text *notice)
 {
     const bool *named = l->velocities ? l->request->v_named : l->request->q_named;
     qdot_nearest_outcome outcome = QDOT_NEAREST_NONE;
@@ -485,7 +485,7 @@ check_left_alone(const level *l, const qdot_domains *domains, const double *y)
 }
 
 static qdot_status
-settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
+level_settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text *notice)
 {
     double *residual = qdot_calloc(l->m + 1, sizeof *residual), broken;
     qdot_status status = residual ? QDOT_OK : QDOT_ENOMEM;
@@ -496,7 +496,7 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
     for (size_t i = 0; i < l->n; i++)
         l->free[i] = is_moving(l, i);
     if (status == QDOT_OK && !(broken <= breaks)) {
-        status = l->request->exactly ? refuse(l, residual) : solve(l, domains, y, notice);
+        status = l->request->exactly ? level_refuse(l, residual) : level_solve(l, domains, y, notice);
         for (size_t i = 0; i < l->n; i++)
             if (l->free[i])
                 low[l->near.first + i] = 0;
@@ -511,7 +511,7 @@ settle(level *l, const qdot_domains *domains, double *y, double *low, qdot_text 
 
 /* Rows of A by each constraint's kind, at the start. */
 static qdot_status
-slopes(const level *l, double *A)
+level_slopes(const level *l, double *A)
 {
     qdot_scene *scene = l->scene;
     qdot_pool *pool = l->plan->pool;
@@ -565,7 +565,7 @@ qdot_start_redundant(qdot_scene *scene, const qdot_plan *plan,
         l.constraint[k] = k;
     l.m = c;
     if (status == QDOT_OK)
-        status = slopes(&l, A);
+        status = level_slopes(&l, A);
     if (status == QDOT_OK) {
         qdot_row_space_factor(&rows, A, 1e-9, true);
         for (size_t k = rows.rank; k < c; k++)
@@ -613,12 +613,12 @@ qdot_start_settle(qdot_scene *scene, const qdot_plan *plan,
         if (status == QDOT_OK && l.m > 0)
             status = qdot_given_init(&given, plan, request, y, low);
         if (status == QDOT_OK && l.m > 0) {
-            l.near = equations(&l, l.m, l.F, domains);
+            l.near = level_equations(&l, l.m, l.F, domains);
             status = check_left_alone(&l, domains, y);
             if (status == QDOT_OK)
                 status = qdot_nearest_begin(&l.near);
             if (status == QDOT_OK) {
-                status = settle(&l, domains, y, low, notice);
+                status = level_settle(&l, domains, y, low, notice);
                 qdot_nearest_end(&l.near);
             }
         }
