@@ -26,7 +26,7 @@ typedef struct {
     const qdot_run_request *request;
     qdot_method_run m;
     size_t n, k, all;      /* coordinates of the scene; directions; coordinates of both */
-    double *y, *look;      /* [2 all]; room for `look` */
+    double *y, *look;      /* [2 all]; room for `pursuit_look` */
     double t, *sum, *size; /* [k] */
     double *growth;        /* [windows x k] */
     bool alone;            /* steps end nowhere but where the integration says */
@@ -46,18 +46,18 @@ qdot_exponents_clear(qdot_exponents *x)
 
 /* Component i < 2n of direction k. */
 static double *
-component(const pursuit *p, double *y, size_t k, size_t i)
+direction_component(const pursuit *p, double *y, size_t k, size_t i)
 {
     return y + (i < p->n ? 0 : p->all) + (k + 1) * p->n + i % p->n;
 }
 
 static double
-product(const pursuit *p, double *y, size_t k, size_t l)
+directions_product(const pursuit *p, double *y, size_t k, size_t l)
 {
     double sum = 0;
 
     for (size_t i = 0; i < 2 * p->n; i++)
-        sum += *component(p, y, k, i) * *component(p, y, l, i);
+        sum += *direction_component(p, y, k, i) * *direction_component(p, y, l, i);
     return sum;
 }
 
@@ -69,20 +69,20 @@ orthonormalise(const pursuit *p, double *y, double *size)
     for (size_t k = 0; k < p->k; k++) {
         for (int twice = 0; twice < 2; twice++)
             for (size_t l = 0; l < k; l++) {
-                const double part = product(p, y, k, l);
+                const double part = directions_product(p, y, k, l);
 
                 for (size_t i = 0; i < 2 * p->n; i++)
-                    *component(p, y, k, i) -= part * *component(p, y, l, i);
+                    *direction_component(p, y, k, i) -= part * *direction_component(p, y, l, i);
             }
-        size[k] = sqrt(product(p, y, k, k));
+        size[k] = sqrt(directions_product(p, y, k, k));
         for (size_t i = 0; i < 2 * p->n; i++)
-            *component(p, y, k, i) /= size[k];
+            *direction_component(p, y, k, i) /= size[k];
     }
 }
 
 /* The same of the state; ln R_kk are added to the sums. */
 static qdot_status
-gather(pursuit *p)
+pursuit_gather(pursuit *p)
 {
     orthonormalise(p, p->y, p->size);
     for (size_t k = 0; k < p->k; k++) {
@@ -95,7 +95,7 @@ gather(pursuit *p)
 
 /* Stop where a direction, without its parts along those before it, is far from length 1. */
 static qdot_status
-look(double t, const double *y, bool *stop, void *user)
+pursuit_look(double t, const double *y, bool *stop, void *user)
 {
     pursuit *p = user;
 
@@ -112,11 +112,11 @@ look(double t, const double *y, bool *stop, void *user)
 
 /* To `end`, or to where a direction has grown too long. */
 static qdot_status
-advance(pursuit *p, double end)
+pursuit_advance(pursuit *p, double end)
 {
     const qdot_ode_system system = qdot_bind_system(p->m.bind);
     const qdot_ode_options options = {
-        .tol = p->request->tol, .accepted = look, .user = p, .max_steps = no_bound};
+        .tol = p->request->tol, .accepted = pursuit_look, .user = p, .max_steps = no_bound};
     qdot_ode_result result;
     qdot_status status = qdot_ode_integrate(&system, p->m.plan->method, &options, p->t,
                                             end, p->y, &result);
@@ -136,7 +136,7 @@ advance_in_pieces(pursuit *p, double end)
     qdot_method_run m = {0};
     qdot_course course = {.stage = &m.stage};
     const qdot_ode_options options = {
-        .tol = p->request->tol, .accepted = look, .user = p, .max_steps = no_bound};
+        .tol = p->request->tol, .accepted = pursuit_look, .user = p, .max_steps = no_bound};
     qdot_expr *start = qdot_calloc(2 * p->all + 1, sizeof *start);
     qdot_status status = start ? QDOT_OK : QDOT_ENOMEM;
 
@@ -175,14 +175,14 @@ static qdot_status
 pass_window(pursuit *p, double end)
 {
     while (p->t != end && !p->stopped) {
-        QDOT_TRY(p->alone ? advance(p, end) : advance_in_pieces(p, end));
-        QDOT_TRY(gather(p));
+        QDOT_TRY(p->alone ? pursuit_advance(p, end) : advance_in_pieces(p, end));
+        QDOT_TRY(pursuit_gather(p));
     }
     return QDOT_OK;
 }
 
 static qdot_status
-follow(pursuit *p)
+pursuit_follow(pursuit *p)
 {
     qdot_exponents *x = p->x;
     const double t0 = p->m.t0, t1 = p->m.t1;
@@ -317,7 +317,7 @@ conclude(pursuit *p)
 /* --- all ---------------------------------------------------------------------------------- */
 
 static qdot_status
-make_room(pursuit *p)
+pursuit_allocate(pursuit *p)
 {
     qdot_exponents *x = p->x;
     const size_t w = QDOT_EXPONENTS_WINDOWS;
@@ -342,7 +342,7 @@ pursue(pursuit *p)
 {
     const qdot_run_request request = qdot_variation_request(p->v);
 
-    QDOT_TRY(make_room(p));
+    QDOT_TRY(pursuit_allocate(p));
     QDOT_TRY(
         qdot_method_run_init(&p->m, p->v->scene, &request, request.method, request.tol));
     if (p->m.t0 == p->m.t1)
@@ -350,10 +350,10 @@ pursue(pursuit *p)
     p->alone = !p->m.pieces && p->m.stage.domains.n == 0;
     memcpy(p->y, p->m.start, 2 * p->all * sizeof *p->y);
     p->t = p->m.t0;
-    QDOT_TRY(gather(p));
+    QDOT_TRY(pursuit_gather(p));
     memset(p->sum, 0, p->k * sizeof *p->sum);
     qdot_progress_begin(p->m.t0, p->m.t1, "lyapunov");
-    QDOT_TRY(follow(p));
+    QDOT_TRY(pursuit_follow(p));
     return conclude(p);
 }
 

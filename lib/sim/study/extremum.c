@@ -9,14 +9,14 @@ static const double narrow = 1e-5;
 enum { HALVINGS = 40, STEPS = 8, ROUNDINGS = 8 };
 
 static qdot_status
-value_at(const qdot_extremum *x, qdot_expr e, double t, double *value)
+extremum_value_at(const qdot_extremum *x, qdot_expr e, double t, double *value)
 {
     return qdot_run_values(x->run, 1, &e, 1, &t, value, NULL);
 }
 
 /* Narrow [from, to] about the extremum. */
 static qdot_status
-halve(const qdot_extremum *x, double *from, double *to)
+extremum_halve(const qdot_extremum *x, double *from, double *to)
 {
     const double whole = fabs(x->to - x->from);
     double best, value, error;
@@ -43,7 +43,7 @@ is_end(const qdot_extremum *x, double end, bool *is)
     const double way = x->kind == QDOT_RANGE_MAX ? 1 : -1;
     double rate;
 
-    QDOT_TRY(value_at(x, x->rate, end, &rate));
+    QDOT_TRY(extremum_value_at(x, x->rate, end, &rate));
     *is = way * rate * inward < 0;
     return QDOT_OK;
 }
@@ -62,7 +62,7 @@ qdot_extremum_time(const qdot_extremum *x, double *t)
     double from = x->from, to = x->to, rate, bend, step = INFINITY;
     bool end;
 
-    QDOT_TRY(halve(x, &from, &to));
+    QDOT_TRY(extremum_halve(x, &from, &to));
     for (int k = 0; k < 2; k++)
         if (k ? to == x->to : from == x->from) {
             *t = k ? to : from;
@@ -72,8 +72,8 @@ qdot_extremum_time(const qdot_extremum *x, double *t)
         }
     *t = from + 0.5 * (to - from);
     for (int k = 0; k < STEPS && fabs(step) > 1e-13 * whole; k++) {
-        QDOT_TRY(value_at(x, x->rate, *t, &rate));
-        QDOT_TRY(value_at(x, x->bend, *t, &bend));
+        QDOT_TRY(extremum_value_at(x, x->rate, *t, &rate));
+        QDOT_TRY(extremum_value_at(x, x->bend, *t, &bend));
         if (bend == 0 && rate != 0)
             break;
         step = clamp(x, rate == 0 ? *t : *t - rate / bend) - *t;

@@ -53,7 +53,7 @@ qdot_floquet_clear(qdot_floquet *x)
 }
 
 static qdot_expr
-jet(const qdot_scene *s, size_t i)
+state_jet(const qdot_scene *s, size_t i)
 {
     const size_t n = s->coordinates.n;
 
@@ -76,7 +76,7 @@ find_ways(qdot_scene *scene, qdot_run *run, double *by, double *size)
 
     for (size_t i = 0; i < 2 * n; i++) {
         const qdot_expr e[2] = {
-            jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
+            state_jet(scene, i), qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], i < n ? 1 : 2)};
         double value[2];
 
         QDOT_TRY(qdot_run_values(run, 2, e, 1, &report->t0, value, NULL));
@@ -124,7 +124,7 @@ qdot_floquet_return(qdot_scene *scene, qdot_run *run, double *off, qdot_expr *wh
 
     *off = 0;
     for (size_t i = 0; i < 2 * scene->coordinates.n; i++) {
-        const qdot_expr e = jet(scene, i);
+        const qdot_expr e = state_jet(scene, i);
         double value[2], one;
 
         QDOT_TRY(qdot_run_values(run, 1, &e, 2, t, value, NULL));
@@ -169,7 +169,7 @@ moved(const orbit *o, qdot_expr e)
     qdot_pool *pool = o->scene->pool;
 
     for (size_t i = 0; i < 2 * o->n && e != QDOT_NIL; i++) {
-        const qdot_expr z = jet(o->scene, i),
+        const qdot_expr z = state_jet(o->scene, i),
                         by = qdot_div(pool, qdot_expr_int(pool, (long)i + 3),
                                       qdot_expr_int(pool, 256)),
                         to = qdot_add(pool, z, by);
@@ -294,7 +294,7 @@ is_apart(const qdot_floquet *x, size_t k)
 }
 
 static void
-judge(qdot_floquet *x)
+floquet_judge(qdot_floquet *x)
 {
     bool stable = true, inside = x->trivial == 0;
 
@@ -358,7 +358,7 @@ qdot_floquet_of(size_t K, size_t k, const double *B, const double *E, size_t tri
     state_trivial(x, trivial);
     pair_up(x);
     qdot_eigenvalues_arrange(k, x->re, x->im, x->error);
-    judge(x);
+    floquet_judge(x);
     return QDOT_OK;
 }
 
@@ -415,7 +415,7 @@ scale_flow(orbit *o)
 
 /* The start and the period from the run, the segments that its motions near by need. */
 static qdot_status
-begin(orbit *o)
+floquet_begin(orbit *o)
 {
     const qdot_run_report *report = qdot_run_get_report(o->run);
     const size_t n = o->n, z = 2 * n, most = QDOT_FLOW_MOST_SEGMENTS;
@@ -430,7 +430,7 @@ begin(orbit *o)
     o->E = o->B + most * z * z;
     o->size = o->E + most * z * z;
     for (size_t i = 0; i < z; i++) {
-        const qdot_expr e = jet(o->scene, i);
+        const qdot_expr e = state_jet(o->scene, i);
 
         QDOT_TRY(qdot_run_values(o->run, 1, &e, 1, &report->t0, &o->states[i], NULL));
     }
@@ -457,7 +457,7 @@ close_up(orbit *o, double off)
     double moved = 0;
 
     for (size_t i = 0; i < k && status == QDOT_OK; i++) {
-        u[i] = i < z ? jet(o->scene, i) : qdot_symbol_get(pool, QDOT_FORMAL, "T");
+        u[i] = i < z ? state_jet(o->scene, i) : qdot_symbol_get(pool, QDOT_FORMAL, "T");
         at[i] = i < z ? o->states[i] : o->T;
         low[i] = -INFINITY;
         high[i] = INFINITY;
@@ -483,13 +483,13 @@ close_up(orbit *o, double off)
 /* --- all ----------------------------------------------------------------------------------------- */
 
 static qdot_status
-follow(orbit *o, qdot_floquet *x)
+floquet_follow(orbit *o, qdot_floquet *x)
 {
     qdot_expr where;
     double off;
 
     QDOT_TRY(qdot_floquet_return(o->scene, o->run, &off, &where));
-    QDOT_TRY(begin(o));
+    QDOT_TRY(floquet_begin(o));
     QDOT_TRY(check_period(o));
     if (o->K > 1 || off > QDOT_FLOQUET_CLOSED)
         QDOT_TRY(close_up(o, off));
@@ -501,7 +501,7 @@ qdot_floquet_find(qdot_scene *scene, qdot_run *run, const qdot_run_request *requ
                   qdot_floquet *x)
 {
     orbit o = {.scene = scene, .run = run, .request = request, .n = scene->coordinates.n};
-    const qdot_status status = follow(&o, x);
+    const qdot_status status = floquet_follow(&o, x);
 
     qdot_flow_end(&o.flow);
     qdot_free(o.states);

@@ -21,7 +21,7 @@ static const double alike = 1e-14;
 static const double cancelled = 8 * DBL_EPSILON;
 
 static qdot_status
-make_room(qdot_flow *x)
+flow_allocate(qdot_flow *x)
 {
     const size_t width = x->z + x->p;
 
@@ -44,7 +44,7 @@ qdot_flow_begin(qdot_flow *x, qdot_scene *scene, const qdot_run_request *request
     qdot_response_of of;
 
     *x = (qdot_flow){.n = n, .z = 2 * n, .p = p, .m = 3 * n + (more != QDOT_NIL), .request = *request};
-    QDOT_TRY(make_room(x));
+    QDOT_TRY(flow_allocate(x));
     for (size_t i = 0; i < 3 * n; i++)
         x->exprs[i] = qdot_symbol_jet(scene->pool, scene->coordinates.at[i % n], (uint32_t)(i / n));
     if (more != QDOT_NIL)
@@ -81,7 +81,7 @@ qdot_flow_end(qdot_flow *x)
 }
 
 static void
-put(qdot_flow *x, const double *state, const double *parameters)
+flow_put(qdot_flow *x, const double *state, const double *parameters)
 {
     memcpy(x->in, state, x->z * sizeof *state);
     if (x->p > 0)
@@ -93,7 +93,7 @@ qdot_flow_go(qdot_flow *x, const double *state, const double *parameters, double
 {
     double times[QDOT_FLOW_LOOKS] = {from, to};
 
-    put(x, state, parameters);
+    flow_put(x, state, parameters);
     for (size_t i = 0; i < count; i++)
         times[i] = i + 1 == count ? to : from + (to - from) * (double)(i + 1) / (double)count;
     QDOT_TRY(qdot_response_run(x->response, x->in, from, to));
@@ -125,7 +125,7 @@ find_units(const qdot_flow *x, double *unit)
 /* How far each state goes over the last motion, until look `last`; where it stays, as far as the others of its kind,
  * or its unit, if it is given. size [z] */
 static void
-find_sizes(const qdot_flow *x, const double *state, size_t last, const double *unit, double *size)
+flow_find_sizes(const qdot_flow *x, const double *state, size_t last, const double *unit, double *size)
 {
     double most[2] = {0, 0};
 
@@ -173,7 +173,7 @@ qdot_flow_segments_of_guess(qdot_flow *x, const double *state, const double *par
     if (status != QDOT_OK)
         return qdot_grave(status);
     for (; at < QDOT_FLOW_LOOKS && most < tame; at++) {
-        find_sizes(x, state, at, NULL, size);
+        flow_find_sizes(x, state, at, NULL, size);
         most = qdot_flow_growth(x, at, size);
     }
     *segments = most < tame ? 1 : segments_for(most, growth_of_guess, QDOT_FLOW_LOOKS / (double)at);
@@ -195,7 +195,7 @@ qdot_flow_segments_of_orbit(qdot_flow *x, const double *state, const double *par
     if (status == QDOT_OK)
         status = find_units(x, unit);
     if (status == QDOT_OK) {
-        find_sizes(x, state, QDOT_FLOW_LOOKS - 1, unit, size);
+        flow_find_sizes(x, state, QDOT_FLOW_LOOKS - 1, unit, size);
         for (size_t at = 0; at < QDOT_FLOW_LOOKS; at++)
             most = fmax(most, qdot_flow_growth(x, at, size));
         *segments = most < tame ? 1 : segments_for(most, growth_of_orbit, 1);
@@ -269,7 +269,7 @@ static qdot_status
 find_tangents(qdot_flow *x, const qdot_flow_orbit *o, size_t *c, double *N)
 {
     for (size_t k = 0; k < o->K; k++) {
-        put(x, qdot_flow_state(x, o, k), o->parameters);
+        flow_put(x, qdot_flow_state(x, o, k), o->parameters);
         QDOT_TRY(qdot_response_tangents(x->response, x->in, qdot_flow_time(o, k), c, N + k * x->z * x->z));
     }
     return QDOT_OK;

@@ -81,7 +81,7 @@ find_growth(qdot_longtime_row *row)
 
 /* The end of window k of `windows`, as a part of the run. */
 static double
-end_of(size_t k)
+window_end(size_t k)
 {
     return pow(2, 0.5 * ((double)k - (QDOT_LONGTIME_WINDOWS - 1)));
 }
@@ -101,7 +101,7 @@ close_window(watched *w, double t)
 }
 
 static qdot_status
-look(double t, const double *y, bool *stop, void *user)
+watched_look(double t, const double *y, bool *stop, void *user)
 {
     watched *w = user;
     const qdot_method_run *m = w->run;
@@ -121,9 +121,9 @@ look(double t, const double *y, bool *stop, void *user)
         w->count++;
         w->row->largest = fmax(w->row->largest, fabs(e));
     }
-    if (past >= end_of(w->window) * whole || t == m->t1) {
+    if (past >= window_end(w->window) * whole || t == m->t1) {
         close_window(w, past);
-        while (w->window + 1 < QDOT_LONGTIME_WINDOWS && past >= end_of(w->window) * whole)
+        while (w->window + 1 < QDOT_LONGTIME_WINDOWS && past >= window_end(w->window) * whole)
             w->window++;
     }
     return QDOT_OK;
@@ -141,7 +141,7 @@ count_steps(double t, const double *y, bool *stop, void *user)
 }
 
 static qdot_status
-integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_result *result)
+longtime_integrate(qdot_method_run *m, qdot_ode_options *options, qdot_ode_result *result)
 {
     const qdot_ode_system system = qdot_bind_system(m->bind);
 
@@ -162,7 +162,7 @@ foretell(qdot_method_run *m, double tol, double *work)
     qdot_ode_options options = {
         .tol = tol, .accepted = count_steps, .user = &left, .meter = &meter};
     qdot_ode_result result;
-    const qdot_status status = integrate(m, &options, &result);
+    const qdot_status status = longtime_integrate(m, &options, &result);
 
     *work = INFINITY;
     if (status == QDOT_EINTR || status == QDOT_ENOMEM)
@@ -177,7 +177,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
 {
     watched w = {.run = m, .row = row, .most_work = most_work};
     qdot_ode_options options = {.tol = row->tol,
-                                .accepted = look,
+                                .accepted = watched_look,
                                 .user = &w,
                                 .meter = &w.meter,
                                 .stiff_work = most_work};
@@ -185,7 +185,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
     qdot_status status;
 
     qdot_progress_begin(m->t0, m->t1, "%s, tol %.0e", row->method, row->tol);
-    status = integrate(m, &options, &result);
+    status = longtime_integrate(m, &options, &result);
     if (status == QDOT_EINTR || status == QDOT_ENOMEM)
         return status;
     row->steps = result.stats.steps;
@@ -205,7 +205,7 @@ watch(qdot_method_run *m, double most_work, qdot_longtime_row *row)
 /* --- a method ----------------------------------------------------------------------- */
 
 static qdot_status
-check(const qdot_method_run *m)
+longtime_check(const qdot_method_run *m)
 {
     if (m->pieces)
         return qdot_fail(QDOT_EFAILED, "an event or a switch may divide the run");
@@ -231,7 +231,7 @@ try_at(qdot_scene *scene, const qdot_run_request *request, double most, qdot_lon
     if (status == QDOT_OK)
         status = qdot_method_run_find_energy(&m, scene);
     if (status == QDOT_OK)
-        status = check(&m);
+        status = longtime_check(&m);
     if (status == QDOT_OK)
         status = foretell(&m, row->tol, &work);
     if (status == QDOT_OK && !(work <= most)) {
@@ -287,7 +287,7 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
     if (status == QDOT_OK)
         status = qdot_method_run_find_energy(&m, scene);
     if (status == QDOT_OK)
-        status = check(&m);
+        status = longtime_check(&m);
     if (status == QDOT_OK) {
         const qdot_ode_system system = qdot_bind_system(m.bind);
         const qdot_long_run run = {.plan = m.plan,
@@ -307,7 +307,7 @@ ask_auto(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 }
 
 static qdot_status
-measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
+longtime_measure(qdot_scene *scene, const qdot_run_request *request, qdot_longtime *out)
 {
     qdot_status status;
 
@@ -326,7 +326,7 @@ qdot_longtime_measure(qdot_scene *scene, const qdot_run_request *request, qdot_l
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = measure(scene, &states.request, out);
+    status = longtime_measure(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     out->interrupted = status == QDOT_EINTR && out->n > 0;
     return out->interrupted ? QDOT_OK : status;

@@ -83,7 +83,7 @@ qdot_response_free(qdot_response *r)
 }
 
 static qdot_status
-make_room(qdot_response *r)
+response_allocate(qdot_response *r)
 {
     const size_t n = r->n, k = r->of.k, all = (1 + k) * n;
 
@@ -135,7 +135,7 @@ lower_start(qdot_response *r)
 
 /* Where constraints leave all of the start open: bring it onto them, and slopes along them. */
 static qdot_status
-settle(qdot_response *r, const double *u, double t)
+response_settle(qdot_response *r, const double *u, double t)
 {
     const size_t z = 2 * r->n;
 
@@ -153,7 +153,7 @@ settle(qdot_response *r, const double *u, double t)
 
 /* y of the scene made: q, slopes, parameters, then their velocities. */
 static void
-put_start(qdot_response *r, const double *u)
+response_put_start(qdot_response *r, const double *u)
 {
     const size_t n = r->n, all = (1 + r->of.k) * n, half = all + r->n_parameters;
 
@@ -211,7 +211,7 @@ open_parameters(qdot_response *r, const double *u)
 
     QDOT_TRY(qdot_parameter_states_open(&r->states, r->variation.scene, &request,
                                         r->n_parameters, r->parameters));
-    put_start(r, u);
+    response_put_start(r, u);
     for (size_t i = 0; i < 2 * half; i++)
         r->first[i] = qdot_expr_of_double(r->pool, r->y[i]);
     r->run_request = r->states.request;
@@ -294,7 +294,7 @@ lower_expressions(qdot_response *r)
 }
 
 static qdot_status
-make(qdot_response *r, const double *u)
+response_make(qdot_response *r, const double *u)
 {
     if (r->once)
         free_all(r);
@@ -385,34 +385,34 @@ qdot_response_read(qdot_response *r, size_t n_times, const double *times, double
 
 /* Make what is not made, and the start at u and t. */
 static qdot_status
-prepare(qdot_response *r, const double *u, double t)
+response_prepare(qdot_response *r, const double *u, double t)
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
     for (size_t i = 0; i < (1 + r->of.k) * 2 * r->n; i++)
         if (!isfinite(r->starts[i]))
             return qdot_fail(QDOT_EDOMAIN, "the start is undefined");
     if (r->once)
-        QDOT_TRY(settle(r, u, t));
+        QDOT_TRY(response_settle(r, u, t));
     if (!r->made || !r->once) {
         unmake(r);
-        QDOT_TRY(make(r, u));
+        QDOT_TRY(response_make(r, u));
     }
     if (r->once)
-        put_start(r, u);
+        response_put_start(r, u);
     return QDOT_OK;
 }
 
 qdot_status
 qdot_response_run(qdot_response *r, const double *u, double t0, double t1)
 {
-    QDOT_TRY(prepare(r, u, t0));
+    QDOT_TRY(response_prepare(r, u, t0));
     return run(r, t0, t1);
 }
 
 qdot_status
 qdot_response_at(qdot_response *r, const double *u, double *values, double *slopes)
 {
-    QDOT_TRY(prepare(r, u, r->t0));
+    QDOT_TRY(response_prepare(r, u, r->t0));
     if (r->of.n_times > 0)
         QDOT_TRY(run(r, r->run.t0, r->run.t1));
     return qdot_response_read(r, r->of.n_times, r->of.times, values, slopes);
@@ -428,7 +428,7 @@ qdot_status
 qdot_response_tangents(qdot_response *r, const double *u, double t, size_t *count, double *basis)
 {
     qdot_tape_eval(r->start, u, r->starts, r->work);
-    QDOT_TRY(settle(r, u, t));
+    QDOT_TRY(response_settle(r, u, t));
     *count = qdot_tangents_basis(&r->tangents, basis);
     return QDOT_OK;
 }
@@ -452,7 +452,7 @@ qdot_response_new(const qdot_response_of *of, qdot_response **out)
     r->once = of->scene->constraints.n + massless.n == 0 || of->whole;
     qdot_massless_clear(&massless);
     if (status == QDOT_OK)
-        status = make_room(r);
+        status = response_allocate(r);
     for (size_t k = 0; k < of->k && status == QDOT_OK; k++)
         if (!qdot_expr_is_class(r->pool, of->unknowns[k], QDOT_COORD)) {
             r->parameters[r->n_parameters] = of->unknowns[k];

@@ -54,7 +54,7 @@ embed(shooting *x, const double *u)
 
 /* The motion from a state at the parameters among u, as qdot_flow_go has it. */
 static qdot_status
-go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
+shooting_go(shooting *x, const double *u, const double *state, double from, double to, size_t count)
 {
     for (size_t i = 0; i < x->flow.p; i++)
         x->p[i] = u[x->place[i]];
@@ -73,7 +73,7 @@ take_states(shooting *x, const double *u, bool back, double trust, double *state
 
         if (known[at])
             break;
-        status = go(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
+        status = shooting_go(x, u, x->first, from, x->t0 + T * (double)at / (double)x->K, 1);
         if (status != QDOT_OK)
             return qdot_grave(status);
         if (!(qdot_flow_growth(&x->flow, 0, x->size) < trust))
@@ -130,7 +130,7 @@ add_state(const shooting *x, size_t at, const double *M, double sign, double *J)
 
 /* The gap behind segment s, and its slopes; of the flow the beginning and the end of the segment are known. */
 static void
-fill(const shooting *x, const double *next, size_t s, double *f, double *J)
+segment_fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 {
     const qdot_flow *const g = &x->flow;
     const size_t all = x->k + (x->K - 1) * x->z, width = x->z + g->p;
@@ -154,7 +154,7 @@ fill(const shooting *x, const double *next, size_t s, double *f, double *J)
 }
 
 static qdot_status
-evaluate(const double *u, double *f, double *error, double *slope, void *user)
+shooting_evaluate(const double *u, double *f, double *error, double *slope, void *user)
 {
     shooting *x = user;
     const size_t all = x->k + (x->K - 1) * x->z;
@@ -167,7 +167,7 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
         const double *next = s + 1 == x->K ? x->first : u + x->k + s * x->z;
         const double t = x->t0 + T * (double)s / (double)x->K;
         const qdot_status status =
-            isfinite(T) ? go(x, u, from, t, t + T / (double)x->K, 0) : QDOT_EDOMAIN;
+            isfinite(T) ? shooting_go(x, u, from, t, t + T / (double)x->K, 0) : QDOT_EDOMAIN;
 
         if (status != QDOT_OK) {
             f[0] = NAN;
@@ -175,7 +175,7 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
         }
         for (size_t i = 0; i < x->z; i++)
             error[s * x->z + i] = 10 * tolerance * fmax(x->size[i], fabs(x->flow.value[x->flow.m + i]));
-        fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
+        segment_fill(x, next, s, f + s * x->z, slope == NULL ? NULL : slope + s * x->z * all);
     }
     return QDOT_OK;
 }
@@ -184,7 +184,7 @@ evaluate(const double *u, double *f, double *error, double *slope, void *user)
 
 /* How far u is from the guess, of any unknown relative to it, or to how far a state goes. */
 static double
-distance(const shooting *x, const double *u, const double *guess)
+shooting_distance(const shooting *x, const double *u, const double *guess)
 {
     double most = 0;
 
@@ -210,7 +210,7 @@ moves(const shooting *x, const double *states)
 
 /* A search with states from so much of the guess's run. An orbit that is nearer to it than *off becomes the best [2k]. */
 static qdot_status
-search(shooting *x, double trust, const double *u, double *best, double *off)
+shooting_search(shooting *x, double trust, const double *u, double *best, double *off)
 {
     const size_t all = x->k + (x->K - 1) * x->z, m = x->K * x->z;
     double *room = qdot_calloc(5 * all + 2 * m + (x->K + 1) * x->z, sizeof *room);
@@ -219,7 +219,7 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
     double *const unit = room + 2 * all, *const low = unit + all, *const high = low + all,
            *const states = r.f_error + m;
     const qdot_zero_problem p = {
-        .n = all, .m = m, .at = evaluate, .user = x, .low = low, .high = high, .unit = unit, .once = true};
+        .n = all, .m = m, .at = shooting_evaluate, .user = x, .low = low, .high = high, .unit = unit, .once = true};
     qdot_status status = room && known ? QDOT_OK : QDOT_ENOMEM;
 
     embed(x, u);
@@ -236,7 +236,7 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
     if (status == QDOT_OK)
         status = qdot_zero_find(&p, &r);
     if (status == QDOT_OK && r.answer == QDOT_ZERO_FOUND) {
-        const double this = distance(x, r.u, u);
+        const double this = shooting_distance(x, r.u, u);
 
         embed(x, r.u);
         if (this < *off && (x->of->followed || moves(x, r.u + x->k))) {
@@ -258,7 +258,7 @@ search(shooting *x, double trust, const double *u, double *best, double *off)
 /* --- made -------------------------------------------------------------------------------------- */
 
 static qdot_status
-make_room(shooting *x)
+shooting_allocate(shooting *x)
 {
     x->parameters = qdot_calloc(x->k + 1, sizeof *x->parameters);
     x->place = qdot_calloc(x->k + 1, sizeof *x->place);
@@ -274,7 +274,7 @@ make_room(shooting *x)
 
 /* Start and period of u. */
 static qdot_status
-lower(shooting *x)
+shooting_lower(shooting *x)
 {
     qdot_pool *pool = x->of->scene->pool;
     qdot_expr *e = qdot_calloc(x->z + 1, sizeof *e);
@@ -294,19 +294,19 @@ lower(shooting *x)
 }
 
 static qdot_status
-begin(shooting *x, const double *u)
+shooting_begin(shooting *x, const double *u)
 {
     const qdot_shooting_of *of = x->of;
     qdot_scene *s = of->scene;
     size_t p = 0;
 
-    QDOT_TRY(make_room(x));
+    QDOT_TRY(shooting_allocate(x));
     for (size_t k = 0; k < x->k; k++)
         if (qdot_expr_is_class(s->pool, of->unknowns[k], QDOT_PARAM)) {
             x->parameters[p] = of->unknowns[k];
             x->place[p++] = k;
         }
-    QDOT_TRY(lower(x));
+    QDOT_TRY(shooting_lower(x));
     QDOT_TRY(qdot_tape_constant(s->pool, of->request->t0, &x->t0));
     embed(x, u);
     for (size_t i = 0; i < p; i++)
@@ -315,7 +315,7 @@ begin(shooting *x, const double *u)
 }
 
 static void
-end(shooting *x)
+shooting_end(shooting *x)
 {
     qdot_flow_end(&x->flow);
     qdot_tape_free(x->tape);
@@ -336,22 +336,22 @@ qdot_shooting_find(const qdot_shooting_of *of, qdot_shooting_result *r)
     r->segments = 1;
     if (of->scene->constraints.n > 0 && memcmp(of->start, of->unknowns, x.z * sizeof *of->start) != 0)
         return qdot_fail(QDOT_ENOTBUILT, "not built yet: multiple shooting under constraints");
-    status = begin(&x, r->u);
+    status = shooting_begin(&x, r->u);
     if (status == QDOT_OK)
         status = qdot_flow_segments_of_guess(&x.flow, x.first, x.p, x.t0, x.first[x.z], x.size, &x.K);
     if (status == QDOT_OK)
         r->segments = x.K = of->segments > 0 ? of->segments : x.K;
     x.states = r->states;
     if (status == QDOT_OK && of->followed)
-        status = search(&x, INFINITY, r->u, x.best, &off);
+        status = shooting_search(&x, INFINITY, r->u, x.best, &off);
     for (size_t k = 0; k < sizeof trusted / sizeof *trusted && status == QDOT_OK && x.K > 1 && !of->followed; k++)
-        status = search(&x, trusted[k], r->u, x.best, &off);
+        status = shooting_search(&x, trusted[k], r->u, x.best, &off);
     r->found = status == QDOT_OK && off < near;
     if (r->found) {
         memcpy(r->u, x.best, x.k * sizeof *r->u);
         memcpy(r->error, x.best + x.k, x.k * sizeof *r->error);
         r->rank = x.rank;
     }
-    end(&x);
+    shooting_end(&x);
     return status;
 }

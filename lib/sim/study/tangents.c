@@ -84,8 +84,8 @@ write_leaves(qdot_tangents *x, qdot_scene *s, const qdot_run_request *r, qdot_ex
 
 /* F and its slopes, then those of the leaves, from z, p, t. Room: F [most], slopes [most x all]. */
 static qdot_status
-lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
-      const qdot_expr *parameters)
+tangents_lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qdot_massless *massless,
+               const qdot_expr *parameters)
 {
     const size_t n = x->z / 2, all = x->z + x->p, most = 2 * massless->n + 3 * s->constraints.n;
     qdot_expr *in = qdot_calloc(2 * (all + 1) + most * (1 + all), sizeof *in), *const F = in + all + 1;
@@ -108,7 +108,7 @@ lower(qdot_tangents *x, qdot_scene *s, const qdot_run_request *request, const qd
 }
 
 static qdot_status
-make_room(qdot_tangents *x)
+tangents_allocate(qdot_tangents *x)
 {
     const size_t rows = x->rows + x->leaves, all = x->z + x->p, high = rows > x->z ? rows : x->z;
 
@@ -134,9 +134,9 @@ qdot_tangents_begin(qdot_tangents *x, qdot_scene *scene, const qdot_run_request 
     *x = (qdot_tangents){.z = 2 * scene->coordinates.n, .p = p};
     status = qdot_massless_of_scene(scene, request, &massless);
     if (status == QDOT_OK && scene->constraints.n + massless.n > 0)
-        status = lower(x, scene, request, &massless, parameters);
+        status = tangents_lower(x, scene, request, &massless, parameters);
     qdot_massless_clear(&massless);
-    return status == QDOT_OK && x->rows > 0 ? make_room(x) : status;
+    return status == QDOT_OK && x->rows > 0 ? tangents_allocate(x) : status;
 }
 
 void
@@ -201,7 +201,7 @@ subtract(const qdot_tangents *x, const double *b, double *to)
 
 /* Whether F is 0 as far as its slopes know it: where they vanish, no change says so. */
 static bool
-is_met(const qdot_tangents *x)
+tangents_are_met(const qdot_tangents *x)
 {
     for (size_t k = 0; k < x->rows; k++) {
         const double *const slopes = x->out + x->rows + k * (x->z + x->p);
@@ -230,7 +230,7 @@ qdot_tangents_settle(qdot_tangents *x, double t, const double *parameters, doubl
         if (!decompose(x, false))
             break;
         moved = subtract(x, x->out, state);
-        if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && is_met(x))
+        if ((moved <= rounding || (moved < 1e-12 && moved >= before)) && tangents_are_met(x))
             return QDOT_OK;
     }
     return qdot_fail(QDOT_EFAILED, "a state cannot be brought onto the constraints");

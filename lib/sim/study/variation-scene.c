@@ -252,7 +252,7 @@ start_of(const qdot_variation *v, size_t k, size_t i)
 
 /* q, y, q', y'; what a start solves for is solved for in all directions. */
 static void
-put_start(const qdot_variation *v)
+variation_put_start(const qdot_variation *v)
 {
     const qdot_run_request *r = v->request;
     const size_t n = v->n, all = (v->k + 1) * n;
@@ -364,7 +364,7 @@ qdot_variation_write(qdot_variation *v, const qdot_expr *b)
     qdot_expr T = QDOT_ZERO;
 
     QDOT_TRY(check_open(v));
-    put_start(v);
+    variation_put_start(v);
     QDOT_TRY(put_scales(v));
     v->scene = qdot_scene_new(v->of->pool);
     if (!v->scene)

@@ -147,7 +147,7 @@ follow_constraints(worker *w, double t, const double *y)
 }
 
 static qdot_status
-follow(double t, const double *y, bool *stop, void *user)
+worker_follow(double t, const double *y, bool *stop, void *user)
 {
     worker *w = user;
 
@@ -246,7 +246,7 @@ go_in_pieces(worker *w, double tol, bool watched, qdot_ode_result *result)
 
 /* From the start to the end, `watched` or timed. */
 static qdot_status
-go(worker *w, double tol, bool watched, qdot_ode_result *result)
+worker_run(worker *w, double tol, bool watched, qdot_ode_result *result)
 {
     qdot_ode_options options = {.tol = tol,
                                 .max_evaluations = w->most_evaluations,
@@ -260,7 +260,7 @@ go(worker *w, double tol, bool watched, qdot_ode_result *result)
     w->t_end = w->run.t1;
     if (watched && (w->run.energy || w->held)) {
         w->drift = w->residual = 0;
-        options.accepted = follow;
+        options.accepted = worker_follow;
         options.user = w;
     }
     if (w->run.plan->method->series || w->run.plan->method->geometric) /* told beforehand */
@@ -279,7 +279,7 @@ take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
     for (int i = 0; i < n; i++) {
         qdot_ode_result result;
 
-        QDOT_TRY(go(w, tol, false, &result));
+        QDOT_TRY(worker_run(w, tol, false, &result));
         times[i] = result.stats.cpu;
     }
     qdot_sort((size_t)n, times);
@@ -289,7 +289,7 @@ take_times(worker *w, double tol, double first, qdot_workprecision_row *row)
 }
 
 static bool
-is_kept(qdot_status status)
+failure_is_kept(qdot_status status)
 {
     return status == QDOT_EFAILED || status == QDOT_ELIMIT || status == QDOT_EDOMAIN
            || status == QDOT_ESINGULAR || status == QDOT_EINVAL;
@@ -299,7 +299,7 @@ static qdot_status
 one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
 {
     qdot_ode_result result;
-    qdot_status status = go(w, tol, true, &result);
+    qdot_status status = worker_run(w, tol, true, &result);
 
     *row = (qdot_workprecision_row){.method = w->run.plan->method->name,
                                     .tol = tol,
@@ -312,7 +312,7 @@ one_row(worker *w, double tol, const reference *r, qdot_workprecision_row *row)
                                     .rejected = result.stats.rejected,
                                     .energy_err = NAN,
                                     .constraint_err = NAN};
-    if (is_kept(status)) {
+    if (failure_is_kept(status)) {
         snprintf(row->status, sizeof row->status, "failed: %.290s",
                  qdot_last_error()->message);
         return QDOT_OK;
@@ -384,7 +384,7 @@ climb(qdot_scene *scene, const qdot_run_request *request, const char *method,
 }
 
 static qdot_status
-measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
+workprecision_measure(qdot_scene *scene, const qdot_run_request *request, qdot_workprecision *out)
 {
     reference r = {0};
     qdot_status status = make_reference(scene, request, &r, &out->ref_err);
@@ -412,7 +412,7 @@ qdot_workprecision_measure(qdot_scene *scene, const qdot_run_request *request,
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = measure(scene, &states.request, out);
+    status = workprecision_measure(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     return status;
 }
