@@ -39,7 +39,7 @@ where_left(const piece *p, size_t k, int way, double left)
 }
 
 static double
-product(const piece *p, size_t a, size_t b)
+velocities_product(const piece *p, size_t a, size_t b)
 {
     const size_t n = p->tr->n / 2;
     const double *u = p->tr->y + a * p->tr->n + n, *v = p->tr->y + b * p->tr->n + n;
@@ -57,10 +57,10 @@ is_corner(const piece *p, size_t k, double least)
     const double near = beside * fmax(least, DBL_MIN);
     const size_t before = where_left(p, k, -1, near), after = where_left(p, k, 1, near);
     const size_t far = where_left(p, k, -1, apart);
-    const double speed = sqrt(product(p, before, before)), on = sqrt(product(p, after, after));
+    const double speed = sqrt(velocities_product(p, before, before)), on = sqrt(velocities_product(p, after, after));
 
-    return product(p, before, after) < turned * speed * on
-           && fmin(speed, on) > kept * sqrt(product(p, far, far));
+    return velocities_product(p, before, after) < turned * speed * on
+           && fmin(speed, on) > kept * sqrt(velocities_product(p, far, far));
 }
 
 static qdot_status

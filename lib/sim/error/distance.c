@@ -125,8 +125,8 @@ qdot_distance_new(qdot_run *run, const qdot_reading *of, qdot_distance **out)
 /* At t in a piece: the distance of `values` from the middle of the companions' into out [m], what these
  * may be off by themselves into own [m]. NaN where one has no values. */
 static qdot_status
-compare(qdot_distance *d, size_t piece, double t, const double *values, double *out,
-        double *own)
+distance_compare(qdot_distance *d, size_t piece, double t, const double *values, double *out,
+                 double *own)
 {
     double *first = d->work, *theirs = first;
     bool there = qdot_run_covered(d->run, t);
@@ -162,7 +162,7 @@ at_point(qdot_distance *d, size_t piece, size_t k, const double **out)
         return QDOT_OK;
     status = qdot_reader_at(&d->own, piece, tr->t[k], values);
     if (status == QDOT_OK)
-        status = compare(d, piece, tr->t[k], values, by, at);
+        status = distance_compare(d, piece, tr->t[k], values, by, at);
     if (status != QDOT_OK && !qdot_reader_has_nothing(status))
         return status;
     for (size_t j = 0; j < d->m; j++)
@@ -377,7 +377,7 @@ qdot_distance_at(qdot_distance *d, double t, const double *values, double *out)
     if (status == QDOT_OK)
         status = qdot_interrupt_check();
     if (status == QDOT_OK)
-        status = compare(d, piece, t, values, out, own);
+        status = distance_compare(d, piece, t, values, out, own);
     if (status == QDOT_OK) {
         memcpy(here, own, d->m * sizeof *here);
         status = look_around(d, piece, k, own);

@@ -143,7 +143,7 @@ narrow(look *l, double least, double small, double *a, double *b)
 }
 
 static qdot_status
-find(look *l, double *from)
+faded_find(look *l, double *from)
 {
     static const double sure = 1e-3;
     size_t k = l->n + 1; /* the stretch from t[k - 1] to t[k] */
@@ -188,7 +188,7 @@ qdot_faded_find(qdot_run *run, size_t event, double *from)
         return QDOT_OK;
     status = open_look(run, event, isnan(*from) ? end : *from, &l);
     if (status == QDOT_OK && l.n > 0)
-        status = find(&l, from);
+        status = faded_find(&l, from);
     close_look(&l);
     return status;
 }

@@ -40,7 +40,7 @@ typedef struct {
 
 /* The least and the largest of component i, over every so many points. */
 static void
-widen(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
+component_range(const qdot_trajectory *tr, size_t i, size_t stride, double *low, double *high)
 {
     for (size_t k = 0; k < tr->count; k += stride) {
         const double y = tr->y[k * tr->n + i];
@@ -59,9 +59,9 @@ variation(const double *scales, const qdot_trajectory *a, const qdot_trajectory 
     for (size_t i = 0; i < a->n; i++) {
         double low = INFINITY, high = -INFINITY;
 
-        widen(a, i, stride, &low, &high);
+        component_range(a, i, stride, &low, &high);
         if (b)
-            widen(b, i, stride, &low, &high);
+            component_range(b, i, stride, &low, &high);
         most = fmax(most, 0.5 * (high - low)
                                / qdot_ode_size(scales, i, fmax(fabs(low), fabs(high))));
     }
@@ -99,7 +99,7 @@ common_pieces(const qdot_trajectory *a, const qdot_trajectory *b)
 }
 
 static double
-distance(const search *s, size_t k)
+search_distance_at(const search *s, size_t k)
 {
     const qdot_trajectory *tr = &s->run->course.tr;
     double most = 0;
@@ -127,14 +127,14 @@ measure_at(search *s, size_t k, size_t piece, double *d)
     if (qdot_grave(status) != QDOT_OK)
         return status;
     if (status == QDOT_OK)
-        *d = distance(s, k);
+        *d = search_distance_at(s, k);
     return QDOT_OK;
 }
 
 /* d at points of the run, as far as the companion goes the same way: at all of them, or at
  * one of every so many, without a pattern that a period could share. */
 static qdot_status
-measure(search *s)
+search_measure(search *s)
 {
     const qdot_trajectory *a = &s->run->course.tr, *b = &s->other->tr;
     const double way = a->t[a->count - 1] < a->t[0] ? -1 : 1;
@@ -239,7 +239,7 @@ crossing(const search *s, size_t k)
 
 /* Where that one is lost, before what has been found so far. */
 static qdot_status
-find(qdot_run *run, search *s)
+horizon_find(qdot_run *run, search *s)
 {
     const qdot_trajectory *a = &run->course.tr, *b = &s->other->tr;
     const double way = run->t1 < run->t0 ? -1 : 1;
@@ -260,7 +260,7 @@ find(qdot_run *run, search *s)
     s->d = s->t + room;
     s->pieces = s->point + room;
     QDOT_TRY(qdot_trajectory_open(b, qdot_course_systems(s->other), &s->companion));
-    QDOT_TRY(measure(s));
+    QDOT_TRY(search_measure(s));
     first = first_lost(s);
     if (first == SIZE_MAX || size < tolerances * fmax(report->tol, 0x1p-53)
         || fabs(a->t[a->count - 1] - s->t[first]) < least_part * length)
@@ -289,7 +289,7 @@ static qdot_status
 find_by(qdot_run *run, const qdot_course *other, size_t most)
 {
     search s = {.other = other, .most = most};
-    qdot_status status = find(run, &s);
+    qdot_status status = horizon_find(run, &s);
 
     run->report.estimate_work += 0.5 * run->of_point * (double)s.read;
     qdot_trajectory_close(s.companion);
@@ -332,7 +332,7 @@ qdot_horizon_passed(const qdot_run *run, double t)
 /* --- expressions beyond it ----------------------------------------------------------- */
 
 static qdot_status
-compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
+companions_compare(qdot_reader *readers, double t, size_t m, double *values, double *spread)
 {
     for (int which = 0; which < 2; which++)
         QDOT_TRY(qdot_reader_read(readers + which, NULL, t, values + (size_t)which * m));
@@ -368,7 +368,7 @@ qdot_horizon_spread(const qdot_run *run, const qdot_reading *of,
     }
     for (int k = 0; k < LOOKS && status == QDOT_OK; k++) {
         status =
-            compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
+            companions_compare(readers, from + (end - from) * (k + 0.5) / LOOKS, m, values, spread);
         if (status == QDOT_OK)
             count++;
         /* where one of them is undefined, or has ended, there is nothing to compare */

@@ -85,7 +85,7 @@ qdot_noise_at(qdot_reader *r, const size_t *pieces, double t, double *noise)
 
 /* Roundings [m] at t; noise [2 m] scratch. */
 static qdot_status
-find(qdot_reader *r, double t, double *noise, double *roundings)
+noise_find(qdot_reader *r, double t, double *noise, double *roundings)
 {
     double *slopes = noise + r->of.m;
     qdot_status status;
@@ -112,7 +112,7 @@ qdot_noise_roundings(const qdot_reading *of, const qdot_course *const *courses, 
     if (status == QDOT_OK)
         status = qdot_reader_init_along(&r, of, courses);
     for (size_t i = 0; i < k && status == QDOT_OK; i++)
-        status = find(&r, times[i], noise, roundings + i * m);
+        status = noise_find(&r, times[i], noise, roundings + i * m);
     qdot_reader_clear(&r);
     qdot_free(noise);
     return status;

@@ -97,7 +97,7 @@ find_modes(qdot_oscillations *o, size_t mode, double t, const double *y, bool *t
 
 /* A at point j of the course; also the fastest of its modes, and the least damping. */
 static qdot_status
-measure(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
+oscillations_measure(qdot_oscillations *o, size_t j, double *A, double *fastest, double *damping)
 {
     const qdot_trajectory *tr = &o->course->tr;
     const size_t mode = tr->pieces.at[qdot_trajectory_piece_of(tr, j)].mode;
@@ -135,7 +135,7 @@ find_lost(qdot_oscillations *o)
     double A, fastest, unused, low, high;
     size_t from, to;
 
-    QDOT_TRY(measure(o, 0, &A, &fastest, &o->damping));
+    QDOT_TRY(oscillations_measure(o, 0, &A, &fastest, &o->damping));
     from = fastest > 0 ? first_too_long(tr, fastest) : SIZE_MAX;
     if (from > soon)
         return QDOT_OK;
@@ -143,7 +143,7 @@ find_lost(qdot_oscillations *o)
     to = from + behind < tr->count ? from + behind : tr->count - 1;
     from = from > early + before ? from - before : early + 1;
     for (size_t j = 1; j <= to; j = j == early && from > early ? from : j + 1) {
-        QDOT_TRY(measure(o, j, &A, &fastest, &unused));
+        QDOT_TRY(oscillations_measure(o, j, &A, &fastest, &unused));
         low = fmin(low, A);
         high = fmax(high, A);
     }

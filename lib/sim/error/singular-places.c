@@ -51,7 +51,7 @@ typedef struct {
 
 /* The step whose end is stored point k. */
 static void
-enter(search *s, size_t k)
+search_enter_step(search *s, size_t k)
 {
     const qdot_trajectory *tr = &s->course->tr;
     const qdot_ode_system *system =
@@ -83,7 +83,7 @@ interpolate(search *s, double t)
     while (k < s->end - 1 && way * (t - tr->t[k]) > 0)
         k++;
     if (k != s->step)
-        enter(s, k);
+        search_enter_step(s, k);
     for (size_t i = 0; i < n; i++) {
         const double *y = tr->y + (k - 1) * tr->n, *z = y + tr->n, h = tr->t[k] - tr->t[k - 1];
         qdot_hermite_end from = {y[i], y[n + i], s->between[n + i]};
@@ -96,7 +96,7 @@ interpolate(search *s, double t)
 }
 
 static qdot_status
-look(search *s, double t, double *q)
+search_look_at(search *s, double t, double *q)
 {
     if (s->between)
         interpolate(s, t);
@@ -109,7 +109,7 @@ look(search *s, double t, double *q)
 /* The minimum about t[1] between t[0] and t[2], where q is more, by golden sections; s->y is a
  * state within rounding of it. */
 static qdot_status
-descend(search *s, const double *t, const double *q, double *at, double *least)
+search_descend(search *s, const double *t, const double *q, double *at, double *least)
 {
     static const double golden = 0.3819660112501051;
     const double start = fmin(q[0], q[2]);
@@ -123,7 +123,7 @@ descend(search *s, const double *t, const double *q, double *at, double *least)
         QDOT_TRY(qdot_interrupt_check());
         if (k == closed_in && qm > floor_of_minimum * start)
             break;
-        QDOT_TRY(look(s, u, &qu));
+        QDOT_TRY(search_look_at(s, u, &qu));
         if (qu < qm) {
             *(right ? &a : &b) = m;
             m = u;
@@ -133,7 +133,7 @@ descend(search *s, const double *t, const double *q, double *at, double *least)
         }
     }
     *at = m;
-    return look(s, *at, least);
+    return search_look_at(s, *at, least);
 }
 
 /* Whether the constraints of two modes are the same. */
@@ -149,7 +149,7 @@ are_same(const qdot_constraints *a, const qdot_constraints *b)
 
 /* Whether the rows of g are among `rows`; no row is only among none. */
 static bool
-is_among(const group *g, const bool *rows)
+rows_are_among(const group *g, const bool *rows)
 {
     bool some = false, others = false;
 
@@ -172,14 +172,14 @@ clear_group(group *g)
 /* Give the places of all groups whose rows are among those of group i to it, in the order of time; to whom
  * *i points then. */
 static qdot_status
-gather(search *s, size_t *i)
+groups_gather(search *s, size_t *i)
 {
     const double way = s->course->tr.t[s->course->tr.count - 1] < s->course->tr.t[0] ? -1 : 1;
 
     for (size_t j = s->groups.n; j-- > 0;) {
         group *to = s->groups.at + *i, *from = s->groups.at + j;
 
-        if (j == *i || !are_same(from->of, to->of) || !is_among(from, to->rows))
+        if (j == *i || !are_same(from->of, to->of) || !rows_are_among(from, to->rows))
             continue;
         for (size_t k = 0; k < from->times.n; k++) {
             QDOT_TRY(qdot_vec_push(&to->times, from->times.at[k]));
@@ -207,7 +207,7 @@ find_group(search *s, group *mine, size_t *i)
     for (*i = 0; *i < s->groups.n; ++*i) {
         const group *g = s->groups.at + *i;
 
-        if (are_same(g->of, mine->of) && is_among(mine, g->rows))
+        if (are_same(g->of, mine->of) && rows_are_among(mine, g->rows))
             break;
     }
     if (*i < s->groups.n) {
@@ -216,13 +216,13 @@ find_group(search *s, group *mine, size_t *i)
     }
     status = qdot_vec_push(&s->groups, *mine);
     if (status == QDOT_OK)
-        return gather(s, i);
+        return groups_gather(s, i);
     clear_group(mine);
     return status;
 }
 
 static qdot_status
-note(search *s, double t)
+groups_note(search *s, double t)
 {
     group mine = {.of = qdot_constrained_of(s->held)};
     size_t i;
@@ -248,7 +248,7 @@ comes_down(const double *q)
 
 /* One more place of a piece. */
 static qdot_status
-take(search *s, double t, double q)
+search_take_place(search *s, double t, double q)
 {
     double at, least;
 
@@ -259,8 +259,8 @@ take(search *s, double t, double q)
     s->most = fmax(s->most, s->q[1]); /* the newest may lie behind the minimum about to be told */
     if (++s->taken < 3 || !comes_down(s->q))
         return QDOT_OK;
-    QDOT_TRY(descend(s, s->t, s->q, &at, &least));
-    return least < s->enough ? note(s, at) : QDOT_OK;
+    QDOT_TRY(search_descend(s, s->t, s->q, &at, &least));
+    return least < s->enough ? groups_note(s, at) : QDOT_OK;
 }
 
 /* In how many parts to look at the step that ends at stored point k, of those up to `end`. */
@@ -289,8 +289,8 @@ take_inner(search *s, size_t k, int parts)
         const double inner = t[0] + (t[1] - t[0]) * j / parts;
         double q;
 
-        QDOT_TRY(look(s, inner, &q));
-        QDOT_TRY(take(s, inner, q));
+        QDOT_TRY(search_look_at(s, inner, &q));
+        QDOT_TRY(search_take_place(s, inner, q));
     }
     return QDOT_OK;
 }
@@ -313,16 +313,16 @@ go_through(search *s)
                 QDOT_TRY(qdot_interrupt_check());
             if (k > p->first)
                 QDOT_TRY(take_inner(s, k, parts_of(tr, p->first, k, end)));
-            QDOT_TRY(take(s, tr->t[k],
-                          qdot_constrained_independence(s->held, tr->t[k],
-                                                        tr->y + k * tr->n)));
+            QDOT_TRY(search_take_place(s, tr->t[k],
+                                       qdot_constrained_independence(s->held, tr->t[k],
+                                                                     tr->y + k * tr->n)));
         }
     }
     return QDOT_OK;
 }
 
 static void
-tell(const group *g, qdot_text *to)
+group_tell(const group *g, qdot_text *to)
 {
     const size_t told = g->times.n < most_told ? g->times.n : most_told;
 
@@ -363,7 +363,7 @@ qdot_singular_places_tell(const qdot_course *course, qdot_text *to)
         status = go_through(&s);
     for (size_t i = 0; i < s.groups.n; i++) {
         if (status == QDOT_OK)
-            tell(s.groups.at + i, to);
+            group_tell(s.groups.at + i, to);
         clear_group(s.groups.at + i);
     }
     qdot_free(s.groups.at);

@@ -35,7 +35,7 @@ close_look(look *l)
 
 /* g and its error at t; NaN: unknown. */
 static qdot_status
-look_at(look *l, double t, double *g, double *error)
+touch_look_at(look *l, double t, double *g, double *error)
 {
     qdot_status status = qdot_reader_at(&l->reader, SIZE_MAX, t, g);
 
@@ -63,7 +63,7 @@ look_at_all(qdot_run *run, size_t event, look *l, double *widths, double *tol)
 
         if (!is_doubtful(o, event))
             continue;
-        QDOT_TRY(look_at(l, o->t, &g, &error));
+        QDOT_TRY(touch_look_at(l, o->t, &g, &error));
         if (widths)
             widths[i] = sqrt(2 * (fabs(g) + error) / fabs(o->bend));
         if (tol && fabs(g) > 2 * error)
@@ -139,7 +139,7 @@ qdot_touches_end(qdot_run *run, size_t event, bool *undecided)
         return QDOT_OK;
     status = open_look(run, event, &l);
     if (status == QDOT_OK)
-        status = look_at(&l, t, &g, &error);
+        status = touch_look_at(&l, t, &g, &error);
     if (status == QDOT_OK)
         status = find_size(&l, tr, &size);
     if (status == QDOT_OK)

@@ -13,7 +13,7 @@ typedef struct {
 } search;
 
 static qdot_status
-read_run(double t, double *y, void *user)
+forces_read_run(double t, double *y, void *user)
 {
     search *s = user;
 
@@ -50,7 +50,7 @@ go_through(search *s, const qdot_course *course, bool *found, double *t)
                                      .tol = tr->tol,
                                      .from = tr->y + j * tr->n,
                                      .to = tr->y + (j + 1) * tr->n,
-                                     .read = tr->method->geometric ? NULL : read_run,
+                                     .read = tr->method->geometric ? NULL : forces_read_run,
                                      .user = s};
 
             QDOT_TRY(qdot_pulses_look(&s->pulses, &step));
