@@ -54,7 +54,7 @@ pull(double t, const double *q, const double *lambda, double *F, void *user)
 }
 
 static qdot_status
-prepare(double t, const double *q, void *user)
+bonds_prepare(double t, const double *q, void *user)
 {
     qdot_constrained *h = user;
 
@@ -63,7 +63,7 @@ prepare(double t, const double *q, void *user)
 }
 
 static void
-solve(double *c, double *nu, double *x, void *user)
+bonds_solve(double *c, double *nu, double *x, void *user)
 {
     qdot_constrained *h = user;
     qdot_constrained_level *l = h->at[QDOT_HOLONOMIC];
@@ -85,5 +85,5 @@ solve(double *c, double *nu, double *x, void *user)
 qdot_ode_bonds
 qdot_constrained_bonds(qdot_constrained *h)
 {
-    return (qdot_ode_bonds){h->c->m, positions, velocities, pull, prepare, solve, h};
+    return (qdot_ode_bonds){h->c->m, positions, velocities, pull, bonds_prepare, bonds_solve, h};
 }

@@ -62,7 +62,7 @@ make_level(qdot_constrained_lanes *h, level *l, const qdot_tape *tape, qdot_cons
 }
 
 static qdot_status
-make(qdot_constrained_lanes *h, bool shaken)
+constrained_lanes_make(qdot_constrained_lanes *h, bool shaken)
 {
     const qdot_constraints *c = h->c;
     const qdot_tape *tapes[] = {c->positions, c->velocities, c->metric};
@@ -107,7 +107,7 @@ qdot_constrained_lanes_new(const qdot_plan *plan, bool shaken, qdot_constrained_
     h->numbers = plan->n_states;
     h->n = plan->n - h->numbers;
     h->kernels = qdot_batch_kernels_get();
-    status = make(h, shaken);
+    status = constrained_lanes_make(h, shaken);
     if (status != QDOT_OK) {
         qdot_constrained_lanes_free(h);
         return status;
@@ -127,7 +127,7 @@ typedef struct {
 } newton;
 
 static void
-factor(qdot_constrained_lanes *h, const level *l)
+lanes_factor_saddle(qdot_constrained_lanes *h, const level *l)
 {
     const qdot_constraints *c = h->c;
     const size_t size = h->n + l->m;
@@ -149,7 +149,7 @@ factor(qdot_constrained_lanes *h, const level *l)
 
 /* The effect of rounding of x on the rows; values below `least` count as `least`. */
 static void
-find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
+residuals_find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
 {
     const qdot_constraints *c = h->c;
 
@@ -165,7 +165,7 @@ find_sizes(qdot_constrained_lanes *h, const newton *p, double least)
 }
 
 static void
-look(qdot_constrained_lanes *h, const newton *p)
+residuals_look(qdot_constrained_lanes *h, const newton *p)
 {
     const qdot_constraints *c = h->c;
 
@@ -181,7 +181,7 @@ look(qdot_constrained_lanes *h, const newton *p)
 
 /* The largest ratio in a lane of a residual to its rounding; 1: none is above its rounding. */
 static double
-excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
+residual_excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 {
     double most = 1;
 
@@ -200,12 +200,12 @@ excess(const qdot_constrained_lanes *h, const newton *p, size_t lane)
 /* Decide by the residuals of iteration k which lanes are done and which fail. Returns whether a
  * lane goes on. */
 static bool
-judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
+newton_judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
 {
     bool some = false, failed[L] = {false}, any_failed = false;
 
     for (size_t l = 0; l < L; l++) {
-        const double now = p->open[l] ? excess(h, p, l) : 0;
+        const double now = p->open[l] ? residual_excess(h, p, l) : 0;
 
         if (!p->open[l])
             continue;
@@ -219,17 +219,17 @@ judge(qdot_constrained_lanes *h, newton *p, int k, double *moved)
     }
     if (!any_failed)
         return some;
-    find_sizes(h, p, 1);
+    residuals_find_sizes(h, p, 1);
     for (size_t l = 0; l < L; l++)
-        if (failed[l] && !(excess(h, p, l) <= 1))
+        if (failed[l] && !(residual_excess(h, p, l) <= 1))
             moved[l] = NAN;
-    find_sizes(h, p, least_size);
+    residuals_find_sizes(h, p, least_size);
     return some;
 }
 
 /* hi + lo += x (num/sum.h) */
 static inline void
-advance(double *hi, double *lo, double x)
+two_sum_advance(double *hi, double *lo, double x)
 {
     const double a = *hi, b = *lo + x, s = a + b, bb = s - a;
 
@@ -238,7 +238,7 @@ advance(double *hi, double *lo, double x)
 }
 
 static void
-step(qdot_constrained_lanes *h, newton *p, double *moved)
+newton_lanes_step(qdot_constrained_lanes *h, newton *p, double *moved)
 {
     const size_t n = h->n, m = p->l->m;
 
@@ -254,28 +254,28 @@ step(qdot_constrained_lanes *h, newton *p, double *moved)
             continue;
         if (!(fabs(h->x[i]) <= moved[l] * size))
             moved[l] = fabs(h->x[i]) / size;
-        advance(&p->x[i], &p->carry[i], h->x[i]);
+        two_sum_advance(&p->x[i], &p->carry[i], h->x[i]);
         p->loaded[i] = p->x[i];
     }
 }
 
 /* factored: K is that of these rows already. */
 static void
-hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
+newton_hold(qdot_constrained_lanes *h, newton *p, bool *factored, double *moved)
 {
     for (size_t l = 0; l < L; l++) {
         p->open[l] = !isnan(moved[l]);
         p->before[l] = INFINITY;
     }
-    find_sizes(h, p, least_size);
+    residuals_find_sizes(h, p, least_size);
     for (int k = 0; k <= most_iterations; k++) {
-        look(h, p);
-        if (!judge(h, p, k, moved))
+        residuals_look(h, p);
+        if (!newton_judge(h, p, k, moved))
             return;
         if (!*factored)
-            factor(h, p->l);
+            lanes_factor_saddle(h, p->l);
         *factored = true;
-        step(h, p, moved);
+        newton_lanes_step(h, p, moved);
     }
 }
 
@@ -302,6 +302,6 @@ qdot_constrained_lanes_project(qdot_constrained_lanes *h, const double *t, doubl
             continue;
         if (k > 0 && p.l->m != h->levels[0].m)
             factored = false;
-        hold(h, &p, &factored, moved);
+        newton_hold(h, &p, &factored, moved);
     }
 }

@@ -15,7 +15,7 @@ length_of_name(const char *name, bool label)
 
 /* "rod", and of a vector constraint's component "pin, 1": pin[1]. Without it if `label`. */
 static void
-add_name(qdot_text *to, const char *name, size_t length, bool label)
+constraint_add_name(qdot_text *to, const char *name, size_t length, bool label)
 {
     const char *comma = strrchr(name, ',');
 
@@ -52,7 +52,7 @@ qdot_constrained_name(const qdot_constraints *c, const bool *rows, qdot_text *to
             names += pass == 0;
             if (pass == 1) {
                 qdot_text_add(to, said == 0 ? "" : said + 1 == names ? " and " : ", ");
-                add_name(to, name, n, count > many);
+                constraint_add_name(to, name, n, count > many);
             }
             said++;
         }

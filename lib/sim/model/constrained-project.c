@@ -73,7 +73,7 @@ add_carry(const part *p)
 /* The largest ratio of a residual to its bound; INFINITY if there are no bounds yet, or if it is
  * not finite. */
 static double
-excess(const part *p)
+part_excess(const part *p)
 {
     double most = 0;
 
@@ -91,16 +91,16 @@ excess(const part *p)
 
 /* Evaluate the residuals at the loaded state. The outputs of the tape are the level's rows. */
 static double
-look(qdot_constrained *h, const part *p)
+part_look(qdot_constrained *h, const part *p)
 {
     qdot_tape_eval(p->tape, h->in, p->l->residual, h->work);
     add_carry(p);
-    return excess(p);
+    return part_excess(p);
 }
 
 /* hi + lo += x; qdot_sum_advance, whose header and that of expr/ share a name. */
 static inline void
-advance(double *hi, double *lo, double x)
+carry_advance(double *hi, double *lo, double x)
 {
     double a = *hi, b = *lo + x, s = a + b, bb = s - a;
 
@@ -110,7 +110,7 @@ advance(double *hi, double *lo, double x)
 
 /* One step of Newton's method; loads the moved state. */
 static void
-step(const part *p, size_t n, double *moved)
+projection_step(const part *p, size_t n, double *moved)
 {
     level *l = p->l;
     double *change = l->saddle.x, most = *moved;
@@ -129,7 +129,7 @@ step(const part *p, size_t n, double *moved)
         if (!(by <= most * (size > 1 ? size : 1)))
             most = by / (size > 1 ? size : 1);
         if (p->carry)
-            advance(&p->x[i], &p->carry[i], change[i]);
+            carry_advance(&p->x[i], &p->carry[i], change[i]);
         else
             p->x[i] += change[i];
         p->loaded[i] = p->x[i];
@@ -201,7 +201,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
     bool bounded = false;
 
     for (int k = 0; k <= most_iterations; k++) {
-        double now = look(h, p);
+        double now = part_look(h, p);
 
         if (bounded)
             c->rate = now / before;
@@ -221,12 +221,12 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
             qdot_constrained_raise_bounds(p->l, p->x, p->bound);
             if (!filled)
                 add_carry(p);
-            now = excess(p);
+            now = part_excess(p);
             if (now <= 1)
                 return QDOT_OK;
         }
         before = now;
-        step(p, h->plan->n, moved);
+        projection_step(p, h->plan->n, moved);
         if (c->rate * now <= sure)
             return QDOT_OK;
     }

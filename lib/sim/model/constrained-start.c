@@ -120,7 +120,7 @@ name_dependent(place *p, const double *y, size_t row, qdot_text *names)
 }
 
 static qdot_status
-refuse(place *p, const double *y, size_t row)
+start_refuse(place *p, const double *y, size_t row)
 {
     qdot_text names = {0};
     const size_t count = name_dependent(p, y, row, &names);
@@ -293,7 +293,7 @@ check_place(qdot_constrained *h, double t, const double *y)
         if (p.rows.rank <= rank && holds)
             status = check_hidden(&p, y, later);
         else if (p.rows.rank > rank && !later)
-            status = refuse(&p, y, repeated);
+            status = start_refuse(&p, y, repeated);
     }
     p.t = t;
     if (status == QDOT_OK) { /* as it was, for what reads it next */

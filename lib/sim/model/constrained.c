@@ -222,7 +222,7 @@ is_off(qdot_constrained *h, const level *l, const double *y)
 
 /* Evaluate the equations at the loaded state y. Returns A q'' of the constraints. */
 static const double *
-evaluate(qdot_constrained *h, level *all, const double *y)
+constrained_evaluate(qdot_constrained *h, level *all, const double *y)
 {
     const qdot_plan *p = h->plan;
     const double *gamma;
@@ -263,7 +263,7 @@ qdot_constrained_solve(qdot_constrained *h, double t, const double *y, double *a
     qdot_constrained_load(h, t, y);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
         qdot_constrained_residuals(h);
-    gamma = evaluate(h, all, y);
+    gamma = constrained_evaluate(h, all, y);
     memcpy(x, h->out, n * sizeof *x);
     memcpy(x + n, gamma, m * sizeof *x);
     if (p->treatment == QDOT_RUN_BAUMGARTE)
@@ -504,7 +504,7 @@ make_slopes(qdot_constrained *h, size_t outputs)
 }
 
 static qdot_status
-make(qdot_constrained *h, bool shaken)
+constrained_make(qdot_constrained *h, bool shaken)
 {
     const qdot_tape *tapes[] = {h->c->positions, h->c->velocities, h->c->metric,
                                 h->plan->tape};
@@ -553,7 +553,7 @@ qdot_constrained_new(const qdot_plan *plan, bool shaken, qdot_constrained **held
         return QDOT_ENOMEM;
     h->plan = plan;
     h->c = plan->constraints;
-    status = make(h, shaken);
+    status = constrained_make(h, shaken);
     if (status != QDOT_OK) {
         qdot_constrained_free(h);
         return status;

@@ -46,7 +46,7 @@ qdot_constraints_free(qdot_constraints *c)
 
 /* Coordinate i differentiated as often as the kind says. */
 static qdot_expr
-jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
+constraint_jet(const qdot_plan *p, size_t i, qdot_constraint_kind kind)
 {
     static const size_t block[] = {[QDOT_HOLONOMIC] = 0, [QDOT_VELOCITY] = 1};
 
@@ -65,7 +65,7 @@ add_slopes(builder *b, size_t k)
 
     QDOT_TRY(qdot_pool_check(p->pool));
     for (size_t i = 0; i < p->n - p->n_states; i++) {
-        qdot_expr x = jet(p, i, row->kind), slope;
+        qdot_expr x = constraint_jet(p, i, row->kind), slope;
         bool there = false;
 
         for (uint32_t a = 0; a < qdot_expr_count(p->pool, atoms) && !there; a++)
@@ -232,7 +232,7 @@ push_all(expressions *to, size_t n, const qdot_expr *from)
 }
 
 static qdot_status
-lower(const qdot_plan *p, const expressions *out, qdot_tape **tape)
+expressions_lower(const qdot_plan *p, const expressions *out, qdot_tape **tape)
 {
     return qdot_tape_new(p->pool, 2 * p->n + 1, p->inputs, out->n, out->at, tape);
 }
@@ -247,7 +247,7 @@ lower_index_1(builder *b)
     if (status == QDOT_OK)
         status = push_all(&out, b->slopes.n, b->slopes.at);
     if (status == QDOT_OK)
-        status = lower(p, &out, &b->c->metric);
+        status = expressions_lower(p, &out, &b->c->metric);
     out.n = 0;
     if (status == QDOT_OK)
         status = push_all(&out, p->n, p->f);
@@ -258,7 +258,7 @@ lower_index_1(builder *b)
     if (status == QDOT_OK)
         status = push_all(&out, b->gamma.n, b->gamma.at);
     if (status == QDOT_OK)
-        status = lower(p, &out, &b->c->equations);
+        status = expressions_lower(p, &out, &b->c->equations);
     if (status == QDOT_OK)
         status = qdot_rounding_show(b->c->equations);
     qdot_free(out.at);
@@ -304,7 +304,7 @@ lower_series(builder *b)
                                          ? b->gamma.at[k]
                                          : b->c->rows[k].f);
     if (status == QDOT_OK)
-        status = lower(b->plan, &out, &b->c->series);
+        status = expressions_lower(b->plan, &out, &b->c->series);
     qdot_free(out.at);
     return status;
 }
@@ -326,16 +326,16 @@ keep_expressions(builder *b)
 }
 
 static qdot_status
-build(builder *b, qdot_scene *scene)
+constraints_build(builder *b, qdot_scene *scene)
 {
     QDOT_TRY(read_rows(b, scene));
     QDOT_TRY(read_massless(b));
     QDOT_TRY(keep_expressions(b));
     QDOT_TRY(read_masses(b));
-    QDOT_TRY(lower(b->plan, &b->positions, &b->c->positions));
-    QDOT_TRY(lower(b->plan, &b->velocities, &b->c->velocities));
+    QDOT_TRY(expressions_lower(b->plan, &b->positions, &b->c->positions));
+    QDOT_TRY(expressions_lower(b->plan, &b->velocities, &b->c->velocities));
     if (b->plan->rescaled)
-        QDOT_TRY(lower(b->plan, &b->scale, &b->c->scale));
+        QDOT_TRY(expressions_lower(b->plan, &b->scale, &b->c->scale));
     QDOT_TRY(lower_index_1(b));
     QDOT_TRY(find_signs(b)); /* the other tapes have theirs by now */
     return lower_series(b);
@@ -352,7 +352,7 @@ qdot_constraints_new(qdot_scene *scene, const qdot_plan *plan,
     if (scene->constraints.n + plan->n_massless == 0)
         return QDOT_OK;
     b.c = qdot_calloc(1, sizeof *b.c);
-    status = b.c ? build(&b, scene) : QDOT_ENOMEM;
+    status = b.c ? constraints_build(&b, scene) : QDOT_ENOMEM;
     qdot_free(b.positions.at);
     qdot_free(b.velocities.at);
     qdot_free(b.slopes.at);

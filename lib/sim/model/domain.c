@@ -19,7 +19,7 @@ qdot_domains_clear(qdot_domains *d)
 
 /* "0 < theta <= pi" */
 static qdot_status
-describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char **text)
+domain_describe(const qdot_plan *p, const qdot_symbol *s, const char *name, char **text)
 {
     qdot_text t = {0};
     qdot_status status = QDOT_OK;
@@ -78,7 +78,7 @@ qdot_domains_find(const qdot_plan *p, qdot_domains *d)
         *x = (qdot_domain){.coordinate = i, .lo_open = s.lo_open, .hi_open = s.hi_open};
         QDOT_TRY(bound(p, p->names[i], s.lo, -INFINITY, &x->lo));
         QDOT_TRY(bound(p, p->names[i], s.hi, INFINITY, &x->hi));
-        QDOT_TRY(describe(p, &s, p->names[i], &x->text));
+        QDOT_TRY(domain_describe(p, &s, p->names[i], &x->text));
         d->n++;
     }
     return QDOT_OK;

@@ -90,7 +90,7 @@ find_blocks(qdot_plan *p, size_t n, const size_t *index)
 }
 
 static qdot_expr
-entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
+mass_entry(const qdot_plan *p, const qdot_plan_block *b, size_t i, size_t j)
 {
     return p->M[b->index[i] * p->n + b->index[j]];
 }
@@ -103,7 +103,7 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
     b->constant = n > 1;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++)
-            b->constant = b->constant && qdot_constant_is(p->pool, entry(p, b, i, j));
+            b->constant = b->constant && qdot_constant_is(p->pool, mass_entry(p, b, i, j));
     if (!b->constant)
         return QDOT_OK;
     b->M = qdot_calloc(n * n, sizeof *b->M);
@@ -114,7 +114,7 @@ fill_block(qdot_plan *p, qdot_plan_block *b)
         for (size_t j = 0; j <= i; j++) {
             int side;
 
-            QDOT_TRY(qdot_constant_round(p->pool, entry(p, b, i, j), &b->M[i * n + j],
+            QDOT_TRY(qdot_constant_round(p->pool, mass_entry(p, b, i, j), &b->M[i * n + j],
                                          &side));
             b->side[i * n + j] = (signed char)side;
         }
@@ -156,7 +156,7 @@ push_mass(const qdot_plan *p, const qdot_plan_block *b, expressions *out)
 {
     for (size_t i = 0; i < b->n; i++)
         for (size_t j = 0; j <= i; j++)
-            QDOT_TRY(qdot_vec_push(out, entry(p, b, i, j)));
+            QDOT_TRY(qdot_vec_push(out, mass_entry(p, b, i, j)));
     return QDOT_OK;
 }
 
@@ -170,7 +170,7 @@ push_blocks(const qdot_plan *p, expressions *out)
 
         if (b->n == 1) {
             status = qdot_vec_push(
-                out, qdot_quotient(p->pool, p->f[b->index[0]], entry(p, b, 0, 0)));
+                out, qdot_quotient(p->pool, p->f[b->index[0]], mass_entry(p, b, 0, 0)));
             continue;
         }
         for (size_t i = 0; i < b->n && status == QDOT_OK; i++)

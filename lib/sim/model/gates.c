@@ -122,7 +122,7 @@ add_pairs(finder *f, qdot_expr e, qdot_gate_kind kind)
 
 /* Add a node if it is a gate. */
 static qdot_status
-add(finder *f, qdot_expr e)
+gates_add(finder *f, qdot_expr e)
 {
     qdot_gates *g = f->g;
     const uint32_t n = qdot_expr_kind(f->pool, e) == QDOT_SYM ? 0 : qdot_expr_count(f->pool, e);
@@ -168,7 +168,7 @@ qdot_gates_find(qdot_pool *pool, size_t m, const qdot_surface *at, size_t n, con
         status = qdot_walk_begin_n(pool, count, roots, &walk);
     if (status == QDOT_OK) {
         for (size_t i = 0; i < walk.n && status == QDOT_OK; i++)
-            status = add(&f, walk.at[i]);
+            status = gates_add(&f, walk.at[i]);
         for (size_t i = 0; i < n && status == QDOT_OK; i++)
             if (e[i] != QDOT_NIL && gate_of(&f, e[i]) != SIZE_MAX)
                 status = qdot_vec_push(&g->roots, gate_of(&f, e[i]));

@@ -115,7 +115,7 @@ put_event(jump *j)
 }
 
 static qdot_status
-follow(jump *j)
+jump_follow(jump *j)
 {
     const qdot_massless_rows *rows = j->rows;
     const size_t n = j->scene->coordinates.n;
@@ -154,7 +154,7 @@ qdot_massless_jump(const qdot_scene *scene, const qdot_event *event,
         j.b = j.x + w;
         j.at = j.b + w;
         j.A = j.at + w;
-        status = follow(&j);
+        status = jump_follow(&j);
     }
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
         after[i] = j.to[i];

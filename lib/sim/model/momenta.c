@@ -23,7 +23,7 @@ struct qdot_momenta {
 };
 
 static qdot_status
-enter(double t, const double *y, const double *carry, void *user)
+momenta_enter(double t, const double *y, const double *carry, void *user)
 {
     qdot_momenta *m = user;
     const size_t n = 2 * m->plan->n;
@@ -111,7 +111,7 @@ derive(double t, double *y, void *user)
 }
 
 static qdot_status
-make(qdot_momenta *m, const qdot_tape *tape)
+momenta_conversion_make(qdot_momenta *m, const qdot_tape *tape)
 {
     const qdot_plan *p = m->plan;
 
@@ -127,7 +127,7 @@ make(qdot_momenta *m, const qdot_tape *tape)
         m->index[k] = p->n + p->kept[k];
     m->following = (qdot_ode_following){.n = p->n_kept,
                                         .index = m->index,
-                                        .enter = enter,
+                                        .enter = momenta_enter,
                                         .derive = derive,
                                         .user = m};
     return QDOT_OK;
@@ -143,7 +143,7 @@ qdot_momenta_new(const qdot_plan *reduced, const qdot_tape *tape, qdot_momenta *
     if (!m)
         return QDOT_ENOMEM;
     m->plan = reduced;
-    status = make(m, tape);
+    status = momenta_conversion_make(m, tape);
     if (status != QDOT_OK) {
         qdot_momenta_free(m);
         return status;

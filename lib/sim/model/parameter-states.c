@@ -16,7 +16,7 @@ typedef qdot_vec(qdot_expr) expressions;
 
 /* The parameters that events set, each once. */
 static qdot_status
-find(const qdot_scene *scene, expressions *found)
+parameters_find(const qdot_scene *scene, expressions *found)
 {
     for (size_t i = 0; i < scene->events.n; i++)
         for (size_t k = 0; k < scene->events.at[i].targets.n; k++) {
@@ -33,8 +33,8 @@ find(const qdot_scene *scene, expressions *found)
 
 /* The value of a parameter; what tells that it has none. */
 static qdot_status
-value_of(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
-         qdot_expr *value)
+parameter_value(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter,
+                qdot_expr *value)
 {
     for (size_t i = 0; i < r->n_values; i++)
         if (r->symbols[i] == parameter) {
@@ -46,8 +46,8 @@ value_of(const qdot_scene *scene, const qdot_run_request *r, qdot_expr parameter
 
 /* One behind the other in the memory of s. open: they have no values. */
 static qdot_status
-fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
-     const expressions *found, bool open)
+parameter_states_fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *asked,
+                      const expressions *found, bool open)
 {
     const size_t n = scene->coordinates.n, m = found->n, v = asked->n_values;
     qdot_pool *pool = scene->pool;
@@ -64,7 +64,7 @@ fill(qdot_parameter_states *s, const qdot_scene *scene, const qdot_run_request *
     v0 = q0 + n + m;
     for (size_t k = 0; k < m; k++) {
         if (!open)
-            QDOT_TRY(value_of(scene, asked, found->at[k], &q0[n + k]));
+            QDOT_TRY(parameter_value(scene, asked, found->at[k], &q0[n + k]));
         v0[n + k] = QDOT_ZERO;
         states[k] = qdot_symbol_get(pool, QDOT_COORD,
                                     qdot_expr_symbol(pool, found->at[k])->name);
@@ -109,9 +109,9 @@ qdot_parameter_states_init(qdot_parameter_states *s, const qdot_scene *scene,
     *s = (qdot_parameter_states){.request = *asked};
     if (asked->n_states > 0)
         return QDOT_OK;
-    status = find(scene, &found);
+    status = parameters_find(scene, &found);
     if (status == QDOT_OK && found.n > 0)
-        status = fill(s, scene, asked, &found, false);
+        status = parameter_states_fill(s, scene, asked, &found, false);
     qdot_free(found.at);
     if (status != QDOT_OK)
         qdot_parameter_states_clear(s);
@@ -129,7 +129,7 @@ qdot_parameter_states_open(qdot_parameter_states *s, const qdot_scene *scene,
     for (size_t i = 0; i < n && status == QDOT_OK; i++)
         status = qdot_vec_push(&found, parameters[i]);
     if (status == QDOT_OK && n > 0)
-        status = fill(s, scene, asked, &found, true);
+        status = parameter_states_fill(s, scene, asked, &found, true);
     qdot_free(found.at);
     if (status != QDOT_OK)
         qdot_parameter_states_clear(s);
@@ -212,7 +212,7 @@ sign_of(int op, bool turned)
 
 /* left OP right, if an event may break it. */
 static qdot_status
-add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condition)
+condition_add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condition)
 {
     qdot_pool *pool = b->plan->pool;
     const qdot_expr said[] = {left, right};
@@ -255,7 +255,7 @@ add(builder *b, qdot_expr left, qdot_expr right, qdot_parameter_condition condit
 }
 
 static qdot_status
-add_all(builder *b, const qdot_scene *scene)
+conditions_add_all(builder *b, const qdot_scene *scene)
 {
     qdot_pool *pool = scene->pool;
 
@@ -267,13 +267,13 @@ add_all(builder *b, const qdot_scene *scene)
             continue;
         s = *qdot_expr_symbol(pool, x);
         if (s.lo != QDOT_NIL)
-            QDOT_TRY(add(b, s.lo, x,
-                         (qdot_parameter_condition){.op = s.lo_open ? QDOT_LT : QDOT_LE,
+            QDOT_TRY(condition_add(b, s.lo, x,
+                                   (qdot_parameter_condition){.op = s.lo_open ? QDOT_LT : QDOT_LE,
                                                     .turned = true,
                                                     .why = "declared"}));
         if (s.hi != QDOT_NIL)
-            QDOT_TRY(add(b, x, s.hi,
-                         (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE,
+            QDOT_TRY(condition_add(b, x, s.hi,
+                                   (qdot_parameter_condition){.op = s.hi_open ? QDOT_LT : QDOT_LE,
                                                     .why = "declared"}));
     }
     for (size_t i = 0; i < scene->assumed.n; i++) {
@@ -281,14 +281,14 @@ add_all(builder *b, const qdot_scene *scene)
         const int op = qdot_expr_node(pool, said->relation)->op;
 
         if (op == QDOT_EQ || op == QDOT_LT || op == QDOT_LE)
-            QDOT_TRY(add(b, qdot_expr_arg(pool, said->relation, 0),
-                         qdot_expr_arg(pool, said->relation, 1),
-                         (qdot_parameter_condition){
+            QDOT_TRY(condition_add(b, qdot_expr_arg(pool, said->relation, 0),
+                                   qdot_expr_arg(pool, said->relation, 1),
+                                   (qdot_parameter_condition){
                              .op = op, .turned = said->turned, .why = "assumed"}));
     }
     for (size_t i = 0; i < scene->springs.n; i++)
-        QDOT_TRY(add(b, QDOT_ZERO, scene->springs.at[i].rest,
-                     (qdot_parameter_condition){
+        QDOT_TRY(condition_add(b, QDOT_ZERO, scene->springs.at[i].rest,
+                               (qdot_parameter_condition){
                          .op = QDOT_LE, .turned = true, .why = "what a spring's rest length is"}));
     return QDOT_OK;
 }
@@ -298,7 +298,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
                                qdot_parameter_conditions *c)
 {
     builder b = {.plan = plan, .c = c};
-    qdot_status status = plan->n_states > 0 ? add_all(&b, scene) : QDOT_OK;
+    qdot_status status = plan->n_states > 0 ? conditions_add_all(&b, scene) : QDOT_OK;
 
     if (status == QDOT_OK && b.sides.n > 0)
         status = qdot_tape_new(plan->pool, 2 * plan->n + 1, plan->inputs, b.sides.n,
@@ -311,7 +311,7 @@ qdot_parameter_conditions_find(const qdot_plan *plan, const qdot_scene *scene,
 static const double equal = 1e-12;
 
 static bool
-holds(int op, double left, double right)
+relation_holds(int op, double left, double right)
 {
     if (op == QDOT_EQ)
         return fabs(left - right) <= equal * fmax(1, fmax(fabs(left), fabs(right)));
@@ -337,7 +337,7 @@ qdot_parameter_conditions_check(const qdot_parameter_conditions *c, const char *
     for (size_t i = 0; i < c->n && status == QDOT_OK; i++, side += 2) {
         const qdot_parameter_condition *x = &c->at[i];
 
-        if (!holds(x->op, side[0], side[1]))
+        if (!relation_holds(x->op, side[0], side[1]))
             status = qdot_fail(QDOT_EDOMAIN,
                                "at the event %.100s, t = %.15g: %.150s is %s, and %.10g %s "
                                "%.10g does not hold",

@@ -162,7 +162,7 @@ find_rest(const qdot_scene *scene, const qdot_facts *facts, qdot_puck *puck)
 }
 
 static qdot_status
-add(qdot_switches *s, qdot_puck *puck)
+switches_add_puck(qdot_switches *s, qdot_puck *puck)
 {
     qdot_surface x = {.u = puck->square, .puck = s->pucks.n + 1};
     char name[40];
@@ -184,8 +184,8 @@ add(qdot_switches *s, qdot_puck *puck)
 }
 
 static qdot_status
-look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s,
-        qdot_expr square)
+puck_look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_switches *s,
+             qdot_expr square)
 {
     const qdot_facts of = qdot_scene_facts(scene), *facts = &of;
     qdot_puck puck = {.square = square};
@@ -204,7 +204,7 @@ look_at(const qdot_scene *scene, const qdot_run_request *request, qdot_switches 
         return QDOT_OK;
     if (status == QDOT_OK)
         status = find_follow(scene->pool, &puck);
-    return status == QDOT_OK ? add(s, &puck) : status;
+    return status == QDOT_OK ? switches_add_puck(s, &puck) : status;
 }
 
 qdot_status
@@ -231,7 +231,7 @@ qdot_pucks_find(const qdot_scene *scene, const qdot_run_request *request,
                 holds(pool, base, QDOT_HAS_VELOCITY) &&
                 !holds(pool, base, QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER) &&
                 twice_exponent(pool, e, k, &twice) && twice == -1)
-                status = look_at(scene, request, s, base);
+                status = puck_look_at(scene, request, s, base);
         }
     }
     qdot_walk_end(&walk);

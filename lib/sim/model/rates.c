@@ -22,7 +22,7 @@ of(const differentiation *d, qdot_expr e)
 }
 
 static rates
-hold(qdot_pool *pool, rates r)
+rates_hold(qdot_pool *pool, rates r)
 {
     r.first = qdot_hold(pool, r.first);
     r.second = qdot_hold(pool, r.second);
@@ -68,7 +68,7 @@ of_sum(const differentiation *d, qdot_expr e)
         r.first = qdot_add(pool, r.first, times(pool, factor, part.first));
         r.second = qdot_add(pool, r.second, times(pool, factor, part.second));
     }
-    return hold(pool, r);
+    return rates_hold(pool, r);
 }
 
 static rates
@@ -80,7 +80,7 @@ of_product_of(qdot_pool *pool, rates a, rates b)
     r.second = qdot_add(pool, scaled(pool, 2, times(pool, a.first, b.first)),
                         qdot_add(pool, times(pool, a.second, b.e),
                                  times(pool, a.e, b.second)));
-    return hold(pool, r);
+    return rates_hold(pool, r);
 }
 
 /* P = b^r; P'' = (r b'' P + (r - 1) b' P')/b. Of a root P itself is divided by. */
@@ -107,14 +107,14 @@ of_power(differentiation *d, rates b, qdot_expr r)
         p.first = qdot_hold(pool, qdot_div(pool, times(pool, r, b.first), P));
         p.second = qdot_sub(pool, times(pool, r, b.second), qdot_pow_int(pool, p.first, 2));
         p.second = qdot_div(pool, qdot_hold(pool, p.second), P);
-        return hold(pool, p);
+        return rates_hold(pool, p);
     }
     over = qdot_hold(pool, b.e);
     p.first = qdot_hold(pool, qdot_div(pool, times(pool, r, times(pool, b.first, P)), over));
     p.second = qdot_add(pool, times(pool, r, times(pool, b.second, P)),
                         times(pool, qdot_sub(pool, r, QDOT_ONE), times(pool, b.first, p.first)));
     p.second = qdot_div(pool, qdot_hold(pool, p.second), over);
-    return hold(pool, p);
+    return rates_hold(pool, p);
 }
 
 static bool
@@ -156,7 +156,7 @@ of_function(const differentiation *d, qdot_expr e, rates *to)
     to->first = times(pool, slope, u.first);
     to->second = qdot_sub(pool, times(pool, slope, u.second),
                           times(pool, e, qdot_pow_int(pool, u.first, 2)));
-    *to = hold(pool, *to);
+    *to = rates_hold(pool, *to);
     return true;
 }
 

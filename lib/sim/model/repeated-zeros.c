@@ -33,7 +33,7 @@ find_outermost(const qdot_pool *pool, qdot_expr e, qdot_expr *f)
 
 /* g = c f + k' as numbers: c and k = -k'/c; c NIL if it is not. */
 static qdot_status
-split(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
+split_linear(qdot_pool *pool, qdot_expr g, qdot_expr f, qdot_expr *c, qdot_expr *k)
 {
     const qdot_expr s = qdot_symbol_get(pool, QDOT_FORMAL, "jumping function"); /* a space is in no name of a user */
     const qdot_expr with = qdot_subs(pool, g, 1, &f, &s), slope = qdot_diff(pool, with, s);
@@ -132,7 +132,7 @@ qdot_repeated_zeros(qdot_pool *pool, qdot_expr g, qdot_repeated *out)
     QDOT_TRY(find_outermost(pool, g, &f));
     if (f == QDOT_NIL)
         return QDOT_OK;
-    QDOT_TRY(split(pool, g, f, &c, &k));
+    QDOT_TRY(split_linear(pool, g, f, &c, &k));
     if (c == QDOT_NIL)
         return QDOT_OK;
     a = qdot_expr_arg(pool, f, 0);

@@ -5,7 +5,7 @@
 
 /* Whether the exponent is a whole number. *n out: 1 if it is odd, 2 if it is even, with its sign. */
 static bool
-is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
+exponent_is_whole(const qdot_pool *pool, qdot_expr exponent, long *n)
 {
     const fmpq *q = qdot_expr_rational(pool, exponent);
 
@@ -68,7 +68,8 @@ qdot_simple_zeros(qdot_pool *pool, qdot_expr g)
         long n;
 
         e = qdot_mul(pool, e,
-                     is_whole(pool, exponent, &n) ? qdot_pow_int(pool, base, n) : qdot_pow(pool, base, exponent));
+                     exponent_is_whole(pool, exponent, &n) ? qdot_pow_int(pool, base, n)
+                                                           : qdot_pow(pool, base, exponent));
     }
     return e;
 }
@@ -87,7 +88,7 @@ qdot_touching_zeros(qdot_pool *pool, qdot_expr g)
         const bool modulus = qdot_expr_is_function(pool, base, QDOT_ABS);
         long n;
 
-        if (!is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !modulus))
+        if (!exponent_is_whole(pool, qdot_expr_arg(pool, g, i + 1), &n) || n < 0 || (n == 1 && !modulus))
             return QDOT_NIL;
         u = qdot_mul(pool, u, modulus ? qdot_expr_arg(pool, base, 0) : base);
     }

@@ -21,7 +21,7 @@ on(const set *z, qdot_expr e)
 }
 
 static bool
-holds(const set *z, size_t i)
+coordinate_stays(const set *z, size_t i)
 {
     const size_t n = z->plan->n;
 
@@ -60,7 +60,7 @@ reduce(set *z)
                 z->of[z->n_zeros++] = p->inputs[k];
             }
         for (size_t i = 0; i < p->n; i++)
-            if (z->still[i] && !holds(z, i)) {
+            if (z->still[i] && !coordinate_stays(z, i)) {
                 z->still[i] = false;
                 dropped = true;
             }
@@ -72,8 +72,8 @@ reduce(set *z)
 
 /* Those that are 0 and at rest, and are not accelerated. */
 static bool
-begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
-      double *rate)
+still_begin(set *z, const qdot_ode_system *system, double t0, const double *y, const double *low,
+            double *rate)
 {
     const size_t n = z->plan->n;
     bool any = false, known = false;
@@ -110,7 +110,7 @@ qdot_still_find(const qdot_plan *plan, const qdot_ode_system *system, double t0,
     rate = qdot_malloc(2 * n * sizeof *rate);
     status = z.still && z.of && rate ? QDOT_OK : QDOT_ENOMEM;
     z.to = z.of + 2 * n;
-    if (status == QDOT_OK && begin(&z, system, t0, y, low, rate))
+    if (status == QDOT_OK && still_begin(&z, system, t0, y, low, rate))
         status = reduce(&z);
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
         if (z.still[i % n])

@@ -25,7 +25,7 @@ function_value(qdot_pool *pool, const table *t, qdot_expr node)
 
 /* D^orders value at the arguments of the application. */
 static qdot_expr
-apply(qdot_pool *pool, qdot_expr node, void *user)
+apply_derivative(qdot_pool *pool, qdot_expr node, void *user)
 {
     const table *t = user;
     qdot_expr value, formals, *from, *to;
@@ -72,7 +72,7 @@ qdot_substitute(qdot_pool *pool, qdot_expr e, size_t n, const qdot_expr *symbols
         functions |= qdot_expr_kind(pool, symbols[i]) == QDOT_UFUN;
     for (int round = 0; functions && e != QDOT_NIL; round++) {
         before = e;
-        e = qdot_walk_map(pool, e, apply, &t);
+        e = qdot_walk_map(pool, e, apply_derivative, &t);
         if (e == before)
             break;
         if (round == MOST_NESTING) {

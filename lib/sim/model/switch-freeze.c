@@ -32,7 +32,7 @@ side_at(const freezer *f, size_t surface)
 
 /* Whether u is held at 0. */
 static bool
-is_held(const freezer *f, const qdot_gate_pair *pair)
+surface_is_held(const freezer *f, const qdot_gate_pair *pair)
 {
     return pair->surface != SIZE_MAX && f->side && f->side[pair->surface] == QDOT_SIDE_SLIDES;
 }
@@ -91,7 +91,7 @@ factor(const freezer *f, const qdot_gate *gate, uint32_t k)
     long power;
 
     if (base && base->kind == QDOT_GATE_VALUE && base->op == QDOT_ABS
-        && is_held(f, &f->gates.pairs.at[base->pair])
+        && surface_is_held(f, &f->gates.pairs.at[base->pair])
         && qdot_expr_to_int(f->s->pool, argument(f, gate, k + 1), &power) && power < 0)
         return qdot_mul(f->s->pool, side_of(f, &f->gates.pairs.at[base->pair], false),
                         argument(f, base, 0));
@@ -139,7 +139,7 @@ freeze_extreme(const freezer *f, const qdot_gate *gate)
         pair -= gate->n - 1 - i;
         for (uint32_t j = i + 1; j < gate->n; j++) {
             const qdot_gate_pair *p = pair + j - i - 1;
-            qdot_expr side = is_held(f, p) ? QDOT_ZERO : side_of(f, p, false), first;
+            qdot_expr side = surface_is_held(f, p) ? QDOT_ZERO : side_of(f, p, false), first;
 
             if (gate->op == QDOT_MIN)
                 side = qdot_neg(pool, side);
@@ -161,7 +161,7 @@ freeze_value(const freezer *f, const qdot_gate *gate)
 
     switch (gate->op) {
     case QDOT_ABS:
-        return is_held(f, pair) ? QDOT_ZERO : qdot_mul(pool, side_of(f, pair, false), argument(f, gate, 0));
+        return surface_is_held(f, pair) ? QDOT_ZERO : qdot_mul(pool, side_of(f, pair, false), argument(f, gate, 0));
     case QDOT_SIGN: return side_of(f, pair, false);
     case QDOT_FLOOR: return side_of(f, pair, true);
     default: /* mod */

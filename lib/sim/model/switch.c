@@ -160,7 +160,7 @@ may_switch(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_status
-look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
+exprs_look_at(const qdot_pool *pool, size_t n, const qdot_expr *e, bool *smooth)
 {
     qdot_walk walk;
     qdot_status status = qdot_walk_begin_n(pool, n, e, &walk);
@@ -202,7 +202,7 @@ see_smooth(qdot_scene *scene, const qdot_run_request *request, bool *smooth)
             e[count++] = scene->potentials.at[i].e;
         e[count++] = Q;
         *smooth = true;
-        status = look_at(pool, count, e, smooth);
+        status = exprs_look_at(pool, count, e, smooth);
     }
     qdot_free(e);
     qdot_free(terms);
