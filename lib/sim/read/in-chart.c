@@ -40,7 +40,7 @@ check_branches(const qdot_in_chart *in, const qdot_expr *exprs)
 
 /* Express them, from no quarters where no angle stands by itself. */
 static qdot_status
-express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
+chart_express(qdot_in_chart *in, const qdot_expr *exprs, const long *quarters)
 {
     const qdot_run_chart *x = in->run->chart;
 
@@ -65,12 +65,12 @@ qdot_in_chart_express(qdot_in_chart *in, qdot_run *run, size_t m, const qdot_exp
     in->exprs = qdot_calloc(m + 1, sizeof *in->exprs);
     if (!in->exprs)
         return QDOT_ENOMEM;
-    QDOT_TRY(express(in, exprs, NULL));
+    QDOT_TRY(chart_express(in, exprs, NULL));
     qdot_run_chart_limit(run);
     if (!in->turns)
         return QDOT_OK;
     QDOT_TRY(qdot_run_chart_quarters(run, t, &in->quarters));
-    QDOT_TRY(express(in, exprs, in->quarters));
+    QDOT_TRY(chart_express(in, exprs, in->quarters));
     return check_branches(in, exprs);
 }
 

@@ -39,7 +39,7 @@ make_inputs(const qdot_plan *plan, size_t k, qdot_expr *own)
 
 /* The value of a member in the inputs `own` of its run, except t, which all have in common. */
 static qdot_expr
-express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
+member_express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 {
     const qdot_plan *plan = j->plans[m->run];
     const size_t time = 2 * plan->n, behind = time + 1;
@@ -54,7 +54,7 @@ express(qdot_joint *j, const qdot_run_member *m, const qdot_expr *own)
 
 /* Make the inputs of all and put the values of the members in their place. */
 static qdot_status
-join(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from, qdot_expr *to)
+joint_put_together(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from, qdot_expr *to)
 {
     for (size_t k = 0; k < x->n; k++) {
         QDOT_TRY(make_inputs(j->plans[k], k, j->inputs + begin[k]));
@@ -62,7 +62,7 @@ join(qdot_joint *j, const qdot_run_expression *x, size_t *begin, qdot_expr *from
     }
     for (size_t i = 0; i < x->m; i++) {
         from[i] = x->members[i].symbol;
-        to[i] = express(j, x->members + i, j->inputs + begin[x->members[i].run]);
+        to[i] = member_express(j, x->members + i, j->inputs + begin[x->members[i].run]);
     }
     j->e = qdot_subs(j->plans[0]->pool, x->e, x->m, from, to);
     return qdot_pool_check(j->plans[0]->pool);
@@ -88,7 +88,7 @@ qdot_joint_init(qdot_joint *j, const qdot_run_expression *x)
     j->inputs = qdot_calloc(inputs, sizeof *j->inputs);
     begin = qdot_calloc(x->n + 1, sizeof *begin);
     from = qdot_calloc(2 * x->m + 1, sizeof *from);
-    status = j->inputs && begin && from ? join(j, x, begin, from, from + x->m) : QDOT_ENOMEM;
+    status = j->inputs && begin && from ? joint_put_together(j, x, begin, from, from + x->m) : QDOT_ENOMEM;
     qdot_free(begin);
     qdot_free(from);
     j->of.plan = j->plans[0];

@@ -28,7 +28,7 @@ qdot_passage_at(const qdot_run *run, double t)
 
 /* e as it is from one side of the place, to be read on the side `before` or behind it. */
 static qdot_expr
-side_of(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
+expression_on_side(const qdot_run_chart *x, qdot_expr e, size_t k, bool own, bool before)
 {
     const qdot_chart *c = &x->chart;
     const size_t n = c->moved.n + c->signs.n;
@@ -100,7 +100,8 @@ fit_sides(qdot_run *run, qdot_expr e, size_t k, bool before, double h, double *c
     const qdot_run_chart *x = run->chart;
     const double place = x->stretches.at[k].t;
     const int own = before == qdot_trajectory_is_backward(&run->course.tr) ? 1 : -1;
-    const qdot_expr here = side_of(x, e, k, true, before), there = side_of(x, e, k, false, before);
+    const qdot_expr here = expression_on_side(x, e, k, true, before),
+                    there = expression_on_side(x, e, k, false, before);
     double values[NODES];
 
     *error = 0;

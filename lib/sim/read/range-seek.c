@@ -25,7 +25,7 @@ slack_of(const qdot_range_scan *s, double x)
 
 /* The ends of a step may be points by themselves. */
 static void
-enclose(qdot_range_scan *s, double a, double b, int nodes)
+step_enclose(qdot_range_scan *s, double a, double b, int nodes)
 {
     if (a == s->ends[0])
         a = nextafter(a, b);
@@ -42,7 +42,7 @@ typedef struct {
 } stretch;
 
 static qdot_status
-look(qdot_range_scan *s, double sign, stretch *x)
+stretch_look(qdot_range_scan *s, double sign, stretch *x)
 {
     const qdot_range_part p = {.a = x->a, .b = x->b};
     double best = NAN;
@@ -56,7 +56,7 @@ look(qdot_range_scan *s, double sign, stretch *x)
         if (isfinite(v) && t != s->ends[0] && t != s->ends[1])
             best = fmax(best, sign * v);
     }
-    enclose(s, p.a, p.b, NODES);
+    step_enclose(s, p.a, p.b, NODES);
     x->most = sign > 0 ? s->bounds.box->hi : -s->bounds.box->lo;
     if (!isnan(best))
         qdot_range_meet(s, sign * best);
@@ -95,7 +95,7 @@ seek(qdot_range_scan *s, double sign)
             continue;
         for (int half = 0; half < 2 && n < MOST; half++, looked++, n++) {
             at[n] = half == 0 ? (stretch){p.a, middle, 0} : (stretch){middle, p.b, 0};
-            QDOT_TRY(look(s, sign, &at[n]));
+            QDOT_TRY(stretch_look(s, sign, &at[n]));
         }
         QDOT_TRY(qdot_interrupt_check());
     }
@@ -117,7 +117,7 @@ qdot_range_seek(qdot_range_scan *s)
 /* --- what is open -------------------------------------------------------------------- */
 
 static void
-note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
+range_note(qdot_range_scan *s, const qdot_range_part *p, double lo, double hi)
 {
     s->highest = fmax(s->highest, hi);
     s->lowest = fmin(s->lowest, lo);
@@ -130,7 +130,7 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
     const qdot_interval *box = s->bounds.box;
     bool below, above;
 
-    enclose(s, p->a, p->b, p->n);
+    step_enclose(s, p->a, p->b, p->n);
     below = box->hi <= s->largest + slack_of(s, s->largest);
     above = box->lo >= s->smallest - slack_of(s, s->smallest);
     if (s->kind == QDOT_RANGE_MEAN ? !(box->hi - box->lo <= nothing * size_of(s))
@@ -138,7 +138,7 @@ qdot_range_is_beneath(qdot_range_scan *s, const qdot_range_part *p)
         : s->kind == QDOT_RANGE_MIN ? !above
                                     : !below || !above)
         return false;
-    note(s, p, box->lo, box->hi);
+    range_note(s, p, box->lo, box->hi);
     return true;
 }
 
@@ -147,7 +147,7 @@ qdot_range_bound_blurred(qdot_range_scan *s, const qdot_range_part *p, double lo
 {
     double off;
 
-    enclose(s, p->a, p->b, p->n);
+    step_enclose(s, p->a, p->b, p->n);
     off = fmin(qdot_range_miss(s, p), s->bounds.box->hi - s->bounds.box->lo);
     s->highest = fmax(s->highest, fmin(s->bounds.box->hi, high + off));
     s->lowest = fmin(s->lowest, fmax(s->bounds.box->lo, low - off));
@@ -160,7 +160,7 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     qdot_polynomial_bounds *h = &s->bounds;
     double lo, hi;
 
-    enclose(s, p->a, p->b, p->n);
+    step_enclose(s, p->a, p->b, p->n);
     lo = h->box->lo;
     hi = h->box->hi;
     /* a pole, or sin(x)/x, or beside a switch: as values are */
@@ -175,5 +175,5 @@ qdot_range_leave_open(qdot_range_scan *s, const qdot_range_part *p, bool shortes
     if ((s->kind != QDOT_RANGE_MIN && isinf(hi)) || (s->kind != QDOT_RANGE_MAX && isinf(lo)))
         s->open = true;
     else
-        note(s, p, lo, hi);
+        range_note(s, p, lo, hi);
 }

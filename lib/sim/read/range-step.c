@@ -127,7 +127,7 @@ judge_fit(scan *s, const part *p, bool *good)
 }
 
 static verdict
-judge(scan *s, const part *p, bool *good)
+part_judge(scan *s, const part *p, bool *good)
 {
     const verdict v = judge_fit(s, p, good);
 
@@ -361,7 +361,7 @@ qdot_range_step(scan *s, double a, double b)
                 break;
         }
         if (!short_one)
-            v = judge(s, &p, &good);
+            v = part_judge(s, &p, &good);
         /* what it jumps between while its inputs rest is their rounding */
         short_one = short_one || (v == ROUGH && s->bounds.resting);
         if (s->parts == 0 && depth == 1)

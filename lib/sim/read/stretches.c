@@ -51,7 +51,7 @@ switches_at(const qdot_trajectory *tr, size_t piece, double t)
 
 /* The pieces of a ... b, where no course has a point. */
 static void
-enter(qdot_stretches *s)
+stretches_enter(qdot_stretches *s)
 {
     s->odd[0] = s->odd[1] = false;
     for (size_t k = 0; k < s->n; k++) {
@@ -102,7 +102,7 @@ qdot_stretches_next(qdot_stretches *s)
         if (s->a == s->b || (s->n > 1 && k + 2 < n &&
                              fabs(s->b - s->a) <= 16 * DBL_EPSILON * fabs(s->b)))
             continue;
-        enter(s);
+        stretches_enter(s);
         return true;
     }
     return false;
