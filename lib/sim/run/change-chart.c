@@ -242,8 +242,8 @@ run_without(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker
  * groups that were not near may come to be so later: if the run without those that were fails, all
  * are replaced. */
 static qdot_status
-change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
-       const qdot_run *run, qdot_run **out)
+chart_change(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
+             const qdot_run *run, qdot_run **out)
 {
     qdot_chart_groups groups = {0};
     size_t near = 0;
@@ -305,7 +305,7 @@ is_better(const qdot_run *other, const qdot_run *run)
            (isnan(run->report.error) && !isnan(other->report.error));
 }
 
-/* `change` from the start that the run has settled on the constraints, if it has one. */
+/* `chart_change` from the start that the run has settled on the constraints, if it has one. */
 static qdot_status
 change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_maker *by,
                qdot_run *run, qdot_run **out)
@@ -316,7 +316,7 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     qdot_status status;
 
     if (s->constraints.n == 0 || !run || !run->start)
-        return change(s, request, by, run, out);
+        return chart_change(s, request, by, run, out);
     start = qdot_calloc(2 * n + 1, sizeof *start);
     if (!start)
         return QDOT_ENOMEM;
@@ -327,7 +327,7 @@ change_settled(qdot_scene *s, const qdot_run_request *request, const qdot_run_ma
     settled.v0 = start + n;
     status = qdot_pool_check(s->pool);
     if (status == QDOT_OK)
-        status = change(s, &settled, by, run, out);
+        status = chart_change(s, &settled, by, run, out);
     qdot_free(start);
     return status;
 }

@@ -21,7 +21,7 @@ is_accurate(const qdot_run *run, double tol)
 
 /* *run's place is taken by `other`, which may be NULL. */
 static void
-take(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
+run_replace(const qdot_run_maker *by, qdot_run **run, qdot_run *other)
 {
     if (!other)
         return;
@@ -94,18 +94,18 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
         return QDOT_OK;
     status = make_stiff(scene, request, by, &other);
     if (status == QDOT_ENOMEM || status == QDOT_EINTR) {
-        take(by, run, other);
+        run_replace(by, run, other);
         return status;
     }
     if (has_arrived(status, other) && is_accurate(other, request->tol)) {
-        take(by, run, other);
+        run_replace(by, run, other);
         return say_changed(*run, before, t);
     }
     series.method = before;
     status = by->make(scene, &series, &patient);
     if (has_arrived(status, patient) || status == QDOT_EINTR || status == QDOT_ENOMEM) {
         by->free(other);
-        take(by, run, patient);
+        run_replace(by, run, patient);
         return status;
     }
     by->free(patient);
@@ -113,6 +113,6 @@ qdot_run_change_over(qdot_scene *scene, const qdot_run_request *request,
         by->free(other);
         return QDOT_OK;
     }
-    take(by, run, other);
+    run_replace(by, run, other);
     return say_changed(*run, before, t);
 }

@@ -115,7 +115,7 @@ turn_all(following *f)
 }
 
 static qdot_status
-look(following *f, double t, double *change)
+angles_look(following *f, double t, double *change)
 {
     QDOT_TRY(qdot_reader_at(&f->reader, SIZE_MAX, t, f->xy));
     *change = turn_all(f);
@@ -139,7 +139,7 @@ begin_stretch(following *f, double t, const double *angles)
 /* Go to t with the angles read there. They, or signs, jump where a singular place is passed
  * exactly. */
 static qdot_status
-go(following *f, double t, bool jumps)
+angles_go(following *f, double t, bool jumps)
 {
     const qdot_chart_stretch *s = &f->x->stretches.at[f->x->stretches.n - 1];
     const long *quarters = f->x->quarters.at + s->quarters;
@@ -215,7 +215,7 @@ follow_to(following *f, double end)
         double change;
         bool jumps;
 
-        QDOT_TRY(look(f, t, &change));
+        QDOT_TRY(angles_look(f, t, &change));
         jumps = change > sure || changes_branch(f);
         if (jumps && fabs(t - f->t) > least) {
             t = f->t + 0.5 * (t - f->t);
@@ -226,7 +226,7 @@ follow_to(following *f, double end)
             change_signs(f);
             half_turns(f);
         }
-        QDOT_TRY(go(f, t, jumps));
+        QDOT_TRY(angles_go(f, t, jumps));
         f->passed = 0;
         t = end;
     }
@@ -240,7 +240,7 @@ follow_run(following *f, const qdot_trajectory *tr)
 
     f->t = tr->t[0];
     memcpy(f->now, f->x->angles, f->m * sizeof *f->now);
-    QDOT_TRY(look(f, f->t, &change));
+    QDOT_TRY(angles_look(f, f->t, &change));
     memcpy(f->now, f->next, f->m * sizeof *f->now);
     QDOT_TRY(begin_stretch(f, f->t, f->now));
     for (size_t k = 1; k < tr->count; k++)
@@ -305,7 +305,7 @@ express_all(const qdot_run_chart *x, qdot_expr *exprs)
 }
 
 static qdot_status
-follow(qdot_run *run)
+angles_follow(qdot_run *run)
 {
     qdot_run_chart *x = run->chart;
     following f = {.x = x, .m = x->chart.moved.n, .n = x->chart.signs.n};
@@ -363,7 +363,7 @@ qdot_run_chart_follow(qdot_run *run)
     if (x->followed)
         return QDOT_OK;
     x->stretches.n = x->quarters.n = 0;
-    return follow(run);
+    return angles_follow(run);
 }
 
 qdot_status
@@ -395,7 +395,7 @@ qdot_run_chart_quarters(qdot_run *run, double t, const long **quarters)
 
 /* A velocity may be undefined at a singular place. */
 static qdot_status
-read_end(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
+chart_read_end(qdot_run *run, const qdot_run_maker *by, size_t i, double *error)
 {
     qdot_run_chart *x = run->chart;
     const qdot_expr q = x->coordinates[i % x->n];
@@ -422,7 +422,7 @@ qdot_run_chart_report(qdot_run *run, const qdot_run_maker *by)
     for (size_t i = 0; i < 2 * x->n; i++) {
         double error = NAN;
 
-        QDOT_TRY(read_end(run, by, i, &error));
+        QDOT_TRY(chart_read_end(run, by, i, &error));
         error /= fmax(1, fabs(x->end[i]));
         largest = isnan(error) || isnan(largest) ? NAN : fmax(largest, error);
     }

@@ -105,7 +105,7 @@ with_numbers(const ground *g, qdot_expr e)
 
 /* Solve M q'' = f, M numbers, for symbols in the place of f, which may be long. */
 static qdot_status
-solve(const ground *g, qdot_expr M, qdot_expr f)
+accelerations_solve_for(const ground *g, qdot_expr M, qdot_expr f)
 {
     qdot_pool *pool = g->scene->pool;
     const uint32_t n = (uint32_t)g->of.n;
@@ -152,7 +152,7 @@ find_equations(ground *g)
         numbers =
             numbers && qdot_expr_kind(s->pool, qdot_expr_arg(s->pool, M, i)) == QDOT_NUM;
     if (numbers)
-        return solve(g, M, with_numbers(g, qdot_mech_numeric_forcing(s)));
+        return accelerations_solve_for(g, M, with_numbers(g, qdot_mech_numeric_forcing(s)));
     for (size_t i = 0; i < n; i++)
         g->accels[i] = with_numbers(g, qdot_mech_accel(s, s->coordinates.at[i]));
     return qdot_pool_check(s->pool);
@@ -161,8 +161,8 @@ find_equations(ground *g)
 /* The least R along the run, of its largest; where no digit of the run is right, only to the end of an
  * approach that began before: that may be what took them. */
 static qdot_status
-measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
-        double *near)
+pair_measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr distance,
+             double *near)
 {
     const qdot_trajectory *tr = &run->course.tr;
     const qdot_expr e = qdot_chart_given(&g->x->chart, distance);
@@ -188,8 +188,8 @@ measure(const ground *g, qdot_run *run, const qdot_run_maker *by, qdot_expr dist
 
 /* The pair that the run came nearest to; *found. */
 static qdot_status
-choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
-       qdot_collision_pair *pair, bool *found)
+pair_choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
+            qdot_collision_pair *pair, bool *found)
 {
     const qdot_scene *s = g->scene;
     const qdot_collision_equations of = {
@@ -205,7 +205,7 @@ choose(const ground *g, qdot_run *run, const qdot_run_maker *by,
     for (size_t i = 0; i < pairs.n && status == QDOT_OK; i++) {
         double near;
 
-        status = measure(g, run, by, pairs.at[i].distance, &near);
+        status = pair_measure(g, run, by, pairs.at[i].distance, &near);
         if (status != QDOT_OK || !(near < nearest))
             continue;
         nearest = near;
@@ -288,7 +288,7 @@ find_scales(const ground *g, attempt *a)
 }
 
 static qdot_status
-make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
+collision_make(const ground *g, const qdot_run_maker *by, attempt *a, qdot_run **out)
 {
     const qdot_collision *c = &g->x->collision;
     const bool by_series = strcmp(g->request->method, "auto") == 0 ||
@@ -322,7 +322,7 @@ arrives(const qdot_run *run)
 }
 
 static qdot_status
-prepare(const ground *g, attempt *a)
+attempt_prepare(const ground *g, attempt *a)
 {
     const qdot_collision *c = &g->x->collision;
     double t0, t1;
@@ -346,12 +346,12 @@ static qdot_status
 run_in_s(const ground *g, const qdot_run_maker *by, qdot_run **out)
 {
     attempt a = {.n = g->x->collision.scene->coordinates.n};
-    qdot_status status = prepare(g, &a);
+    qdot_status status = attempt_prepare(g, &a);
 
     for (size_t k = 0; status == QDOT_OK && !*out && k < sizeof lengths / sizeof *lengths;
          k++) {
         a.length = lengths[k] * 2 * a.T / a.R;
-        status = make(g, by, &a, out);
+        status = collision_make(g, by, &a, out);
         if (status == QDOT_OK && arrives(*out))
             break;
         by->free(*out);
@@ -537,8 +537,8 @@ say_hindrance(const ground *g, qdot_run *run)
 
 /* The run with that pair; *out NULL where it does not arrive. */
 static qdot_status
-pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
-     qdot_run **out)
+collision_pass(ground *g, const qdot_run_maker *by, const qdot_collision_pair *pair, qdot_run *run,
+               qdot_run **out)
 {
     qdot_run_chart *x = g->x;
     double first;
@@ -580,12 +580,12 @@ qdot_run_collide(qdot_scene *s, const qdot_run_request *request, const qdot_run_
     status = qdot_run_chart_open(s, request, &g.x);
     if (status == QDOT_OK) {
         g.scene = g.x->chart.scene ? g.x->chart.scene : s;
-        status = choose(&g, run, by, &pair, &found);
+        status = pair_choose(&g, run, by, &pair, &found);
     }
     if (status == QDOT_OK && found)
         status = find_equations(&g);
     if (status == QDOT_OK && found)
-        status = pass(&g, by, &pair, run, out);
+        status = collision_pass(&g, by, &pair, run, out);
     if (!*out || (*out)->chart != g.x)
         qdot_run_chart_free(g.x);
     qdot_free(g.accels);

@@ -358,7 +358,7 @@ say_coordinates(const qdot_plan *p, qdot_text *out)
 }
 
 static qdot_status
-describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
+plan_describe(qdot_scene *scene, const qdot_run_request *request, qdot_text *out)
 {
     qdot_stage stage = {0};
     qdot_status status = qdot_stage_begin(&stage, scene, request);
@@ -414,7 +414,7 @@ qdot_run_plan(qdot_scene *scene, const qdot_run_request *request, qdot_text *out
     qdot_status status;
 
     QDOT_TRY(qdot_parameter_states_init(&states, scene, request));
-    status = describe(scene, &states.request, out);
+    status = plan_describe(scene, &states.request, out);
     qdot_parameter_states_clear(&states);
     return status;
 }

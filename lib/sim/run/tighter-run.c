@@ -56,7 +56,7 @@ power_of_growth(const qdot_run *run)
 
 /* Whether a run can be made under the tightest tolerance. */
 static bool
-is_open(const qdot_run *run, const qdot_run_request *request)
+can_be_tighter(const qdot_run *run, const qdot_run_request *request)
 {
     return run->plan->chosen && run->plan->method->series && !request->no_drifts
            && !request->by_clock && run->report.status != QDOT_RUN_FAILED
@@ -96,7 +96,7 @@ qdot_run_tighten(qdot_scene *scene, const qdot_run_request *request, const qdot_
     qdot_run *other = NULL;
     qdot_status status;
 
-    if (!is_open(*run, request)
+    if (!can_be_tighter(*run, request)
         || (isnan(lost) ? !isnan((*run)->report.error) : !is_likely(*run, request)))
         return QDOT_OK;
     tighter.tol = tightest;
