@@ -69,7 +69,7 @@ same_but_spaces(const char *a, const char *b)
 
 /* The name of an answer, in colour where it is not laid out (which colours it then). */
 static qdot_status
-add_name(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *line)
+answer_add_name(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *line)
 {
     qdot_text_add(line, s->laid_out ? "" : paint(session, QDOT_NAME_COLOUR));
     QDOT_TRY(qdot_formula_name(session, name, line));
@@ -111,7 +111,7 @@ expr_text(qdot_session *session, const char *name, qdot_expr value)
         status = says_the_same(session, name, value, &bare);
     qdot_formula_bracket(session, true, &line);
     if (status == QDOT_OK && !bare) {
-        status = add_name(session, &s, name, &line);
+        status = answer_add_name(session, &s, name, &line);
         if (!relation && value != QDOT_TRUE && value != QDOT_FALSE)
             qdot_text_add(&line, qdot_formula_equals(session));
         else
@@ -209,7 +209,7 @@ numbers_text(qdot_session *session, const char *name, size_t n, const double *va
     qdot_status status;
 
     qdot_formula_bracket(session, true, &line);
-    status = add_name(session, &s, name, &line);
+    status = answer_add_name(session, &s, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     for (size_t i = 0; i < n; i++) {
         if (i > 0)
@@ -281,7 +281,7 @@ qdot_answer_numerals(qdot_session *session, const char *name, bool several,
         return numbers_json(session, name, several, values, errors);
     s = qdot_sheet_begin(session);
     qdot_formula_bracket(session, true, &line);
-    status = add_name(session, &s, name, &line);
+    status = answer_add_name(session, &s, name, &line);
     qdot_text_add(&line, qdot_formula_equals(session));
     if (s.laid_out)
         qdot_sheet_words(qdot_text_str(values), values->n, &line);

@@ -131,7 +131,7 @@ is_plain(qdot_session *session, qdot_expr e)
 
 /* e as it is, its numbers of runs as the rationals that they are. */
 static qdot_status
-value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
+digits_value_of(qdot_session *session, qdot_expr e, mpfr_ptr x)
 {
     e = qdot_measured_as_rationals(session, qdot_session_bind(session, e));
     QDOT_TRY(qdot_pool_check(session->pool));
@@ -148,7 +148,7 @@ qdot_digits_number(qdot_session *session, qdot_expr e, int digits, double *error
 
     mpfr_init2(x, (mpfr_prec_t)(3.33 * digits) + 64);
     mpfr_init2(printed, mpfr_get_prec(x));
-    status = value_of(session, e, x);
+    status = digits_value_of(session, e, x);
     if (status == QDOT_OK)
         status = write_real(x, digits, *error, *error == 0 && is_plain(session, e), out);
     if (status == QDOT_OK)
@@ -180,7 +180,7 @@ qdot_digits_difference(qdot_session *session, qdot_expr left, qdot_expr right,
     qdot_status status;
 
     mpfr_init2(x, 64);
-    status = value_of(session, qdot_sub(session->pool, left, right), x);
+    status = digits_value_of(session, qdot_sub(session->pool, left, right), x);
     *difference = mpfr_get_d(x, MPFR_RNDN);
     mpfr_clear(x);
     return status;

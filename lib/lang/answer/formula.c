@@ -76,7 +76,7 @@ index_length(const char *at)
 
 /* The declared name that begins with `word` at w->at, its index with it. */
 static const qdot_name *
-declared(const writer *w, const char *word, size_t *index)
+declared_name(const writer *w, const char *word, size_t *index)
 {
     qdot_text spelled = {0};
     const qdot_name *name = NULL;
@@ -114,10 +114,10 @@ word(writer *w)
     if (text == NULL)
         return QDOT_ENOMEM;
     w->at += n;
-    name = declared(w, text, &index);
+    name = declared_name(w, text, &index);
     primes = strspn(w->at + index, "'");
     if (name == NULL && text[0] == 'd') { /* dT/dtheta' */
-        const qdot_name *q = declared(w, text + 1, &index);
+        const qdot_name *q = declared_name(w, text + 1, &index);
 
         if (q != NULL && q->kind == QDOT_NAME_COORD) {
             qdot_text_char(w->out, 'd');
@@ -174,7 +174,7 @@ end_bracket(writer *w)
 
 /* ^2 as ², ^{2}; another exponent after its sign. */
 static void
-power(writer *w)
+formula_power(writer *w)
 {
     static const char *const superscript[] = {"⁰", "¹", "²", "³", "⁴",
                                               "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -211,7 +211,7 @@ next(writer *w)
     if (is_letter(*w->at))
         return word(w);
     if (*w->at == '^') {
-        power(w);
+        formula_power(w);
         return QDOT_OK;
     }
     if (*w->at == '(' || *w->at == '[') {

@@ -33,7 +33,7 @@ in_style(const spelling *s, qdot_style style)
 }
 
 static const spelling *
-find(const spelling *table, size_t count, const char *at)
+spelling_find(const spelling *table, size_t count, const char *at)
 {
     for (size_t i = 0; i < count; i++)
         if (strncmp(at, table[i].plain, strlen(table[i].plain)) == 0)
@@ -47,7 +47,7 @@ add_base(const char *at, qdot_style style, qdot_text *out)
 {
     static const char *const dots[][3] = {{"\u0307", "\\dot{", "˙"},
                                           {"\u0308", "\\ddot{", "¨"}};
-    const spelling *word = find(words, sizeof words / sizeof *words, at);
+    const spelling *word = spelling_find(words, sizeof words / sizeof *words, at);
     const char letter = *at;
     size_t primes;
 
@@ -143,7 +143,7 @@ qdot_notation(const char *formula, qdot_style style, qdot_text *out)
         return;
     }
     while (*formula != '\0') {
-        const spelling *sign = find(signs, sizeof signs / sizeof *signs, formula);
+        const spelling *sign = spelling_find(signs, sizeof signs / sizeof *signs, formula);
 
         if (sign) {
             qdot_text_add(out, in_style(sign, style));

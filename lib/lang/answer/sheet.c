@@ -133,7 +133,7 @@ lay_out(const qdot_session *session, const qdot_sheet *s, char *at, qdot_text *o
 
 /* What is higher than the terminal: its first half, how much it is, and how all of it is seen. */
 static void
-cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
+sheet_cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 {
     const size_t shown = s->rows / 2;
     qdot_text last = {0};
@@ -156,7 +156,7 @@ cut(const qdot_sheet *s, const qdot_layout_size *size, qdot_text *text)
 /* --- the end --------------------------------------------------------------------------- */
 
 static qdot_status
-draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *lines)
+sheet_draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *lines)
 {
     qdot_layout_size size = {0};
     qdot_text drawn = {0};
@@ -164,7 +164,7 @@ draw(qdot_session *session, const qdot_sheet *s, const char *name, qdot_text *li
         lines->n > 0 ? lay_out(session, s, lines->at, &drawn, &size) : QDOT_OK;
 
     if (status == QDOT_OK)
-        cut(s, &size, &drawn);
+        sheet_cut(s, &size, &drawn);
     return qdot_answer_drawn(session, name, status, &drawn);
 }
 
@@ -184,7 +184,7 @@ qdot_sheet_end(qdot_session *session, const qdot_sheet *s, const char *name,
             qdot_text_char(&session->block, '\n');
         status = qdot_text_status(&session->block);
     } else if (status == QDOT_OK && s->laid_out) {
-        status = draw(session, s, name, lines);
+        status = sheet_draw(session, s, name, lines);
     } else {
         return (session->flat ? qdot_answer_drawn : qdot_answer_written)(session, name, status,
                                                                          lines);

@@ -8,7 +8,7 @@
 
 /* Write a finished text as it is and clear it. */
 static qdot_status
-put(FILE *file, qdot_text *text)
+write_out(FILE *file, qdot_text *text)
 {
     qdot_status status = qdot_text_status(text);
 
@@ -45,7 +45,7 @@ qdot_write(const qdot_session *session, FILE *file, qdot_text *text)
         qdot_text_clear(text);
         *text = wrapped;
     }
-    return put(file, text);
+    return write_out(file, text);
 }
 
 FILE *
@@ -69,7 +69,7 @@ qdot_write_field(qdot_text *line, const char *before, const char *text)
 }
 
 static qdot_status
-answer(qdot_session *session, const char *name, const char *text, bool drawn)
+write_answer(qdot_session *session, const char *name, const char *text, bool drawn)
 {
     qdot_text line = {0}, plain = {0};
     size_t n = strlen(text);
@@ -86,23 +86,23 @@ answer(qdot_session *session, const char *name, const char *text, bool drawn)
         if (n == 0 || text[n - 1] != '\n')
             qdot_text_char(&line, '\n');
     }
-    return drawn ? put(session->out, &line) : qdot_write(session, session->out, &line);
+    return drawn ? write_out(session->out, &line) : qdot_write(session, session->out, &line);
 }
 
 qdot_status
 qdot_answer_text(qdot_session *session, const char *name, const char *text)
 {
-    return answer(session, name, text, false);
+    return write_answer(session, name, text, false);
 }
 
 /* Of a text written with that status. */
 static qdot_status
-end(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
+write_end(qdot_session *session, const char *name, qdot_status status, qdot_text *text, bool drawn)
 {
     if (status == QDOT_OK)
         status = qdot_text_status(text);
     if (status == QDOT_OK)
-        status = answer(session, name, qdot_text_str(text), drawn);
+        status = write_answer(session, name, qdot_text_str(text), drawn);
     qdot_text_clear(text);
     return status;
 }
@@ -111,11 +111,11 @@ qdot_status
 qdot_answer_written(qdot_session *session, const char *name, qdot_status status,
                     qdot_text *text)
 {
-    return end(session, name, status, text, false);
+    return write_end(session, name, status, text, false);
 }
 
 qdot_status
 qdot_answer_drawn(qdot_session *session, const char *name, qdot_status status, qdot_text *text)
 {
-    return end(session, name, status, text, true);
+    return write_end(session, name, status, text, true);
 }
