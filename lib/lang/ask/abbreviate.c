@@ -33,7 +33,7 @@ is_taken(const char *name, void *user)
 
 /* The parts, then the value in terms of them. */
 static qdot_status
-answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
+abbreviate_answer(qdot_session *session, const char *name, qdot_expr value, qdot_expr over)
 {
     names_in_use taken = {session, qdot_expr_atoms(session->pool, value, false)};
     qdot_abbreviated a;
@@ -72,7 +72,7 @@ qdot_abbreviate_statement(qdot_cursor *c)
     if (status == QDOT_OK && qdot_measured_occurs(session, value))
         status = qdot_ask_answer(session, qdot_text_str(&name), value, over);
     else if (status == QDOT_OK)
-        status = answer(session, qdot_text_str(&name), value, over);
+        status = abbreviate_answer(session, qdot_text_str(&name), value, over);
     qdot_text_clear(&name);
     return status;
 }

@@ -83,7 +83,7 @@ component(const tensor *t, const uint32_t *at)
 
 /* The next indices; false past the last. */
 static bool
-step(const tensor *t, uint32_t *at)
+indices_step(const tensor *t, uint32_t *at)
 {
     for (uint32_t k = t->rank; k-- > 0;) {
         if (++at[k] < t->n)
@@ -107,7 +107,7 @@ mirror_of(const tensor *t)
 
         same = same && a == b;
         opposite = opposite && a == qdot_neg(t->session->pool, b);
-    } while (step(t, at));
+    } while (indices_step(t, at));
     return same ? 1 : opposite ? -1 : 0;
 }
 
@@ -169,7 +169,7 @@ add_typed(const tensor *t, qdot_text *out, const qdot_text *indices)
 
 /* A component's name; indices [rank] as they are written in it. */
 static qdot_status
-add_name(const tensor *t, qdot_text *out, const qdot_text *indices)
+component_add_name(const tensor *t, qdot_text *out, const qdot_text *indices)
 {
     const bool tags = t->session->style == QDOT_MATHML;
 
@@ -211,7 +211,7 @@ add_component(tensor *t, const uint32_t *at, qdot_expr value, qdot_text *indices
 
     QDOT_TRY(print_indices(t, at, indices));
     qdot_formula_bracket(s, true, &t->text);
-    QDOT_TRY(add_name(t, &t->text, indices));
+    QDOT_TRY(component_add_name(t, &t->text, indices));
     qdot_text_add(&t->text, qdot_formula_equals(s));
     QDOT_TRY(qdot_formula_print(s, value, s->style, &t->text));
     qdot_formula_bracket(s, false, &t->text);
@@ -243,7 +243,7 @@ add_mirror(tensor *t, qdot_text *indices)
                                : t->session->style == QDOT_UNICODE ? "−"
                                                                    : "-");
         }
-        QDOT_TRY(add_name(t, out, indices));
+        QDOT_TRY(component_add_name(t, out, indices));
     }
     qdot_formula_bracket(t->session, false, out);
     return QDOT_OK;
@@ -292,7 +292,7 @@ add_all(tensor *t, qdot_text *indices)
         }
         none = false;
         QDOT_TRY(add_component(t, at, value, indices));
-    } while (step(t, at));
+    } while (indices_step(t, at));
     QDOT_TRY(qdot_pool_check(t->session->pool));
     return add_rest(t, none, indices);
 }

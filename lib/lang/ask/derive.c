@@ -46,7 +46,7 @@ heading(derivation *d, const char *title, const char *formula)
 /* What a line is of, before its formula: `    potential energy of gravity on bob: `; the last two
  * may be NULL. */
 static void
-label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
+derivation_label(derivation *d, const char *what, const char *of, const char *joined, const char *name)
 {
     qdot_text_format(&d->text, "    %s%s%s%s%s: ", what, of != NULL ? " of " : "",
                      of != NULL ? of : "", name != NULL ? joined : "", name != NULL ? name : "");
@@ -223,17 +223,17 @@ spin(derivation *d, const qdot_body *b)
         return is(d, omega, w);
     QDOT_TRY(is(d, omega, w));
     w = qdot_value_mul(s->pool, qdot_transpose(s->pool, b->rotation), w);
-    label(d, "along the axes of the body", NULL, NULL, NULL);
+    derivation_label(d, "along the axes of the body", NULL, NULL, NULL);
     return is(d, omega, tidy(d, w));
 }
 
 /* How a body in the plane is turned. */
 static qdot_status
-turn(derivation *d, const qdot_body *b)
+derivation_turning(derivation *d, const qdot_body *b)
 {
     if (b->angle == QDOT_NIL || qdot_expr_kind(d->session->pool, b->angle) == QDOT_NUM)
         return QDOT_OK;
-    label(d, "angle", b->name, NULL, NULL);
+    derivation_label(d, "angle", b->name, NULL, NULL);
     QDOT_TRY(qdot_formula(d->session, b->angle, &d->text));
     qdot_text_char(&d->text, '\n');
     return QDOT_OK;
@@ -279,7 +279,7 @@ kinematics(derivation *d)
                         : step == 1 ? tidy(d, qdot_ddt(s->pool, r))
                                     : qdot_mech_speed2(s, r)));
             if (step == 0 && !particle)
-                QDOT_TRY(turn(d, b));
+                QDOT_TRY(derivation_turning(d, b));
             if (step == 1 && !particle)
                 QDOT_TRY(spin(d, b));
         }
@@ -306,15 +306,15 @@ kinetic(derivation *d)
     for (size_t k = 0; n > 1 && qdot_mech_kinetic_part(s, k, &part); k++) {
         const symbol T = {.plain = "T", .letter = "T", .of = part.name};
 
-        label(d, part.kind, part.name, NULL, NULL);
+        derivation_label(d, part.kind, part.name, NULL, NULL);
         QDOT_TRY(is(d, T, part.value));
     }
     if (n > 1)
-        label(d, "together", NULL, NULL, NULL);
+        derivation_label(d, "together", NULL, NULL, NULL);
     QDOT_TRY(is(d, bare("T"), qdot_mech_kinetic(s)));
     if (s->coordinates.n == 1)
         return QDOT_OK;
-    label(d, "mass matrix", NULL, NULL, NULL);
+    derivation_label(d, "mass matrix", NULL, NULL, NULL);
     return is(d, bare("M"), qdot_mech_mass_matrix(s));
 }
 
@@ -333,15 +333,15 @@ potential(derivation *d)
 
         snprintf(number, sizeof number, "%zu", k + 1);
         if (strcmp(part.kind, "potential") == 0)
-            label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
-                  part.name, NULL, NULL);
+            derivation_label(d, part.name != NULL ? "potential energy" : "potential energy as declared",
+                             part.name, NULL, NULL);
         else
-            label(d, "potential energy", part.kind,
-                  strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
+            derivation_label(d, "potential energy", part.kind,
+                             strcmp(part.kind, "gravity") == 0 ? " on " : " ", part.name);
         QDOT_TRY(is(d, (symbol){.plain = "V", .letter = "V", .of = number}, part.value));
     }
     if (several)
-        label(d, "together", NULL, NULL, NULL);
+        derivation_label(d, "together", NULL, NULL, NULL);
     return is(d, bare("V"), qdot_mech_potential(s));
 }
 
@@ -453,7 +453,7 @@ rates(derivation *d, const qdot_constraint *c)
         f = qdot_ddt(pool, f);
         if (f == QDOT_NIL || qdot_expr_size(pool, f) > LINE)
             break;
-        label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
+        derivation_label(d, once ? "differentiated" : "differentiated twice", NULL, NULL, NULL);
         QDOT_TRY(relation(d, qdot_rel(pool, QDOT_EQ, f, QDOT_ZERO)));
     }
     return qdot_pool_check(pool);
@@ -494,7 +494,7 @@ virtual_work(derivation *d)
                          qdot_mul(s->pool, qdot_mech_source_force(s, &source, q),
                                   qdot_symbol_of(s->pool, QDOT_DELTA, q)));
         }
-        label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
+        derivation_label(d, "virtual work", source.kind, on ? " on " : " ", source.name);
         QDOT_TRY(is(d, bare("deltaW"), W));
     }
     return QDOT_OK;
@@ -563,7 +563,7 @@ right_sides(derivation *d)
         const qdot_constraint *c = &s->constraints.at[i];
 
         if (c->label != NULL)
-            label(d, "constraint", NULL, " ", c->name);
+            derivation_label(d, "constraint", NULL, " ", c->name);
         QDOT_TRY(relation(d, qdot_rel(s->pool, QDOT_EQ, c->left, c->right)));
         QDOT_TRY(rates(d, c));
     }
