@@ -13,7 +13,7 @@ static const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACC
 
 /* Bind what index i stands at. */
 static qdot_status
-bind(qdot_loop *loop, qdot_loop_index *index)
+loop_bind(qdot_loop *loop, qdot_loop_index *index)
 {
     qdot_session *session = loop->session;
     const qdot_name *known = qdot_names_find(session->names, index->name);
@@ -115,7 +115,7 @@ advance(qdot_loop *loop, bool *more)
 
             index->next++;
             index->at++;
-            status = bind(loop, index);
+            status = loop_bind(loop, index);
             if (status == QDOT_OK) {
                 *more = true;
                 return QDOT_OK;
@@ -147,7 +147,7 @@ descend(qdot_loop *loop, qdot_cursor *c, bool *more)
         if (status == QDOT_OK)
             status = read_index(loop, c, &index, &empty);
         if (status == QDOT_OK && !empty)
-            status = bind(loop, &index);
+            status = loop_bind(loop, &index);
         if (status == QDOT_OK && !empty) {
             status = qdot_vec_push(&loop->indices, index);
             if (status == QDOT_OK)

@@ -11,7 +11,7 @@
 
 /* q, q' or t, and its value. */
 static qdot_status
-read_one(qdot_cursor *c, qdot_pairs *list)
+scale_read_one(qdot_cursor *c, qdot_pairs *list)
 {
     const qdot_token *start = c->at;
     qdot_expr symbol = QDOT_T, value = QDOT_NIL;
@@ -38,7 +38,7 @@ qdot_scale_statement(qdot_cursor *c)
     qdot_status status;
 
     do {
-        status = read_one(c, &list);
+        status = scale_read_one(c, &list);
     } while (status == QDOT_OK && qdot_cursor_accept_op(c, ","));
     if (status == QDOT_OK)
         status = qdot_cursor_expect_end(c);

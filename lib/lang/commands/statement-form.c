@@ -43,7 +43,7 @@ qdot_statement_is_free_argument(const qdot_session *session, const char *name)
 
 /* Whether `name` is what the function was defined with at place i. */
 static bool
-is_formal(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
+is_formal_at(const qdot_session *session, const qdot_name *function, uint32_t i, const char *name)
 {
     const qdot_symbol *formal;
 
@@ -84,7 +84,7 @@ is_applied(const qdot_session *session, const qdot_name *known, const qdot_token
         const bool declared = is_declared(session, k->text);
 
         all = all && declared;
-        other = other || (declared && !is_formal(session, known, i, k->text));
+        other = other || (declared && !is_formal_at(session, known, i, k->text));
     }
     return other || (all && !is_of_arguments(name, equals));
 }

@@ -125,7 +125,7 @@ behind_group(const compiler *c, int i, int to)
 
 /* The first piece of that kind and text at depth 0 of [from, to); `to`: none. */
 static int
-find(const compiler *c, int from, int to, piece_kind kind, const char *text)
+piece_find(const compiler *c, int from, int to, piece_kind kind, const char *text)
 {
     while (from < to && (c->piece[from].kind != kind ||
                          (text != NULL && strcmp(c->piece[from].text, text) != 0)))
@@ -150,7 +150,7 @@ compile_cut(compiler *c, int from, int to, piece_kind kind, const char *separato
     int last = -1; /* jump to the end */
 
     for (;;) {
-        const int end = find(c, from, to, kind, separator);
+        const int end = piece_find(c, from, to, kind, separator);
         const int fork = end < to ? emit(c, QDOT_USAGE_FORK, "") : -1;
 
         compile(c, from, end);
@@ -234,10 +234,10 @@ compile_words(compiler *c, int i, int to)
 static int
 end_of_list(const compiler *c, int i, int to)
 {
-    const int more = find(c, i, to, MORE, NULL);
+    const int more = piece_find(c, i, to, MORE, NULL);
 
     if (more >= to || more == i || strcmp(c->piece[more - 1].text, ",") != 0 ||
-        find(c, i, more, WORD, NULL) < more || find(c, i, more, SIGN, ":") < more)
+        piece_find(c, i, more, WORD, NULL) < more || piece_find(c, i, more, SIGN, ":") < more)
         return i;
     return more - 1;
 }
@@ -290,11 +290,11 @@ compile_sequence(compiler *c, int i, int to)
 static void
 compile_tail(compiler *c, int from, int to)
 {
-    const int bar = find(c, from, to, BAR, NULL);
+    const int bar = piece_find(c, from, to, BAR, NULL);
     int last = from;
 
-    for (int i = find(c, from, bar, WORD, NULL); i < bar;
-         i = find(c, i + 1, bar, WORD, NULL))
+    for (int i = piece_find(c, from, bar, WORD, NULL); i < bar;
+         i = piece_find(c, i + 1, bar, WORD, NULL))
         last = i;
     if (bar == to) {
         compile_sequence(c, from, to);
@@ -314,10 +314,10 @@ compile(compiler *c, int from, int to)
     int last = -1;
 
     for (;;) {
-        int end = find(c, from, to, BAR, NULL), fork;
+        int end = piece_find(c, from, to, BAR, NULL), fork;
 
         while (end < to && strcmp(c->piece[end + 1].text, c->word) != 0)
-            end = find(c, end + 1, to, BAR, NULL);
+            end = piece_find(c, end + 1, to, BAR, NULL);
         if (end >= to)
             break;
         fork = emit(c, QDOT_USAGE_FORK, "");
@@ -422,7 +422,7 @@ begins(const qdot_token *token)
 
 /* Whether an operand ends with the token, or with the bracket that it opens. */
 static bool
-ends_operand(const qdot_token *token)
+operand_ends_with(const qdot_token *token)
 {
     if (token->kind != QDOT_TOKEN_OPERATOR)
         return token->kind != QDOT_TOKEN_END && !is_connective(token);
@@ -441,11 +441,11 @@ is_next(const qdot_usage *u, const qdot_usage_state *state, const qdot_token *to
 }
 
 static void
-take(qdot_usage *u, const qdot_token *token)
+usage_take(qdot_usage *u, const qdot_token *token)
 {
     qdot_usage_state old[QDOT_USAGE_STATES];
     const int n = u->states;
-    const bool operand = u->operand, after = ends_operand(token);
+    const bool operand = u->operand, after = operand_ends_with(token);
     bool word = false; /* a word of the usage is that, and begins no operand */
 
     memcpy(old, u->state, sizeof *old * (size_t)n);
@@ -475,7 +475,7 @@ qdot_usage_read(qdot_usage *u, const qdot_token *from, const qdot_token *to)
     while (from < to) {
         int depth = 0;
 
-        take(u, from);
+        usage_take(u, from);
         do {
             depth += qdot_token_bracket(from);
             from++;

@@ -68,8 +68,8 @@ add_statement(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, s
 }
 
 static qdot_status
-tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
-     const char *hidden)
+warning_tell(qdot_cursor *c, const qdot_token *start, const qdot_name *entry, size_t row,
+             const char *hidden)
 {
     qdot_text text = {0};
     qdot_status status;
@@ -148,7 +148,7 @@ qdot_warnings_anew(qdot_session *session, const qdot_name *entry)
 
 /* Whether the name stands anywhere else in the text. */
 static bool
-is_used(const qdot_cursor *c, const qdot_token *start)
+name_is_used(const qdot_cursor *c, const qdot_token *start)
 {
     const qdot_token *tokens = c->source->tokens.at;
 
@@ -185,7 +185,7 @@ tell_velocity(qdot_cursor *c, const qdot_token *start, const qdot_name *entry)
         (qdot_expr_node(session->pool, entry->value)->holds & (motion | QDOT_HAS_TIME)) ||
         !(qdot_hints_derivative(session, start->text, true, &meant) ||
           qdot_hints_derivative(session, start->text, false, &meant)) ||
-        strcmp(meant.primes, "'") != 0 || is_used(c, start))
+        strcmp(meant.primes, "'") != 0 || name_is_used(c, start))
         return QDOT_OK;
     while (equals < c->at && !qdot_token_is(equals, "="))
         equals++;
@@ -223,7 +223,7 @@ qdot_warnings_definition(qdot_cursor *c, const qdot_token *start, const qdot_nam
             (function || entry->kind == QDOT_NAME_VALUE) &&
             (function || (qdot_expr_node(session->pool, entry->value)->holds & motion)) &&
             (names[i].statement != NULL || !is_furnished(session->scene)))
-            return tell(c, start, entry, i, words);
+            return warning_tell(c, start, entry, i, words);
     if (hidden == NULL && (qdot_builtin_find(entry->name) == NULL ||
                            (!function && entry->kind != QDOT_NAME_UFUN)))
         return QDOT_OK;
