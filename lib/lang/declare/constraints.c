@@ -204,7 +204,7 @@ answer_text(qdot_session *session, const qdot_constraint *c, const qdot_integrab
 /* As JSON the sides are mu f and dF/dt where an integral proves it, else the worst
  * component of dw and 0. */
 static qdot_status
-answer_json(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
+constraint_answer_json(qdot_session *session, const qdot_constraint *c, const qdot_integrability *i)
 {
     qdot_pool *pool = session->pool;
     bool shown = i->integral != QDOT_NIL && i->factor != QDOT_NIL;
@@ -243,7 +243,7 @@ qdot_constraints_check_integrable(qdot_cursor *c, bool not)
         QDOT_TRY(qdot_pool_check(session->pool));
         if (i.decision.verdict == (not? QDOT_PROVED : QDOT_REFUTED))
             session->refuted = true;
-        QDOT_TRY(session->json ? answer_json(session, &scene->constraints.at[k], &i)
+        QDOT_TRY(session->json ? constraint_answer_json(session, &scene->constraints.at[k], &i)
                                : answer_text(session, &scene->constraints.at[k], &i));
     }
     if (found)

@@ -76,7 +76,7 @@ qdot_export_bound(qdot_session *s, qdot_expr e)
 }
 
 static qdot_status
-push(description *d, expressions *to, qdot_expr e)
+exprs_push(description *d, expressions *to, qdot_expr e)
 {
     e = qdot_export_bound(d->session, e);
     QDOT_TRY(qdot_pool_check(d->session->pool));
@@ -96,7 +96,7 @@ push_frozen(description *d, expressions *to, qdot_expr e)
 }
 
 static const char *
-name_of(const qdot_session *s, qdot_expr symbol)
+symbol_name(const qdot_session *s, qdot_expr symbol)
 {
     return qdot_expr_symbol(s->pool, symbol)->name;
 }
@@ -109,7 +109,7 @@ jet(const description *d, size_t i, unsigned order)
 
 /* u of each surface, then what switches of T - V. */
 static qdot_status
-switches(description *d)
+description_switches(description *d)
 {
     const qdot_run_request request = {
         .n_values = d->heads.n, .symbols = d->heads.at, .values = d->bodies.at};
@@ -211,7 +211,7 @@ equations(description *d)
 
         QDOT_TRY(qdot_pool_check(pool));
         for (size_t i = 0; i < n; i++)
-            QDOT_TRY(push(d, &d->equations, qdot_diff(pool, linear, jet(d, i, 2))));
+            QDOT_TRY(exprs_push(d, &d->equations, qdot_diff(pool, linear, jet(d, i, 2))));
     }
     status = QDOT_OK;
     for (size_t i = 0; i < 2 * n && status == QDOT_OK; i++)
@@ -219,7 +219,7 @@ equations(description *d)
     for (size_t k = 0; k < m && status == QDOT_OK; k++) {
         qdot_expr rest = qdot_subs(pool, accelerated(d, k), n, at_rest.at, at_rest.at + n);
 
-        status = push(d, &d->equations, qdot_neg(pool, rest));
+        status = exprs_push(d, &d->equations, qdot_neg(pool, rest));
     }
     qdot_free(at_rest.at);
     d->x.equations.blocks = m > 0 ? 4 : 2;
@@ -264,8 +264,8 @@ slopes(description *d)
 
         QDOT_TRY(qdot_pool_check(d->session->pool));
         for (size_t j = 0; j < 2 * n; j++)
-            QDOT_TRY(push(d, &d->slopes,
-                          qdot_diff(d->session->pool, r, jet(d, j % n, j >= n))));
+            QDOT_TRY(exprs_push(d, &d->slopes,
+                                qdot_diff(d->session->pool, r, jet(d, j % n, j >= n))));
     }
     d->x.slopes.blocks = 1;
     d->x.slopes.block[0] = (qdot_export_block){"R", rows, 2 * n};
@@ -277,7 +277,7 @@ energy(description *d)
 {
     d->x.energy.blocks = 1;
     d->x.energy.block[0] = (qdot_export_block){NULL, 0, 0};
-    return push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
+    return exprs_push(d, &d->energy, qdot_mech_numeric_energy(d->scene));
 }
 
 /* f of the constraints on positions, then df/dt and f of those on velocities; 0 of the others. */
@@ -293,8 +293,8 @@ positions(description *d)
         for (size_t k = 0; k < m; k++) {
             qdot_expr f = d->orders.at[k] < order ? QDOT_ZERO : d->held.at[k];
 
-            QDOT_TRY(push(d, &d->positions,
-                          d->orders.at[k] > order ? qdot_ddt(d->session->pool, f) : f));
+            QDOT_TRY(exprs_push(d, &d->positions,
+                                d->orders.at[k] > order ? qdot_ddt(d->session->pool, f) : f));
         }
     d->x.positions.blocks = 2;
     d->x.positions.block[0] = (qdot_export_block){"f", m, 0};
@@ -308,7 +308,7 @@ add_end(description *d, const char *name, qdot_expr distance)
 {
     qdot_text text = {0};
 
-    QDOT_TRY(push(d, &d->events, distance));
+    QDOT_TRY(exprs_push(d, &d->events, distance));
     qdot_text_format(&text, "%s leaves its domain", name);
     QDOT_TRY(qdot_text_status(&text));
     QDOT_TRY(qdot_vec_push(&d->texts, text.at));
@@ -342,12 +342,12 @@ events(description *d)
         const qdot_event *e = &s->events.at[i];
         expressions effect = {0};
         qdot_event act = {0};
-        qdot_status status = push(d, &d->events, qdot_sub(s->pool, e->left, e->right));
+        qdot_status status = exprs_push(d, &d->events, qdot_sub(s->pool, e->left, e->right));
 
         if (status == QDOT_OK && e->targets.n > 0)
             status = qdot_export_event_with_massless(d->scene, e, &act);
         for (size_t k = 0; k < act.values.n && status == QDOT_OK; k++)
-            status = push(d, &effect, act.values.at[k]);
+            status = exprs_push(d, &effect, act.values.at[k]);
         if (status == QDOT_OK)
             status = qdot_vec_push(&d->acts, act);
         if (status != QDOT_OK) {
@@ -386,7 +386,7 @@ add_parameter(description *d, qdot_expr symbol)
             return QDOT_OK;
     QDOT_TRY(qdot_export_value_of(d->session, symbol, &value));
     QDOT_TRY(qdot_vec_push(&d->parameters, symbol));
-    return qdot_vec_push(&d->values, ((qdot_export_name){name_of(d->session, symbol), value}));
+    return qdot_vec_push(&d->values, ((qdot_export_name){symbol_name(d->session, symbol), value}));
 }
 
 /* The parameters in these expressions. */
@@ -450,11 +450,11 @@ all_names(description *d)
 {
     for (size_t i = 0; i < d->x.n; i++)
         QDOT_TRY(qdot_vec_push(
-            &d->q, ((qdot_export_name){name_of(d->session, d->scene->coordinates.at[i]), NAN})));
+            &d->q, ((qdot_export_name){symbol_name(d->session, d->scene->coordinates.at[i]), NAN})));
     for (size_t k = 0; k < d->x.m; k++)
         QDOT_TRY(qdot_vec_push(
             &d->lambda,
-            ((qdot_export_name){name_of(d->session, d->scene->constraints.at[k].multiplier), NAN})));
+            ((qdot_export_name){symbol_name(d->session, d->scene->constraints.at[k].multiplier), NAN})));
     d->x.q = d->q.at;
     d->x.lambda = d->lambda.at;
     return QDOT_OK;
@@ -540,7 +540,7 @@ starts(description *d)
 /* --- tapes -------------------------------------------------------------------------------- */
 
 static qdot_status
-lower(const description *d, const expressions *e, const qdot_tape **tape)
+description_lower(const description *d, const expressions *e, const qdot_tape **tape)
 {
     qdot_tape *made;
 
@@ -586,7 +586,7 @@ lower_events(description *d)
 
         next += e.n_targets;
         QDOT_TRY(qdot_vec_push(&d->event, e));
-        QDOT_TRY(lower(d, &d->effects.at[i], &d->event.at[i].effect));
+        QDOT_TRY(description_lower(d, &d->effects.at[i], &d->event.at[i].effect));
     }
     return QDOT_OK;
 }
@@ -594,22 +594,22 @@ lower_events(description *d)
 static qdot_status
 lower_all(description *d)
 {
-    QDOT_TRY(lower(d, &d->equations, &d->x.equations.tape));
-    QDOT_TRY(lower(d, &d->slopes, &d->x.slopes.tape));
-    QDOT_TRY(lower(d, &d->energy, &d->x.energy.tape));
-    QDOT_TRY(lower(d, &d->positions, &d->x.positions.tape));
-    QDOT_TRY(lower(d, &d->u, &d->x.switches.tape));
+    QDOT_TRY(description_lower(d, &d->equations, &d->x.equations.tape));
+    QDOT_TRY(description_lower(d, &d->slopes, &d->x.slopes.tape));
+    QDOT_TRY(description_lower(d, &d->energy, &d->x.energy.tape));
+    QDOT_TRY(description_lower(d, &d->positions, &d->x.positions.tape));
+    QDOT_TRY(description_lower(d, &d->u, &d->x.switches.tape));
     QDOT_TRY(lower_events(d));
     QDOT_TRY(ends_of_domains(d));
     d->x.event = d->event.at;
     d->x.n_events = d->event.n;
     d->x.events.blocks = 1;
     d->x.events.block[0] = (qdot_export_block){"occurs", d->event.n, 0};
-    return lower(d, &d->events, &d->x.events.tape);
+    return description_lower(d, &d->events, &d->x.events.tape);
 }
 
 static void
-clear(description *d)
+description_clear(description *d)
 {
     expressions *const lists[] = {&d->inputs, &d->parameters, &d->equations, &d->slopes,
                                   &d->energy, &d->positions, &d->events, &d->u, &d->heads,
@@ -650,7 +650,7 @@ static qdot_status
 describe(description *d)
 {
     QDOT_TRY(find_functions(d->session, &d->heads, &d->bodies));
-    QDOT_TRY(switches(d));
+    QDOT_TRY(description_switches(d));
     QDOT_TRY(constraints(d));
     QDOT_TRY(equations(d));
     QDOT_TRY(slopes(d));
@@ -689,7 +689,7 @@ qdot_export_scene(qdot_session *session, const char *file, qdot_export_language 
     d.x.origin = qdot_text_str(&origin);
     if (status == QDOT_OK)
         status = qdot_export_system_write(&d.x, language, out);
-    clear(&d);
+    description_clear(&d);
     qdot_text_clear(&origin);
     return status;
 }
