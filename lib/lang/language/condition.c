@@ -32,7 +32,7 @@ qdot_condition_is(const qdot_pool *pool, qdot_expr e)
 }
 
 static qdot_expr
-decide(qdot_pool *pool, qdot_expr node, void *user)
+condition_decide(qdot_pool *pool, qdot_expr node, void *user)
 {
     qdot_expr a, b;
 
@@ -51,5 +51,5 @@ decide(qdot_pool *pool, qdot_expr node, void *user)
 qdot_expr
 qdot_condition_decide(qdot_pool *pool, qdot_expr e)
 {
-    return qdot_walk_map(pool, e, decide, NULL);
+    return qdot_walk_map(pool, e, condition_decide, NULL);
 }

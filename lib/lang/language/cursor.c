@@ -72,7 +72,7 @@ is_one_of(const qdot_token *t, const char *const *list)
 }
 
 static bool
-ends_operand(const qdot_token *t)
+token_ends_operand(const qdot_token *t)
 {
     static const char *const closers[] = {")", "]", "'", NULL};
     static const char *const words[] = {"and", "or", "not", NULL};
@@ -240,7 +240,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         return qdot_hint("one `for` ends a statement: for k = 1..3, j = 1..2");
     }
     if (qdot_cursor_is_word(c, "to") && t[1].kind == QDOT_TOKEN_END && before != NULL &&
-        ends_operand(before)) {
+        token_ends_operand(before)) {
         found(what, t);
         return qdot_hint("behind `to` stands the name of a file in quotes: to \"a.txt\"");
     }
@@ -254,7 +254,7 @@ qdot_cursor_expected(qdot_cursor *c, const char *what)
         qdot_fail(QDOT_ESYNTAX, "a decimal point needs a digit after it");
         return qdot_hint("write %.80s or %.80s.0", before->text, before->text);
     }
-    if (!ends_operand(before) || !begins_operand(t)) {
+    if (!token_ends_operand(before) || !begins_operand(t)) {
         found(what, t);
         return hint_foreign(t);
     }

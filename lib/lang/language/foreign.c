@@ -38,7 +38,7 @@ static const struct {
 /* Whether what matched holds the byte `at`, or ends where it is. A single word must be the error
  * itself, as an unknown name, unless it begins the statement. */
 static bool
-holds(const qdot_match *m, extent extent, size_t at)
+match_holds(const qdot_match *m, extent extent, size_t at)
 {
     if (extent == PART && m->to == m->from + 1)
         return at == m->from->start && strncmp(qdot_last_error()->message, "unknown ", 8) == 0;
@@ -48,16 +48,16 @@ holds(const qdot_match *m, extent extent, size_t at)
 
 /* Where the form stands in the statement, so that it holds the place of the error. */
 static bool
-find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
-     qdot_match *m)
+form_find(const qdot_cursor *c, const form *f, const qdot_token *from, const qdot_token *to,
+          qdot_match *m)
 {
     if (f->extent != PART)
         return qdot_pattern_matches(c->session, f->pattern, from, to, f->extent == WHOLE,
                                     m) &&
-               (f->extent == WHOLE || holds(m, f->extent, c->error_at));
+               (f->extent == WHOLE || match_holds(m, f->extent, c->error_at));
     for (const qdot_token *k = from; k < to && k->start <= c->error_at; k++)
         if (qdot_pattern_matches(c->session, f->pattern, k, to, false, m) &&
-            holds(m, f->extent, c->error_at))
+            match_holds(m, f->extent, c->error_at))
             return true;
     return false;
 }
@@ -72,7 +72,7 @@ is_doubtful(const qdot_match *m)
 
 /* Whether the line is what stands there already. */
 static bool
-is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
+line_is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
 {
     const qdot_token *last = m->to - 1;
 
@@ -82,7 +82,7 @@ is_same(const qdot_cursor *c, const qdot_match *m, const qdot_text *line)
 
 /* The error as the form has it; false: it has no better line. */
 static bool
-tell(qdot_cursor *c, const form *f, const qdot_match *m)
+form_tell(qdot_cursor *c, const form *f, const qdot_match *m)
 {
     const qdot_error error = *qdot_last_error();
     qdot_text message = {0}, line = {0};
@@ -96,7 +96,7 @@ tell(qdot_cursor *c, const form *f, const qdot_match *m)
         qdot_text_add(&message, error.message);
     qdot_pattern_write(c, f->line, m, &line);
     fits = line.n < sizeof error.hint - 8 && !line.failed && !message.failed &&
-           !is_same(c, m, &line);
+           !line_is_same(c, m, &line);
     if (fits) {
         (void)qdot_fail(error.status, "%s", qdot_text_str(&message));
         (void)qdot_hint("%s%s", f->say ? "" : "write ", qdot_text_str(&line));
@@ -134,8 +134,8 @@ qdot_foreign_hint(qdot_cursor *c, const qdot_token *from, const qdot_token *to)
     if (to - from > LONGEST)
         to = from + LONGEST;
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (find(c, &forms[i], from, to, &m) && !is_doubtful(&m) && !holds_word(&forms[i], &m) &&
-            tell(c, &forms[i], &m))
+        if (form_find(c, &forms[i], from, to, &m) && !is_doubtful(&m) && !holds_word(&forms[i], &m) &&
+            form_tell(c, &forms[i], &m))
             break;
     return status;
 }

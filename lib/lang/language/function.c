@@ -16,7 +16,7 @@
 #include "normal/prove/decide.h"
 
 static bool
-is_formal(const qdot_pool *pool, qdot_expr formals, const char *name)
+name_is_formal(const qdot_pool *pool, qdot_expr formals, const char *name)
 {
     for (uint32_t i = 0; i < qdot_expr_count(pool, formals); i++)
         if (strcmp(qdot_expr_symbol(pool, qdot_expr_arg(pool, formals, i))->name, name) == 0)
@@ -43,7 +43,7 @@ capture(qdot_session *s, qdot_function_body *body, qdot_expr formals, qdot_expr 
     for (const qdot_token *k = body->from; k < body->to && status == QDOT_OK; k++) {
         const qdot_name *bound;
 
-        if (k->kind != QDOT_TOKEN_NAME || is_formal(s->pool, formals, k->text) ||
+        if (k->kind != QDOT_TOKEN_NAME || name_is_formal(s->pool, formals, k->text) ||
             is_captured(body, k->text))
             continue;
         bound = qdot_names_find(s->names, k->text);
@@ -143,7 +143,7 @@ tell_place(qdot_session *s, const qdot_name *entry, size_t at, qdot_status statu
 
 /* The body read and evaluated; the names that it sees are bound. */
 static qdot_status
-evaluate(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
+function_evaluate_body(qdot_cursor *c, const qdot_function_body *body, qdot_expr *value, qdot_expr *over)
 {
     qdot_postfix_list program = {0};
     const char *run = NULL;
@@ -180,7 +180,7 @@ apply(qdot_session *s, const qdot_name *entry, const qdot_argument *args, qdot_e
     s->calls++;
     status = enclose(s, entry, args, &outer);
     if (status == QDOT_OK)
-        status = evaluate(&c, entry->body, value, over);
+        status = function_evaluate_body(&c, entry->body, value, over);
     qdot_names_disclose(s->names, outer);
     s->calls--;
     return status == QDOT_OK ? QDOT_OK : tell_place(s, entry, c.error_at, status);
@@ -346,7 +346,7 @@ qdot_function_mentions(const qdot_pool *pool, const qdot_name *entry, const char
 
     for (const qdot_token *k = entry->body->from; k < entry->body->to; k++)
         if (k->kind == QDOT_TOKEN_NAME && strlen(k->text) == length &&
-            strncmp(k->text, name, length) == 0 && !is_formal(pool, entry->formals, k->text))
+            strncmp(k->text, name, length) == 0 && !name_is_formal(pool, entry->formals, k->text))
             return true;
     return false;
 }

@@ -90,7 +90,7 @@ top(parser *p)
 }
 
 static qdot_status
-push(parser *p, waiting_kind kind, const qdot_token *token)
+waiting_push(parser *p, waiting_kind kind, const qdot_token *token)
 {
     waiting w = {.kind = (uint8_t)kind, .token = token};
 
@@ -180,7 +180,7 @@ binary(parser *p, waiting_kind kind, const qdot_token *token)
         w->token = token;
         return QDOT_OK;
     }
-    QDOT_TRY(push(p, kind, token));
+    QDOT_TRY(waiting_push(p, kind, token));
     top(p)->count = 1;
     return QDOT_OK;
 }
@@ -202,7 +202,7 @@ primes(parser *p)
 
 /* A label, as an argument: NAME or NAME[...]. */
 static qdot_status
-label(parser *p, const char *what)
+parse_label(parser *p, const char *what)
 {
     const qdot_token *name = p->c->at;
 
@@ -211,7 +211,7 @@ label(parser *p, const char *what)
     p->c->at++;
     if (p->c->at->glued && qdot_token_is(p->c->at, "[")) {
         p->c->at++;
-        return push(p, IN_LABEL, name);
+        return waiting_push(p, IN_LABEL, name);
     }
     p->operand = false;
     return emit(p, QDOT_POSTFIX_LABEL, name, 0, 0, 0);
@@ -239,14 +239,14 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
     if (flags & QDOT_BUILTIN_FORM) {
         bool sum = strcmp(name->text, "sum") == 0;
 
-        QDOT_TRY(push(p, sum ? IN_SUM : IN_IF, name));
+        QDOT_TRY(waiting_push(p, sum ? IN_SUM : IN_IF, name));
         if (sum) {
             top(p)->at = (uint32_t)p->program->list.n;
             return emit(p, QDOT_POSTFIX_JUMP, name, 0, 0, 0);
         }
         return QDOT_OK;
     }
-    QDOT_TRY(push(p, IN_CALL, name));
+    QDOT_TRY(waiting_push(p, IN_CALL, name));
     top(p)->primes = (uint8_t)n_primes;
     top(p)->indices = indices;
     if (qdot_token_is(p->c->at, ")")) { /* no arguments */
@@ -260,7 +260,7 @@ call(parser *p, const qdot_token *name, unsigned n_primes, uint32_t indices)
         top(p)->passed = true;
         return emit(p, QDOT_POSTFIX_PASS_BEGIN, name, 0, 0, 0);
     }
-    return flags & QDOT_BUILTIN_LABEL ? label(p, "the name of a body or particle")
+    return flags & QDOT_BUILTIN_LABEL ? parse_label(p, "the name of a body or particle")
                                       : QDOT_OK;
 }
 
@@ -302,7 +302,7 @@ is_function(const parser *p, const char *name)
 }
 
 static qdot_status
-name(parser *p)
+parse_name(parser *p)
 {
     const qdot_token *t = p->c->at++;
     const qdot_token *next = p->c->at;
@@ -311,7 +311,7 @@ name(parser *p)
     if (qdot_token_is(next, ".") && next->glued && next[1].glued &&
         (next[1].kind == QDOT_TOKEN_NAME || qdot_token_is(next + 1, "("))) {
         p->c->at++;
-        return push(p, OP_MEMBER, t);
+        return waiting_push(p, OP_MEMBER, t);
     }
     if (qdot_token_is(next, "[") && next->glued && qdot_runs_is_family(p->c->session, t->text)) {
         const qdot_token *run;
@@ -319,7 +319,7 @@ name(parser *p)
         p->c->at = t;
         QDOT_TRY(qdot_cursor_accept_run(p->c, &run));
         if (run != NULL)
-            return push(p, OP_MEMBER, run);
+            return waiting_push(p, OP_MEMBER, run);
         p->c->at = t + 1;
     }
     n = primes(p);
@@ -339,9 +339,9 @@ name(parser *p)
             return fail_at(p, t, QDOT_ENAME);
         }
         p->c->at++;
-        QDOT_TRY(push(p, IN_INDEX_NAME, t));
+        QDOT_TRY(waiting_push(p, IN_INDEX_NAME, t));
         return multiplier && p->c->at->kind == QDOT_TOKEN_NAME
-                   ? label(p, "the label of a constraint")
+                   ? parse_label(p, "the label of a constraint")
                    : QDOT_OK;
     }
     p->operand = false;
@@ -382,24 +382,24 @@ operand(parser *p)
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "not") == 0) {
         p->c->at++;
-        return push(p, OP_NOT, t);
+        return waiting_push(p, OP_NOT, t);
     }
     if (t->kind == QDOT_TOKEN_NAME && strcmp(t->text, "and") != 0 &&
         strcmp(t->text, "or") != 0)
-        return name(p);
+        return parse_name(p);
     if (qdot_token_is(t, "%"))
         return history(p);
     if (qdot_token_is(t, "sqrt")) {
         p->c->at++;
-        return push(p, OP_ROOT, t);
+        return waiting_push(p, OP_ROOT, t);
     }
     if (qdot_token_is(t, "-") || qdot_token_is(t, "+")) {
         p->c->at++;
-        return t->text[0] == '-' ? push(p, OP_NEGATE, t) : QDOT_OK;
+        return t->text[0] == '-' ? waiting_push(p, OP_NEGATE, t) : QDOT_OK;
     }
     if (qdot_token_is(t, "(")) {
         p->c->at++;
-        return push(p, IN_GROUP, t);
+        return waiting_push(p, IN_GROUP, t);
     }
     if (qdot_token_is(t, "[")) {
         p->c->at++;
@@ -408,7 +408,7 @@ operand(parser *p)
             p->operand = false;
             return emit(p, QDOT_POSTFIX_LIST, t, 0, 0, 0);
         }
-        return push(p, IN_LIST, t);
+        return waiting_push(p, IN_LIST, t);
     }
     return qdot_cursor_expected(p->c, "an expression");
 }
@@ -608,7 +608,7 @@ after(parser *p)
         return stray_prime(p);
     if (t->glued && qdot_token_is(t, "[")) {
         p->c->at++;
-        return push(p, IN_INDEX, t);
+        return waiting_push(p, IN_INDEX, t);
     }
     if (top(p) != NULL && top(p)->kind == OP_ROOT && qdot_token_is(t, "^") &&
         !qdot_token_is(t - 1, ")")) {

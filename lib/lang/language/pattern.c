@@ -158,8 +158,8 @@ static bool match(matcher *x, const char *pattern, const qdot_token *t);
 
 /* The placeholder holds [from, to), and the rest matches behind it. */
 static bool
-hold(matcher *x, char kind, const qdot_token *from, const qdot_token *to,
-     const char *rest)
+placeholder_hold(matcher *x, char kind, const qdot_token *from, const qdot_token *to,
+                 const char *rest)
 {
     size_t n = x->m->n;
 
@@ -184,7 +184,7 @@ hold_run(matcher *x, char kind, const qdot_token *t, const char *rest)
     const qdot_token *last = t;
     long depth = 0;
 
-    if (kind == '.' && hold(x, kind, t, t, rest))
+    if (kind == '.' && placeholder_hold(x, kind, t, t, rest))
         return true;
     for (const qdot_token *k = t; k < x->to; k++) {
         depth += qdot_token_bracket(k);
@@ -195,10 +195,10 @@ hold_run(matcher *x, char kind, const qdot_token *t, const char *rest)
             continue;
         if (longest)
             last = k + 1;
-        else if (hold(x, kind, t, k + 1, rest))
+        else if (placeholder_hold(x, kind, t, k + 1, rest))
             return true;
     }
-    return longest && last > t && hold(x, kind, t, last, rest);
+    return longest && last > t && placeholder_hold(x, kind, t, last, rest);
 }
 
 static bool
@@ -221,7 +221,7 @@ placeholder(matcher *x, char kind, const qdot_token *t, const char *rest)
         break;
     default: k += is_kind(x, kind, t);
     }
-    return k > t && hold(x, kind, t, k, rest);
+    return k > t && placeholder_hold(x, kind, t, k, rest);
 }
 
 /* Whether the token is written as the n letters at `text`. */
@@ -275,7 +275,7 @@ match(matcher *x, const char *pattern, const qdot_token *t)
     else if (t >= x->to)
         found = false;
     else if (*pattern == '(' && n > 1)
-        found = is_one_of(t, pattern + 1, n - 2) && hold(x, '(', t, t + 1, rest);
+        found = is_one_of(t, pattern + 1, n - 2) && placeholder_hold(x, '(', t, t + 1, rest);
     else
         found = is_literal(t, pattern, n) && match(x, rest, t + 1);
     if (!found)

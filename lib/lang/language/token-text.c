@@ -7,7 +7,7 @@
 
 /* Whether a sign behind this token is one between two operands. */
 static bool
-ends_operand(const qdot_token *token)
+sign_follows_operand(const qdot_token *token)
 {
     if (token->kind == QDOT_TOKEN_NAME)
         return !qdot_token_is_word(token, "and") && !qdot_token_is_word(token, "or") &&
@@ -107,9 +107,9 @@ write_tokens(qdot_session *session, const qdot_token *from, const qdot_token *to
     int depth = 0, member = 0; /* brackets; those of x[1,2], or 0 */
 
     for (const qdot_token *k = from; k < to; k++) {
-        bool binary = k > from && ends_operand(k - 1) && is_spaced(k);
+        bool binary = k > from && sign_follows_operand(k - 1) && is_spaced(k);
         bool words = k > from && k->kind != QDOT_TOKEN_OPERATOR &&
-                     (k[-1].kind != QDOT_TOKEN_OPERATOR || ends_operand(k - 1));
+                     (k[-1].kind != QDOT_TOKEN_OPERATOR || sign_follows_operand(k - 1));
         size_t used;
 
         if (words && qdot_token_is(k - 1, "%"))
