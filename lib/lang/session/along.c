@@ -74,7 +74,7 @@ measure_columns(qdot_session *session, const char *run, const qdot_runs_columns 
 
 /* e at a double t, along whatever runs it names, else along `run`. */
 static qdot_status
-value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
+along_value_at(qdot_session *session, const char *run, qdot_expr e, double t, double *value)
 {
     qdot_named_run *named = NULL;
     double error;
@@ -104,7 +104,7 @@ add_error_within(qdot_session *session, const char *run, qdot_expr e, double t, 
             continue;
         d = qdot_measured_as_rationals(session, qdot_diff(session->pool, e, m.symbol));
         QDOT_TRY(qdot_pool_check(session->pool));
-        QDOT_TRY(value_at(session, run, d, t, &slope));
+        QDOT_TRY(along_value_at(session, run, d, t, &slope));
         *error += slope == 0 ? 0 : fabs(slope) * m.error;
     }
     return QDOT_OK;

@@ -137,8 +137,8 @@ find_measured(qdot_session *session, qdot_expr e, size_t *n, const qdot_measured
 
 /* e with its measured symbols as inputs: the value and sum |de/dm| error. */
 static qdot_status
-evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *const *list,
-         double *value, double *error)
+measured_evaluate(qdot_session *session, qdot_expr e, size_t n, const qdot_measured *const *list,
+                  double *value, double *error)
 {
     qdot_pool *pool = session->pool;
     qdot_vec(qdot_expr) inputs = {0}, outputs = {0};
@@ -207,7 +207,7 @@ qdot_session_number(qdot_session *session, qdot_expr e, double *value, double *e
     QDOT_TRY(qdot_member_refuse(session, e));
     QDOT_TRY(find_measured(session, e, &n, &list));
     status = n == 0 ? qdot_tape_constant(session->pool, e, value)
-                    : evaluate(session, e, n, list, value, &own_error);
+                    : measured_evaluate(session, e, n, list, value, &own_error);
     qdot_free(list);
     QDOT_TRY(status);
     if (isnan(*value))

@@ -7,7 +7,7 @@
 enum { MOST_LISTED = 8 };
 
 static void
-add(qdot_words *list, const char *word)
+words_add(qdot_words *list, const char *word)
 {
     if (word != NULL)
         (void)qdot_vec_push(list, word); /* a hint less, if there is no memory */
@@ -17,32 +17,32 @@ void
 qdot_labels_add(const qdot_scene *s, qdot_words *list)
 {
     for (size_t i = 0; i < s->particles.n; i++)
-        add(list, s->particles.at[i].name);
+        words_add(list, s->particles.at[i].name);
     for (size_t i = 0; i < s->bodies.n; i++)
-        add(list, s->bodies.at[i].name);
+        words_add(list, s->bodies.at[i].name);
     for (size_t i = 0; i < s->springs.n; i++)
-        add(list, s->springs.at[i].name);
+        words_add(list, s->springs.at[i].name);
     for (size_t i = 0; i < s->dampers.n; i++)
-        add(list, s->dampers.at[i].name);
+        words_add(list, s->dampers.at[i].name);
     for (size_t i = 0; i < s->constraints.n; i++)
-        add(list, s->constraints.at[i].label);
+        words_add(list, s->constraints.at[i].label);
 }
 
 void
 qdot_labels_add_applied(const qdot_scene *s, qdot_words *list)
 {
     for (size_t i = 0; i < s->gravities.n; i++)
-        add(list, s->gravities.at[i].name);
+        words_add(list, s->gravities.at[i].name);
     for (size_t i = 0; i < s->potentials.n; i++)
-        add(list, s->potentials.at[i].name);
+        words_add(list, s->potentials.at[i].name);
     for (size_t i = 0; i < s->dissipations.n; i++)
-        add(list, s->dissipations.at[i].name);
+        words_add(list, s->dissipations.at[i].name);
     for (size_t i = 0; i < s->forces.n; i++)
-        add(list, s->forces.at[i].name);
+        words_add(list, s->forces.at[i].name);
     for (size_t i = 0; i < s->torques.n; i++)
-        add(list, s->torques.at[i].name);
+        words_add(list, s->torques.at[i].name);
     for (size_t i = 0; i < s->events.n; i++)
-        add(list, s->events.at[i].name);
+        words_add(list, s->events.at[i].name);
 }
 
 qdot_status

@@ -25,7 +25,7 @@ qdot_member_find(const qdot_session *session, qdot_expr symbol)
 
 /* The symbol of the scalar e along the run. */
 static qdot_expr
-make(qdot_session *session, const char *run, qdot_expr e)
+member_symbol(qdot_session *session, const char *run, qdot_expr e)
 {
     qdot_pool *pool = session->pool;
     bool plain = qdot_expr_kind(pool, e) == QDOT_SYM && !qdot_symbol_is_number(pool, e);
@@ -64,7 +64,7 @@ name_one(qdot_pool *pool, qdot_expr scalar, void *user)
     const naming *n = user;
 
     (void)pool;
-    return make(n->session, n->run, scalar);
+    return member_symbol(n->session, n->run, scalar);
 }
 
 qdot_expr
@@ -76,7 +76,7 @@ qdot_member_of(qdot_session *session, const char *run, qdot_expr e)
     if (e == QDOT_NIL)
         return QDOT_NIL;
     return qdot_expr_is_scalar(session->pool, e)
-               ? make(session, run, e)
+               ? member_symbol(session, run, e)
                : qdot_value_map(session->pool, e, name_one, &n);
 }
 

@@ -39,7 +39,7 @@ qdot_mixture_free(qdot_mixture *x)
 
 /* The index of a run, a new one if need be. */
 static qdot_status
-add_run(qdot_mixture *x, qdot_run *run, size_t *k)
+mixture_add_run(qdot_mixture *x, qdot_run *run, size_t *k)
 {
     for (*k = 0; *k < x->runs.n; ++*k)
         if (x->runs.at[*k] == run)
@@ -63,7 +63,7 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
             !(qdot_expr_node(session->pool, atom)->holds & QDOT_MEMBER_MOTION))
             continue;
         QDOT_TRY(qdot_runs_read(session, m != NULL ? m->run : run, &named));
-        QDOT_TRY(add_run(x, named->run, &own.run));
+        QDOT_TRY(mixture_add_run(x, named->run, &own.run));
         QDOT_TRY(qdot_vec_push(&x->symbols, atom));
         QDOT_TRY(qdot_vec_push(&x->members, own));
     }
@@ -71,7 +71,7 @@ find_symbols(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *
 }
 
 static qdot_status
-prepare(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
+mixture_prepare(qdot_session *session, const char *run, qdot_expr e, qdot_mixture *x)
 {
     QDOT_TRY(find_symbols(session, run, e, x));
     x->e = e = qdot_session_bind(session, e);
@@ -85,7 +85,7 @@ qdot_status
 qdot_mixture_new(qdot_session *session, const char *run, qdot_expr e, qdot_mixture **out)
 {
     qdot_mixture *x = qdot_calloc(1, sizeof *x);
-    qdot_status status = x != NULL ? prepare(session, run, e, x) : QDOT_ENOMEM;
+    qdot_status status = x != NULL ? mixture_prepare(session, run, e, x) : QDOT_ENOMEM;
 
     if (status != QDOT_OK) {
         qdot_mixture_free(x);
@@ -96,7 +96,7 @@ qdot_mixture_new(qdot_session *session, const char *run, qdot_expr e, qdot_mixtu
 }
 
 static qdot_status
-make_room(qdot_mixture *x, size_t times)
+mixture_make_room(qdot_mixture *x, size_t times)
 {
     const size_t n = x->symbols.n * times + 1;
 
@@ -137,7 +137,7 @@ qdot_mixture_values(qdot_mixture *x, const qdot_samples *at)
 {
     const qdot_exact_times times = {at->n, at->times, at->lows};
 
-    QDOT_TRY(make_room(x, at->n));
+    QDOT_TRY(mixture_make_room(x, at->n));
     for (size_t i = 0; i < x->symbols.n; i++)
         QDOT_TRY(qdot_run_values_beyond(
             x->runs.at[x->members.at[i].run], 1, &x->members.at[i].value, &times,

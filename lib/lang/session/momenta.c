@@ -8,7 +8,7 @@
 static const uint32_t moving = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
 
 static uint32_t
-holds(const qdot_session *s, qdot_expr e)
+node_holds(const qdot_session *s, qdot_expr e)
 {
     return e == QDOT_NIL ? 0 : qdot_expr_node(s->pool, e)->holds;
 }
@@ -24,13 +24,13 @@ is_related(const qdot_scene *scene)
 qdot_expr
 qdot_momenta_to_velocities(qdot_session *session, qdot_expr e)
 {
-    if (!(holds(session, e) & QDOT_HAS_MOMENTUM) || !is_related(session->scene))
+    if (!(node_holds(session, e) & QDOT_HAS_MOMENTUM) || !is_related(session->scene))
         return e;
     return qdot_hamilton_in_velocities(session->scene, e);
 }
 
 static bool
-is_held(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr symbol)
+symbol_is_held(const qdot_session *s, uint32_t n, const qdot_expr *e, qdot_expr symbol)
 {
     for (uint32_t i = 0; i < n; i++)
         if (e[i] != QDOT_NIL && qdot_expr_contains(s->pool, e[i], symbol))
@@ -44,7 +44,7 @@ is_of_places(const qdot_session *s, qdot_expr q)
 {
     const qdot_expr p = qdot_mech_momentum(s->scene, q);
 
-    return p != QDOT_NIL && !(holds(s, p) & (moving | QDOT_HAS_MOMENTUM));
+    return p != QDOT_NIL && !(node_holds(s, p) & (moving | QDOT_HAS_MOMENTUM));
 }
 
 bool
@@ -55,15 +55,15 @@ qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
     uint32_t all = 0;
 
     for (uint32_t i = 0; i < n; i++)
-        all |= holds(session, e[i]);
+        all |= node_holds(session, e[i]);
     if (!(all & QDOT_HAS_MOMENTUM) || !is_related(scene))
         return false;
     for (size_t i = 0; i < scene->coordinates.n; i++) {
         const qdot_expr q = scene->coordinates.at[i];
 
-        if (is_held(session, n, e, qdot_symbol_of(pool, QDOT_MOMENTUM, q)) &&
-            (is_held(session, n, e, qdot_symbol_jet(pool, q, 1)) ||
-             is_held(session, n, e, qdot_symbol_jet(pool, q, 2)) || is_of_places(session, q)))
+        if (symbol_is_held(session, n, e, qdot_symbol_of(pool, QDOT_MOMENTUM, q)) &&
+            (symbol_is_held(session, n, e, qdot_symbol_jet(pool, q, 1)) ||
+             symbol_is_held(session, n, e, qdot_symbol_jet(pool, q, 2)) || is_of_places(session, q)))
             return true;
     }
     return false;
@@ -72,7 +72,7 @@ qdot_momenta_meet(const qdot_session *session, uint32_t n, const qdot_expr *e)
 qdot_expr
 qdot_momenta_for(qdot_session *session, qdot_expr e, qdot_expr symbol)
 {
-    const uint32_t variable = holds(session, symbol), held = holds(session, e);
+    const uint32_t variable = node_holds(session, symbol), held = node_holds(session, e);
     const qdot_expr both[] = {e, symbol};
 
     if (!(variable & QDOT_HAS_MOMENTUM))

@@ -288,7 +288,7 @@ check_family(const qdot_names *names, const char *name)
 
 /* Twice the slots when both tables are full; a failure leaves them as they are. */
 static qdot_status
-make_room(qdot_names *names)
+names_make_room(qdot_names *names)
 {
     size_t wanted = 2 * names->n_slots;
     entry **slots;
@@ -408,7 +408,7 @@ link_to(qdot_names *names, const entry *e)
 
 /* Where e is in the order: entries only ever move towards the front. */
 static size_t
-place_of(const qdot_names *names, const entry *e)
+name_place(const qdot_names *names, const entry *e)
 {
     size_t i = e->order < names->order.n ? e->order : names->order.n - 1;
 
@@ -422,7 +422,7 @@ insert(qdot_names *names, const qdot_name *name)
 {
     entry *e;
 
-    QDOT_TRY(make_room(names));
+    QDOT_TRY(names_make_room(names));
     e = entry_new(name);
     if (e == NULL)
         return QDOT_ENOMEM;
@@ -442,13 +442,13 @@ insert(qdot_names *names, const qdot_name *name)
 
 /* A new entry takes the place of `old`, which is released. */
 static qdot_status
-replace(qdot_names *names, entry *old, const qdot_name *name)
+name_replace(qdot_names *names, entry *old, const qdot_name *name)
 {
     entry *e = entry_new(name);
 
     if (e == NULL)
         return QDOT_ENOMEM;
-    e->order = place_of(names, old);
+    e->order = name_place(names, old);
     *link_to(names, old) = old->next;
     put_in_slot(names, e);
     names->order.at[e->order] = e;
@@ -471,7 +471,7 @@ qdot_names_declare(qdot_names *names, const qdot_name *entry)
         QDOT_TRY(check_differential(names, entry));
         return insert(names, entry);
     }
-    return replace(names, old, entry);
+    return name_replace(names, old, entry);
 }
 
 qdot_status
@@ -485,7 +485,7 @@ qdot_names_update(qdot_names *names, const char *name, qdot_expr value, qdot_exp
     changed = e->name;
     changed.value = value;
     changed.formals = formals;
-    return replace(names, e, &changed);
+    return name_replace(names, e, &changed);
 }
 
 void
@@ -499,7 +499,7 @@ qdot_names_remove(qdot_names *names, const char *name)
     *link_to(names, e) = e->next;
     if (length > 0)
         find_family(names, name, length)->members--;
-    i = place_of(names, e);
+    i = name_place(names, e);
     names->settled = i < names->settled ? i : names->settled;
     memmove(names->order.at + i, names->order.at + i + 1,
             (names->order.n - i - 1) * sizeof *names->order.at);
@@ -563,7 +563,7 @@ qdot_names_restore(qdot_names *names, size_t n, const qdot_name *const *list)
 /* --- bound names -------------------------------------------------------------------- */
 
 static qdot_status
-push(qdot_names *names, qdot_name bound)
+bound_push(qdot_names *names, qdot_name bound)
 {
     QDOT_TRY(copy_texts(&bound));
     if (qdot_vec_push(&names->bound, bound) != QDOT_OK) {
@@ -577,7 +577,7 @@ qdot_status
 qdot_names_push(qdot_names *names, const char *name, qdot_expr value)
 {
     QDOT_TRY(check_reserved(name));
-    return push(names, (qdot_name){
+    return bound_push(names, (qdot_name){
                            .name = (char *)name, .kind = QDOT_NAME_INDEX, .value = value});
 }
 
@@ -587,7 +587,7 @@ qdot_names_push_argument(qdot_names *names, const char *name, qdot_expr value,
 {
     if (strcmp(name, "t") != 0) /* an argument t stands for the time */
         QDOT_TRY(check_reserved(name));
-    return push(names, (qdot_name){.name = (char *)name,
+    return bound_push(names, (qdot_name){.name = (char *)name,
                                    .kind = QDOT_NAME_ARGUMENT,
                                    .value = value,
                                    .label = label});

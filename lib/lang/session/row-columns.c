@@ -17,7 +17,7 @@ qdot_row_columns_free(qdot_row_columns *x)
 }
 
 static qdot_status
-make_room(qdot_row_columns *x)
+row_columns_allocate(qdot_row_columns *x)
 {
     x->values = qdot_calloc(x->n * x->rows + 1, sizeof *x->values);
     x->labels = qdot_calloc(x->n, sizeof *x->labels);
@@ -57,7 +57,7 @@ qdot_row_columns_fill(const qdot_row_table *t, const bool *done, qdot_row_column
     for (size_t k = 0; k < t->rows; k++)
         x->rows += done == NULL || done[k];
     x->n = first + qdot_row_columns_count(t);
-    QDOT_TRY(make_room(x));
+    QDOT_TRY(row_columns_allocate(x));
     QDOT_TRY(label_columns(t, first, x));
     for (size_t k = 0; k < t->rows; k++) {
         double *const column = x->values + at;

@@ -182,8 +182,8 @@ qdot_runs_flatten(qdot_session *session, qdot_expr e, qdot_runs_columns *columns
 
 /* The columns at a time as numbers m [columns]. */
 static qdot_status
-measure(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
-        qdot_expr time, qdot_measured *m)
+columns_measure_at(qdot_session *session, qdot_run *run, const qdot_runs_columns *columns,
+                   qdot_expr time, qdot_measured *m)
 {
     const size_t n = columns->n;
     double t, low, *values = qdot_calloc(2 * n, sizeof *values);
@@ -234,7 +234,7 @@ qdot_runs_measure(qdot_session *session, const char *run,
     QDOT_TRY(qdot_runs_find(session, run, &named));
     return qdot_run_get_report(named->run)->digits > 0
                ? measure_exactly(session, named->run, columns, time, m)
-               : measure(session, named->run, columns, time, m);
+               : columns_measure_at(session, named->run, columns, time, m);
 }
 
 qdot_status

@@ -169,7 +169,7 @@ compare_part(qdot_session *s, int k, record *r)
 
 /* Bring the copy of the session up to date; r: the difference. */
 static qdot_status
-compare(qdot_session *s, record *r)
+session_compare(qdot_session *s, record *r)
 {
     qdot_undo_state *now = &s->undo->now;
 
@@ -239,7 +239,7 @@ qdot_undo_begin(qdot_session *s)
     s->undo->version = s->scene->version;
     if (s->undo->known) {
         s->undo->now.single = qdot_undo_single_of(s); /* a style from outside is no statement's */
-    } else if (compare(s, &r) == QDOT_OK) {
+    } else if (session_compare(s, &r) == QDOT_OK) {
         s->undo->known = true;
     } else {
         let_go(s, &error);
@@ -280,7 +280,7 @@ one_line(const char *text, size_t length)
 
 /* Records since `begun` become one step to undo, described by `text`. */
 static qdot_status
-join(qdot_undo *u, size_t begun, const char *text, size_t length)
+records_join(qdot_undo *u, size_t begun, const char *text, size_t length)
 {
     char *line;
 
@@ -329,7 +329,7 @@ bytes_of(qdot_session *s, const record *r)
 }
 
 static qdot_status
-push(qdot_session *s, record *r)
+record_push(qdot_session *s, record *r)
 {
     qdot_undo *u = s->undo;
 
@@ -372,14 +372,14 @@ qdot_undo_end(qdot_session *s, size_t begun, const char *text, size_t length)
         return;
     r.version[0] = u->version;
     r.version[1] = s->scene->version;
-    status = compare(s, &r);
+    status = session_compare(s, &r);
     /* declaring the same thing again is a change of which no array shows anything */
     if (status == QDOT_OK &&
         (!is_nothing(&r) || (!u->moved && r.version[0] != r.version[1])))
-        status = push(s, &r);
+        status = record_push(s, &r);
     u->version = s->scene->version;
     if (status == QDOT_OK && !u->moved)
-        status = join(u, begun, text, length);
+        status = records_join(u, begun, text, length);
     u->moved = false;
     clear_record(&r);
     if (status != QDOT_OK)
@@ -403,13 +403,13 @@ qdot_undo_reset(qdot_session *s, qdot_session *other)
         u->now = (qdot_undo_state){0};
         u->known = false;
         r.single[0] = r.there->single;
-        status = compare(s, &rest);
+        status = session_compare(s, &rest);
         r.single[1] = u->now.single;
     }
     if (status == QDOT_OK) {
         u->known = true;
         u->version = s->scene->version;
-        status = push(s, &r);
+        status = record_push(s, &r);
     }
     clear_record(&rest);
     clear_record(&r);
@@ -459,7 +459,7 @@ cut_history(qdot_session *s, size_t n)
 
 /* Exchange the session with the one before, or after, a `reset`. */
 static void
-cross(qdot_session *s, record *r)
+reset_cross(qdot_session *s, record *r)
 {
     const qdot_undo_state here = s->undo->now;
 
@@ -471,7 +471,7 @@ cross(qdot_session *s, record *r)
 
 /* Room in the session and in the copy for what the record puts there. */
 static qdot_status
-prepare(qdot_session *s, const record *r, int to)
+record_prepare(qdot_session *s, const record *r, int to)
 {
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
@@ -492,10 +492,10 @@ apply(qdot_session *s, record *r, int to)
     qdot_undo *u = s->undo;
 
     if (r->other != NULL) {
-        cross(s, r);
+        reset_cross(s, r);
         return QDOT_OK;
     }
-    QDOT_TRY(prepare(s, r, to));
+    QDOT_TRY(record_prepare(s, r, to));
     cut_history(s, r->history[!to]);
     for (size_t i = 0; i < r->changes.n; i++) {
         const change *c = &r->changes.at[i];
