@@ -74,13 +74,13 @@ static const struct {
 };
 
 static bool
-is_digit(char c)
+char_is_digit(char c)
 {
     return c >= '0' && c <= '9';
 }
 
 static qdot_status
-push(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_t end)
+token_push(lexer *x, qdot_token_kind kind, const char *text, size_t start, size_t end)
 {
     qdot_token token = {kind, !x->blank && x->tokens.n > 0, text, (uint32_t)start,
                         (uint32_t)(end - start)};
@@ -113,7 +113,7 @@ push_end(lexer *x, size_t start, size_t end)
     if (x->tokens.n == 0 || last_is_kind(x, QDOT_TOKEN_END) ||
         (last_is_kind(x, QDOT_TOKEN_OPERATOR) && strcmp(last_text(x), "{") == 0))
         return QDOT_OK;
-    return push(x, QDOT_TOKEN_END, "", start, end);
+    return token_push(x, QDOT_TOKEN_END, "", start, end);
 }
 
 /* Whether a newline is only a blank here: inside ( ) or [ ]. */
@@ -160,7 +160,7 @@ lex_operator(lexer *x, bool *found)
             if (token[0] == '}')
                 QDOT_TRY(push_end(x, x->i, x->i));
         }
-        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, token, x->i, x->i + length));
+        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, token, x->i, x->i + length));
         if (strchr("([{", token[0]) != NULL) {
             if (x->open.n >= QDOT_LEX_BRACKETS)
                 return qdot_fail(QDOT_ELIMIT, "more than %u open brackets",
@@ -180,11 +180,11 @@ lex_number(lexer *x)
     size_t start = x->i, i = start;
     const char *copy;
 
-    while (is_digit(text[i]))
+    while (char_is_digit(text[i]))
         i++;
-    if (text[i] == '.' && is_digit(text[i + 1])) {
+    if (text[i] == '.' && char_is_digit(text[i + 1])) {
         i++;
-        while (is_digit(text[i]))
+        while (char_is_digit(text[i]))
             i++;
     }
     if (text[i] == 'e' || text[i] == 'E') {
@@ -192,20 +192,20 @@ lex_number(lexer *x)
 
         if (text[k] == '+' || text[k] == '-')
             k++;
-        if (is_digit(text[k])) {
-            while (is_digit(text[k]))
+        if (char_is_digit(text[k])) {
+            while (char_is_digit(text[k]))
                 k++;
             i = k;
         }
     }
-    if (text[i] == '.' && is_digit(text[i + 1])) {
+    if (text[i] == '.' && char_is_digit(text[i + 1])) {
         x->i = i;
         return qdot_fail(QDOT_ESYNTAX, "a number has one decimal point");
     }
     copy = qdot_arena_strndup(x->source->arena, text + start, i - start);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(push(x, QDOT_TOKEN_NUMBER, copy, start, i));
+    QDOT_TRY(token_push(x, QDOT_TOKEN_NUMBER, copy, start, i));
     x->i = i;
     return QDOT_OK;
 }
@@ -225,7 +225,7 @@ spell(lexer *x, qdot_text *name, bool first)
     if (greek != NULL)
         qdot_text_add(name, greek);
     else if (qdot_letters_latin(c) ||
-             (!first && (c == '_' || (c < 0x80 && is_digit((char)c)))))
+             (!first && (c == '_' || (c < 0x80 && char_is_digit((char)c)))))
         qdot_text_add_n(name, text, length);
     else if (!first && qdot_letters_subscript(c) >= 0)
         qdot_text_char(name, (char)('0' + qdot_letters_subscript(c)));
@@ -252,7 +252,7 @@ static qdot_status
 push_primes(lexer *x, unsigned n, size_t start, size_t end)
 {
     for (unsigned i = 0; i < n; i++)
-        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "'", start, end));
+        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", start, end));
     return QDOT_OK;
 }
 
@@ -280,7 +280,7 @@ lex_name(lexer *x, qdot_text *name)
     copy = qdot_arena_strndup(x->source->arena, name->at, name->n);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(push(x, QDOT_TOKEN_NAME, copy, start, x->i));
+    QDOT_TRY(token_push(x, QDOT_TOKEN_NAME, copy, start, x->i));
     return push_primes(x, dots, start, x->i);
 }
 
@@ -294,7 +294,7 @@ raised_digit(const char *text, size_t *length)
 }
 
 static bool
-ends_operand(const lexer *x)
+last_ends_operand(const lexer *x)
 {
     return !x->blank && x->tokens.n > 0 &&
            (last_is_kind(x, QDOT_TOKEN_NAME) || last_is_kind(x, QDOT_TOKEN_NUMBER) ||
@@ -316,7 +316,7 @@ lex_raised(lexer *x, bool *found)
     int digit;
 
     *found = false;
-    if (!ends_operand(x))
+    if (!last_ends_operand(x))
         return QDOT_OK;
     i += order ? sizeof open - 1 : negative ? sizeof minus - 1 : 0;
     while ((digit = raised_digit(text + i, &length)) >= 0) {
@@ -338,10 +338,10 @@ lex_raised(lexer *x, bool *found)
         return push_primes(x, (unsigned)n, start, x->i);
     if (order)
         return qdot_fail(QDOT_ELIMIT, "a derivative of order %s", copy);
-    QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "^", start, x->i));
+    QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "^", start, x->i));
     if (negative)
-        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "-", start, x->i));
-    return push(x, QDOT_TOKEN_NUMBER, copy, start, x->i);
+        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "-", start, x->i));
+    return token_push(x, QDOT_TOKEN_NUMBER, copy, start, x->i);
 }
 
 static qdot_status
@@ -355,7 +355,7 @@ lex_fraction(lexer *x, bool *found)
             continue;
         *found = true;
         x->i += length;
-        QDOT_TRY(push(x, QDOT_TOKEN_NUMBER, fractions[k].text, start, x->i));
+        QDOT_TRY(token_push(x, QDOT_TOKEN_NUMBER, fractions[k].text, start, x->i));
     }
     return QDOT_OK;
 }
@@ -392,7 +392,7 @@ lex_string(lexer *x, qdot_text *buffer)
     copy = qdot_arena_strndup(x->source->arena, qdot_text_str(buffer), buffer->n);
     if (copy == NULL)
         return QDOT_ENOMEM;
-    QDOT_TRY(push(x, QDOT_TOKEN_STRING, copy, x->i, i + 1));
+    QDOT_TRY(token_push(x, QDOT_TOKEN_STRING, copy, x->i, i + 1));
     x->i = i + 1;
     return QDOT_OK;
 }
@@ -453,12 +453,12 @@ lex_token(lexer *x, qdot_text *buffer)
     if (qdot_utf8_length(text + x->i) == 0 && c != '\0')
         return qdot_fail(QDOT_ESYNTAX, "byte 0x%02X is not UTF-8: this is not text",
                          (unsigned char)c);
-    if (is_digit(c) || (c == '.' && is_digit(text[x->i + 1])))
+    if (char_is_digit(c) || (c == '.' && char_is_digit(text[x->i + 1])))
         return lex_number(x);
     if (c == '"')
         return lex_string(x, buffer);
     if (c == ';') {
-        QDOT_TRY(in_bracket(x) ? push(x, QDOT_TOKEN_OPERATOR, ";", x->i, x->i + 1)
+        QDOT_TRY(in_bracket(x) ? token_push(x, QDOT_TOKEN_OPERATOR, ";", x->i, x->i + 1)
                                : push_end(x, x->i, x->i + 1));
         x->i++;
         return QDOT_OK;
@@ -467,8 +467,8 @@ lex_token(lexer *x, qdot_text *buffer)
     if (x->i > start)
         return QDOT_OK;
     if (strncmp(text + x->i, "\xE2\x80\xB3", 3) == 0) { /* a double prime */
-        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
-        QDOT_TRY(push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
+        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
+        QDOT_TRY(token_push(x, QDOT_TOKEN_OPERATOR, "'", x->i, x->i + 3));
         x->i += 3;
         return QDOT_OK;
     }
@@ -538,7 +538,7 @@ lex_all(lexer *x, qdot_text *buffer)
     }
     /* the last token is an END, whatever there was */
     if (!last_is_kind(x, QDOT_TOKEN_END))
-        return push(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);
+        return token_push(x, QDOT_TOKEN_END, "", x->source->length, x->source->length);
     return QDOT_OK;
 }
 

@@ -250,7 +250,7 @@ qdot_refuse_text(const char *text, size_t open)
 }
 
 static bool
-is_digit(char c)
+byte_is_digit(char c)
 {
     return c >= '0' && c <= '9';
 }
@@ -262,13 +262,13 @@ refuse_underscore(const char *text, size_t at)
     size_t from = at, n = 0;
     char digits[40];
 
-    while (from > 0 && (is_digit(text[from - 1]) || text[from - 1] == '_'))
+    while (from > 0 && (byte_is_digit(text[from - 1]) || text[from - 1] == '_'))
         from--;
     if (from == at) {
         qdot_fail(QDOT_ESYNTAX, "a name begins with a letter");
         return QDOT_ESYNTAX;
     }
-    for (; (is_digit(text[from]) || text[from] == '_') && n + 1 < sizeof digits; from++)
+    for (; (byte_is_digit(text[from]) || text[from] == '_') && n + 1 < sizeof digits; from++)
         if (text[from] != '_')
             digits[n++] = text[from];
     digits[n] = '\0';
