@@ -55,7 +55,7 @@ read_length(qdot_cursor *c, const char *word, bool zero, double *value)
 }
 
 static qdot_status
-read_options(qdot_cursor *c, options *o)
+animate_read_options(qdot_cursor *c, options *o)
 {
     if (c->at->kind == QDOT_TOKEN_NAME && !is_option(c))
         QDOT_TRY(qdot_read_name(c, &o->run));
@@ -111,7 +111,7 @@ qdot_animate_statement(qdot_cursor *c)
     qdot_animation a;
     qdot_status status;
 
-    QDOT_TRY(read_options(c, &o));
+    QDOT_TRY(animate_read_options(c, &o));
     c->error_at = start->start;
     if (!qdot_ends_in(o.path, ".html") && !qdot_ends_in(o.path, ".gif")) {
         (void)qdot_fail(QDOT_EINVAL,

@@ -400,7 +400,7 @@ set_frames(builder *b, const qdot_animated_options *o)
 }
 
 static qdot_status
-read_values(builder *b)
+frames_read_values(builder *b)
 {
     const size_t m = b->columns.n, n = b->a->frames;
     double *times = qdot_calloc(n, sizeof *times);
@@ -491,7 +491,7 @@ build(builder *b, const qdot_animated_options *o)
     QDOT_TRY(add_states(b));
     QDOT_TRY(add_energies(b));
     QDOT_TRY(set_frames(b, o));
-    QDOT_TRY(read_values(b));
+    QDOT_TRY(frames_read_values(b));
     use_first(b);
     return QDOT_OK;
 }

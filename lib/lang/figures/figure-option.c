@@ -131,7 +131,7 @@ qdot_figure_option_is(const qdot_token *token)
 
 /* The option whose word was stepped over. */
 static qdot_status
-read_one(qdot_cursor *c, const char *word, qdot_figure_choice *f, qdot_panel_choice *p)
+figure_option_read(qdot_cursor *c, const char *word, qdot_figure_choice *f, qdot_panel_choice *p)
 {
     if (strcmp(word, "from") == 0)
         return read_from(c, p);
@@ -161,7 +161,7 @@ qdot_figure_option_read(qdot_cursor *c, qdot_figure_choice *figure, qdot_panel_c
         const char *word = c->at->text;
 
         c->at++;
-        QDOT_TRY(read_one(c, word, figure, panel));
+        QDOT_TRY(figure_option_read(c, word, figure, panel));
     }
     return QDOT_OK;
 }

@@ -17,7 +17,7 @@ is_mark(const qdot_row_table *t, size_t k)
 
 /* Between rows k and k + 1 of one branch: at a bifurcation nothing is decided. */
 static int
-kind_of(const qdot_row_table *t, size_t k)
+line_kind(const qdot_row_table *t, size_t k)
 {
     const double stable = t->values[(is_mark(t, k) ? k + 1 : k) * t->n + t->n - 2];
 
@@ -40,7 +40,7 @@ fill_kind(const qdot_row_table *t, size_t i, int kind, qdot_curve *c, double *x,
     for (size_t k = 0; k + 1 < t->rows; k++) {
         const double *row = t->values + k * t->n;
 
-        if (row[0] != row[t->n] || kind_of(t, k) != kind) {
+        if (row[0] != row[t->n] || line_kind(t, k) != kind) {
             if (open)
                 add_point(c, x, y, NAN, NAN);
             open = false;

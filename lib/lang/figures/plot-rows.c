@@ -40,7 +40,7 @@ abscissa(const qdot_row_table *t)
 
 /* The curves, of the rows that have numbers; x and y [columns x rows]; how many curves. */
 static size_t
-fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
+curves_fill(const qdot_row_table *t, qdot_curve *curves, double *x, double *y)
 {
     const size_t first = abscissa(t);
     size_t n = 0;
@@ -100,7 +100,7 @@ typedef struct {
 } drawing;
 
 static double
-value_at(const qdot_row_table *t, const axis *a, size_t i)
+axis_value_at(const qdot_row_table *t, const axis *a, size_t i)
 {
     return t->values[i * a->stride * t->n + a->column];
 }
@@ -111,7 +111,7 @@ is_even(const qdot_row_table *t, const axis *a)
     for (size_t i = 0; i < a->n && a->n > 1; i++) {
         const double even = a->least + (a->most - a->least) * (double)i / ((double)a->n - 1);
 
-        if (!(fabs(value_at(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
+        if (!(fabs(axis_value_at(t, a, i) - even) <= 1e-9 * fabs(a->most - a->least)))
             return false;
     }
     return true;
@@ -121,12 +121,12 @@ is_even(const qdot_row_table *t, const axis *a)
 static void
 find_ends(const qdot_row_table *t, axis *a)
 {
-    const double first = value_at(t, a, 0), last = value_at(t, a, a->n - 1);
+    const double first = axis_value_at(t, a, 0), last = axis_value_at(t, a, a->n - 1);
 
     a->least = a->most = first;
     for (size_t i = 1; i < a->n; i++) {
-        a->least = fmin(a->least, value_at(t, a, i));
-        a->most = fmax(a->most, value_at(t, a, i));
+        a->least = fmin(a->least, axis_value_at(t, a, i));
+        a->most = fmax(a->most, axis_value_at(t, a, i));
     }
     if (first > last) {
         const double least = a->least;
@@ -152,7 +152,7 @@ place_values(const qdot_row_table *t, axis *a)
 
         a->of[k] = even ? k : 0;
         for (size_t i = 1; i < a->n && !even; i++)
-            if (fabs(value_at(t, a, i) - x) < fabs(value_at(t, a, a->of[k]) - x))
+            if (fabs(axis_value_at(t, a, i) - x) < fabs(axis_value_at(t, a, a->of[k]) - x))
                 a->of[k] = i;
     }
     return QDOT_OK;
@@ -160,7 +160,7 @@ place_values(const qdot_row_table *t, axis *a)
 
 /* Whether rows i and j have the same values of the first `count` names. */
 static bool
-is_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
+rows_are_same(const qdot_row_table *t, size_t i, size_t j, size_t count)
 {
     for (size_t k = 0; k < count; k++)
         if (t->values[i * t->n + k] != t->values[j * t->n + k])
@@ -176,9 +176,9 @@ find_axes(const qdot_row_table *t, axis *axes, size_t *rows)
     size_t fast = 1;
 
     *rows = 1;
-    while (*rows < t->rows && is_same(t, *rows, 0, outer))
+    while (*rows < t->rows && rows_are_same(t, *rows, 0, outer))
         ++*rows;
-    while (fast < *rows && is_same(t, fast, 0, outer + 1))
+    while (fast < *rows && rows_are_same(t, fast, 0, outer + 1))
         fast++;
     if (*rows % fast != 0 || t->rows % *rows != 0)
         return qdot_fail(QDOT_EINVAL, "%s has no rectangle of rows: it is interrupted, or a value stands in it twice", t->name);
@@ -250,7 +250,7 @@ draw_maps(const qdot_row_table *t, drawing *d)
 /* --- the figure ----------------------------------------------------------------------- */
 
 static qdot_status
-draw(const qdot_row_table *t, drawing *d)
+rows_draw(const qdot_row_table *t, drawing *d)
 {
     if (t->marks != NULL)
         return qdot_plot_branches_draw(t, &d->branches);
@@ -265,14 +265,14 @@ draw(const qdot_row_table *t, drawing *d)
     d->panels[0] = (qdot_panel){.axis = {{t->labels[abscissa(t)], true}, {"", false}},
                                 .curves = d->curves,
                                 .points = t->scattered || t->measured || !is_ordered(t)};
-    d->panels[0].n = fill(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
+    d->panels[0].n = curves_fill(t, d->curves, d->numbers, d->numbers + t->n * t->rows);
     if (d->panels[0].n == 1)
         d->panels[0].axis[1] = d->curves[0].label;
     return QDOT_OK;
 }
 
 static void
-clear(drawing *d)
+drawing_clear(drawing *d)
 {
     qdot_plot_branches_free(&d->branches);
     for (size_t k = 0; k < d->n && d->titles != NULL; k++)
@@ -301,7 +301,7 @@ qdot_plot_rows(qdot_cursor *c)
     QDOT_TRY(qdot_figure_option_read(c, &choice, &of_panel));
     if (!qdot_cursor_is_end(c))
         return qdot_cursor_expected(c, QDOT_FIGURE_OPTIONS);
-    status = draw(t, &d);
+    status = rows_draw(t, &d);
     if (status == QDOT_OK) {
         qdot_panel *const panels = t->marks != NULL ? d.branches.panels : d.panels;
         const qdot_figure figure = {.panels = panels,
@@ -314,6 +314,6 @@ qdot_plot_rows(qdot_cursor *c)
             qdot_figure_option_apply(&of_panel, &panels[i]);
         status = qdot_figure_file_show(c->session, &figure, choice.path);
     }
-    clear(&d);
+    drawing_clear(&d);
     return status;
 }

@@ -299,7 +299,7 @@ curve_values(void *user, size_t n, const double *s, double *values)
 
 /* Narrow low..high to the times of an operand's runs. */
 static qdot_status
-narrow(const qdot_operand *o, double *low, double *high)
+times_narrow(const qdot_operand *o, double *low, double *high)
 {
     const qdot_run_report *r = qdot_run_get_report(o->run);
 
@@ -358,16 +358,16 @@ leave_zero(double *times, size_t n)
 
 /* The first points of a curve along its run. */
 static qdot_status
-begin(qdot_plot_panel *p, qdot_plot_curve *curve)
+curve_begin(qdot_plot_panel *p, qdot_plot_curve *curve)
 {
     double low = -INFINITY, high = INFINITY, *times = NULL;
     const qdot_figure_range *r = &p->choice.range[0];
     size_t n = 0;
     qdot_status status;
 
-    QDOT_TRY(narrow(curve->y, &low, &high));
+    QDOT_TRY(times_narrow(curve->y, &low, &high));
     if (curve->x.session != NULL)
-        QDOT_TRY(narrow(&curve->x, &low, &high));
+        QDOT_TRY(times_narrow(&curve->x, &low, &high));
     if (low > high)
         return qdot_fail(QDOT_EINVAL, "the runs have no time in common");
     if (curve->drift) {
@@ -437,7 +437,7 @@ curves_of(qdot_plot_panel *p, size_t i)
         curve->source = (qdot_trace_source){.axes = o->vector ? o->columns.n : 2,
                                              .values = o->vector ? path_values : curve_values,
                                              .user = curve};
-        status = begin(p, curve);
+        status = curve_begin(p, curve);
     }
     qdot_text_clear(&label);
     qdot_text_clear(&axis);

@@ -181,7 +181,7 @@ build(const panels *all, frame *f)
 
 /* More points where the curves bend, as each panel will show them. */
 static qdot_status
-refine(panels *all, const qdot_figure *figure, frame *f)
+panels_refine(panels *all, const qdot_figure *figure, frame *f)
 {
     size_t next = 0;
 
@@ -285,7 +285,7 @@ qdot_plot_figure(qdot_cursor *c, const qdot_plot_runs *runs)
                                     .height = choice.height,
                                     .keep = choice.keep};
 
-        status = refine(&all, &figure, &f);
+        status = panels_refine(&all, &figure, &f);
         if (status == QDOT_OK)
             status = tell_left_out(c->session, &figure);
         if (status == QDOT_OK)

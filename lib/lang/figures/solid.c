@@ -41,7 +41,7 @@ qdot_solid_plane(double mass, double inertia, const double (*arms)[2], size_t n,
 
 /* One turn in the plane of axes i, j that makes a[i][j] 0 (Jacobi); v: the axes so far, as rows. */
 static void
-turn(double a[3][3], double v[3][3], int i, int j)
+jacobi_turn(double a[3][3], double v[3][3], int i, int j)
 {
     const double angle = 0.5 * atan2(2 * a[i][j], a[i][i] - a[j][j]);
     const double c = cos(angle), s = sin(angle);
@@ -73,7 +73,7 @@ qdot_solid_space(double mass, const double inertia[9], qdot_animation_body *b)
             int j = (i + 1) % 3;
 
             if (fabs(a[i][j]) > 1e-15 * (fabs(a[i][i]) + fabs(a[j][j])))
-                turn(a, v, i, j);
+                jacobi_turn(a, v, i, j);
         }
     trace = a[0][0] + a[1][1] + a[2][2];
     for (int k = 0; k < 3; k++) {
