@@ -112,7 +112,7 @@ qdot_algebra_ddt(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *
 typedef enum { LEFT, RIGHT, DIFFERENCE } side;
 
 static qdot_expr
-side_of(qdot_pool *pool, qdot_expr equation, side which)
+equation_side(qdot_pool *pool, qdot_expr equation, side which)
 {
     qdot_expr left = qdot_expr_arg(pool, equation, 0);
     qdot_expr right = qdot_expr_arg(pool, equation, 1);
@@ -131,7 +131,7 @@ sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *val
     bool sound = kind == QDOT_LIST || kind == QDOT_VEC;
 
     if (qdot_value_kind_is_equation(pool, e))
-        return qdot_value_kind_give(s->pool, side_of(pool, e, which), value);
+        return qdot_value_kind_give(s->pool, equation_side(pool, e, which), value);
     for (uint32_t i = 0; sound && i < n; i++)
         if (!qdot_value_kind_is_equation(pool, qdot_expr_arg(pool, e, i))) {
             odd = qdot_expr_arg(pool, e, i);
@@ -144,7 +144,7 @@ sides(qdot_session *s, const char *name, qdot_expr e, side which, qdot_expr *val
     if (members == NULL)
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < n; i++)
-        members[i] = side_of(pool, qdot_expr_arg(pool, e, i), which);
+        members[i] = equation_side(pool, qdot_expr_arg(pool, e, i), which);
     e = kind == QDOT_LIST ? qdot_list(pool, n, members) : qdot_vector(pool, n, members);
     qdot_free(members);
     return qdot_value_kind_give(s->pool, e, value);

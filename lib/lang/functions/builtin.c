@@ -160,7 +160,7 @@ ONE(trace, qdot_trace)
 /* --- geometry and bodies ------------------------------------------------------------ */
 
 static qdot_status
-check_place(qdot_session *s, const char *name, qdot_expr R)
+place_check(qdot_session *s, const char *name, qdot_expr R)
 {
     if (qdot_expr_is_scalar(s->pool, R) || qdot_expr_kind(s->pool, R) == QDOT_VEC)
         return QDOT_OK;
@@ -185,7 +185,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        QDOT_TRY(check_place(s, #word, args[0]));                                        \
+        QDOT_TRY(place_check(s, #word, args[0]));                                        \
         return qdot_value_kind_give(s->pool, module##_##word(s->scene, args[0]), value); \
     }
 /* Of a field and the place R whose frame it is in. */
@@ -194,7 +194,7 @@ call_stability(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *va
                                    qdot_expr *value)                                     \
     {                                                                                    \
         (void)n;                                                                         \
-        QDOT_TRY(check_place(s, #word, args[1]));                                        \
+        QDOT_TRY(place_check(s, #word, args[1]));                                        \
         return qdot_value_kind_give(                                                     \
             s->pool, qdot_geometry_##word(s->scene, args[0], args[1]), value);           \
     }

@@ -50,7 +50,7 @@ real_of(qdot_pool *pool, qdot_expr e, mpfr_ptr x)
 
 /* A bound of |x - text|; x itself may be off by |x| 2^(3 - its precision). */
 static double
-distance(mpfr_srcptr x, const char *text)
+text_distance(mpfr_srcptr x, const char *text)
 {
     double error;
     mpfr_t y, slack;
@@ -95,7 +95,7 @@ round_to(qdot_pool *pool, mpfr_srcptr x, int digits, qdot_expr *value, double *e
     }
     *value = QDOT_NIL;
     if (qdot_text_status(&text) == QDOT_OK) {
-        *error = distance(x, qdot_text_str(&text));
+        *error = text_distance(x, qdot_text_str(&text));
         *value = qdot_expr_decimal(pool, qdot_text_str(&text) + minus, text.n - minus);
     }
     if (minus && *value != QDOT_NIL)

@@ -127,14 +127,14 @@ coefficient(const laurent *s, long k)
 }
 
 static void
-drop(laurent *s)
+laurent_drop(laurent *s)
 {
     qdot_free(s->c.at);
     *s = (laurent){0};
 }
 
 static qdot_status
-shorten(course *x, qdot_expr *e)
+coefficient_shorten(course *x, qdot_expr *e)
 {
     *e = qdot_simplify(x->pool, *e, &x->facts);
     return qdot_value_kind_check(x->pool, *e);
@@ -169,18 +169,18 @@ multiply(course *x, laurent *s, const laurent *b, long most)
                            qdot_mul(x->pool, coefficient(s, i), coefficient(b, k - i)));
         status = qdot_value_kind_check(x->pool, sum);
         if (status == QDOT_OK)
-            status = shorten(x, &sum);
+            status = coefficient_shorten(x, &sum);
         if (status == QDOT_OK)
             status = qdot_vec_push(&made.c, sum);
     }
-    drop(s);
+    laurent_drop(s);
     *s = made;
     return status;
 }
 
 /* b^q, b begins with what does not vanish; Miller: k b_0 a_k = sum_j (q j - k + j) b_j a_{k-j}. */
 static qdot_status
-power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
+laurent_power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *s)
 {
     qdot_pool *pool = x->pool;
     qdot_expr a = qdot_pow(pool, b->c.at[0], q);
@@ -199,7 +199,7 @@ power(course *x, const laurent *b, qdot_expr q, long least, long most, laurent *
             a = qdot_div(pool, a, qdot_mul(pool, qdot_expr_int(pool, k), b->c.at[0]));
         }
         QDOT_TRY(qdot_value_kind_check(pool, a));
-        QDOT_TRY(shorten(x, &a));
+        QDOT_TRY(coefficient_shorten(x, &a));
         QDOT_TRY(qdot_vec_push(&s->c, a));
         QDOT_TRY(qdot_interrupt_check());
     }
@@ -260,7 +260,7 @@ find_leading(course *x, qdot_expr e, long *least)
             trim(x, &s);
         found = s.c.n > 0;
         *least = s.least;
-        drop(&s);
+        laurent_drop(&s);
         QDOT_TRY(status);
         if (found)
             return QDOT_OK;
@@ -293,7 +293,7 @@ sum_of(course *x, qdot_expr e, long most, laurent *s)
             status = qdot_vec_push(&s->c, sum);
     }
     for (uint32_t i = 0; parts != NULL && i < n; i++)
-        drop(&parts[i]);
+        laurent_drop(&parts[i]);
     qdot_free(parts);
     return status;
 }
@@ -317,8 +317,8 @@ power_of(course *x, qdot_expr base, qdot_expr q, long first, long most, laurent 
     if (status == QDOT_OK)
         trim(x, &b);
     if (status == QDOT_OK)
-        status = power(x, &b, q, times * first, most, s);
-    drop(&b);
+        status = laurent_power(x, &b, q, times * first, most, s);
+    laurent_drop(&b);
     return status;
 }
 
@@ -364,7 +364,7 @@ product_of(course *x, qdot_expr e, long most, laurent *s)
         status = power_of(x, base, q, first[i], most - (total - own), &part);
         if (status == QDOT_OK)
             status = multiply(x, s, &part, most - total + s->least + own);
-        drop(&part);
+        laurent_drop(&part);
     }
     qdot_free(first);
     return status;
@@ -427,7 +427,7 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
 
             for (long i = 0; i < s->least + (long)s->c.n && status == QDOT_OK; i++)
                 status = qdot_vec_push(&whole.c, coefficient(s, i));
-            drop(s);
+            laurent_drop(s);
             *s = whole;
         }
         if (status == QDOT_OK && s->c.n == 0)
@@ -435,8 +435,8 @@ function_of(course *x, qdot_expr e, long most, laurent *s)
         if (status == QDOT_OK)
             s->c.at[0] = qdot_add(pool, s->c.at[0], coefficient(&outer, k));
     }
-    drop(&inner);
-    drop(&outer);
+    laurent_drop(&inner);
+    laurent_drop(&outer);
     return status == QDOT_OK ? qdot_pool_check(pool) : status;
 }
 
@@ -453,7 +453,7 @@ laurent_of(course *x, qdot_expr e, long most, laurent *s)
     status = derivatives(x, e, x->ray, QDOT_ZERO, most > 0 ? most : 0, s);
     if (status != QDOT_EDOMAIN)
         return status;
-    drop(s);
+    laurent_drop(s);
     if (x->depth >= MOST_DEPTH)
         return no_series(x, e, "it is nested too deep");
     x->depth++;
@@ -530,13 +530,13 @@ sum_along(qdot_pool *pool, qdot_expr scalar, void *user)
         qdot_expr c = coefficient(&s, k);
 
         if (!is_polynomial(x, c)) {
-            status = shorten(x, &c);
+            status = coefficient_shorten(x, &c);
             if (status == QDOT_OK && !is_polynomial(x, c))
                 status = no_series(x, f, "its value depends on the way to the point");
         }
         sum = qdot_add(pool, sum, multiplied_out(x, c));
     }
-    drop(&s);
+    laurent_drop(&s);
     return status == QDOT_OK ? sum : qdot_pool_fail(pool);
 }
 

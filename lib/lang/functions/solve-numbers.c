@@ -36,7 +36,7 @@ typedef struct {
 /* --- the question ------------------------------------------------------------------------------------ */
 
 static qdot_status
-add_unknown(question *q, qdot_expr x)
+question_add_unknown(question *q, qdot_expr x)
 {
     char name[40];
 
@@ -480,7 +480,7 @@ qdot_solve_range(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_ex
     bool rest;
     double a, b;
 
-    QDOT_TRY(add_unknown(&q, x));
+    QDOT_TRY(question_add_unknown(&q, x));
     QDOT_TRY(set_equation(&q, 0, equation));
     QDOT_TRY(constant_of(&q, ends[0], &lo));
     QDOT_TRY(constant_of(&q, ends[1], &hi));
@@ -525,7 +525,7 @@ qdot_solve_line(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domai
     qdot_status status;
 
     *known = true;
-    QDOT_TRY(add_unknown(&q, x));
+    QDOT_TRY(question_add_unknown(&q, x));
     status = set_equation(&q, 0, f);
     *known = status != QDOT_EUNSET;
     if (!*known)
@@ -586,7 +586,7 @@ qdot_solve_box(qdot_session *session, size_t n, const qdot_expr *f, const qdot_e
     *known = true;
     *at = NULL;
     for (size_t j = 0; j < n; j++)
-        QDOT_TRY(add_unknown(&q, u[j]));
+        QDOT_TRY(question_add_unknown(&q, u[j]));
     for (size_t i = 0; i < n && *known; i++) {
         status = set_equation(&q, i, f[i]);
         *known = status != QDOT_EUNSET;
@@ -631,7 +631,7 @@ qdot_solve_near(qdot_session *session, uint32_t n, const qdot_expr *equations,
     qdot_status status;
 
     for (uint32_t j = 0; j < n; j++)
-        QDOT_TRY(add_unknown(&q, qdot_expr_arg(session->pool, unknowns[j], 0)));
+        QDOT_TRY(question_add_unknown(&q, qdot_expr_arg(session->pool, unknowns[j], 0)));
     for (uint32_t i = 0; i < n; i++)
         QDOT_TRY(set_equation(&q, i, equations[i]));
     for (uint32_t j = 0; j < n; j++) {

@@ -64,7 +64,7 @@ jumps(const place *x, qdot_expr e)
 }
 
 static bool
-switches(const place *x, qdot_expr e)
+node_switches(const place *x, qdot_expr e)
 {
     qdot_pool *pool = x->pool;
     const qdot_node *node = qdot_expr_node(pool, e);
@@ -102,7 +102,7 @@ qdot_switch_find(qdot_pool *pool, qdot_expr e, qdot_expr ray, const qdot_facts *
             status = qdot_vec_push(&parts, w.at[i]);
     qdot_walk_end(&w);
     for (size_t i = 0; i < parts.n && status == QDOT_OK && *part == QDOT_NIL; i++)
-        if (switches(&x, parts.at[i]))
+        if (node_switches(&x, parts.at[i]))
             *part = parts.at[i];
     qdot_free(parts.at);
     return status;
