@@ -60,7 +60,7 @@ read_changes(qdot_cursor *c, qdot_event *event)
 }
 
 static qdot_status
-read_options(qdot_cursor *c, qdot_event *event)
+event_read_options(qdot_cursor *c, qdot_event *event)
 {
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_is_word(c, "rising") || qdot_cursor_is_word(c, "falling")) {
@@ -105,7 +105,7 @@ read_event(qdot_cursor *c, qdot_event *event)
     event->left = qdot_measured_as_rationals(c->session, event->left);
     event->right = qdot_measured_as_rationals(c->session, event->right);
     QDOT_TRY(qdot_pool_check(pool));
-    return read_options(c, event);
+    return event_read_options(c, event);
 }
 
 qdot_status

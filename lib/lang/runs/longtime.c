@@ -143,14 +143,14 @@ points_of(const void *study, qdot_error_point *points)
 }
 
 static void
-note(const void *study, qdot_text *out)
+longtime_note(const void *study, qdot_text *out)
 {
     (void)study;
     qdot_text_add(out, "root mean squares in windows of time");
 }
 
 static qdot_status
-tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
+longtime_tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
 {
     const qdot_error_study of = {.name = "longtime",
                                  .study = l,
@@ -167,7 +167,7 @@ tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
                                             .panel = &chosen->panel},
                                  .most_points = l->n * QDOT_LONGTIME_WINDOWS,
                                  .points = points_of,
-                                 .note = note};
+                                 .note = longtime_note};
 
     return qdot_error_time_tell(session, &of);
 }
@@ -175,7 +175,7 @@ tell(qdot_session *session, const qdot_longtime *l, const choices *chosen)
 /* --- the statement ------------------------------------------------------------------ */
 
 static qdot_status
-read_options(qdot_cursor *c, choices *chosen)
+longtime_read_options(qdot_cursor *c, choices *chosen)
 {
     const qdot_token *start;
 
@@ -213,7 +213,7 @@ qdot_longtime_statement(qdot_cursor *c)
     qdot_status status;
 
     QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(read_options(c, &chosen));
+    QDOT_TRY(longtime_read_options(c, &chosen));
     c->error_at = start->start;
     l.tol = chosen.tol;
     l.method = chosen.method;
@@ -223,7 +223,7 @@ qdot_longtime_statement(qdot_cursor *c)
     if (l.interrupted)
         qdot_interrupt_clear(); /* heard: the rows so far are told */
     if (status == QDOT_OK)
-        status = tell(session, &l, &chosen);
+        status = longtime_tell(session, &l, &chosen);
     if (status == QDOT_OK && l.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu methods", l.n);
     status = qdot_request_explain(session, &order, status);

@@ -14,8 +14,8 @@ static const char run_name[] = "the run";
 
 /* Keep the run, which is then the session's. */
 static qdot_status
-keep(qdot_session *session, const qdot_request *request, qdot_run *made, qdot_run **run,
-     qdot_expr *end)
+own_run_keep(qdot_session *session, const qdot_request *request, qdot_run *made, qdot_run **run,
+             qdot_expr *end)
 {
     const qdot_run_report *report = qdot_run_get_report(made);
 
@@ -48,7 +48,7 @@ qdot_own_run_make(qdot_session *session, const qdot_run_options *o, qdot_expr fr
     if (status == QDOT_OK)
         status = qdot_pool_check(session->pool);
     if (made != NULL && status == QDOT_OK)
-        status = keep(session, &request, made, run, end);
+        status = own_run_keep(session, &request, made, run, end);
     else
         qdot_run_free(made);
     qdot_request_free(&request);

@@ -17,7 +17,7 @@ typedef struct {
 
 /* Read the statement with the values in force; the names in it are those of the scene, no indices. */
 static qdot_status
-read_run(again *a)
+again_read_run(again *a)
 {
     qdot_cursor c = {.session = a->session, .source = a->source, .at = a->source->tokens.at};
     const qdot_token *start = c.at;
@@ -51,7 +51,7 @@ is_repeatable(again *a, const qdot_named_run *latest, bool *is)
 }
 
 static qdot_status
-begin(void *user)
+again_begin(void *user)
 {
     again *a = user;
     qdot_named_run *latest;
@@ -63,7 +63,7 @@ begin(void *user)
     if (a->text == NULL)
         return QDOT_ENOMEM;
     QDOT_TRY(qdot_source_new("a run", a->text, strlen(a->text), &a->source, &at));
-    if (read_run(a) == QDOT_OK)
+    if (again_read_run(a) == QDOT_OK)
         QDOT_TRY(is_repeatable(a, latest, &is));
     else
         QDOT_TRY(qdot_grave(qdot_last_error()->status)); /* a name that the text holds has gone */
@@ -75,16 +75,16 @@ begin(void *user)
 }
 
 static qdot_status
-make(void *user)
+again_make(void *user)
 {
     again *a = user;
 
-    QDOT_TRY(read_run(a));
+    QDOT_TRY(again_read_run(a));
     return qdot_own_run_make(a->session, &a->run, a->run.from, a->run.to, NULL, NULL);
 }
 
 static void
-drop(void *user)
+again_drop(void *user)
 {
     qdot_own_run_drop(((again *)user)->session);
 }
@@ -93,7 +93,7 @@ qdot_status
 qdot_plot_statement(qdot_cursor *c)
 {
     again a = {.session = c->session};
-    const qdot_plot_runs runs = {begin, make, drop, &a};
+    const qdot_plot_runs runs = {again_begin, again_make, again_drop, &a};
     const qdot_status status = qdot_plot_figure(c, &runs);
 
     qdot_run_options_free(&a.run);

@@ -100,8 +100,8 @@ answer_rows(qdot_session *session, const qdot_race *race)
 }
 
 static qdot_status
-draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
-     const qdot_panel_choice *of_panel)
+race_draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *choice,
+          const qdot_panel_choice *of_panel)
 {
     qdot_error_point points[QDOT_RACE_FORMULATIONS * QDOT_RACE_TOLERANCES];
     qdot_text note = {0};
@@ -130,8 +130,8 @@ draw(qdot_session *session, const qdot_race *race, const qdot_figure_choice *cho
 }
 
 static qdot_status
-answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
-       const qdot_panel_choice *panel)
+race_answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *figure,
+            const qdot_panel_choice *panel)
 {
     qdot_text text = {0};
     qdot_status status = QDOT_OK;
@@ -147,7 +147,7 @@ answer(qdot_session *session, const qdot_race *race, const qdot_figure_choice *f
     qdot_text_clear(&text);
     /* who stopped it does not wait for a figure unless it was asked for */
     if (status == QDOT_OK && (!race->interrupted || figure->path != NULL))
-        status = draw(session, race, figure, panel);
+        status = race_draw(session, race, figure, panel);
     return status;
 }
 
@@ -195,7 +195,7 @@ qdot_race_statement(qdot_cursor *c)
         if (status == QDOT_OK) {
             if (race.interrupted)
                 qdot_interrupt_clear(); /* heard: the rows so far are told */
-            status = answer(c->session, &race, &figure, &panel);
+            status = race_answer(c->session, &race, &figure, &panel);
             if (status == QDOT_OK && race.interrupted)
                 status = qdot_fail(QDOT_EINTR, "interrupted: the race has the rows above");
             qdot_race_clear(&race);

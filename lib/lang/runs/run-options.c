@@ -36,7 +36,7 @@ read_with(qdot_cursor *c, qdot_pairs *with)
 }
 
 static qdot_status
-read_tolerance(qdot_cursor *c, qdot_run_options *o)
+run_read_tolerance(qdot_cursor *c, qdot_run_options *o)
 {
     const qdot_token *start = c->at;
 
@@ -124,7 +124,7 @@ qdot_run_options_read(qdot_cursor *c, const qdot_token *start, qdot_run_options 
 {
     while (!qdot_cursor_is_end(c)) {
         if (qdot_cursor_accept_word(c, "tol")) {
-            QDOT_TRY(read_tolerance(c, o));
+            QDOT_TRY(run_read_tolerance(c, o));
         } else if (qdot_cursor_is_word(c, "digits")) {
             QDOT_TRY(read_digits(c, o));
         } else if (qdot_cursor_accept_word(c, "method")) {

@@ -13,7 +13,7 @@
 
 /* Integrate, keep the run, tell how it went. */
 static qdot_status
-integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
+run_integrate(qdot_cursor *c, const qdot_run_options *o, qdot_request *request)
 {
     qdot_session *session = c->session;
     const qdot_run_report *report;
@@ -67,7 +67,7 @@ qdot_run_carry_out(qdot_cursor *c, const qdot_token *start, const qdot_run_optio
         status = qdot_run_options_fill(c->session, o, o->from, o->to, &request);
     }
     if (status == QDOT_OK)
-        status = qdot_request_explain(c->session, &request, integrate(c, o, &request));
+        status = qdot_request_explain(c->session, &request, run_integrate(c, o, &request));
     qdot_run_options_place(c, o, status);
     qdot_request_free(&request);
     return status;

@@ -179,7 +179,7 @@ points_of(const void *study, qdot_error_point *points)
 }
 
 static void
-note(const void *study, qdot_text *out)
+workprecision_note(const void *study, qdot_text *out)
 {
     const qdot_workprecision *w = study;
 
@@ -190,7 +190,7 @@ note(const void *study, qdot_text *out)
 /* --- the statement ------------------------------------------------------------------- */
 
 static qdot_status
-tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
+workprecision_tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
 {
     const qdot_error_study of = {.name = "workprecision",
                                  .study = w,
@@ -207,14 +207,14 @@ tell(qdot_session *session, const qdot_workprecision *w, const choices *chosen)
                                             .panel = &chosen->panel},
                                  .most_points = w->n,
                                  .points = points_of,
-                                 .note = note};
+                                 .note = workprecision_note};
 
     return qdot_error_time_tell(session, &of);
 }
 
 /* A whole study is kept for reports (lang/files/report-work.h). */
 static qdot_status
-keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
+workprecision_keep(qdot_session *session, const qdot_run_request *request, qdot_workprecision *w)
 {
     qdot_conditions conditions = {0};
     qdot_status status = qdot_conditions_take(session->scene, request, &conditions);
@@ -245,11 +245,11 @@ qdot_workprecision_statement(qdot_cursor *c)
     if (w.interrupted)
         qdot_interrupt_clear(); /* heard: the rows so far are told */
     if (status == QDOT_OK)
-        status = tell(session, &w, &chosen);
+        status = workprecision_tell(session, &w, &chosen);
     if (status == QDOT_OK && w.interrupted)
         status = qdot_fail(QDOT_EINTR, "interrupted: there are %zu rows", w.n);
     if (status == QDOT_OK)
-        status = keep(session, &order.request, &w);
+        status = workprecision_keep(session, &order.request, &w);
     status = qdot_request_explain(session, &order, status);
     qdot_workprecision_clear(&w);
     qdot_request_free(&order);
