@@ -58,7 +58,7 @@ answer_complex(qdot_session *session, const char *name, double re, double im,
 }
 
 static qdot_status
-tell(qdot_session *session, const char *run, const qdot_floquet *x)
+floquet_tell(qdot_session *session, const char *run, const qdot_floquet *x)
 {
     static const char *const verdicts[] = {[QDOT_FLOQUET_STABLE] = "stable",
                                            [QDOT_FLOQUET_UNSTABLE] = "unstable",
@@ -109,7 +109,7 @@ qdot_floquet_statement(qdot_cursor *c)
     request.treatment = qdot_run_get_report(orbit->run)->treatment;
     status = qdot_floquet_find(c->session->scene, orbit->run, &request, &x);
     if (status == QDOT_OK)
-        status = tell(c->session, orbit->name, &x);
+        status = floquet_tell(c->session, orbit->name, &x);
     qdot_floquet_clear(&x);
     return status;
 }

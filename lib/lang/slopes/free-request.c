@@ -6,8 +6,8 @@
 
 /* With the unknown parameters in force as their own values. */
 static qdot_status
-fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
-     qdot_expr *values, qdot_expr *start, bool *named)
+request_fill(qdot_session *session, size_t k, const qdot_expr *unknowns, const qdot_run_request *had,
+             qdot_expr *values, qdot_expr *start, bool *named)
 {
     const size_t n = session->scene->coordinates.n;
 
@@ -48,7 +48,7 @@ qdot_free_request(qdot_session *session, size_t k, const qdot_expr *unknowns,
         if (qdot_expr_is_class(session->pool, unknowns[i], QDOT_PARAM))
             qdot_session_set(session, unknowns[i], unknowns[i], &status);
     if (status == QDOT_OK)
-        status = fill(session, k, unknowns, had, values, start, named);
+        status = request_fill(session, k, unknowns, had, values, start, named);
     qdot_session_restore_values(session, &kept);
     *free = *had;
     free->values = values;

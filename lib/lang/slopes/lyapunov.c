@@ -24,7 +24,7 @@ typedef struct {
 
 /* "lyapunov" of the largest alone, else "lyapunov[k]". */
 static void
-name_of(const qdot_exponents *x, size_t k, char *name, size_t size)
+exponent_name(const qdot_exponents *x, size_t k, char *name, size_t size)
 {
     if (x->spectrum)
         snprintf(name, size, "lyapunov[%zu]", k + 1);
@@ -33,12 +33,12 @@ name_of(const qdot_exponents *x, size_t k, char *name, size_t size)
 }
 
 static qdot_status
-answer(qdot_session *session, const qdot_exponents *x)
+exponents_answer(qdot_session *session, const qdot_exponents *x)
 {
     for (size_t k = 0; k < x->n; k++) {
         char name[40];
 
-        name_of(x, k, name, sizeof name);
+        exponent_name(x, k, name, sizeof name);
         QDOT_TRY(qdot_answer_number(session, name, x->value[k], x->error[k]));
     }
     return QDOT_OK;
@@ -52,7 +52,7 @@ course(const qdot_exponents *x, bool csv, qdot_text *out)
     for (size_t k = 0; k < x->n; k++) {
         char name[40];
 
-        name_of(x, k, name, sizeof name);
+        exponent_name(x, k, name, sizeof name);
         qdot_text_format(out, csv ? ",%s" : "  %s", name);
     }
     qdot_text_char(out, '\n');
@@ -85,7 +85,7 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
     qdot_status status = points && names ? QDOT_OK : QDOT_ENOMEM;
 
     for (size_t k = 0; k < x->n && status == QDOT_OK; k++) {
-        name_of(x, k, names[k], sizeof names[k]);
+        exponent_name(x, k, names[k], sizeof names[k]);
         for (size_t w = 0; w < x->windows; w++)
             points[of.n++] =
                 (qdot_error_point){names[k], x->t[w], fabs(x->course[w * x->n + k])};
@@ -101,14 +101,14 @@ figure(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 
 /* The numbers; a figure or data where a file is named, or a person looks on. */
 static qdot_status
-tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
+exponents_tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 {
     const char *path = chosen->figure.path;
     const bool csv = path != NULL && qdot_ends_in(path, ".csv");
     qdot_text text = {0};
     qdot_status status;
 
-    QDOT_TRY(answer(session, x));
+    QDOT_TRY(exponents_answer(session, x));
     if (path == NULL)
         return QDOT_OK;
     if (!csv && !qdot_ends_in(path, ".txt"))
@@ -122,7 +122,7 @@ tell(qdot_session *session, const qdot_exponents *x, const choices *chosen)
 /* --- the statement --------------------------------------------------------------------------- */
 
 static qdot_status
-read_tolerance(qdot_cursor *c, choices *chosen)
+lyapunov_read_tolerance(qdot_cursor *c, choices *chosen)
 {
     const qdot_token *start;
 
@@ -148,7 +148,7 @@ qdot_lyapunov_statement(qdot_cursor *c)
     qdot_status status;
 
     QDOT_TRY(qdot_read_range(c, &from, &to));
-    QDOT_TRY(read_tolerance(c, &chosen));
+    QDOT_TRY(lyapunov_read_tolerance(c, &chosen));
     QDOT_TRY(qdot_error_time_read(c, "`tol`, " QDOT_FIGURE_OPTIONS, &chosen.figure,
                                   &chosen.panel));
     c->error_at = start->start;
@@ -160,7 +160,7 @@ qdot_lyapunov_statement(qdot_cursor *c)
     if (x.interrupted)
         qdot_interrupt_clear(); /* heard: what is known so far is told */
     if (status == QDOT_OK)
-        status = tell(session, &x, &chosen);
+        status = exponents_tell(session, &x, &chosen);
     if (status == QDOT_OK && x.interrupted)
         status =
             qdot_fail(QDOT_EINTR, "interrupted: the exponents are those up to t = %.6g",

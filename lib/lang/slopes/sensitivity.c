@@ -13,7 +13,7 @@
 /* --- the slopes ------------------------------------------------------------------------------ */
 
 static qdot_status
-answer(qdot_session *session, const char *of, const char *by, qdot_expr slope)
+slope_answer(qdot_session *session, const char *of, const char *by, qdot_expr slope)
 {
     const int digits = qdot_digits_of(session, slope);
     qdot_text name = {0};
@@ -43,7 +43,7 @@ tell_slopes(qdot_slopes *s, const char *of, qdot_expr e, size_t first)
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
         status = qdot_slopes_of(s, e, first, k, slope + k);
     for (size_t k = 0; k < s->names.n && status == QDOT_OK; k++)
-        status = answer(s->session, of, s->names.at[k].label, slope[k]);
+        status = slope_answer(s->session, of, s->names.at[k].label, slope[k]);
     qdot_free(slope);
     return status;
 }
@@ -60,7 +60,7 @@ run_of(const qdot_session *session, size_t first)
 
 /* `EXPR of NAME, ...`, then the answers. */
 static qdot_status
-carry_out(qdot_cursor *c, qdot_slopes *slopes, qdot_text *text)
+sensitivity_carry_out(qdot_cursor *c, qdot_slopes *slopes, qdot_text *text)
 {
     const qdot_token *start = c->at, *end;
     const size_t first = c->session->measured.n;
@@ -101,7 +101,7 @@ qdot_sensitivity_statement(qdot_cursor *c)
             c->error_at = start->start;
     }
     if (status == QDOT_OK)
-        status = carry_out(c, &slopes, &text);
+        status = sensitivity_carry_out(c, &slopes, &text);
     qdot_text_clear(&text);
     qdot_slopes_free(&slopes);
     qdot_own_run_drop(c->session);
