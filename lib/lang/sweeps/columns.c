@@ -68,7 +68,7 @@ qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
 
 /* A number, or an expression at the end of the run. */
 static qdot_status
-measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
+column_measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
 {
     const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION
                             | QDOT_HAS_TIME | QDOT_HAS_MULTIPLIER;
@@ -92,7 +92,7 @@ qdot_columns_measure(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr 
     qdot_expr e;
 
     QDOT_TRY(qdot_columns_read(c, x, i, &e));
-    return measure(c->session, e, end, value, error);
+    return column_measure(c->session, e, end, value, error);
 }
 
 bool

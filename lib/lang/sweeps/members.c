@@ -7,7 +7,7 @@
 /* --- reading ---------------------------------------------------------------------------- */
 
 static qdot_status
-read_run(qdot_cursor *c, qdot_members *m)
+members_read_run(qdot_cursor *c, qdot_members *m)
 {
     const qdot_token *start = c->at;
 
@@ -33,7 +33,7 @@ qdot_status
 qdot_members_read(qdot_cursor *c, qdot_members *m)
 {
     QDOT_TRY(qdot_sweep_axes_read(c, &m->axes));
-    return read_run(c, m);
+    return members_read_run(c, m);
 }
 
 void

@@ -328,7 +328,7 @@ find_of_sweep(qdot_cursor *c, poincare *p, bool *interrupted)
 /* --- what is told ----------------------------------------------------------------------- */
 
 static qdot_status
-tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
+poincare_tell(qdot_session *session, const poincare *p, const qdot_row_table *t)
 {
     qdot_text text = {0};
 
@@ -404,7 +404,7 @@ qdot_poincare_statement(qdot_cursor *c)
         p.table = NULL; /* the session's from now on */
         status = qdot_row_tables_keep(c->session, table);
         if (status == QDOT_OK)
-            status = tell(c->session, &p, table);
+            status = poincare_tell(c->session, &p, table);
         if (status == QDOT_OK && interrupted)
             status = qdot_fail(QDOT_EINTR, "interrupted: %s has the points of the first runs alone",
                                table->name);

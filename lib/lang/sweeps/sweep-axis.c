@@ -189,7 +189,7 @@ read_axis(qdot_cursor *c, qdot_sweep_axis *x)
 }
 
 static qdot_status
-draw(qdot_sweep_axes *axes)
+axes_draw_values(qdot_sweep_axes *axes)
 {
     const size_t n = axes->at.n;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
@@ -240,12 +240,12 @@ read_draws(qdot_cursor *c, qdot_sweep_axes *axes)
         return qdot_fail(QDOT_EINVAL, "a seed is a whole number from 0 to %ld", most_seed);
     axes->members = (size_t)count;
     axes->seed = (unsigned long)seed;
-    return draw(axes);
+    return axes_draw_values(axes);
 }
 
 /* The axes are of one kind, and differ; how many members they have. */
 static qdot_status
-check(qdot_cursor *c, qdot_sweep_axes *axes)
+axes_check(qdot_cursor *c, qdot_sweep_axes *axes)
 {
     double members = 1;
 
@@ -284,7 +284,7 @@ qdot_sweep_axes_read(qdot_cursor *c, qdot_sweep_axes *axes)
         }
     } while (qdot_cursor_accept_op(c, ","));
     axes->random = axes->at.at[0].n == 0;
-    QDOT_TRY(check(c, axes));
+    QDOT_TRY(axes_check(c, axes));
     return axes->random ? read_draws(c, axes) : QDOT_OK;
 }
 

@@ -140,7 +140,7 @@ sum_read(const qdot_data_columns *from)
 
 /* That the file is of this sweep, with its rows as they were written. */
 static qdot_status
-check(const qdot_data_columns *from, const char *path, const char *said, const qdot_row_table *t)
+file_check(const qdot_data_columns *from, const char *path, const char *said, const qdot_row_table *t)
 {
     const size_t n = 1 + qdot_row_columns_count(t) + 1, length = strlen(said); /* rows, numbers, reasons */
     const char *text = qdot_text_str(&from->text);
@@ -174,7 +174,7 @@ qdot_sweep_file_take(const char *path, const char *said, qdot_row_table *t, bool
         return QDOT_OK;
     status = qdot_data_read_hdf5(path, fact, &from);
     if (status == QDOT_OK)
-        status = check(&from, path, said, t);
+        status = file_check(&from, path, said, t);
     if (status == QDOT_OK)
         status = take_rows(&from, path, t, done);
     qdot_data_columns_clear(&from);

@@ -101,7 +101,7 @@ is_of_states(qdot_session *session, qdot_expr e)
 
 /* The columns; an empty `why`: lanes have them all. Expressions into e [columns]. */
 static qdot_status
-read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
+lanes_read_columns(qdot_sweep_lanes *x, qdot_expr *e, qdot_text *why)
 {
     qdot_cursor own = *x->s->c;
     const size_t n = x->s->columns.at.n;
@@ -272,7 +272,7 @@ drop_unread(qdot_sweep_lanes *x, const qdot_expr *e)
 
 /* The ensemble, where the first member's run fits. */
 static qdot_status
-prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
+lanes_prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
 {
     qdot_session *session = x->s->c->session;
     double *swept = qdot_calloc(x->s->members.axes.at.n + 1, sizeof *swept);
@@ -282,7 +282,7 @@ prepare(qdot_sweep_lanes *x, qdot_request *request, qdot_text *why)
     if (status == QDOT_OK)
         status = find_varied(x, why);
     if (status == QDOT_OK && why->n == 0)
-        status = read_columns(x, e, why);
+        status = lanes_read_columns(x, e, why);
     if (status == QDOT_OK && why->n == 0)
         status = qdot_ensemble_fit(session->scene, &request->request, &x->bounds, why);
     if (status == QDOT_OK && why->n == 0)
@@ -344,7 +344,7 @@ qdot_sweep_lanes_new(qdot_sweep *s, qdot_sweep_lanes **lanes, qdot_text *why)
     x->reasons = qdot_calloc(members + 1, sizeof *x->reasons);
     status = x->made && x->reasons ? qdot_session_keep_values(s->c->session, &kept) : QDOT_ENOMEM;
     if (status == QDOT_OK) {
-        status = prepare(x, &request, why);
+        status = lanes_prepare(x, &request, why);
         qdot_session_restore_values(s->c->session, &kept);
     }
     qdot_request_free(&request);

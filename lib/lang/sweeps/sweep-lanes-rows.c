@@ -27,7 +27,7 @@ static const double small = 1e-3, nothing = 1e-15;
 
 /* All expressions of that pass of a member at a place, into out [outputs]; false: it is not there. */
 static bool
-evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
+member_evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, double *out)
 {
     if (!qdot_ensemble_state(x->ensemble, pass, m, place, x->in))
         return false;
@@ -38,12 +38,12 @@ evaluate(qdot_sweep_lanes *x, size_t pass, size_t m, size_t place, double t, dou
 
 /* The errors of all expressions at a place into errors [outputs]; x->out has them. */
 static bool
-compare(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
+member_errors(qdot_sweep_lanes *x, size_t m, size_t place, double *errors)
 {
     const size_t n = x->outputs;
 
     for (size_t pass = x->companions + 1; pass-- > 0;) /* the run's own inputs stay */
-        if (!evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
+        if (!member_evaluate(x, pass, m, place, qdot_ensemble_time(x->ensemble, place), x->out + pass * n))
             return false;
     for (size_t i = 0; i < x->outputs; i++) {
         const double theirs[] = {x->out[n + i], x->out[2 * n + i]};
@@ -90,8 +90,8 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
         return QDOT_ENOMEM;
     *there = x->places <= PLACES;
     for (size_t k = 0; k < x->places && *there; k++)
-        *there = compare(x, m, k, between + k * n);
-    *there = *there && compare(x, m, x->places, errors);
+        *there = member_errors(x, m, k, between + k * n);
+    *there = *there && member_errors(x, m, x->places, errors);
     if (*there)
         qdot_rounding_bounds(x->tape, x->in, NULL, bounds, x->work);
     for (size_t i = 0; i < n && *there; i++) {
@@ -113,7 +113,7 @@ read_end(qdot_sweep_lanes *x, size_t m, double *values, double *errors, bool *th
 
 /* Whether the sizes of a member's coordinates make a run alone look for scales. */
 static bool
-is_small(const qdot_sweep_lanes *x, size_t m)
+member_is_small(const qdot_sweep_lanes *x, size_t m)
 {
     const double *sizes = qdot_ensemble_sizes(x->ensemble, m);
 
@@ -201,7 +201,7 @@ qdot_sweep_lanes_fill_row(qdot_sweep_lanes *x, size_t m, size_t k)
     qdot_row_table *t = x->s->table;
     double *values = t->values + k * t->n, *errors = t->errors + k * t->n;
     double *of = qdot_calloc(2 * x->outputs + 1, sizeof *of);
-    bool there = !qdot_ensemble_left(x->ensemble, m) && !is_small(x, m);
+    bool there = !qdot_ensemble_left(x->ensemble, m) && !member_is_small(x, m);
     qdot_status status = of ? QDOT_OK : QDOT_ENOMEM;
 
     if (x->outputs + x->ways > 0)

@@ -20,7 +20,7 @@ typedef struct {
 
 /* Run a few rows, for what they cost. */
 static qdot_status
-measure(qdot_sweep *s, sample *m)
+plan_measure(qdot_sweep *s, sample *m)
 {
     const size_t members = s->members.axes.members, most = s->lanes != NULL ? BY_LANES : ALONE;
     size_t rows[BY_LANES], n = members < most ? members : most;
@@ -114,7 +114,7 @@ qdot_sweep_tell_plan(qdot_sweep *s, qdot_text *text)
     QDOT_TRY(qdot_row_table_add_all(s->table, members));
     status = qdot_sweep_lanes_new(s, &s->lanes, &why);
     if (status == QDOT_OK)
-        status = measure(s, &m);
+        status = plan_measure(s, &m);
     if (status == QDOT_OK) {
         tell_members(s, text);
         tell_way(s, &m, qdot_text_str(&why), text);

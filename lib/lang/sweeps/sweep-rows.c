@@ -98,7 +98,7 @@ tell_rows(qdot_sweep *s, bool all)
 
 /* Row k has been made, or has failed with that status and the last error. */
 static qdot_status
-take_row(qdot_sweep *s, size_t k, qdot_status status)
+rows_take_row(qdot_sweep *s, size_t k, qdot_status status)
 {
     qdot_row_table *t = s->table;
 
@@ -163,7 +163,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
     row_head h;
 
     if (bytes == NULL || n < sizeof h + 2 * numbers)
-        return take_row(s, k, qdot_fail(QDOT_EFAILED, "the process that made the run has ended"));
+        return rows_take_row(s, k, qdot_fail(QDOT_EFAILED, "the process that made the run has ended"));
     memcpy(&h, bytes, sizeof h);
     bytes += sizeof h;
     memcpy(t->values + k * t->n, bytes, numbers);
@@ -176,7 +176,7 @@ take_answer(size_t k, const char *bytes, size_t n, void *user)
         if (qdot_own_run_all_fail(h.status))
             s->c->error_at = h.error_at;
     }
-    return take_row(s, k, h.status);
+    return rows_take_row(s, k, h.status);
 }
 
 /* --- the sweep -------------------------------------------------------------------------- */
@@ -208,7 +208,7 @@ run_here(qdot_sweep *s, size_t first, size_t end)
             QDOT_TRY(qdot_sweep_lanes_run(s->lanes, k, next - k));
         }
         if (!s->done[k])
-            QDOT_TRY(take_row(s, k, qdot_sweep_fill_row(s, k)));
+            QDOT_TRY(rows_take_row(s, k, qdot_sweep_fill_row(s, k)));
     }
     return QDOT_OK;
 }

@@ -37,7 +37,7 @@ read_threads(qdot_cursor *c, qdot_sweep *s)
 
 /* The file that rows are kept in. */
 static qdot_status
-read_file(qdot_cursor *c, qdot_sweep *s)
+sweep_read_file(qdot_cursor *c, qdot_sweep *s)
 {
     s->path_at = c->at;
     QDOT_TRY(qdot_cursor_once(c, "resume", s->path != NULL));
@@ -59,7 +59,7 @@ read_rest(qdot_cursor *c, qdot_sweep *s)
         } else if (qdot_cursor_accept_word(c, "threads")) {
             QDOT_TRY(read_threads(c, s));
         } else if (qdot_cursor_accept_word(c, "resume")) {
-            QDOT_TRY(read_file(c, s));
+            QDOT_TRY(sweep_read_file(c, s));
         } else {
             return qdot_cursor_expected(c, "`as NAME`, `threads N`, `resume \"FILE.h5\"` or the end "
                                            "of the statement");
@@ -138,7 +138,7 @@ unknown_errors(const qdot_row_table *t)
 }
 
 static qdot_status
-tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
+sweep_tell(qdot_session *session, const qdot_sweep *s, const qdot_row_table *t, double seconds)
 {
     qdot_text text = {0};
 
@@ -241,7 +241,7 @@ note_parameters(qdot_session *session, const qdot_members *m, qdot_row_table *ta
 }
 
 static qdot_status
-carry_out(qdot_cursor *c, qdot_sweep *s)
+sweep_carry_out(qdot_cursor *c, qdot_sweep *s)
 {
     const double begun = qdot_wall_now();
     qdot_row_table *table = s->table;
@@ -250,7 +250,7 @@ carry_out(qdot_cursor *c, qdot_sweep *s)
     QDOT_TRY(qdot_sweep_make_rows(s));
     s->table = NULL; /* the session's from now on */
     QDOT_TRY(qdot_row_tables_keep(c->session, table));
-    QDOT_TRY(tell(c->session, s, table, qdot_wall_now() - begun));
+    QDOT_TRY(sweep_tell(c->session, s, table, qdot_wall_now() - begun));
     if (!names_start(c->session, &s->members))
         QDOT_TRY(qdot_warnings_start(c->session));
     if (!s->interrupted)
@@ -289,7 +289,7 @@ qdot_sweep_statement(qdot_cursor *c)
         status = say_what(&s, start, s.columns.end);
     if (status == QDOT_OK) {
         s.table->members = qdot_function_body_new(c->source, start, s.columns.at.at[0]);
-        status = s.table->members ? carry_out(c, &s) : QDOT_ENOMEM;
+        status = s.table->members ? sweep_carry_out(c, &s) : QDOT_ENOMEM;
     }
     qdot_run_options_place(c, &s.members.run, status);
     sweep_free(&s);
