@@ -161,7 +161,7 @@ look_up(qdot_text *text, const char *word)
 
 /* `search WORD ...`, `search "TEXT"`: at the words. */
 static qdot_status
-find(qdot_cursor *c)
+search_statement(qdot_cursor *c)
 {
     const qdot_token *start = c->at;
     qdot_text words = {0}, text = {0};
@@ -207,7 +207,7 @@ qdot_help(qdot_cursor *c)
 
     if (qdot_token_is_word(c->at, "search") && c->at[1].kind != QDOT_TOKEN_END) {
         c->at++;
-        return find(c);
+        return search_statement(c);
     }
     if (c->at->kind == QDOT_TOKEN_NAME)
         word = c->at++->text;

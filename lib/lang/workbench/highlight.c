@@ -73,8 +73,8 @@ kind_of_name(const qdot_session *session, const qdot_token *first, const qdot_to
 /* --- the text ------------------------------------------------------------------------- */
 
 static qdot_highlight
-kind_of(const qdot_session *session, const qdot_token *first, const qdot_token *token,
-        bool in_brackets)
+token_kind(const qdot_session *session, const qdot_token *first, const qdot_token *token,
+           bool in_brackets)
 {
     switch (token->kind) {
     case QDOT_TOKEN_NAME: return kind_of_name(session, first, token, in_brackets);
@@ -110,7 +110,7 @@ mark_tokens(const qdot_session *session, const qdot_source *source, uint8_t *kin
             first = token + 1;
             depth = 0;
         } else {
-            const uint8_t kind = (uint8_t)kind_of(session, first, token, depth > 0);
+            const uint8_t kind = (uint8_t)token_kind(session, first, token, depth > 0);
 
             if (token->start >= *end) /* else it is a dot over the name before it */
                 memset(kinds + token->start, kind, token->length);

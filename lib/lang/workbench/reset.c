@@ -12,7 +12,7 @@ enum {
 
 /* Whether a name outlives `reset scene`: parameters, and what holds no coordinate. */
 static bool
-is_kept(const qdot_pool *pool, const qdot_name *name)
+name_is_kept(const qdot_pool *pool, const qdot_name *name)
 {
     return name->kind != QDOT_NAME_COORD &&
            (qdot_expr_node(pool, name->value)->holds & SCENE) == 0;
@@ -25,7 +25,7 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(session->names, i)) != NULL; i++)
-        if (!is_kept(session->pool, name) &&
+        if (!name_is_kept(session->pool, name) &&
             qdot_function_mentions(session->pool, function, name->name))
             return false;
     return true;
@@ -34,14 +34,14 @@ is_function_kept(const qdot_session *session, const qdot_name *function)
 /* Carry what is kept of `old` over into `fresh`, which has a pool and names of its
  * own. */
 static qdot_status
-keep(const qdot_session *old, qdot_session *fresh)
+session_keep(const qdot_session *old, qdot_session *fresh)
 {
     const qdot_name *name;
 
     for (size_t i = 0; (name = qdot_names_at(old->names, i)) != NULL; i++) {
         qdot_name copy = *name;
 
-        if (!is_kept(old->pool, name) ||
+        if (!name_is_kept(old->pool, name) ||
             (name->kind == QDOT_NAME_FUNCTION && !is_function_kept(old, name)))
             continue;
         copy.value = qdot_transfer(old->pool, fresh->pool, name->value);
@@ -99,7 +99,7 @@ reset(qdot_session *session, bool everything)
     if (fresh == NULL)
         return QDOT_ENOMEM;
     if (!everything)
-        status = keep(session, fresh);
+        status = session_keep(session, fresh);
     if (status != QDOT_OK) {
         qdot_session_free(fresh);
         return status;

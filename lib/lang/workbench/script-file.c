@@ -27,7 +27,7 @@ qdot_script_run_text(qdot_session *session, const char *name, const char *text,
 }
 
 static qdot_status
-read_file(const char *path, qdot_text *text)
+script_read_file(const char *path, qdot_text *text)
 {
     bool standard = strcmp(path, "-") == 0;
     FILE *file = standard ? stdin : fopen(path, "rb");
@@ -40,7 +40,7 @@ read_file(const char *path, qdot_text *text)
 
 /* Whether the file is being read already. */
 static bool
-is_open(const qdot_session *session, const char *path)
+script_is_open(const qdot_session *session, const char *path)
 {
     struct stat info, other;
 
@@ -62,7 +62,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
     char *own;
 
     *opened = false;
-    if (!standard && is_open(session, path))
+    if (!standard && script_is_open(session, path))
         return qdot_fail(QDOT_EINVAL, "`%s` includes itself", path);
     if (session->including.n >= INCLUDE_LIMIT)
         return qdot_fail(QDOT_ELIMIT, "more than %d scripts include one another",
@@ -75,7 +75,7 @@ qdot_script_carry_out_file(qdot_session *session, const char *path, bool *opened
         qdot_free(own);
         return status;
     }
-    status = read_file(path, &text);
+    status = script_read_file(path, &text);
     if (status == QDOT_OK) {
         *opened = true;
         status = qdot_script_carry_out(session, standard ? "standard input" : path,

@@ -37,7 +37,7 @@ holds_word(const char *where, const char *word, size_t n)
 
 /* Whether every word of `text` is in one of the n texts `where`. */
 static bool
-holds(size_t n, const char *const *where, const char *text)
+texts_hold_words(size_t n, const char *const *where, const char *text)
 {
     size_t length;
 
@@ -55,12 +55,12 @@ holds(size_t n, const char *const *where, const char *text)
 }
 
 static void
-look(search *s, const char *name, const char *usage, const char *summary,
-     const char *example)
+search_look(search *s, const char *name, const char *usage, const char *summary,
+            const char *example)
 {
     const char *const all[] = {name, usage, summary, example};
 
-    if (holds(1, all, s->text) != s->by_name || (!s->by_name && !holds(4, all, s->text)))
+    if (texts_hold_words(1, all, s->text) != s->by_name || (!s->by_name && !texts_hold_words(4, all, s->text)))
         return;
     qdot_text_format(s->out, "  %-18s %s\n", name, summary);
     s->n++;
@@ -75,17 +75,17 @@ look_at_all(search *s)
 
     for (size_t i = 0; (statement = qdot_statement_at(i)) != NULL; i++)
         if (statement->run != NULL && qdot_quantity_find(statement->word) == NULL)
-            look(s, statement->word, statement->usage, statement->summary,
-                 statement->example);
+            search_look(s, statement->word, statement->usage, statement->summary,
+                        statement->example);
     for (size_t i = 0; (quantity = qdot_quantity_at(i)) != NULL; i++)
         if (quantity->example[0] != '\0')
-            look(s, quantity->name, quantity->usage, quantity->summary,
-                 quantity->example);
+            search_look(s, quantity->name, quantity->usage, quantity->summary,
+                        quantity->example);
     for (size_t i = 0; (builtin = qdot_builtin_at(i)) != NULL; i++)
         if (!(builtin->flags & QDOT_BUILTIN_UNBUILT))
-            look(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
+            search_look(s, builtin->name, builtin->usage, builtin->summary, builtin->example);
     for (size_t i = 0; qdot_ode_method_at(i) != NULL; i++)
-        look(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
+        search_look(s, qdot_ode_method_at(i)->name, "method", qdot_ode_method_at(i)->fits, NULL);
 }
 
 size_t

@@ -7,7 +7,7 @@
 #include "lang/session/undo.h"
 
 static qdot_status
-refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
+undo_refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
 {
     if (n > 0)
         (void)qdot_fail(QDOT_EINVAL, "%zu statement%s can be %s, not %ld", n,
@@ -25,7 +25,7 @@ refuse(const qdot_cursor *c, const char *word, size_t n, long wanted)
 
 /* `undo`, `undo N`, `redo`, `redo N` behind the word. */
 static qdot_status
-step(qdot_cursor *c, const char *name, const char *word, bool again)
+undo_step(qdot_cursor *c, const char *name, const char *word, bool again)
 {
     qdot_session *s = c->session;
     const qdot_token *start = c->at > c->source->tokens.at ? c->at - 1 : c->at;
@@ -42,7 +42,7 @@ step(qdot_cursor *c, const char *name, const char *word, bool again)
         return qdot_fail(QDOT_EINVAL, "`%s` has no place inside a loop", name);
     if (wanted < 1 || (size_t)wanted > n)
         return wanted < 1 ? qdot_fail(QDOT_EINVAL, "how many statements? 1, 2, ...")
-                          : refuse(c, word, n, wanted);
+                          : undo_refuse(c, word, n, wanted);
     for (; wanted > 0; wanted--) {
         qdot_text line = {0};
         const char *text;
@@ -59,11 +59,11 @@ step(qdot_cursor *c, const char *name, const char *word, bool again)
 qdot_status
 qdot_undo_back(qdot_cursor *c)
 {
-    return step(c, "undo", "undone", false);
+    return undo_step(c, "undo", "undone", false);
 }
 
 qdot_status
 qdot_undo_again(qdot_cursor *c)
 {
-    return step(c, "redo", "done again", true);
+    return undo_step(c, "redo", "done again", true);
 }
