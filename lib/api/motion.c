@@ -71,7 +71,7 @@ copy_names(qdot_motion *m)
 
 /* m becomes a motion of a run of the session. */
 static qdot_status
-hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
+motion_hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
 {
     *m = (qdot_motion){.system = system, .run = *run, .named = named};
     ++*m->run.uses;
@@ -80,7 +80,7 @@ hold(qdot_motion *m, qdot_system *system, const qdot_named_run *run, bool named)
 }
 
 static qdot_status
-read_run(qdot_cursor *c, void *data)
+motion_read_run(qdot_cursor *c, void *data)
 {
     (void)data;
     return qdot_run_statement(c);
@@ -123,11 +123,11 @@ qdot_system_run(qdot_system *system, const char *text, qdot_motion **motion)
         ++*last.uses;
     }
     qdot_runs_next_name(session, name, sizeof name);
-    status = qdot_api_read(system, "run", text, read_run, NULL);
+    status = qdot_api_read(system, "run", text, motion_read_run, NULL);
     added = added_run(session, &last);
     if (added == NULL) {
         qdot_free(m);
-    } else if (hold(m, system, added, strcmp(added->name, name) != 0) == QDOT_OK) {
+    } else if (motion_hold(m, system, added, strcmp(added->name, name) != 0) == QDOT_OK) {
         *motion = m;
     } else {
         qdot_motion_free(m);

@@ -11,7 +11,7 @@ _Static_assert((int)QDOT_OVER_DRIFT == (int)QDOT_RANGE_DRIFT, "range");
 
 /* Expressions are read in the session, so the run must be one of its runs still. */
 static qdot_status
-check_place(const qdot_motion *motion)
+motion_check_place(const qdot_motion *motion)
 {
     if (qdot_api_place(motion) < motion->system->session->runs.n)
         return QDOT_OK;
@@ -20,7 +20,7 @@ check_place(const qdot_motion *motion)
 
 /* The components [k] of the expression that the text holds. */
 static qdot_status
-read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
+values_read_columns(qdot_cursor *c, size_t k, qdot_runs_columns *columns)
 {
     const size_t start = c->at->start;
     qdot_expr value;
@@ -47,11 +47,11 @@ typedef struct {
 } samples;
 
 static qdot_status
-read_values(qdot_cursor *c, void *data)
+values_read(qdot_cursor *c, void *data)
 {
     const samples *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = read_columns(c, s->k, &columns);
+    qdot_status status = values_read_columns(c, s->k, &columns);
 
     if (status == QDOT_OK && s->n > 0)
         status = qdot_run_values(s->motion->run.run, s->k, columns.at, s->n, s->times, s->values,
@@ -76,9 +76,9 @@ qdot_motion_values(qdot_motion *motion, const char *expression, size_t n, const 
                                                   : "values are");
     status = qdot_api_begin(motion->system);
     if (status == QDOT_OK)
-        status = check_place(motion);
+        status = motion_check_place(motion);
     if (status == QDOT_OK)
-        status = qdot_api_read(motion->system, "values", expression, read_values, &s);
+        status = qdot_api_read(motion->system, "values", expression, values_read, &s);
     return qdot_api_end(motion->system, status);
 }
 
@@ -95,7 +95,7 @@ read_over(qdot_cursor *c, void *data)
 {
     stretch *s = data;
     qdot_runs_columns columns = {0};
-    qdot_status status = read_columns(c, 1, &columns);
+    qdot_status status = values_read_columns(c, 1, &columns);
 
     if (status == QDOT_OK)
         status = qdot_run_range(s->motion->run.run, s->kind, columns.at[0], s->from, s->to,
@@ -120,7 +120,7 @@ qdot_motion_over(qdot_motion *motion, qdot_over what, const char *expression, do
                                                   : "there is no such quantity");
     status = qdot_api_begin(motion->system);
     if (status == QDOT_OK)
-        status = check_place(motion);
+        status = motion_check_place(motion);
     if (status == QDOT_OK)
         status = qdot_api_read(motion->system, "over", expression, read_over, &s);
     *value = s.value;
@@ -140,7 +140,7 @@ occurrences(qdot_motion *motion, size_t *n, qdot_status *status)
     *n = 0;
     *status = qdot_api_begin(motion->system);
     if (*status == QDOT_OK)
-        *status = check_place(motion);
+        *status = motion_check_place(motion);
     if (*status == QDOT_OK)
         *status = qdot_run_occurrences(motion->run.run, &list, n);
     return list;
