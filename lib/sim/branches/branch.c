@@ -53,8 +53,8 @@ is_before(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point 
 
 /* The value that changes its sign; 0: it is not of that kind, or there is no point at s from a. here: room. */
 static double
-value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
-         qdot_path_point *here)
+branch_value_at(qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *a, double s,
+                qdot_path_point *here)
 {
     int steps;
 
@@ -69,7 +69,7 @@ static void
 add_way_to_zero(qdot_path *x, const qdot_path_point *a, double length, qdot_path_point *here,
                 qdot_bifurcation *out)
 {
-    const double back = 10 * length, before = value_at(x, QDOT_PITCHFORK, a, -back, here),
+    const double back = 10 * length, before = branch_value_at(x, QDOT_PITCHFORK, a, -back, here),
                  way = 4 * back * fabs(a->det / (a->det - before));
 
     for (size_t i = 0; i <= x->n; i++)
@@ -88,8 +88,8 @@ rounding(const qdot_path *x, qdot_bifurcation_kind kind, const qdot_path_point *
 /* Where it may lie, as far as signs are beyond rounding: widen in->from and in->to, also beyond the step
  * of `length`; errors by the places there. */
 static void
-widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
-      qdot_bifurcation *out)
+bracket_widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point *here,
+              qdot_bifurcation *out)
 {
     const double middle = (in->from + in->to) / 2;
     const double start = in->to - in->from;
@@ -101,7 +101,7 @@ widen(qdot_path *x, qdot_bifurcation_bracket *in, double length, qdot_path_point
         double d = fmax((in->to - in->from) / 2, 1e-10), s = middle;
 
         for (; sign[side] == 0; d *= 2) {
-            const double f = value_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
+            const double f = branch_value_at(x, out->kind, in->a, s = side ? middle + d : middle - d, here);
 
             first[side] = first[side] == 0 ? f : first[side];
             if (fabs(f) > rounding(x, out->kind, here))
@@ -163,7 +163,7 @@ enclose(qdot_path *x, qdot_bifurcation_bracket *in, int halvings, qdot_bifurcati
     for (size_t i = x->n + 1; i < x->width; i++)
         out->error[i] = NAN;
     if (status == QDOT_OK && x->dips && (out->kind == QDOT_FOLD || out->kind == QDOT_PITCHFORK))
-        widen(x, in, length, &middle, out);
+        bracket_widen(x, in, length, &middle, out);
     qdot_path_point_end(&middle);
     return status;
 }
@@ -213,8 +213,8 @@ mark_it(qdot_branch_search *s, qdot_bifurcation *b, double *other, qdot_branch *
 /* The bifurcation of that kind between a and the point at `length` from it: a point of the branch.
  * beside [n + 1]: of a crossing in this step, at which a fold is none; NULL: none. */
 static qdot_status
-locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
-       const double *beside, qdot_branch *branch)
+branch_locate(qdot_branch_search *s, const qdot_path_point *a, double length, qdot_bifurcation_kind kind,
+              const double *beside, qdot_branch *branch)
 {
     qdot_path *x = s->x;
     const size_t w = x->width;
@@ -290,7 +290,7 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     }
     if (!is_before(s->x, QDOT_HALVING, a, b)) {
         s->leapt = length > first_step;
-        return s->leapt ? QDOT_OK : locate(s, a, length, QDOT_HALVING, NULL, branch);
+        return s->leapt ? QDOT_OK : branch_locate(s, a, length, QDOT_HALVING, NULL, branch);
     }
     if (a->flip * b->flip < 0 && length > together &&
         (!is_before(s->x, QDOT_PITCHFORK, a, b) || !is_before(s->x, QDOT_FOLD, a, b))) {
@@ -298,21 +298,21 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
         return QDOT_OK;
     }
     if (!is_before(s->x, QDOT_PITCHFORK, a, b)) {
-        QDOT_TRY(locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
+        QDOT_TRY(branch_locate(s, a, length, QDOT_PITCHFORK, NULL, branch));
         if (s->leapt || s->over != QDOT_END_STOPPED)
             return QDOT_OK;
         if (branch->n > before)
             crossing = branch->y + before * w;
     }
     if (!is_before(s->x, QDOT_FOLD, a, b) && crossing == NULL)
-        return locate(s, a, length, QDOT_FOLD, NULL, branch);
+        return branch_locate(s, a, length, QDOT_FOLD, NULL, branch);
     if (!is_before(s->x, QDOT_FOLD, a, b)) {
         double *const at = qdot_calloc(w, sizeof *at);
         qdot_status status = at ? QDOT_OK : QDOT_ENOMEM;
 
         if (status == QDOT_OK) {
             memcpy(at, crossing, w * sizeof *at);
-            status = locate(s, a, length, QDOT_FOLD, at, branch);
+            status = branch_locate(s, a, length, QDOT_FOLD, at, branch);
         }
         qdot_free(at);
         return status;
@@ -320,11 +320,11 @@ look_between(qdot_branch_search *s, const qdot_path_point *a, const qdot_path_po
     if (crossing != NULL)
         return QDOT_OK;
     if (a->flip * b->flip < 0)
-        return locate(s, a, length, QDOT_DOUBLING, NULL, branch);
+        return branch_locate(s, a, length, QDOT_DOUBLING, NULL, branch);
     if (known && s->x->dips && (a->growing - b->growing) % 2 != 0)
         return QDOT_OK; /* a real root passes 0: of a fold or crossing near by, by rounding told here */
     if (known && labs(a->growing - b->growing) >= s->x->least_jump)
-        return locate(s, a, length, QDOT_HOPF, NULL, branch);
+        return branch_locate(s, a, length, QDOT_HOPF, NULL, branch);
     return QDOT_OK;
 }
 
@@ -450,8 +450,8 @@ is_closed(const qdot_path *x, const qdot_path_point *start, const qdot_path_poin
 
 /* Judge b, and look between a and it; an interruption on the way is noted. */
 static qdot_status
-look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
-     qdot_branch *branch)
+branch_look(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b, double length,
+            qdot_branch *branch)
 {
     qdot_status status = qdot_interrupt_check();
 
@@ -480,7 +480,7 @@ look_for_end(qdot_branch_search *s, const qdot_path_point *a, qdot_path_point *b
         memcpy(branch->reason[1], s->x->reason, sizeof s->x->reason);
         return QDOT_OK;
     }
-    QDOT_TRY(look(s, a, b, length, branch));
+    QDOT_TRY(branch_look(s, a, b, length, branch));
     if (s->all->interrupted)
         branch->end[1] = QDOT_END_STOPPED;
     else if (b->blurred)
@@ -520,8 +520,8 @@ look_for_dips(qdot_branch_search *s, qdot_dips *d, const qdot_path_point *b, dou
 
 /* a, then b: room. */
 static qdot_status
-follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
-       qdot_dips *d, qdot_branch *branch)
+branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_path_point *a, qdot_path_point *b,
+              qdot_dips *d, qdot_branch *branch)
 {
     qdot_path *x = s->x;
     double step = first_step, length, gone = 0, far = 0;
@@ -585,7 +585,7 @@ qdot_branch_follow(qdot_branch_search *s, const qdot_path_point *start, qdot_bra
         status = qdot_dips_begin(s->x, &dips);
     if (status == QDOT_OK) {
         qdot_path_point_copy(s->x, start, &a);
-        status = follow(s, start, &a, &b, &dips, branch);
+        status = branch_follow(s, start, &a, &b, &dips, branch);
     }
     qdot_dips_end(&dips);
     qdot_path_point_end(&a);

@@ -89,8 +89,8 @@ is_known(qdot_branch_search *s, const double *y, bool *known)
 /* One branch of two ways that begin at the same place: the first backwards, `middle` if not NULL, the
  * second. */
 static qdot_status
-join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
-     size_t mark, const qdot_branch *on)
+branches_join(qdot_branch_search *s, const qdot_branch *back, const double *middle, qdot_stability stability,
+              size_t mark, const qdot_branch *on)
 {
     const size_t m = s->x->width;
     qdot_branch whole = {.end = {back->end[1], on->end[1]}};
@@ -163,7 +163,7 @@ follow_both(qdot_branch_search *s, qdot_path_point *a)
         status = qdot_branch_follow(s, a, &back);
     }
     if (status == QDOT_OK)
-        status = join(s, &back, a->y, a->stability, 0, &on);
+        status = branches_join(s, &back, a->y, a->stability, 0, &on);
     if (status == QDOT_OK && on.end[1] == QDOT_END_CLOSED)
         status = turn_round(s->x, &s->all->branches.at[s->all->branches.n - 1]);
     qdot_branch_clear(&back);
@@ -340,7 +340,7 @@ follow_other(qdot_branch_search *s, size_t at, const double *other, bool both)
     if (status == QDOT_OK && on.n + back.n > 0)
         status = s->x->judge(s->x, &middle);
     if (status == QDOT_OK && on.n + back.n > 0)
-        status = join(s, &back, middle.y, middle.stability, at + 1, &on);
+        status = branches_join(s, &back, middle.y, middle.stability, at + 1, &on);
     qdot_branch_clear(&back);
     qdot_branch_clear(&on);
     qdot_path_point_end(&middle);

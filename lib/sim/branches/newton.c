@@ -53,7 +53,7 @@ qdot_newton_end(qdot_newton *s)
 
 /* One step; its length relative to max(1, |x|), INFINITY where there is none. */
 static double
-step(qdot_newton *s, double *x)
+newton_step_length(qdot_newton *s, double *x)
 {
     double most = 0;
 
@@ -104,7 +104,7 @@ iterate(qdot_newton *s, double *x, double *error, bool *found)
 
     *found = false;
     for (int k = 0; k < STEPS; k++) {
-        length = step(s, x);
+        length = newton_step_length(s, x);
         if (!(length < 1e3))
             return QDOT_OK;
         *found = length < 1e-9;

@@ -282,7 +282,7 @@ halve(search *f, double *lo, double *hi, bool *found)
 
 /* Multipliers count as growing beyond 1 + 1e-6 only: the circle may lie outside lo .. hi by as much. */
 static void
-widen(search *f, double *lo, double *hi)
+multipliers_widen(search *f, double *lo, double *hi)
 {
     for (double by = 1e-9; by < 1e-3 && !(test_at(f, *lo) * test_at(f, *hi) <= 0); by *= 10) {
         *lo -= by;
@@ -299,7 +299,7 @@ crosses(const search *f)
 
 /* The bifurcation between lo and hi: y [width] with what belongs to it, how far s may be off. */
 static qdot_status
-locate(search *f, double lo, double hi, double *y, double *off, bool *found)
+orbit_locate(search *f, double lo, double hi, double *y, double *off, bool *found)
 {
     qdot_path *path = &f->x->path;
 
@@ -311,7 +311,7 @@ locate(search *f, double lo, double hi, double *y, double *off, bool *found)
         *found = find_crossing(f, lo, hi, off);
     } else {
         if (f->kind == QDOT_TORUS)
-            widen(f, &lo, &hi);
+            multipliers_widen(f, &lo, &hi);
         *found = close_in(f, &lo, &hi, 1e-13);
         *off = hi - lo;
     }
@@ -464,8 +464,8 @@ as_coarse(qdot_orbit_path *x, const qdot_path_point *a, qdot_path_point *to)
 
 /* The same by the coarse runs, near s; errors of what is at y. */
 static qdot_status
-find_errors(search *f, double lo, double hi, const double *y, const double *t, double off,
-            double *error, bool *found)
+orbit_find_errors(search *f, double lo, double hi, const double *y, const double *t, double off,
+                  double *error, bool *found)
 {
     qdot_orbit_path *x = f->x;
     qdot_path *path = &x->path;
@@ -479,7 +479,7 @@ find_errors(search *f, double lo, double hi, const double *y, const double *t, d
     if (status == QDOT_OK && as_coarse(x, a, &start)) {
         start.growing = a->growing;
         f->a = &start;
-        status = locate(f, lo, hi, other, &coarse_off, found);
+        status = orbit_locate(f, lo, hi, other, &coarse_off, found);
         f->a = a;
     }
     qdot_orbit_path_ask(x, 0);
@@ -496,12 +496,12 @@ find_errors(search *f, double lo, double hi, const double *y, const double *t, d
 }
 
 static qdot_status
-find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, double *other,
-     bool *found)
+orbit_find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, double *other,
+           bool *found)
 {
     const size_t w = f->x->path.width, m = f->x->path.n + 1;
     double *y = qdot_calloc(w + m, sizeof *y), *const t = y + w, off = 0;
-    qdot_status status = y ? locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
+    qdot_status status = y ? orbit_locate(f, in->from, in->to, y, &off, found) : QDOT_ENOMEM;
     const double angle = f->angle;
     /* else several real ones pass -1 or 1 together */
     const bool pair = fabs(sin(angle)) > off_axis && (f->krein || f->beside < on_circle);
@@ -525,7 +525,7 @@ find(search *f, const qdot_bifurcation_bracket *in, qdot_bifurcation *out, doubl
                     : f->krein         ? QDOT_KREIN
                                        : kind;
         f->kind = kind == QDOT_TRANSCRITICAL ? QDOT_PITCHFORK : kind;
-        status = find_errors(f, in->from, in->to, y, t, off, out->error, found);
+        status = orbit_find_errors(f, in->from, in->to, y, t, off, out->error, found);
     }
     if (status == QDOT_OK && *found) {
         memcpy(out->y, y, w * sizeof *y);
@@ -556,7 +556,7 @@ qdot_orbit_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot
         f.im = f.re + z;
         f.off = f.im + z;
         f.none = f.off + z;
-        status = find(&f, in, out, other, &found);
+        status = orbit_find(&f, in, out, other, &found);
     }
     if (status == QDOT_OK && found)
         *answer = QDOT_BIFURCATION_FOUND;

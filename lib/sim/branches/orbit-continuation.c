@@ -82,7 +82,7 @@ open(qdot_orbit_path *x, const qdot_orbit_of *of, double **y, qdot_continuation 
 
 /* Rows [width] of x, for orbits in fewer segments: the states between later ones are left out. */
 static void
-shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
+rows_shorten(const qdot_path *x, const qdot_continuation *to, const double *y, double *out)
 {
     memmove(out, y, to->n * sizeof *out); /* merge() shortens in place */
     memmove(out + to->n, y + x->n, (to->width - to->n) * sizeof *out);
@@ -119,8 +119,8 @@ merge_bifurcation(const qdot_path *once, const qdot_path *x, qdot_bifurcation b,
 
     if (y == NULL)
         return QDOT_ENOMEM;
-    shorten(x, to, b.y, y);
-    shorten(x, to, b.error, y + w);
+    rows_shorten(x, to, b.y, y);
+    rows_shorten(x, to, b.error, y + w);
     while (i < to->bifurcations.n && !is_doubling(once, to, &to->bifurcations.at[i], y))
         i++;
     *number = i + 1;
@@ -158,7 +158,7 @@ merge(const qdot_path *once, const qdot_path *x, qdot_continuation *from, size_t
 
         number[0] = at + 1;
         for (size_t k = 0; k < b->n; k++) {
-            shorten(x, to, b->y + k * from->width, b->y + k * to->width); /* forwards: rows are not longer */
+            rows_shorten(x, to, b->y + k * from->width, b->y + k * to->width); /* forwards: rows are not longer */
             b->mark[k] = b->mark[k] > 0 ? number[b->mark[k] - 1] : 0;
         }
         status = qdot_vec_push(&to->branches, *b);

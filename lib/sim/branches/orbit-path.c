@@ -47,7 +47,7 @@ width_of(const qdot_orbit_path *x)
 
 /* Where the state between segment k - 1 and k stands in y; 0 for the last end, too. */
 static size_t
-place_of(const qdot_orbit_path *x, size_t k)
+segment_place(const qdot_orbit_path *x, size_t k)
 {
     return k % x->K == 0 ? 0 : 2 * x->n + 1 + x->conserved + (k % x->K - 1) * 2 * x->n;
 }
@@ -65,7 +65,7 @@ orbit_of(const qdot_orbit_path *x, const double *y)
 
 /* Expressions: q, q', q'', then h: at the start of segment k (end 0) and its end (1); their slopes by unknown j of the flow. */
 static double
-value_of(const qdot_orbit_path *x, size_t k, size_t end, size_t i)
+segment_value(const qdot_orbit_path *x, size_t k, size_t end, size_t i)
 {
     return x->values[(2 * k + end) * x->flow[0].m + i];
 }
@@ -99,12 +99,12 @@ ask(qdot_orbit_path *x, const double *y)
 static void
 fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 {
-    const size_t z = 2 * x->n, m = x->path.n + 1, from = place_of(x, k), to = place_of(x, k + 1);
+    const size_t z = 2 * x->n, m = x->path.n + 1, from = segment_place(x, k), to = segment_place(x, k + 1);
     const qdot_flow *const f = &x->flow[0];
     const double *const values = x->values + 2 * k * f->m, *const slopes = x->slopes + 2 * k * f->m * width_of(x);
 
     for (size_t i = 0; i < z; i++) {
-        F[i] = value_of(x, k, 1, i) - y[to + i];
+        F[i] = segment_value(x, k, 1, i) - y[to + i];
         for (size_t j = 0; j < z; j++)
             J[i * m + from + j] = slope_of(x, k, 1, i, j);
         if (width_of(x) > z)
@@ -116,7 +116,7 @@ fill_gap(qdot_orbit_path *x, const double *y, size_t k, double *F, double *J)
 
 /* F and F' from these numbers. */
 static void
-fill(qdot_orbit_path *x, const double *y)
+orbit_fill(qdot_orbit_path *x, const double *y)
 {
     qdot_path *path = &x->path;
     const size_t z = 2 * x->n, m = path->n + 1, energy = 3 * x->n, last = (x->K - 1) * z;
@@ -142,7 +142,7 @@ fill(qdot_orbit_path *x, const double *y)
     } else {
         F[z] = y[x->phase] - x->held;
         J[x->phase] = 1;
-        path->gauge = value_of(x, 0, 0, x->n + x->phase) / x->rate;
+        path->gauge = segment_value(x, 0, 0, x->n + x->phase) / x->rate;
     }
     if (!x->conserved)
         return;
@@ -156,7 +156,7 @@ fill(qdot_orbit_path *x, const double *y)
             F[z + 1] += J[i] * y[i];
         return;
     }
-    F[z + 1] = value_of(x, 0, 0, energy) -
+    F[z + 1] = segment_value(x, 0, 0, energy) -
                (x->of.family == QDOT_ORBIT_ENERGY ? y[path->n] : x->energy);
     for (size_t j = 0; j < width_of(x); j++)
         J[j < z ? j : path->n] = slope_of(x, 0, 0, energy, j);
@@ -166,7 +166,7 @@ fill(qdot_orbit_path *x, const double *y)
 
 /* The evaluation is that of the latest y where it is asked again. An orbit whose phase has turned over is none. */
 static void
-evaluate(qdot_path *path, const double *y)
+orbit_evaluate(qdot_path *path, const double *y)
 {
     qdot_orbit_path *x = (qdot_orbit_path *)path;
     qdot_status status;
@@ -184,7 +184,7 @@ evaluate(qdot_path *path, const double *y)
         snprintf(path->reason, sizeof path->reason, "%.150s", qdot_last_error()->message);
         return;
     }
-    fill(x, y);
+    orbit_fill(x, y);
     if (!(path->gauge > 0))
         path->F[0] = NAN;
     memcpy(x->y, y, (path->n + 1) * sizeof *y);
@@ -205,7 +205,7 @@ fill_factors(qdot_orbit_path *x, const double *y)
 bool
 qdot_orbit_path_monodromy(qdot_orbit_path *x, const double *y)
 {
-    evaluate(&x->path, y);
+    orbit_evaluate(&x->path, y);
     if (!x->known)
         return false;
     x->path.failure = qdot_grave(fill_factors(x, y));
@@ -294,7 +294,7 @@ shape(qdot_orbit_path *x, const double *y, double *most, double *size)
 
 /* Verdict, largest values, multipliers. */
 static qdot_status
-judge(qdot_path *path, qdot_path_point *a)
+orbit_judge(qdot_path *path, qdot_path_point *a)
 {
     qdot_orbit_path *x = (qdot_orbit_path *)path;
     qdot_floquet f = {0};
@@ -324,7 +324,7 @@ judge(qdot_path *path, qdot_path_point *a)
 /* --- made ----------------------------------------------------------------------------------- */
 
 static qdot_status
-make_room(qdot_orbit_path *x)
+orbit_allocate(qdot_orbit_path *x)
 {
     const size_t two = x->K * 2 * x->flow[0].m, factors = x->K * 4 * x->n * x->n;
 
@@ -366,7 +366,7 @@ follow_states(qdot_orbit_path *x, double *y)
     for (size_t k = 0; k + 1 < x->K; k++) {
         QDOT_TRY(qdot_flow_go(f, qdot_flow_state(f, &o, k), o.parameters, qdot_flow_time(&o, k),
                               qdot_flow_time(&o, k + 1), 1));
-        memcpy(y + place_of(x, k + 1), f->value, f->z * sizeof *y);
+        memcpy(y + segment_place(x, k + 1), f->value, f->z * sizeof *y);
     }
     return QDOT_OK;
 }
@@ -380,7 +380,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
 
     x->phase = z;
     for (size_t i = 0; i < x->n; i++) { /* a velocity that is 0 */
-        const double rate = fabs(value_of(x, 0, 0, z + i)) / change[x->n + i];
+        const double rate = fabs(segment_value(x, 0, 0, z + i)) / change[x->n + i];
 
         if (x->flow[0].unknowns[x->n + i] != x->of.parameter && change[i] > 0 && rate > best &&
             fabs(y[x->n + i]) <= nothing * change[x->n + i]) {
@@ -390,7 +390,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
     }
     if (x->phase < z) {
         y[x->phase] = x->held = 0;
-        x->rate = value_of(x, 0, 0, x->n + x->phase);
+        x->rate = segment_value(x, 0, 0, x->n + x->phase);
         return QDOT_OK;
     }
     if (x->of.family != QDOT_ORBIT_START) {
@@ -417,7 +417,7 @@ choose_phase(qdot_orbit_path *x, const double *change, double *y)
 
 /* Sizes of the unknowns: how far each of z changes, or where it stays the others of its kind. */
 static qdot_status
-find_sizes(qdot_orbit_path *x, const double *y, double *size)
+orbit_find_sizes(qdot_orbit_path *x, const double *y, double *size)
 {
     const size_t n = x->n;
     const qdot_flow_orbit o = orbit_of(x, y);
@@ -443,7 +443,7 @@ find_sizes(qdot_orbit_path *x, const double *y, double *size)
     if (x->conserved)
         size[2 * n + 1] = 1;
     for (size_t k = 1; k < x->K; k++)
-        memcpy(size + place_of(x, k), size, 2 * n * sizeof *size);
+        memcpy(size + segment_place(x, k), size, 2 * n * sizeof *size);
     return QDOT_OK;
 }
 
@@ -461,15 +461,15 @@ make_first(qdot_orbit_path *x, double *size, double *y)
     QDOT_TRY(follow_states(x, y));
     QDOT_TRY(ask(x, y));
     QDOT_TRY(fill_factors(x, y)); /* how many there are */
-    QDOT_TRY(find_sizes(x, y, size));
+    QDOT_TRY(orbit_find_sizes(x, y, size));
     if (!x->driven)
         QDOT_TRY(choose_phase(x, size, y));
     if (x->phase < z && !(fabs(x->rate) > 0)) { /* the start was moved */
         QDOT_TRY(follow_states(x, y));
         QDOT_TRY(ask(x, y));
-        x->rate = value_of(x, 0, 0, x->n + x->phase);
+        x->rate = segment_value(x, 0, 0, x->n + x->phase);
     }
-    x->energy = x->conserved ? value_of(x, 0, 0, 3 * x->n) : 0;
+    x->energy = x->conserved ? segment_value(x, 0, 0, 3 * x->n) : 0;
     if (x->of.family == QDOT_ORBIT_ENERGY)
         y[n] = x->energy;
     return QDOT_OK;
@@ -512,7 +512,7 @@ events_keep_energy(const qdot_orbit_path *x, bool *keep)
 
 /* What the scene is, and whether p can be what it is asked to be. */
 static qdot_status
-check(qdot_orbit_path *x)
+orbit_check(qdot_orbit_path *x)
 {
     qdot_scene *s = x->of.scene;
 
@@ -538,14 +538,14 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
 
     *x = (qdot_orbit_path){.of = *of, .n = of->scene->coordinates.n};
     x->phase = 2 * x->n;
-    QDOT_TRY(check(x));
+    QDOT_TRY(orbit_check(x));
     QDOT_TRY(qdot_tape_constant(of->scene->pool, of->request->t0, &x->t0));
     if (x->driven)
         QDOT_TRY(make_period(x));
     QDOT_TRY(make_flows(x));
     QDOT_TRY(qdot_path_begin(path, 2 * x->n * x->K + 1 + x->conserved));
     path->coordinates = 2 * x->n + 1;
-    path->half = of->segments > 0 ? place_of(x, x->K / 2) : 0;
+    path->half = of->segments > 0 ? segment_place(x, x->K / 2) : 0;
     path->least = of->least;
     path->most = of->most;
     path->exact = exact;
@@ -553,8 +553,8 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->longest = longest;
     path->least_jump = 2;
     path->halvings = 0;
-    path->at = evaluate;
-    path->judge = judge;
+    path->at = orbit_evaluate;
+    path->judge = orbit_judge;
     x->domain = qdot_calloc(2 * path->n, sizeof *x->domain);
     x->angle = qdot_calloc(path->n, sizeof *x->angle);
     if (!x->domain || !x->angle)
@@ -566,7 +566,7 @@ qdot_orbit_path_begin(qdot_orbit_path *x, const qdot_orbit_of *of, double *size,
     path->lo = x->domain;
     path->hi = x->domain + path->n;
     path->angle = x->angle;
-    QDOT_TRY(make_room(x));
+    QDOT_TRY(orbit_allocate(x));
     QDOT_TRY(make_first(x, size, y));
     memcpy(x->sizes, size, 2 * x->n * sizeof *size);
     path->width = path->n + 1 + x->n + x->c;

@@ -17,7 +17,7 @@ enum { ASKED = 8 };
 typedef qdot_vec(qdot_expr) list;
 
 static qdot_status
-add(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
+period_add(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
 {
     e = qdot_substitute(s->pool, e, r->n_values, r->symbols, r->values);
     QDOT_TRY(qdot_pool_check(s->pool));
@@ -30,7 +30,7 @@ add_all(list *all, qdot_scene *s, const qdot_run_request *r, qdot_expr e)
 {
     QDOT_TRY(qdot_pool_check(s->pool));
     for (uint32_t i = 0; i < qdot_expr_count(s->pool, e); i++)
-        QDOT_TRY(add(all, s, r, qdot_expr_arg(s->pool, e, i)));
+        QDOT_TRY(period_add(all, s, r, qdot_expr_arg(s->pool, e, i)));
     return QDOT_OK;
 }
 
@@ -46,9 +46,9 @@ gather(qdot_scene *s, const qdot_run_request *r, list *all)
 
         if (e->targets.n == 0)
             continue;
-        QDOT_TRY(add(all, s, r, e->way == 0 ? qdot_mul(s->pool, g, g) : g));
+        QDOT_TRY(period_add(all, s, r, e->way == 0 ? qdot_mul(s->pool, g, g) : g));
         for (size_t i = 0; i < e->targets.n; i++)
-            QDOT_TRY(add(all, s, r, e->values.at[i]));
+            QDOT_TRY(period_add(all, s, r, e->values.at[i]));
     }
     return QDOT_OK;
 }
@@ -177,7 +177,7 @@ say_changing(const qdot_pool *pool, qdot_expr p, double at, double T)
 
 /* Whether all have the period for a value of p. */
 static qdot_status
-check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
+period_check(qdot_scene *s, const list *all, qdot_expr p, double at, qdot_expr period)
 {
     qdot_pool *pool = s->pool;
     const size_t n = s->coordinates.n, m = all->n, k = 2 * n + (p == QDOT_NIL ? 1 : 2);
@@ -247,11 +247,11 @@ qdot_orbit_period(qdot_scene *s, const qdot_run_request *r, qdot_expr p, double 
     if (status == QDOT_OK)
         status = make_period(s->pool, rate, p, at, T, period);
     if (status == QDOT_OK)
-        status = check(s, &all, p, at, *period);
+        status = period_check(s, &all, p, at, *period);
     if (status == QDOT_OK && p != QDOT_NIL && least < at)
-        status = check(s, &all, p, least + 1e-3 * (at - least), *period);
+        status = period_check(s, &all, p, least + 1e-3 * (at - least), *period);
     if (status == QDOT_OK && p != QDOT_NIL && most > at)
-        status = check(s, &all, p, most - 1e-3 * (most - at), *period);
+        status = period_check(s, &all, p, most - 1e-3 * (most - at), *period);
     qdot_free(all.at);
     return status;
 }

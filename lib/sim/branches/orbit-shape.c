@@ -22,7 +22,7 @@ time_of(const shape *s, size_t k)
 }
 
 static qdot_status
-begin(shape *s, qdot_orbit_read *r)
+shape_begin(shape *s, qdot_orbit_read *r)
 {
     double times[PLACES];
 
@@ -38,7 +38,7 @@ begin(shape *s, qdot_orbit_read *r)
 
 /* s->one at a time. */
 static qdot_status
-read_one(shape *s, double time)
+shape_read_one(shape *s, double time)
 {
     return qdot_flow_read(s->r->flow, s->r->orbit, &s->r->at, 1, &time, s->one);
 }
@@ -66,7 +66,7 @@ largest(const shape *s, size_t i, double *least)
 
 /* s->one where q_i turns, next to place k, at which it is largest; the orbit is closed. */
 static qdot_status
-turn(shape *s, size_t i, size_t k)
+shape_find_turn(shape *s, size_t i, size_t k)
 {
     const size_t v = s->n + i;
     double from, to, middle = time_of(s, k);
@@ -82,7 +82,7 @@ turn(shape *s, size_t i, size_t k)
     }
     for (int step = 0; step < HALVINGS && from < to; step++) {
         middle = from + (to - from) / 2;
-        QDOT_TRY(read_one(s, middle));
+        QDOT_TRY(shape_read_one(s, middle));
         if (s->one[v] > 0)
             from = middle;
         else if (s->one[v] < 0)
@@ -92,7 +92,7 @@ turn(shape *s, size_t i, size_t k)
         if (middle == from + (to - from) / 2)
             break;
     }
-    return read_one(s, middle);
+    return shape_read_one(s, middle);
 }
 
 qdot_status
@@ -100,14 +100,14 @@ qdot_orbit_shape(qdot_orbit_read *r, double *most, double *size)
 {
     const size_t n = r->flow->n;
     shape s;
-    qdot_status status = begin(&s, r);
+    qdot_status status = shape_begin(&s, r);
 
     *size = 0;
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double least;
         const size_t k = largest(&s, i, &least);
 
-        status = turn(&s, i, k);
+        status = shape_find_turn(&s, i, k);
         most[i] = fmax(at(&s, k, i), s.one[i]);
         *size = fmax(*size, (most[i] - least) / 2);
     }
@@ -119,7 +119,7 @@ qdot_status
 qdot_orbit_changes(qdot_orbit_read *r, double *change)
 {
     shape s;
-    const qdot_status status = begin(&s, r);
+    const qdot_status status = shape_begin(&s, r);
 
     for (size_t i = 0; i < 2 * s.n && status == QDOT_OK; i++) {
         double least;
@@ -138,7 +138,7 @@ qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z)
     shape s;
     double most = 0;
     size_t best = 0, where = 0;
-    qdot_status status = begin(&s, r);
+    qdot_status status = shape_begin(&s, r);
 
     for (size_t i = 0; i < n && status == QDOT_OK; i++) {
         double least;
@@ -151,7 +151,7 @@ qdot_orbit_turn(qdot_orbit_read *r, size_t *phase, double *z)
         }
     }
     if (status == QDOT_OK)
-        status = turn(&s, best, where);
+        status = shape_find_turn(&s, best, where);
     if (status == QDOT_OK) {
         memcpy(z, s.one, 2 * n * sizeof *z);
         *phase = n + best;

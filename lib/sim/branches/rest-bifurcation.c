@@ -410,8 +410,8 @@ find_crossing(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out,
 }
 
 static qdot_status
-find(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z, double *error,
-     double *other, qdot_bifurcation_answer *answer)
+rest_find(qdot_rest_bifurcations *b, const double *t, qdot_bifurcation *out, double *z, double *error,
+          double *other, qdot_bifurcation_answer *answer)
 {
     qdot_path *x = &b->x->path;
     bool found = false;
@@ -445,7 +445,7 @@ qdot_rest_bifurcation_find(void *user, const qdot_bifurcation_bracket *in, qdot_
     if (z == NULL)
         return QDOT_ENOMEM;
     memcpy(z, out->y, (n + 1) * sizeof *z);
-    status = find(b, in->a->t, out, z, error, other, answer);
+    status = rest_find(b, in->a->t, out, z, error, other, answer);
     if (status == QDOT_OK && *answer == QDOT_BIFURCATION_FOUND) {
         memcpy(out->y, z, (n + 1) * sizeof *z);
         memcpy(out->error, error, (n + 1) * sizeof *z);

@@ -39,7 +39,7 @@ find_starts(qdot_equilibrium_curve *c, double least, double most, double **at, s
 /* The size of each unknown: 1 of angles; else how far the places, those of one p on the average, are
  * apart, or from 0. */
 static void
-find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
+places_find_sizes(const qdot_equilibrium_curve *c, const double *at, size_t count, double *size)
 {
     const size_t m = c->n + 1;
     const double gaps = fmax(1, (double)count / PARTS - 1);
@@ -80,7 +80,7 @@ qdot_rest_continuation_find(qdot_equilibrium_curve *c, double least, double most
     if (status == QDOT_OK)
         status = find_starts(c, least, most, &at, &count);
     if (status == QDOT_OK) {
-        find_sizes(c, at, count, out->size);
+        places_find_sizes(c, at, count, out->size);
         out->size[c->n] = most - least;
         qdot_path_scale(&x.path, out->size);
         status = qdot_continuation_follow(&s, at, count);

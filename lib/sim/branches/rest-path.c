@@ -9,7 +9,7 @@
 static const double grows = 1e-7;
 
 static void
-evaluate(qdot_path *path, const double *y)
+rest_evaluate(qdot_path *path, const double *y)
 {
     qdot_rest_path *x = (qdot_rest_path *)path;
 
@@ -17,7 +17,7 @@ evaluate(qdot_path *path, const double *y)
 }
 
 static qdot_status
-judge(qdot_path *path, qdot_path_point *a)
+rest_path_judge(qdot_path *path, qdot_path_point *a)
 {
     qdot_rest_path *x = (qdot_rest_path *)path;
     const qdot_linear_roots *r = &x->c->roots;
@@ -50,8 +50,8 @@ qdot_rest_path_begin(qdot_rest_path *x, qdot_equilibrium_curve *c, double least,
     x->path.end = c->moving ? end : NULL;
     x->path.least = least;
     x->path.most = most;
-    x->path.at = evaluate;
-    x->path.judge = judge;
+    x->path.at = rest_evaluate;
+    x->path.judge = rest_path_judge;
     x->path.upright = 1e-14;
     x->path.dips = true;
     QDOT_TRY(qdot_tape_new(c->pool, c->n + 1, c->unknown, c->n, c->F, &x->tape));
