@@ -65,7 +65,7 @@ mode_of(const qdot_precise_side *s, size_t mode)
 }
 
 static formula *
-find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
+formula_find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
     for (size_t i = 0; i < s->course->formulas.n; i++) {
         formula *f = &s->course->formulas.at[i];
@@ -78,7 +78,7 @@ find(const qdot_precise_side *s, size_t mode, size_t function, size_t event)
 }
 
 static qdot_status
-add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
+formula_add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
 {
     const qdot_mode *m = mode_of(s, mode);
     const qdot_plan *p = m->plan;
@@ -87,7 +87,7 @@ add(qdot_precise_side *s, size_t mode, size_t function, size_t event)
     const qdot_tape *tape;
     qdot_status status = QDOT_OK;
 
-    if (find(s, mode, function, event))
+    if (formula_find(s, mode, function, event))
         return QDOT_OK;
     if (function == SIZE_MAX) {
         tape = s->guide->stage->events.at[event].then;
@@ -183,18 +183,18 @@ qdot_precise_course_init(qdot_precise_side *s)
         bool many;
         size_t mode = g->tr.pieces.at[e->piece].mode;
 
-        QDOT_TRY(add(s, mode, e->function, SIZE_MAX));
+        QDOT_TRY(formula_add(s, mode, e->function, SIZE_MAX));
         if (begins_contact(g, e->piece, e, 1, &many))
-            QDOT_TRY(add(s, mode, e->function, RATE));
+            QDOT_TRY(formula_add(s, mode, e->function, RATE));
         if (e->what.kind == QDOT_WATCH_EVENT
             && g->stage->events.at[e->what.index].then) {
-            QDOT_TRY(add(s, mode, SIZE_MAX, e->what.index));
+            QDOT_TRY(formula_add(s, mode, SIZE_MAX, e->what.index));
             QDOT_TRY(add_hold(s, mode));
         }
     }
     for (size_t i = 0; i < g->occurrences.n; i++)
-        QDOT_TRY(add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
-                     g->occurrences.at[i].event, SIZE_MAX));
+        QDOT_TRY(formula_add(s, g->tr.pieces.at[piece_of(g, g->occurrences.at[i].t)].mode,
+                             g->occurrences.at[i].event, SIZE_MAX));
     return QDOT_OK;
 }
 
@@ -202,7 +202,7 @@ qdot_precise_course_init(qdot_precise_side *s)
 
 /* f at the state y of t. */
 static qdot_status
-evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t, const mpfr_t *y)
+formula_evaluate(qdot_precise_side *s, const formula *f, size_t mode, mpfr_srcptr t, const mpfr_t *y)
 {
     return qdot_precise_evaluate(s, mode, mode_of(s, mode)->plan, f->program, f->accelerations,
                                  t, y);
@@ -214,8 +214,8 @@ value_at(qdot_precise_side *s, size_t segment, const formula *f, mpfr_srcptr t,
          mpfr_ptr out)
 {
     QDOT_TRY(qdot_precise_state_in(s, segment, t, s->course->y));
-    QDOT_TRY(evaluate(s, f, s->segments.at[segment].mode, t,
-                      (const mpfr_t *)s->course->y));
+    QDOT_TRY(formula_evaluate(s, f, s->segments.at[segment].mode, t,
+                              (const mpfr_t *)s->course->y));
     mpfr_set(out, qdot_precise_output(f->program, 0)[0], RN);
     return mpfr_number_p(out) ? QDOT_OK : qdot_fail(QDOT_EDOMAIN, "it has no value there");
 }
@@ -324,8 +324,8 @@ beyond_doubles(double t)
 
 /* Carry out the changes at the ends [n] of a piece: s->course->y becomes the state after. */
 static qdot_status
-change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
-       mpfr_srcptr t)
+state_change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t n,
+             mpfr_srcptr t)
 {
     const qdot_stage *stage = s->guide->stage;
     const size_t mode = s->segments.at[segment].mode, size = s->guide->tr.n;
@@ -338,8 +338,8 @@ change(qdot_precise_side *s, size_t segment, const qdot_course_end *ends, size_t
 
         if (ends[k].what.kind != QDOT_WATCH_EVENT || !e->then)
             continue;
-        f = find(s, mode, SIZE_MAX, ends[k].what.index);
-        QDOT_TRY(evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
+        f = formula_find(s, mode, SIZE_MAX, ends[k].what.index);
+        QDOT_TRY(formula_evaluate(s, f, mode, t, (const mpfr_t *)s->course->old));
         memset(s->course->set, 0, size * sizeof *s->course->set);
         for (size_t i = 0; i < e->changes; i++) {
             mpfr_set(s->course->y[e->targets[i]], qdot_precise_output(f->program, i)[0],
@@ -381,20 +381,20 @@ end_piece(qdot_precise_side *s, size_t k, size_t segment, const qdot_course_end 
     mpfr_ptr t = s->course->numbers.at[0];
     bool found;
 
-    QDOT_TRY(locate(s, segment, find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
+    QDOT_TRY(locate(s, segment, formula_find(s, mode, ends[0].function, SIZE_MAX), ends[0].t,
                     2 * pad * length_of(s->guide, k), &found));
     if (!found)
         return beyond_doubles(ends[0].t);
     mpfr_set(t, at[X], RN);
     for (size_t k = 1; k < n; k++) { /* what happens with it happens in all digits */
-        const formula *f = find(s, mode, ends[k].function, SIZE_MAX);
+        const formula *f = formula_find(s, mode, ends[k].function, SIZE_MAX);
 
         QDOT_TRY(value_at(s, segment, f, t, at[F_X]));
         if (qdot_real_log2(at[F_X]) > 0.75 * s->log2_tol)
             return beyond_doubles(ends[0].t);
     }
     QDOT_TRY(cut(s, segment, t));
-    return change(s, segment, ends, n, t);
+    return state_change(s, segment, ends, n, t);
 }
 
 static void
@@ -456,9 +456,9 @@ find_speeds(qdot_precise_side *s, size_t mode, const formula *rate, mpfr_srcptr 
 {
     mpfr_t *at = s->course->at;
 
-    QDOT_TRY(evaluate(s, rate, mode, t, (const mpfr_t *)s->course->old));
+    QDOT_TRY(formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->old));
     mpfr_set(at[SPEED_BEFORE], qdot_precise_output(rate->program, 0)[0], RN);
-    QDOT_TRY(evaluate(s, rate, mode, t, (const mpfr_t *)s->course->y));
+    QDOT_TRY(formula_evaluate(s, rate, mode, t, (const mpfr_t *)s->course->y));
     mpfr_set(at[SPEED], qdot_precise_output(rate->program, 0)[0], RN);
     return mpfr_number_p(at[SPEED]) && mpfr_number_p(at[SPEED_BEFORE])
                ? QDOT_OK
@@ -515,7 +515,7 @@ fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *
         return does_not_rest(end->t);
     mpfr_set(t, at[X], RN);
     QDOT_TRY(cut(s, segment, t));
-    QDOT_TRY(change(s, segment, end, 1, t));
+    QDOT_TRY(state_change(s, segment, end, 1, t));
     mpfr_sub(at[FLIGHT], t, at[BEGAN], RN);
     return QDOT_OK;
 }
@@ -523,10 +523,11 @@ fly(qdot_precise_side *s, size_t mode, const formula *f, const qdot_course_end *
 /* Piece k ended with an impact behind which the run in doubles rests: the bounces that are too low for doubles
  * follow, until all digits hide them too. Then the impulse that the last one takes up leaves the contact at rest. */
 static qdot_status
-come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
+piece_come_to_rest(qdot_precise_side *s, size_t k, const qdot_course_end *end)
 {
     const size_t mode = s->guide->tr.pieces.at[k].mode, n = s->guide->tr.n;
-    const formula *f = find(s, mode, end->function, SIZE_MAX), *rate = find(s, mode, end->function, RATE);
+    const formula *f = formula_find(s, mode, end->function, SIZE_MAX),
+                  *rate = formula_find(s, mode, end->function, RATE);
     const qdot_precise_run *flight = &s->segments.at[s->course->segment_of[k]].run;
     mpfr_t *at = s->course->at;
     mpfr_ptr t = s->course->numbers.at[0];
@@ -585,7 +586,7 @@ time_occurrences(qdot_precise_side *s)
         if ((o->way == 0 && (o->within > 0 || !g->stage->events.at[o->event].touches)) || segment >= s->segments.n)
             continue;
         QDOT_TRY(locate(s, segment,
-                        find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
+                        formula_find(s, s->segments.at[segment].mode, o->event, SIZE_MAX), o->t,
                         pad * pad * length_of(g, piece), &found));
         if (found)
             mpfr_set(s->times.at[i], s->course->at[X], RN);
@@ -594,7 +595,7 @@ time_occurrences(qdot_precise_side *s)
 }
 
 static qdot_status
-follow(qdot_precise_side *s)
+pieces_follow(qdot_precise_side *s)
 {
     const qdot_course *g = s->guide;
     const qdot_course_end *rest;
@@ -619,7 +620,7 @@ follow(qdot_precise_side *s)
             return qdot_fail(QDOT_ELIMIT, "`digits` does not come to rest at several contacts at once, as "
                                           "at t = %.15g", rest->t);
         if (rest)
-            QDOT_TRY(come_to_rest(s, k, rest));
+            QDOT_TRY(piece_come_to_rest(s, k, rest));
     }
     return time_occurrences(s);
 }
@@ -627,7 +628,7 @@ follow(qdot_precise_side *s)
 void
 qdot_precise_course_run(qdot_precise_side *s)
 {
-    s->status = follow(s);
+    s->status = pieces_follow(s);
     if (s->status != QDOT_OK && s->result.outcome != QDOT_ODE_FAILED) {
         s->result.outcome = QDOT_ODE_FAILED;
         memcpy(s->result.reason, qdot_last_error()->message, sizeof s->result.reason);

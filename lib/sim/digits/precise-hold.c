@@ -110,8 +110,8 @@ qdot_precise_hold_new(const qdot_plan *plan, mpfr_prec_t bits, qdot_precise_hold
 /* --- at a state ---------------------------------------------------------------------- */
 
 static void
-evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
-         const mpfr_t *y)
+hold_evaluate(const qdot_precise_hold *h, qdot_precise *program, mpfr_srcptr t,
+              const mpfr_t *y)
 {
     const size_t n = 2 * h->plan->n;
 
@@ -129,7 +129,7 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
     const size_t n = h->plan->n;
     size_t at = 0;
 
-    evaluate(h, h->metric, t, y);
+    hold_evaluate(h, h->metric, t, y);
     for (size_t i = 0; W && i < n * n; i++)
         mpfr_set_si(W[i], 0, RN);
     for (size_t k = 0; W && k < c->n_masses; k++) {
@@ -221,7 +221,7 @@ assemble(qdot_precise_hold *h)
 
 /* Solve K x = b; b becomes x. */
 static qdot_status
-solve(qdot_precise_hold *h)
+hold_solve(qdot_precise_hold *h)
 {
     const size_t all = h->f + h->kept;
     size_t failed;
@@ -246,7 +246,7 @@ take_residual(qdot_precise_hold *h)
 /* --- after an event ------------------------------------------------------------------ */
 
 static qdot_status
-put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
+hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
 {
     mpfr_t *x = y + (h->velocities ? h->plan->n : 0);
     double before = INFINITY;
@@ -256,7 +256,7 @@ put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
 
         take_metric(h, t, (const mpfr_t *)y, h->W, h->A);
         choose_rows(h);
-        evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
+        hold_evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
         now = excess(h);
         if (now <= 16 - (double)h->bits ||
             (now < 48 - (double)h->bits && now >= before - 1))
@@ -268,7 +268,7 @@ put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y)
         for (size_t i = 0; i < h->f; i++)
             mpfr_set_si(h->b[i], 0, RN);
         take_residual(h);
-        QDOT_TRY(solve(h));
+        QDOT_TRY(hold_solve(h));
         for (size_t i = 0; i < h->f; i++)
             mpfr_add(x[h->free[i]], x[h->free[i]], h->b[i], RN);
     }
@@ -286,7 +286,7 @@ qdot_precise_hold_put(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, const bool
         if (!set[k] || !h->rows[k])
             continue;
         choose_level(h, k == 1, set[k], false);
-        QDOT_TRY(put(h, t, y));
+        QDOT_TRY(hold_put(h, t, y));
     }
     return QDOT_OK;
 }
@@ -355,11 +355,11 @@ step_nearest(qdot_precise_hold *h, mpfr_srcptr t, mpfr_t *y, double *moved)
     take_metric(h, t, (const mpfr_t *)y, NULL, h->A);
     choose_rows(h);
     assemble(h);
-    evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
+    hold_evaluate(h, h->rows[h->velocities], t, (const mpfr_t *)y);
     take_residual(h);
     take_gradient(h, (const mpfr_t *)x);
     add_curvature(h, t, y);
-    QDOT_TRY(solve(h));
+    QDOT_TRY(hold_solve(h));
     *moved = -INFINITY;
     for (size_t i = 0; i < h->f; i++) {
         const double log2 = qdot_real_log2(h->b[i]);

@@ -31,7 +31,7 @@ typedef struct {
 
 /* log2 of the largest equation at the start as it is. */
 static double
-evaluate(level *l)
+start_evaluate(level *l)
 {
     const size_t n = 2 * l->plan->n;
     double log2 = -INFINITY;
@@ -87,7 +87,7 @@ iterate(level *l, mpfr_prec_t bits)
 {
     double before = INFINITY;
 
-    for (double now = evaluate(l); now < before - 4 && now > -(double)bits; now = evaluate(l)) {
+    for (double now = start_evaluate(l); now < before - 4 && now > -(double)bits; now = start_evaluate(l)) {
         const long scale = (long)floor(now); /* doubles end at 2^-1074 */
 
         QDOT_TRY(qdot_interrupt_check());
@@ -115,7 +115,7 @@ iterate(level *l, mpfr_prec_t bits)
 }
 
 static qdot_status
-solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
+start_solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
 {
     const qdot_tape *metric = l->plan->constraints->metric;
     const size_t n = l->plan->n, outputs = qdot_tape_outputs(metric);
@@ -128,7 +128,7 @@ solve(level *l, const qdot_tape *tape, double enough, mpfr_prec_t bits)
     status = in ? qdot_row_space_init(&l->space, l->m, n) : QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = qdot_precise_new(l->plan->pool, tape, 0, bits, &l->program);
-    if (status == QDOT_OK && evaluate(l) > enough) {
+    if (status == QDOT_OK && start_evaluate(l) > enough) {
         l->A = in + 2 * n + 1 + outputs;
         l->b = l->A + l->m * n;
         l->dx = l->b + l->m;
@@ -159,7 +159,7 @@ qdot_precise_start_solve(const qdot_plan *plan, const qdot_run_request *request,
                    .x = start + 2 + k * plan->n};
 
         if (tapes[k] && qdot_tape_outputs(tapes[k]) > 0 && named[k])
-            QDOT_TRY(solve(&l, tapes[k], enough, bits));
+            QDOT_TRY(start_solve(&l, tapes[k], enough, bits));
     }
     return QDOT_OK;
 }

@@ -38,7 +38,7 @@ reader_init(reader *r, const qdot_reading *of, qdot_precise_side *side)
 
 /* The program at the state y of t. */
 static qdot_status
-evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
+reader_evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 {
     return qdot_precise_evaluate(r->side, r->side->segments.at[r->segment].mode, r->of->plan,
                                  r->program, r->of->accelerations, t, y);
@@ -46,7 +46,7 @@ evaluate(reader *r, mpfr_srcptr t, const mpfr_t *y)
 
 /* At the time in numbers.at[0], which may be an end of the run but for its last bits. */
 static qdot_status
-read_at(reader *r)
+reader_read_at(reader *r)
 {
     mpfr_ptr t = r->numbers.at[0];
     mpfr_srcptr ends[2];
@@ -65,7 +65,7 @@ read_at(reader *r)
     }
     r->segment = qdot_precise_segment_at(r->side, t);
     QDOT_TRY(qdot_precise_state_in(r->side, r->segment, t, r->numbers.at + 1));
-    return evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
+    return reader_evaluate(r, t, (const mpfr_t *)r->numbers.at + 1);
 }
 
 /* At the first or last point of a piece: a segment that has points. */
@@ -83,7 +83,7 @@ read_end(reader *r, size_t piece, bool last)
     r->segment = k;
     point = (const mpfr_t *)qdot_precise_point(&s->segments.at[k].run,
                                                last ? s->segments.at[k].run.count - 1 : 0);
-    return evaluate(r, point[0], point + 1);
+    return reader_evaluate(r, point[0], point + 1);
 }
 
 /* --- both ---------------------------------------------------------------------------- */
@@ -140,7 +140,7 @@ typedef struct {
 static qdot_status
 read_place(reader *r, place at)
 {
-    return at.end ? read_end(r, at.piece, at.last) : read_at(r);
+    return at.end ? read_end(r, at.piece, at.last) : reader_read_at(r);
 }
 
 /* Values of the run, and their distances from the companion's into errors [m] (may be NULL). */
@@ -271,7 +271,7 @@ follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
         double change;
 
         QDOT_TRY(qdot_interrupt_check());
-        QDOT_TRY(evaluate(r, point[0], point + 1));
+        QDOT_TRY(reader_evaluate(r, point[0], point + 1));
         if (k == 0)
             mpfr_set(w[0], c, RN);
         mpfr_sub(w[1], c, w[0], RN);
@@ -283,7 +283,7 @@ follow_segment(reader *r, bool anew, bool cut, mpfr_t *w, qdot_drift *drift)
 }
 
 static qdot_status
-follow(reader *r, qdot_drift *drift)
+drift_follow(reader *r, qdot_drift *drift)
 {
     const qdot_precise_side *s = r->side;
     qdot_status status = QDOT_OK;
@@ -314,7 +314,7 @@ qdot_precise_pair_drifts(qdot_precise_pair *pair, qdot_drifts *drifts)
         if (status == QDOT_OK)
             status = reader_init(&r, &of, &pair->run);
         if (status == QDOT_OK)
-            status = follow(&r, drifts->at + i);
+            status = drift_follow(&r, drifts->at + i);
         reader_clear(&r);
         qdot_tape_free(of.tape);
         QDOT_TRY(status);

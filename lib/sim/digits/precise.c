@@ -146,7 +146,7 @@ find_nearest(const qdot_precise_side *s, const qdot_precise_pair *pair, qdot_pre
 /* Bring the start onto the constraints in all digits. Values that these determine are solved for;
  * else the nearest start is found, as in doubles. */
 static qdot_status
-settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digits)
+precise_settle_start(const qdot_precise_side *s, const qdot_precise_pair *pair, int digits)
 {
     const qdot_plan *plan = pair->plan;
     const double enough = -(digits + guard_digits) * QDOT_LOG2_10;
@@ -217,7 +217,7 @@ side_init(qdot_precise_side *s, const qdot_precise_pair *pair, double digits, in
         QDOT_TRY(qdot_precise_constant(pair->plan, request->q0[i], s->start.at[2 + i]));
         QDOT_TRY(qdot_precise_constant(pair->plan, request->v0[i], s->start.at[2 + n + i]));
     }
-    QDOT_TRY(settle_start(s, pair, (int)fmin(digits - guard_digits, pair->digits)));
+    QDOT_TRY(precise_settle_start(s, pair, (int)fmin(digits - guard_digits, pair->digits)));
     return s->guide ? qdot_precise_course_init(s) : QDOT_OK;
 }
 
@@ -269,7 +269,7 @@ side_thread(void *user)
 
 /* Whether the run so far is kept after this status. */
 static bool
-is_kept(qdot_status status)
+run_is_kept(qdot_status status)
 {
     return status == QDOT_OK || status == QDOT_EFAILED || status == QDOT_EDOMAIN
            || status == QDOT_ESINGULAR;
@@ -317,7 +317,7 @@ cut_at_domain(qdot_precise_side *s)
 
 /* The pair with `digits`: run, and compared. QDOT_OK whenever there is a run. */
 static qdot_status
-carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
+precise_carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
 {
     qdot_precise_side *a = &pair->run, *b = &pair->companion;
     pthread_t thread;
@@ -335,7 +335,7 @@ carry_out(qdot_precise_pair *pair, double digits, qdot_domains *domains)
         pthread_join(thread, NULL);
     else
         side_run(b);
-    if (!is_kept(a->status))
+    if (!run_is_kept(a->status))
         return a->status;
     if (!a->guide && domains->left)
         QDOT_TRY(cut_at_domain(a));
@@ -375,7 +375,7 @@ settle(qdot_precise_pair *pair, qdot_domains *domains)
                              "%d digits were not reached: carrying %.0f left an error of "
                              "10^%.1f",
                              pair->digits, pair->run.digits, pair->log10_error);
-        QDOT_TRY(carry_out(pair, digits, domains));
+        QDOT_TRY(precise_carry_out(pair, digits, domains));
         QDOT_TRY(qdot_precise_check_progress(pair, &progress));
         /* while they part, digits double: no pass */
         if (!(pair->log10_error > qdot_precise_parted))
