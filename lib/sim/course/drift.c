@@ -61,8 +61,8 @@ put_point(const qdot_trajectory *tr, size_t k, size_t lane, double *in)
 /* The quantity at as many points as there are lanes, from the first on; c one group. Lanes beyond
  * the last point repeat it. */
 static void
-evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double *in,
-         double *c, double *work)
+drift_evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double *in,
+               double *c, double *work)
 {
     for (size_t l = 0; l < QDOT_LANES; l++)
         put_point(tr, first + l < tr->count ? first + l : tr->count - 1, l, in);
@@ -73,7 +73,7 @@ evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, double 
 static const double of_event = 1e-10;
 
 static qdot_status
-follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
+drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
 {
     size_t n = tr->n;
     double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
@@ -89,7 +89,7 @@ follow(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
         if (k % 1024 == 0)
             status = qdot_interrupt_check();
         if (k % QDOT_LANES == 0)
-            evaluate(tape, tr, k, in, c, work);
+            drift_evaluate(tape, tr, k, in, c, work);
         change = c[k % QDOT_LANES];
         if (k == 0)
             drift->start = start = change;
@@ -126,7 +126,7 @@ note(const qdot_tape *tape, const qdot_trajectory *tr, qdot_expr quantity, const
 {
     qdot_drift x = {.quantity = quantity};
 
-    QDOT_TRY(follow(tape, tr, &x));
+    QDOT_TRY(drift_follow_quantity(tape, tr, &x));
     if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
         return QDOT_OK;
     if (!(x.name = qdot_strdup(name)))
@@ -178,7 +178,7 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
 
 /* Whether the run, in parts or whole, kept its momentum. */
 static bool
-is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
+momentum_is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordinate)
 {
     for (size_t i = 0; i == 0 || i < tr->n_tracks; i++) {
         const qdot_plan *r = tr->n_tracks > 0 ? p->parts[i]->reduced : p->reduced;
@@ -215,7 +215,7 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
         status = note(tape, tr, cyclic.momentum, name, d);
     qdot_tape_free(tape);
     qdot_free(name);
-    if (status == QDOT_OK && d->n > 0 && is_kept(p, tr, cyclic.coordinate)
+    if (status == QDOT_OK && d->n > 0 && momentum_is_kept(p, tr, cyclic.coordinate)
         && d->at[d->n - 1].quantity == cyclic.momentum) {
         d->at[d->n - 1].kept = true;
         d->at[d->n - 1].drift = 0;
@@ -234,7 +234,7 @@ measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
 
     *most = 0;
     if (status == QDOT_OK && tape)
-        status = follow(tape, tr, &of);
+        status = drift_follow_quantity(tape, tr, &of);
     if (tape)
         *most = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
     qdot_tape_free(tape);

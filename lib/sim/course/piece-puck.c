@@ -32,7 +32,7 @@ puck_at(const qdot_piece *x, size_t i)
 
 /* Change velocity a of a puck, and those that are tied to it. */
 static void
-change(const qdot_puck *puck, size_t a, double by, double *velocities)
+puck_change_velocity(const qdot_puck *puck, size_t a, double by, double *velocities)
 {
     velocities[puck->velocity[a]] += by;
     for (size_t j = 0; j < puck->n_tied; j++)
@@ -52,7 +52,7 @@ accelerate(qdot_piece *x, size_t i, const double *rest, size_t a, double by,
 
     if (status == QDOT_OK) {
         memcpy(y, rest, x->n * sizeof *y);
-        change(puck, a, by, y + n);
+        puck_change_velocity(puck, a, by, y + n);
         status = system->rhs(x->start.t, y, rates, system->user);
     }
     if (status == QDOT_OK)
@@ -81,7 +81,7 @@ respond(qdot_piece *x, size_t i, double *rest, response *r)
     if (status == QDOT_OK)
         memcpy(rest, x->start.y, x->n * sizeof *rest);
     for (size_t c = 0; c < k && status == QDOT_OK; c++)
-        change(puck, c, -s.d[c], rest + n);
+        puck_change_velocity(puck, c, -s.d[c], rest + n);
     r->k = k;
     memcpy(r->G, s.G, k * k * sizeof *r->G);
     for (size_t a = 0; a < k && status == QDOT_OK; a++) {
@@ -213,7 +213,7 @@ start_one(qdot_piece *x, size_t i, double speed)
         if (!(speed > from && moves_along(x, puck, rest, e))) {
             memcpy(x->start.y, rest, x->n * sizeof *rest);
             for (size_t c = 0; c < puck->k; c++)
-                change(puck, c, from * e[c], x->start.y + x->n / 2);
+                puck_change_velocity(puck, c, from * e[c], x->start.y + x->n / 2);
             if (a > 0)
                 leave_late(x, (speed + from) / a);
         }

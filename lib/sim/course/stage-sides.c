@@ -81,7 +81,7 @@ end(decision *d)
 }
 
 static qdot_status
-begin(decision *d, const qdot_stage *s, double t, const double *y)
+decision_begin(decision *d, const qdot_stage *s, double t, const double *y)
 {
     size_t m = qdot_switches_own(&s->switches);
     const size_t n = 2 * s->n;
@@ -104,7 +104,7 @@ begin(decision *d, const qdot_stage *s, double t, const double *y)
 
 /* d->out at d->in, whose state is that of the decision again afterwards. */
 static void
-evaluate(decision *d, const long *side)
+decision_evaluate(decision *d, const long *side)
 {
     for (size_t i = 0; i < d->m; i++)
         d->in[d->n + 1 + i] =
@@ -125,7 +125,7 @@ is_parameter(const decision *d, size_t i)
 static void
 measure(decision *d, const long *side)
 {
-    evaluate(d, side);
+    decision_evaluate(d, side);
     for (size_t i = 0; i < d->m; i++) {
         d->u[i] = d->out[i];
         d->noise[i] = rounding * d->out[d->m + i];
@@ -133,7 +133,7 @@ measure(decision *d, const long *side)
     }
     for (size_t k = 0; k <= d->n; k++) {
         d->in[k] *= 1 + 2 * DBL_EPSILON;
-        evaluate(d, side);
+        decision_evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->noise[i] += isfinite(d->out[i]) ? fabs(d->out[i] - d->u[i]) : 0;
     }
@@ -141,7 +141,7 @@ measure(decision *d, const long *side)
         for (size_t i = 0; i <= d->n; i++)
             if (!is_parameter(d, i))
                 d->in[i] += aside[k] / (1 + (double)i) * fmax(1, fabs(d->in[i]));
-        evaluate(d, side);
+        decision_evaluate(d, side);
         for (size_t i = 0; i < d->m; i++)
             d->flat[i] = d->flat[i] && fabs(d->out[i] - d->u[i]) <=
                                            fmax(d->noise[i], rounding * d->out[d->m + i]);
@@ -168,7 +168,7 @@ is_open(const decision *d, size_t i)
 
 /* The side of surface i, which had `kept`. */
 static qdot_status
-decide(const decision *d, size_t i, bool anew, long kept, long *side)
+side_decide(const decision *d, size_t i, bool anew, long kept, long *side)
 {
     const bool steps = d->s->switches.surfaces.at[i].steps;
     const double u = d->u[i], near = steps ? round(u) : 0;
@@ -234,7 +234,7 @@ rates_of(decision *d, const long *side, const double *w, double *rate)
 
     for (size_t i = 0; i < d->s->n - d->s->n_states; i++)
         d->in[i] += h * w[i];
-    evaluate(d, side);
+    decision_evaluate(d, side);
     for (size_t i = 0; i < d->m; i++)
         rate[i] = fabs(d->out[i] - d->u[i]) / h;
 }
@@ -257,13 +257,13 @@ qdot_stage_layers(qdot_stage *s, double t, const double *y, double latest, doubl
     a = qdot_calloc(s->n + 2 * m, sizeof *a);
     speed = a + s->n;
     bend = speed + m;
-    status = begin(&d, s, t, y);
+    status = decision_begin(&d, s, t, y);
     if (!side || !a)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK)
         status = start_accelerations(&d, a);
     if (status == QDOT_OK) {
-        evaluate(&d, side);
+        decision_evaluate(&d, side);
         memcpy(d.u, d.out, m * sizeof *d.u);
         rates_of(&d, side, y + s->n, speed);
         rates_of(&d, side, a, bend);
@@ -289,7 +289,7 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
     if (m == 0)
         return QDOT_OK;
     kept = qdot_calloc(m, sizeof *kept);
-    status = begin(&d, s, t, y);
+    status = decision_begin(&d, s, t, y);
     if (!kept)
         status = QDOT_ENOMEM;
     if (status == QDOT_OK) {
@@ -310,8 +310,8 @@ qdot_stage_sides(const qdot_stage *s, double t, const double *y, const long *old
             const long was = side[i];
 
             if (is_open(&d, i))
-                status = decide(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
-                                kept[i] == QDOT_SIDE_IDLE ? 0 : kept[i], &side[i]);
+                status = side_decide(&d, i, !old || old[i] == QDOT_SIDE_IDLE || kept[i] == QDOT_SIDE_IDLE,
+                                     kept[i] == QDOT_SIDE_IDLE ? 0 : kept[i], &side[i]);
             else
                 side[i] = QDOT_SIDE_IDLE;
             changed |= side[i] != was;
