@@ -45,7 +45,7 @@ next_word(const char *prefix, int again)
 typedef enum { PLAIN, QUOTED, COMMENT } place;
 
 static place
-place_of(const char *text, int length)
+text_place_at(const char *text, int length)
 {
     place p = PLAIN;
 
@@ -84,7 +84,7 @@ find_words(const char *prefix, int start)
 static char **
 complete(const char *prefix, int start, int end)
 {
-    const place p = place_of(rl_line_buffer, start);
+    const place p = text_place_at(rl_line_buffer, start);
 
     (void)end;
     rl_completion_append_character = '\0';
@@ -102,7 +102,7 @@ breaks(void)
 {
     static char quote[] = "\"";
 
-    return place_of(rl_line_buffer, rl_point) == QUOTED ? quote : NULL;
+    return text_place_at(rl_line_buffer, rl_point) == QUOTED ? quote : NULL;
 }
 
 void

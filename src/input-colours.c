@@ -54,7 +54,7 @@ columns_of(const char *text, size_t *bytes)
 
 /* Where a character as wide as that is put: one that has no room in its row is in the next. */
 static place
-place_of(place p, int columns)
+character_place(place p, int columns)
 {
     if (p.x + columns > p.columns) {
         p.x = 0;
@@ -67,7 +67,7 @@ place_of(place p, int columns)
 static place
 behind(place p, int columns)
 {
-    p = place_of(p, columns);
+    p = character_place(p, columns);
     p.x += columns;
     if (p.x == p.columns) {
         p.x = 0;
@@ -150,8 +150,8 @@ write_line(place p, const uint8_t *kinds)
             continue;
         }
         columns = columns_of(text + i, &bytes);
-        if (columns > 0 && place_of(p, columns).row > row) {
-            p = place_of(p, columns);
+        if (columns > 0 && character_place(p, columns).row > row) {
+            p = character_place(p, columns);
             move(p.row - row, p.x);
             row = p.row;
         }

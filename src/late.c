@@ -51,7 +51,7 @@ give_up(void)
 }
 
 static void *
-find(const char *name)
+libraries_find(const char *name)
 {
     for (size_t i = 0; i < LIBRARIES; i++) {
         void *symbol = dlsym(handle[i], name);
@@ -73,7 +73,7 @@ load(void)
             give_up();
     }
     for (size_t i = 0; i < LATE_COUNT; i++) {
-        __atomic_store_n(&qdot_late_slot[i], find(name), __ATOMIC_RELEASE);
+        __atomic_store_n(&qdot_late_slot[i], libraries_find(name), __ATOMIC_RELEASE);
         while (*name++ != '\0')
             continue;
     }

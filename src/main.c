@@ -106,7 +106,7 @@ limit_processor(const char *name)
 }
 
 static qdot_status
-read_options(int argc, char **argv, options *o)
+options_read(int argc, char **argv, options *o)
 {
     int c;
 
@@ -143,7 +143,7 @@ style_here(void)
 }
 
 static int
-carry_out(qdot_session *session, const options *o)
+tasks_carry_out(qdot_session *session, const options *o)
 {
     int status = DONE;
 
@@ -244,7 +244,7 @@ main(int argc, char **argv)
      * category: numbers stay as in C */
     if (qdot_terminal_is(stdin) || qdot_terminal_is(stdout))
         setlocale(LC_CTYPE, "");
-    if (read_options(argc, argv, &o) != QDOT_OK) {
+    if (options_read(argc, argv, &o) != QDOT_OK) {
         qdot_free(o.tasks.at);
         return MISUSED;
     }
@@ -273,7 +273,7 @@ main(int argc, char **argv)
     if (qdot_terminal_is(stderr) && !o.json)
         qdot_progress_line_install();
     qdot_signals_install();
-    status = carry_out(session, &o);
+    status = tasks_carry_out(session, &o);
     qdot_session_free(session);
     qdot_free(o.tasks.at);
     return qdot_ranks_end(finish(status));

@@ -191,7 +191,7 @@ spell_out(qdot_text *text)
 }
 
 static void
-carry_out(qdot_session *session, qdot_text *text)
+input_carry_out(qdot_session *session, qdot_text *text)
 {
     bool pages;
 
@@ -242,7 +242,7 @@ qdot_prompt_run(qdot_session *session, bool banner, bool startup)
     while (kind != ENDED && !session->quit) {
         kind = read_statement(session, &text);
         if (kind == LINE)
-            carry_out(session, &text);
+            input_carry_out(session, &text);
     }
     if (kind == ENDED)
         fputc('\n', rl_outstream);
