@@ -1672,6 +1672,7 @@ script_tests = \
 	tests/script/lyapunov.sh \
 	tests/script/mass-in-time.lag \
 	tests/script/massless-corner.lag \
+	tests/script/massless-digits.lag \
 	tests/script/massless-jumps.sh \
 	tests/script/massless-orbits.sh \
 	tests/script/massless-phase-space.sh \
@@ -2913,6 +2914,7 @@ test_files = \
 	tests/script/lyapunov.out \
 	tests/script/mass-in-time.out \
 	tests/script/massless-corner.out \
+	tests/script/massless-digits.out \
 	tests/script/massless-jumps.out \
 	tests/script/massless-orbits.out \
 	tests/script/massless-phase-space.out \

@@ -53,8 +53,9 @@ follow_rows(qdot_run *run, const qdot_scene *scene, qdot_constraint_kind kind, d
 
     for (size_t k = 0; k < c->m; k++) {
         /* not the row's: that is of one side where the equations switch */
+        const bool massless = c->rows[k].multiplier == QDOT_NIL; /* with such nothing switches */
         qdot_drift f = {
-            .quantity = qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
+            .quantity = massless ? c->rows[k].f : qdot_plan_substitute(run->plan, scene->constraints.at[k].f)};
         qdot_drifts one = {.n = 1, .at = &f};
 
         if (c->rows[k].kind != kind)

@@ -138,6 +138,8 @@ take_metric(qdot_precise_hold *h, mpfr_srcptr t, const mpfr_t *y, mpfr_t *W, mpf
 
         mpfr_set(W[i * n + j], value[0], RN);
         mpfr_set(W[j * n + i], value[0], RN);
+        if (i == j && h->plan->massless && h->plan->massless[i]) /* it alone moves, in all digits */
+            mpfr_set_ui_2exp(W[i * n + i], 1, -2 * (mpfr_exp_t)h->bits, RN);
     }
     for (size_t i = 0; i < h->m * n; i++)
         mpfr_set_si(A[i], 0, RN);

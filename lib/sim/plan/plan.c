@@ -227,18 +227,19 @@ check_exact(const qdot_run_request *request)
                : QDOT_OK;
 }
 
-/* What has no equations of its own for coordinates without mass. */
+/* What has no equations of its own for coordinates without mass; digits of them where nothing jumps. */
 static qdot_status
-check_massless(const qdot_plan *p, const qdot_run_request *request)
+check_massless(const qdot_plan *p, const qdot_scene *scene, const qdot_run_request *request)
 {
+    const bool jumps = p->n_sides > 0 || p->n_states > 0 || scene->events.n > 0;
     size_t i = 0;
 
-    if (p->n_massless == 0 || (request->digits == 0 && !request->lanes && !p->method->geometric))
+    if (p->n_massless == 0 || (!(request->digits > 0 && jumps) && !request->lanes && !p->method->geometric))
         return QDOT_OK;
     while (!p->massless[i])
         i++;
     qdot_fail(QDOT_ENOTBUILT, "not built yet: %s where no mass moves with a coordinate (%s)",
-              request->digits > 0 ? "digits"
+              request->digits > 0 ? "digits with events or switches"
               : request->lanes    ? "ensembles"
                                   : p->method->name,
               p->names[i]);
@@ -290,7 +291,7 @@ plan_make(qdot_plan *p, qdot_scene *scene, const qdot_run_request *request)
         return QDOT_OK;
     QDOT_TRY(plan_derive(p, scene));
     QDOT_TRY(qdot_massless_find(scene, p));
-    QDOT_TRY(check_massless(p, request));
+    QDOT_TRY(check_massless(p, scene, request));
     QDOT_TRY(check_exact(request));
     QDOT_TRY(qdot_plan_check_geometric(p, scene, request->treatment));
     if (scene->constraints.n + p->n_massless > 0)
