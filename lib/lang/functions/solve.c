@@ -134,12 +134,13 @@ holds_others(qdot_session *session, qdot_expr e, qdot_expr x)
 
 /* Where no formula gives all roots: the factors that are left, in numbers. *known: these are all. */
 static qdot_status
-add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
+add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, const qdot_written *written,
             const qdot_facts *facts, solve_list *list, bool *recurs, bool *known)
 {
     qdot_pool *pool = session->pool;
     qdot_expr factors, rest = QDOT_ONE;
     qdot_solve_zeros zeros = {0};
+    qdot_expr domain = written->domain;
     qdot_window window;
     qdot_status status;
     bool whole, all = true;
@@ -162,6 +163,7 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
             qdot_conditions_all(pool, domain, qdot_conditions_of_divisors(pool, f, x));
     QDOT_TRY(qdot_pool_check(pool));
     status = qdot_solve_line(session, rest, x, domain, &window, &zeros, known, &all);
+    all = all && written->apart == QDOT_NIL; /* where roots are 0 that were taken apart, their parts may have no value */
     exact = list->at.n;
     for (size_t i = 0; i < zeros.n && status == QDOT_OK; i++)
         status = solve_list_add(list, zeros.at[i]);
@@ -170,6 +172,8 @@ add_numbers(qdot_session *session, qdot_expr f, qdot_expr x, qdot_expr domain,
         status = qdot_answer_notice(session, "no formula gives %s: found in numbers%s",
                                     list->at.n == exact + 1 ? "this zero" : "these zeros",
                                     all ? ", proved to be all" : "");
+    if (status == QDOT_OK && *known && written->apart != QDOT_NIL)
+        status = qdot_answer_notice(session, "there may be others where what stands under a root is 0");
     return status;
 }
 
@@ -237,7 +241,7 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (status == QDOT_OK)
         status = add_exact(session, x, &found, &list);
     if (status == QDOT_OK && !complete)
-        status = add_numbers(session, f, x, written.domain, &assumed.facts, &list, &found.recurs, &known);
+        status = add_numbers(session, f, x, &written, &assumed.facts, &list, &found.recurs, &known);
     if (status == QDOT_OK && !complete && known)
         status = notice_parameters(session, f, x, &written, &assumed.facts, &found);
     if (status == QDOT_OK && !known) {
