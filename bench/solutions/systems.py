@@ -84,7 +84,7 @@ def entries(output):
     """[({unknown: formula}, condition or None)]"""
     when = dict(re.findall(r"^notice: (\[.*\]) exists when (.*)$", output, re.M))
     return [(dict(p.split(" = ", 1) for p in split(text[1:-1]) if p), when.get(text))
-            for text in re.findall(r"^(?:solve\(.*\)|%\d+)\[\d+\] = (\[.*\])$", output, re.M)]
+            for text in re.findall(r"^(?:(?:solve\(.*\)|%\d+)\[\d+\] = )?(\[\w.*\])$", output, re.M)]
 
 
 def place(entry, at):

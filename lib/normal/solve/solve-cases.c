@@ -57,7 +57,7 @@ at_the_jump(qdot_solver *s, qdot_expr e, qdot_expr u, qdot_expr when)
         } else if (qdot_is_zero(s->pool, at, s->facts)) {
             status = qdot_solver_add(s, root->value, root->period, all);
         } else if (!qdot_is_generic(s->pool, at) || /* other unknowns may make it one */
-                   (root->period == QDOT_NIL && s->facts != NULL && s->facts->exact)) {
+                   root->period == QDOT_NIL) {
             status = qdot_solver_add_where(s, root->value, at, all);
         }
     }

@@ -196,12 +196,25 @@ vanishes_in_regions(qdot_pool *pool, qdot_expr e)
 qdot_status
 qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr when)
 {
+    qdot_sides sides = {0};
+    qdot_status status;
+
     QDOT_TRY(qdot_pool_check(s->pool));
-    if (s->facts == NULL || !s->facts->exact || !qdot_is_generic(s->pool, e) || !vanishes_in_regions(s->pool, e))
+    if (when == QDOT_FALSE)
+        return QDOT_OK;
+    if (qdot_is_zero(s->pool, e, s->facts))
+        return qdot_solver_add(s, value, QDOT_NIL, when);
+    if (!qdot_is_generic(s->pool, e) || !vanishes_in_regions(s->pool, e))
         return qdot_solver_divide(s, e);
-    when = qdot_conditions_and(s->pool, when, qdot_rel(s->pool, QDOT_LE, QDOT_ZERO, e));
-    return qdot_solver_add(s, value, QDOT_NIL,
-                           qdot_conditions_and(s->pool, when, qdot_rel(s->pool, QDOT_LE, e, QDOT_ZERO)));
+    status = qdot_sides_of(s->pool, e, qdot_sides_choice(s->pool, e, QDOT_NIL), &sides);
+    s->out->complete = s->out->complete && sides.n > 0;
+    for (size_t i = 0; i < sides.n && status == QDOT_OK; i++)
+        status = qdot_solver_add_where(s, value, qdot_sides_put(&sides, i, e),
+                                       qdot_conditions_all(s->pool, when, sides.relations[i]));
+    if (status == QDOT_OK && sides.jump != QDOT_NIL)
+        status = qdot_solver_divide(s, sides.jump);
+    qdot_sides_clear(&sides);
+    return status;
 }
 
 /* --- polynomials in one thing ------------------------------------------------------ */

@@ -23,8 +23,8 @@ QDOT_MUST_CHECK qdot_status qdot_solver_equation(qdot_solver *s, qdot_expr e, qd
 /* The root `value`, with a period or nil, if it is one (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period,
                                             qdot_expr when);
-/* The root `value` where e, of parameters alone, is 0: in regions of them with that condition; else e is noted as a
- * divisor, for its zeros are special values (solver.c). */
+/* The root `value` where e is 0: in regions of parameters on the sides of its choices; else e is noted as a divisor, for
+ * its zeros are special values (solver.c). */
 QDOT_MUST_CHECK qdot_status qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e,
                                                   qdot_expr when);
 /* Whether a value is a whole number of periods away from those of a family (solver.c). */
