@@ -1703,6 +1703,7 @@ script_tests = \
 	tests/script/modes.lag \
 	tests/script/momenta-in-names.lag \
 	tests/script/momenta-slopes.lag \
+	tests/script/moving-floors.lag \
 	tests/script/moving.lag \
 	tests/script/multipliers-known.lag \
 	tests/script/names.lag \
@@ -2945,6 +2946,7 @@ test_files = \
 	tests/script/modes.out \
 	tests/script/momenta-in-names.out \
 	tests/script/momenta-slopes.out \
+	tests/script/moving-floors.out \
 	tests/script/moving.out \
 	tests/script/multipliers-known.out \
 	tests/script/names.out \

@@ -27,8 +27,11 @@ place_at(const qdot_course *c, const qdot_course_chatter *x, double t, const dou
 {
     const size_t n = c->tr.n / 2;
     const double *slopes = x->along + n, most = x->place + x->speed * fabs(t - x->t);
-    double *rates = qdot_malloc(6 * n * sizeof *rates), least = INFINITY;
+    double *rates = x->steady ? NULL : qdot_malloc(6 * n * sizeof *rates), least = INFINITY;
     bool known = rates != NULL;
+
+    if (x->steady)
+        return x->place;
 
     for (size_t k = 0; k < 3 && known; k++) {
         const qdot_ode_system *system = &c->systems.at[x->mode[k]];

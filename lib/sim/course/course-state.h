@@ -45,6 +45,7 @@ typedef struct {
     size_t mode[3];       /* below the surface, on it, above */
     double *along;        /* [n] of u = 1, then the slopes of u [n]; owned */
     bool ended;           /* it has left the surface */
+    bool steady;          /* no chatter: the rounding of a place that moves, as large until `end` */
 } qdot_course_chatter;
 
 typedef struct qdot_course {

@@ -8,6 +8,7 @@
 #include "series/lanes.h"
 #include "sim/form/residual.h"
 #include "sim/model/absent.h"
+#include "sim/model/contact.h"
 #include "sim/model/term-magnitude.h"
 
 void
@@ -69,11 +70,21 @@ drift_evaluate(const qdot_tape *tape, const qdot_trajectory *tr, size_t first, d
     qdot_lanes_eval(tape, in, c, work);
 }
 
+/* Whether the mode holds the motion on a place that moves, which does work. */
+static bool
+is_driven(const qdot_stage *stage, size_t mode)
+{
+    for (size_t i = stage ? qdot_switches_own(&stage->switches) : 0; stage && i < stage->switches.surfaces.n; i++)
+        if (stage->modes.at[mode]->side[i] == QDOT_SIDE_SLIDES && qdot_contacts_moves(&stage->switches, i))
+            return true;
+    return false;
+}
+
 /* What an event changes by more, relative to max(1, |c|), it does not conserve. */
 static const double of_event = 1e-10;
 
 static qdot_status
-drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, qdot_drift *drift)
+drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_drift *drift)
 {
     size_t n = tr->n;
     double *in = qdot_malloc(QDOT_LANES * (n + 1) * sizeof *in);
@@ -101,6 +112,11 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, qdot_dri
                 start = change;
             }
         last = change;
+        if (piece > 0 && is_driven(stage, tr->pieces.at[piece - 1].mode)) {
+            drift->changed = true;
+            start = change;
+            continue;
+        }
         if (piece > 0 && is_switch(tr, piece - 1, k))
             continue;
         /* nor what a contact that lasts changes, as its impacts did: it is held in another mode */
@@ -121,12 +137,12 @@ drift_follow_quantity(const qdot_tape *tape, const qdot_trajectory *tr, qdot_dri
 
 /* Measure the drift of a quantity by its tape and append it to the list. */
 static qdot_status
-note(const qdot_tape *tape, const qdot_trajectory *tr, qdot_expr quantity, const char *name,
-     qdot_drifts *d)
+note(const qdot_tape *tape, const qdot_trajectory *tr, const qdot_stage *stage, qdot_expr quantity,
+     const char *name, qdot_drifts *d)
 {
     qdot_drift x = {.quantity = quantity};
 
-    QDOT_TRY(drift_follow_quantity(tape, tr, &x));
+    QDOT_TRY(drift_follow_quantity(tape, tr, stage, &x));
     if (!isfinite(x.start)) /* beyond a double, or undefined: there is nothing to follow */
         return QDOT_OK;
     if (!(x.name = qdot_strdup(name)))
@@ -148,7 +164,7 @@ lower(const qdot_plan *p, qdot_expr quantity, qdot_tape **tape)
 /* absent [n]: coordinates that the conserved energy does not seem to depend on; only these can be
  * cyclic. */
 static qdot_status
-measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
+measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, const qdot_stage *stage,
                qdot_drifts *d, bool *absent)
 {
     bool conserved = false;
@@ -166,7 +182,7 @@ measure_energy(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
     tape = p->M ? made : p->residual->energy;
     if (status != QDOT_OK || h == QDOT_NIL)
         return qdot_grave(status);
-    status = note(tape, tr, h, "energy", d);
+    status = note(tape, tr, stage, h, "energy", d);
     d->energy = d->n == 1;
     if (status == QDOT_OK && p->M)
         status = qdot_absent_find(tape, p->n, absent);
@@ -192,8 +208,8 @@ momentum_is_kept(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr coordi
 
 /* The momentum of coordinate i, if it should stay. */
 static qdot_status
-measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, size_t i,
-                 qdot_drifts *d)
+measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr, const qdot_stage *stage,
+                 size_t i, qdot_drifts *d)
 {
     qdot_cyclic cyclic;
     qdot_expr symbol;
@@ -212,7 +228,7 @@ measure_momentum(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *t
         return QDOT_ENOMEM;
     status = qdot_grave(lower(p, cyclic.momentum, &tape));
     if (tape)
-        status = note(tape, tr, cyclic.momentum, name, d);
+        status = note(tape, tr, stage, cyclic.momentum, name, d);
     qdot_tape_free(tape);
     qdot_free(name);
     if (status == QDOT_OK && d->n > 0 && momentum_is_kept(p, tr, cyclic.coordinate)
@@ -234,7 +250,7 @@ measure_terms(const qdot_plan *p, const qdot_trajectory *tr, qdot_expr quantity,
 
     *most = 0;
     if (status == QDOT_OK && tape)
-        status = drift_follow_quantity(tape, tr, &of);
+        status = drift_follow_quantity(tape, tr, NULL, &of);
     if (tape)
         *most = fabs(of.start) + of.drift * fmax(1, fabs(of.start));
     qdot_tape_free(tape);
@@ -321,7 +337,7 @@ make_relative(const qdot_plan *p, const qdot_trajectory *tr, qdot_drifts *d)
 
 qdot_status
 qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory *tr,
-                    bool scaled, qdot_drifts *d)
+                    const qdot_stage *stage, qdot_drifts *d)
 {
     bool *asked = qdot_malloc((p->n + 1) * sizeof *asked); /* it may be cyclic */
     qdot_status status = asked ? QDOT_OK : QDOT_ENOMEM;
@@ -332,11 +348,11 @@ qdot_drifts_measure(qdot_scene *scene, const qdot_plan *p, const qdot_trajectory
     for (size_t i = 0; i < p->n && asked; i++)
         asked[i] = true;
     if (status == QDOT_OK)
-        status = measure_energy(scene, p, tr, d, asked);
+        status = measure_energy(scene, p, tr, stage, d, asked);
     for (size_t i = 0; i < scene->coordinates.n && status == QDOT_OK; i++)
         if (asked[i])
-            status = measure_momentum(scene, p, tr, i, d);
-    if (status == QDOT_OK && scaled)
+            status = measure_momentum(scene, p, tr, stage, i, d);
+    if (status == QDOT_OK && stage && stage->scales)
         status = make_relative(p, tr, d);
     qdot_free(asked);
     return qdot_grave(status);

@@ -5,6 +5,7 @@
 
 #include "ode/trajectory.h"
 #include "sim/course/report.h"
+#include "sim/course/stage.h"
 #include "sim/model/equations.h"
 
 /* Start from {0}. */
@@ -15,10 +16,11 @@ typedef struct {
 } qdot_drifts;
 
 /* Measure every known conserved quantity at all points of the run. A quantity that cannot be
- * evaluated is left out. `scaled`: the scene is not about 1, and a drift of a quantity below 1 is
- * relative to the largest sum of the sizes of its terms. Errors: QDOT_ENOMEM, QDOT_EINTR. */
+ * evaluated is left out. stage: of the run; NULL: it has one mode and the scales 1. What a contact with a place that moves
+ * changes is no drift. Where there are scales a drift of a quantity below 1 is relative to the largest sum of the sizes of
+ * its terms. Errors: QDOT_ENOMEM, QDOT_EINTR. */
 QDOT_MUST_CHECK qdot_status qdot_drifts_measure(qdot_scene *scene, const qdot_plan *plan,
-                                                const qdot_trajectory *tr, bool scaled,
+                                                const qdot_trajectory *tr, const qdot_stage *stage,
                                                 qdot_drifts *drifts);
 void qdot_drifts_clear(qdot_drifts *drifts);
 

@@ -16,6 +16,8 @@ static const double roundings = 32;
 static const double trial = 1e-3;
 /* A contact may begin where the bounces to come are no higher than this part of the place: its rounding hides them. */
 static const double least_height = DBL_EPSILON / 8;
+/* The same of a place that moves with time: where it is at a root, rounding of that hides. */
+static const double least_moving = 0x1p10 * DBL_EPSILON;
 /* The same for methods without series, from which a state within a step is known only to that part of its size. The
  * search of a step tells heights above a sixth of that from rounding. */
 static const double least_in_doubles = 0x1p16 * DBL_EPSILON;
@@ -259,7 +261,7 @@ lowest(const qdot_piece *x, size_t surface)
     for (size_t i = 0; i < x->repeats.n && own && own->ratio < 1; i++)
         if (x->repeats.at[i].kind == QDOT_WATCH_SURFACE && fabs(own->last - x->repeats.at[i].last) < own->interval)
             return apart / (1 - own->ratio);
-    return least_height;
+    return qdot_contacts_moves(&x->c->stage->switches, surface) ? least_moving : least_height;
 }
 
 /* The height of the highest bounces that the run, which this companion accompanies, has left out there. */
@@ -269,7 +271,7 @@ skipped_in_run(const qdot_piece *x, size_t surface)
     double most = 0;
 
     for (size_t k = 0; k < x->c->leader->chatters.n; k++)
-        if (x->c->leader->chatters.at[k].surface == surface)
+        if (x->c->leader->chatters.at[k].surface == surface && !x->c->leader->chatters.at[k].steady)
             most = fmax(most, x->c->leader->chatters.at[k].place);
     return most;
 }
@@ -302,27 +304,60 @@ may_rest(const qdot_piece *x, size_t surface, double left, const skipped *s)
            && height(s) <= (by_points ? least_told(x, s) : led * skipped_in_run(x, surface));
 }
 
+static qdot_status
+note_error(qdot_piece *x, qdot_course_chatter chatter, const skipped *s)
+{
+    chatter.along = qdot_malloc((x->n + 1) * sizeof *chatter.along);
+    if (!chatter.along)
+        return QDOT_ENOMEM;
+    memcpy(chatter.along, s->along, x->n * sizeof *s->along);
+    if (qdot_vec_push(&x->c->chatters, chatter) == QDOT_OK)
+        return QDOT_OK;
+    qdot_free(chatter.along);
+    return QDOT_ENOMEM;
+}
+
+/* What rests on a place that moves is where that is at a rounding of t before or later, in all companions alike; this
+ * counts as an error until the run ends, for it goes on when the contact is left. */
+static qdot_status
+note_rounding(qdot_piece *x, size_t surface, const skipped *s)
+{
+    const size_t n = x->n / 2;
+    const double by = DBL_EPSILON * fmax(fabs(x->start.t), fabs(x->t1));
+    double *rates = qdot_malloc((x->n + 1) * sizeof *rates), speed = 0, pull = fabs(s->pull);
+    qdot_status status = rates ? qdot_piece_rates(x, x->mode, rates) : QDOT_ENOMEM;
+
+    for (size_t k = 0; k < x->c->chatters.n; k++)
+        if (x->c->chatters.at[k].surface == surface && x->c->chatters.at[k].steady) {
+            qdot_free(rates);
+            return status;
+        }
+    for (size_t i = 0; i < n && status == QDOT_OK; i++) {
+        speed += fabs(s->along[n + i]) * x->largest[n + i];
+        pull += fabs(s->along[n + i] * rates[n + i]);
+    }
+    qdot_free(rates);
+    QDOT_TRY(status);
+    return note_error(x,
+                      (qdot_course_chatter){.surface = surface, .t = x->start.t, .end = x->t1,
+                                            .place = by * (speed + pull), .speed = by * pull,
+                                            .mode = {x->mode, x->mode, x->mode}, .ended = true, .steady = true},
+                      s);
+}
+
 /* The bounces left out count as an error of the motion until they would have ended. */
 static qdot_status
 note_skipped(qdot_piece *x, size_t surface, const skipped *s)
 {
-    const size_t n = x->n / 2;
     qdot_course_chatter chatter = {.surface = surface, .t = x->start.t, .place = height(s),
                                    .speed = fabs(s->off[1]),
                                    .unsure = s->off[1] != 0 ? fabs(s->off[0] / s->off[1]) : 0,
                                    .mode = {x->mode, x->mode, x->mode}, .ended = true};
 
+    if (qdot_contacts_moves(&x->c->stage->switches, surface) && isfinite(s->pull))
+        QDOT_TRY(note_rounding(x, surface, s));
     chatter.end = x->start.t + x->direction * fmin(duration(s), fabs(x->t1 - x->start.t));
-    if (chatter.end == chatter.t)
-        return QDOT_OK;
-    chatter.along = qdot_malloc((2 * n + 1) * sizeof *chatter.along);
-    if (!chatter.along)
-        return QDOT_ENOMEM;
-    memcpy(chatter.along, s->along, 2 * n * sizeof *s->along);
-    if (qdot_vec_push(&x->c->chatters, chatter) == QDOT_OK)
-        return QDOT_OK;
-    qdot_free(chatter.along);
-    return QDOT_ENOMEM;
+    return chatter.end == chatter.t ? QDOT_OK : note_error(x, chatter, s);
 }
 
 qdot_status

@@ -216,7 +216,7 @@ qdot_digits_carry_out(qdot_run *run, qdot_scene *scene, const qdot_run_request *
         status = how_it_ended(run, domains);
     if (status == QDOT_OK && !*interrupted)
         status =
-            qdot_drifts_measure(scene, run->plan, &run->course.tr, false, &run->drifts);
+            qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_precise_pair_drifts(run->precise, &run->drifts);
     if (status == QDOT_OK && run->plan->constraints)

@@ -3,15 +3,25 @@
 
 #include <stdio.h>
 
+#include "expr/calculus.h"
 #include "sim/model/substitute.h"
 
-/* Whether an event sets velocities, and perhaps coordinates, only, and is a place at rest: u of q. One that moves does
- * work, of which the drift of the energy does not know. */
+/* Whether u moves with time and its speed jumps: there the motion would meet the event anew. */
+static qdot_status
+find_jerk(qdot_pool *pool, qdot_expr u, bool *jerks)
+{
+    *jerks = false;
+    if (!(qdot_expr_node(pool, u)->holds & QDOT_HAS_TIME))
+        return QDOT_OK;
+    QDOT_TRY(qdot_jumps(pool, u, QDOT_HAS_TIME, jerks));
+    return *jerks ? QDOT_OK : qdot_jumps(pool, qdot_diff(pool, u, QDOT_T), UINT32_MAX, jerks);
+}
+
+/* Whether an event sets velocities, and perhaps coordinates, only, and is a place: u of q and t. */
 static bool
 may_last(const qdot_scene *scene, const qdot_event *event, qdot_expr u)
 {
-    const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER
-                            | QDOT_HAS_TIME;
+    const uint32_t others = QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER;
     bool changes = false; /* not by x' = x' */
 
     if (event->stop || event->targets.n == 0
@@ -48,9 +58,13 @@ qdot_contacts_find(const qdot_scene *scene, const qdot_run_request *r, qdot_swit
         const qdot_expr u = qdot_substitute(
             s->pool, qdot_sub(s->pool, event->left, event->right), r->n_values, r->symbols,
             r->values);
+        bool jerks;
 
         QDOT_TRY(qdot_pool_check(s->pool));
         if (!may_last(scene, event, u))
+            continue;
+        QDOT_TRY(find_jerk(s->pool, u, &jerks));
+        if (jerks)
             continue;
         for (int way = -1; way <= 1; way += 2)
             if (event->way == 0 || event->way == way)
@@ -66,4 +80,10 @@ qdot_contacts_surface(const qdot_switches *s, size_t event, int way)
         if (s->surfaces.at[i].event == event && s->surfaces.at[i].reaction == -way)
             return i;
     return SIZE_MAX;
+}
+
+bool
+qdot_contacts_moves(const qdot_switches *s, size_t surface)
+{
+    return (qdot_expr_node(s->pool, s->surfaces.at[surface].u)->holds & QDOT_HAS_TIME) != 0;
 }

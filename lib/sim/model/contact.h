@@ -9,9 +9,10 @@
  *
  * It is what the event means only if `then` is an impact on a smooth wall: it sets velocities, and coordinates to
  * what they are there (y = 0, y' = -e*y'), but nothing else, by a change along M^-1 du/dq that turns du/dt about, to at most its size, and leaves a motion with du/dt
- * = 0 as it is; and u is of q alone. Anything else ends the run as before.
+ * = 0 as it is; and u is of q and t. On a place that moves the motion rests beside it, u = u' = 0, and leaves it where
+ * that falls away faster than the motion would; its speed may not jump. Anything else ends the run as before.
  *
- * Tests  tests/script/resting.lag
+ * Tests  tests/script/resting.lag, moving-floors.lag
  */
 #ifndef QDOT_SIM_CONTACT_H
 #define QDOT_SIM_CONTACT_H
@@ -25,5 +26,7 @@ QDOT_MUST_CHECK qdot_status qdot_contacts_find(const qdot_scene *scene, const qd
 
 /* The surface of an event whose contact keeps du/dt from the sign `way`; SIZE_MAX: none. */
 size_t qdot_contacts_surface(const qdot_switches *switches, size_t event, int way);
+/* Whether that place moves with time: it does work on what rests there. */
+bool qdot_contacts_moves(const qdot_switches *switches, size_t surface);
 
 #endif

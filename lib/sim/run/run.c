@@ -467,8 +467,7 @@ carry_out(qdot_run *run, qdot_scene *scene, double tol, bool *interrupted)
     if (status == QDOT_OK && !*interrupted && !run->hidden)
         status = qdot_horizon_find(run);
     if (status == QDOT_OK && !*interrupted && !run->no_drifts)
-        status = qdot_drifts_measure(scene, run->plan, &run->course.tr,
-                                     run->stage.scales != NULL, &run->drifts);
+        status = qdot_drifts_measure(scene, run->plan, &run->course.tr, &run->stage, &run->drifts);
     if (status == QDOT_OK && !*interrupted)
         status = qdot_run_doubt_energy(run, tol);
     if (status == QDOT_EINTR && run->course.tr.count > 0) { /* there is something to tell of */
