@@ -457,7 +457,7 @@ qdot_animation_gif(const qdot_animation *a, const char *path)
         status = qdot_interrupt_check();
     }
     if (status == QDOT_OK)
-        status = qdot_gnuplot_run(&script, &image);
+        status = qdot_gnuplot_run(&script, ";", &image);
     if (status == QDOT_OK)
         status = qdot_sink_write(path, image.at, image.n);
     qdot_text_clear(&script);

@@ -14,12 +14,12 @@
 /* A terminal is chosen at gnuplot's side, because which ones it has differs. */
 static const qdot_figure_kind kinds[] = {
     {".svg", 96 / 2.54, 1.2, 96. / 72, 1.6,
-     "set terminal svg enhanced background '#ffffff'", ""},
+     "set terminal svg enhanced background '#ffffff'", "", "</svg>"},
     {".png", 200 / 2.54, 2.6, 200. / 96, 1.4,
      "png = strstrt(GPVAL_TERMINALS, 'pngcairo') > 0 ? 'pngcairo' : 'png'\n"
      "set terminal @png enhanced",
-     ""},
-    {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm"},
+     "", "IEND\xae\x42\x60\x82"},
+    {".pdf", 1, 1.5, 0.75, 1.4, "set terminal pdfcairo enhanced fontscale 1", "cm", "%%EOF"},
 };
 
 static const char window_terminal[] = "if (strstrt(GPVAL_TERMINALS, 'qt') > 0) {\n"
@@ -191,7 +191,7 @@ qdot_figure_write(const qdot_figure *figure, const char *path)
     add_terminal(&d);
     status = qdot_figure_add_script(&d);
     if (status == QDOT_OK)
-        status = qdot_gnuplot_run(&script, path != NULL ? &image : NULL);
+        status = path != NULL ? qdot_gnuplot_run(&script, d.kind->end, &image) : qdot_gnuplot_run(&script, NULL, NULL);
     if (status == QDOT_OK && path != NULL)
         status = qdot_sink_write(path, image.at, image.n);
     if (status == QDOT_OK && path != NULL && figure->keep)

@@ -97,6 +97,7 @@ typedef struct {
     double point; /* its unit of letters in a point */
     double lead;  /* height of a line of text in that of its letters */
     const char *before, *behind; /* the terminal; behind a length */
+    const char *end;             /* what a whole image ends with, but for blanks */
 } qdot_figure_kind;
 
 /* What a figure is drawn with. */

@@ -221,8 +221,21 @@ complain(int said, int ended)
     return status;
 }
 
+/* A gnuplot that is ended from outside, behind a wrapper that does not say so, leaves a part of an image. */
+static qdot_status
+check_whole(const char *image, size_t n, const char *end)
+{
+    const size_t length = strlen(end), all = n;
+
+    while (n > 0 && strchr(" \t\r\n", image[n - 1]) != NULL)
+        n--;
+    if (n >= length && memcmp(image + n - length, end, length) == 0)
+        return QDOT_OK;
+    return qdot_fail(QDOT_EIO, "gnuplot stopped within the image, after %zu bytes", all);
+}
+
 qdot_status
-qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
+qdot_gnuplot_run(const qdot_text *script, const char *end, qdot_text *image)
 {
     size_t before = image != NULL ? image->n : 0;
     plumbing p;
@@ -249,6 +262,8 @@ qdot_gnuplot_run(const qdot_text *script, qdot_text *image)
         status = qdot_interrupt_check();
     if (status == QDOT_OK && (ended != 0 || (image != NULL && image->n == before)))
         status = complain(p.fd[SAID], ended);
+    if (status == QDOT_OK && image != NULL)
+        status = check_whole(image->at + before, image->n - before, end);
     unplumb(&p);
     return status;
 }

@@ -4,14 +4,14 @@
 
 #include "base/text.h"
 
-/* Carry out `script`. image: what gnuplot writes to its standard output, appended;
- * NULL: nothing is wanted of it (a window, which stays when gnuplot is gone).
+/* Carry out `script`. image: what gnuplot writes to its standard output, appended, which ends with the bytes
+ * `end` but for blanks; NULL: nothing is wanted of it (a window, which stays when gnuplot is gone).
  *
  * The script is handed over in a nameless file and gnuplot's settings files are not
  * read, so neither a broken pipe nor a user's defaults can change a figure.
  *
- * Errors: QDOT_EIO where gnuplot is missing, fails (with the first thing it says) or
- * writes nothing; QDOT_EINTR; QDOT_ENOMEM. */
-QDOT_MUST_CHECK qdot_status qdot_gnuplot_run(const qdot_text *script, qdot_text *image);
+ * Errors: QDOT_EIO where gnuplot is missing, fails (with the first thing it says),
+ * writes nothing or a part of an image; QDOT_EINTR; QDOT_ENOMEM. */
+QDOT_MUST_CHECK qdot_status qdot_gnuplot_run(const qdot_text *script, const char *end, qdot_text *image);
 
 #endif

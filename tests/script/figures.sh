@@ -53,3 +53,16 @@ echo 'plot x vs x = 0..1' >named.lag
 for i in 1 2 3; do qdot -q named.lag; done
 qdot -q -e 'coord x; plot x vs x = 0..1; plot x^2 vs x = 0..1 keep'
 ls named* qdot-*
+# a gnuplot that stops within the image leaves no file, and the one that was there
+mkdir cut
+printf '#!/bin/sh\n%s "$@" | head -c 500\n' "$(command -v gnuplot)" >cut/gnuplot
+chmod +x cut/gnuplot
+for name in cut.png cut.svg cut.pdf cut.gif; do
+    echo old >$name
+    case $name in
+    *.gif) scene='coord x; particle p mass 1 at x; start x = 1; run 0..1; animate' ;;
+    *) scene='plot x vs x = 0..1' ;;
+    esac
+    PATH=$PWD/cut:$PATH qdot -q -e "$scene to \"$name\"" 2>&1 >/dev/null | grep -o 'gnuplot stopped.*'
+    cat $name
+done
