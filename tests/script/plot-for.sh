@@ -35,3 +35,8 @@ done
 qdot -q -e "$scene; run 0..1" -e '{ run 0..1; value(x, 1); max(x, 0..1) } for k = [1, 2]' | grep -v '^ '
 # along a run of the pass a coordinate that is held moves
 qdot -q -e "$scene" -e '{ run 0..3; table x, x'"'"' every 3; poincare x = 0 : x, x'"'"' } for x = [1, 3]' | grep -v '^  '
+# what is typed as the hint says works: its run is as long as the value needs
+hint=$(qdot -q -e "coord x; param k = 1; particle p mass 1 at x; potential k*x^2/2; start x = 1; run 0..1 tol 1e-9 as a
+value(x, 5) for k = [1, 4]" 2>&1 | sed -n 's/^ *hint: //p')
+echo "$hint"
+qdot -q -e "coord x; param k = 1; particle p mass 1 at x; potential k*x^2/2; start x = 1; $hint" | grep '^value'

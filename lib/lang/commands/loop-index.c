@@ -1,6 +1,7 @@
 /* loop-index.c -- where the index of a `for` occurs in what is repeated. */
 #include "lang/commands/loop-index.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "expr/walk.h"
@@ -137,12 +138,43 @@ behind_pair(const qdot_token *k)
     return k;
 }
 
-/* The limits and options of a run, those of `with` without a value of this name. */
+/* The latest time at which the tokens read the run, as in value(x, 5) and max(x, 0..5), if that is behind its end; else
+ * NULL. */
+static const qdot_token *
+later_time(const qdot_named_run *run, const qdot_token *from, const qdot_token *to)
+{
+    double last = qdot_run_get_report(run->run)->t1;
+    const qdot_token *found = NULL;
+
+    for (const qdot_token *k = from + 1; k + 1 < to && qdot_run_get_report(run->run)->t0 < last; k++) {
+        const bool is = k->kind == QDOT_TOKEN_NUMBER && qdot_token_is(k + 1, ")")
+                        && (qdot_token_is(k - 1, ",") || qdot_token_is(k - 1, ".."));
+
+        if (!is || strtod(k->text, NULL) <= last)
+            continue;
+        last = strtod(k->text, NULL);
+        found = k;
+    }
+    return found;
+}
+
+/* The limits and options of a run, those of `with` without a value of this name; `end`: the token that is its end, NULL:
+ * as it was. */
 static void
-add_run_without(qdot_session *s, const qdot_token *k, const char *name, qdot_text *out)
+add_run_without(qdot_session *s, const qdot_token *k, const char *name, const qdot_token *end, qdot_text *out)
 {
     const qdot_token *from = k;
 
+    while (end != NULL && !qdot_token_is(k, "..") && k->kind != QDOT_TOKEN_END)
+        k++;
+    if (end != NULL && qdot_token_is(k, "..")) {
+        qdot_text_char(out, ' ');
+        qdot_token_text(s, from, k + 1, out);
+        qdot_token_text(s, end, end + 1, out);
+        from = k = behind_pair(k);
+    } else {
+        k = from;
+    }
     while (k->kind != QDOT_TOKEN_END) {
         const char *before = " with ";
         const qdot_token *next = k + 1;
@@ -196,7 +228,8 @@ fail_unused(qdot_cursor *c, const qdot_token *k, const qdot_token *from, const q
         return status;
     }
     qdot_text_add(&text, "{ run");
-    add_run_without(s, run->tokens.at, k->text, &text); /* what its run had of it */
+    /* what its run had of it */
+    add_run_without(s, run->tokens.at, k->text, later_time(latest, from, to), &text);
     qdot_source_free(run);
     for (const qdot_token *first = from, *last; first < to; first = last + 1) {
         for (last = first; last < to && last->kind != QDOT_TOKEN_END;)
