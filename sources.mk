@@ -85,6 +85,7 @@ library_sources = \
 	lib/lang/declare/remove.c \
 	lib/lang/declare/scene-file.c \
 	lib/lang/declare/session-file.c \
+	lib/lang/declare/session-remarks.c \
 	lib/lang/figures/animate.c \
 	lib/lang/figures/animated-facts.c \
 	lib/lang/figures/animated.c \
@@ -786,6 +787,7 @@ library_headers = \
 	lib/lang/declare/export-scene.h \
 	lib/lang/declare/scene-file.h \
 	lib/lang/declare/session-file.h \
+	lib/lang/declare/session-remarks.h \
 	lib/lang/figures/animated.h \
 	lib/lang/figures/figure-file.h \
 	lib/lang/figures/figure-option.h \
@@ -1765,6 +1767,7 @@ script_tests = \
 	tests/script/scene-file.sh \
 	tests/script/sensitivity.sh \
 	tests/script/series-removable.lag \
+	tests/script/session-again.sh \
 	tests/script/session-file.sh \
 	tests/script/several-ranges.lag \
 	tests/script/several.sh \
@@ -3010,6 +3013,7 @@ test_files = \
 	tests/script/scene-file.out \
 	tests/script/sensitivity.out \
 	tests/script/series-removable.out \
+	tests/script/session-again.out \
 	tests/script/session-file.out \
 	tests/script/several-ranges.out \
 	tests/script/several.out \

@@ -7,13 +7,12 @@
 
 #include "lang/answer/answer.h"
 #include "lang/declare/session-file.h"
+#include "lang/declare/session-remarks.h"
 #include "lang/language/function.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/measured.h"
 #include "lang/source/source.h"
-
-static const char header[] = "# a scene written by qdot\n";
 
 bool
 qdot_scene_file_is(const qdot_token *token)
@@ -136,7 +135,7 @@ put_first(qdot_session *s, const qdot_name *name, qdot_expr value, qdot_expr ove
 }
 
 static qdot_status
-put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
+put_definition(qdot_session *s, const qdot_name *name, qdot_text *lost, qdot_text *out)
 {
     const qdot_expr value = name->value;
     bool is = false;
@@ -148,13 +147,13 @@ put_definition(qdot_session *s, const qdot_name *name, qdot_text *out)
         QDOT_TRY(put_first(s, name, value, QDOT_NIL, out, &is));
     if (is)
         return QDOT_OK;
-    qdot_text_format(out, "# %s: no statement gives this value\n", name->name);
+    qdot_text_format(lost, "# %s: no statement gives this value\n", name->name);
     return qdot_answer_notice(s, "`%.200s` is not written: no statement gives its value again",
                               name->name);
 }
 
 static qdot_status
-put_definitions(qdot_session *s, qdot_text *out)
+put_definitions(qdot_session *s, qdot_text *lost, qdot_text *out)
 {
     const qdot_name *name;
 
@@ -163,7 +162,7 @@ put_definitions(qdot_session *s, qdot_text *out)
             QDOT_TRY(qdot_function_print(s, name, out));
             qdot_text_char(out, '\n');
         } else if (name->kind == QDOT_NAME_VALUE) {
-            QDOT_TRY(put_definition(s, name, out));
+            QDOT_TRY(put_definition(s, name, lost, out));
         }
     }
     return QDOT_OK;
@@ -171,17 +170,45 @@ put_definitions(qdot_session *s, qdot_text *out)
 
 /* --- values --------------------------------------------------------------------------- */
 
+/* One line; `last` ends it. */
+static qdot_status
+put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, const char *last, bool remarks,
+          qdot_text *out)
+{
+    const size_t from = out->n;
+
+    QDOT_TRY(put(s, word, symbol, out));
+    QDOT_TRY(put(s, " = ", value, out));
+    qdot_text_add(out, last);
+    if (remarks)
+        qdot_session_remarks_end_line(s, value, s->runs.n, from, out);
+    else
+        qdot_text_char(out, '\n');
+    return QDOT_OK;
+}
+
 static qdot_status
 put_values(qdot_session *s, const char *word, size_t n, const qdot_expr *symbols,
-           const qdot_expr *values, const char *last, bool remarks, qdot_text *out)
+           const qdot_expr *values, bool remarks, qdot_text *out)
 {
-    for (size_t i = 0; i < n; i++) {
-        QDOT_TRY(put(s, word, symbols[i], out));
-        QDOT_TRY(put(s, " = ", values[i], out));
-        qdot_text_add(out, i + 1 == n ? last : "");
-        if (remarks)
-            qdot_session_file_remark(s, values[i], out);
-        qdot_text_char(out, '\n');
+    for (size_t i = 0; i < n; i++)
+        QDOT_TRY(put_value(s, word, symbols[i], values[i], "", remarks, out));
+    return QDOT_OK;
+}
+
+/* In the order of the coordinates, not that in which it was said: `start RUN` says it in another one. */
+static qdot_status
+put_start(qdot_session *s, bool remarks, qdot_text *out)
+{
+    size_t left = s->start_symbols.n;
+
+    for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
+        const qdot_expr jet = qdot_symbol_jet(s->pool, s->scene->coordinates.at[i / 2], i % 2);
+
+        for (size_t k = 0; k < s->start_symbols.n; k++)
+            if (s->start_symbols.at[k] == jet)
+                QDOT_TRY(put_value(s, "start ", jet, s->start_values.at[k],
+                                   --left == 0 && s->start_exactly ? " exactly" : "", remarks, out));
     }
     return QDOT_OK;
 }
@@ -203,46 +230,52 @@ put_settings(const qdot_session *s, qdot_text *out)
 
 /* --- the file ------------------------------------------------------------------------- */
 
+static qdot_status
+put_all(qdot_session *s, bool session, qdot_text *lost, qdot_text *out)
+{
+    qdot_text_add(out, qdot_session_file_header);
+    QDOT_TRY(put_symbols(s, out));
+    QDOT_TRY(qdot_scene_print_things(s->scene, out));
+    QDOT_TRY(put_definitions(s, lost, out));
+    QDOT_TRY(put_values(s, "set ", s->set_symbols.n, s->set_symbols.at, s->set_values.at, session, out));
+    QDOT_TRY(put_start(s, session, out));
+    QDOT_TRY(put_values(s, "scale ", s->scale_symbols.n, s->scale_symbols.at, s->scale_values.at, session, out));
+    if (session)
+        put_settings(s, out);
+    return qdot_session_file_runs(s, session, lost, out);
+}
+
 qdot_status
 qdot_scene_file_text(qdot_session *s, qdot_scene_file what, qdot_text *out)
 {
-    const bool session = what == QDOT_FILE_SESSION;
+    qdot_text lost = {0};
+    qdot_status status = put_all(s, what == QDOT_FILE_SESSION, &lost, out);
 
-    qdot_text_add(out, header);
-    QDOT_TRY(put_symbols(s, out));
-    QDOT_TRY(qdot_scene_print_things(s->scene, out));
-    QDOT_TRY(put_definitions(s, out));
-    QDOT_TRY(put_values(s, "set ", s->set_symbols.n, s->set_symbols.at, s->set_values.at,
-                        "", session, out));
-    QDOT_TRY(put_values(s, "start ", s->start_symbols.n, s->start_symbols.at,
-                        s->start_values.at,
-                        s->start_exactly ? " exactly" : "", session, out));
-    QDOT_TRY(put_values(s, "scale ", s->scale_symbols.n, s->scale_symbols.at,
-                        s->scale_values.at, "", session, out));
-    if (session)
-        put_settings(s, out);
-    QDOT_TRY(qdot_session_file_runs(s, session, out));
-    return qdot_text_status(out);
+    if (status == QDOT_OK)
+        qdot_session_remarks_lost(s, &lost, out);
+    qdot_text_clear(&lost);
+    return status == QDOT_OK ? qdot_text_status(out) : status;
 }
 
 /* Refuse to overwrite a regular file that does not begin as these files do. */
 static qdot_status
 may_overwrite(const char *path)
 {
-    char begin[sizeof header] = "";
+    const size_t length = strlen(qdot_session_file_header);
+    char begin[64] = "";
     struct stat info;
     FILE *file;
     size_t n;
 
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || (file = fopen(path, "rbe")) == NULL)
         return QDOT_OK; /* writing tells why it cannot be */
-    n = fread(begin, 1, sizeof header - 1, file);
+    n = fread(begin, 1, length < sizeof begin ? length : sizeof begin - 1, file);
     fclose(file);
-    if (n == 0 || strcmp(begin, header) == 0)
+    if (n == 0 || strcmp(begin, qdot_session_file_header) == 0)
         return QDOT_OK;
     (void)qdot_fail(QDOT_EINVAL, "`%.200s` is there and was not written by `scene to`", path);
-    return qdot_hint("another name; only files that begin with `%.*s` are overwritten",
-                     (int)sizeof header - 2, header);
+    return qdot_hint("another name; only files that begin with `%.*s` are overwritten", (int)length - 1,
+                     qdot_session_file_header);
 }
 
 qdot_status

@@ -5,6 +5,7 @@
 
 #include "lang/answer/answer.h"
 #include "lang/answer/number-text.h"
+#include "lang/declare/session-remarks.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
@@ -13,10 +14,11 @@
 /* The start as the lines written so far leave it. */
 typedef struct {
     qdot_session *s;
-    qdot_text *out;
+    qdot_text *out, *lost;
     qdot_vec(qdot_expr) symbols, values;
     bool exactly;
     bool runs; /* they are written */
+    size_t all; /* how many there are, with those of an earlier scene, which stand behind the others */
 } writer;
 
 static qdot_status
@@ -77,14 +79,23 @@ qdot_session_file_remark(const qdot_session *s, qdot_expr value, qdot_text *out)
 
 /* --- the start of a run ------------------------------------------------------------------ */
 
-/* What the written start says of q or q'; nil: nothing. */
+/* What the written start says of q or q'; nil: nothing, or the end of a run without its error. */
 static qdot_expr
 said(const writer *w, qdot_expr jet)
 {
     for (size_t i = 0; i < w->symbols.n; i++)
-        if (w->symbols.at[i] == jet)
+        if (w->symbols.at[i] == jet && w->values.at[i] != QDOT_NIL)
             return qdot_session_bind(w->s, w->values.at[i]);
     return QDOT_NIL;
+}
+
+static bool
+is_written(const writer *w, qdot_expr jet)
+{
+    for (size_t i = 0; i < w->symbols.n; i++)
+        if (w->symbols.at[i] == jet)
+            return true;
+    return false;
 }
 
 /* How a run's start compares with what is written. */
@@ -103,7 +114,7 @@ compare(const writer *w, const qdot_conditions *c)
             const bool named = order == 0 ? c->q_named.at[i] : c->v_named.at[i];
             const qdot_expr there = said(w, jet);
 
-            if (named != (there != QDOT_NIL))
+            if (named != is_written(w, jet) || (named && there == QDOT_NIL))
                 return NAMES;
             if (named && there != value && d == SAME)
                 d = VALUES;
@@ -128,41 +139,60 @@ keep_start(writer *w, const qdot_conditions *c)
     return QDOT_OK;
 }
 
-/* Whether the conditions begin where run k ended, all of it. */
+/* Whether the conditions begin where run k ended: all of it; or, of a start that is wholly said, some numbers that nobody
+ * types, which carry the error of that end; `anew`: only what is not written yet counts. */
 static bool
-goes_on(const writer *w, const qdot_conditions *c, size_t k)
+goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
 {
-    const qdot_run_report *report = qdot_run_get_report(w->s->runs.at[k].run);
+    qdot_session *s = w->s;
+    const qdot_run_report *report = qdot_run_get_report(s->runs.at[k].run);
+    bool all = true, some = false;
 
     if (report->n - report->n_states != c->q0.n || report->exact != NULL)
         return false;
-    for (size_t i = 0; i < c->q0.n; i++)
-        if (!c->q_named.at[i] || !c->v_named.at[i] ||
-            report->coordinates[i] != w->s->scene->coordinates.at[i] ||
-            c->q0.at[i] != qdot_expr_of_double(w->s->pool, report->q[i]) ||
-            c->v0.at[i] != qdot_expr_of_double(w->s->pool, report->v[i]))
+    for (size_t i = 0; i < 2 * c->q0.n; i++) {
+        const qdot_expr q = s->scene->coordinates.at[i / 2];
+        const qdot_expr value = i % 2 == 0 ? c->q0.at[i / 2] : c->v0.at[i / 2];
+        const bool alike =
+            value == qdot_expr_of_double(s->pool, (i % 2 == 0 ? report->q : report->v)[i / 2]);
+
+        if (!c->q_named.at[i / 2] || !c->v_named.at[i / 2] || report->coordinates[i / 2] != q)
             return false;
-    return true;
+        all = all && alike;
+        some = some || (alike && qdot_session_file_is_long(s, value)
+                        && !(anew && said(w, qdot_symbol_jet(s->pool, q, i % 2)) == value));
+    }
+    return all || some;
 }
 
 /* Statements that make the start of the conditions, before a run, of which `before` are written. */
 static qdot_status
 put_start(writer *w, const qdot_conditions *c, size_t before)
 {
-    for (size_t k = before; k-- > 0;)
-        if (goes_on(w, c, k)) {
-            qdot_text_format(w->out, "start %s%s\n", w->s->runs.at[k].name,
-                             c->exactly ? " exactly" : "");
-            return keep_start(w, c);
+    const qdot_run_report *end = NULL;
+    size_t last = SIZE_MAX;
+
+    for (size_t k = before; k-- > 0 && !end;)
+        if (goes_on(w, c, k, false)) {
+            end = qdot_run_get_report(w->s->runs.at[k].run);
+            qdot_text_format(w->out, "start %s", w->s->runs.at[k].name);
         }
     QDOT_TRY(keep_start(w, c));
-    qdot_text_add(w->out, "reset start\n");
+    if (!end)
+        qdot_text_add(w->out, "reset start");
+    for (size_t i = 0; i < w->symbols.n; i++)
+        if (!end || w->values.at[i] != qdot_expr_of_double(w->s->pool, (i % 2 == 0 ? end->q : end->v)[i / 2]))
+            last = i;
+    qdot_text_add(w->out, end && w->exactly && last == SIZE_MAX ? " exactly\n" : "\n");
     for (size_t i = 0; i < w->symbols.n; i++) {
+        const size_t from = w->out->n;
+
+        if (end && w->values.at[i] == qdot_expr_of_double(w->s->pool, (i % 2 == 0 ? end->q : end->v)[i / 2]))
+            continue;
         QDOT_TRY(put(w->s, "start ", w->symbols.at[i], w->out));
         QDOT_TRY(put(w->s, " = ", w->values.at[i], w->out));
-        qdot_text_add(w->out, w->exactly && i + 1 == w->symbols.n ? " exactly" : "");
-        qdot_session_file_remark(w->s, w->values.at[i], w->out);
-        qdot_text_char(w->out, '\n');
+        qdot_text_add(w->out, w->exactly && i == last ? " exactly" : "");
+        qdot_session_remarks_end_line(w->s, w->values.at[i], w->all, from, w->out);
     }
     return QDOT_OK;
 }
@@ -269,7 +299,7 @@ put_run(writer *w, size_t k)
         QDOT_TRY(put_start(w, c, k));
     else if (start == VALUES)
         for (size_t i = k; i-- > 0;)
-            if (goes_on(w, c, i)) {
+            if (goes_on(w, c, i, true)) {
                 QDOT_TRY(put_start(w, c, k));
                 start = SAME;
                 break;
@@ -342,7 +372,7 @@ static qdot_status
 put_lost(writer *w, const qdot_name *name)
 {
     qdot_session *s = w->s;
-    qdot_text *out = w->out;
+    qdot_text *out = w->lost;
     double value, error;
 
     if (!w->runs)
@@ -425,9 +455,8 @@ put_names(writer *w, const placements *list, size_t behind)
 
 /* --- all of them -------------------------------------------------------------------------- */
 
-/* The present start as conditions, to be written behind the runs. */
-static qdot_status
-present_start(const qdot_session *s, qdot_conditions *c)
+qdot_status
+qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c)
 {
     c->exactly = s->start_exactly;
     for (size_t i = 0; i < 2 * s->scene->coordinates.n; i++) {
@@ -451,15 +480,32 @@ present_start(const qdot_session *s, qdot_conditions *c)
     return QDOT_OK;
 }
 
+/* The file's own lines say the end of a run without its error: a run that began there with it is not said yet. */
+static void
+forget_ends(writer *w)
+{
+    for (size_t i = 0; i < w->values.n; i++)
+        for (size_t k = 0; k < w->s->runs.n && w->values.at[i] != QDOT_NIL
+                           && qdot_session_file_is_long(w->s, w->values.at[i]); k++) {
+            const qdot_run_report *report = qdot_run_get_report(w->s->runs.at[k].run);
+
+            for (size_t j = 0; j < report->n && w->values.at[i] != QDOT_NIL; j++)
+                if (w->values.at[i] == qdot_expr_of_double(w->s->pool, report->q[j])
+                    || w->values.at[i] == qdot_expr_of_double(w->s->pool, report->v[j]))
+                    w->values.at[i] = QDOT_NIL;
+        }
+}
+
 static qdot_status
 put_all(writer *w, const placements *list)
 {
     qdot_session *s = w->s;
     qdot_conditions start = {0};
-    qdot_status status = present_start(s, &start);
+    qdot_status status = qdot_session_file_present_start(s, &start);
 
     if (status == QDOT_OK)
         status = keep_start(w, &start);
+    forget_ends(w);
     for (size_t k = 0; k < s->runs.n && status == QDOT_OK; k++) {
         status = put_run(w, k);
         if (status == QDOT_OK)
@@ -490,21 +536,21 @@ sort_out(qdot_session *s, const qdot_named_run *all)
 
 /* Runs that cannot be made again, as comments. */
 static qdot_status
-put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *lost, qdot_text *out)
+put_lost_runs(qdot_session *s, size_t n, const qdot_named_run *runs, qdot_text *lost)
 {
     for (size_t k = 0; k < n; k++) {
-        qdot_text_format(out, "# run %s as %s: of an earlier scene\n", lost[k].text, lost[k].name);
+        qdot_text_format(lost, "# run %s as %s: of an earlier scene\n", runs[k].text, runs[k].name);
         QDOT_TRY(qdot_answer_notice(
-            s, "the run `%.100s` is not written: it was made of an earlier scene", lost[k].name));
+            s, "the run `%.100s` is not written: it was made of an earlier scene", runs[k].name));
     }
     return QDOT_OK;
 }
 
 /* The same with the runs at hand alone. */
 static qdot_status
-put_runs_and_names(qdot_session *s, bool runs, qdot_text *out)
+put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot_text *out)
 {
-    writer w = {.s = s, .out = out, .runs = runs};
+    writer w = {.s = s, .out = out, .lost = lost, .runs = runs, .all = all};
     placements list = {0};
     qdot_status status = place_names(s, runs, &list);
 
@@ -519,7 +565,7 @@ put_runs_and_names(qdot_session *s, bool runs, qdot_text *out)
 }
 
 qdot_status
-qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *out)
+qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out)
 {
     const size_t n = s->runs.n;
     qdot_named_run *all = qdot_malloc((n + 1) * sizeof *all);
@@ -530,9 +576,9 @@ qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *out)
     if (n > 0)
         memcpy(all, s->runs.at, n * sizeof *all);
     s->runs.n = sort_out(s, all);
-    status = put_runs_and_names(s, runs, out);
+    status = put_runs_and_names(s, runs, n, lost, out);
     if (status == QDOT_OK && runs)
-        status = put_lost_runs(s, n - s->runs.n, s->runs.at + s->runs.n, out);
+        status = put_lost_runs(s, n - s->runs.n, s->runs.at + s->runs.n, lost);
     s->runs.n = n;
     if (n > 0)
         memcpy(s->runs.at, all, n * sizeof *all);

@@ -14,10 +14,11 @@
 
 #include "lang/session/session.h"
 
-/* Append the runs, and names that hold their numbers. runs false: nothing, and a notice for each name. */
-QDOT_MUST_CHECK qdot_status qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *out);
+/* Append the runs, and names that hold their numbers, and to `lost` comments of what cannot be made again. runs false:
+ * nothing, and a notice for each name. */
+QDOT_MUST_CHECK qdot_status qdot_session_file_runs(qdot_session *s, bool runs, qdot_text *lost, qdot_text *out);
 
-/* Append a comment with its error where the value is a number that was read from a run. */
-void qdot_session_file_remark(const qdot_session *s, qdot_expr value, qdot_text *out);
+/* The present start as conditions: q0, v0, whether they are named, exactly. To be cleared in any case. */
+QDOT_MUST_CHECK qdot_status qdot_session_file_present_start(const qdot_session *s, qdot_conditions *c);
 
 #endif

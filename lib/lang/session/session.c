@@ -72,6 +72,9 @@ qdot_session_free(qdot_session *session)
     for (size_t i = 0; i < session->told.n; i++)
         qdot_free(session->told.at[i]);
     qdot_free(session->told.at);
+    for (size_t i = 0; i < session->remarks.n; i++)
+        qdot_free(session->remarks.at[i]);
+    qdot_free(session->remarks.at);
     for (size_t i = 0; i < session->including.n; i++)
         qdot_free(session->including.at[i]);
     qdot_free(session->including.at);

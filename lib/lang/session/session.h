@@ -120,6 +120,7 @@ typedef struct qdot_session {
     const char *taken;     /* short name of a value that it read (lang/functions/short-names);
                               NULL */
     qdot_vec(char *) told; /* notices that are given once */
+    qdot_vec(char *) remarks; /* lines with remarks of files of sessions that were read (lang/declare/session-remarks) */
     unsigned calls;        /* depth of nested function calls */
     bool placed;           /* the present error already names its place in a body */
     qdot_vec(qdot_held) held; /* by the loops under way, innermost last */

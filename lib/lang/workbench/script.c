@@ -18,6 +18,7 @@
 #include "lang/commands/loop-index.h"
 #include "lang/commands/loop.h"
 #include "lang/commands/statement-form.h"
+#include "lang/declare/session-remarks.h"
 #include "lang/files/redirect.h"
 #include "lang/functions/quantity.h"
 #include "lang/functions/short-names.h"
@@ -594,6 +595,8 @@ qdot_script_carry_out(qdot_session *session, const char *name, const char *text,
     size_t outer = qdot_undo_text_begin(session);
 
     (void)qdot_memory_ran_out(); /* before: whoever asked then has heard of it */
+    if (status == QDOT_OK)
+        status = qdot_session_remarks_keep(session, text, length);
     if (status == QDOT_OK) {
         x.tokens = x.source->tokens.at;
         x.n = x.source->tokens.n;

@@ -1,0 +1,32 @@
+/* session-remarks.h -- what stands as a comment in files of scenes and sessions.
+ *
+ *     start x = 0.54 # from the end of a, its error 3e-15        behind a number of a run
+ *     # B: a number of a run, 0.54 +- 3e-13                      what no statement gives again
+ *
+ * Where the run is gone in a session that has read such a file, the comment is all that is known: it is kept, and
+ * written again.
+ *
+ * Tests  tests/script/session-file.sh, session-again.sh
+ */
+#ifndef QDOT_LANG_SESSION_REMARKS_H
+#define QDOT_LANG_SESSION_REMARKS_H
+
+#include "lang/session/session.h"
+
+/* The first line of these files. */
+extern const char qdot_session_file_header[];
+
+/* Whether it is a number that nobody types: of more than twelve digits. */
+bool qdot_session_file_is_long(const qdot_session *s, qdot_expr value);
+
+/* Keep the lines with comments of a text that begins as these files do. */
+QDOT_MUST_CHECK qdot_status qdot_session_remarks_keep(qdot_session *s, const char *text, size_t length);
+
+/* End the line that begins at `from` of the text: with a comment that has the error of `value`, where that is a number that
+ * was read from a run, or the end of one of the first `runs`, or with the one that was kept of the same line. */
+void qdot_session_remarks_end_line(const qdot_session *s, qdot_expr value, size_t runs, size_t from, qdot_text *out);
+
+/* Append the lines kept that are comments as a whole, of names and runs that are still missing; then `more`. */
+void qdot_session_remarks_lost(const qdot_session *s, const qdot_text *more, qdot_text *out);
+
+#endif
