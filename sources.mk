@@ -1656,6 +1656,7 @@ script_tests = \
 	tests/script/include.lag \
 	tests/script/inner-times.sh \
 	tests/script/integrable.lag \
+	tests/script/interrupt-many.sh \
 	tests/script/json-run.sh \
 	tests/script/json.lag \
 	tests/script/jumps-on-switches.lag \
@@ -2900,6 +2901,7 @@ test_files = \
 	tests/script/inner-times.awk \
 	tests/script/inner-times.out \
 	tests/script/integrable.out \
+	tests/script/interrupt-many.out \
 	tests/script/json-run.out \
 	tests/script/json.out \
 	tests/script/jumps-on-switches.out \

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base/interrupt.h"
 #include "expr/tensor.h"
 #include "expr/walk.h"
 #include "lang/commands/set.h"
@@ -339,6 +340,7 @@ check_coordinates(qdot_cursor *c, const items *list)
         const qdot_name *old = qdot_names_find(c->session->names, x->name);
 
         c->error_at = x->start->start;
+        QDOT_TRY(qdot_interrupt_check());
         if (old != NULL)
             return qdot_fail(QDOT_ENAME, "`%s` was declared before, at %s:%u", x->name,
                              old->file, old->line);
