@@ -1,6 +1,7 @@
 /* columns.c -- what is asked of each run. */
 #include "lang/sweeps/columns.h"
 
+#include "expr/walk.h"
 #include "lang/language/read.h"
 #include "lang/language/token-text.h"
 #include "lang/session/bind.h"
@@ -66,6 +67,26 @@ qdot_columns_read(qdot_cursor *c, const qdot_columns *x, size_t i, qdot_expr *e)
     return status;
 }
 
+/* Whether events set a parameter that is in e, or that the value of one in it follows from. */
+static bool
+is_set_by_events(const qdot_session *session, qdot_expr e)
+{
+    const qdot_pool *pool = session->pool;
+
+    for (size_t i = 0; i < session->scene->events.n; i++)
+        for (size_t k = 0; k < session->scene->events.at[i].targets.n; k++) {
+            const qdot_expr target = session->scene->events.at[i].targets.at[k];
+            bool is = qdot_expr_contains(pool, e, target);
+
+            for (size_t j = 0; j < session->set_symbols.n && !is; j++)
+                is = qdot_expr_contains(pool, e, session->set_symbols.at[j])
+                     && qdot_expr_contains(pool, session->set_values.at[j], target);
+            if (is)
+                return true;
+        }
+    return false;
+}
+
 /* A number, or an expression at the end of the run. */
 static qdot_status
 column_measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value, double *error)
@@ -76,7 +97,7 @@ column_measure(qdot_session *session, qdot_expr e, qdot_expr end, double *value,
 
     e = qdot_momenta_to_velocities(session, e);
     QDOT_TRY(qdot_pool_check(session->pool));
-    if (!(qdot_expr_node(session->pool, e)->holds & moving))
+    if (!(qdot_expr_node(session->pool, e)->holds & moving) && !is_set_by_events(session, e))
         return qdot_session_number(session, e, value, error);
     QDOT_TRY(qdot_runs_measure_one(session, NULL, qdot_measured_as_rationals(session, e), end,
                                    &m));
