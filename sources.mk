@@ -1801,6 +1801,7 @@ script_tests = \
 	tests/script/start-errors.sh \
 	tests/script/start-exact.lag \
 	tests/script/start-mass.lag \
+	tests/script/start-rests-on-event.lag \
 	tests/script/state-rounding.sh \
 	tests/script/stays.lag \
 	tests/script/sticking.lag \
@@ -2111,7 +2112,6 @@ script_tests = \
 	tests/bad/start-no-direction.lag \
 	tests/bad/start-no-position.lag \
 	tests/bad/start-parameter.lag \
-	tests/bad/start-rests-on-event.lag \
 	tests/bad/start-touching.lag \
 	tests/bad/start-two-answers.lag \
 	tests/bad/start-unnamed-domain.lag \
@@ -2561,7 +2561,6 @@ test_files = \
 	tests/bad/start-no-direction.out \
 	tests/bad/start-no-position.out \
 	tests/bad/start-parameter.out \
-	tests/bad/start-rests-on-event.out \
 	tests/bad/start-touching.out \
 	tests/bad/start-two-answers.out \
 	tests/bad/start-unnamed-domain.out \
@@ -3049,6 +3048,7 @@ test_files = \
 	tests/script/start-errors.out \
 	tests/script/start-exact.out \
 	tests/script/start-mass.out \
+	tests/script/start-rests-on-event.out \
 	tests/script/state-rounding.out \
 	tests/script/stays.out \
 	tests/script/sticking.out \

@@ -42,7 +42,7 @@ rested_at(const qdot_course *c, size_t surface, double t, double *unsure)
         if (c->rests.at[i].surface == surface && c->rests.at[i].t == t)
             return c->rests.at[i].after;
     for (size_t i = c->chatters.n; i-- > 0 && c->stage->switches.surfaces.at[surface].contact;)
-        if (c->chatters.at[i].surface == surface && c->chatters.at[i].t == t) {
+        if (c->chatters.at[i].surface == surface && c->chatters.at[i].t == t && !c->chatters.at[i].steady) {
             *unsure = c->chatters.at[i].unsure;
             return c->chatters.at[i].end;
         }
