@@ -2281,6 +2281,7 @@ meta_tests = \
 	tests/meta/paths.test \
 	tests/meta/ranks.test \
 	tests/meta/sources.test \
+	tests/meta/statics.test \
 	tests/meta/symbols.test \
 	tests/meta/words.test \
 	tests/reliability/hashes.test \

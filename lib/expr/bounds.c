@@ -17,7 +17,7 @@ set(struct bound *b, int64_t n, int64_t d, bool open)
 
 /* A declared bound: a rational, or a rational times pi by a fraction beyond it. `up`: an upper one. */
 static void
-declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
+bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bound *b)
 {
     const fmpq *c = NUMBER(pool, e);
     bool turn = e == QDOT_PI;
@@ -64,7 +64,7 @@ of_function(unsigned op, struct bound *lo, struct bound *hi)
 
 /* Of f^k, k a positive integer, |f| <= 1 or f >= 1. */
 static void
-of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
+bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
 {
     qdot_expr b = ARGS(pool, e)[1];
     const fmpq *k = NUMBER(pool, ARGS(pool, e)[2]);
@@ -92,7 +92,7 @@ is_two(const fmpq *k)
 }
 
 static void
-square(struct bound *b, const struct bound *end)
+bound_square(struct bound *b, const struct bound *end)
 {
     qdot_rational_mul(&b->x, &end->x, &end->x);
     b->known = true;
@@ -105,25 +105,25 @@ of_square(const qdot_pool *pool, const qdot_symbol *s, struct bound *lo, struct 
 {
     struct bound least = {{0, 1}, false, false}, most = {{0, 1}, false, false};
 
-    declared(pool, s->lo, s->lo_open, false, &least);
-    declared(pool, s->hi, s->hi_open, true, &most);
+    bound_declared(pool, s->lo, s->lo_open, false, &least);
+    bound_declared(pool, s->hi, s->hi_open, true, &most);
     if (least.known && qdot_rational_sgn(&least.x) >= 0) {
-        square(lo, &least);
+        bound_square(lo, &least);
         if (most.known)
-            square(hi, &most);
+            bound_square(hi, &most);
     } else if (most.known && qdot_rational_sgn(&most.x) <= 0) {
-        square(lo, &most);
+        bound_square(lo, &most);
         if (least.known)
-            square(hi, &least);
+            bound_square(hi, &least);
     } else if (least.known && most.known) {
         struct bound other = {{0, 1}, false, false};
         int d;
 
-        square(hi, &least);
-        square(&other, &most);
+        bound_square(hi, &least);
+        bound_square(&other, &most);
         d = qdot_rational_cmp(&other.x, &hi->x);
         if (d > 0)
-            square(hi, &most);
+            bound_square(hi, &most);
         else if (d == 0)
             hi->open &= other.open;
         fmpq_clear(&other.x);
@@ -142,8 +142,8 @@ of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
     switch (node->kind) {
     case QDOT_SYM:
         s = &pool->symbols.at[node->at];
-        declared(pool, s->lo, s->lo_open, false, lo);
-        declared(pool, s->hi, s->hi_open, true, hi);
+        bound_declared(pool, s->lo, s->lo_open, false, lo);
+        bound_declared(pool, s->hi, s->hi_open, true, hi);
         if (e == QDOT_PI)
             set(lo, 333, 106, true), set(hi, 355, 113, true);
         break;
@@ -153,7 +153,7 @@ of_term(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bound *hi)
             break;
         s = qdot_expr_symbol(pool, ARGS(pool, e)[1]);
         if (s == NULL)
-            of_power(pool, e, lo, hi);
+            bounds_of_power(pool, e, lo, hi);
         else if (is_two(NUMBER(pool, ARGS(pool, e)[2])))
             of_square(pool, s, lo, hi);
         break;
@@ -194,7 +194,7 @@ shorten(struct bound *b, bool up)
 
 /* sum <- sum + c b, where both are known; an upper bound where `up`. */
 static void
-add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
+bound_add(struct bound *sum, const fmpq *c, const struct bound *b, bool up)
 {
     sum->known &= b->known;
     sum->open |= b->open;
@@ -218,8 +218,8 @@ qdot_sign_by_bounds(const qdot_pool *pool, uint32_t n, const qdot_expr *args)
         bool up = qdot_rational_sgn(c) > 0;
 
         of_term(pool, args[i], &lo, &hi);
-        add(&least, c, up ? &lo : &hi, false);
-        add(&most, c, up ? &hi : &lo, true);
+        bound_add(&least, c, up ? &lo : &hi, false);
+        bound_add(&most, c, up ? &hi : &lo, true);
         fmpq_clear(&lo.x);
         fmpq_clear(&hi.x);
     }

@@ -4,7 +4,7 @@
 #include <math.h>
 
 static inline void
-swap(double *a, double *b)
+numbers_swap(double *a, double *b)
 {
     const double kept = *a;
 
@@ -17,7 +17,7 @@ static void
 rows_exchange(size_t n, double *A, size_t i, size_t j)
 {
     for (size_t c = 0; c < n; c++)
-        swap(A + i * n + c, A + j * n + c);
+        numbers_swap(A + i * n + c, A + j * n + c);
 }
 
 /* The first and last entries of the rows; im may be NULL. */
@@ -90,7 +90,7 @@ void
 qdot_lu_solve(size_t n, const double *A, const qdot_lu_row *rows, double *b)
 {
     for (size_t k = 0; k < n; k++)
-        swap(b + k, b + rows[k].pivot);
+        numbers_swap(b + k, b + rows[k].pivot);
     for (size_t i = 1; i < n; i++)
         for (size_t j = rows[i].from; j < i; j++)
             b[i] -= A[i * n + j] * b[j];
@@ -170,8 +170,8 @@ qdot_lu_solve_complex(size_t n, const double *re, const double *im,
                       const qdot_lu_row *rows, double *x, double *y)
 {
     for (size_t k = 0; k < n; k++) {
-        swap(x + k, x + rows[k].pivot);
-        swap(y + k, y + rows[k].pivot);
+        numbers_swap(x + k, x + rows[k].pivot);
+        numbers_swap(y + k, y + rows[k].pivot);
     }
     for (size_t i = 1; i < n; i++)
         row_subtract_known(re + i * n, im + i * n, i, rows[i].from, i, x, y);

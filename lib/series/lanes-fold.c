@@ -33,7 +33,7 @@ qdot_writer_expand(const qdot_lanes_writer *w, qdot_program_row row)
 }
 
 static bool
-is_product(int op)
+lanes_step_is_product(int op)
 {
     return op == QDOT_T_MUL || op == QDOT_T_MADD || op == QDOT_T_MSUB;
 }
@@ -43,7 +43,7 @@ qdot_writer_within(const qdot_lanes_writer *w, const qdot_program_step *product)
 {
     const qdot_program_step *z = product->op == QDOT_T_MADD ? maker(w, product->z) : NULL;
 
-    return z && is_product(z->op) && is_folded(w, product->z) ? z : NULL;
+    return z && lanes_step_is_product(z->op) && is_folded(w, product->z) ? z : NULL;
 }
 
 /* A step adds z, or the row that it has alone; takes no part in it else. */
@@ -114,7 +114,7 @@ fold_product(qdot_lanes_writer *w, size_t i)
     int inner;
 
     w->steps[i].pairs = 1;
-    if (s->op != QDOT_T_MADD || !z || !is_product(z->op) || z->lead != s->lead ||
+    if (s->op != QDOT_T_MADD || !z || !lanes_step_is_product(z->op) || z->lead != s->lead ||
         w->rows[s->z].readers != 1 || w->rows[s->z].linear != 1 || w->rows[s->z].equation)
         return;
     inner = w->steps[w->rows[s->z].step].pairs;
@@ -151,7 +151,7 @@ qdot_writer_fold(qdot_lanes_writer *w, const qdot_motion *m)
     for (size_t i = w->t->still; i < w->t->length; i++) {
         const qdot_program_step *s = w->t->steps.at + i;
 
-        if (is_product(s->op))
+        if (lanes_step_is_product(s->op))
             fold_product(w, i);
         else if ((s->op == QDOT_T_NEG || s->op == QDOT_T_RATE) &&
                  !w->rows[s->to].equation)

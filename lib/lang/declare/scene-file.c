@@ -23,7 +23,7 @@ qdot_scene_file_is(const qdot_token *token)
 }
 
 static qdot_status
-put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
+scene_file_put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
 {
     qdot_text_add(out, before);
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
@@ -39,7 +39,7 @@ put_symbols(qdot_session *s, qdot_text *out)
 
     for (size_t i = 0; (name = qdot_names_at(s->names, i)) != NULL; i++) {
         if (name->kind == QDOT_NAME_UFUN) {
-            QDOT_TRY(put(s, "function ", name->value, out));
+            QDOT_TRY(scene_file_put(s, "function ", name->value, out));
         } else if (name->kind == QDOT_NAME_PARAM || name->kind == QDOT_NAME_COORD) {
             qdot_text_add(out, name->kind == QDOT_NAME_PARAM ? "param " : "coord ");
             QDOT_TRY(qdot_scene_print_domain(s->scene, name->value, out));
@@ -177,8 +177,8 @@ put_value(qdot_session *s, const char *word, qdot_expr symbol, qdot_expr value, 
 {
     const size_t from = out->n;
 
-    QDOT_TRY(put(s, word, symbol, out));
-    QDOT_TRY(put(s, " = ", value, out));
+    QDOT_TRY(scene_file_put(s, word, symbol, out));
+    QDOT_TRY(scene_file_put(s, " = ", value, out));
     qdot_text_add(out, last);
     if (remarks)
         qdot_session_remarks_end_line(s, value, s->runs.n, from, out);

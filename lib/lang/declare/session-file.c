@@ -102,7 +102,7 @@ is_written(const writer *w, qdot_expr jet)
 typedef enum { SAME, VALUES, NAMES } difference;
 
 static difference
-compare(const writer *w, const qdot_conditions *c)
+conditions_compare(const writer *w, const qdot_conditions *c)
 {
     difference d = c->exactly == w->exactly ? SAME : NAMES;
 
@@ -294,7 +294,7 @@ put_run(writer *w, size_t k)
     qdot_status status;
     difference start;
 
-    start = compare(w, c);
+    start = conditions_compare(w, c);
     if (start == NAMES)
         QDOT_TRY(put_start(w, c, k));
     else if (start == VALUES)
@@ -511,7 +511,7 @@ put_all(writer *w, const placements *list)
         if (status == QDOT_OK)
             status = put_names(w, list, k);
     }
-    if (status == QDOT_OK && compare(w, &start) != SAME)
+    if (status == QDOT_OK && conditions_compare(w, &start) != SAME)
         status = put_start(w, &start, s->runs.n);
     qdot_conditions_clear(&start);
     return status;

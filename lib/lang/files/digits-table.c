@@ -35,7 +35,7 @@ qdot_digits_table_of(const qdot_operands *list)
 }
 
 static qdot_status
-add_cell(cells *t, qdot_text *text)
+cells_add(cells *t, qdot_text *text)
 {
     qdot_status status = qdot_text_status(text);
     char *copy;
@@ -60,13 +60,13 @@ add_labels(cells *t, const qdot_operands *list)
     qdot_status status;
 
     qdot_text_add(&text, "t");
-    status = add_cell(t, &text);
+    status = cells_add(t, &text);
     for (size_t i = 0; i < list->n; i++)
         for (size_t k = 0; k < list->at[i].columns.n && status == QDOT_OK; k++) {
             qdot_text_add(&text, list->at[i].label);
             if (list->at[i].columns.n > 1)
                 qdot_text_format(&text, "[%zu]", k + 1);
-            status = add_cell(t, &text);
+            status = cells_add(t, &text);
         }
     qdot_text_clear(&text);
     t->columns = t->cells.n;
@@ -98,7 +98,7 @@ add_values(qdot_session *session, cells *t, const qdot_operand *o, const place *
     for (size_t k = 0; k < n && status == QDOT_OK; k++) {
         status = qdot_digits_text(session, values[k], digits, errors[k], &text);
         if (status == QDOT_OK)
-            status = add_cell(t, &text);
+            status = cells_add(t, &text);
     }
     qdot_text_clear(&text);
     qdot_free(errors);
@@ -116,7 +116,7 @@ add_row(qdot_session *session, cells *t, const qdot_operands *list, const place 
 
     if (status == QDOT_OK) {
         qdot_number_text(&text, x, 0);
-        status = add_cell(t, &text);
+        status = cells_add(t, &text);
     }
     for (size_t i = 0; i < list->n && status == QDOT_OK; i++)
         status = add_values(session, t, &list->at[i], at, digits);
@@ -208,7 +208,7 @@ write_file(qdot_session *session, qdot_run *run, const cells *t, const char *pat
 }
 
 static qdot_status
-tell(qdot_session *session, qdot_run *run, const cells *t, const char *path)
+digits_table_tell(qdot_session *session, qdot_run *run, const cells *t, const char *path)
 {
     const char *dot = path != NULL ? strrchr(path, '.') : NULL;
     const bool csv = dot != NULL && strcmp(dot, ".csv") == 0;
@@ -248,7 +248,7 @@ qdot_digits_table(qdot_session *session, const qdot_operands *list, qdot_run *ru
     }
     t.width = qdot_calloc(t.columns + 1, sizeof *t.width);
     if (status == QDOT_OK)
-        status = t.width == NULL ? QDOT_ENOMEM : tell(session, run, &t, path);
+        status = t.width == NULL ? QDOT_ENOMEM : digits_table_tell(session, run, &t, path);
     for (size_t i = 0; i < t.cells.n; i++)
         qdot_free(t.cells.at[i]);
     qdot_free(t.cells.at);

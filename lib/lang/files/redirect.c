@@ -58,7 +58,7 @@ qdot_redirect_find(const qdot_statement *row, const qdot_token *first)
 
 /* Endings of figures and of columns of numbers, which a formula cannot be. */
 static qdot_status
-refuse(const char *path, const char *ending)
+redirect_refuse(const char *path, const char *ending)
 {
     static const char *const figures[] = {".svg", ".png", ".pdf", ".gif"};
     static const char *const data[] = {".csv", ".h5"};
@@ -115,7 +115,7 @@ qdot_redirect_begin(qdot_redirect *r, qdot_session *session, const char *path)
             session->style = r->type->style;
         return QDOT_OK;
     }
-    return refuse(path, ending);
+    return redirect_refuse(path, ending);
 }
 
 /* What was answered, as a page. */

@@ -65,7 +65,7 @@ add_run(const sections *s, size_t i)
 /* --- the table of several ------------------------------------------------------------- */
 
 static void
-add_cell(qdot_text *page, double x, bool bound)
+run_add_cell(qdot_text *page, double x, bool bound)
 {
     qdot_text_add(page, "<td>");
     if (!isfinite(x))
@@ -95,14 +95,14 @@ add_table(const sections *s)
         qdot_text_add(s->page, "<tr><td>");
         qdot_animation_escape(s->page, s->runs[i]->name);
         qdot_text_format(s->page, "</td><td>%s</td>", r->method);
-        add_cell(s->page, r->tol, false);
-        add_cell(s->page, r->t1, false);
+        run_add_cell(s->page, r->tol, false);
+        run_add_cell(s->page, r->t1, false);
         qdot_text_format(s->page, "<td>%zu</td><td>%zu</td>", r->steps, r->evals);
         qdot_text_add(s->page, "<td>");
         qdot_text_double(s->page, r->cpu, 2);
         qdot_text_add(s->page, "</td>");
-        add_cell(s->page, r->error, true);
-        add_cell(s->page, r->energy_drift, true);
+        run_add_cell(s->page, r->error, true);
+        run_add_cell(s->page, r->energy_drift, true);
         qdot_text_format(s->page, "<td>%s</td></tr>\n", ends[r->status]);
     }
     qdot_text_add(s->page, "</table>\n");

@@ -143,7 +143,7 @@ add_study(qdot_session *session, const qdot_named_run *run, bool named, qdot_tex
 
 /* Whether a run before run i has its conditions. */
 static bool
-is_told(size_t i, const qdot_named_run *const *runs)
+conditions_are_told(size_t i, const qdot_named_run *const *runs)
 {
     for (size_t k = 0; k < i; k++)
         if (qdot_conditions_same(runs[k]->conditions, runs[i]->conditions))
@@ -159,9 +159,9 @@ qdot_report_work(qdot_session *session, size_t n, const qdot_named_run *const *r
 
     qdot_report_heading(page, "Work and precision");
     for (size_t i = 1; i < n; i++)
-        differ = differ || !is_told(i, runs);
+        differ = differ || !conditions_are_told(i, runs);
     for (size_t i = 0; i < n; i++)
-        if (!is_told(i, runs))
+        if (!conditions_are_told(i, runs))
             QDOT_TRY(add_study(session, runs[i], differ, page));
     return QDOT_OK;
 }

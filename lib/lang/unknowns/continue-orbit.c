@@ -34,7 +34,7 @@ typedef struct {
 /* --- the orbit --------------------------------------------------------------------------------- */
 
 static qdot_status
-read_start(job *j, qdot_run *run)
+orbit_read_start(job *j, qdot_run *run)
 {
     qdot_scene *s = j->session->scene;
     const size_t n = s->coordinates.n;
@@ -98,7 +98,7 @@ find_first(job *j)
                             .z = j->z,
                             .least = j->w->least,
                             .most = j->w->most};
-    QDOT_TRY(read_start(j, orbit->run));
+    QDOT_TRY(orbit_read_start(j, orbit->run));
     return read_values(j, orbit->conditions);
 }
 

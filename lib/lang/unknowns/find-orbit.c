@@ -18,7 +18,7 @@ typedef struct {
 } guess;
 
 static qdot_status
-begin(guess *x)
+guess_begin(guess *x)
 {
     qdot_pool *pool = x->f->c->session->pool;
 
@@ -90,7 +90,7 @@ qdot_find_shoot(const qdot_find *f, qdot_shooting_result *r)
     if (f->conditions.n > 1 || session->scene->constraints.n > 0)
         return QDOT_OK;
     QDOT_TRY(qdot_session_keep_values(session, &kept));
-    status = begin(&x);
+    status = guess_begin(&x);
     if (status == QDOT_OK)
         status = qdot_trial_put(session, x.k, f->unknowns.at, x.at);
     if (status == QDOT_OK)

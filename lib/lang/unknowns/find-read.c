@@ -33,7 +33,7 @@ qdot_find_free(qdot_find *f)
 
 /* Whether the name stands behind `such`. */
 static bool
-is_used(const qdot_cursor *c, const char *name)
+such_names(const qdot_cursor *c, const char *name)
 {
     const qdot_token *at = qdot_cursor_find_word(c, "such");
 
@@ -72,7 +72,7 @@ read_symbol(qdot_cursor *c, qdot_find *f, qdot_slope_name *x)
                                        "theta' = 0..5 such that ...`");
     if (qdot_read_name(&look, &name) == QDOT_OK &&
         qdot_names_find(c->session->names, name) == NULL &&
-        qdot_cursor_is_op(&look, "=") && is_used(c, name))
+        qdot_cursor_is_op(&look, "=") && such_names(c, name))
         return read_own(c, f, x);
     return qdot_slope_name_read(c, x);
 }

@@ -81,7 +81,7 @@ open_start(const qdot_find *f, bool velocities)
 
 /* Those values as the run of the solution has them hold, too, from now on: numbers [start_open.n]. */
 static qdot_status
-read_start(const hunt *h, double *numbers)
+find_read_start(const hunt *h, double *numbers)
 {
     const qdot_session *session = h->trial.session;
     const double t0 = qdot_run_get_report(h->trial.run)->t0;
@@ -201,7 +201,7 @@ open_at(hunt *h, const double *u)
 }
 
 static qdot_status
-evaluate(const double *u, double *f, double *error, double *slope, void *user)
+find_evaluate(const double *u, double *f, double *error, double *slope, void *user)
 {
     hunt *h = user;
     qdot_status status = open_at(h, u);
@@ -311,7 +311,7 @@ least_known(const hunt *h, const qdot_zero_result *r)
 
 /* Why there is no answer, as an error at the conditions. */
 static qdot_status
-refuse(const hunt *h, const qdot_zero_result *r)
+find_refuse(const hunt *h, const qdot_zero_result *r)
 {
     const char *at;
     qdot_text place = {0};
@@ -487,7 +487,7 @@ conclude(hunt *h, const qdot_zero_result *r)
     bool rests = false;
 
     QDOT_TRY(open_at(h, r->u));
-    QDOT_TRY(read_start(h, h->start));
+    QDOT_TRY(find_read_start(h, h->start));
     QDOT_TRY(check_length(h));
     QDOT_TRY(tell_end(h));
     if (f->returns)
@@ -547,7 +547,7 @@ follow(hunt *h, const size_t *place, double *f, double *error, double *u, size_t
     for (size_t k = 0; k <= most; k++) {
         double left = 0;
 
-        QDOT_TRY(evaluate(u, f, error, NULL, h));
+        QDOT_TRY(find_evaluate(u, f, error, NULL, h));
         for (size_t i = 0; i < h->m; i++)
             left = isfinite(f[i]) ? fmax(left, fabs(f[i])) : INFINITY;
         if (k == 0)
@@ -602,12 +602,12 @@ search_behind(hunt *h, const qdot_zero_problem *p, qdot_zero_result *r)
 /* --- all ----------------------------------------------------------------------------------- */
 
 static qdot_status
-search(hunt *h, qdot_zero_result *r)
+find_search(hunt *h, qdot_zero_result *r)
 {
     const qdot_find *f = h->f;
     qdot_zero_problem p = {.n = f->unknowns.n,
                                  .m = h->m,
-                                 .at = evaluate,
+                                 .at = find_evaluate,
                                  .user = h,
                                  .low = f->low.at,
                                  .high = f->high.at,
@@ -642,11 +642,11 @@ search(hunt *h, qdot_zero_result *r)
             r->error[i] = fmax(r->error[i], h->before[i]);
         r->rank = h->rank;
     }
-    return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : refuse(h, r);
+    return r->answer == QDOT_ZERO_FOUND ? conclude(h, r) : find_refuse(h, r);
 }
 
 static qdot_status
-carry_out(qdot_find *f)
+find_carry_out(qdot_find *f)
 {
     const size_t n = f->unknowns.n, m = qdot_find_count(f);
     hunt h = {.f = f,
@@ -675,7 +675,7 @@ carry_out(qdot_find *f)
     if (status == QDOT_OK)
         status = open_start(f, true);
     if (status == QDOT_OK)
-        status = search(&h, &r);
+        status = find_search(&h, &r);
     qdot_trial_close(&h.trial);
     f->c->session->start_open.n = 0;
     qdot_free(h.values);
@@ -690,7 +690,7 @@ qdot_find_statement(qdot_cursor *c)
     qdot_status status = qdot_find_read(c, &f);
 
     if (status == QDOT_OK)
-        status = carry_out(&f);
+        status = find_carry_out(&f);
     qdot_run_options_place(c, &f.run, status);
     qdot_find_free(&f);
     return status;

@@ -13,7 +13,7 @@ typedef struct {
 } sorted;
 
 static int
-compare(const void *a, const void *b)
+compare_data_times(const void *a, const void *b)
 {
     const sorted *x = a, *y = b;
 
@@ -138,7 +138,7 @@ take(qdot_cursor *c, qdot_fit *f, const qdot_csv *csv)
     for (size_t i = 0; i < csv->rows && status == QDOT_OK; i++)
         order[i] = (sorted){csv->at[i * csv->columns], i};
     if (status == QDOT_OK)
-        qsort(order, csv->rows, sizeof *order, compare);
+        qsort(order, csv->rows, sizeof *order, compare_data_times);
     for (size_t i = 0; i < csv->rows && status == QDOT_OK; i++)
         status = take_row(f, csv, order[i].row, i);
     qdot_free(order);

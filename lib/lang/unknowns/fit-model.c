@@ -79,7 +79,7 @@ make_request(model *x)
 
 /* Numbers and slopes over their standard errors. A parameter keeps its declared domain. */
 static qdot_status
-evaluate(const double *u, double *out, double *J, void *user)
+fit_evaluate(const double *u, double *out, double *J, void *user)
 {
     model *x = user;
     const qdot_fit *f = x->f;
@@ -98,7 +98,7 @@ evaluate(const double *u, double *out, double *J, void *user)
 }
 
 static qdot_status
-search(model *x)
+fit_search(model *x)
 {
     qdot_fit *f = x->f;
     const qdot_response_of of = {.scene = f->session->scene,
@@ -114,7 +114,7 @@ search(model *x)
     QDOT_TRY(qdot_response_new(&of, &x->response));
     f->found = (qdot_least_squares){.n = f->rows * f->m,
                                     .p = f->unknowns.names.n,
-                                    .model = evaluate,
+                                    .model = fit_evaluate,
                                     .user = x,
                                     .u = f->u};
     return qdot_least_squares_find(&f->found);
@@ -260,7 +260,7 @@ run_at_end(model *x, double *errors)
 
 /* du = C J^T df: its bound from errors of the numbers; and that both runs are one. */
 static qdot_status
-compare(qdot_fit *f, const double *at, const double *errors)
+fit_compare_runs(qdot_fit *f, const double *at, const double *errors)
 {
     const size_t k = f->unknowns.names.n;
 
@@ -293,14 +293,14 @@ find_numerical(model *x)
     for (size_t i = 0; i < f->found.n && status == QDOT_OK; i++)
         x->at[i] = f->found.f[i] * f->sigma[i] + f->y[i];
     if (status == QDOT_OK)
-        status = compare(f, x->at, errors);
+        status = fit_compare_runs(f, x->at, errors);
     qdot_free(errors);
     return status;
 }
 
 /* The covariance of u, and standard errors. */
 static void
-find_errors(qdot_fit *f)
+fit_find_errors(qdot_fit *f)
 {
     const size_t k = f->unknowns.names.n;
     double scale = 1;
@@ -317,7 +317,7 @@ find_errors(qdot_fit *f)
 /* --- all ---------------------------------------------------------------------------------------- */
 
 static qdot_status
-make_room(model *x)
+fit_make_room(model *x)
 {
     qdot_fit *f = x->f;
     const size_t k = f->unknowns.names.n, n = f->session->scene->coordinates.n,
@@ -341,18 +341,18 @@ make_room(model *x)
 }
 
 static qdot_status
-find(model *x)
+fit_find(model *x)
 {
     qdot_fit *f = x->f;
 
-    QDOT_TRY(make_room(x));
+    QDOT_TRY(fit_make_room(x));
     QDOT_TRY(find_guesses(f));
     QDOT_TRY(make_request(x));
-    QDOT_TRY(search(x));
+    QDOT_TRY(fit_search(x));
     QDOT_TRY(check_determined(f));
     QDOT_TRY(check_converged(f));
     QDOT_TRY(find_numerical(x));
-    find_errors(f);
+    fit_find_errors(f);
     return QDOT_OK;
 }
 
@@ -369,7 +369,7 @@ qdot_fit_find(qdot_fit *f)
     f->order.request.tol = f->tol;
     f->order.request.method = f->method != NULL ? f->method : "auto";
     if (status == QDOT_OK)
-        status = find(&x);
+        status = fit_find(&x);
     status = qdot_request_explain(f->session, &f->order, status);
     qdot_response_free(x.response);
     qdot_free(x.values);

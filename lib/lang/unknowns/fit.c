@@ -309,7 +309,7 @@ qdot_fit_set(qdot_fit *f)
 /* --- the statement ------------------------------------------------------------------------------------ */
 
 static qdot_status
-carry_out(qdot_cursor *c, qdot_fit *f)
+fit_carry_out(qdot_cursor *c, qdot_fit *f)
 {
     const size_t measured = c->session->measured.n;
     size_t m = 0;
@@ -347,7 +347,7 @@ qdot_fit_statement(qdot_cursor *c)
 
     if (status == QDOT_OK) {
         c->error_at = start->start;
-        status = carry_out(c, &f);
+        status = fit_carry_out(c, &f);
     }
     if ((status == QDOT_ENAME || status == QDOT_ENOTBUILT) && f.method_at != NULL)
         c->error_at = f.method_at->start;

@@ -65,7 +65,7 @@ check_influence(const qdot_equilibrium_curve *c)
 
 /* An end of the domain of a symbol; without one *v stays. *moving: the end, where it depends on the parameter. */
 static qdot_status
-bound(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v, qdot_expr *moving)
+curve_domain_end(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, double *v, qdot_expr *moving)
 {
     if (e == QDOT_NIL)
         return QDOT_OK;
@@ -87,7 +87,7 @@ bound(const qdot_equilibrium_curve *c, const qdot_symbol *of, qdot_expr e, doubl
 }
 
 static qdot_status
-make_room(qdot_equilibrium_curve *c)
+curve_allocate(qdot_equilibrium_curve *c)
 {
     const size_t n = c->n, all = c->s->coordinates.n + c->s->constraints.n;
 
@@ -124,8 +124,8 @@ fill_equations(qdot_equilibrium_curve *c)
 
         c->lo[i] = -INFINITY;
         c->hi[i] = INFINITY;
-        QDOT_TRY(bound(c, &q, q.lo, &c->lo[i], &c->end[2 * i]));
-        QDOT_TRY(bound(c, &q, q.hi, &c->hi[i], &c->end[2 * i + 1]));
+        QDOT_TRY(curve_domain_end(c, &q, q.lo, &c->lo[i], &c->end[2 * i]));
+        QDOT_TRY(curve_domain_end(c, &q, q.hi, &c->hi[i], &c->end[2 * i + 1]));
         c->moving = c->moving || c->end[2 * i] != QDOT_NIL || c->end[2 * i + 1] != QDOT_NIL;
         if (i < c->coordinates && q.lo == QDOT_NIL && q.hi == QDOT_NIL && isinf(c->lo[i]) && isinf(c->hi[i]))
             c->angle[i] = qdot_is_angle(c->pool, c->rest.system.equations, c->unknown[i], &c->rest.facts);
@@ -209,7 +209,7 @@ qdot_equilibrium_curve_begin(qdot_equilibrium_curve *c, qdot_scene *s, qdot_expr
     QDOT_TRY(qdot_rest_begin(&c->rest, s));
     QDOT_TRY(check_scene(c));
     QDOT_TRY(check_count(c));
-    QDOT_TRY(make_room(c));
+    QDOT_TRY(curve_allocate(c));
     QDOT_TRY(fill_equations(c));
     QDOT_TRY(qdot_judge_new(s, c->rest.system.equations, bind, user, &c->judge));
     c->judge->parameter = parameter;
@@ -251,8 +251,8 @@ bind_all(void *user, qdot_expr e)
 
 /* The value of the i-th unknown; NaN where it is left free, or has no value at this p. */
 static qdot_status
-number_of(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
-          double *y)
+unknown_number(const qdot_equilibrium_curve *c, const qdot_equilibrium *e, at_value *value, size_t i,
+               double *y)
 {
     *y = NAN;
     for (uint32_t k = 0; k < qdot_expr_count(c->pool, e->equations); k++) {
@@ -303,7 +303,7 @@ qdot_equilibrium_curve_starts(qdot_equilibrium_curve *c, double p, double **at, 
         bool known = true;
 
         for (size_t i = 0; i < c->n && status == QDOT_OK; i++) {
-            status = number_of(c, &rest.found.at[k], &value, i, &y[i]);
+            status = unknown_number(c, &rest.found.at[k], &value, i, &y[i]);
             known = known && isfinite(y[i]);
         }
         y[c->n] = p;

@@ -36,7 +36,7 @@ typedef struct {
 } job;
 
 static bool
-is_zero(const job *j, qdot_expr e)
+is_proved_zero(const job *j, qdot_expr e)
 {
     return e == QDOT_ZERO || qdot_is_zero(j->pool, e, &j->facts);
 }
@@ -81,7 +81,7 @@ jumps_there(const job *j, qdot_expr e, qdot_expr place, bool *yes)
             continue;
         if (op == QDOT_IF)
             u = qdot_sub(pool, qdot_expr_arg(pool, u, 1), qdot_expr_arg(pool, u, 0));
-        *yes = is_zero(j, qdot_rest_value(j->s, place, u));
+        *yes = is_proved_zero(j, qdot_rest_value(j->s, place, u));
         status = qdot_pool_check(pool);
     }
     qdot_walk_end(&w);
@@ -162,13 +162,13 @@ check_motion(job *j)
     if (n == 0)
         return qdot_fail(QDOT_EINVAL, "nothing can move there: there are no modes");
     for (size_t i = 0; i < n * n; i++)
-        if (!is_zero(j, j->m.Gamma[i]))
+        if (!is_proved_zero(j, j->m.Gamma[i]))
             return qdot_fail(QDOT_ETYPE,
                              "the motion about the equilibrium has damping or "
                              "gyroscopic terms: it has no normal modes");
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < i; k++)
-            if (!is_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i])))
+            if (!is_proved_zero(j, qdot_sub(j->pool, j->m.H[i * n + k], j->m.H[k * n + i])))
                 return qdot_fail(QDOT_ETYPE, "the forces have no potential: there are no "
                                              "normal modes");
     QDOT_TRY(qdot_pool_check(j->pool));
@@ -191,7 +191,7 @@ add_mode(job *j, qdot_expr w, const qdot_expr *y)
             x = qdot_add(pool, x, qdot_mul(pool, j->m.N[i * m + a], y[a]));
         x = qdot_simplify(pool, x, &j->facts);
         QDOT_TRY(qdot_pool_check(pool));
-        if (first == QDOT_NIL && !is_zero(j, x))
+        if (first == QDOT_NIL && !is_proved_zero(j, x))
             first = x;
         if (first != QDOT_NIL)
             x = qdot_rationalize(pool, qdot_div(pool, x, first), &j->facts);
@@ -213,7 +213,7 @@ to_echelon(const job *j, qdot_expr *A, size_t *pivot, size_t *rank)
     for (size_t c = 0; c < n; c++) {
         size_t r = *rank;
 
-        while (r < n && is_zero(j, A[r * n + c]))
+        while (r < n && is_proved_zero(j, A[r * n + c]))
             r++;
         if (r == n)
             continue;
@@ -263,7 +263,7 @@ modes_of(job *j, qdot_expr W)
 
     if (A == NULL || pivot == NULL)
         status = QDOT_ENOMEM;
-    else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_zero(j, W))
+    else if (qdot_positive(pool, W, &j->facts, 0, NULL) == QDOT_FALSE && !is_proved_zero(j, W))
         w = QDOT_NIL;
     if (w == QDOT_NIL && status == QDOT_OK && !qdot_pool_failed(pool))
         status = unstable();
@@ -296,7 +296,7 @@ modes_of(job *j, qdot_expr W)
 
 /* Whether a <= b: 1, -1 (a > b) by declared signs and assumptions; else 0. */
 static qdot_status
-order_of(const job *j, qdot_expr a, qdot_expr b, int *order)
+frequency_order(const job *j, qdot_expr a, qdot_expr b, int *order)
 {
     qdot_pool *pool = j->pool;
     qdot_expr d = qdot_sub(pool, qdot_mul(pool, b, b), qdot_mul(pool, a, a));
@@ -348,7 +348,7 @@ exchange_modes(job *j, size_t a, size_t b)
 
 /* Ascending. */
 static qdot_status
-sort(job *j)
+frequencies_sort(job *j)
 {
     for (size_t a = 1; a < j->frequency.n; a++)
         for (size_t b = a; b > 0; b--) {
@@ -356,7 +356,7 @@ sort(job *j)
             int order = 1;
 
             if (left != right)
-                QDOT_TRY(order_of(j, left, right, &order));
+                QDOT_TRY(frequency_order(j, left, right, &order));
             if (order == 0) {
                 j->unordered = true;
                 order = order_in_numbers(j, left, right);
@@ -439,7 +439,7 @@ exact(job *j, bool *done)
     *done = roots.complete && j->frequency.n == n;
     qdot_solutions_clear(&roots);
     if (status == QDOT_OK && *done)
-        status = sort(j);
+        status = frequencies_sort(j);
     return status;
 }
 

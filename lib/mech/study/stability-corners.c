@@ -90,7 +90,7 @@ find_kinks(corner *c, bool *known)
 
 /* The forces with the symbols of the kinks in the place of their signs. */
 static qdot_status
-put_symbols(corner *c)
+corner_put_symbols(corner *c)
 {
     qdot_expr list = c->j->judge->by_signs, from[MOST_KINKS];
 
@@ -117,7 +117,7 @@ read_forces(corner *c)
         snprintf(name, sizeof name, "(side of kink %zu)", k + 1);
         c->s[k] = qdot_symbol_get(c->pool, QDOT_FORMAL, name);
     }
-    QDOT_TRY(put_symbols(c));
+    QDOT_TRY(corner_put_symbols(c));
     for (size_t k = 0; k < c->m; k++) {
         bool jumps = false;
 
@@ -130,7 +130,7 @@ read_forces(corner *c)
         c->s[kept++] = c->s[k];
     }
     c->m = kept;
-    return put_symbols(c);
+    return corner_put_symbols(c);
 }
 
 /* The slopes a of the kinks; *known: they are numbers, and none vanishes. */
@@ -370,7 +370,7 @@ ask_inside(corner *c, size_t p, const qdot_expr *N, course *how)
 /* --- the verdict -------------------------------------------------------------------------------- */
 
 static qdot_status
-has_mass(corner *c, bool *yes)
+corner_mass_is_definite(corner *c, bool *yes)
 {
     qdot_expr M[MOST_COORDINATES * MOST_COORDINATES];
 
@@ -402,7 +402,7 @@ qdot_stability_by_corner(qdot_judgement *j, qdot_equilibrium *e)
     QDOT_TRY(read_slopes(&c, &known));
     if (!known || c.m == 0)
         return QDOT_OK;
-    QDOT_TRY(has_mass(&c, &known));
+    QDOT_TRY(corner_mass_is_definite(&c, &known));
     if (!known)
         return QDOT_OK;
     QDOT_TRY(qdot_null_space(c.pool, c.m, c.n, c.a, &N, &p));

@@ -230,7 +230,7 @@ by_others(held *h)
 
 /* The whole of M is positive definite, so T measures every velocity. */
 static qdot_status
-has_mass(held *h, bool *yes)
+friction_mass_is_definite(held *h, bool *yes)
 {
     qdot_scene *s = h->j.s;
     size_t n = s->coordinates.n;
@@ -336,7 +336,7 @@ judge_held(held *h, bool *judged)
     if (*judged)
         QDOT_TRY(is_below(h, judged));
     if (*judged)
-        QDOT_TRY(has_mass(h, judged));
+        QDOT_TRY(friction_mass_is_definite(h, judged));
     if (!*judged || (h->e->touched && h->j.judge->law == QDOT_ENERGY_UNKNOWN))
         return QDOT_OK;
     QDOT_TRY(by_others(h));

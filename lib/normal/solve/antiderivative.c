@@ -24,7 +24,7 @@ typedef struct {
 } factors;
 
 static factors
-take_apart(qdot_pool *pool, qdot_expr term, qdot_expr x)
+term_take_apart(qdot_pool *pool, qdot_expr term, qdot_expr x)
 {
     factors f = {.rest = term};
     uint32_t n = qdot_expr_count(pool, term);
@@ -156,7 +156,7 @@ integrate_term(const table *t, qdot_expr term, qdot_expr x, int depth)
 
     if (!qdot_expr_contains(pool, term, x))
         return qdot_mul(pool, term, x);
-    f = take_apart(pool, term, x);
+    f = term_take_apart(pool, term, x);
     if (f.n == 0 || f.n > 4 || f.rest == QDOT_NIL)
         return QDOT_NIL;
     for (uint32_t i = 0; i < f.n; i++)

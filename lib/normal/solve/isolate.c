@@ -11,7 +11,7 @@
 enum { BITS = 128, SIZES = 5, STEPS = 10 };
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+isolate_value(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const qdot_isolate *s = user;
 
@@ -72,7 +72,7 @@ qdot_isolate_end(qdot_isolate *s)
 /* Evaluate about x0, each component within radius (NULL: at x0 itself); false where something has no
  * value or may jump. */
 static bool
-evaluate(qdot_isolate *s, const double *x0, const double *radius)
+isolate_evaluate(qdot_isolate *s, const double *x0, const double *radius)
 {
     const qdot_walk *w = &s->ball.walk;
 
@@ -81,7 +81,7 @@ evaluate(qdot_isolate *s, const double *x0, const double *radius)
         if (radius != NULL)
             mag_set_d(arb_radref(s->at + i), radius[i]);
     }
-    qdot_ball_eval(&s->ball, BITS, value_of, s);
+    qdot_ball_eval(&s->ball, BITS, isolate_value, s);
     for (size_t i = 0; i < s->n + s->n * s->n; i++)
         if (qdot_ball_get(&s->ball, s->f[i]) == NULL)
             return false;
@@ -147,7 +147,7 @@ newton_step(qdot_isolate *s, const double *x0)
     size_t n = s->n;
     arb_t c;
 
-    if (!evaluate(s, x0, NULL))
+    if (!isolate_evaluate(s, x0, NULL))
         return false;
     for (size_t i = 0; i < n * n; i++)
         s->work[i] = mid(qdot_ball_get(&s->ball, s->f[n + i]));
@@ -193,7 +193,7 @@ static bool
 is_inside(qdot_isolate *s, const double *x0, const double *radius)
 {
     size_t n = s->n;
-    bool inside = evaluate(s, x0, radius);
+    bool inside = isolate_evaluate(s, x0, radius);
     arb_t c, d, r;
 
     arb_init(c);

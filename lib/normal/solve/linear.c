@@ -20,7 +20,7 @@
 
 /* The rows of [A b] as polynomials, times the common multiples of their denominators. */
 static void
-fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
+rows_fill(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, const qdot_expr *e)
 {
     fmpz_mpoly_t all, g, k;
 
@@ -80,8 +80,8 @@ charge_product(qdot_field *f, const fmpz_mpoly_t a, const fmpz_mpoly_t b)
 /* x = (p a - b c)/d, exact over the polynomials (the rules are not used: they would
  * spoil it). */
 static void
-step(qdot_field *f, fmpz_mpoly_t x, const fmpz_mpoly_t p, const fmpz_mpoly_t a,
-     const fmpz_mpoly_t b, const fmpz_mpoly_t c, const fmpz_mpoly_t d)
+bareiss_step(qdot_field *f, fmpz_mpoly_t x, const fmpz_mpoly_t p, const fmpz_mpoly_t a,
+             const fmpz_mpoly_t b, const fmpz_mpoly_t c, const fmpz_mpoly_t d)
 {
     fmpz_mpoly_t u, v;
 
@@ -148,8 +148,8 @@ eliminate(qdot_field *f, uint32_t n, fmpz_mpoly_struct *m, uint32_t *pivot)
             for (uint32_t j = 0; j <= n; j++) {
                 if (j == k || (j < k && j != i))
                     continue;
-                step(f, x, p, m + i * (n + 1) + j, m + i * (n + 1) + k,
-                     m + k * (n + 1) + j, before);
+                bareiss_step(f, x, p, m + i * (n + 1) + j, m + i * (n + 1) + k,
+                             m + k * (n + 1) + j, before);
                 fmpz_mpoly_swap(m + i * (n + 1) + j, x, f->ctx);
             }
             fmpz_mpoly_zero(m + i * (n + 1) + k, f->ctx);
@@ -183,7 +183,7 @@ solve_in_field(qdot_field *f, uint32_t n, const qdot_expr *e, qdot_expr *x,
         return QDOT_ENOMEM;
     for (uint32_t i = 0; i < n * (n + 1); i++)
         fmpz_mpoly_init(m + i, f->ctx);
-    fill(f, n, m, e);
+    rows_fill(f, n, m, e);
     regular = eliminate(f, n, m, pivot);
     if (f->state == QDOT_FIELD_OVER)
         status = qdot_fail(QDOT_ELIMIT,

@@ -226,7 +226,7 @@ vectors(elimination *e, qdot_expr **basis, size_t *m)
 }
 
 static qdot_status
-begin(elimination *e)
+elimination_begin(elimination *e)
 {
     qdot_field *f = e->f;
     const uint32_t constant = QDOT_HAS_PARAM | QDOT_HAS_FUN;
@@ -245,7 +245,7 @@ begin(elimination *e)
 }
 
 static void
-end(elimination *e)
+elimination_end(elimination *e)
 {
     if (e->row != NULL && e->pivots != NULL)
         for (size_t i = 0; i < e->n * (e->n + 1); i++)
@@ -257,8 +257,8 @@ end(elimination *e)
 
 /* E prepared, each row taken apart by its roots, and divided by them. */
 static qdot_status
-take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
-           qdot_root_parts *parts)
+rows_take_apart(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E,
+                qdot_root_parts *parts)
 {
     qdot_expr *row = qdot_malloc((n + 1) * sizeof *row);
     size_t done = 0;
@@ -288,7 +288,7 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
 {
     qdot_root_parts parts = {0};
     elimination e = {.pool = pool, .n = n};
-    qdot_status status = take_apart(pool, rows, n, E, &parts);
+    qdot_status status = rows_take_apart(pool, rows, n, E, &parts);
     qdot_field f;
 
     *basis = NULL;
@@ -300,7 +300,7 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
     qdot_field_begin(&f, pool, parts.entries.n, parts.entries.at, WORK);
     e.f = &f;
     if (qdot_field_goes(&f))
-        status = begin(&e);
+        status = elimination_begin(&e);
     for (size_t i = 0; i < parts.entries.n && status == QDOT_OK && qdot_field_goes(&f); i += n)
         status = take_row(&e, parts.entries.at + i);
     if (status == QDOT_OK && qdot_field_goes(&f))
@@ -309,7 +309,7 @@ null_space(qdot_pool *pool, size_t rows, size_t n, const qdot_expr *E, qdot_expr
         status = f.status;
     if (status == QDOT_ELIMIT || (status == QDOT_OK && !qdot_field_goes(&f)))
         status = qdot_fail(QDOT_ELIMIT, "the linear relations are too large to be found");
-    end(&e);
+    elimination_end(&e);
     qdot_field_end(&f);
     qdot_root_parts_clear(&parts);
     return status;

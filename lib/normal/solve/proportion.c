@@ -130,7 +130,7 @@ nonzero_factors(qdot_field *f, const fmpz_mpoly_t p)
 
 /* The value of an atom in a LIST of equations atom = number. */
 static bool
-value_at(void *user, qdot_expr atom, arb_t value, slong prec)
+point_value_of_motion(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     const qdot_ball *b = ((void **)user)[0];
     qdot_expr at = *(qdot_expr *)((void **)user)[1];
@@ -149,7 +149,7 @@ value_at(void *user, qdot_expr atom, arb_t value, slong prec)
 
 /* The point without the second motion, and a and b there. */
 static qdot_status
-tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
+proportion_tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *d)
 {
     uint32_t n = qdot_expr_count(pool, d->at), kept = 0;
     qdot_expr *rows = qdot_malloc((n + 1) * sizeof *rows), both[2] = {a, b};
@@ -170,7 +170,7 @@ tell(qdot_pool *pool, qdot_expr a, qdot_expr b, qdot_expr atoms, qdot_decision *
     if (d->at == QDOT_NIL)
         return qdot_pool_check(pool);
     QDOT_TRY(qdot_ball_begin(&ball, pool, 2, both));
-    qdot_ball_eval(&ball, 64, value_at, user);
+    qdot_ball_eval(&ball, 64, point_value_of_motion, user);
     x = qdot_ball_get(&ball, a);
     d->left = x == NULL ? 0 : arf_get_d(arb_midref(x), ARF_RND_NEAR);
     x = qdot_ball_get(&ball, b);
@@ -222,7 +222,7 @@ refute(qdot_pool *pool, qdot_expr a, qdot_expr b, const qdot_facts *facts,
         inner.verdict = QDOT_UNDECIDED;
     if (status == QDOT_OK && inner.verdict == QDOT_REFUTED) {
         *d = inner;
-        status = tell(pool, a, b, atoms, d);
+        status = proportion_tell(pool, a, b, atoms, d);
     }
     return status;
 }

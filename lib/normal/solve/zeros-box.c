@@ -51,7 +51,7 @@ typedef struct {
 } image;
 
 static void
-evaluate(qdot_zeros_system *s, const qdot_interval *X, image *to)
+box_evaluate(qdot_zeros_system *s, const qdot_interval *X, image *to)
 {
     size_t n = s->n;
 
@@ -234,8 +234,8 @@ prove_here(qdot_zeros_system *s, const double *z, qdot_zero_place *place)
             X[i] = (qdot_interval){z[i] - r, z[i] + r};
             point[i] = qdot_interval_point(z[i]);
         }
-        evaluate(s, X, &f);
-        evaluate(s, point, &at_z);
+        box_evaluate(s, X, &f);
+        box_evaluate(s, point, &at_z);
         inside = f.smooth && at_z.smooth && invert_middles(n, &f, C) &&
                  remainder_of(n, C, &f, R) < 1;
         for (size_t i = 0; i < n && inside; i++) {
@@ -267,7 +267,7 @@ qdot_zeros_prove(qdot_zeros_system *s, const double *x0, qdot_zero_place *place)
 
         for (size_t i = 0; i < n; i++)
             X[i] = qdot_interval_point(z[i]);
-        evaluate(s, X, &f);
+        box_evaluate(s, X, &f);
         if (!f.smooth || !invert_middles(n, &f, C))
             break;
         length = 0;
@@ -314,7 +314,7 @@ is_covered(const qdot_zeros_system *s, const qdot_interval *X)
 
 /* Whether all of X is known to be zeros, by one of the ranges that the caller gave (qdot_zeros_range.held). */
 static bool
-is_held(const qdot_zeros_system *s, const qdot_interval *X)
+box_is_held(const qdot_zeros_system *s, const qdot_interval *X)
 {
     for (size_t k = 0; k < s->ranges; k++) {
         bool inside = true;
@@ -372,7 +372,7 @@ settle(qdot_zeros_system *s, const qdot_interval *X, const double *m, bool *sett
 
         wide[i] = (qdot_interval){X[i].lo - more, X[i].hi + more};
     }
-    evaluate(s, wide, &f);
+    box_evaluate(s, wide, &f);
     if (!f.smooth || !invert_middles(n, &f, C) || !(remainder_of(n, C, &f, R) < 1))
         return QDOT_OK;
     *settled = is_known(s, wide);
@@ -399,7 +399,7 @@ is_narrow(const qdot_zeros_system *s, const qdot_interval *X)
 
 /* Whether X is so small that an equation whose rounding hides its change will not exclude its parts. */
 static bool
-is_small(size_t n, const qdot_interval *X)
+box_is_small(size_t n, const qdot_interval *X)
 {
     for (size_t i = 0; i < n; i++)
         if (width(X[i]) > 1e-5 * fmax(1, fabs(X[i].lo)))
@@ -428,7 +428,7 @@ is_excluded(size_t n, const image *f, const image *at_m, const qdot_interval *X,
         else
             *noisy = false;
     }
-    *noisy |= one && is_small(n, X);
+    *noisy |= one && box_is_small(n, X);
     return false;
 }
 
@@ -437,7 +437,7 @@ static bool
 hides_in_rounding(size_t n, double C[MOST][MOST], const image *at_m,
                   const qdot_interval *X)
 {
-    if (!is_small(n, X))
+    if (!box_is_small(n, X))
         return false;
     for (size_t i = 0; i < n; i++) {
         double noise = 0;
@@ -491,9 +491,9 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
         image at_m;
         bool noisy, settled;
 
-        if (is_covered(s, X) || is_held(s, X))
+        if (is_covered(s, X) || box_is_held(s, X))
             return QDOT_OK;
-        evaluate(s, X, f);
+        box_evaluate(s, X, f);
         if (f->nowhere || f->zero_free || is_excluded_by_others(s, X))
             return QDOT_OK;
         *how = is_narrow(s, X) ? DOUBT : SPLIT;
@@ -503,7 +503,7 @@ look_at(qdot_zeros_system *s, qdot_interval *X, image *f, verdict *how)
             m[i] = middle(X[i]);
             point[i] = qdot_interval_point(m[i]);
         }
-        evaluate(s, point, &at_m);
+        box_evaluate(s, point, &at_m);
         if (is_excluded(n, f, &at_m, X, m, &noisy)) {
             *how = DONE;
             return QDOT_OK;
@@ -577,7 +577,7 @@ halve(qdot_zeros_system *s, const qdot_interval *X, size_t j)
 static bool
 is_late(qdot_zeros_system *s, const qdot_interval *X)
 {
-    return s->n > 1 && !s->late && is_small(s->n, X);
+    return s->n > 1 && !s->late && box_is_small(s->n, X);
 }
 
 /* The next box: of one unknown the one that waits longest, so that zeros which gather at a point do not keep

@@ -114,7 +114,7 @@ split(qdot_zeros_task *t)
 /* --- the search -------------------------------------------------------------------------------------------- */
 
 static qdot_status
-search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
+task_search(qdot_zeros_task *t, qdot_zeros_system *s, const qdot_zero_box *box, uint64_t most)
 {
     size_t nodes = qdot_enclosure_size(s->bounds);
     uint64_t weight = nodes > SHORT ? nodes / SHORT : 1;
@@ -151,7 +151,7 @@ is_empty_chart(qdot_zeros_task *t, const qdot_zeros_chart *chart, const qdot_exp
         return QDOT_OK;
     QDOT_TRY(qdot_zeros_system_begin(&s, t->pool, t->n, f, chart->y));
     s.least = 1e-14;
-    status = search(t, &s, &chart->box, NEARBY);
+    status = task_search(t, &s, &chart->box, NEARBY);
     *empty = s.found.n == 0 && s.doubt.n == 0 && !s.exhausted;
     qdot_zeros_system_end(&s);
     return status;
@@ -207,7 +207,7 @@ search_core(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
         QDOT_TRY(qdot_enclosure_new(t->pool, t->n, t->F, t->n, t->x, &core->also));
         core->others = t->n;
     }
-    QDOT_TRY(search(t, core, box, UINT64_MAX));
+    QDOT_TRY(task_search(t, core, box, UINT64_MAX));
     t->exhausted |= core->exhausted;
     qdot_zeros_join(core);
     if (t->n == 1) {
@@ -257,7 +257,7 @@ search_chart(qdot_zeros_task *t, size_t k, qdot_zeros_system *core,
     s.others = t->n;
     status = qdot_enclosure_new(t->pool, t->n, F, t->n, chart->y, &s.also);
     if (status == QDOT_OK)
-        status = search(t, &s, &chart->box, t->budget / (wild ? 40 : 4));
+        status = task_search(t, &s, &chart->box, t->budget / (wild ? 40 : 4));
     *beyond |= s.doubt.n > 0 || s.exhausted;
     for (size_t i = 0; i < s.found.n && status == QDOT_OK; i++) {
         double at[MOST];

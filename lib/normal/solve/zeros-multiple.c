@@ -219,7 +219,7 @@ typedef struct {
 } fine;
 
 static bool
-value_of(void *user, qdot_expr atom, arb_t value, slong prec)
+fine_value(void *user, qdot_expr atom, arb_t value, slong prec)
 {
     fine *d = user;
 
@@ -239,7 +239,7 @@ sign_over(fine *d, int i, const arf_t lo, const arf_t hi)
     d->steps++;
     d->s->evaluations += 4;
     arb_set_interval_arf(d->at, lo, hi, BITS);
-    qdot_ball_eval(&d->ball, BITS, value_of, d);
+    qdot_ball_eval(&d->ball, BITS, fine_value, d);
     v = qdot_ball_get(&d->ball, d->e[i]);
     return v == NULL ? 0 : arb_is_positive(v) ? 1 : arb_is_negative(v) ? -1 : 0;
 }

@@ -150,7 +150,7 @@ doubt_all(qdot_piece *x)
 
 /* Move the start onto the equations of the mode; kept [2n], low [2n]. *can: they have a solution. */
 static qdot_status
-move(qdot_piece *x, bool begins, const bool *kept, bool positions, double *low, bool *can)
+massless_move(qdot_piece *x, bool begins, const bool *kept, bool positions, double *low, bool *can)
 {
     const qdot_ode_system *from = &x->c->systems.at[x->start.from];
     qdot_constrained *held = qdot_bind_held(x->c->binds.at[x->mode]);
@@ -193,7 +193,7 @@ qdot_piece_follow_massless(qdot_piece *x, bool *can)
     if (status == QDOT_OK) {
         memcpy(old, x->start.y, n * sizeof *old);
         mark_kept(m->plan, kept, &positions);
-        status = move(x, begins, kept, positions, old + n, can);
+        status = massless_move(x, begins, kept, positions, old + n, can);
     }
     if (status == QDOT_OK && !*can)
         status = doubt_all(x);

@@ -131,7 +131,7 @@ next_sides(qdot_piece *x, size_t *k, bool *over)
 /* Enter the mode with x->side; *can: where the motion would slide it may be that it cannot, and
  * x->hindrance says why. */
 static qdot_status
-enter(qdot_piece *x, bool *can)
+side_enter(qdot_piece *x, bool *can)
 {
     const size_t n = x->n;
     double *kept;
@@ -188,7 +188,7 @@ holds_too(qdot_piece *x, const long *held, size_t surface, long side, bool *too)
     QDOT_TRY(qdot_piece_sides(x, held));
     if (qdot_piece_has_massless(x)) /* their values are those of the sides found */
         memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
-    status = enter(x, &can);
+    status = side_enter(x, &can);
     if (status == QDOT_OK && can) {
         qdot_piece_carry(x);
         status = go(x);
@@ -207,7 +207,7 @@ stays_alike(long side, long other)
 
 /* Whether the present sides, held [surfaces], are the only right ones; c->reason if not. */
 static qdot_status
-compare(qdot_piece *x, const long *held)
+sides_compare(qdot_piece *x, const long *held)
 {
     qdot_vec(qdot_piece_doubt) others = {0};
     qdot_status status = qdot_piece_doubt_open(x);
@@ -260,7 +260,7 @@ go_by(qdot_piece *x)
     if (status == QDOT_OK) {
         memcpy(held, x->side, surfaces * sizeof *held);
         copy_start(x, y);
-        status = compare(x, held);
+        status = sides_compare(x, held);
         memcpy(x->side, held, surfaces * sizeof *held);
         if (massless) {
             put_start(x, y);
@@ -308,7 +308,7 @@ go_by_crossing(qdot_piece *x, bool *decided)
         return QDOT_OK;
     memcpy(x->side, x->tried.at, surfaces * sizeof *x->side);
     memcpy(x->start.y, x->bare, x->n * sizeof *x->bare);
-    QDOT_TRY(enter(x, &can));
+    QDOT_TRY(side_enter(x, &can));
     *decided = can;
     if (!can)
         return QDOT_OK;
@@ -344,7 +344,7 @@ search(qdot_piece *x)
                 say_slides(x);
             return QDOT_OK;
         }
-        QDOT_TRY(enter(x, &can));
+        QDOT_TRY(side_enter(x, &can));
         if (!can)
             continue;
         QDOT_TRY(qdot_piece_cross(x));

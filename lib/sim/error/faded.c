@@ -128,7 +128,7 @@ last_seen(look *l, size_t k, double *t)
 
 /* g is seen to differ from 0 at *a, and nowhere from *b on: halve the time between until it is at most `small`. */
 static qdot_status
-narrow(look *l, double least, double small, double *a, double *b)
+faded_narrow(look *l, double least, double small, double *a, double *b)
 {
     while (fabs(*b - *a) > small) {
         const double middle = *a + (*b - *a) / 2;
@@ -161,7 +161,7 @@ faded_find(look *l, double *from)
         return QDOT_OK;
     start = l->t[k];
     left = fabs(l->end - start);
-    QDOT_TRY(narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
+    QDOT_TRY(faded_narrow(l, least_seen(l, k), fmin(left / 8, 1e-3 * fabs(l->t[l->n + 1] - l->t[0])), &seen, &start));
     /* a crossing at the very end is within the error as long before it as behind */
     if (left > 2 * fabs(l->t[k] - seen))
         *from = start;

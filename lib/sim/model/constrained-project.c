@@ -168,7 +168,7 @@ measure_noise(qdot_constrained *h, const part *p)
  * bounds, and cannot be met. Nothing is moved for a redundant row: it also has what
  * rounding makes of the slopes of all rows, of which it is a combination. */
 static bool
-is_rounding(qdot_constrained *h, const part *p)
+projection_is_rounding(qdot_constrained *h, const part *p)
 {
     const qdot_saddle *s = &p->l->saddle;
     const size_t m = p->l->m;
@@ -230,7 +230,7 @@ project(qdot_constrained *h, const part *p, convergence *c, double *moved)
         if (c->rate * now <= sure)
             return QDOT_OK;
     }
-    return bounded && is_rounding(h, p)
+    return bounded && projection_is_rounding(h, p)
                ? QDOT_OK
                : qdot_fail(QDOT_EDOMAIN, "the constraints cannot be held");
 }

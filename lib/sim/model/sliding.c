@@ -342,7 +342,7 @@ solve(sliding *s)
 
 /* Share j, whose slope in equation i of a massless coordinate is B, from that equation. Then u = 0 stands in its place. */
 static qdot_status
-settle(sliding *s, size_t i, size_t j, qdot_expr B)
+sliding_settle(sliding *s, size_t i, size_t j, qdot_expr B)
 {
     qdot_plan *p = s->p;
     const qdot_expr symbol = share_symbol(s, j), zero = QDOT_ZERO;
@@ -390,7 +390,7 @@ settle_massless(sliding *s)
                 QDOT_TRY(qdot_pool_check(s->p->pool));
                 if (B == QDOT_ZERO || (pass == 0 && !is_own(s, i, j)))
                     continue;
-                QDOT_TRY(settle(s, i, j, B));
+                QDOT_TRY(sliding_settle(s, i, j, B));
                 break;
             }
     return QDOT_OK;

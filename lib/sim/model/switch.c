@@ -26,7 +26,7 @@ qdot_switches_clear(qdot_switches *s)
     *s = (qdot_switches){0};
 }
 
-static qdot_status collect(qdot_switches *s, qdot_expr e);
+static qdot_status switches_collect(qdot_switches *s, qdot_expr e);
 
 /* Add a surface after those inside it, which may be new; a difference is put in canonical order.
  *  */
@@ -42,7 +42,7 @@ add_surface(qdot_switches *s, qdot_expr u, bool steps)
     QDOT_TRY(qdot_pool_check(s->pool));
     if (!qdot_gates_moves(s->pool, u)) /* what moved cancelled */
         return QDOT_OK;
-    QDOT_TRY(collect(s, u));
+    QDOT_TRY(switches_collect(s, u));
     for (size_t i = 0; i < s->surfaces.n; i++)
         if (s->surfaces.at[i].u == u && s->surfaces.at[i].steps == steps)
             return QDOT_OK;
@@ -83,7 +83,7 @@ add_atom(qdot_switches *s, qdot_expr e)
 
 /* Collect all functions in e that switch. */
 static qdot_status
-collect(qdot_switches *s, qdot_expr e)
+switches_collect(qdot_switches *s, qdot_expr e)
 {
     qdot_walk walk;
     qdot_status status = qdot_walk_begin(s->pool, e, &walk);
@@ -99,7 +99,7 @@ collect(qdot_switches *s, qdot_expr e)
 static qdot_status
 collect_root(qdot_switches *s, qdot_expr e)
 {
-    QDOT_TRY(collect(s, e));
+    QDOT_TRY(switches_collect(s, e));
     return qdot_vec_push(&s->roots, e);
 }
 

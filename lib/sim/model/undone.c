@@ -25,7 +25,7 @@ typedef struct {
 } undoing;
 
 static bool
-holds_unknown(const undoing *x, qdot_expr e)
+undone_holds_unknown(const undoing *x, qdot_expr e)
 {
     for (size_t i = 0; i < x->n; i++)
         if (x->before[i] == QDOT_NIL && qdot_expr_contains(x->pool, e, x->unknown[i]))
@@ -45,12 +45,12 @@ is_linear(const undoing *x, qdot_expr e, size_t m, const size_t *of, qdot_expr *
         const qdot_expr z = x->unknown[of[j]], zero = QDOT_ZERO;
 
         row[j] = qdot_normal(pool, qdot_diff(pool, e, z), NULL);
-        if (row[j] == QDOT_NIL || holds_unknown(x, row[j]))
+        if (row[j] == QDOT_NIL || undone_holds_unknown(x, row[j]))
             return false;
         *rest = qdot_substitute(pool, *rest, 1, &z, &zero);
         sum = qdot_add(pool, sum, qdot_mul(pool, row[j], z));
     }
-    return *rest != QDOT_NIL && !holds_unknown(x, *rest)
+    return *rest != QDOT_NIL && !undone_holds_unknown(x, *rest)
            && qdot_normal(pool, qdot_sub(pool, qdot_sub(pool, e, *rest), sum), NULL) == QDOT_ZERO;
 }
 
@@ -71,7 +71,7 @@ put_known(undoing *x)
 
 /* Solve the equations `of` [m] for the unknowns of these; *found: they are linear, and have one solution. */
 static qdot_status
-solve(undoing *x, size_t m, const size_t *of, bool *found)
+undone_solve(undoing *x, size_t m, const size_t *of, bool *found)
 {
     qdot_expr *A = qdot_calloc(m * m + 2 * m + 1, sizeof *A), *b = A + m * m, *out = b + m;
     uint32_t pivot;
@@ -136,23 +136,23 @@ recall(undoing *x)
 }
 
 static qdot_status
-find(undoing *x, size_t *open, qdot_undone *out)
+undone_find(undoing *x, size_t *open, qdot_undone *out)
 {
     bool found = true;
     size_t m;
 
     QDOT_TRY(recall(x));
     while ((m = list_open(x, open)) > 0 && found) {
-        QDOT_TRY(solve(x, m, open, &found));
+        QDOT_TRY(undone_solve(x, m, open, &found));
         for (size_t i = 0; i < m && !found; i++)
-            QDOT_TRY(solve(x, 1, open + i, &found));
+            QDOT_TRY(undone_solve(x, 1, open + i, &found));
         if (found)
             put_known(x);
     }
     if (m > 0)
         out->why = "its `then` has no inverse";
     out->function = x->image != QDOT_NIL ? x->image : x->f;
-    if (holds_unknown(x, out->function))
+    if (undone_holds_unknown(x, out->function))
         out->function = QDOT_NIL;
     memcpy(out->values, x->before, x->n * sizeof *out->values);
     return qdot_pool_check(x->pool);
@@ -196,9 +196,9 @@ qdot_undone_find(qdot_pool *pool, qdot_expr f, size_t n, const qdot_expr *target
         if (qdot_expr_node(pool, values[i])->holds & (QDOT_HAS_ACCELERATION | QDOT_HAS_MULTIPLIER))
             out->why = "its `then` reads accelerations";
     if (status == QDOT_OK && out->why)
-        out->function = holds_unknown(&x, x.f) ? QDOT_NIL : f;
+        out->function = undone_holds_unknown(&x, x.f) ? QDOT_NIL : f;
     else if (status == QDOT_OK)
-        status = find(&x, open, out);
+        status = undone_find(&x, open, out);
     qdot_free(open);
     qdot_free(x.unknown);
     if (status != QDOT_OK)

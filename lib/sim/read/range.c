@@ -195,7 +195,7 @@ rounding(const question *q, double *error)
 /* What the error of run k makes of x, the value of the runs: the values with its companions in
  * its place are that far from x. */
 static qdot_status
-compare(const question *q, size_t k, double x, double *error)
+range_compare(const question *q, size_t k, double x, double *error)
 {
     qdot_run *run = q->x->runs[k];
     const qdot_course *companions[] = {&run->companion, &run->twin};
@@ -229,7 +229,7 @@ find_error(const question *q, double x, double rough, double *error)
         if (!qdot_run_comparable(q->x->runs[k]))
             return QDOT_OK;
     for (size_t k = 0; k < q->x->n; k++) {
-        QDOT_TRY(compare(q, k, x, &one));
+        QDOT_TRY(range_compare(q, k, x, &one));
         sum += one;
     }
     QDOT_TRY(rounding(q, &rounded));

@@ -89,7 +89,7 @@ read_at(section *x, side *s, const qdot_crossing *at, double *out)
 /* The errors of row k from those of the companions: of the time into *t_error, of the numbers into
  * errors [m]; NaN where one has not that crossing. */
 static qdot_status
-compare(section *x, size_t k, const double *values, double *t_error, double *errors)
+crossing_compare(section *x, size_t k, const double *values, double *t_error, double *errors)
 {
     const size_t m = x->of->m, others = x->n_sides - 1;
     const side *own = x->sides;
@@ -145,7 +145,7 @@ widen(size_t n, size_t m, double *errors)
 
 /* The errors of rows [n] of the run, in s from row `first` on. */
 static qdot_status
-find_errors(section *x, qdot_section *s, size_t first)
+section_find_errors(section *x, qdot_section *s, size_t first)
 {
     const qdot_course *const course = x->sides[0].course;
     const size_t n = s->n - first, m = s->m;
@@ -159,7 +159,7 @@ find_errors(section *x, qdot_section *s, size_t first)
     if (status == QDOT_OK)
         status = qdot_noise_roundings(&x->reading, &course, n, t, roundings);
     for (size_t k = 0; k < n && status == QDOT_OK; k++)
-        status = compare(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
+        status = crossing_compare(x, k, values + k * m, &s->t_errors[first + k], errors + k * m);
     if (status == QDOT_OK)
         status = widen(n, m, errors);
     for (size_t k = 0; k < n && status == QDOT_OK; k++) {
@@ -210,7 +210,7 @@ add_rows(section *x, qdot_section *s)
         for (size_t j = 0; j < m; j++)
             out[j] = isfinite(out[j]) ? out[j] : NAN;
     }
-    return find_errors(x, s, first);
+    return section_find_errors(x, s, first);
 }
 
 /* Of expressions in the coordinates of the run, from limits[0] up to limits[1]. */

@@ -111,8 +111,8 @@ choose_groups(qdot_scene *s, const qdot_run_request *request, const qdot_run *ru
 
 /* The start in new coordinates: exact constants, in order of the chart's scene. */
 static qdot_status
-put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
-          qdot_expr *v0)
+chart_put_start(const qdot_chart *c, const qdot_run_request *request, qdot_expr *q0,
+                qdot_expr *v0)
 {
     const qdot_scene *to = c->scene, *s = c->of;
 
@@ -136,7 +136,7 @@ run_in(qdot_run_chart *x, const qdot_run_request *request, const qdot_run_maker 
     qdot_run_request other = *request;
     const size_t n = x->chart.scene->coordinates.n;
     qdot_expr *q0 = qdot_calloc(2 * n + 1, sizeof *q0);
-    qdot_status status = q0 ? put_start(&x->chart, request, q0, q0 + n) : QDOT_ENOMEM;
+    qdot_status status = q0 ? chart_put_start(&x->chart, request, q0, q0 + n) : QDOT_ENOMEM;
 
     *run = NULL;
     other.q0 = q0;

@@ -29,7 +29,7 @@ write_in_s(qdot_expr e, void *user)
 
 /* Whether t stands in the scene, or in a value of a parameter. */
 static bool
-has_time(qdot_scene *s, const qdot_run_request *r)
+origin_has_time(qdot_scene *s, const qdot_run_request *r)
 {
     bool found = qdot_scene_contains(s, QDOT_T);
 
@@ -98,7 +98,7 @@ qdot_origin_begin(qdot_origin *o, qdot_scene *scene, const qdot_run_request *ask
     o->request.t0 = qdot_sub(pool, asked->t0, origin);
     o->request.t1 = qdot_sub(pool, asked->t1, origin);
     QDOT_TRY(qdot_pool_check(pool));
-    return has_time(scene, asked) ? write_scene(o, scene, asked) : QDOT_OK;
+    return origin_has_time(scene, asked) ? write_scene(o, scene, asked) : QDOT_OK;
 }
 
 void

@@ -120,7 +120,7 @@ list_all(const qdot_run *run, size_t surface, stretches all[3])
 
 /* The largest distance of any two of the times [n]; NaN: there is one alone. */
 static double
-spread(const double *t, size_t n)
+slides_spread(const double *t, size_t n)
 {
     double most = n > 1 ? 0 : NAN;
 
@@ -146,8 +146,8 @@ errors_of(const qdot_run *run, const stretches all[3], size_t k)
         begins[n] = all[i].at[k].begin;
         ends[n++] = all[i].at[k].end;
     }
-    return (stretch){own->begin == run->t0 || run->precise ? 0 : spread(begins, n) + own->unsure,
-                     own->end == run->t1 || run->precise ? 0 : spread(ends, n), 0};
+    return (stretch){own->begin == run->t0 || run->precise ? 0 : slides_spread(begins, n) + own->unsure,
+                     own->end == run->t1 || run->precise ? 0 : slides_spread(ends, n), 0};
 }
 
 static qdot_status

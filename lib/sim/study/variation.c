@@ -29,7 +29,7 @@ qdot_variation_clear(qdot_variation *v)
 
 /* Whether what decides a jump of this function holds the motion, or the parameter (may be nil). */
 static bool
-jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
+function_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 {
     const uint32_t moving = QDOT_HAS_COORD | QDOT_HAS_VELOCITY | QDOT_HAS_ACCELERATION;
     uint32_t n = qdot_expr_count(pool, e);
@@ -62,7 +62,7 @@ refuse_jumps(const qdot_pool *pool, qdot_expr e, qdot_expr parameter)
 
     QDOT_TRY(qdot_walk_begin(pool, e, &w));
     for (size_t i = 0; i < w.n && found == QDOT_NIL; i++)
-        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && jumps(pool, w.at[i], parameter))
+        if (qdot_expr_kind(pool, w.at[i]) == QDOT_FUN && function_jumps(pool, w.at[i], parameter))
             found = w.at[i];
     qdot_walk_end(&w);
     if (found == QDOT_NIL)
@@ -136,7 +136,7 @@ typedef struct {
 } elimination;
 
 static qdot_status
-factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
+ldl_factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
 {
     for (size_t k = 0; k < n; k++) {
         const qdot_expr d = L[k * n + k];
@@ -159,7 +159,7 @@ factor(qdot_pool *pool, size_t n, qdot_expr *L, size_t *pivot)
 }
 
 static void
-solve(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
+ldl_solve(qdot_pool *pool, size_t n, const qdot_expr *L, qdot_expr *b)
 {
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < i; k++)
@@ -217,7 +217,7 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
 
     for (size_t c = 0; c < e->w; c++)
         x[e->v->massless[c]] = QDOT_ZERO;
-    solve(pool, e->n, e->L, x);
+    ldl_solve(pool, e->n, e->L, x);
     if (e->m == 0) {
         solve_massless(e, x, z);
         return;
@@ -227,7 +227,7 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
             z[c] = qdot_sub(pool, z[c], qdot_mul(pool, e->A[c * e->n + i], x[i]));
         z[c] = qdot_hold(pool, z[c]);
     }
-    solve(pool, e->m, e->S, z);
+    ldl_solve(pool, e->m, e->S, z);
     for (size_t i = 0; i < e->n; i++) {
         for (size_t c = 0; c < e->m; c++)
             x[i] = qdot_add(pool, x[i], qdot_mul(pool, e->B[c * e->n + i], z[c]));
@@ -240,7 +240,7 @@ solve_both(const elimination *e, qdot_expr *x, qdot_expr *z)
 
 /* Whether constraints of the scene hold coordinate i. */
 static bool
-is_held(const elimination *e, size_t i)
+coordinate_is_held(const elimination *e, size_t i)
 {
     const qdot_scene *s = e->v->of;
 
@@ -325,7 +325,7 @@ find_massless(elimination *e)
     const size_t n = e->n;
 
     for (size_t i = 0; i < n; i++) {
-        bool mass = is_held(e, i);
+        bool mass = coordinate_is_held(e, i);
 
         for (size_t j = 0; j < n; j++)
             mass = mass || e->M[i * n + j] != QDOT_ZERO;
@@ -398,7 +398,7 @@ say_undetermined(const elimination *e, size_t pivot)
 
 /* Derive M, f, the constraints, and factor them. */
 static qdot_status
-prepare(elimination *e)
+elimination_prepare(elimination *e)
 {
     qdot_variation *v = e->v;
     qdot_scene *s = v->of;
@@ -421,7 +421,7 @@ prepare(elimination *e)
         e->f[i] = qdot_variation_with_numbers(v, qdot_expr_arg(pool, f, (uint32_t)i));
     QDOT_TRY(qdot_pool_check(pool));
     find_massless(e);
-    status = factor(pool, n, e->L, &pivot);
+    status = ldl_factor(pool, n, e->L, &pivot);
     if (status == QDOT_ESINGULAR)
         return say_singular(e, pivot, false);
     if (status == QDOT_OK)
@@ -434,7 +434,7 @@ prepare(elimination *e)
             e->A[c * n + i] = e->B[c * n + i] =
                 qdot_diff(pool, e->F[c], qdot_variation_jet(v, i, 2));
         status = qdot_pool_check(pool);
-        solve(pool, n, e->L, e->B + c * n);
+        ldl_solve(pool, n, e->L, e->B + c * n);
     }
     for (size_t c = 0; c < m && status == QDOT_OK; c++)
         for (size_t d = 0; d < m; d++) {
@@ -446,7 +446,7 @@ prepare(elimination *e)
             e->S[c * m + d] = qdot_hold(pool, sum);
         }
     if (status == QDOT_OK && m > 0)
-        status = factor(pool, m, e->S, &pivot);
+        status = ldl_factor(pool, m, e->S, &pivot);
     return status == QDOT_ESINGULAR ? say_singular(e, pivot, true) : status;
 }
 
@@ -596,11 +596,11 @@ name_slopes(qdot_variation *v)
 }
 
 static qdot_status
-make(elimination *e, qdot_expr *b)
+variation_make(elimination *e, qdot_expr *b)
 {
     QDOT_TRY(name_slopes(e->v));
     QDOT_TRY(refuse_events(e->v->of));
-    QDOT_TRY(prepare(e));
+    QDOT_TRY(elimination_prepare(e));
     QDOT_TRY(solve_motion(e));
     QDOT_TRY(solve_slopes(e, b));
     e->v->n_massless = e->w;
@@ -639,7 +639,7 @@ qdot_variation_make(qdot_scene *scene, const qdot_run_request *request, size_t k
         e.S = e.B + m * n;
         e.rate = e.S + m * m;
         e.W = e.rate + n;
-        status = make(&e, e.W + n * n);
+        status = variation_make(&e, e.W + n * n);
     }
     qdot_free(work);
     return status;

@@ -39,7 +39,7 @@ least_told(const qdot_watch_part *p)
 
 /* Whether g_i, which is said to be so large at t, in two doubles if `sharp`, is more than rounding. */
 static qdot_status
-is_told(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool sharp, bool *is)
+is_more_than_rounding(qdot_watch *w, const qdot_watch_part *p, size_t i, double t, double size, bool sharp, bool *is)
 {
     double noise;
 
@@ -95,7 +95,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
         return QDOT_OK;
     n = qdot_watch_extrema(w, p, i, &x);
     if (!p->from_zero && fabs(w->now.g0[i]) <= least && !leaves_start(p, w->now.g0[i], least)) {
-        QDOT_TRY(is_told(w, p, i, p->a, fabs(w->now.g0[i]), w->now.sharp[i], &told));
+        QDOT_TRY(is_more_than_rounding(w, p, i, p->a, fabs(w->now.g0[i]), w->now.sharp[i], &told));
         if (told) {
             w->cut = start_cut(w, p, fabs(w->now.g0[i]) / qdot_chebyshev_size(p->n, p->c));
             *v = QDOT_PART_START_FAR;
@@ -103,14 +103,14 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
         }
     }
     if (fabs(p->at_end - start) <= least)
-        QDOT_TRY(is_told(w, p, i, p->b, fabs(p->at_end - start), qdot_watch_is_fine(w, i),
-                         &told));
+        QDOT_TRY(is_more_than_rounding(w, p, i, p->b, fabs(p->at_end - start), qdot_watch_is_fine(w, i),
+                                       &told));
     for (int j = 0; j < nodes && !told; j++) {
         const double t = qdot_watch_time(p, qdot_chebyshev_node(nodes, j)),
                      value = fabs(g[j] - start);
 
         if ((p->from_zero ? value * ((p->b - p->a) / (t - p->a)) : value) <= least)
-            QDOT_TRY(is_told(w, p, i, t, value, qdot_watch_is_fine(w, i), &told));
+            QDOT_TRY(is_more_than_rounding(w, p, i, t, value, qdot_watch_is_fine(w, i), &told));
     }
     for (int e = 0; e < n && !told; e++) {
         const double t = qdot_watch_time(p, x[e]);
@@ -118,7 +118,7 @@ qdot_watch_resolve(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes,
         if (fabs(qdot_chebyshev_at(p->n, p->c, x[e])) > least)
             continue;
         QDOT_TRY(qdot_watch_value_at(w, t, w->g));
-        QDOT_TRY(is_told(w, p, i, t, fabs(w->g[i] - start), qdot_watch_is_fine(w, i), &told));
+        QDOT_TRY(is_more_than_rounding(w, p, i, t, fabs(w->g[i] - start), qdot_watch_is_fine(w, i), &told));
     }
     if (told || w->n_extrema[i] == -1)
         *v = QDOT_PART_HALVED;

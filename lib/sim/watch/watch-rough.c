@@ -165,7 +165,7 @@ change(qdot_watch *w, double t, size_t i, double roundings, double *by)
 }
 
 static qdot_status
-begin(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, walk *x)
+rough_walk_begin(qdot_watch *w, const qdot_watch_part *p, size_t i, int nodes, walk *x)
 {
     const double *g = w->samples + i * QDOT_WATCH_NODES;
     double noise, more, t;
@@ -193,7 +193,7 @@ qdot_watch_seek_least(qdot_watch *w, const qdot_watch_part *p, size_t i, int nod
     int k = 0;
     double t[3];
 
-    QDOT_TRY(begin(w, p, i, nodes, &x));
+    QDOT_TRY(rough_walk_begin(w, p, i, nodes, &x));
     for (int j = 1; j < nodes; j++)
         k = sign * g[j] < sign * g[k] ? j : k;
     for (int j = -1; j <= 1; j++)
@@ -225,7 +225,7 @@ qdot_watch_rough_roots(qdot_watch *w, const qdot_watch_part *p, size_t i, int no
     const size_t roots = w->roots.n;
     walk x;
 
-    QDOT_TRY(begin(w, p, i, nodes, &x));
+    QDOT_TRY(rough_walk_begin(w, p, i, nodes, &x));
     if (w->now.on[i]) {
         x.zero = p->a;
         x.least = fmax(QDOT_WATCH_ROUNDINGS * x.least, fabs(w->now.g0[i]));

@@ -588,7 +588,7 @@ qdot_watch_free(qdot_watch *w)
 
 /* Room for everything: numbers in one block, signs in another, flags in a third. */
 static qdot_status
-make_room(qdot_watch *w)
+watch_make_room(qdot_watch *w)
 {
     size_t m = w->m, n = w->n, work = qdot_tape_work(w->tape);
     size_t inputs = qdot_tape_inputs(w->tape);
@@ -671,7 +671,7 @@ qdot_watch_new(const qdot_plan *plan, size_t m, const qdot_expr *g, bool shaken,
     w->nodes = QDOT_WATCH_LEAST_NODES;
     status = qdot_watch_lower(w, g, shaken);
     if (status == QDOT_OK)
-        status = make_room(w);
+        status = watch_make_room(w);
     if (status == QDOT_OK)
         status = qdot_polynomial_bounds_init(&w->bounds, w->tape, 2 * w->n);
     if (status != QDOT_OK) {
