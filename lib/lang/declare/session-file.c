@@ -167,7 +167,7 @@ goes_on(const writer *w, const qdot_conditions *c, size_t k, bool anew)
 
 /* Statements that make the start of the conditions, before a run, of which `before` are written. */
 static qdot_status
-put_start(writer *w, const qdot_conditions *c, size_t before)
+session_put_start(writer *w, const qdot_conditions *c, size_t before)
 {
     const qdot_run_report *end = NULL;
     size_t last = SIZE_MAX;
@@ -296,11 +296,11 @@ put_run(writer *w, size_t k)
 
     start = conditions_compare(w, c);
     if (start == NAMES)
-        QDOT_TRY(put_start(w, c, k));
+        QDOT_TRY(session_put_start(w, c, k));
     else if (start == VALUES)
         for (size_t i = k; i-- > 0;)
             if (goes_on(w, c, i, true)) {
-                QDOT_TRY(put_start(w, c, k));
+                QDOT_TRY(session_put_start(w, c, k));
                 start = SAME;
                 break;
             }
@@ -497,7 +497,7 @@ forget_ends(writer *w)
 }
 
 static qdot_status
-put_all(writer *w, const placements *list)
+session_put_all(writer *w, const placements *list)
 {
     qdot_session *s = w->s;
     qdot_conditions start = {0};
@@ -512,7 +512,7 @@ put_all(writer *w, const placements *list)
             status = put_names(w, list, k);
     }
     if (status == QDOT_OK && conditions_compare(w, &start) != SAME)
-        status = put_start(w, &start, s->runs.n);
+        status = session_put_start(w, &start, s->runs.n);
     qdot_conditions_clear(&start);
     return status;
 }
@@ -555,7 +555,7 @@ put_runs_and_names(qdot_session *s, bool runs, size_t all, qdot_text *lost, qdot
     qdot_status status = place_names(s, runs, &list);
 
     if (status == QDOT_OK && runs)
-        status = put_all(&w, &list);
+        status = session_put_all(&w, &list);
     if (status == QDOT_OK)
         status = put_names(&w, &list, s->runs.n);
     qdot_free(w.symbols.at);
