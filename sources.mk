@@ -2280,6 +2280,7 @@ meta_tests = \
 	tests/meta/manual.test \
 	tests/meta/paths.test \
 	tests/meta/ranks.test \
+	tests/meta/references.test \
 	tests/meta/sources.test \
 	tests/meta/statics.test \
 	tests/meta/symbols.test \

@@ -10,7 +10,7 @@
  * largest, the sum does not depend on u along its column of V.
  *
  * Source  Bates and Watts, Technometrics 23 (1981) 179; More, LNM 630 (1978) 105.
- * Tests   tests/num/test_least_squares.c
+ * Tests   tests/num/test_least-squares.c
  */
 #ifndef QDOT_NUM_LEAST_SQUARES_H
 #define QDOT_NUM_LEAST_SQUARES_H

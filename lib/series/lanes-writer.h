@@ -80,7 +80,7 @@ struct qdot_lanes_writer {
     unsigned rates;          /* a bit each: which of _rate are read */
     qdot_vec(double) scalars;
     qdot_vec(qdot_lanes_by_order *) tables;
-    int registers, chains, moment, first_free; /* (lanes-code.c) */
+    int registers, chains, moment, first_free; /* (lanes-code-run) */
     /* Orders whose sums are made together; how far that at hand is in such a block; the
      * loop's first, as written. */
     int block, phase, any;

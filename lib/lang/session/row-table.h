@@ -29,7 +29,7 @@ typedef struct qdot_row_table {
     const char *note;        /* the texts in `reasons` are no failures, but this of the rows: "type"; or
                                 NULL */
     size_t drawn;            /* of branches: the columns behind the parameter that are drawn */
-    struct qdot_row_table *marks; /* the rows are branches (runs/branches.h), these the points marked on
+    struct qdot_row_table *marks; /* the rows are branches (unknowns/branches), these the points marked on
                                      them, one use of which is held; NULL: they are none */
     unsigned uses;
 } qdot_row_table;

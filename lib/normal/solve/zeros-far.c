@@ -69,7 +69,7 @@ scale_add_term(qdot_pool *pool, far_scale *s, long exponent, qdot_expr rate)
     return s->term[k].bounds.lo > 0 || s->term[k].bounds.hi < 0;
 }
 
-/* *s *= r^(num/den). */
+/* s multiplied by r to the power num / den. */
 static bool
 scale_multiply(qdot_pool *pool, far_scale *s, const far_scale *r, long num, long den)
 {

@@ -3,7 +3,7 @@
  *
  *     R_i = sum_f dd_f/dq_i F_f - Q_i = 0
  *
- * The functions x of mech/dalembert.h make a tree: where x is another one, its parent,
+ * The functions x of mech/dynamics/dalembert make a tree: where x is another one, its parent,
  * and a little more, only the difference d is kept, x = x_parent + d. With x'' summed up
  * from the roots and the forces w x'' from the leaves,
  *
