@@ -164,7 +164,7 @@ the_fewest_digits_read_back_the_same(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
         assert_int_equal(qdot_double_digits(row[i].x, row[i].least), row[i].digits);
     for (int i = 0; i < 20000; i++) {
-        char text[64];
+        char text[400];
         double x;
         int digits;
 
