@@ -94,6 +94,20 @@ holds_others(const qdot_simultaneous *s, qdot_expr e)
     return holds;
 }
 
+/* Whether e holds shares of forces that switch: unknowns that are no places, between bounds. */
+static bool
+holds_shares(const qdot_simultaneous *s, qdot_expr e)
+{
+    bool holds = false;
+
+    for (size_t i = s->places; i < s->unknowns.n && !holds; i++) {
+        const qdot_symbol *share = qdot_expr_symbol(s->pool, s->unknowns.at[i]);
+
+        holds = share->lo != QDOT_NIL && share->hi != QDOT_NIL && qdot_expr_contains(s->pool, e, s->unknowns.at[i]);
+    }
+    return holds;
+}
+
 /* Whether e jumps or has a kink with u: its derivative does not tell that it is not linear in u. */
 static bool
 has_kinks(const qdot_simultaneous *s, qdot_expr e, qdot_expr u)
@@ -119,6 +133,10 @@ effort(const qdot_simultaneous *s, qdot_expr factor, qdot_expr u)
         return 3;
     if (slope != QDOT_ZERO && holds_others(s, factor) && has_kinks(s, factor, u)) /* the others first */
         return 2;
+    if (holds_shares(s, factor) && !holds_shares(s, u)) /* a share's bounds are those of a region of places */
+        return 2;
+    if (holds_shares(s, u) && (qdot_expr_node(s->pool, slope)->sign & QDOT_NE0) != 0)
+        return 1;
     return holds_unknowns(s, slope) == 0 ? 1 : 2;
 }
 
