@@ -295,6 +295,8 @@ look_before(qdot_piece *x, double t, double *g)
 {
     const qdot_mode *m = qdot_piece_mode(x);
     const int *first = qdot_watch_first(qdot_piece_watch(x));
+    const qdot_trajectory *tr = &x->c->tr;
+    const bool instant = tr->t[tr->pieces.at[tr->pieces.n - 1].first] == t;
 
     /* places are as uncertain as velocities make them in a rounding of t */
     memcpy(x->y, x->largest, x->n * sizeof *x->y);
@@ -302,8 +304,10 @@ look_before(qdot_piece *x, double t, double *g)
         x->y[i] = fmax(x->y[i], fabs(t) * x->largest[x->n / 2 + i]);
     QDOT_TRY(qdot_watch_look(qdot_piece_watch(x), t, x->start.y, x->y, x->signs, g, x->touching));
     for (size_t i = 0; i < m->m; i++) {
-        x->left[i] = first[i];
         x->untouched[i] = true;
+        if (instant && x->turned[i]) /* what was turned back has gone nowhere since */
+            continue;
+        x->left[i] = first[i];
         x->turned[i] = false;
     }
     for (size_t i = 0; i < x->fired.n; i++)
