@@ -177,18 +177,20 @@ static void
 shorten(struct bound *b, bool up)
 {
     enum { LONG = 1024, SHORT = 256 };
-    fmpz *n = fmpq_numref(&b->x), *d = fmpq_denref(&b->x);
+    fmpq_t y;
 
-    if (fmpz_bits(d) <= LONG)
+    if (qdot_rational_is_small(&b->x) || fmpz_bits(fmpq_denref(&b->x)) <= LONG) /* small: FLINT is not called */
         return;
-    fmpz_mul_2exp(n, n, SHORT);
+    fmpq_init(y);
+    fmpz_mul_2exp(fmpq_numref(y), fmpq_numref(&b->x), SHORT);
     if (up)
-        fmpz_cdiv_q(n, n, d);
+        fmpz_cdiv_q(fmpq_numref(y), fmpq_numref(y), fmpq_denref(&b->x));
     else
-        fmpz_fdiv_q(n, n, d);
-    fmpz_one(d);
-    fmpz_mul_2exp(d, d, SHORT);
-    fmpq_canonicalise(&b->x);
+        fmpz_fdiv_q(fmpq_numref(y), fmpq_numref(y), fmpq_denref(&b->x));
+    fmpz_mul_2exp(fmpq_denref(y), fmpq_denref(y), SHORT);
+    fmpq_canonicalise(y);
+    fmpq_swap(&b->x, y);
+    fmpq_clear(y);
     b->open = true;
 }
 
