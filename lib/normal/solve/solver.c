@@ -162,7 +162,7 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     if (root.condition != QDOT_NIL)
         QDOT_TRY(qdot_written_lifts(s->pool, &s->written, s->f, s->x, root.value, s->facts, &lifted));
     if (lifted) {
-        when = qdot_conditions_less(s->pool, when, s->written.apart);
+        QDOT_TRY(qdot_written_conditions(s->pool, &s->written, s->x, root.value, &when));
         root.condition = qdot_conditions_at(s->pool, when, 1, &s->x, &root.value, s->facts);
         QDOT_TRY(qdot_pool_check(s->pool));
     }

@@ -61,6 +61,16 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
     return qdot_pool_check(pool);
 }
 
+/* What stands for the base of the k-th condition that is apart. */
+static qdot_expr
+part_symbol(qdot_pool *pool, uint32_t k)
+{
+    char name[40];
+
+    snprintf(name, sizeof name, "(part of a root %u)", (unsigned)k);
+    return qdot_symbol_get(pool, QDOT_FORMAL, name);
+}
+
 /* A product with a formal symbol in the place of each base of a root, one for each, that is >= 0 by a condition of
  * `user`, a list. */
 static qdot_expr
@@ -76,12 +86,8 @@ replace_bases(qdot_pool *pool, qdot_expr product, void *user)
                          ? place_in(pool, apart, qdot_rel(pool, QDOT_LE, QDOT_ZERO, base))
                          : UINT32_MAX;
 
-        if (k != UINT32_MAX) {
-            char name[40];
-
-            snprintf(name, sizeof name, "(part of a root %u)", (unsigned)k);
-            base = qdot_symbol_get(pool, QDOT_FORMAL, name);
-        }
+        if (k != UINT32_MAX)
+            base = part_symbol(pool, k);
         result = qdot_mul(pool, result, qdot_pow(pool, base, exponent));
     }
     return result;
@@ -103,5 +109,35 @@ qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_exp
     if (status != QDOT_OK)
         return status == QDOT_EDOMAIN ? QDOT_OK : status;
     *yes = qdot_is_zero(pool, there, facts);
+    return qdot_pool_check(pool);
+}
+
+/* The relation at x = value where no root that is apart is left in it; nil: one is, or none was. */
+static qdot_status
+without_roots(qdot_pool *pool, qdot_expr relation, qdot_expr apart, qdot_expr x, qdot_expr value, qdot_expr *there)
+{
+    qdot_expr by = qdot_walk_replace(pool, relation, QDOT_PROD, replace_bases, &apart);
+    qdot_status status;
+
+    *there = by == relation || by == QDOT_NIL ? QDOT_NIL : qdot_subs(pool, by, 1, &x, &value);
+    status = qdot_pool_check(pool);
+    for (uint32_t k = 0; *there != QDOT_NIL && k < qdot_expr_count(pool, apart); k++)
+        if (qdot_expr_contains(pool, *there, part_symbol(pool, k)))
+            *there = QDOT_NIL;
+    return status == QDOT_EDOMAIN ? QDOT_OK : status;
+}
+
+qdot_status
+qdot_written_conditions(qdot_pool *pool, const qdot_written *w, qdot_expr x, qdot_expr value, qdot_expr *when)
+{
+    qdot_expr set = qdot_conditions_less(pool, *when, w->apart), left = QDOT_NIL;
+
+    for (uint32_t i = 0; set != QDOT_NIL && set != QDOT_FALSE && i < qdot_expr_count(pool, set); i++) {
+        qdot_expr one = qdot_expr_arg(pool, set, i), there;
+
+        QDOT_TRY(without_roots(pool, one, w->apart, x, value, &there));
+        left = qdot_conditions_and(pool, left, there != QDOT_NIL ? there : one);
+    }
+    *when = set == QDOT_FALSE ? set : left;
     return qdot_pool_check(pool);
 }

@@ -28,4 +28,9 @@ qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
 QDOT_MUST_CHECK qdot_status qdot_written_lifts(qdot_pool *pool, const qdot_written *w, qdot_expr f, qdot_expr x,
                                                qdot_expr value, const qdot_facts *facts, bool *yes);
 
+/* The conditions *when of a solution x = value that lifts: without those that are apart, and with x put in where the
+ * roots fall out by that, as in sqrt(x - 3) |x - 1| <= 1 at x = 1. */
+QDOT_MUST_CHECK qdot_status qdot_written_conditions(qdot_pool *pool, const qdot_written *w, qdot_expr x,
+                                                    qdot_expr value, qdot_expr *when);
+
 #endif
