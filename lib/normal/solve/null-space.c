@@ -32,11 +32,18 @@ typedef struct {
     size_t rank;
 } elimination;
 
+/* The order of the monomials; without generators there is one alone, and no key. */
+static int
+key_order(const piece *x, const piece *y)
+{
+    return x->gens > 0 ? memcmp(x->key, y->key, (size_t)x->gens * sizeof *x->key) : 0;
+}
+
 static int
 by_key(const void *a, const void *b)
 {
     const piece *x = a, *y = b;
-    int order = memcmp(x->key, y->key, (size_t)x->gens * sizeof *x->key);
+    int order = key_order(x, y);
 
     return order != 0 ? order : x->column < y->column ? -1 : x->column > y->column;
 }
@@ -109,9 +116,7 @@ absorb_pieces(elimination *e, piece *pieces, size_t n)
         QDOT_TRY(qdot_interrupt_check());
         for (size_t j = 0; j < e->n; j++)
             fmpz_mpoly_zero(e->row[j].n, f->ctx), fmpz_mpoly_one(e->row[j].d, f->ctx);
-        for (b = a; b < n && memcmp(pieces[a].key, pieces[b].key,
-                                    (size_t)f->n * sizeof *pieces[a].key) == 0;
-             b++)
+        for (b = a; b < n && key_order(&pieces[a], &pieces[b]) == 0; b++)
             fmpz_mpoly_set(e->row[pieces[b].column].n, pieces[b].coefficient, f->ctx);
         absorb(e);
     }
