@@ -28,55 +28,6 @@ put(qdot_session *s, const char *before, qdot_expr e, qdot_text *out)
     return qdot_print(s->pool, e, QDOT_PLAIN, out);
 }
 
-/* --- numbers of runs in values ---------------------------------------------------------- */
-
-/* Whether it is a number that nobody types: of more than twelve digits. */
-static bool
-is_long(const qdot_session *s, qdot_expr value)
-{
-    qdot_text text = {0};
-    bool is = qdot_expr_kind(s->pool, value) == QDOT_NUM &&
-              qdot_print(s->pool, value, QDOT_PLAIN, &text) == QDOT_OK && text.n > 13;
-
-    qdot_text_clear(&text);
-    return is;
-}
-
-void
-qdot_session_file_remark(const qdot_session *s, qdot_expr value, qdot_text *out)
-{
-    if (!is_long(s, value))
-        return;
-    for (size_t i = 0; i < s->measured.n; i++) {
-        const qdot_measured *m = &s->measured.at[i];
-
-        if (value != m->exact &&
-            (m->digits > 0 || value != qdot_expr_of_double(s->pool, m->value)))
-            continue;
-        qdot_text_add(out, " # a number of a run, its error ");
-        if (m->error == m->error)
-            qdot_number_text_bound(out, m->error);
-        else
-            qdot_text_add(out, "unknown");
-        return;
-    }
-    for (size_t k = 0; k < s->runs.n; k++) {
-        const qdot_run_report *report = qdot_run_get_report(s->runs.at[k].run);
-
-        for (size_t i = 0; i < report->n; i++) {
-            if (value != qdot_expr_of_double(s->pool, report->q[i]) &&
-                value != qdot_expr_of_double(s->pool, report->v[i]))
-                continue;
-            qdot_text_format(out, " # from the end of %s, its error ", s->runs.at[k].name);
-            if (report->error == report->error)
-                qdot_number_text_bound(out, report->error);
-            else
-                qdot_text_add(out, "unknown");
-            return;
-        }
-    }
-}
-
 /* --- the start of a run ------------------------------------------------------------------ */
 
 /* What the written start says of q or q'; nil: nothing, or the end of a run without its error. */
