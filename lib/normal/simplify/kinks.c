@@ -23,8 +23,7 @@ typedef struct {
 static bool
 sign_of_multiple(qdot_pool *pool, qdot_expr u, qdot_expr w, int *sign)
 {
-    const qdot_expr c = u == QDOT_ZERO ? u : qdot_simplify(pool, qdot_div(pool, u, w), NULL);
-    const uint8_t known = c == QDOT_NIL ? 0 : qdot_expr_node(pool, c)->sign;
+    const uint8_t known = qdot_ratio_sign(pool, u, w);
 
     *sign = (known & QDOT_GE0) && (known & QDOT_LE0) ? 0 : (known & QDOT_GE0) ? 1 : -1;
     return known & (QDOT_GE0 | QDOT_LE0);
@@ -74,7 +73,8 @@ absolute_of(qdot_pool *pool, qdot_expr u, kinks *k)
     return e;
 }
 
-/* A node with replaced children by absolute values. */
+/* A node with replaced children by absolute values. Each is noted before the sum is built, where it may cancel: so this is
+ * not left to qdot_rewrite_extreme. */
 static qdot_expr
 write_by_absolute(qdot_pool *pool, qdot_expr e, void *user)
 {

@@ -56,17 +56,8 @@ chooser_of(qdot_pool *pool, qdot_expr e)
 static int
 sign_of_ratio(qdot_pool *pool, qdot_expr v, qdot_expr u)
 {
-    qdot_expr ratio;
-    uint8_t sign;
+    const uint8_t sign = qdot_ratio_sign(pool, v, u);
 
-    if (v == u)
-        return 1;
-    if (v == QDOT_NIL || u == QDOT_ZERO || v == QDOT_ZERO)
-        return 0;
-    ratio = qdot_simplify(pool, qdot_div(pool, v, u), NULL);
-    if (ratio == QDOT_NIL)
-        return 0;
-    sign = qdot_expr_node(pool, ratio)->sign;
     return (sign & QDOT_POS) == QDOT_POS ? 1 : (sign & QDOT_NEG) == QDOT_NEG ? -1 : 0;
 }
 

@@ -181,22 +181,11 @@ qdot_solver_add(qdot_solver *s, qdot_expr value, qdot_expr period, qdot_expr whe
     return yes ? qdot_vec_push(&s->out->root, root) : QDOT_OK;
 }
 
-/* Whether e can be 0 in whole regions of the parameters, as |a| - a is. */
-static bool
-vanishes_in_regions(qdot_pool *pool, qdot_expr e)
-{
-    qdot_expr atoms = qdot_expr_atoms(pool, e, false);
-    bool found = false;
-
-    for (uint32_t i = 0; atoms != QDOT_NIL && i < qdot_expr_count(pool, atoms) && !found; i++)
-        found = qdot_sides_choice(pool, e, qdot_expr_arg(pool, atoms, i)) != QDOT_NIL;
-    return found;
-}
-
 qdot_status
 qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr when)
 {
     qdot_sides sides = {0};
+    qdot_expr choice;
     qdot_status status;
 
     QDOT_TRY(qdot_pool_check(s->pool));
@@ -204,9 +193,10 @@ qdot_solver_add_where(qdot_solver *s, qdot_expr value, qdot_expr e, qdot_expr wh
         return QDOT_OK;
     if (qdot_is_zero(s->pool, e, s->facts))
         return qdot_solver_add(s, value, QDOT_NIL, when);
-    if (!qdot_is_generic(s->pool, e) || !vanishes_in_regions(s->pool, e))
+    choice = qdot_sides_choice(s->pool, e, QDOT_NIL); /* |a| - a is 0 in a whole region of a */
+    if (!qdot_is_generic(s->pool, e) || choice == QDOT_NIL)
         return qdot_solver_divide(s, e);
-    status = qdot_sides_of(s->pool, e, qdot_sides_choice(s->pool, e, QDOT_NIL), &sides);
+    status = qdot_sides_of(s->pool, e, choice, &sides);
     s->out->complete = s->out->complete && sides.n > 0;
     for (size_t i = 0; i < sides.n && status == QDOT_OK; i++)
         status = qdot_solver_add_where(s, value, qdot_sides_put(&sides, i, e),
