@@ -299,7 +299,8 @@ put_in(sliding *s, bool all)
                 p->M[i * s->n + j] = i == j ? QDOT_ONE : QDOT_ZERO;
         } else {
             p->f[i] = qdot_subs(p->pool, p->f[i], k, symbols, to);
-            add_reactions(s, i);
+            if (all) /* else they are among the others */
+                add_reactions(s, i);
         }
     }
     qdot_free(symbols);
