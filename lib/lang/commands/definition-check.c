@@ -282,18 +282,19 @@ find_primed(const qdot_token *name, size_t *primes)
 static qdot_status
 tell_beside_lagrangian(assignment *a, const char *word)
 {
-    static const char message[] = "the scene states its Lagrangian: a %s beside it would not count";
+    const qdot_scene *scene = a->session->scene;
+    const bool potential = strcmp(word, "potential") == 0;
     qdot_status status;
 
-    if (word[0] == 'p' && qdot_definition_components(a) == 1) {
-        qdot_text_add(&a->line, "lagrangian ");
-        status = qdot_print(a->session->pool, a->session->scene->lagrangian, QDOT_PLAIN, &a->line);
-        qdot_text_format(&a->line, " - (%s)", qdot_text_str(&a->right));
-        return status == QDOT_OK ? tell(a, message, word) : status;
-    }
     a->c->error_at = a->name->start;
-    (void)qdot_fail(QDOT_ENAME, message, word);
-    return qdot_hint("what it adds stands in the formula of `lagrangian`; `reset scene` begins anew");
+    if (potential && qdot_definition_components(a) == 1) {
+        qdot_text_add(&a->line, "lagrangian ");
+        QDOT_TRY(qdot_print(a->session->pool, scene->lagrangian, QDOT_PLAIN, &a->line));
+        qdot_text_format(&a->line, " - (%s)", qdot_text_str(&a->right));
+        QDOT_TRY(qdot_text_status(&a->line));
+    }
+    status = qdot_scene_need_no_lagrangian(scene, potential ? "a potential" : "gravity");
+    return a->line.n > 0 ? qdot_hint("write %s%s", qdot_text_str(&a->line), qdot_text_str(&a->loop)) : status;
 }
 
 static qdot_status
@@ -343,24 +344,16 @@ write_placed(assignment *a, qdot_expr at, bool velocity)
     const qdot_pool *pool = a->session->pool;
     const bool one = qdot_expr_is_scalar(pool, at);
     const uint32_t n = one ? 1 : qdot_expr_count(pool, at);
-    const qdot_token *k = a->equals + 1 + !one, *from;
 
     if (a->moves || qdot_definition_components(a) != n)
         return false;
     for (uint32_t i = 0; i < n; i++)
         if (!qdot_expr_is_class(pool, one ? at : qdot_expr_arg(pool, at, i), QDOT_COORD))
             return false;
-    for (uint32_t i = 0; i < n; i++, k++) {
-        long depth = 0;
-
-        for (from = k; k < a->behind - !one; k++) {
-            if (depth == 0 && qdot_token_is(k, ","))
-                break;
-            depth += qdot_token_bracket(k);
-        }
+    for (uint32_t i = 0; i < n; i++) {
         qdot_text_format(&a->line, "%s%s%s = ", i > 0 ? ", " : "start ",
                          qdot_expr_symbol(pool, one ? at : qdot_expr_arg(pool, at, i))->name, velocity ? "'" : "");
-        qdot_token_text_written(a->session, from, k, &a->line);
+        qdot_definition_component(a, i, &a->line);
     }
     return true;
 }

@@ -22,6 +22,8 @@ typedef struct {
 
 /* Whether the right side is written as a vector (a, b): how many components; 1: it is not. */
 size_t qdot_definition_components(const qdot_assignment *a);
+/* Append the i-th of them as it is written; of a number all of it. */
+void qdot_definition_component(const qdot_assignment *a, size_t i, qdot_text *out);
 /* The first coordinate that is declared, or NULL. */
 const qdot_name *qdot_definition_coordinate(const qdot_session *s);
 

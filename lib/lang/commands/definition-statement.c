@@ -36,6 +36,24 @@ qdot_definition_components(const assignment *a)
     return n;
 }
 
+void
+qdot_definition_component(const assignment *a, size_t i, qdot_text *out)
+{
+    const bool vector = qdot_definition_components(a) > 1;
+    const qdot_token *k = a->equals + 1 + vector, *const end = a->behind - vector, *from = k;
+    long depth = 0;
+
+    for (; k < end; k++) {
+        if (depth == 0 && qdot_token_is(k, ",")) {
+            if (i-- == 0)
+                break;
+            from = k + 1;
+        }
+        depth += qdot_token_bracket(k);
+    }
+    qdot_token_text_written(a->session, from, k, out);
+}
+
 static bool
 is_sum(const assignment *a)
 {
@@ -75,22 +93,13 @@ static void
 write_components(assignment *a, uint32_t n)
 {
     const size_t said = qdot_definition_components(a);
-    const qdot_token *k = a->equals + 2, *from = k;
-    long depth = 0;
-    size_t at = 0;
 
     qdot_text_add(&a->line, n > 1 ? "gravity (" : "gravity ");
     for (size_t i = said; i < n; i++)
         qdot_text_add(&a->line, "0, ");
-    for (; k < a->behind; k++) {
-        if (depth == 0 && (qdot_token_is(k, ",") || k + 1 == a->behind)) {
-            if (at + n >= said)
-                qdot_token_text_written(a->session, from, k, &a->line);
-            at++;
-            from = k + 1;
-            qdot_text_add(&a->line, at < said && at + n > said ? ", " : "");
-        }
-        depth += qdot_token_bracket(k);
+    for (size_t i = said > n ? said - n : 0; i < said; i++) {
+        qdot_definition_component(a, i, &a->line);
+        qdot_text_add(&a->line, i + 1 < said ? ", " : "");
     }
     qdot_text_add(&a->line, n > 1 ? ")" : "");
 }

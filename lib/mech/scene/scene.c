@@ -151,8 +151,8 @@ qdot_scene_need_new_label(const qdot_scene *s, const char *name)
     return QDOT_OK;
 }
 
-static qdot_status
-need_no_lagrangian(const qdot_scene *s, const char *what)
+qdot_status
+qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what)
 {
     if (s->lagrangian == QDOT_NIL)
         return QDOT_OK;
@@ -213,7 +213,7 @@ qdot_scene_particle(qdot_scene *s, const char *name, qdot_expr mass, qdot_expr p
     qdot_particle p = {NULL, mass, position};
 
     qdot_scene_forget_dropped(s);
-    QDOT_TRY(need_no_lagrangian(s, "a particle"));
+    QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a particle"));
     QDOT_TRY(qdot_scene_need_new_label(s, name));
     QDOT_TRY(need_mass(s, mass));
     QDOT_TRY(need_vector(s, position, "a position", NO_VELOCITY));
@@ -227,10 +227,10 @@ need_term(qdot_scene *s, qdot_scene_kind kind, qdot_expr e)
 {
     switch (kind) {
     case QDOT_GRAVITY:
-        QDOT_TRY(need_no_lagrangian(s, "gravity"));
+        QDOT_TRY(qdot_scene_need_no_lagrangian(s, "gravity"));
         return need_vector(s, e, "a uniform field", NO_PLACE);
     case QDOT_POTENTIAL:
-        QDOT_TRY(need_no_lagrangian(s, "a potential"));
+        QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a potential"));
         return need_scalar(s, e, "a potential", NO_ACCELERATION);
     default:
         QDOT_TRY(need_known_friction(s, e, "a dissipation function"));
@@ -332,7 +332,7 @@ qdot_status
 qdot_scene_spring(qdot_scene *s, const qdot_link *spring)
 {
     qdot_scene_forget_dropped(s);
-    QDOT_TRY(need_no_lagrangian(s, "a spring"));
+    QDOT_TRY(qdot_scene_need_no_lagrangian(s, "a spring"));
     if ((qdot_expr_node(s->pool, spring->rest)->sign & QDOT_NEG) == QDOT_NEG) {
         qdot_fail(QDOT_EINVAL, "the rest length of a spring cannot be negative");
         return qdot_hint("rest 0, or none, for a spring that pulls from anywhere");

@@ -40,6 +40,8 @@ QDOT_MUST_CHECK qdot_status qdot_scene_dissipation(qdot_scene *s, qdot_expr D);
 QDOT_MUST_CHECK qdot_status qdot_scene_force(qdot_scene *s, const qdot_force *force);
 QDOT_MUST_CHECK qdot_status qdot_scene_torque(qdot_scene *s, const qdot_torque *torque);
 QDOT_MUST_CHECK qdot_status qdot_scene_lagrangian(qdot_scene *s, qdot_expr L);
+/* An error if the scene states its Lagrangian: `what` beside it would not count. */
+QDOT_MUST_CHECK qdot_status qdot_scene_need_no_lagrangian(const qdot_scene *s, const char *what);
 /* f = left - right; scalars, or VECs of equal size (one constraint a component: "pin, 1").
  * Components proved to hold identically are left out and named in s->dropped. Without label the
  * constraint is called by its number. QDOT_EINVAL: no coordinate in it, or a third derivative. */
