@@ -38,7 +38,8 @@ is_of_positions(const qdot_scene *s, const bool *massless, qdot_expr f)
     return true;
 }
 
-/* Whether what f_i = 0 determines may jump: it switches, and not only by a kink where it determines velocities. */
+/* Whether the velocity, or position, that f_i = 0 determines may jump: f_i jumps, or has a kink and determines a
+ * position. */
 static qdot_status
 check_jumps(const qdot_scene *s, const bool *massless, size_t i, qdot_expr f)
 {

@@ -44,7 +44,8 @@ check_count(qdot_equilibrium_curve *c)
     return QDOT_OK;
 }
 
-/* p changes where the scene rests or may rest, or how it moves about that. */
+/* An error if the parameter has no influence: on the equations at rest, on the ends of domains, or on the motion near a
+ * rest. */
 static qdot_status
 check_influence(const qdot_equilibrium_curve *c)
 {

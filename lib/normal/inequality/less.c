@@ -327,7 +327,7 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     return positive_on_box(pool, s);
 }
 
-/* Whether 0 < d is worth deriving from 0 < |u|, gap = |u|: d holds |u|, or is u times a number. */
+/* Whether the fact 0 < |u| (gap = |u|) can help to prove 0 < d: |u| stands in d, or d is u times a number. */
 static bool
 is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *facts)
 {

@@ -1,4 +1,5 @@
-/* sides.c -- which functions choose by the sign of the same u, and what they are on its sides. */
+/* sides.c -- finds the functions, such as |u| and max(a, b) with u = a - b, that switch where u = 0; puts in their
+ * values for u > 0 and u < 0. */
 #include "normal/solve/sides.h"
 
 #include "expr/calculus.h"

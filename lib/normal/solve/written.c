@@ -61,7 +61,7 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
     return qdot_pool_check(pool);
 }
 
-/* What stands for the base of the k-th condition that is apart. */
+/* The symbol that stands for g in the k-th condition 0 <= g of `apart`. */
 static qdot_expr
 part_symbol(qdot_pool *pool, uint32_t k)
 {

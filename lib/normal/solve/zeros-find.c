@@ -47,7 +47,7 @@ read_ranges(qdot_zeros_task *t)
     return qdot_pool_check(t->pool);
 }
 
-/* Bounds of b - a for the relations a < b that make each known range of zeros (qdot_zeros_range.held). */
+/* Zeros that fill a range are known by relations a < b that hold in it: bounds of b - a for each of them. */
 static qdot_status
 read_held(qdot_zeros_task *t)
 {

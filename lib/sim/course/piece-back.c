@@ -12,7 +12,8 @@
 
 /* A rate below so many roundings of the speeds, and a bounce below so many of the place, are 0. */
 static const double roundings = 16;
-/* The event at the state before must give back the state behind up to this part of its size. */
+/* Applied to the state found for before the event, the event must give the state behind it, up to this part of its
+ * size. */
 static const double alike = 1e-9;
 
 typedef enum {

@@ -158,7 +158,7 @@ QDOT_MUST_CHECK qdot_status qdot_piece_search(qdot_piece *x);
  * near as rounding leaves it; NULL: not asked for. */
 QDOT_MUST_CHECK qdot_status qdot_piece_keep(qdot_piece *x, bool *near);
 
-/* For the surface of w another side has to be tried, `first` the sign of its function behind the start. */
+/* Note that another side must be tried for the surface of w, whose function has the sign `first` just behind the start. */
 QDOT_MUST_CHECK qdot_status qdot_piece_doubt_side(qdot_piece *x, const qdot_watched *w, int first);
 
 /* (piece-massless.c) Whether the mode has coordinates without mass; in a mode other than that of the piece before, bring

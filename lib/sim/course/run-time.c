@@ -1,4 +1,4 @@
-/* run-time.c -- times of a run, of its expressions and texts, from its origin and from 0. */
+/* run-time.c -- turns times of a run counted from its origin into times t, and back: in numbers, expressions, texts. */
 #include "sim/course/run-time.h"
 
 #include <float.h>
