@@ -1,6 +1,6 @@
 /* completion.h -- the TAB key.
  *
- * Tests  tests/src/test_prompt.c, tests/lang/test_complete.c
+ * Tests  tests/src/test_prompt.c, tests/lang/workbench/test_complete.c
  */
 #ifndef QDOT_COMPLETION_H
 #define QDOT_COMPLETION_H

@@ -3,7 +3,7 @@
  * The lock is an empty file, FILE.lock, which exists while the lock is held; symbolic links to one FILE share it.
  * If the process dies FILE.lock stays, but locks nobody out. Processes that it forks do not hold the lock.
  *
- * Tests  tests/base/test_file-lock.c, tests/script/sweep-resume.sh
+ * Tests  tests/base/test_file-lock.c, tests/script/sweeps/sweep-resume.sh
  */
 #ifndef QDOT_BASE_FILE_LOCK_H
 #define QDOT_BASE_FILE_LOCK_H

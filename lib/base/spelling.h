@@ -1,7 +1,7 @@
 /* spelling.h -- finds the word with the least edit distance: letters inserted, deleted, changed,
  * swapped.
  *
- * Tests  tests/lang/test_names.c
+ * Tests  tests/lang/session/test_names.c
  */
 #ifndef QDOT_BASE_SPELLING_H
 #define QDOT_BASE_SPELLING_H

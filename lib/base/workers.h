@@ -9,7 +9,7 @@
  * rank 0 hands out chunks to all, of a quarter of a second or more. What a rank that is lost has not
  * answered is done by others.
  *
- * Tests  tests/base/test_workers.c, tests/script/sweep-threads.sh, tests/meta/ranks.test
+ * Tests  tests/base/test_workers.c, tests/script/sweeps/sweep-threads.sh, tests/meta/ranks.test
  */
 #ifndef QDOT_BASE_WORKERS_H
 #define QDOT_BASE_WORKERS_H

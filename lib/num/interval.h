@@ -6,7 +6,7 @@
  * 4 DBL_EPSILON. A bound is infinite if there is none, never NaN.
  *
  * Source  Moore, Kearfott & Cloud, Introduction to Interval Analysis (2009), chapters 2 and 5.
- * Tests   tests/tape/test_interval.c, tests/normal/test_zeros.c
+ * Tests   tests/tape/test_interval.c, tests/normal/solve/test_zeros.c
  */
 #ifndef QDOT_NUM_INTERVAL_H
 #define QDOT_NUM_INTERVAL_H

@@ -12,7 +12,7 @@
  * the two take turns costs little more than by the method alone. The turns are of one integration: time goes on, the state is
  * the one at hand, and options->now tells the method of each step.
  *
- * Tests  tests/ode/test_alternate.c, tests/script/stiff-turns.lag
+ * Tests  tests/ode/test_alternate.c, tests/script/methods/stiff-turns.lag
  */
 #ifndef QDOT_ODE_ALTERNATE_H
 #define QDOT_ODE_ALTERNATE_H

@@ -5,7 +5,7 @@
  * A run of such a system ends with its shortest part: if one part ends early, so does the run.
  * For ode/ alone.
  *
- * Tests  tests/sim/test_parts.c
+ * Tests  tests/sim/plan/test_parts.c
  */
 #ifndef QDOT_ODE_APART_H
 #define QDOT_ODE_APART_H

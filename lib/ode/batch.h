@@ -10,7 +10,7 @@
  * step goes an irrational part of the way, so that it cannot be a period, and only the next one
  * all of it.
  *
- * Tests  tests/sim/test_ensemble.c
+ * Tests  tests/sim/ensemble/test_ensemble.c
  */
 #ifndef QDOT_ODE_BATCH_H
 #define QDOT_ODE_BATCH_H

@@ -5,7 +5,7 @@
  * were below 2^-24 of the longest step taken, and more such steps would be needed than the run
  * has left. Close passages take steps as short, but only a few hundred.
  *
- * Tests  tests/script/constraint-ends.sh
+ * Tests  tests/script/constraints/constraint-ends.sh
  */
 #ifndef QDOT_ODE_CRAWL_H
 #define QDOT_ODE_CRAWL_H

@@ -17,7 +17,7 @@
  * the run ends, and says so. So does a run by any method that after a million steps would
  * need more than it may take.
  *
- * Tests  tests/ode/test_stiffness.c, tests/script/stiff-told.sh, stiff-auto.lag
+ * Tests  tests/ode/test_stiffness.c, tests/script/methods/stiff-told.sh, stiff-auto.lag
  */
 #ifndef QDOT_ODE_STIFFNESS_H
 #define QDOT_ODE_STIFFNESS_H

@@ -4,7 +4,7 @@
  * Stage k is as in motion.h, the unknowns of a block being -K^-1 E by the inverse of K: order 0, and
  * what comes before it, are the caller's, by kernels.
  *
- * Tests  tests/series/test_motion.c, tests/sim/test_motion.c
+ * Tests  tests/series/test_motion.c, tests/sim/form/test_motion.c
  */
 #ifndef QDOT_SERIES_LANES_MOTION_H
 #define QDOT_SERIES_LANES_MOTION_H

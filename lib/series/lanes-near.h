@@ -1,7 +1,7 @@
 /* lanes-near.h -- how far the steps of lanes may go without stepping over an exponential or a quotient
  * that is nothing where it begins: near.h, for a program in lanes.
  *
- * Tests  tests/script/sweep-lanes.sh
+ * Tests  tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_SERIES_LANES_NEAR_H
 #define QDOT_SERIES_LANES_NEAR_H

@@ -18,7 +18,7 @@
  * quotient's own coefficients, seen by then, say. A quotient whose series converges at the end of
  * the step hides nothing, and a step that an order is chosen for ends before b falls so far.
  *
- * Tests  tests/series/test_near.c, tests/script/far-away.lag, tests/script/narrow-forces.lag
+ * Tests  tests/series/test_near.c, tests/script/events/far-away.lag, tests/script/contacts/narrow-forces.lag
  */
 #ifndef QDOT_SERIES_NEAR_H
 #define QDOT_SERIES_NEAR_H

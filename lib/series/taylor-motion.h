@@ -4,7 +4,7 @@
  * the whole expansion is machine code by taylor-code.h, its products in vectors, which taylor.h
  * begins and extends. Else the steps write the equations; code is that of lanes-motion.h, of scalars.
  *
- * Tests  tests/series/test_motion.c, test_taylor-code.c, tests/sim/test_taylor.c
+ * Tests  tests/series/test_motion.c, test_taylor-code.c, tests/sim/form/test_taylor.c
  */
 #ifndef QDOT_SERIES_TAYLOR_MOTION_H
 #define QDOT_SERIES_TAYLOR_MOTION_H

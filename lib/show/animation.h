@@ -7,7 +7,7 @@
  * draws them (lib/show/player.js). A column becomes 16-bit numbers a + b u, u = 0 .. 65534
  * (65535: unknown), in base64: 1/65534 of its range, less than a screen or printer shows.
  *
- * Tests  tests/show/test_animation.c, tests/script/animate.sh
+ * Tests  tests/show/test_animation.c, tests/script/figures/animate.sh
  */
 #ifndef QDOT_SHOW_ANIMATION_H
 #define QDOT_SHOW_ANIMATION_H

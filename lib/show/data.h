@@ -9,7 +9,7 @@
  * Columns of texts, numbers of many digits, are strings in JSON, and data sets of texts of one
  * length in HDF5. Numbers that are not finite are null in JSON, words in HTML. Paths and errors as in sink.h.
  *
- * Tests  tests/show/test_data.c, tests/script/data-files.sh
+ * Tests  tests/show/test_data.c, tests/script/files/data-files.sh
  */
 #ifndef QDOT_SHOW_DATA_H
 #define QDOT_SHOW_DATA_H

@@ -9,7 +9,7 @@
  * Operations of a tape that are used once stand within expressions, others get a name. Each language
  * has a table of its operations and a template (export-language.h).
  *
- * Tests  tests/show/test_export.c, tests/script/export.sh, tests/meta/exports.test (compiled and run)
+ * Tests  tests/show/test_export.c, tests/script/files/export.sh, tests/meta/exports.test (compiled and run)
  */
 #ifndef QDOT_SHOW_EXPORT_H
 #define QDOT_SHOW_EXPORT_H

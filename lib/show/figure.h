@@ -5,7 +5,7 @@
  * written in the C locale. Sizes are those of the printed figure: letters of 8 to 14 points, so
  * that a figure is legible in a column of a journal and on a wall.
  *
- * Tests  tests/show/test_figure.c, tests/script/figures.sh
+ * Tests  tests/show/test_figure.c, tests/script/figures/figures.sh
  */
 #ifndef QDOT_SHOW_FIGURE_H
 #define QDOT_SHOW_FIGURE_H

@@ -8,7 +8,7 @@
  *
  * The LaTeX is a fragment to be included (\input), which needs the package amsmath.
  *
- * Tests  tests/show/test_formula_page.c, tests/script/formula-file.sh
+ * Tests  tests/show/test_formula-page.c, tests/script/files/formula-file.sh
  */
 #ifndef QDOT_SHOW_FORMULA_PAGE_H
 #define QDOT_SHOW_FORMULA_PAGE_H

@@ -1,6 +1,6 @@
 /* hdf5-read.h -- reads back the columns of an HDF5 file that data.h has written.
  *
- * Tests  tests/show/test_data.c, tests/script/sweep-resume.sh
+ * Tests  tests/show/test_data.c, tests/script/sweeps/sweep-resume.sh
  */
 #ifndef QDOT_SHOW_HDF5_READ_H
 #define QDOT_SHOW_HDF5_READ_H

@@ -2,7 +2,7 @@
  *
  * Curves differ in colour, and in dashes or marks too, so that they do on grey paper.
  *
- * Tests  tests/show/test_page-curves.c, tests/script/report.sh, tests/script/report-runs.sh
+ * Tests  tests/show/test_page-curves.c, tests/script/files/report.sh, tests/script/files/report-runs.sh
  */
 #ifndef QDOT_SHOW_PAGE_CURVES_H
 #define QDOT_SHOW_PAGE_CURVES_H

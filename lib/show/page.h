@@ -1,6 +1,6 @@
 /* page.h -- answers as parts of a page: headings and formulas.
  *
- * Tests  tests/show/test_page.c, tests/script/report.sh
+ * Tests  tests/show/test_page.c, tests/script/files/report.sh
  */
 #ifndef QDOT_SHOW_PAGE_H
 #define QDOT_SHOW_PAGE_H

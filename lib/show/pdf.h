@@ -1,6 +1,6 @@
 /* pdf.h -- a page printed by a browser without a window.
  *
- * Tests  tests/script/report.sh
+ * Tests  tests/script/files/report.sh
  */
 #ifndef QDOT_SHOW_PDF_H
 #define QDOT_SHOW_PDF_H

@@ -19,7 +19,7 @@
  * l(d) is written log(1 + e^d), held since e^(k log a) would be a^k; lower.c makes
  * an operation of it.
  *
- * Tests  tests/tape/test_logistic.c, tests/script/far-sides.lag
+ * Tests  tests/tape/test_logistic.c, tests/script/rests/far-sides.lag
  */
 #ifndef QDOT_TAPE_LOGISTIC_H
 #define QDOT_TAPE_LOGISTIC_H

@@ -16,7 +16,7 @@
  * is some doubles away: in a shaken tape a_k is off by e_k, all to one side of d.
  *
  * Source  Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), 3.3
- * Tests   tests/tape/test_rounding.c, tests/script/cancelling-forces.sh
+ * Tests   tests/tape/test_rounding.c, tests/script/contacts/cancelling-forces.sh
  */
 #ifndef QDOT_TAPE_ROUNDING_H
 #define QDOT_TAPE_ROUNDING_H

@@ -2,7 +2,7 @@
 #ifndef QDOT_TESTS_EXPR_KIT_H
 #define QDOT_TESTS_EXPR_KIT_H
 
-#include "spec.h"
+#include "expr/spec.h"
 
 static place p;
 

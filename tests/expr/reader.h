@@ -6,7 +6,7 @@
 
 #include <ctype.h>
 
-#include "spec.h"
+#include "expr/spec.h"
 
 typedef struct {
     qdot_pool *pool;

@@ -1,5 +1,5 @@
 /* test_calculus.c -- derivatives against differences, substitution against evaluation. */
-#include "kit.h"
+#include "expr/kit.h"
 
 static qdot_expr
 symbol(int i)

@@ -1,5 +1,5 @@
 /* test_expand.c -- multiplying out, collecting, coefficients. */
-#include "kit.h"
+#include "expr/kit.h"
 
 /* Whether a product in e holds a sum, or a whole power of one. */
 static bool

@@ -1,5 +1,5 @@
 /* test_function.c -- elementary functions: special values, parity, inverse pairs, domains. */
-#include "kit.h"
+#include "expr/kit.h"
 
 #include "expr/elementary.h"
 

@@ -1,5 +1,5 @@
 /* test_list.c -- a list and more members. */
-#include "kit.h"
+#include "expr/kit.h"
 
 #include "expr/list.h"
 

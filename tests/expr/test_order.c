@@ -1,5 +1,5 @@
 /* test_order.c -- the canonical order is a total order; signs are sound. */
-#include "kit.h"
+#include "expr/kit.h"
 
 /* Random expressions, some that share a shape: undefined functions beside elementary ones. */
 static qdot_expr

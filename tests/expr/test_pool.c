@@ -1,5 +1,5 @@
 /* test_pool.c -- the pool: interning, the first cause, symbols, budget, Ctrl-C, no memory. */
-#include "kit.h"
+#include "expr/kit.h"
 
 static void
 first_ids_are_the_constants(void **state)

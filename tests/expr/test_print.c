@@ -1,6 +1,6 @@
 /* test_print.c -- plain text reads back to the same expression; unicode and LaTeX as books. */
-#include "kit.h"
-#include "reader.h"
+#include "expr/kit.h"
+#include "expr/reader.h"
 
 static void
 says(qdot_expr e, const char *plain, const char *unicode, const char *latex)

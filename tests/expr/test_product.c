@@ -1,5 +1,5 @@
 /* test_product.c -- products, powers and roots: what is taken out, what is refused. */
-#include "kit.h"
+#include "expr/kit.h"
 
 static qdot_expr
 power(qdot_expr b, long n, long d)

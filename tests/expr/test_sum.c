@@ -1,5 +1,5 @@
 /* test_sum.c -- sums: like terms, order, and random formulas against their values. */
-#include "spec.h"
+#include "expr/spec.h"
 
 static void
 every_constructor_keeps_the_value(void **state)

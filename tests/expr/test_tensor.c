@@ -1,5 +1,5 @@
 /* test_tensor.c -- vectors, matrices, equations: algebra, shapes, entries. */
-#include "kit.h"
+#include "expr/kit.h"
 
 static qdot_expr
 matrix(uint32_t rows, uint32_t columns)

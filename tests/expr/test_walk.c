@@ -1,5 +1,5 @@
 /* test_walk.c -- passes over expressions, and the count of operations. */
-#include "kit.h"
+#include "expr/kit.h"
 
 static void
 every_reachable_node_stands_once_children_first(void **state)

@@ -1,7 +1,7 @@
 /* Ctrl-C wherever it is heard: a statement ends and says so, and the session is as good as before. */
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "talk.h"
+#include "lang/talk.h"
 #include "own-folder.h"
 
 #include <pthread.h>

@@ -2,7 +2,7 @@
 #ifndef QDOT_TESTS_NORMAL_KIT_H
 #define QDOT_TESTS_NORMAL_KIT_H
 
-#include "text.h"
+#include "normal/text.h"
 
 static qdot_pool *pool;
 

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "kit.h"
+#include "num/kit.h"
 
 #include "num/articulated.h"
 #include "num/cholesky.h"

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "kit.h"
+#include "num/kit.h"
 
 #include "num/cholesky.h"
 

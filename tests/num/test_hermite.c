@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "kit.h"
+#include "num/kit.h"
 
 #include "num/hermite.h"
 

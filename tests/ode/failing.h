@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "ode/trajectory.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 /* Each allocation of a run and of a question to it fails once. */
 static inline void

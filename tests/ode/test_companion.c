@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "ode/companion.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 static void
 start(const qdot_ode_system *system, const qdot_ode_method *m, double tol, double t1,

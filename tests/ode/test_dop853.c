@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "ode/dop853.h"
-#include "failing.h"
+#include "ode/failing.h"
 
 static const qdot_ode_method *
 dop853(void)

@@ -9,7 +9,7 @@
 
 #include "base/interrupt.h"
 #include "base/memory.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 /* One run of row m of the table. */
 static qdot_status

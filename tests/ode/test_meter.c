@@ -7,7 +7,7 @@
 
 #include "ode/companion.h"
 #include "ode/meter.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 /* A run from 0 to 1 in a hundred steps of that work, ended. */
 static void

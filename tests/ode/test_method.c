@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "ode/method.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 static void
 every_row_is_found_by_its_name(void **state)

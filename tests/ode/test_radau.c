@@ -10,7 +10,7 @@
 #include "ode/radau-basis.h"
 #include "ode/radau.h"
 #include "ode/trajectory.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 static const qdot_ode_method *
 radau(void)

@@ -11,7 +11,7 @@
 #include "ode/companion.h"
 #include "ode/taylor.h"
 #include "ode/trajectory.h"
-#include "problems.h"
+#include "ode/problems.h"
 
 enum { MOST = 40, STRIDE = 48 };
 

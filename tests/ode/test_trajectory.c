@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "base/interrupt.h"
-#include "failing.h"
+#include "ode/failing.h"
 
 /* The pendulum from its start by a row of the table. */
 static qdot_status

@@ -18,7 +18,7 @@
 #include "lang/talk.h"
 #include "own-folder.h"
 #include "sanitized.h"
-#include "scripts.h"
+#include "reliability/scripts.h"
 
 /* What writes a file of each kind. */
 static const char scene[] = "coord x\nparticle p mass 1 at x\npotential x^2/2\nstart x = 1\nrun 0..2 as a\n";

@@ -22,7 +22,7 @@
 #include "base/threads.h"
 #include "lang/talk.h"
 #include "own-folder.h"
-#include "scripts.h"
+#include "reliability/scripts.h"
 
 /* n where QDOT_RELIABILITY is a number n: every n-th allocation fails; else 0. */
 static long

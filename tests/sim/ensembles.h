@@ -2,7 +2,7 @@
 #ifndef QDOT_TESTS_SIM_ENSEMBLES_H
 #define QDOT_TESTS_SIM_ENSEMBLES_H
 
-#include "scenes.h"
+#include "sim/scenes.h"
 
 #include <math.h>
 

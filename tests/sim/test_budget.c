@@ -1,5 +1,5 @@
 /* test_budget.c -- what is spent on the error of a run, in counted work, beside the run. */
-#include "scenes.h"
+#include "sim/scenes.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* test_prompt.c -- the prompt, through a pseudo-terminal, as a person meets it. */
-#include "terminal.h"
+#include "src/terminal.h"
 
 /* --- facts ------------------------------------------------------------------------------ */
 

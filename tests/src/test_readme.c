@@ -5,7 +5,7 @@
 #include <ctype.h>
 #include <math.h>
 
-#include "terminal.h"
+#include "src/terminal.h"
 
 enum { LINES = 200, WIDTH = 400 };
 

@@ -1,5 +1,5 @@
 /* test_screen.c -- what is shown on a terminal: its width, its colours. */
-#include "terminal.h"
+#include "src/terminal.h"
 
 #include "base/utf8.h"
 

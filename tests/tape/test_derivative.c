@@ -14,9 +14,9 @@
 #include "num/batch.h"
 #include "num/kinds.h"
 #include "tape/derivative.h"
-#include "lone.h"
-#include "random.h"
-#include "reference.h"
+#include "tape/lone.h"
+#include "tape/random.h"
+#include "tape/reference.h"
 
 enum { MANY = 19, OUTPUTS = 6 };
 

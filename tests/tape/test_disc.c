@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 #include "tape/disc.h"
-#include "lone.h"
+#include "tape/lone.h"
 
 typedef double complex number;
 

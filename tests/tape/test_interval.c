@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "tape/interval.h"
-#include "lone.h"
+#include "tape/lone.h"
 
 static void
 holds_values(const qdot_tape *tape, const char *name, const qdot_interval *in,

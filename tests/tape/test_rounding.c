@@ -12,7 +12,7 @@
 #include "tape/reference.h"
 #include "tape/rounding.h"
 #include "tape/shake.h"
-#include "random.h"
+#include "tape/random.h"
 
 static qdot_tape *
 lowered(qdot_pool *pool, size_t n, const qdot_expr *in, size_t m, const qdot_expr *out)

@@ -17,7 +17,7 @@
 #include "tape/reference.h"
 #include "tape/shake.h"
 #include "tape/tape.h"
-#include "random.h"
+#include "tape/random.h"
 
 /* --- helpers ------------------------------------------------------------------------ */
 

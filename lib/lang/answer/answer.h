@@ -6,7 +6,7 @@
  * JSON, null where they are not finite; in text with the digits that their error leaves
  * meaningful.
  *
- * Tests  tests/script/, tests/lang/test_session.c
+ * Tests  tests/script/, tests/lang/session/test_session.c
  */
 #ifndef QDOT_LANG_ANSWER_H
 #define QDOT_LANG_ANSWER_H

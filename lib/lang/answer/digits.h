@@ -1,6 +1,6 @@
 /* digits.h -- numbers of runs with `digits N`: exact internally, printed with N digits.
  *
- * Tests  tests/script/digits.lag
+ * Tests  tests/script/digits/digits.lag
  */
 #ifndef QDOT_LANG_DIGITS_H
 #define QDOT_LANG_DIGITS_H

@@ -4,7 +4,7 @@
  *   dV/dq  d/dt  dT/dq'                 ∂V/∂q d/dt ∂T/∂q̇, fractions in LaTeX and MathML
  *   q''  v^2  .  -                      q̈ v² · −
  *
- * Tests  tests/lang/test_notation.c
+ * Tests  tests/lang/answer/test_notation.c
  */
 #ifndef QDOT_LANG_NOTATION_H
 #define QDOT_LANG_NOTATION_H

@@ -2,7 +2,7 @@
  *
  *     {"kind":"row","name":"curve","values":[0.5,1.25],"errors":[0,3e-13],"status":"done","reason":null}
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweeps/sweep.sh
  */
 #ifndef QDOT_LANG_ROW_ANSWER_H
 #define QDOT_LANG_ROW_ANSWER_H

@@ -5,7 +5,7 @@
  *     ... text: lines with formulas in session->style, each between qdot_formula_bracket
  *     return qdot_sheet_end(session, &s, name, status, &text);
  *
- * Tests  tests/script/styles.lag, tests/script/derive.lag, tests/src/test_screen.c
+ * Tests  tests/script/geometry/styles.lag, tests/script/derive/derive.lag, tests/src/test_screen.c
  */
 #ifndef QDOT_LANG_SHEET_H
 #define QDOT_LANG_SHEET_H

@@ -1,6 +1,6 @@
 /* write.h -- answers written: texts, as they stand or as JSON.
  *
- * Tests  tests/script/, tests/lang/test_session.c
+ * Tests  tests/script/, tests/lang/session/test_session.c
  */
 #ifndef QDOT_LANG_WRITE_H
 #define QDOT_LANG_WRITE_H

@@ -6,7 +6,7 @@
  *
  * In the plain and flat styles by the name that was typed, christoffel(R)[r, theta, theta], which is read back.
  *
- * Tests  tests/script/geometry.lag, tests/script/components.lag
+ * Tests  tests/script/geometry/geometry.lag, tests/script/derive/components.lag
  */
 #ifndef QDOT_LANG_COMPONENTS_H
 #define QDOT_LANG_COMPONENTS_H

@@ -11,7 +11,7 @@
  *   theta'' = -sin(theta)       check eom[theta] == (theta'' = -sin(theta))
  *   eom[theta] = ...            check eom[theta] == (...)
  *
- * Tests  tests/lang/hints.def, tests/bad/definition-hides.sh
+ * Tests  tests/lang/hints.def, tests/bad/definitions/definition-hides.sh
  */
 #ifndef QDOT_LANG_DEFINITION_CHECK_H
 #define QDOT_LANG_DEFINITION_CHECK_H

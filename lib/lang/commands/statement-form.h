@@ -5,7 +5,7 @@
  *   T == m*x'^2/2                          a comparison, which is `check`
  *   T, sin(theta) = 0, theta' = 2          a value; an equation is one
  *
- * Tests  tests/script/equations.lag, tests/lang/hints.def
+ * Tests  tests/script/derive/equations.lag, tests/lang/hints.def
  */
 #ifndef QDOT_LANG_STATEMENT_FORM_H
 #define QDOT_LANG_STATEMENT_FORM_H

@@ -5,7 +5,7 @@
  * acts, so that a statement that fails changes nothing. script.c handles a trailing `for` and
  * blocks: a handler sees each pass as a separate statement that ends before `for`.
  *
- * Tests  tests/script/, tests/bad/, tests/lang/test_session.c
+ * Tests  tests/script/, tests/bad/, tests/lang/session/test_session.c
  */
 #ifndef QDOT_LANG_STATEMENT_H
 #define QDOT_LANG_STATEMENT_H

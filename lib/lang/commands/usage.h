@@ -19,7 +19,7 @@
  * tokens as the language does: a name, number or string directly after a complete operand does
  * not belong to it.
  *
- * Tests  tests/lang/test_complete.c: every row compiles, and its example follows its usage.
+ * Tests  tests/lang/workbench/test_complete.c: every row compiles, and its example follows its usage.
  */
 #ifndef QDOT_LANG_USAGE_H
 #define QDOT_LANG_USAGE_H

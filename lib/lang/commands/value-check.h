@@ -7,7 +7,7 @@
 #include "lang/language/cursor.h"
 
 /* QDOT_EINVAL where a rest length, with the values of `set` put in, is a negative number; names the
- * spring (NULL: one without a name). Tests: tests/bad/rest-negative*.lag. */
+ * spring (NULL: one without a name). Tests: tests/bad/rests/rest-negative*.lag. */
 QDOT_MUST_CHECK qdot_status qdot_value_check_rest(qdot_session *session,
                                                   const char *spring, qdot_expr rest);
 

@@ -1,6 +1,6 @@
 /* constraints.h -- notices and checks about constraints.
  *
- * Tests  tests/script/reactions.lag, tests/script/integrable.lag
+ * Tests  tests/script/constraints/reactions.lag, tests/script/constraints/integrable.lag
  */
 #ifndef QDOT_LANG_CONSTRAINTS_H
 #define QDOT_LANG_CONSTRAINTS_H

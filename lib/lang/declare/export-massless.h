@@ -8,7 +8,7 @@
  * which is right from a start where f_i = 0 (and its rate) is, up to where f_i jumps (or, of positions, has a kink): that is
  * refused.
  *
- * Tests  tests/meta/exports.test, tests/bad/massless-export-switch.lag
+ * Tests  tests/meta/exports.test, tests/bad/massless/massless-export-switch.lag
  */
 #ifndef QDOT_LANG_EXPORT_MASSLESS_H
 #define QDOT_LANG_EXPORT_MASSLESS_H

@@ -12,7 +12,7 @@
  *
  * A file is overwritten only if it begins as these files do.
  *
- * Tests  tests/script/scene-file.sh
+ * Tests  tests/script/files/scene-file.sh
  */
 #ifndef QDOT_LANG_SCENE_FILE_H
 #define QDOT_LANG_SCENE_FILE_H

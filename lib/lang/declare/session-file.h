@@ -7,7 +7,7 @@
  * again - a run of an earlier scene, a number of a run that is gone - is a comment with what is known,
  * and a notice.
  *
- * Tests  tests/script/session-file.sh
+ * Tests  tests/script/session/session-file.sh
  */
 #ifndef QDOT_LANG_SESSION_FILE_H
 #define QDOT_LANG_SESSION_FILE_H

@@ -6,7 +6,7 @@
  * Where the run is gone in a session that has read such a file, the comment is all that is known: it is kept, and
  * written again.
  *
- * Tests  tests/script/session-file.sh, session-again.sh
+ * Tests  tests/script/session/session-file.sh, session-again.sh
  */
 #ifndef QDOT_LANG_SESSION_REMARKS_H
 #define QDOT_LANG_SESSION_REMARKS_H

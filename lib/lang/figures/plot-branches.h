@@ -1,7 +1,7 @@
 /* plot-branches.h -- a bifurcation diagram: stable branches full, unstable ones dashed, those that are
  * undecided dotted; a mark at each bifurcation, another for each type. A panel for each coordinate.
  *
- * Tests  tests/script/continue-files.sh
+ * Tests  tests/script/continue/continue-files.sh
  */
 #ifndef QDOT_LANG_PLOT_BRANCHES_H
 #define QDOT_LANG_PLOT_BRANCHES_H

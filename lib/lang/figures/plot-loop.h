@@ -1,6 +1,6 @@
 /* plot-loop.h -- the `for` of a panel: a curve of each expression for each pass.
  *
- * Tests  tests/script/plot-for.sh, tests/script/loops-over-declared.lag
+ * Tests  tests/script/figures/plot-for.sh, tests/script/sweeps/loops-over-declared.lag
  */
 #ifndef QDOT_LANG_PLOT_LOOP_H
 #define QDOT_LANG_PLOT_LOOP_H

@@ -1,6 +1,6 @@
 /* plot-rows.h -- the rows of a sweep as a figure: each number over what was swept.
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweeps/sweep.sh
  */
 #ifndef QDOT_LANG_PLOT_ROWS_H
 #define QDOT_LANG_PLOT_ROWS_H

@@ -4,7 +4,7 @@
  *     rectangle  I = m (a^2 + b^2)/3        a, b half its sides
  *     ellipsoid  A = m (b^2 + c^2)/5 ...    a, b, c its half axes: a^2 = 5 (B + C - A)/(2 m)
  *
- * Tests  tests/lang/test_solid.c
+ * Tests  tests/lang/figures/test_solid.c
  */
 #ifndef QDOT_LANG_SOLID_H
 #define QDOT_LANG_SOLID_H

@@ -1,6 +1,6 @@
 /* digits-table.h -- tables along runs with `digits`.
  *
- * Tests  tests/script/digits-table.lag
+ * Tests  tests/script/digits/digits-table.lag
  */
 #ifndef QDOT_LANG_DIGITS_TABLE_H
 #define QDOT_LANG_DIGITS_TABLE_H

@@ -4,7 +4,7 @@
  * fragment of LaTeX and .html a page with MathML (show/formula-page.h). table, plot, save and the
  * like read their own `to`.
  *
- * Tests  tests/script/to-file.sh, tests/script/formula-file.sh
+ * Tests  tests/script/files/to-file.sh, tests/script/files/formula-file.sh
  */
 #ifndef QDOT_LANG_REDIRECT_H
 #define QDOT_LANG_REDIRECT_H

@@ -3,7 +3,7 @@
  * Columns: what was swept, what was asked for, then the errors of the latter; in .json, .html and .h5
  * why rows failed as well ("" where they did not); what the rows are, as the type of a bifurcation, in .csv too.
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweeps/sweep.sh
  */
 #ifndef QDOT_LANG_ROW_FILE_H
 #define QDOT_LANG_ROW_FILE_H

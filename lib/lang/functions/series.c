@@ -7,7 +7,7 @@
  * what switches at the point: abs(x), floor(x), if(x > 0, ...).
  *
  * Source  powers by Miller's recurrence: Knuth, TAOCP 2, 4.7.
- * Tests   tests/script/series-removable.lag, tests/bad/series-none.sh
+ * Tests   tests/script/solve/series-removable.lag, tests/bad/definitions/series-none.sh
  */
 #include "lang/functions/series.h"
 

@@ -4,7 +4,7 @@
  *     a x = b:   x = b/a exists when a != 0
  *     a x = 0:   for a = 0 every x is a solution
  *
- * Tests  tests/script/solve-special.lag
+ * Tests  tests/script/solve/solve-special.lag
  */
 #ifndef QDOT_LANG_SOLVE_CONDITIONS_H
 #define QDOT_LANG_SOLVE_CONDITIONS_H

@@ -10,7 +10,7 @@
  * Where A and B, as they were written, are not defined there is no solution, though what is left of them after
  * simplification may be: solve(sin(asin(x)) = a, x) asks for -1 <= a <= 1.
  *
- * Tests   tests/script/solve.lag, solution-sets.lag, solve-domains.lag, solve-line.lag, solve-special.lag
+ * Tests   tests/script/solve/solve.lag, solution-sets.lag, solve-domains.lag, solve-line.lag, solve-special.lag
  */
 #ifndef QDOT_LANG_SOLVE_H
 #define QDOT_LANG_SOLVE_H

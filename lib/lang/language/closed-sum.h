@@ -4,7 +4,7 @@
  *     sum r^(alpha k + beta)             (rho^a - rho^(b+1))/(1 - rho) r^beta, rho = r^alpha
  *
  * and linear combinations of these with coefficients free of k. A symbolic rho is generic: not 1.
- * Tests: tests/script/long-sums.lag, tests/bad/sum-too-long.lag
+ * Tests: tests/script/solve/long-sums.lag, tests/bad/solve/sum-too-long.lag
  */
 #ifndef QDOT_LANG_CLOSED_SUM_H
 #define QDOT_LANG_CLOSED_SUM_H

@@ -1,6 +1,6 @@
 /* condition.h -- equations and inequalities as values, and as conditions.
  *
- * Tests: tests/lang/test_evaluate.c
+ * Tests: tests/lang/language/test_evaluate.c
  */
 #ifndef QDOT_LANG_CONDITION_H
 #define QDOT_LANG_CONDITION_H

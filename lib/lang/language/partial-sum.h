@@ -6,7 +6,7 @@
  * depend only on its own index: numbers, parameters and coordinates by their names, elementary
  * functions. A sum with the same beginning that goes at least as far continues from it.
  *
- * Tests  tests/lang/test_partial-sum.c, tests/script/partial-sums.lag
+ * Tests  tests/lang/language/test_partial-sum.c, tests/script/solve/partial-sums.lag
  */
 #ifndef QDOT_LANG_PARTIAL_SUM_H
 #define QDOT_LANG_PARTIAL_SUM_H

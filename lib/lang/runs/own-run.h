@@ -1,7 +1,7 @@
 /* own-run.h -- a run that a statement makes for itself: the latest one until it is dropped, under a
  * name that nobody can write.
  *
- * Tests  tests/script/sweep.sh, sensitivity.sh, find.sh
+ * Tests  tests/script/sweeps/sweep.sh, sensitivity.sh, find.sh
  */
 #ifndef QDOT_LANG_OWN_RUN_H
 #define QDOT_LANG_OWN_RUN_H

@@ -28,7 +28,7 @@ void qdot_request_free(qdot_request *o);
 QDOT_MUST_CHECK qdot_status qdot_request_masses(qdot_session *session, const qdot_request *o);
 /* The status of what was done with the request. Where the mass matrix was singular and a mass or
  * moment of inertia is negative, the error says so: which, and the value of its parameter. Tests:
- * tests/bad/mass-negative*.lag. */
+ * tests/bad/runs/mass-negative*.lag. */
 QDOT_MUST_CHECK qdot_status qdot_request_explain(qdot_session *session, const qdot_request *o,
                                                  qdot_status status);
 

@@ -1,6 +1,6 @@
 /* run.h -- carries out a run that was read.
  *
- * Tests  tests/script/run.sh
+ * Tests  tests/script/runs/run.sh
  */
 #ifndef QDOT_LANG_RUN_H
 #define QDOT_LANG_RUN_H

@@ -1,6 +1,6 @@
 /* conditions.h -- under what conditions a run was made, and the studies made under them.
  *
- * Tests  tests/lang/test_conditions.c, tests/script/report-runs.sh
+ * Tests  tests/lang/session/test_conditions.c, tests/script/files/report-runs.sh
  */
 #ifndef QDOT_LANG_CONDITIONS_H
 #define QDOT_LANG_CONDITIONS_H

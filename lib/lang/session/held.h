@@ -4,7 +4,7 @@
  * when the expression has been evaluated, so diff(V, x) for x = [0, 1] is the slope at these places.
  * A statement that asks sees the scene with the parameters' values in it.
  *
- * Tests  tests/script/loops-over-declared.lag
+ * Tests  tests/script/sweeps/loops-over-declared.lag
  */
 #ifndef QDOT_LANG_HELD_H
 #define QDOT_LANG_HELD_H

@@ -4,7 +4,7 @@
  * that the caller names. The error of a value is the sum of the changes that the error of each
  * symbol makes.
  *
- * Tests  tests/script/ranges.lag, tests/script/several-ranges.lag
+ * Tests  tests/script/studies/ranges.lag, tests/script/sweeps/several-ranges.lag
  */
 #ifndef QDOT_LANG_MIXTURE_H
 #define QDOT_LANG_MIXTURE_H

@@ -5,7 +5,7 @@
  * `check E1 == energy`, the columns of a table, and diff(E1, x') are in one kind of variables.
  * Where the scene has no Lagrangian, momenta are symbols like others and nothing is changed.
  *
- * Tests  tests/script/momenta-in-names.lag
+ * Tests  tests/script/derive/momenta-in-names.lag
  */
 #ifndef QDOT_LANG_MOMENTA_H
 #define QDOT_LANG_MOMENTA_H

@@ -2,7 +2,7 @@
  *
  * What was swept, the numbers, their errors, and why rows failed ("" where they did not).
  *
- * Tests  tests/script/sweep.sh, sweep-resume.sh
+ * Tests  tests/script/sweeps/sweep.sh, sweep-resume.sh
  */
 #ifndef QDOT_LANG_ROW_COLUMNS_H
 #define QDOT_LANG_ROW_COLUMNS_H

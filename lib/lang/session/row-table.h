@@ -3,7 +3,7 @@
  * A row has what was swept, then what was asked for, each number with its error. That of a section
  * (poincare) counts its time among what was swept.
  *
- * Tests  tests/script/sweep.sh, poincare.sh
+ * Tests  tests/script/sweeps/sweep.sh, poincare.sh
  */
 #ifndef QDOT_LANG_ROW_TABLE_H
 #define QDOT_LANG_ROW_TABLE_H

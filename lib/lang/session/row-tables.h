@@ -1,6 +1,6 @@
 /* row-tables.h -- the tables of rows that a session keeps by name.
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweeps/sweep.sh
  */
 #ifndef QDOT_LANG_ROW_TABLES_H
 #define QDOT_LANG_ROW_TABLES_H

@@ -10,7 +10,7 @@
  * names are hidden in the pool, and shown again by `redo`. `reset` starts a new pool; its record
  * is the session before it.
  *
- * Tests  tests/lang/test_undo.c, tests/script/undo.lag, tests/script/undo-included.sh
+ * Tests  tests/lang/session/test_undo.c, tests/script/session/undo.lag, tests/script/session/undo-included.sh
  */
 #ifndef QDOT_LANG_UNDO_H
 #define QDOT_LANG_UNDO_H

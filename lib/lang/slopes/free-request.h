@@ -1,6 +1,6 @@
 /* free-request.h -- the request of a run with unknowns as symbols: what a response (sim/study/response.h) is of.
  *
- * Tests  tests/script/fit.sh, find-orbit.lag
+ * Tests  tests/script/studies/fit.sh, find-orbit.lag
  */
 #ifndef QDOT_LANG_FREE_REQUEST_H
 #define QDOT_LANG_FREE_REQUEST_H

@@ -1,6 +1,6 @@
 /* orbit-run.h -- the run that is a periodic orbit: it ends where it began.
  *
- * Tests  tests/script/floquet.sh, continue-orbit.lag
+ * Tests  tests/script/studies/floquet.sh, continue-orbit.lag
  */
 #ifndef QDOT_LANG_ORBIT_RUN_H
 #define QDOT_LANG_ORBIT_RUN_H

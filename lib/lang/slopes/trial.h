@@ -9,7 +9,7 @@
  * `find` is made of such trials; `fit` of responses (sim/study/response.h), which read no numbers of the
  * session.
  *
- * Tests  tests/script/find.sh
+ * Tests  tests/script/studies/find.sh
  */
 #ifndef QDOT_LANG_TRIAL_H
 #define QDOT_LANG_TRIAL_H

@@ -1,6 +1,6 @@
 /* source.h -- a text with its tokens, shared by what uses it, and errors that show the place.
  *
- * Limits, each a clear error: 10^7 tokens, 10^6 open brackets. Tests: tests/lang/test_lex.c
+ * Limits, each a clear error: 10^7 tokens, 10^6 open brackets. Tests: tests/lang/source/test_lex.c
  */
 #ifndef QDOT_LANG_SOURCE_H
 #define QDOT_LANG_SOURCE_H

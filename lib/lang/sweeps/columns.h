@@ -3,7 +3,7 @@
  * Only the tokens are kept at first: what they say is read when there is a run, with its values in
  * force.
  *
- * Tests  tests/script/sweep.sh, poincare.sh
+ * Tests  tests/script/sweeps/sweep.sh, poincare.sh
  */
 #ifndef QDOT_LANG_COLUMNS_H
 #define QDOT_LANG_COLUMNS_H

@@ -5,7 +5,7 @@
  * Each is the run that `run ... with NAME = VALUE` would make; whatever is read of it is read while it
  * is the latest run, with its values in force.
  *
- * Tests  tests/script/sweep.sh
+ * Tests  tests/script/sweeps/sweep.sh
  */
 #ifndef QDOT_LANG_MEMBERS_H
 #define QDOT_LANG_MEMBERS_H

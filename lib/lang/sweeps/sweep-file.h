@@ -5,7 +5,7 @@
  * written beside its place and then moved there (show/sink.h), so that it is whole at any moment; the sweep
  * holds a lock on it (base/file-lock.h).
  *
- * Tests  tests/script/sweep-resume.sh
+ * Tests  tests/script/sweeps/sweep-resume.sh
  */
 #ifndef QDOT_LANG_SWEEP_FILE_H
 #define QDOT_LANG_SWEEP_FILE_H

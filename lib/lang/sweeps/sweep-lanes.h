@@ -13,7 +13,7 @@
  * (ode/companion.h), with the rounding of its terms. One companion is enough where the method's errors
  * are well above those of rounding, and no column reads the way; the others have two.
  *
- * Tests  tests/script/sweep-lanes.sh
+ * Tests  tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_LANG_SWEEP_LANES_H
 #define QDOT_LANG_SWEEP_LANES_H

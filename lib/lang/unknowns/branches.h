@@ -6,7 +6,7 @@
  * Two tables: of the points of all branches (branch, parameter, coordinates, stable 1 or 0, which
  * bifurcation it is), and of the bifurcations, whose rows say their type.
  *
- * Tests  tests/script/continue.lag, continue-files.sh
+ * Tests  tests/script/continue/continue.lag, continue-files.sh
  */
 #ifndef QDOT_LANG_BRANCHES_H
 #define QDOT_LANG_BRANCHES_H

@@ -5,7 +5,7 @@
  * makes chi2 = sum ((e_j(t_i; u) - y_ij)/sigma_ij)^2 least over the unknowns u (num/least-squares.h), the e_j and
  * their slopes along one run of the variational equations for each u (sim/study/response.h).
  *
- * Tests  tests/script/fit.sh, tests/bad/fit.sh, tests/sim/test_response.c
+ * Tests  tests/script/studies/fit.sh, tests/bad/studies/fit.sh, tests/sim/study/test_response.c
  */
 #ifndef QDOT_LANG_FIT_PARTS_H
 #define QDOT_LANG_FIT_PARTS_H

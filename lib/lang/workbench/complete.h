@@ -3,7 +3,7 @@
  * What may stand there and no more: within a statement by its usage (commands/usage.h), within
  * `NAME[` by what its entries go by, elsewhere in brackets the words of an expression.
  *
- * Tests  tests/lang/test_complete.c
+ * Tests  tests/lang/workbench/test_complete.c
  */
 #ifndef QDOT_LANG_COMPLETE_H
 #define QDOT_LANG_COMPLETE_H

@@ -1,6 +1,6 @@
 /* highlight.h -- what each byte of a text that is being typed is, for colours at the prompt.
  *
- * Tests  tests/lang/test_highlight.c, tests/src/test_screen.c
+ * Tests  tests/lang/workbench/test_highlight.c, tests/src/test_screen.c
  */
 #ifndef QDOT_LANG_HIGHLIGHT_H
 #define QDOT_LANG_HIGHLIGHT_H

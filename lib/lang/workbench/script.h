@@ -1,6 +1,6 @@
 /* script.h -- carries out texts and files of statements.
  *
- * Tests  tests/script/, tests/bad/, tests/lang/test_session.c
+ * Tests  tests/script/, tests/bad/, tests/lang/session/test_session.c
  */
 #ifndef QDOT_LANG_SCRIPT_H
 #define QDOT_LANG_SCRIPT_H

@@ -1,6 +1,6 @@
 /* search.h -- the words of the language whose name, summary or example holds a text.
  *
- * Tests  tests/script/help-search.lag
+ * Tests  tests/script/language/help-search.lag
  */
 #ifndef QDOT_LANG_SEARCH_H
 #define QDOT_LANG_SEARCH_H

@@ -8,7 +8,7 @@
  *
  * For numerical runs only: the series of x'' is that of x, shifted (sim/form/residual.h).
  *
- * Tests  tests/sim/test_taylor.c: against M q'' = f
+ * Tests  tests/sim/form/test_taylor.c: against M q'' = f
  */
 #ifndef QDOT_MECH_DALEMBERT_H
 #define QDOT_MECH_DALEMBERT_H

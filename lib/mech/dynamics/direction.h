@@ -5,7 +5,7 @@
  * At u = 0 a quotient divides by zero, where sign(u) may stick. The coefficient C of 1/|u|, with |u| and
  * functions of u kept as they are, is B u: C/|u| becomes B sign(u). What is not of that form stays.
  *
- * Tests  tests/script/friction-spellings.lag
+ * Tests  tests/script/contacts/friction-spellings.lag
  */
 #ifndef QDOT_MECH_DIRECTION_H
 #define QDOT_MECH_DIRECTION_H

@@ -2,7 +2,7 @@
  *
  * What events own (`targets`, `values`) is not in it.
  *
- * Tests  tests/script/loops-over-declared.lag, far.lag
+ * Tests  tests/script/sweeps/loops-over-declared.lag, far.lag
  */
 #ifndef QDOT_MECH_SAVED_H
 #define QDOT_MECH_SAVED_H

@@ -9,7 +9,7 @@
  * for each order and sign of the components; of these the first is taken for which
  * R^T (P - r) has no coordinate and Q is where it is sought.
  *
- * Tests  tests/mech/test_rods.c
+ * Tests  tests/mech/study/test_rods.c
  */
 #ifndef QDOT_MECH_DISTANCE_ENDS_H
 #define QDOT_MECH_DISTANCE_ENDS_H

@@ -5,7 +5,7 @@
  * zeros of the c, and between two neighbouring zeros each c keeps its sign. If the c are linear in u with
  * slopes of known sign, it is one interval, whose ends may hold parameters.
  *
- * Tests  tests/mech/test_equilibrium_bands.c
+ * Tests  tests/mech/study/test_equilibrium-bands.c
  */
 #ifndef QDOT_MECH_EQUILIBRIUM_BANDS_H
 #define QDOT_MECH_EQUILIBRIUM_BANDS_H

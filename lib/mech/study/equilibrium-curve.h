@@ -9,7 +9,7 @@
  *
  * over all coordinates, functions of u and p at rest.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_MECH_EQUILIBRIUM_CURVE_H
 #define QDOT_MECH_EQUILIBRIUM_CURVE_H

@@ -32,7 +32,7 @@
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 6.1-6.2; Merkin, Introduction to the Theory of
  *         Stability, 3 and 6 (Lagrange, Dirichlet, Kelvin).
- * Tests   tests/mech/test_equilibrium.c, test_stability.c
+ * Tests   tests/mech/study/test_equilibrium.c, test_stability.c
  */
 #ifndef QDOT_MECH_EQUILIBRIUM_H
 #define QDOT_MECH_EQUILIBRIUM_H

@@ -14,7 +14,7 @@
  * no such form with other constraints, velocity or acceleration constraints, or a generalized
  * force on a coordinate that would be eliminated.
  *
- * Tests  tests/script/race.sh
+ * Tests  tests/script/studies/race.sh
  */
 #ifndef QDOT_MECH_MINIMAL_H
 #define QDOT_MECH_MINIMAL_H

@@ -20,7 +20,7 @@
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 13.7; Olver, Applications of Lie Groups to
  *         Differential Equations, 4.4 (divergence symmetries).
- * Tests   tests/mech/test_noether.c
+ * Tests   tests/mech/study/test_noether.c
  */
 #ifndef QDOT_MECH_NOETHER_H
 #define QDOT_MECH_NOETHER_H

@@ -18,7 +18,7 @@
  *
  * What is not proved is left out.
  *
- * Tests  tests/mech/test_rods.c
+ * Tests  tests/mech/study/test_rods.c
  */
 #ifndef QDOT_MECH_RODS_H
 #define QDOT_MECH_RODS_H

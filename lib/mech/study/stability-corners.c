@@ -15,7 +15,7 @@
  * q0 + c d t^2/2, leaves the place.
  *
  * Source  A. S. Lewis, Active sets, nonsmoothness, and sensitivity, SIAM J. Optim. 13 (2002) 702 (sharpness).
- * Tests   tests/mech/test_stability.c
+ * Tests   tests/mech/study/test_stability.c
  */
 #include <stdio.h>
 

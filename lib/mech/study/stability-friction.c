@@ -14,7 +14,7 @@
  * energy never grows, T + V + f q (towards the inside) takes the place of L; where it points away the end is left.
  *
  * Source  Lyapunov's and Lagrange's theorems for the L above.
- * Tests   tests/mech/test_equilibrium_bands.c
+ * Tests   tests/mech/study/test_equilibrium-bands.c
  */
 #include "expr/calculus.h"
 #include "expr/walk.h"

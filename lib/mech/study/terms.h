@@ -1,6 +1,6 @@
 /* terms.h -- the terms of a sum by the symbols that they hold.
  *
- * Tests  tests/mech/test_rods.c
+ * Tests  tests/mech/study/test_rods.c
  */
 #ifndef QDOT_MECH_TERMS_H
 #define QDOT_MECH_TERMS_H

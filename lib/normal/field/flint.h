@@ -17,7 +17,7 @@
  * While a guarded computation runs, the memory functions are the process's: not for a program
  * whose other threads compute with GMP under memory functions of their own.
  *
- * Tests  tests/normal/test_flint.c
+ * Tests  tests/normal/field/test_flint.c
  */
 #ifndef QDOT_NORMAL_FLINT_H
 #define QDOT_NORMAL_FLINT_H

@@ -8,7 +8,7 @@
  * vanishes if every a_k does, and the denominator of an a_k belongs to one R_k, not to all of
  * them.
  *
- * Tests  tests/script/three-bodies.lag, tests/normal/test_solve.c (linear relations)
+ * Tests  tests/script/mechanisms/three-bodies.lag, tests/normal/solve/test_solve.c (linear relations)
  */
 #ifndef QDOT_NORMAL_ROOT_PARTS_H
 #define QDOT_NORMAL_ROOT_PARTS_H

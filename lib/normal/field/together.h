@@ -3,7 +3,7 @@
  * As the only argument cos(2 x) is in normal form, and so is cos(x)^2; together they are not. So
  * the arguments of all functions become values of one field.
  *
- * Tests   tests/normal/test_decide.c, tests/script/identities-angles.inc
+ * Tests   tests/normal/prove/test_decide.c, tests/script/prove/identities-angles.inc
  */
 #ifndef QDOT_NORMAL_TOGETHER_H
 #define QDOT_NORMAL_TOGETHER_H

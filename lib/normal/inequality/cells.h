@@ -17,7 +17,7 @@
  * Source  A. Strzebonski, "Solving systems of strict polynomial inequalities", J. Symbolic Computation
  *         29 (2000) 471; S. McCallum, "Solving polynomial strict inequalities using cylindrical
  *         algebraic decomposition", The Computer Journal 36 (1993) 432.
- * Tests   tests/normal/test_less.c
+ * Tests   tests/normal/inequality/test_less.c
  */
 #ifndef QDOT_NORMAL_CELLS_H
 #define QDOT_NORMAL_CELLS_H

@@ -3,7 +3,7 @@
  * They do if one of them is proved false under the others: g <= 0 for a condition g > 0, r > 0 or
  * r < 0 for a relation r = 0. Proofs under such conditions are worthless.
  *
- * Tests  tests/script/check.lag
+ * Tests  tests/script/prove/check.lag
  */
 #ifndef QDOT_NORMAL_CONTRADICTION_H
 #define QDOT_NORMAL_CONTRADICTION_H

@@ -9,7 +9,7 @@
  * they are alone in their ball with their conjugate, do.
  *
  * Source  Gantmacher, The Theory of Matrices II, ch. XV; Arb's acb_poly_find_roots.
- * Tests   tests/normal/test_half-plane.c
+ * Tests   tests/normal/inequality/test_half-plane.c
  */
 #ifndef QDOT_NORMAL_HALF_PLANE_H
 #define QDOT_NORMAL_HALF_PLANE_H

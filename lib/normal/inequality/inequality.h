@@ -14,7 +14,7 @@
  * side, by the sign of its derivative, which is the same question again, a few times: exp(x) >= 1
  * + x, sin(x) < x for x > 0.
  *
- * Tests  tests/normal/test_less.c
+ * Tests  tests/normal/inequality/test_less.c
  */
 #ifndef QDOT_NORMAL_INEQUALITY_H
 #define QDOT_NORMAL_INEQUALITY_H

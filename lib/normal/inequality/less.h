@@ -1,4 +1,4 @@
-/* less.h -- is one number less than another? Tests: tests/normal/test_less.c */
+/* less.h -- is one number less than another? Tests: tests/normal/inequality/test_less.c */
 #ifndef QDOT_NORMAL_LESS_H
 #define QDOT_NORMAL_LESS_H
 

@@ -1,6 +1,6 @@
 /* real-zeros.h -- the real zeros of a polynomial over Z, and fractions between them.
  *
- * Tests  tests/normal/test_less.c
+ * Tests  tests/normal/inequality/test_less.c
  */
 #ifndef QDOT_NORMAL_REAL_ZEROS_H
 #define QDOT_NORMAL_REAL_ZEROS_H

@@ -7,7 +7,7 @@
  *
  * are guessed from values at points, each is proved, and A is replaced everywhere.
  *
- * Tests   tests/script/identities-inverse.inc, tests/normal/test_verdicts.c
+ * Tests   tests/script/prove/identities-inverse.inc, tests/normal/prove/test_verdicts.c
  */
 #ifndef QDOT_NORMAL_ANGLE_BASIS_H
 #define QDOT_NORMAL_ANGLE_BASIS_H

@@ -6,7 +6,7 @@
  * Before that inverse functions of their own functions are replaced (within.h). Arguments that
  * are proved equal count as one; an order of arguments gives the sign of their difference.
  *
- * Tests  tests/normal/test_decide.c, tests/script/identities-cases.inc
+ * Tests  tests/normal/prove/test_decide.c, tests/script/prove/identities-cases.inc
  */
 #ifndef QDOT_NORMAL_CASES_H
 #define QDOT_NORMAL_CASES_H

@@ -10,7 +10,7 @@
  * > 0 into a - x and a + x. A root whose factor may be zero gives no condition: x^2 (y - 1) under
  * a root is |x| times the root of y - 1.
  *
- * Tests  tests/normal/test_decide.c, tests/script/identities-inverse.inc
+ * Tests  tests/normal/prove/test_decide.c, tests/script/prove/identities-inverse.inc
  */
 #ifndef QDOT_NORMAL_DEFINED_H
 #define QDOT_NORMAL_DEFINED_H

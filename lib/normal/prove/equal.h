@@ -1,5 +1,5 @@
 /* equal.h -- proofs that two scalars are equal by the normal form, constants and norms of roots
- * (zero.h). Tests: tests/normal/test_decide.c */
+ * (zero.h). Tests: tests/normal/prove/test_decide.c */
 #ifndef QDOT_NORMAL_EQUAL_H
 #define QDOT_NORMAL_EQUAL_H
 

@@ -8,7 +8,7 @@
  * and handled already.
  *
  * Source  Abramowitz & Stegun, Handbook of Mathematical Functions, 22.3.15-16.
- * Tests   tests/script/identities-inverse.inc
+ * Tests   tests/script/prove/identities-inverse.inc
  */
 #ifndef QDOT_NORMAL_NTH_PART_H
 #define QDOT_NORMAL_NTH_PART_H

@@ -1,5 +1,5 @@
 /* prove.h -- proofs that two scalars are equal, with all that is known of signs and domains. Tests:
- * tests/normal/test_decide.c */
+ * tests/normal/prove/test_decide.c */
 #ifndef QDOT_NORMAL_PROVE_H
 #define QDOT_NORMAL_PROVE_H
 

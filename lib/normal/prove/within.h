@@ -4,7 +4,7 @@
  *
  * if the declared domain of x lies in that range.
  *
- * Tests  tests/normal/test_decide.c, tests/script/identities-cases.inc
+ * Tests  tests/normal/prove/test_decide.c, tests/script/prove/identities-cases.inc
  */
 #ifndef QDOT_NORMAL_WITHIN_H
 #define QDOT_NORMAL_WITHIN_H

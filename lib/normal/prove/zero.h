@@ -20,7 +20,7 @@
  *   angles     the coefficients are sums of k atan u, k asin u, ... and q pi: 0 if the product
  *              of complex numbers of these arguments is real, and the sum not beyond pi.
  *
- * Tests   tests/normal/test_decide.c
+ * Tests   tests/normal/prove/test_decide.c
  */
 #ifndef QDOT_NORMAL_ZERO_H
 #define QDOT_NORMAL_ZERO_H

@@ -16,7 +16,7 @@
  *
  * Source  Burnikel, Funke, Mehlhorn, Schirra, Schmitt, "A separation bound for real
  *         algebraic expressions", Algorithmica 55 (2009) 14.
- * Tests   tests/normal/test_decide.c
+ * Tests   tests/normal/prove/test_decide.c
  */
 #ifndef QDOT_NORMAL_CONSTANT_H
 #define QDOT_NORMAL_CONSTANT_H

@@ -14,7 +14,7 @@
  * is in 1..infinity.
  *
  * Source  Moore, Kearfott & Cloud, Introduction to Interval Analysis (2009), chapters 5 and 6.
- * Tests   tests/normal/test_zeros.c
+ * Tests   tests/normal/solve/test_zeros.c
  */
 #ifndef QDOT_NORMAL_ENCLOSURE_H
 #define QDOT_NORMAL_ENCLOSURE_H

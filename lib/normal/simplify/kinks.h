@@ -7,7 +7,7 @@
  * min(x, |x|) = x. Derivatives are taken of that form: those of the terms, each with a value of its own at the kink, do
  * not add up to the derivative of the sum there.
  *
- * Tests  tests/script/kinks-that-cancel.lag
+ * Tests  tests/script/prove/kinks-that-cancel.lag
  */
 #ifndef QDOT_NORMAL_KINKS_H
 #define QDOT_NORMAL_KINKS_H

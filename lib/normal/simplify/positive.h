@@ -5,7 +5,7 @@
  *
  *     m*R*(g - R*Omega^2) > 0   is   g > R*Omega^2   for m, R > 0.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_POSITIVE_H
 #define QDOT_NORMAL_POSITIVE_H

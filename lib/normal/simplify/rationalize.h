@@ -1,6 +1,6 @@
 /* rationalize.h -- removes square roots from denominators: 1/(2 - sqrt(2)) is (2 + sqrt(2))/2.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_RATIONALIZE_H
 #define QDOT_NORMAL_RATIONALIZE_H

@@ -5,7 +5,7 @@
  * substitution of u in f(u) u'. The integral of 1/u is written log(u), for u > 0. This is no
  * decision: nil means that the table does not have the integral.
  *
- * Tests  tests/normal/test_antiderivative.c: differentiated again, random and by hand
+ * Tests  tests/normal/solve/test_antiderivative.c: differentiated again, random and by hand
  */
 #ifndef QDOT_NORMAL_ANTIDERIVATIVE_H
 #define QDOT_NORMAL_ANTIDERIVATIVE_H

@@ -3,7 +3,7 @@
  *     a = b      of parameters: the value of one of them, which is put in
  *     x > 0      of an unknown: part of its domain
  *
- * Tests  tests/normal/test_assumptions.c
+ * Tests  tests/normal/solve/test_assumptions.c
  */
 #ifndef QDOT_NORMAL_ASSUMPTIONS_H
 #define QDOT_NORMAL_ASSUMPTIONS_H

@@ -3,7 +3,7 @@
  *     v - |v|      is 0 where v >= 0 and negative elsewhere
  *     s - t        has the sign of s^2 - t^2, s and t not negative
  *
- * Tests  tests/normal/test_condition_forms.c
+ * Tests  tests/normal/solve/test_condition-forms.c
  */
 #ifndef QDOT_NORMAL_CONDITION_FORMS_H
 #define QDOT_NORMAL_CONDITION_FORMS_H

@@ -4,7 +4,7 @@
  * QDOT_FALSE where they cannot hold. A relation is decided from the declared domains and the facts, by proof
  * (normal/inequality): one that always holds is left out, one that never holds makes the set QDOT_FALSE.
  *
- * Tests  tests/normal/test_condition_forms.c
+ * Tests  tests/normal/solve/test_condition-forms.c
  */
 #ifndef QDOT_NORMAL_CONDITIONS_H
 #define QDOT_NORMAL_CONDITIONS_H

@@ -10,7 +10,7 @@
  * which f' is singular is never proved; nor is one at a place where f jumps or has a kink.
  *
  * Source  Krawczyk, Computing 4 (1969) 187; Neumaier, Interval Methods for Systems of Equations, 5.1.
- * Tests   tests/mech/test_equilibrium.c
+ * Tests   tests/mech/study/test_equilibrium.c
  */
 #ifndef QDOT_NORMAL_ISOLATE_H
 #define QDOT_NORMAL_ISOLATE_H

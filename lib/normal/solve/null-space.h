@@ -9,7 +9,7 @@
  * coefficient of each of which must vanish; these, polynomials in the parameters, are eliminated
  * exactly.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_NULL_SPACE_H
 #define QDOT_NORMAL_NULL_SPACE_H

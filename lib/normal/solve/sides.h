@@ -12,7 +12,7 @@
  * An end u = 0 belongs to every side with which all functions of the switch agree there; where there is no such side the
  * zeros of u are a case of their own, a jump.
  *
- * Tests  tests/normal/test_sides.c
+ * Tests  tests/normal/solve/test_sides.c
  */
 #ifndef QDOT_NORMAL_SIDES_H
 #define QDOT_NORMAL_SIDES_H

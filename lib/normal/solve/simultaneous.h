@@ -13,7 +13,7 @@
  * solution, listed member by member inside the declared domains (qdot_solve_members). An unknown that nothing determines
  * is free: it does not stand among the values, but may in the others.
  *
- * Tests  tests/normal/test_simultaneous.c, tests/mech/test_equilibrium.c
+ * Tests  tests/normal/solve/test_simultaneous.c, tests/mech/study/test_equilibrium.c
  */
 #ifndef QDOT_NORMAL_SIMULTANEOUS_H
 #define QDOT_NORMAL_SIMULTANEOUS_H

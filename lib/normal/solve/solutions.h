@@ -1,6 +1,6 @@
 /* solutions.h -- a set of roots: with conditions, in periodic families, inside a domain.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_SOLUTIONS_H
 #define QDOT_NORMAL_SOLUTIONS_H

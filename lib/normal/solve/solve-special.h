@@ -4,7 +4,7 @@
  *     a x^2 + b x + c = 0:   two roots where 4 a c <= b^2 and a != 0;
  *                            for a = 0: x = -c/b where b != 0;  for a = 0 and b = 0 and c = 0: every x
  *
- * Tests  tests/normal/test_solve_special.c
+ * Tests  tests/normal/solve/test_solve-special.c
  */
 #ifndef QDOT_NORMAL_SOLVE_SPECIAL_H
 #define QDOT_NORMAL_SOLVE_SPECIAL_H

@@ -15,7 +15,7 @@
  * f must be defined there, and no step may have added it. Parameters are generic: values at which a leading
  * coefficient vanishes are not considered; divisors that hold other unknowns are listed.
  *
- * Tests  tests/normal/test_solve.c
+ * Tests  tests/normal/solve/test_solve.c
  */
 #ifndef QDOT_NORMAL_SOLVE_H
 #define QDOT_NORMAL_SOLVE_H

@@ -4,7 +4,7 @@
  *     a b - 1:      a = 1/b
  *     [a, b - c]:   a = 0 and b = c, where both are 0
  *
- * Tests  tests/normal/test_solve_special.c
+ * Tests  tests/normal/solve/test_solve-special.c
  */
 #ifndef QDOT_NORMAL_SPECIAL_VALUES_H
 #define QDOT_NORMAL_SPECIAL_VALUES_H

@@ -4,7 +4,7 @@
  * root that was written asks for b x^2 >= 0 alone. Where the root is 0 these differ: x = 0 solves sqrt(b x^2) = 0 for
  * every b.
  *
- * Tests  tests/normal/test_solve_special.c
+ * Tests  tests/normal/solve/test_solve-special.c
  */
 #ifndef QDOT_NORMAL_WRITTEN_H
 #define QDOT_NORMAL_WRITTEN_H

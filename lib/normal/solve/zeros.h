@@ -26,7 +26,7 @@
  *
  * Source  Neumaier, Interval Methods for Systems of Equations (1990), 5.1-5.2; Hansen & Walster, Global Optimization
  *         Using Interval Analysis (2004), 11; Krawczyk, Computing 4 (1969) 187.
- * Tests   tests/normal/test_zeros.c
+ * Tests   tests/normal/solve/test_zeros.c
  */
 #ifndef QDOT_NORMAL_ZEROS_H
 #define QDOT_NORMAL_ZEROS_H

@@ -25,7 +25,7 @@
  * error (VIII.5). Coefficients whose doubles are off have the rest beside them: else the energy
  * would drift.
  *
- * Tests  tests/ode/test_geometric.c
+ * Tests  tests/ode/geometric/test_geometric.c
  */
 #ifndef QDOT_ODE_GEOMETRIC_H
 #define QDOT_ODE_GEOMETRIC_H

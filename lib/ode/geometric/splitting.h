@@ -1,6 +1,6 @@
 /* splitting.h -- lengths of the steps of a composition.
  *
- * Tests  tests/ode/test_geometric.c
+ * Tests  tests/ode/geometric/test_geometric.c
  */
 #ifndef QDOT_ODE_SPLITTING_H
 #define QDOT_ODE_SPLITTING_H

@@ -7,7 +7,7 @@
  * they were added to the sums of the high ones, and so lost, the energy drifted as t.
  *
  * Source  Hairer, Lubich & Wanner, Geometric Numerical Integration, VIII.5, VIII.6.
- * Tests   tests/ode/test_geometric.c
+ * Tests   tests/ode/geometric/test_geometric.c
  */
 #ifndef QDOT_ODE_GEOMETRIC_STAGES_H
 #define QDOT_ODE_GEOMETRIC_STAGES_H

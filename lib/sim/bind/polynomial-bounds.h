@@ -16,7 +16,7 @@
  *
  * Source  Trefethen, Approximation Theory and Approximation Practice (2013), theorem 8.2,
  *         with 4 for the zeros of T_n (Mason & Handscomb 6.3: aliasing of those).
- * Tests   tests/script/narrow.lag
+ * Tests   tests/script/prove/narrow.lag
  */
 #ifndef QDOT_SIM_POLYNOMIAL_BOUNDS_H
 #define QDOT_SIM_POLYNOMIAL_BOUNDS_H

@@ -13,7 +13,7 @@
  * Steps of a run are looked at before they are accepted (`look` of ode/system.h): one that misses
  * something ends where that begins, and the next one is no longer than what is found there.
  *
- * Tests  tests/sim/test_pulses.c, tests/script/hidden-forces.lag, narrow-forces.lag
+ * Tests  tests/sim/bind/test_pulses.c, tests/script/contacts/hidden-forces.lag, narrow-forces.lag
  */
 #ifndef QDOT_SIM_PULSES_H
 #define QDOT_SIM_PULSES_H

@@ -8,7 +8,7 @@
  * It is a pitchfork if one of them has no part along p, else transcritical.
  *
  * Source  Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), 5.
- * Tests   tests/sim/test_continuation.c, test_orbits.c
+ * Tests   tests/sim/branches/test_continuation.c, test_orbits.c
  */
 #ifndef QDOT_SIM_BIFURCATION_H
 #define QDOT_SIM_BIFURCATION_H

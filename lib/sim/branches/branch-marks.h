@@ -4,7 +4,7 @@
  * the steps can be short. Newton's method on the larger system (rest-bifurcation.h) leads from either side of the dip
  * to one of them each, however near they are; where it does not, several curves meet at one place.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_BRANCH_MARKS_H
 #define QDOT_SIM_BRANCH_MARKS_H

@@ -1,6 +1,6 @@
 /* branch-points.h -- the points of a branch, in the order of the curve.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_BRANCH_POINTS_H
 #define QDOT_SIM_BRANCH_POINTS_H

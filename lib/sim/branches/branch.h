@@ -1,6 +1,6 @@
 /* branch.h -- one way along a curve: its points, and the bifurcations between them.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_BRANCH_H
 #define QDOT_SIM_BRANCH_H

@@ -6,7 +6,7 @@
  * is a fold, a crossing, a period doubling, a Hopf point, which is then located (bifurcation.h). At a crossing the
  * other curve is followed, too. A curve that is known already is not followed again.
  *
- * Tests  tests/sim/test_continuation.c, test_orbits.c
+ * Tests  tests/sim/branches/test_continuation.c, test_orbits.c
  */
 #ifndef QDOT_SIM_CONTINUATION_H
 #define QDOT_SIM_CONTINUATION_H

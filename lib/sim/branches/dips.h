@@ -9,7 +9,7 @@
  * the way from z on is then gone again by shorter steps, until signs change, the dip is smooth in
  * the steps, or all that is left of f is rounding.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_DIPS_H
 #define QDOT_SIM_DIPS_H

@@ -4,7 +4,7 @@
  * it, at s = c - 3 h, c - h, c + h, c + 3 h along the curve, the tangent's part along p and the places are known; the
  * cubic through them passes the crossing.
  *
- * Tests  tests/script/continue-near.lag
+ * Tests  tests/script/continue/continue-near.lag
  */
 #ifndef QDOT_SIM_FOLD_GUESS_H
 #define QDOT_SIM_FOLD_GUESS_H

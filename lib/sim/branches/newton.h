@@ -6,7 +6,7 @@
  * then proved by Krawczyk's test (normal/solve/isolate.h), which also states how far x can be from
  * it; where it cannot be, twice the last step is its error.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_NEWTON_H
 #define QDOT_SIM_NEWTON_H

@@ -12,7 +12,7 @@
  * Each is found by the fine runs and by the coarse ones (orbit-path.h): the difference is its error, with what is left of
  * the bracket. Directions at a crossing are those of bifurcation.h, second derivatives by differences of F'.
  *
- * Tests   tests/sim/test_orbits.c
+ * Tests   tests/sim/branches/test_orbits.c
  */
 #ifndef QDOT_SIM_ORBIT_BIFURCATION_H
 #define QDOT_SIM_ORBIT_BIFURCATION_H

@@ -1,7 +1,7 @@
 /* orbit-continuation.h -- the curve of periodic orbits through a given one, the curves that cross it, and the
  * bifurcations on them (continuation.h).
  *
- * Tests  tests/sim/test_orbits.c, tests/script/continue-orbit.lag
+ * Tests  tests/sim/branches/test_orbits.c, tests/script/continue/continue-orbit.lag
  */
 #ifndef QDOT_SIM_ORBIT_CONTINUATION_H
 #define QDOT_SIM_ORBIT_CONTINUATION_H

@@ -22,7 +22,7 @@
  * is divided by the rate of what is held, with which it would change its sign.
  *
  * Source  Keller, as in path.h; Munoz-Almaraz, Freire, Galan, Doedel, Vanderbauwhede, Physica D 181 (2003) 1.
- * Tests   tests/sim/test_orbits.c, tests/script/continue-orbit.lag
+ * Tests   tests/sim/branches/test_orbits.c, tests/script/continue/continue-orbit.lag
  */
 #ifndef QDOT_SIM_ORBIT_PATH_H
 #define QDOT_SIM_ORBIT_PATH_H

@@ -1,6 +1,6 @@
 /* orbit-shape.h -- how far an orbit reaches, read from its segments (flow.h).
  *
- * Tests  tests/sim/test_orbits.c
+ * Tests  tests/sim/branches/test_orbits.c
  */
 #ifndef QDOT_SIM_ORBIT_SHAPE_H
 #define QDOT_SIM_ORBIT_SHAPE_H

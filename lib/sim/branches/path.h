@@ -10,7 +10,7 @@
  *
  * Source  H. B. Keller, in Applications of Bifurcation Theory (1977), 359; Allgower & Georg,
  *         Introduction to Numerical Continuation Methods (2003), 2 and 8.
- * Tests   tests/sim/test_continuation.c, test_orbits.c
+ * Tests   tests/sim/branches/test_continuation.c, test_orbits.c
  */
 #ifndef QDOT_SIM_PATH_H
 #define QDOT_SIM_PATH_H

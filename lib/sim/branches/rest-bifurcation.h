@@ -15,7 +15,7 @@
  *
  * Source  Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), 5; Moore, Numer. Funct.
  *         Anal. Optim. 2 (1980) 441; Griewank & Reddien, IMA J. Numer. Anal. 3 (1983) 295.
- * Tests   tests/sim/test_continuation.c
+ * Tests   tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_REST_BIFURCATION_H
 #define QDOT_SIM_REST_BIFURCATION_H

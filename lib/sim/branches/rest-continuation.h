@@ -3,7 +3,7 @@
  *
  * A closed curve that is met at none of these values, and is not connected with one that is, is not found.
  *
- * Tests  tests/sim/test_continuation.c, tests/script/continue.lag
+ * Tests  tests/sim/branches/test_continuation.c, tests/script/continue/continue.lag
  */
 #ifndef QDOT_SIM_REST_CONTINUATION_H
 #define QDOT_SIM_REST_CONTINUATION_H

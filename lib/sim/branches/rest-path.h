@@ -1,6 +1,6 @@
 /* rest-path.h -- curves of equilibria: F are the equations at rest, F' the exact derivative of their tape.
  *
- * Tests  tests/sim/test_continuation.c
+ * Tests  tests/sim/branches/test_continuation.c
  */
 #ifndef QDOT_SIM_REST_PATH_H
 #define QDOT_SIM_REST_PATH_H

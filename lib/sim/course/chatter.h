@@ -10,7 +10,7 @@
  *
  * Where it grows tenfold until the end of the run the motion does not slide.
  *
- * Tests  tests/script/relay-at-rounding.lag, tests/sim/test_sliding.c
+ * Tests  tests/script/contacts/relay-at-rounding.lag, tests/sim/model/test_sliding.c
  */
 #ifndef QDOT_SIM_CHATTER_H
 #define QDOT_SIM_CHATTER_H

@@ -18,8 +18,8 @@
  * Events without `then` or `stop` are only recorded. A run also ends if one event or switch
  * occurs more than MOST_REPEATS times within 1e-9 of its time: a ball that comes to rest.
  *
- * Tests  tests/script/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
- *        tests/sim/test_switch.c
+ * Tests  tests/script/events/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
+ *        tests/sim/model/test_switch.c
  */
 #ifndef QDOT_SIM_COURSE_H
 #define QDOT_SIM_COURSE_H

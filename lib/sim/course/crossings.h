@@ -3,7 +3,7 @@
  * Its steps are searched one by one as those of events are while a run is made (watch.h): no root is
  * missed. A motion that starts on a zero has none there.
  *
- * Tests  tests/script/poincare.sh
+ * Tests  tests/script/studies/poincare.sh
  */
 #ifndef QDOT_SIM_CROSSINGS_H
 #define QDOT_SIM_CROSSINGS_H

@@ -1,6 +1,6 @@
 /* multipliers.h -- drift off the constraints along a run, and the multipliers at its end.
  *
- * Tests  tests/sim/test_constraints.c
+ * Tests  tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_MULTIPLIERS_H
 #define QDOT_SIM_MULTIPLIERS_H

@@ -7,7 +7,7 @@
  * asks the run and what it tells (sim/run/run.h, sim/read/section.h) is in t: these functions turn one into
  * the other. Where the origin is 0 they do nothing.
  *
- * Tests  tests/sim/test_far.c, tests/script/far.lag
+ * Tests  tests/sim/run/test_far.c, tests/script/events/far.lag
  */
 #ifndef QDOT_SIM_RUN_TIME_H
 #define QDOT_SIM_RUN_TIME_H

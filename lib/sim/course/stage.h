@@ -1,8 +1,8 @@
 /* stage.h -- the functions that a run watches (events, bounds of domains, surfaces where
  * equations switch), and a plan for every mode met so far.
  *
- * Tests  tests/script/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
- *        tests/sim/test_switch.c
+ * Tests  tests/script/events/events.lag, switching.lag, switch-nested.lag, event-ends.sh,
+ *        tests/sim/model/test_switch.c
  */
 #ifndef QDOT_SIM_STAGE_H
 #define QDOT_SIM_STAGE_H

@@ -1,6 +1,6 @@
 /* digits.h -- makes a complete qdot_run from the runs in MPFR of sim/digits/precise.h.
  *
- * Tests  tests/sim/test_precise.c
+ * Tests  tests/sim/digits/test_precise.c
  */
 #ifndef QDOT_SIM_DIGITS_H
 #define QDOT_SIM_DIGITS_H

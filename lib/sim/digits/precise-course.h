@@ -15,7 +15,7 @@
  * by the rounding of the place. What is left of u' is then taken off along the last impulse.
  *
  * Source  Dowell & Jarratt, BIT 11 (1971) 168
- * Tests   tests/script/digits-events.lag, digits-resting.lag
+ * Tests   tests/script/digits/digits-events.lag, digits-resting.lag
  */
 #ifndef QDOT_SIM_PRECISE_COURSE_H
 #define QDOT_SIM_PRECISE_COURSE_H

@@ -17,7 +17,7 @@
  *
  * All matrices are evaluated and factored in MPFR.
  *
- * Tests  tests/script/digits-constraint-events.lag, tests/script/digits-start.lag
+ * Tests  tests/script/digits/digits-constraint-events.lag, tests/script/digits/digits-start.lag
  */
 #ifndef QDOT_SIM_PRECISE_HOLD_H
 #define QDOT_SIM_PRECISE_HOLD_H

@@ -63,7 +63,7 @@ typedef struct {
  * constraints, the error is a root of the precision carried, instead of proportional to it as
  * along a smooth motion. Both are QDOT_EFAILED, with the time or the digits gained.
  *
- * Tests  tests/bad/digits-cusp.lag, digits-node.lag */
+ * Tests  tests/bad/digits/digits-cusp.lag, digits-node.lag */
 QDOT_MUST_CHECK qdot_status qdot_precise_check_progress(qdot_precise_pair *pair,
                                                         qdot_precise_progress *progress);
 

@@ -8,7 +8,7 @@
  *
  * some 15 digits a step, first positions, then velocities. Named values stay as they are written.
  *
- * Tests  tests/script/digits-start.lag, tests/bad/digits-constraint.lag
+ * Tests  tests/script/digits/digits-start.lag, tests/bad/digits/digits-constraint.lag
  */
 #ifndef QDOT_SIM_PRECISE_START_H
 #define QDOT_SIM_PRECISE_START_H

@@ -24,7 +24,7 @@
  * the same message before. Values along the run come from the series of its steps; their error is
  * the distance from the companion's.
  *
- * Tests  tests/sim/test_precise.c: the reference states of independent programs.
+ * Tests  tests/sim/digits/test_precise.c: the reference states of independent programs.
  */
 #ifndef QDOT_SIM_PRECISE_H
 #define QDOT_SIM_PRECISE_H

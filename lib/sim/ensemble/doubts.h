@@ -4,7 +4,7 @@
  * ended; or a row of the constraints' slopes is about to vanish, near a cusp or a crossing
  * (sim/error/constraint-corners.h).
  *
- * Tests  tests/sim/test_ensemble-doubts.c, tests/script/sweep-lanes.sh
+ * Tests  tests/sim/ensemble/test_ensemble-doubts.c, tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_SIM_ENSEMBLE_DOUBTS_H
 #define QDOT_SIM_ENSEMBLE_DOUBTS_H

@@ -6,7 +6,7 @@
  * from those of two companions, like those of a run alone (ode/companion.h): under a tighter
  * tolerance, with inputs moved to either side and constants rounded the other way.
  *
- * Tests  tests/sim/test_ensemble.c
+ * Tests  tests/sim/ensemble/test_ensemble.c
  */
 #ifndef QDOT_SIM_ENSEMBLE_H
 #define QDOT_SIM_ENSEMBLE_H

@@ -5,7 +5,7 @@
  * does beyond that - switches, events that act, another method, first orders in two doubles -
  * they do not.
  *
- * Tests  tests/script/sweep-lanes.sh
+ * Tests  tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_SIM_ENSEMBLE_FIT_H
 #define QDOT_SIM_ENSEMBLE_FIT_H

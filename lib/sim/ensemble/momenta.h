@@ -3,7 +3,7 @@
  *
  * A momentum is found by its tape in two doubles and rounded once.
  *
- * Tests  tests/sim/test_ensemble.c
+ * Tests  tests/sim/ensemble/test_ensemble.c
  */
 #ifndef QDOT_SIM_ENSEMBLE_MOMENTA_H
 #define QDOT_SIM_ENSEMBLE_MOMENTA_H

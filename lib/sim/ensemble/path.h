@@ -6,7 +6,7 @@
  * So qdot_run_values and qdot_run_range read a member as they read a run alone, and their errors are
  * found alike. What else a report of a run tells is not known.
  *
- * Tests  tests/sim/test_ensemble-path.c, tests/script/sweep-lanes.sh
+ * Tests  tests/sim/ensemble/test_ensemble-path.c, tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_SIM_ENSEMBLE_PATH_H
 #define QDOT_SIM_ENSEMBLE_PATH_H

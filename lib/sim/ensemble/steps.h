@@ -5,7 +5,7 @@
  * found on it as along a run (sim/watch/watch.h), in a watch for each lane; a bound of a coordinate
  * stays far as long as |x_0 - bound| > sum_k |x_k s^k|.
  *
- * Tests  tests/sim/test_ensemble-steps.c, tests/script/sweep-lanes.sh
+ * Tests  tests/sim/ensemble/test_ensemble-steps.c, tests/script/sweeps/sweep-lanes.sh
  */
 #ifndef QDOT_SIM_ENSEMBLE_STEPS_H
 #define QDOT_SIM_ENSEMBLE_STEPS_H

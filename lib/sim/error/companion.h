@@ -1,7 +1,7 @@
 /* companion.h -- the two companions (ode/companion.h) that tell the errors of a run, each
  * integrated as a course of its own.
  *
- * Tests  tests/script/inner-times.sh, event-ends.sh
+ * Tests  tests/script/cases/inner-times.sh, event-ends.sh
  */
 #ifndef QDOT_SIM_COMPANION_H
 #define QDOT_SIM_COMPANION_H

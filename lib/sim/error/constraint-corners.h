@@ -9,7 +9,7 @@
  * of motion is compared: a corner is passed at full speed, while a motion that only comes near such a
  * place and turns round stands still there.
  *
- * Tests  tests/script/passed-over.lag
+ * Tests  tests/script/events/passed-over.lag
  */
 #ifndef QDOT_SIM_CONSTRAINT_CORNERS_H
 #define QDOT_SIM_CONSTRAINT_CORNERS_H

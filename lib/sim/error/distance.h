@@ -24,7 +24,7 @@
  *
  * Added is what oscillations that a stiff method has gone over may make of g (oscillations.h).
  *
- * Tests  tests/script/inner-times.sh, tests/script/value-poles.sh
+ * Tests  tests/script/cases/inner-times.sh, tests/script/solve/value-poles.sh
  */
 #ifndef QDOT_SIM_DISTANCE_H
 #define QDOT_SIM_DISTANCE_H

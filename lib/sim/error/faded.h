@@ -4,7 +4,7 @@
  * even sought (sim/course/piece-fade.c). Others show themselves by the run's companions: between the last occurrences
  * the function is nowhere larger than its error.
  *
- * Tests  tests/script/decayed-events.sh
+ * Tests  tests/script/events/decayed-events.sh
  */
 #ifndef QDOT_SIM_FADED_H
 #define QDOT_SIM_FADED_H

@@ -5,7 +5,7 @@
  * is about |x'/x''|, negligible beside the length of the run. The reason then names the
  * coordinate, its position and its acceleration.
  *
- * Tests  tests/script/bad-runs.sh
+ * Tests  tests/script/runs/bad-runs.sh
  */
 #ifndef QDOT_SIM_FAILURE_H
 #define QDOT_SIM_FAILURE_H

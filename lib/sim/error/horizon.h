@@ -17,7 +17,7 @@
  * of the two runs beyond it: at one time they may be near each other by chance.
  * Energy and whatever else is not chaotic keeps a small one.
  *
- * Tests  tests/sim/test_horizon.c: against runs with `digits`
+ * Tests  tests/sim/error/test_horizon.c: against runs with `digits`
  */
 #ifndef QDOT_SIM_HORIZON_H
 #define QDOT_SIM_HORIZON_H

@@ -8,7 +8,7 @@
  *     noise = sqrt(mean (third differences)^2 / 20)
  *
  * Source  More & Wild, Estimating computational noise, SIAM J. Sci. Comput. 33 (2011) 1292
- * Tests   tests/script/inner-times.sh
+ * Tests   tests/script/cases/inner-times.sh
  */
 #ifndef QDOT_SIM_NOISE_H
 #define QDOT_SIM_NOISE_H

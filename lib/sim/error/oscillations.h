@@ -15,7 +15,7 @@
  * a/|lambda_k| at most 100 tolerances of a velocity: more is in the estimate of a step's error. What was followed for more than
  * 50 steps is known by the companions; what an event excites later is not looked for.
  *
- * Tests  tests/script/fast-oscillations.sh
+ * Tests  tests/script/methods/fast-oscillations.sh
  */
 #ifndef QDOT_SIM_OSCILLATIONS_H
 #define QDOT_SIM_OSCILLATIONS_H

@@ -1,6 +1,6 @@
 /* partner.h -- which root of a companion is the k-th one of the run.
  *
- * Tests  tests/script/events.lag, event-ends.sh, poincare.sh
+ * Tests  tests/script/events/events.lag, event-ends.sh, poincare.sh
  */
 #ifndef QDOT_SIM_PARTNER_H
 #define QDOT_SIM_PARTNER_H

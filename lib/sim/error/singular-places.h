@@ -6,7 +6,7 @@
  * between the points. A minimum below 1e-5, or below a hundred tolerances, is reported: because
  * of its error the run passes such a place at some distance.
  *
- * Tests  tests/script/flat-places.lag
+ * Tests  tests/script/rests/flat-places.lag
  */
 #ifndef QDOT_SIM_SINGULAR_PLACES_H
 #define QDOT_SIM_SINGULAR_PLACES_H

@@ -8,7 +8,7 @@
  * to one side or the other, so it is undecided what follows. A chaotic motion seldom has all its
  * slopes that small at once.
  *
- * Tests  tests/script/chaos.sh
+ * Tests  tests/script/studies/chaos.sh
  */
 #ifndef QDOT_SIM_STANDSTILL_H
 #define QDOT_SIM_STANDSTILL_H

@@ -8,7 +8,7 @@
  *     else          a touch, as far as can be told: it may stand for two crossings at
  *                   +- sqrt(2 (|v| + e)/|g''|) beside it
  *
- * Tests  tests/script/grazing.lag
+ * Tests  tests/script/contacts/grazing.lag
  */
 #ifndef QDOT_SIM_TOUCHES_H
 #define QDOT_SIM_TOUCHES_H

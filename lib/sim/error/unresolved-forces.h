@@ -5,7 +5,7 @@
  * is left is found here after the run, by the same look: what a step of one length has gone over, or
  * one by series with an exponential whose argument is nothing but noise.
  *
- * Tests  tests/script/hidden-forces.lag
+ * Tests  tests/script/contacts/hidden-forces.lag
  */
 #ifndef QDOT_SIM_UNRESOLVED_FORCES_H
 #define QDOT_SIM_UNRESOLVED_FORCES_H

@@ -14,7 +14,7 @@
  * than a third of its length left beyond the others, another series is begun; where the
  * first state is one, nothing is written.
  *
- * Tests  tests/sim/test_bordered.c
+ * Tests  tests/sim/form/test_bordered.c
  */
 #ifndef QDOT_SIM_BORDERED_H
 #define QDOT_SIM_BORDERED_H

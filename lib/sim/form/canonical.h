@@ -9,7 +9,7 @@
  * where an expansion begins.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1.
- * Tests   tests/sim/test_motion.c
+ * Tests   tests/sim/form/test_motion.c
  */
 #ifndef QDOT_SIM_CANONICAL_H
 #define QDOT_SIM_CANONICAL_H

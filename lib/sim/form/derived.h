@@ -1,6 +1,6 @@
 /* derived.h -- the derived form of the equations, q'' = M^-1 f, of a plan; plans freed.
  *
- * Tests  tests/sim/test_taylor.c
+ * Tests  tests/sim/form/test_taylor.c
  */
 #ifndef QDOT_SIM_DERIVED_H
 #define QDOT_SIM_DERIVED_H

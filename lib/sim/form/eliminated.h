@@ -17,7 +17,7 @@
  * d_k/S_kk, pivot over diagonal, is the squared sine between a row and those before it. At
  * a state where it is small the other series takes over.
  *
- * Tests  tests/sim/test_constraints.c
+ * Tests  tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_ELIMINATED_H
 #define QDOT_SIM_ELIMINATED_H

@@ -10,7 +10,7 @@
  * inverse. A lane where that is not so has no accelerations. With constraints the ends of steps are
  * brought back to them (sim/model/constrained-lanes.h).
  *
- * Tests  tests/sim/test_ensemble.c
+ * Tests  tests/sim/ensemble/test_ensemble.c
  */
 #ifndef QDOT_SIM_ENSEMBLE_SERIES_H
 #define QDOT_SIM_ENSEMBLE_SERIES_H

@@ -4,7 +4,7 @@
  *
  *     q_0 = q,   q_1 = unit q',   v_0 = q',   t_0 = t,   t_1 = unit
  *
- * Tests  tests/sim/test_taylor.c
+ * Tests  tests/sim/form/test_taylor.c
  */
 #ifndef QDOT_SIM_EXPANSION_H
 #define QDOT_SIM_EXPANSION_H

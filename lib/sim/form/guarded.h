@@ -4,7 +4,7 @@
  * At a state that is not for them the other series is begun instead: of the bordered one where its
  * `begin` fails with QDOT_EDOMAIN, of the eliminated one where a pivot is small beside the diagonal.
  *
- * Tests  tests/sim/test_bordered.c, tests/sim/test_constraints.c
+ * Tests  tests/sim/form/test_bordered.c, tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_GUARDED_H
 #define QDOT_SIM_GUARDED_H

@@ -7,7 +7,7 @@
  * missing. Each correction gains what a double holds less the digits that M_0 eats.
  *
  * Source  Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), 12.
- * Tests   tests/script/leading.sh
+ * Tests   tests/script/methods/leading.sh
  */
 #ifndef QDOT_SIM_LEADING_H
 #define QDOT_SIM_LEADING_H

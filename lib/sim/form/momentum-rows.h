@@ -3,7 +3,7 @@
  * Momenta are inputs of its program, numbers behind t; the velocities that follow from them are the
  * last of its outputs.
  *
- * Tests  tests/sim/test_routh.c
+ * Tests  tests/sim/plan/test_routh.c
  */
 #ifndef QDOT_SIM_MOMENTUM_ROWS_H
 #define QDOT_SIM_MOMENTUM_ROWS_H

@@ -7,7 +7,7 @@
  * It is factored where a series begins. Orders up to QDOT_BLOCKS_SOLVED are solved for by that
  * factor, those beyond by the inverse; with constraints all by the inverse (num/bordered.h).
  *
- * Tests  tests/sim/test_taylor.c, test_motion.c, test_bordered.c
+ * Tests  tests/sim/form/test_taylor.c, test_motion.c, test_bordered.c
  */
 #ifndef QDOT_SIM_MOTION_MATRIX_H
 #define QDOT_SIM_MOTION_MATRIX_H

@@ -12,7 +12,7 @@
  * index-1 equations. Those of coordinates, the first, are explicit.
  *
  * Source  Nedialkov & Pryce, BIT 45 (2005) 561; 47 (2007) 121.
- * Tests   tests/sim/test_constraints.c
+ * Tests   tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_MOTION_OF_CONSTRAINTS_H
 #define QDOT_SIM_MOTION_OF_CONSTRAINTS_H

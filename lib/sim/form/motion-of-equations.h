@@ -10,7 +10,7 @@
  *
  * The equations are explicit (series/motion.h).
  *
- * Tests  tests/sim/test_motion.c
+ * Tests  tests/sim/form/test_motion.c
  */
 #ifndef QDOT_SIM_MOTION_OF_EQUATIONS_H
 #define QDOT_SIM_MOTION_OF_EQUATIONS_H

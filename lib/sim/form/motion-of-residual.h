@@ -5,7 +5,7 @@
  *
  * (residual.h). Rows d lead by 2, their second rates are d''; unknowns are q'', which no row holds.
  *
- * Tests  tests/sim/test_motion.c
+ * Tests  tests/sim/form/test_motion.c
  */
 #ifndef QDOT_SIM_MOTION_OF_RESIDUAL_H
 #define QDOT_SIM_MOTION_OF_RESIDUAL_H

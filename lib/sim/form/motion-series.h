@@ -3,7 +3,7 @@
  *
  * What is solved for, of M q'' = f, d'Alembert's residual or constraints: motion-matrix.h.
  *
- * Tests  tests/sim/test_taylor.c, test_motion.c, test_bordered.c
+ * Tests  tests/sim/form/test_taylor.c, test_motion.c, test_bordered.c
  */
 #ifndef QDOT_SIM_MOTION_SERIES_H
 #define QDOT_SIM_MOTION_SERIES_H

@@ -7,7 +7,7 @@
  * add A^T lambda to p' (qdot_ode_bonds), and then p is always made.
  *
  * Source  Goldstein, Poole, Safko, Classical Mechanics, 8.1.
- * Tests   tests/sim/test_phase-space.c
+ * Tests   tests/sim/form/test_phase-space.c
  */
 #ifndef QDOT_SIM_PHASE_SPACE_H
 #define QDOT_SIM_PHASE_SPACE_H

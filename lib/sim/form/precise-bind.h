@@ -6,7 +6,7 @@
  * With constraints the same of [M A^T; A 0] (q'', -lambda) = (f, gamma): nothing is projected,
  * since the guard digits that the drift eats are among those that are measured.
  *
- * Tests  tests/sim/test_precise.c
+ * Tests  tests/sim/digits/test_precise.c
  */
 #ifndef QDOT_SIM_PRECISE_BIND_H
 #define QDOT_SIM_PRECISE_BIND_H

@@ -5,7 +5,7 @@
  * with places and rates summed up from the roots: of the order of N operations for a chain of N
  * links, where T by M takes N^2.
  *
- * Tests  tests/sim/test_tree-alone.c: against mech's energy
+ * Tests  tests/sim/plan/test_tree-alone.c: against mech's energy
  */
 #ifndef QDOT_SIM_RESIDUAL_ENERGY_H
 #define QDOT_SIM_RESIDUAL_ENERGY_H

@@ -8,7 +8,7 @@
  * order k together. Neither M nor W is formed, and an order is work N. Slopes, differences
  * and forces are vectors of eight nodes (series/taylor-wide.h).
  *
- * Tests  tests/sim/test_residual-sweeps.c
+ * Tests  tests/sim/form/test_residual-sweeps.c
  */
 #ifndef QDOT_SIM_RESIDUAL_SWEEPS_H
 #define QDOT_SIM_RESIDUAL_SWEEPS_H

@@ -5,7 +5,7 @@
  * coordinate's slopes are on one node each, and no node hangs on two, M is eliminated along
  * that tree (num/articulated.h).
  *
- * Tests  tests/sim/test_residual-sweeps.c
+ * Tests  tests/sim/form/test_residual-sweeps.c
  */
 #ifndef QDOT_SIM_RESIDUAL_TREE_H
 #define QDOT_SIM_RESIDUAL_TREE_H

@@ -16,7 +16,7 @@
  *
  * Source  Nedialkov & Pryce, BIT 45 (2005) 561; shared sums as in recursive Newton-Euler
  *         schemes (Featherstone, Rigid Body Dynamics Algorithms, ch. 5).
- * Tests   tests/sim/test_taylor.c
+ * Tests   tests/sim/form/test_taylor.c
  */
 #ifndef QDOT_SIM_RESIDUAL_H
 #define QDOT_SIM_RESIDUAL_H

@@ -3,7 +3,7 @@
  * It is factored by its pattern, or by the null space where rows are, or nearly, dependent
  * (num/saddle.h): the motion goes on there, only its series is less sure.
  *
- * Tests  tests/sim/test_constraints.c
+ * Tests  tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_SADDLE_SOLVER_H
 #define QDOT_SIM_SADDLE_SOLVER_H

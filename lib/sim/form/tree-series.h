@@ -1,7 +1,7 @@
 /* tree-series.h -- Taylor coefficients of the motion from d'Alembert's residual, by elimination along
  * its tree (residual-sweeps.h).
  *
- * Tests  tests/sim/test_taylor.c, test_residual-sweeps.c
+ * Tests  tests/sim/form/test_taylor.c, test_residual-sweeps.c
  */
 #ifndef QDOT_SIM_TREE_SERIES_H
 #define QDOT_SIM_TREE_SERIES_H

@@ -2,7 +2,7 @@
  *
  * A form tells what it has; what is not there is 0.
  *
- * Tests  tests/sim/test_cost.c
+ * Tests  tests/sim/plan/test_cost.c
  */
 #ifndef QDOT_SIM_WORK_H
 #define QDOT_SIM_WORK_H

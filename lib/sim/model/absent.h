@@ -3,7 +3,7 @@
  * A function of (q, q', t) that changes with q_i depends on it. If it did not change it may still
  * depend on it: only then is a proof attempted, which takes long.
  *
- * Tests  tests/sim/test_tree-alone.c
+ * Tests  tests/sim/plan/test_tree-alone.c
  */
 #ifndef QDOT_SIM_ABSENT_H
 #define QDOT_SIM_ABSENT_H

@@ -6,7 +6,7 @@
  *
  * then q' likewise. Lanes are independent: none changes a bit of another.
  *
- * Tests  tests/sim/test_ensemble.c
+ * Tests  tests/sim/ensemble/test_ensemble.c
  */
 #ifndef QDOT_SIM_CONSTRAINED_LANES_H
 #define QDOT_SIM_CONSTRAINED_LANES_H

@@ -19,7 +19,7 @@
  *
  * Source  Hairer & Wanner II, VII.1 (index reduction) and VII.2 (projection); Baumgarte,
  *         Comput. Meth. Appl. Mech. Eng. 1 (1972) 1.
- * Tests   tests/sim/test_constraints.c
+ * Tests   tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_CONSTRAINED_H
 #define QDOT_SIM_CONSTRAINED_H
@@ -78,7 +78,7 @@ QDOT_MUST_CHECK qdot_status qdot_constrained_implicit_slopes(qdot_constrained *c
 
 /* A constraint on accelerations does not drift, because it is solved for. But one that is
  * redundant at the start may contradict the others later: QDOT_EDOMAIN names one that does not
- * hold at a state of the run. Test: tests/bad/constraint-leaves.lag. */
+ * hold at a state of the run. Test: tests/bad/constraints/constraint-leaves.lag. */
 QDOT_MUST_CHECK qdot_status qdot_constrained_check_accelerations(qdot_constrained *constrained,
                                                                  double t, const double *y);
 

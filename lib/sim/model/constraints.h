@@ -12,7 +12,7 @@
  * (sim/model/constrained.h solves it). Rows stand in the order of the scene's constraints, a vector
  * constraint one row a component.
  *
- * Tests  tests/sim/test_constraints.c
+ * Tests  tests/sim/model/test_constraints.c
  */
 #ifndef QDOT_SIM_CONSTRAINTS_H
 #define QDOT_SIM_CONSTRAINTS_H

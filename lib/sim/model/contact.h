@@ -12,7 +12,7 @@
  * = 0 as it is; and u is of q and t. On a place that moves the motion rests beside it, u = u' = 0, and leaves it where
  * that falls away faster than the motion would; its speed may not jump. Anything else ends the run as before.
  *
- * Tests  tests/script/resting.lag, moving-floors.lag
+ * Tests  tests/script/contacts/resting.lag, moving-floors.lag
  */
 #ifndef QDOT_SIM_CONTACT_H
 #define QDOT_SIM_CONTACT_H

@@ -10,7 +10,7 @@
  *
  * Everything the tapes read is laid out as q [n], q' [n], t, q'' [n].
  *
- * Tests  tests/sim/test_run.c
+ * Tests  tests/sim/run/test_run.c
  */
 #ifndef QDOT_SIM_EQUATIONS_H
 #define QDOT_SIM_EQUATIONS_H

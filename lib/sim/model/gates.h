@@ -9,7 +9,7 @@
  * follows which branches are taken, and from these, beginning at the roots, which gates are open. What a surface
  * decides by, u, is looked at where one of its switches is open.
  *
- * Tests  tests/script/switch-branches.lag, tests/sim/test_gates.c
+ * Tests  tests/script/contacts/switch-branches.lag, tests/sim/model/test_gates.c
  */
 #ifndef QDOT_SIM_GATES_H
 #define QDOT_SIM_GATES_H

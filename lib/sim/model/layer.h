@@ -18,7 +18,7 @@
  * (sim/course/piece-layer.c): a run that leaves out more than its tolerance ends. In a layer of the time it is
  * known, and added to the velocities.
  *
- * Tests  tests/script/broken-powers.lag, tests/bad/broken-power-*.lag
+ * Tests  tests/script/runs/broken-powers.lag, tests/bad/broken-power-*.lag
  */
 #ifndef QDOT_SIM_LAYER_H
 #define QDOT_SIM_LAYER_H

@@ -7,7 +7,7 @@
  *
  * What G does not see changed stays as it is, whatever G is; else G has to be linear in it.
  *
- * Tests  tests/script/massless-jumps.sh
+ * Tests  tests/script/massless/massless-jumps.sh
  */
 #ifndef QDOT_SIM_MASSLESS_JUMP_H
 #define QDOT_SIM_MASSLESS_JUMP_H

@@ -1,7 +1,7 @@
 /* momenta.h -- the momenta that a reduced plan (sim/plan/routh.h) keeps, and the velocities that
  * follow from them.
  *
- * Tests  tests/sim/test_routh.c
+ * Tests  tests/sim/plan/test_routh.c
  */
 #ifndef QDOT_SIM_MOMENTA_H
 #define QDOT_SIM_MOMENTA_H

@@ -8,7 +8,7 @@
  * `value`, companions, MPFR - reads the present value of al. The value of another parameter that
  * contains al follows it.
  *
- * Tests  tests/sim/test_parameter_states.c, tests/script/event-parameters.lag
+ * Tests  tests/sim/model/test_parameter-states.c, tests/script/events/event-parameters.lag
  */
 #ifndef QDOT_SIM_PARAMETER_STATES_H
 #define QDOT_SIM_PARAMETER_STATES_H

@@ -4,7 +4,7 @@
  * forces. It is kept as one value (qdot_hold). The last bits change: for series under loose
  * tolerances.
  *
- * Tests   tests/sim/test_bordered.c
+ * Tests   tests/sim/form/test_bordered.c
  */
 #ifndef QDOT_SIM_POWER_QUOTIENT_H
 #define QDOT_SIM_POWER_QUOTIENT_H

@@ -24,7 +24,7 @@
  * direction is that of s ("creeps"), until |s| = 1 + QDOT_PUCK_CREEP. If |s| exceeds 1 by more at once,
  * as after a jump, the puck starts in the direction e of its acceleration: d = radius e.
  *
- * Tests  tests/script/puck.lag, tests/sim/test_puck.c
+ * Tests  tests/script/contacts/puck.lag, tests/sim/model/test_puck.c
  */
 #ifndef QDOT_SIM_PUCK_H
 #define QDOT_SIM_PUCK_H

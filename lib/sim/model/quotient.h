@@ -1,7 +1,7 @@
 /* quotient.h -- f/M with common factors of M and all terms of f cancelled: -2 r r' theta' - g r
  * sin over r^2 is -(2 r' theta' + g sin)/r, one division and no factor r.
  *
- * Tests  tests/sim/test_equations.c
+ * Tests  tests/sim/model/test_equations.c
  */
 #ifndef QDOT_SIM_QUOTIENT_H
 #define QDOT_SIM_QUOTIENT_H

@@ -10,7 +10,7 @@
  *
  * Source  Griewank & Walther, Evaluating Derivatives, 2nd ed., 13.2 (forward mode, second
  *         order).
- * Tests   tests/sim/test_bordered.c
+ * Tests   tests/sim/form/test_bordered.c
  */
 #ifndef QDOT_SIM_RATES_H
 #define QDOT_SIM_RATES_H

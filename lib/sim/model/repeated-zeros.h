@@ -11,7 +11,7 @@
  * No jump of f, nor a pole, is a zero of u, and each zero is simple; so u is followed as any smooth function is. Every
  * second zero of the sines has the other way than g: u times the sign of `turn` goes as g does.
  *
- * Tests  tests/sim/test_repeated-zeros.c, tests/script/event-strobes.lag, event-powers.lag
+ * Tests  tests/sim/model/test_repeated-zeros.c, tests/script/events/event-strobes.lag, event-powers.lag
  */
 #ifndef QDOT_SIM_REPEATED_ZEROS_H
 #define QDOT_SIM_REPEATED_ZEROS_H

@@ -6,7 +6,7 @@
  *
  * A high power also underflows far from its zero, (x - 1)^10000 in all of 0.1 < x < 1.9.
  *
- * Tests  tests/sim/test_simple-zeros.c, tests/script/event-powers.lag
+ * Tests  tests/sim/model/test_simple-zeros.c, tests/script/events/event-powers.lag
  */
 #ifndef QDOT_SIM_SIMPLE_ZEROS_H
 #define QDOT_SIM_SIMPLE_ZEROS_H

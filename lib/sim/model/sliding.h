@@ -18,7 +18,7 @@
  * u, s >= 0 the reaction.
  *
  * Source  Filippov, Differential Equations with Discontinuous Righthand Sides (1988), 2.4.
- * Tests   tests/script/sticking.lag, tests/sim/test_sliding.c
+ * Tests   tests/script/contacts/sticking.lag, tests/sim/model/test_sliding.c
  */
 #ifndef QDOT_SIM_SLIDING_H
 #define QDOT_SIM_SLIDING_H

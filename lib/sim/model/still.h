@@ -10,7 +10,7 @@
  * then depends on no coordinate: else the motion may meet a place where M is singular, which those moved
  * aside show; and not under constraints. Parameters that events set do not move either.
  *
- * Tests  tests/script/stays.lag
+ * Tests  tests/script/rests/stays.lag
  */
 #ifndef QDOT_SIM_STILL_H
 #define QDOT_SIM_STILL_H

@@ -25,7 +25,7 @@
  * decided one after another; as expressions in q, q', t and the sides, as symbols, all u are
  * smooth. What stands in a branch that is not taken need not be defined.
  *
- * Tests  tests/script/switching.lag, switch-nested.lag, switch-branches.lag, tests/sim/test_switch.c, test_taylor.c
+ * Tests  tests/script/contacts/switching.lag, switch-nested.lag, switch-branches.lag, tests/sim/model/test_switch.c, test_taylor.c
  */
 #ifndef QDOT_SIM_SWITCH_H
 #define QDOT_SIM_SWITCH_H

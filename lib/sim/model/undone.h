@@ -8,7 +8,7 @@
  * that `then` forgets (x = 0) follows from the equation of the event. The event has just occurred where its function is 0
  * with the values before it.
  *
- * Tests  tests/sim/test_undone.c, tests/script/backward.lag
+ * Tests  tests/sim/model/test_undone.c, tests/script/events/backward.lag
  */
 #ifndef QDOT_SIM_UNDONE_H
 #define QDOT_SIM_UNDONE_H

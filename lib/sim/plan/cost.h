@@ -8,7 +8,7 @@
  *
  * Of a step more is known than of an expansion: states are projected behind it.
  *
- * Tests  tests/sim/test_cost.c
+ * Tests  tests/sim/plan/test_cost.c
  */
 #ifndef QDOT_SIM_COST_H
 #define QDOT_SIM_COST_H

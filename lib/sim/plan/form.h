@@ -6,7 +6,7 @@
  * for by machine code, compared at the tolerance of the run. For lanes and for numbers of many
  * digits, by what these executors take.
  *
- * Tests  tests/sim/test_cost.c, test_bordered.c, test_constraints.c
+ * Tests  tests/sim/plan/test_cost.c, test_bordered.c, test_constraints.c
  */
 #ifndef QDOT_SIM_PLAN_FORM_H
 #define QDOT_SIM_PLAN_FORM_H

@@ -9,7 +9,7 @@
  *     the same side of QDOT_ODE_LEADING_TOL
  *     the same start too   where what cancels at it decided about momenta (sim/plan/routh.h)
  *
- * Tests  tests/sim/test_tree-alone.c
+ * Tests  tests/sim/plan/test_tree-alone.c
  */
 #ifndef QDOT_SIM_KEPT_H
 #define QDOT_SIM_KEPT_H

@@ -6,7 +6,7 @@
  * (ode/apart.h), unless events, bounds or switches look at the steps of the whole: two
  * oscillators of frequency 1 and 1000 cost what each of them does alone.
  *
- * Tests  tests/sim/test_parts.c
+ * Tests  tests/sim/plan/test_parts.c
  */
 #ifndef QDOT_SIM_PARTS_H
 #define QDOT_SIM_PARTS_H

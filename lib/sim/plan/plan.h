@@ -1,6 +1,6 @@
 /* plan.h -- how a scene is integrated: method, form of the equations, parts.
  *
- * Tests  tests/sim/test_run.c
+ * Tests  tests/sim/run/test_run.c
  */
 #ifndef QDOT_SIM_PLAN_H
 #define QDOT_SIM_PLAN_H

@@ -18,7 +18,7 @@
  * does not change along it (sim/model/momenta.h).
  *
  * Source  Routh, Stability of a Given State of Motion (1877), ch. IV; Goldstein 8.3.
- * Tests   tests/sim/test_routh.c
+ * Tests   tests/sim/plan/test_routh.c
  */
 #ifndef QDOT_SIM_ROUTH_H
 #define QDOT_SIM_ROUTH_H

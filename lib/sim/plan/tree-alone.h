@@ -12,7 +12,7 @@
  *
  * Of such a plan M, f, tape are NULL, and `residual` has no masses.
  *
- * Tests  tests/sim/test_tree-alone.c
+ * Tests  tests/sim/plan/test_tree-alone.c
  */
 #ifndef QDOT_SIM_TREE_ALONE_H
 #define QDOT_SIM_TREE_ALONE_H

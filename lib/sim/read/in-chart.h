@@ -1,6 +1,6 @@
 /* in-chart.h -- expressions of the scene given, read along a run made in other coordinates.
  *
- * Tests  tests/script/charts.lag
+ * Tests  tests/script/constraints/charts.lag
  */
 #ifndef QDOT_SIM_IN_CHART_H
 #define QDOT_SIM_IN_CHART_H

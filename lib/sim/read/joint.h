@@ -4,7 +4,7 @@
  * symbols of its own, except t: so (a.x - b.x) becomes (x - x_b), one tape whose inputs are those
  * of a, then those of b. One run is the special case without further symbols.
  *
- * Tests  tests/script/several-ranges.lag, ranges.lag
+ * Tests  tests/script/sweeps/several-ranges.lag, ranges.lag
  */
 #ifndef QDOT_SIM_JOINT_H
 #define QDOT_SIM_JOINT_H

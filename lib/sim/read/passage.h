@@ -5,7 +5,7 @@
  * beyond the place (mech/study/chart.h) e is smooth through it. A polynomial through values on
  * both sides, none nearer than a tenth of the interval's half, is e up to the place.
  *
- * Tests  tests/script/charts.lag
+ * Tests  tests/script/constraints/charts.lag
  */
 #ifndef QDOT_SIM_PASSAGE_H
 #define QDOT_SIM_PASSAGE_H

@@ -3,7 +3,7 @@
  * range.c goes over the steps, range-step.c over the parts of one; range-poles.c treats parts too
  * short to be halved, range-seek.c searches for the largest values by intervals.
  *
- * Tests  tests/script/narrow.lag
+ * Tests  tests/script/prove/narrow.lag
  */
 #ifndef QDOT_SIM_RANGE_PARTS_H
 #define QDOT_SIM_RANGE_PARTS_H

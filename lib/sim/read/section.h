@@ -6,7 +6,7 @@
  * is read there is taken to the root itself by slopes. The error of a number is its distance from
  * those at the same crossings of the companions, so a motion that is only late has exact points.
  *
- * Tests  tests/script/poincare.sh
+ * Tests  tests/script/studies/poincare.sh
  */
 #ifndef QDOT_SIM_SECTION_H
 #define QDOT_SIM_SECTION_H

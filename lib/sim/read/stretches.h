@@ -3,7 +3,7 @@
  * Within a stretch each course is on one step of one piece. Where not all courses are known, the
  * range is cut. A range of no length is one stretch for each piece that begins or ends there.
  *
- * Tests  tests/script/several-ranges.lag
+ * Tests  tests/script/sweeps/several-ranges.lag
  */
 #ifndef QDOT_SIM_STRETCHES_H
 #define QDOT_SIM_STRETCHES_H

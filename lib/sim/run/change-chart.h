@@ -5,7 +5,7 @@
  * singular place of coordinates that can be replaced. The new one takes its place if it arrives,
  * with a smaller error.
  *
- * Tests  tests/script/charts.lag
+ * Tests  tests/script/constraints/charts.lag
  */
 #ifndef QDOT_SIM_CHANGE_CHART_H
 #define QDOT_SIM_CHANGE_CHART_H

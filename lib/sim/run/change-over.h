@@ -4,7 +4,7 @@
  * by radau, which is no worse where nothing is stiff, so that it stays with it to the end. If that is far off, it is made by series
  * after all, unless that would take long. If both fail the first run stays.
  *
- * Tests  tests/script/stiff-auto.lag
+ * Tests  tests/script/methods/stiff-auto.lag
  */
 #ifndef QDOT_SIM_CHANGE_OVER_H
 #define QDOT_SIM_CHANGE_OVER_H

@@ -5,7 +5,7 @@
  * stretch of time, in which the angle is within 2.8 of it. So are the signs of distances, which
  * change where a singular place is passed exactly, and those of roots.
  *
- * Tests  tests/script/charts.lag
+ * Tests  tests/script/constraints/charts.lag
  */
 #ifndef QDOT_SIM_CHART_RUN_H
 #define QDOT_SIM_CHART_RUN_H

@@ -5,7 +5,7 @@
  * asked for: an event. Polar and spherical coordinates are left first (mech/study/chart.h). Then the
  * trajectories are timed by t (ode/trajectory.h), so that all that reads them knows nothing of s.
  *
- * Tests  tests/script/collisions.lag
+ * Tests  tests/script/mechanisms/collisions.lag
  */
 #ifndef QDOT_SIM_COLLIDE_H
 #define QDOT_SIM_COLLIDE_H

@@ -6,7 +6,7 @@
  * (ode/leading.h), the tolerance is QDOT_LONG_TOL: truncation stays below rounding, at two to three
  * times the work.
  *
- * Tests  tests/script/long-run.lag
+ * Tests  tests/script/methods/long-run.lag
  */
 #ifndef QDOT_SIM_LONG_RUN_H
 #define QDOT_SIM_LONG_RUN_H

@@ -3,7 +3,7 @@
  * The origin is the double at t0. The scene is written in s where t stands in it, and put back at the end. With
  * `digits` numbers are as long as they have to be: nothing is done.
  *
- * Tests  tests/sim/test_far.c, tests/script/far.lag
+ * Tests  tests/sim/run/test_far.c, tests/script/events/far.lag
  */
 #ifndef QDOT_SIM_ORIGIN_H
 #define QDOT_SIM_ORIGIN_H

@@ -1,6 +1,6 @@
 /* run-back.h -- what a run back in time has taken for granted.
  *
- * Tests  tests/script/backward.lag
+ * Tests  tests/script/events/backward.lag
  */
 #ifndef QDOT_SIM_RUN_BACK_H
 #define QDOT_SIM_RUN_BACK_H

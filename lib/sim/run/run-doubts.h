@@ -1,7 +1,7 @@
 /* run-doubts.h -- signs, after a run, that its error is unknown or its events are to be searched
  * again, whatever its companions agree on.
  *
- * Tests  tests/script/hidden-forces.lag, passed-over.lag, grazing.lag
+ * Tests  tests/script/contacts/hidden-forces.lag, passed-over.lag, grazing.lag
  */
 #ifndef QDOT_SIM_RUN_DOUBTS_H
 #define QDOT_SIM_RUN_DOUBTS_H

@@ -1,6 +1,6 @@
 /* run-report.h -- what a run tells of itself.
  *
- * Tests  tests/sim/test_run.c, tests/script/run.sh
+ * Tests  tests/sim/run/test_run.c, tests/script/runs/run.sh
  */
 #ifndef QDOT_SIM_RUN_REPORT_H
 #define QDOT_SIM_RUN_REPORT_H

@@ -8,7 +8,7 @@
  * others (0, or rounding) have the largest scale among those found. A coordinate that grows beyond
  * 1 needs no scale: errors are relative to its value.
  *
- * Tests  tests/script/scale.lag, scale-found.lag
+ * Tests  tests/script/starts/scale.lag, scale-found.lag
  */
 #ifndef QDOT_SIM_SCALES_H
 #define QDOT_SIM_SCALES_H

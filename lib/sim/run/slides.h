@@ -1,6 +1,6 @@
 /* slides.h -- where a run stuck or slid along a surface at which the equations switch.
  *
- * Tests  tests/script/sticking.lag
+ * Tests  tests/script/contacts/sticking.lag
  */
 #ifndef QDOT_SIM_SLIDES_H
 #define QDOT_SIM_SLIDES_H

@@ -8,7 +8,7 @@
  * whose error is unknown, as where its companions are too costly or meet other events: it stays if that is
  * known then.
  *
- * Tests  tests/script/tighter.sh
+ * Tests  tests/script/studies/tighter.sh
  */
 #ifndef QDOT_SIM_TIGHTER_RUN_H
 #define QDOT_SIM_TIGHTER_RUN_H

@@ -3,7 +3,7 @@
  * A value that is still as it was asked for is that expression (-pi/2, not the double beside it); one
  * that was moved is known to two doubles. So cos(theta) at theta = -pi/2 is 0, and no slope of 6e-17.
  *
- * Tests  tests/sim/test_start.c
+ * Tests  tests/sim/start/test_start.c
  */
 #ifndef QDOT_SIM_GIVEN_H
 #define QDOT_SIM_GIVEN_H

@@ -14,7 +14,7 @@
  * are found in balls, so that a slope that is 0 is none (cos(theta) at theta = pi/2 is 6e-17 in doubles).
  * Of other rows slopes far below their largest so far count as rounding.
  *
- * Tests  tests/sim/test_start.c
+ * Tests  tests/sim/start/test_start.c
  */
 #ifndef QDOT_SIM_NEAREST_H
 #define QDOT_SIM_NEAREST_H

@@ -13,7 +13,7 @@
  * kind of motion tells nothing of the other.
  *
  * Source  Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9 and 21.
- * Tests   tests/sim/test_exponents.c, tests/script/lyapunov.sh
+ * Tests   tests/sim/study/test_exponents.c, tests/script/studies/lyapunov.sh
  */
 #ifndef QDOT_SIM_EXPONENTS_H
 #define QDOT_SIM_EXPONENTS_H

@@ -3,7 +3,7 @@
  * The range is halved towards the value, then de/dt = 0 is found by Newton's method; at an end of the range
  * the extremum is that end.
  *
- * Tests  tests/script/sensitivity.sh
+ * Tests  tests/script/studies/sensitivity.sh
  */
 #ifndef QDOT_SIM_EXTREMUM_H
 #define QDOT_SIM_EXTREMUM_H

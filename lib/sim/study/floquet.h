@@ -12,7 +12,7 @@
  * come as lambda, 1/lambda: one that is apart from all others and within its error of the unit circle is on it.
  *
  * Source  Hale, Ordinary Differential Equations, III.7; Arnold, Mathematical Methods, 42.
- * Tests   tests/script/floquet.sh
+ * Tests   tests/script/studies/floquet.sh
  */
 #ifndef QDOT_SIM_FLOQUET_H
 #define QDOT_SIM_FLOQUET_H

@@ -3,7 +3,7 @@
  * Any state may be begun at: under constraints it is brought onto them first, and so are slopes (tangents.h). The motion
  * over a long time is cut into segments so that slopes grow little in each of them (multiple shooting).
  *
- * Tests   tests/sim/test_shooting.c, test_orbits.c
+ * Tests   tests/sim/study/test_shooting.c, test_orbits.c
  */
 #ifndef QDOT_SIM_FLOW_H
 #define QDOT_SIM_FLOW_H

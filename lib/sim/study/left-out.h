@@ -1,6 +1,6 @@
 /* left-out.h -- methods that a study leaves out because they do not suit the scene, and why.
  *
- * Tests  tests/script/longtime.sh, workprecision-scenes.sh
+ * Tests  tests/script/studies/longtime.sh, workprecision-scenes.sh
  */
 #ifndef QDOT_SIM_LEFT_OUT_H
 #define QDOT_SIM_LEFT_OUT_H

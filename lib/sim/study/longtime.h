@@ -20,7 +20,7 @@
  * 1e-4 at which the method's first steps foretell no more work than its budget (ode/meter.h).
  *
  * Source  Hairer, Lubich & Wanner, Geometric Numerical Integration, VIII.5, IX.8.
- * Tests   tests/sim/test_longtime.c
+ * Tests   tests/sim/study/test_longtime.c
  */
 #ifndef QDOT_SIM_LONGTIME_H
 #define QDOT_SIM_LONGTIME_H

@@ -4,7 +4,7 @@
  *
  *     (h(t) - h(t0)) / max(1, |h(t0)|)
  *
- * Tests  tests/sim/test_workprecision.c, test_longtime.c
+ * Tests  tests/sim/study/test_workprecision.c, test_longtime.c
  */
 #ifndef QDOT_SIM_METHOD_RUN_H
 #define QDOT_SIM_METHOD_RUN_H

@@ -7,7 +7,7 @@
  * as given from those of a reference, relative to max(1, |value|). The reference is the
  * scene as given, projected, at the least tolerance, with the error stated by that run.
  *
- * Tests  tests/script/race.sh
+ * Tests  tests/script/studies/race.sh
  */
 #ifndef QDOT_SIM_RACE_H
 #define QDOT_SIM_RACE_H

@@ -8,7 +8,7 @@
  * lowered once for all u. With constraints that is so where the whole state is unknown, which is brought onto them
  * (tangents.h); else it is made anew for every u, since its start follows from them.
  *
- * Tests  tests/sim/test_response.c
+ * Tests  tests/sim/study/test_response.c
  */
 #ifndef QDOT_SIM_RESPONSE_H
 #define QDOT_SIM_RESPONSE_H

@@ -15,7 +15,7 @@
  * within its error is brought to its end by the same search, in any number of segments.
  *
  * Source  Stoer & Bulirsch, Introduction to Numerical Analysis (2002), 7.3.5; Deuflhard, Newton Methods (2004), 7.1.
- * Tests   tests/sim/test_shooting.c, tests/script/find-orbit.sh
+ * Tests   tests/sim/study/test_shooting.c, tests/script/studies/find-orbit.sh
  */
 #ifndef QDOT_SIM_SHOOTING_H
 #define QDOT_SIM_SHOOTING_H

@@ -1,6 +1,6 @@
 /* sizes.h -- how large expressions become along a run, and scales of slopes by them.
  *
- * Tests  tests/script/units.sh
+ * Tests  tests/script/studies/units.sh
  */
 #ifndef QDOT_SIM_SIZES_H
 #define QDOT_SIM_SIZES_H

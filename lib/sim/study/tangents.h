@@ -9,7 +9,7 @@
  * end on another leaf stay there, and are none of the tangents. F_z^+ by singular values. Without constraints nothing changes, and every direction is a tangent.
  *
  * Source  Golub & Van Loan, Matrix Computations, 5.5.2.
- * Tests   tests/sim/test_tangents.c
+ * Tests   tests/sim/study/test_tangents.c
  */
 #ifndef QDOT_SIM_TANGENTS_H
 #define QDOT_SIM_TANGENTS_H

@@ -17,7 +17,7 @@
  *
  * (saltation); velocities without mass follow from their equations (sim/model/massless-jump.h). Numbers of the request are put in exactly: the new scene has no parameters.
  *
- * Tests  tests/sim/test_variation.c, tests/script/sensitivity.sh
+ * Tests  tests/sim/study/test_variation.c, tests/script/studies/sensitivity.sh
  */
 #ifndef QDOT_SIM_VARIATION_H
 #define QDOT_SIM_VARIATION_H

@@ -23,7 +23,7 @@
  * energy is followed is not one of those timed.
  *
  * Source  Hairer, Norsett & Wanner I, II.10; SciMLBenchmarks (the diagrams).
- * Tests   tests/sim/test_workprecision.c
+ * Tests   tests/sim/study/test_workprecision.c
  */
 #ifndef QDOT_SIM_WORKPRECISION_H
 #define QDOT_SIM_WORKPRECISION_H

@@ -26,7 +26,7 @@
  * represents it: there, in a part of a few thousand doubles of t, its values alone are looked at
  * (watch-rough.c).
  *
- * Tests  tests/script/event-spans.lag, events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
+ * Tests  tests/script/events/event-spans.lag, events.lag, event-roots.lag, event-stays.lag, narrow-events.lag
  */
 #ifndef QDOT_SIM_WATCH_H
 #define QDOT_SIM_WATCH_H

@@ -1,0 +1,91 @@
+/* test_antiderivative.c -- integrals are right when their derivatives are. */
+#include <setjmp.h>
+
+#include "normal/kit.h"
+
+#include <cmocka.h>
+
+#include "expr/calculus.h"
+#include "normal/prove/decide.h"
+#include "normal/solve/antiderivative.h"
+
+static void
+known_integrals_differentiate_back(void **state)
+{
+    static const char *const known[] = {
+        "7",
+        "x^3 - 2*x + k",
+        "1/x",
+        "1/(2*x + 3)^2",
+        "sqrt(k*x + 1)",
+        "sin(2*x + phi)*m",
+        "cos(x)*sin(x)^3",
+        "x^2*sin(3*x)",
+        "x*exp(-x)",
+        "x*exp(x^2)",
+        "x/(x^2 + 1)",
+        "x/sqrt(x^2 + 1)",
+        "tan(x)",
+        "sinh(x) + cosh(k*x)",
+        "sin(x)/cos(x)^2",
+        "exp(x)/(exp(x) + 1)",
+        "log(x)/x",
+    };
+    qdot_expr x = text_read(pool, "x");
+
+    (void)state;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        qdot_expr e = text_read(pool, known[i]);
+        qdot_expr F = qdot_antiderivative(pool, e, x, NULL);
+
+        if (F == QDOT_NIL)
+            fail_msg("%s: not known", known[i]);
+        if (!qdot_is_zero(pool, qdot_sub(pool, qdot_diff(pool, F, x), e), NULL))
+            fail_msg("%s: its derivative is another", known[i]);
+    }
+}
+
+static void
+what_the_table_lacks_is_nil(void **state)
+{
+    static const char *const unknown[] = {"exp(x^2)", "sin(x)/x", "1/log(x)",
+                                          "sqrt(1 + x^3)"};
+    qdot_expr x = text_read(pool, "x");
+
+    (void)state;
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++)
+        if (qdot_antiderivative(pool, text_read(pool, unknown[i]), x, NULL) != QDOT_NIL)
+            fail_msg("%s: has no such integral", unknown[i]);
+    assert_int_equal(qdot_pool_check(pool), QDOT_OK);
+}
+
+static void
+potentials_of_exact_forms_only(void **state)
+{
+    qdot_expr x[2] = {text_read(pool, "x"), text_read(pool, "y")}, a[2], F;
+
+    (void)state;
+    a[0] = text_read(pool, "2*x*y + cos(x)");
+    a[1] = text_read(pool, "x^2 - exp(y)");
+    F = qdot_potential_of(pool, 2, x, a, NULL);
+    assert_true(F != QDOT_NIL);
+    assert_true(qdot_is_zero(
+        pool, qdot_sub(pool, F, text_read(pool, "x^2*y + sin(x) - exp(y)")), NULL));
+    a[1] = text_read(pool, "x^2 - exp(y) + x");
+    assert_true(qdot_potential_of(pool, 2, x, a, NULL) == QDOT_NIL);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(known_integrals_differentiate_back, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(what_the_table_lacks_is_nil, open_pool,
+                                        close_pool),
+        cmocka_unit_test_setup_teardown(potentials_of_exact_forms_only, open_pool,
+                                        close_pool),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
