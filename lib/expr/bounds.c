@@ -1,4 +1,5 @@
 /* bounds.c -- the sign of a sum by the bounds of its terms, in exact numbers. */
+#include "expr/elementary.h"
 #include "expr/pool.h"
 
 /* One bound of a value: a rational, where there is one; `open`: not reached. */
@@ -41,25 +42,26 @@ bound_declared(const qdot_pool *pool, qdot_expr e, bool open, bool up, struct bo
     }
 }
 
+/* An end of a function's values; of a multiple of pi a fraction beyond it. `up`: the upper one. */
+static void
+bound_end(const qdot_fun_end *end, bool up, struct bound *b)
+{
+    if (!end->known)
+        return;
+    if (!end->angle)
+        set(b, end->number, 1, end->open);
+    else if ((end->number > 0) == up)
+        set(b, 355 * end->number, 226, true);
+    else
+        set(b, 333 * end->number, 212, true);
+}
+
 /* Of a function of real arguments, whatever these are. */
 static void
-of_function(unsigned op, struct bound *lo, struct bound *hi)
+of_function(qdot_fun_id id, struct bound *lo, struct bound *hi)
 {
-    switch (op) {
-    case QDOT_SIN:
-    case QDOT_COS:
-    case QDOT_SIGN: set(lo, -1, 1, false), set(hi, 1, 1, false); break;
-    case QDOT_TANH:
-    case QDOT_ERF: set(lo, -1, 1, true), set(hi, 1, 1, true); break;
-    case QDOT_ERFC: set(lo, 0, 1, true), set(hi, 2, 1, true); break;
-    case QDOT_COSH: set(lo, 1, 1, false); break;
-    case QDOT_EXP: set(lo, 0, 1, true); break;
-    case QDOT_ASIN:
-    case QDOT_ATAN: set(lo, -355, 226, true), set(hi, 355, 226, true); break;
-    case QDOT_ACOS: set(lo, 0, 1, false), set(hi, 355, 113, true); break;
-    case QDOT_ATAN2: set(lo, -355, 113, true), set(hi, 355, 113, true); break;
-    default: break;
-    }
+    bound_end(&qdot_fun_facts_of(id)->lo, false, lo);
+    bound_end(&qdot_fun_facts_of(id)->hi, true, hi);
 }
 
 /* Of f^k, k a positive integer, |f| <= 1 or f >= 1. */
@@ -68,20 +70,19 @@ bounds_of_power(const qdot_pool *pool, qdot_expr e, struct bound *lo, struct bou
 {
     qdot_expr b = ARGS(pool, e)[1];
     const fmpq *k = NUMBER(pool, ARGS(pool, e)[2]);
+    const qdot_fun_facts *f;
 
     if (k == NULL || qdot_rational_sgn(k) < 0 || !fmpz_is_one(fmpq_denref(k)) ||
         NODE(pool, b)->kind != QDOT_FUN)
         return;
-    switch (NODE(pool, b)->op) {
-    case QDOT_SIN:
-    case QDOT_COS:
-    case QDOT_TANH:
-    case QDOT_ERF:
+    f = qdot_fun_facts_of(NODE(pool, b)->op);
+    if (f->lo.angle || !f->lo.known)
+        return;
+    if (f->lo.number == 1) {
+        set(lo, 1, 1, false);
+    } else if (f->lo.number == -1 && f->hi.number == 1) {
         set(lo, fmpz_is_even(fmpq_numref(k)) ? 0 : -1, 1, false);
-        set(hi, 1, 1, NODE(pool, b)->op == QDOT_TANH || NODE(pool, b)->op == QDOT_ERF);
-        break;
-    case QDOT_COSH: set(lo, 1, 1, false); break;
-    default: break;
+        set(hi, 1, 1, f->hi.open);
     }
 }
 

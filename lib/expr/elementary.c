@@ -4,41 +4,19 @@
 #include "expr/pool.h"
 #include "expr/walk.h"
 
-#include <string.h>
-
 #include <flint/fmpz.h>
-
-static const struct {
-    const char *name;
-    int least, most;
-} table[QDOT_FUNCTION_COUNT] = {
-#define X(ID, name, least, most) {name, least, most},
-#include "expr/function.def"
-#undef X
-};
-
-bool
-qdot_fun_find(const char *name, qdot_fun_id *id)
-{
-    for (int i = 0; i < QDOT_FUNCTION_COUNT; i++)
-        if (strcmp(table[i].name, name) == 0) {
-            *id = (qdot_fun_id)i;
-            return true;
-        }
-    return false;
-}
-
-const char *
-qdot_fun_name(qdot_fun_id id)
-{
-    return id == QDOT_HOLD ? "hold" : table[id].name;
-}
 
 static qdot_expr
 plain(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
 {
     return qdot_pool_intern(pool, QDOT_FUN, (uint16_t)id, n, args,
                             qdot_sign_of_function(pool, id, args));
+}
+
+bool
+qdot_expr_is_function_that(const qdot_pool *pool, qdot_expr e, unsigned traits)
+{
+    return NODE(pool, e)->kind == QDOT_FUN && qdot_fun_is(NODE(pool, e)->op, traits);
 }
 
 bool
@@ -272,11 +250,9 @@ inverse_circular(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 static qdot_expr
 fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
 {
-    static const qdot_fun_id partner[] = {QDOT_ASINH, QDOT_ACOSH, QDOT_ATANH,
-                                          QDOT_SINH,  QDOT_COSH,  QDOT_TANH};
-    bool inverse = id >= QDOT_ASINH, even = id == QDOT_COSH;
+    bool even = qdot_fun_is(id, QDOT_FUN_EVEN);
 
-    if (qdot_expr_is_function(pool, x, partner[id - QDOT_SINH]) && id != QDOT_ACOSH)
+    if (qdot_expr_is_function(pool, x, qdot_fun_facts_of(id)->inverse) && id != QDOT_ACOSH)
         return arg0(pool, x);
     if (id == QDOT_ACOSH && qdot_expr_is_function(pool, x, QDOT_COSH))
         return qdot_fun1(pool, QDOT_ABS, arg0(pool, x));
@@ -284,7 +260,7 @@ fold_hyperbolic(qdot_pool *pool, qdot_fun_id id, qdot_expr x)
         return even ? QDOT_ONE : QDOT_ZERO;
     if (id == QDOT_ACOSH && x == QDOT_ONE)
         return QDOT_ZERO;
-    if (inverse && NUMBER(pool, x) != NULL) {
+    if (qdot_fun_is(id, QDOT_FUN_AREA) && NUMBER(pool, x) != NULL) {
         const fmpq *v = NUMBER(pool, x);
 
         if (id == QDOT_ACOSH && fmpq_cmp_si(v, 1) < 0)
@@ -548,15 +524,15 @@ qdot_fun(qdot_pool *pool, qdot_fun_id id, uint32_t n, const qdot_expr *args)
         return QDOT_NIL;
     if (id == QDOT_HOLD)
         return qdot_hold(pool, args[0]);
-    if ((int)n < table[id].least || (table[id].most >= 0 && (int)n > table[id].most))
+    if ((int)n < qdot_fun_facts_of(id)->least || (qdot_fun_facts_of(id)->most >= 0 && (int)n > qdot_fun_facts_of(id)->most))
         return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes %d argument%s, not %u",
-                                table[id].name, table[id].least,
-                                table[id].least == 1 ? "" : "s", n);
+                                qdot_fun_facts_of(id)->name, qdot_fun_facts_of(id)->least,
+                                qdot_fun_facts_of(id)->least == 1 ? "" : "s", n);
     for (uint32_t i = 0; i < n; i++) {
         if (args[i] == QDOT_NIL)
             return QDOT_NIL;
         if (id != QDOT_IF && !qdot_pool_is_scalar(pool, args[i]))
-            return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes numbers", table[id].name);
+            return qdot_pool_refuse(pool, QDOT_ETYPE, "%s takes numbers", qdot_fun_facts_of(id)->name);
     }
     switch (id) {
     case QDOT_SIN:

@@ -1,4 +1,4 @@
-/* elementary.h -- which function a node is, and where functions occur.
+/* elementary.h -- what is known of the elementary functions, which function a node is, where functions occur.
  *
  * Tests   tests/expr/test_function.c
  */
@@ -6,6 +6,43 @@
 #define QDOT_EXPR_ELEMENTARY_H
 
 #include "expr/expr.h"
+
+/* Traits of a function of one real argument f; of atan2 QDOT_FUN_ARC alone. */
+enum {
+    QDOT_FUN_ODD = 1,      /* f(-x) = -f(x) */
+    QDOT_FUN_EVEN = 2,     /* f(-x) = f(x) */
+    QDOT_FUN_RISING = 4,   /* strictly, where f is defined, an interval */
+    QDOT_FUN_FALLING = 8,  /* likewise */
+    QDOT_FUN_ENTIRE = 16,  /* analytic at every real number */
+    QDOT_FUN_ARC = 32,     /* its sine and cosine are algebraic functions of the argument */
+    QDOT_FUN_AREA = 64     /* its hyperbolic sine and cosine are */
+};
+
+/* An end of the values of a function: number, or number pi/2 where `angle`. */
+typedef struct {
+    bool known; /* there is one */
+    bool open;  /* it is no value itself */
+    bool angle;
+    int number;
+} qdot_fun_end;
+
+/* A row of function.def. */
+typedef struct {
+    const char *name;
+    int least, most; /* numbers of arguments; most < 0: any number */
+    unsigned traits;
+    qdot_fun_end lo, hi;
+    qdot_fun_id inverse; /* x = inverse(v) solves f(x) = v, of an even f also -x; QDOT_FUNCTION_KINDS: none */
+} qdot_fun_facts;
+
+/* What is known of a function; of `hold` nothing but its name and its one argument. */
+const qdot_fun_facts *qdot_fun_facts_of(qdot_fun_id id);
+
+/* Whether a function has all of the traits. */
+bool qdot_fun_is(qdot_fun_id id, unsigned traits);
+
+/* Whether e is a function that has all of the traits. */
+bool qdot_expr_is_function_that(const qdot_pool *pool, qdot_expr e, unsigned traits);
 
 /* Whether e is that function of something. */
 bool qdot_expr_is_function(const qdot_pool *pool, qdot_expr e, qdot_fun_id id);

@@ -46,7 +46,7 @@ typedef enum {
 } qdot_kind;
 
 typedef enum {
-#define X(ID, name, least, most) QDOT_##ID,
+#define X(ID, ...) QDOT_##ID,
 #include "expr/function.def"
 #undef X
     QDOT_FUNCTION_COUNT,

@@ -3,6 +3,7 @@
  * Interning makes comparison a loop: two different nodes of one shape first differ in some
  * pair of children, and that pair alone decides.
  */
+#include "expr/elementary.h"
 #include "expr/pool.h"
 
 #include <math.h>
@@ -316,21 +317,16 @@ uint8_t
 qdot_sign_of_function(const qdot_pool *pool, qdot_fun_id id, const qdot_expr *args)
 {
     uint8_t s = NODE(pool, args[0])->sign;
+    const qdot_fun_end *lo = &qdot_fun_facts_of(id)->lo;
     bool open;
 
+    if (qdot_fun_is(id, QDOT_FUN_ODD | QDOT_FUN_RISING))
+        return s;
+    if (lo->known && lo->number >= 0)
+        return lo->open || lo->number > 0 ? QDOT_POS
+               : id == QDOT_ABS           ? (uint8_t)(QDOT_GE0 | (s & QDOT_NE0))
+                                          : QDOT_GE0;
     switch (id) {
-    case QDOT_EXP:
-    case QDOT_COSH:
-    case QDOT_ERFC: return QDOT_POS;
-    case QDOT_ABS: return (uint8_t)(QDOT_GE0 | (s & QDOT_NE0));
-    case QDOT_ACOS: return QDOT_GE0;
-    case QDOT_SINH:
-    case QDOT_TANH:
-    case QDOT_ASINH:
-    case QDOT_ATANH:
-    case QDOT_ASIN:
-    case QDOT_ATAN:
-    case QDOT_ERF:
     case QDOT_SIGN:
     case QDOT_HOLD: return s;
     case QDOT_SIN:

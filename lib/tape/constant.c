@@ -8,40 +8,12 @@
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "expr/function-ball.h"
 #include "expr/print.h"
 #include "expr/rational.h"
 #include "expr/walk.h"
-#include "num/arb.h"
 
 enum { FIRST_BITS = 256, MOST_BITS = 4096 };
-
-/* sign(x) as a ball; the whole of [-1, 1] where x may be 0. */
-static void
-ball_sign(arb_t y, const arb_t x, slong bits)
-{
-    (void)bits;
-    arb_sgn(y, x);
-}
-
-static void
-ball_abs(arb_t y, const arb_t x, slong bits)
-{
-    (void)bits;
-    arb_abs(y, x);
-}
-
-/* The functions of one argument. A function of function.def that stands neither here
- * nor in ball_apply_function() is refused when it is met. */
-static void (*const unary[QDOT_FUNCTION_KINDS])(arb_t, const arb_t, slong) = {
-    [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
-    [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
-    [QDOT_ASIN] = arb_asin,   [QDOT_ACOS] = arb_acos,   [QDOT_ATAN] = arb_atan,
-    [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
-    [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
-    [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = ball_abs,
-    [QDOT_ERF] = arb_hypgeom_erf, [QDOT_ERFC] = arb_hypgeom_erfc,
-    [QDOT_SIGN] = ball_sign,  [QDOT_FLOOR] = arb_floor,  [QDOT_HOLD] = arb_set_round,
-};
 
 bool
 qdot_constant_is(const qdot_pool *pool, qdot_expr e)
@@ -243,8 +215,10 @@ ball_if(arb_t y, const arb_struct *const *x, slong bits)
 static bool
 ball_apply_function(arb_t y, qdot_fun_id f, uint32_t n, const arb_struct *const *x, slong bits)
 {
-    if (unary[f]) {
-        unary[f](y, x[0], bits);
+    qdot_fun_ball *ball = qdot_fun_ball_of(f);
+
+    if (ball) {
+        ball(y, x[0], bits);
         return true;
     }
     switch ((int)f) {

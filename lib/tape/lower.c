@@ -298,18 +298,13 @@ count_negatives(lowering *l)
 
 /* --- functions, relations ----------------------------------------------------------- */
 
-/* Functions that are one operation on their arguments. 0 (NEG) stands for none. */
+/* Functions that are one operation on their arguments; NEG, of which none is, stands for none. */
+#define QDOT_OP_NONE QDOT_OP_NEG
+
 static const qdot_op direct[QDOT_FUNCTION_KINDS] = {
-    [QDOT_ASIN] = QDOT_OP_ASIN,   [QDOT_ACOS] = QDOT_OP_ACOS,
-    [QDOT_ATAN] = QDOT_OP_ATAN,   [QDOT_ATAN2] = QDOT_OP_ATAN2,
-    [QDOT_SINH] = QDOT_OP_SINH,   [QDOT_COSH] = QDOT_OP_COSH,
-    [QDOT_TANH] = QDOT_OP_TANH,   [QDOT_ASINH] = QDOT_OP_ASINH,
-    [QDOT_ACOSH] = QDOT_OP_ACOSH, [QDOT_ATANH] = QDOT_OP_ATANH,
-    [QDOT_EXP] = QDOT_OP_EXP,     [QDOT_LOG] = QDOT_OP_LOG,
-    [QDOT_ABS] = QDOT_OP_ABS,     [QDOT_SIGN] = QDOT_OP_SIGN,
-    [QDOT_MOD] = QDOT_OP_MOD,     [QDOT_FLOOR] = QDOT_OP_FLOOR,
-    [QDOT_MIN] = QDOT_OP_MIN,     [QDOT_MAX] = QDOT_OP_MAX,
-    [QDOT_IF] = QDOT_OP_SELECT,
+#define X(ID, name, least, most, traits, lo, hi, inverse, operation, ...) [QDOT_##ID] = QDOT_OP_##operation,
+#include "expr/function.def"
+#undef X
 };
 
 /* a op b op c ... */
@@ -389,7 +384,7 @@ lower_function(lowering *l, qdot_expr e, known *k)
                                node_value_of(l, qdot_expr_arg(l->pool, e, 2)));
         return QDOT_OK;
     }
-    if (direct[f] != QDOT_OP_NEG) {
+    if (direct[f] != QDOT_OP_NONE) {
         k->bare = qdot_operations[direct[f]].operands == 1
                       ? op(l, direct[f], node_value_of(l, x), 0)
                       : fold(l, direct[f], e);

@@ -2,6 +2,7 @@
 #include "expr/kit.h"
 
 #include "expr/elementary.h"
+#include "expr/function-ball.h"
 
 static qdot_expr
 call(qdot_fun_id id, qdot_expr x)
@@ -250,6 +251,81 @@ functions_are_found_from_the_inside(void **state)
     assert_false(qdot_pool_failed(p.pool));
 }
 
+/* f(n/8) to a double; NAN: it has none. */
+static double
+ball_value(qdot_fun_ball *f, int n)
+{
+    arb_t y;
+    double value = NAN;
+
+    arb_init(y);
+    arb_set_si(y, n);
+    arb_mul_2exp_si(y, y, -3);
+    f(y, y, 128);
+    if (arb_is_finite(y) && arb_rel_accuracy_bits(y) > 50)
+        value = arf_get_d(arb_midref(y), ARF_RND_NEAR);
+    else if (arb_is_zero(y))
+        value = 0;
+    arb_clear(y);
+    return value;
+}
+
+static double
+end_value(const qdot_fun_end *end)
+{
+    return end->number * (end->angle ? acos(-1) / 2 : 1);
+}
+
+/* The balls (Arb) do not read the other columns. */
+static void
+facts_are_those_of_the_values(void **state)
+{
+    (void)state;
+    for (int id = 0; id < QDOT_FUNCTION_COUNT; id++) {
+        const qdot_fun_facts *f = qdot_fun_facts_of((qdot_fun_id)id);
+        qdot_fun_ball *ball = qdot_fun_ball_of((qdot_fun_id)id);
+        double before = NAN;
+
+        if (f->least != 1 || f->most != 1) {
+            assert_null(ball);
+            continue;
+        }
+        assert_non_null(ball);
+        for (int n = -40; n <= 40; n++) {
+            double y = ball_value(ball, n), mirror = ball_value(ball, -n), lo, hi;
+
+            if ((f->traits & QDOT_FUN_ENTIRE) && isnan(y))
+                fail_msg("%s has no value at %g", f->name, n / 8.0);
+            if (isnan(y))
+                continue;
+            if (((f->traits & QDOT_FUN_ODD) && mirror != -y) || ((f->traits & QDOT_FUN_EVEN) && mirror != y))
+                fail_msg("parity of %s at %g", f->name, n / 8.0);
+            if (((f->traits & QDOT_FUN_RISING) && before > y) || ((f->traits & QDOT_FUN_FALLING) && before < y))
+                fail_msg("%s turns at %g", f->name, n / 8.0);
+            before = y;
+            lo = f->lo.known ? end_value(&f->lo) : -INFINITY;
+            hi = f->hi.known ? end_value(&f->hi) : INFINITY;
+            if (y < lo || y > hi || (fabs(n / 8.0) < 3 && ((f->lo.open && y == lo) || (f->hi.open && y == hi))))
+                fail_msg("%s(%g) = %g beyond its range", f->name, n / 8.0, y);
+            if (f->inverse != QDOT_FUNCTION_KINDS) { /* h(f(x)) = x, of an even f |x|; asin: of its own domain */
+                qdot_fun_ball *back = qdot_fun_ball_of(f->inverse);
+                double x = n / 8.0, again;
+                arb_t v;
+
+                arb_init(v);
+                arb_set_si(v, n);
+                arb_mul_2exp_si(v, v, -3);
+                ball(v, v, 512);
+                back(v, v, 512);
+                again = arf_get_d(arb_midref(v), ARF_RND_NEAR);
+                arb_clear(v);
+                if (fabs(again - (f->traits & QDOT_FUN_EVEN ? fabs(x) : x)) > 1e-12)
+                    fail_msg("%s is not undone at %g", f->name, x);
+            }
+        }
+    }
+}
+
 int
 main(void)
 {
@@ -267,6 +343,7 @@ main(void)
         MOVED_TEST(names_are_found),
         MOVED_TEST(a_node_is_one_function_or_none),
         MOVED_TEST(functions_are_found_from_the_inside),
+        MOVED_TEST(facts_are_those_of_the_values),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,7 +69,7 @@ elementary(qdot_session *s, qdot_fun_id id, uint32_t n, const qdot_expr *args,
     return status;
 }
 
-#define X(ID, name, least, most)                                                         \
+#define X(ID, ...)                                                                       \
     static qdot_status call_##ID(qdot_session *s, uint32_t n, const qdot_expr *args,     \
                                  qdot_expr *value)                                       \
     {                                                                                    \
@@ -354,54 +354,27 @@ call_form(qdot_session *s, uint32_t n, const qdot_expr *args, qdot_expr *value)
     {                                                                                    \
         word, least, most, NULL, usage, summary, example, QDOT_BUILTIN_UNBUILT, NULL     \
     }
-#define ELEMENTARY(word, ID, usage, summary, example)                                    \
-    {                                                                                    \
-#word, ID##_LEAST, ID##_MOST, call_##ID, usage, summary, example, 0, NULL        \
-    }
 /* Its entries go by the coordinates of R, the last argument. */
 #define PLACE(n, word, usage, summary, example)                                          \
     {                                                                                    \
 #word, n, n, call_##word, usage, summary, example, 0, over_place                 \
     }
 
-/* Numbers of arguments, from the function table itself. */
-enum {
-#define X(ID, name, least, most) ID##_LEAST = least, ID##_MOST = most,
-#include "expr/function.def"
-#undef X
-};
+#define ELEMENTARY(ID, name, least, most, traits, lo, hi, inverse, operation, value, ball, usage, summary, \
+                   example)                                                              \
+    {name,    least,   most,                                                             \
+     call_##ID, usage, summary, example, QDOT_##ID == QDOT_IF ? QDOT_BUILTIN_FORM : 0, NULL},
 
 static const qdot_builtin rows[] = {
-    ELEMENTARY(sin, SIN, "sin(x)", "sine", "sin(pi/6)"),
-    ELEMENTARY(cos, COS, "cos(x)", "cosine", "cos(pi/3)"),
-    ELEMENTARY(tan, TAN, "tan(x)", "tangent", "tan(pi/4)"),
-    ELEMENTARY(sec, SEC, "sec(x)", "secant, 1/cos(x)", "sec(0)"),
-    ELEMENTARY(csc, CSC, "csc(x)", "cosecant, 1/sin(x)", "csc(pi/2)"),
-    ELEMENTARY(cot, COT, "cot(x)", "cotangent, cos(x)/sin(x)", "cot(pi/4)"),
-    ELEMENTARY(asin, ASIN, "asin(x)", "inverse sine, -pi/2 to pi/2", "asin(1/2)"),
-    ELEMENTARY(acos, ACOS, "acos(x)", "inverse cosine, 0 to pi", "acos(0)"),
-    ELEMENTARY(atan, ATAN, "atan(x)", "inverse tangent, -pi/2 to pi/2", "atan(1)"),
-    ELEMENTARY(atan2, ATAN2, "atan2(y, x)", "angle of the point (x, y), -pi to pi",
-               "atan2(1, 1)"),
-    ELEMENTARY(sinh, SINH, "sinh(x)", "hyperbolic sine", "sinh(0)"),
-    ELEMENTARY(cosh, COSH, "cosh(x)", "hyperbolic cosine", "cosh(0)"),
-    ELEMENTARY(tanh, TANH, "tanh(x)", "hyperbolic tangent", "tanh(0)"),
-    ELEMENTARY(asinh, ASINH, "asinh(x)", "inverse hyperbolic sine", "asinh(0)"),
-    ELEMENTARY(acosh, ACOSH, "acosh(x)", "inverse hyperbolic cosine, x >= 1", "acosh(1)"),
-    ELEMENTARY(atanh, ATANH, "atanh(x)", "inverse hyperbolic tangent", "atanh(0)"),
-    ELEMENTARY(exp, EXP, "exp(x)", "exponential function", "exp(0)"),
-    ELEMENTARY(log, LOG, "log(x)", "natural logarithm, x > 0", "log(1)"),
-    ELEMENTARY(erf, ERF, "erf(x)", "error function, of a normal distribution", "erf(0)"),
-    ELEMENTARY(erfc, ERFC, "erfc(x)", "1 - erf(x), exact also where it is small", "erfc(0)"),
+#define X ELEMENTARY
+#define KINKED(...)
+#include "expr/function.def"
+#undef X
     ROW(1, 1, sqrt, "sqrt(x)", "square root, x >= 0", "sqrt(9/4)"),
-    ELEMENTARY(abs, ABS, "abs(x)", "absolute value", "abs(-3)"),
-    ELEMENTARY(sign, SIGN, "sign(x)", "-1, 0 or 1", "sign(-3)"),
-    ELEMENTARY(min, MIN, "min(a, b, ...)", "the least", "min(2, 1)"),
-    ELEMENTARY(max, MAX, "max(a, b, ...)", "the greatest", "max(2, 1)"),
-    ELEMENTARY(mod, MOD, "mod(a, b)", "remainder a - b*floor(a/b)", "mod(7, 3)"),
-    ELEMENTARY(floor, FLOOR, "floor(x)", "the greatest integer up to x", "floor(5/2)"),
-    {"if", 3, 3, call_IF, "if(CONDITION, A, B)", "A where the condition holds, else B",
-     "if(2 > 1, 10, 20)", QDOT_BUILTIN_FORM, NULL},
+#define X(...)
+#define KINKED ELEMENTARY
+#include "expr/function.def"
+#undef X
     {"sum", 4, 4, call_form, "sum(EXPR, k, a, b)", "the sum over k = a ... b",
      "sum(k^2, k, 1, 3)", QDOT_BUILTIN_FORM, NULL},
 

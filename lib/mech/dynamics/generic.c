@@ -9,89 +9,38 @@
 #include "base/text.h"
 #include "expr/walk.h"
 
-#define ONE(name, value)                                                                 \
-    static double f_##name(const double *x, uint32_t n)                                  \
-    {                                                                                    \
-        (void)n;                                                                         \
-        return value;                                                                    \
+static double
+least(const double *x, uint32_t n)
+{
+    double y = x[0];
+
+    for (uint32_t i = 1; i < n; i++)
+        y = fmin(y, x[i]);
+    return y;
+}
+
+static double
+greatest(const double *x, uint32_t n)
+{
+    double y = x[0];
+
+    for (uint32_t i = 1; i < n; i++)
+        y = fmax(y, x[i]);
+    return y;
+}
+
+/* f(x[0] ... x[n-1]) */
+static double
+function_value(qdot_fun_id id, const double *x, uint32_t n)
+{
+    switch (id) {
+#define X(ID, name, few, most, traits, lo, hi, inverse, operation, value, ...) case QDOT_##ID: return value;
+#include "expr/function.def"
+#undef X
+    case QDOT_HOLD: return x[0];
+    default: return NAN;
     }
-ONE(sin, sin(x[0]))
-ONE(cos, cos(x[0]))
-ONE(tan, tan(x[0]))
-ONE(sec, 1 / cos(x[0]))
-ONE(csc, 1 / sin(x[0]))
-ONE(cot, cos(x[0]) / sin(x[0]))
-ONE(asin, asin(x[0]))
-ONE(acos, acos(x[0]))
-ONE(atan, atan(x[0]))
-ONE(atan2, atan2(x[0], x[1]))
-ONE(sinh, sinh(x[0]))
-ONE(cosh, cosh(x[0]))
-ONE(tanh, tanh(x[0]))
-ONE(asinh, asinh(x[0]))
-ONE(acosh, acosh(x[0]))
-ONE(atanh, atanh(x[0]))
-ONE(exp, exp(x[0]))
-ONE(log, log(x[0]))
-ONE(erf, erf(x[0]))
-ONE(erfc, erfc(x[0]))
-ONE(abs, fabs(x[0]))
-ONE(floor, floor(x[0]))
-ONE(hold, x[0])
-
-static double
-f_sign(const double *x, uint32_t n)
-{
-    (void)n;
-    return (x[0] > 0) - (x[0] < 0);
 }
-
-static double
-f_min(const double *x, uint32_t n)
-{
-    double least = x[0];
-
-    for (uint32_t i = 1; i < n; i++)
-        least = fmin(least, x[i]);
-    return least;
-}
-
-static double
-f_max(const double *x, uint32_t n)
-{
-    double most = x[0];
-
-    for (uint32_t i = 1; i < n; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
-static double
-f_mod(const double *x, uint32_t n)
-{
-    (void)n;
-    return x[0] - x[1] * floor(x[0] / x[1]);
-}
-
-static double
-f_if(const double *x, uint32_t n)
-{
-    (void)n;
-    return x[0] != 0 ? x[1] : x[2];
-}
-
-static double (*const functions[QDOT_FUNCTION_KINDS])(const double *x, uint32_t n) = {
-    [QDOT_SIN] = f_sin,     [QDOT_COS] = f_cos,     [QDOT_TAN] = f_tan,
-    [QDOT_SEC] = f_sec,     [QDOT_CSC] = f_csc,     [QDOT_COT] = f_cot,
-    [QDOT_ASIN] = f_asin,   [QDOT_ACOS] = f_acos,   [QDOT_ATAN] = f_atan,
-    [QDOT_ATAN2] = f_atan2, [QDOT_SINH] = f_sinh,   [QDOT_COSH] = f_cosh,
-    [QDOT_TANH] = f_tanh,   [QDOT_ASINH] = f_asinh, [QDOT_ACOSH] = f_acosh,
-    [QDOT_ATANH] = f_atanh, [QDOT_EXP] = f_exp,     [QDOT_LOG] = f_log,
-    [QDOT_ERF] = f_erf,     [QDOT_ERFC] = f_erfc,
-    [QDOT_ABS] = f_abs,     [QDOT_SIGN] = f_sign,   [QDOT_MIN] = f_min,
-    [QDOT_MAX] = f_max,     [QDOT_MOD] = f_mod,     [QDOT_FLOOR] = f_floor,
-    [QDOT_IF] = f_if,       [QDOT_HOLD] = f_hold,
-};
 
 static double
 rational(const fmpq *x)
@@ -174,7 +123,7 @@ node_combine(const qdot_node *node, const double *x)
             v *= double_power(x[i], x[i + 1]);
         return v;
     case QDOT_FUN:
-        return functions[node->op] ? functions[node->op](x, node->n) : NAN;
+        return function_value((qdot_fun_id)node->op, x, node->n);
     case QDOT_REL:
         return node->op == QDOT_LT ? x[0] < x[1] : node->op == QDOT_LE ? x[0] <= x[1]
                                                                        : x[0] == x[1];

@@ -2,6 +2,7 @@
 #include "mech/dynamics/integrated.h"
 
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "mech/dynamics/integrable.h"
 #include "mech/scene/access.h"
@@ -10,13 +11,6 @@
 
 /* Larger constraints stay as declared: what Frobenius' condition takes grows with their terms. */
 enum { MOST_OPERATIONS = 400 };
-
-static bool
-is_entire(uint32_t op)
-{
-    return op == QDOT_SIN || op == QDOT_COS || op == QDOT_EXP || op == QDOT_SINH ||
-           op == QDOT_COSH || op == QDOT_TANH || op == QDOT_ATAN || op == QDOT_ASINH;
-}
 
 /* Whether every power in a product of powers is smooth: a natural exponent, or a base that is not
  * 0 (or, of a root, positive). */
@@ -58,7 +52,7 @@ is_smooth_everywhere(qdot_scene *s, qdot_expr e, bool *yes)
             *yes = has_smooth_powers(pool, x);
         else
             *yes = kind == QDOT_SYM || kind == QDOT_SUM ||
-                   (kind == QDOT_FUN && is_entire(qdot_expr_node(pool, x)->op));
+                   qdot_expr_is_function_that(pool, x, QDOT_FUN_ENTIRE);
     }
     qdot_walk_end(&w);
     return QDOT_OK;

@@ -338,23 +338,9 @@ is_smooth(qdot_pool *pool, qdot_expr e)
                         QDOT_POS) == QDOT_POS;
             break;
         case QDOT_FUN:
-            switch (qdot_expr_node(pool, at)->op) {
-            case QDOT_SIN:
-            case QDOT_COS:
-            case QDOT_SINH:
-            case QDOT_COSH:
-            case QDOT_TANH:
-            case QDOT_ATAN:
-            case QDOT_ASINH:
-            case QDOT_EXP:
-            case QDOT_ERF:
-            case QDOT_ERFC: break;
-            case QDOT_LOG:
-                good = (qdot_expr_node(pool, qdot_expr_arg(pool, at, 0))->sign &
-                        QDOT_POS) == QDOT_POS;
-                break;
-            default: good = false;
-            }
+            good = qdot_expr_is_function_that(pool, at, QDOT_FUN_ENTIRE) ||
+                   (qdot_expr_is_function(pool, at, QDOT_LOG) &&
+                    (qdot_expr_node(pool, qdot_expr_arg(pool, at, 0))->sign & QDOT_POS) == QDOT_POS);
             break;
         default: good = false;
         }

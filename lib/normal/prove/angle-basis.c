@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/prove/equal.h"
 #include "normal/refute/constant.h"
@@ -26,19 +27,9 @@ struct basis {
 static bool
 is_angle(const qdot_pool *pool, qdot_expr e)
 {
-    if (qdot_expr_kind(pool, e) != QDOT_FUN)
-        return false;
-    switch (qdot_expr_node(pool, e)->op) {
-    case QDOT_ASIN:
-    case QDOT_ACOS:
-    case QDOT_ATAN:
-    case QDOT_ATAN2:
-    case QDOT_ASINH:
-    case QDOT_ACOSH:
-    case QDOT_ATANH:
-    case QDOT_LOG: return true;
-    default: return false;
-    }
+    return qdot_expr_is_function_that(pool, e, QDOT_FUN_ARC) ||
+           qdot_expr_is_function_that(pool, e, QDOT_FUN_AREA) ||
+           qdot_expr_is_function(pool, e, QDOT_LOG);
 }
 
 /* The simpler an angle, the earlier its column. */

@@ -84,15 +84,10 @@ sign_key(qdot_pool *pool, qdot_expr u, int *sign)
 {
     *sign = 1;
     while (u != QDOT_NIL && qdot_expr_kind(pool, u) != QDOT_NUM) {
-        unsigned op = qdot_expr_kind(pool, u) == QDOT_FUN ? qdot_expr_node(pool, u)->op
-                                                          : QDOT_FUNCTION_COUNT;
-
         if (qdot_expr_is_negative(pool, u)) {
             *sign = -*sign;
             u = qdot_neg(pool, u);
-        } else if (op == QDOT_SINH || op == QDOT_TANH || op == QDOT_ASINH ||
-                   op == QDOT_ATANH || op == QDOT_ASIN || op == QDOT_ATAN ||
-                   op == QDOT_ERF) {
+        } else if (qdot_expr_is_function_that(pool, u, QDOT_FUN_ODD | QDOT_FUN_RISING)) {
             u = qdot_expr_arg(pool, u, 0);
         } else if (qdot_expr_kind(pool, u) == QDOT_PROD &&
                    qdot_expr_arg(pool, u, 0) != QDOT_ONE) {

@@ -1,6 +1,7 @@
 /* nth-part.c -- terms c f(u) of arguments, c with an odd factor below the bar. */
 #include "normal/prove/nth-part.h"
 
+#include "expr/elementary.h"
 #include "expr/walk.h"
 
 enum { MOST_PARTS = 15, MOST = 4 };
@@ -8,11 +9,7 @@ enum { MOST_PARTS = 15, MOST = 4 };
 static bool
 is_inverse(const qdot_pool *pool, qdot_expr e, bool circular)
 {
-    unsigned op = qdot_expr_kind(pool, e) == QDOT_FUN ? qdot_expr_node(pool, e)->op
-                                                      : QDOT_FUNCTION_COUNT;
-
-    return circular ? op == QDOT_ASIN || op == QDOT_ACOS || op == QDOT_ATAN || op == QDOT_ATAN2
-                    : op == QDOT_ASINH || op == QDOT_ACOSH || op == QDOT_ATANH;
+    return qdot_expr_is_function_that(pool, e, circular ? QDOT_FUN_ARC : QDOT_FUN_AREA);
 }
 
 /* The relations of h = f/n, once. */

@@ -2,6 +2,7 @@
 #include "normal/prove/zero.h"
 
 #include "base/memory.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/field/factor.h"
 #include "normal/refute/constant.h"
@@ -256,20 +257,8 @@ analytic_function(const qdot_pool *pool, qdot_expr e)
 {
     uint8_t sign = qdot_expr_node(pool, qdot_expr_arg(pool, e, 0))->sign;
 
-    switch (qdot_expr_node(pool, e)->op) {
-    case QDOT_SIN:
-    case QDOT_COS:
-    case QDOT_SINH:
-    case QDOT_COSH:
-    case QDOT_TANH:
-    case QDOT_EXP:
-    case QDOT_ATAN:
-    case QDOT_ASINH:
-    case QDOT_ERF:
-    case QDOT_ERFC: return true;
-    case QDOT_LOG: return (sign & QDOT_POS) == QDOT_POS;
-    default: return false;
-    }
+    return qdot_expr_is_function_that(pool, e, QDOT_FUN_ENTIRE) ||
+           (qdot_expr_is_function(pool, e, QDOT_LOG) && (sign & QDOT_POS) == QDOT_POS);
 }
 
 static bool

@@ -1,16 +1,16 @@
-/* ball.c -- the table of functions in ball arithmetic, and one pass over the nodes. */
+/* ball.c -- functions in ball arithmetic, and one pass over the nodes. */
 #include "normal/refute/ball.h"
 
 #include "base/memory.h"
+#include "expr/function-ball.h"
 
 /* --- functions --------------------------------------------------------------------- */
 
-/* Every domain error becomes an infinite or indeterminate ball, which is "not known". */
-
+/* Every domain error becomes an infinite or indeterminate ball, which is "not known"; so does the sign of what may
+ * be 0. */
 static void
-eval_sign(arb_t y, const arb_t x, slong prec)
+eval_sign(arb_t y, const arb_t x)
 {
-    (void)prec;
     if (arb_is_positive(x))
         arb_one(y);
     else if (arb_is_negative(x))
@@ -20,26 +20,6 @@ eval_sign(arb_t y, const arb_t x, slong prec)
     else
         arb_indeterminate(y);
 }
-
-static void
-eval_abs(arb_t y, const arb_t x, slong prec)
-{
-    (void)prec;
-    arb_abs(y, x);
-}
-
-typedef void unary(arb_t y, const arb_t x, slong prec);
-
-static unary *const table[QDOT_FUNCTION_KINDS] = {
-    [QDOT_SIN] = arb_sin,     [QDOT_COS] = arb_cos,     [QDOT_TAN] = arb_tan,
-    [QDOT_SEC] = arb_sec,     [QDOT_CSC] = arb_csc,     [QDOT_COT] = arb_cot,
-    [QDOT_ASIN] = arb_asin,   [QDOT_ACOS] = arb_acos,   [QDOT_ATAN] = arb_atan,
-    [QDOT_SINH] = arb_sinh,   [QDOT_COSH] = arb_cosh,   [QDOT_TANH] = arb_tanh,
-    [QDOT_ASINH] = arb_asinh, [QDOT_ACOSH] = arb_acosh, [QDOT_ATANH] = arb_atanh,
-    [QDOT_EXP] = arb_exp,     [QDOT_LOG] = arb_log,     [QDOT_ABS] = eval_abs,
-    [QDOT_ERF] = arb_hypgeom_erf, [QDOT_ERFC] = arb_hypgeom_erfc,
-    [QDOT_SIGN] = eval_sign,  [QDOT_FLOOR] = arb_floor, [QDOT_HOLD] = arb_set_round,
-};
 
 static size_t
 ball_argument_index(const qdot_ball *b, qdot_expr e, uint32_t i)
@@ -89,8 +69,10 @@ ball_function(qdot_ball *b, arb_t y, qdot_expr e, slong prec)
     }
     if (!finite_args(b, e, 0))
         return false;
-    if (table[op] != NULL) {
-        table[op](y, b->value + ball_argument_index(b, e, 0), prec);
+    if (op == QDOT_SIGN) {
+        eval_sign(y, b->value + ball_argument_index(b, e, 0));
+    } else if (qdot_fun_ball_of(op) != NULL) {
+        qdot_fun_ball_of(op)(y, b->value + ball_argument_index(b, e, 0), prec);
     } else if (op == QDOT_ATAN2) {
         arb_srcptr v = b->value + ball_argument_index(b, e, 0), u = b->value + ball_argument_index(b, e, 1);
 

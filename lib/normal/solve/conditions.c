@@ -67,22 +67,12 @@ number_apart(qdot_pool *pool, qdot_expr relation)
     return qdot_rel(pool, QDOT_LT, qdot_neg(pool, c), qdot_sub(pool, right, c));
 }
 
-/* The increasing function whose inverse is h (acos: a decreasing one); QDOT_FUNCTION_KINDS: h is none of them. */
+/* The function whose inverse is h, monotone; QDOT_FUNCTION_KINDS: h is none such. */
 static qdot_fun_id
 inverse_of(qdot_fun_id h)
 {
-    switch (h) {
-    case QDOT_ATAN: return QDOT_TAN;
-    case QDOT_ASIN: return QDOT_SIN;
-    case QDOT_ACOS: return QDOT_COS;
-    case QDOT_LOG: return QDOT_EXP;
-    case QDOT_EXP: return QDOT_LOG;
-    case QDOT_SINH: return QDOT_ASINH;
-    case QDOT_ASINH: return QDOT_SINH;
-    case QDOT_TANH: return QDOT_ATANH;
-    case QDOT_ATANH: return QDOT_TANH;
-    default: return QDOT_FUNCTION_KINDS;
-    }
+    return qdot_fun_is(h, QDOT_FUN_RISING) || qdot_fun_is(h, QDOT_FUN_FALLING) ? qdot_fun_facts_of(h)->inverse
+                                                                                : QDOT_FUNCTION_KINDS;
 }
 
 /* Whether h(at) is the number, and not another branch: to be seen in doubles. */
@@ -129,7 +119,7 @@ unfold(qdot_pool *pool, qdot_expr relation)
         if (at == QDOT_NIL || !is_value(pool, h, at, number))
             continue;
         u = qdot_expr_arg(pool, side, 0);
-        swap ^= h == QDOT_ACOS;
+        swap ^= qdot_fun_is(h, QDOT_FUN_FALLING);
         relation = swap ? qdot_rel(pool, op, at, u) : qdot_rel(pool, op, u, at);
         i = -1; /* once more: log(atan(u)) */
     }

@@ -1,5 +1,6 @@
 /* solve-inverse.c -- elementary functions inverted: g(u(x)) = v becomes u(x) = w. */
 #include "expr/calculus.h"
+#include "expr/elementary.h"
 #include "expr/walk.h"
 #include "normal/solve/solver.h"
 
@@ -106,23 +107,24 @@ in_range(qdot_solver *s, qdot_expr when, qdot_expr v, qdot_expr lo, qdot_expr hi
     return when;
 }
 
+/* An end of the values of a function; nil: there is none. */
+static qdot_expr
+end_of_values(qdot_pool *pool, const qdot_fun_end *end)
+{
+    if (!end->known)
+        return QDOT_NIL;
+    return end->angle ? qdot_mul(pool, qdot_expr_ratio(pool, end->number, 2), QDOT_PI)
+                      : qdot_expr_int(pool, end->number);
+}
+
 /* The conditions under which v is a value of the function h. */
 static qdot_expr
 in_range_of(qdot_solver *s, qdot_fun_id h, qdot_expr when, qdot_expr v)
 {
-    qdot_pool *pool = s->pool;
-    qdot_expr quarter = qdot_mul(pool, QDOT_HALF, QDOT_PI), back = qdot_neg(pool, quarter);
+    const qdot_fun_facts *f = qdot_fun_facts_of(h);
 
-    switch (h) {
-    case QDOT_EXP: return in_range(s, when, v, QDOT_ZERO, QDOT_NIL, true);
-    case QDOT_COSH: return in_range(s, when, v, QDOT_ONE, QDOT_NIL, false);
-    case QDOT_TANH: return in_range(s, when, v, QDOT_MINUS_ONE, QDOT_ONE, true);
-    case QDOT_ASIN: return in_range(s, when, v, back, quarter, false);
-    case QDOT_ACOS: return in_range(s, when, v, QDOT_ZERO, QDOT_PI, false);
-    case QDOT_ATAN: return in_range(s, when, v, back, quarter, true);
-    case QDOT_ACOSH: return in_range(s, when, v, QDOT_ZERO, QDOT_NIL, false);
-    default: return when;
-    }
+    return in_range(s, when, v, end_of_values(s->pool, &f->lo), end_of_values(s->pool, &f->hi),
+                    f->lo.open || f->hi.open);
 }
 
 /* floor(u) = v: v <= u < v + 1 for an integer v. */
@@ -147,12 +149,6 @@ whole_part(qdot_solver *s, qdot_expr u, qdot_expr v, qdot_expr when)
 qdot_status
 qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
 {
-    static const struct {
-        qdot_fun_id h, inverse;
-    } pairs[] = {{QDOT_EXP, QDOT_LOG},     {QDOT_LOG, QDOT_EXP},   {QDOT_SINH, QDOT_ASINH},
-                 {QDOT_COSH, QDOT_ACOSH},  {QDOT_TANH, QDOT_ATANH}, {QDOT_ASIN, QDOT_SIN},
-                 {QDOT_ACOS, QDOT_COS},    {QDOT_ATAN, QDOT_TAN},  {QDOT_ASINH, QDOT_SINH},
-                 {QDOT_ACOSH, QDOT_COSH},  {QDOT_ATANH, QDOT_TANH}};
     qdot_pool *pool = s->pool;
     qdot_fun_id h = qdot_expr_node(pool, g)->op;
     qdot_expr u = qdot_expr_arg(pool, g, 0), w;
@@ -165,13 +161,11 @@ qdot_solver_invert(qdot_solver *s, qdot_expr g, qdot_expr v, qdot_expr when)
     QDOT_TRY(qdot_pool_check(pool));
     if (when == QDOT_FALSE)
         return QDOT_OK;
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
-        if (pairs[i].h != h)
-            continue;
-        w = qdot_fun1(pool, pairs[i].inverse, v);
-        QDOT_TRY(qdot_solver_equation(s, qdot_sub(pool, u, w), when));
-        return h == QDOT_COSH ? qdot_solver_equation(s, qdot_add(pool, u, w), when) : QDOT_OK;
+    if (qdot_fun_facts_of(h)->inverse == QDOT_FUNCTION_KINDS) {
+        s->out->complete = false;
+        return QDOT_OK;
     }
-    s->out->complete = false;
-    return QDOT_OK;
+    w = qdot_fun1(pool, qdot_fun_facts_of(h)->inverse, v);
+    QDOT_TRY(qdot_solver_equation(s, qdot_sub(pool, u, w), when));
+    return qdot_fun_is(h, QDOT_FUN_EVEN) ? qdot_solver_equation(s, qdot_add(pool, u, w), when) : QDOT_OK;
 }

@@ -1,0 +1,17 @@
+/* function-ball.h -- the elementary functions of one argument in balls, a column of function.def.
+ *
+ * Tests   tests/expr/test_function.c
+ */
+#ifndef QDOT_EXPR_FUNCTION_BALL_H
+#define QDOT_EXPR_FUNCTION_BALL_H
+
+#include "expr/expr.h"
+#include "num/arb.h"
+
+/* y encloses f(x) for every x of the ball, rounded to `bits`; y may be x. sign of a ball that holds 0 is [-1, 1]. */
+typedef void qdot_fun_ball(arb_t y, const arb_t x, slong bits);
+
+/* The function in balls; NULL: it takes several arguments. */
+qdot_fun_ball *qdot_fun_ball_of(qdot_fun_id id);
+
+#endif
