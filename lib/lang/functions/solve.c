@@ -230,6 +230,8 @@ one_unknown(qdot_session *session, qdot_expr equation, qdot_expr x, qdot_expr *v
     if (status == QDOT_OK)
         status = qdot_pool_check(pool);
     if (status == QDOT_OK)
+        status = qdot_written_take_apart(pool, &f, x, &written);
+    if (status == QDOT_OK)
         status = qdot_solve_written(pool, f, x, &written, &assumed.facts, &found);
     complete = found.complete;
     if (status == QDOT_OK)

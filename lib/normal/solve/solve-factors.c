@@ -1,4 +1,6 @@
 /* solve-factors.c -- writes an expression as a product. */
+#include "normal/solve/solve-factors.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,7 +12,6 @@
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/simplify/simplify.h"
-#include "normal/solve/solve.h"
 
 enum { WORK = 2000000 };
 

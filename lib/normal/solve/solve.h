@@ -21,6 +21,7 @@
 #define QDOT_NORMAL_SOLVE_H
 
 #include "normal/solve/solutions.h"
+#include "normal/solve/solve-factors.h"
 #include "normal/solve/written.h"
 
 /* All roots, whatever the declared domain of x (its sign is used); ascending where all are constants. f = 0
@@ -54,12 +55,5 @@ QDOT_MUST_CHECK qdot_status qdot_solve_unsolved(qdot_pool *pool, qdot_expr f, qd
 
 /* Sort roots [n] by their values, if all are constants; else they stay as they are. */
 QDOT_MUST_CHECK qdot_status qdot_solve_sort(qdot_pool *pool, size_t n, qdot_root *roots);
-
-/* The factors of f's numerator, each once, numbers left out: f = 0 where one of them
- * is. A LIST; f itself alone where it cannot be factored. */
-qdot_expr qdot_solve_factors(qdot_pool *pool, qdot_expr f);
-
-/* e as a product of irreducible factors, numerator and denominator. */
-qdot_expr qdot_solve_product(qdot_pool *pool, qdot_expr e);
 
 #endif

@@ -6,6 +6,7 @@
 #include "expr/calculus.h"
 #include "expr/walk.h"
 #include "normal/prove/decide.h"
+#include "normal/solve/solve-factors.h"
 
 /* The place of a relation in a set; UINT32_MAX: it is not in it. */
 static uint32_t
@@ -59,6 +60,65 @@ qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_writt
         w->apart = qdot_conditions_all(pool, w->apart, parts);
     }
     return qdot_pool_check(pool);
+}
+
+/* A sum as the product of its factors if one of those that hold x stands in it more than once, else the sum. */
+static qdot_expr
+square_factors(qdot_pool *pool, qdot_expr sum, qdot_expr x)
+{
+    qdot_expr product = qdot_solve_product(pool, sum);
+    uint32_t n = product != QDOT_NIL && qdot_expr_kind(pool, product) == QDOT_PROD ? qdot_expr_count(pool, product) : 0;
+    bool repeated = false;
+
+    for (uint32_t i = 1; i + 1 < n && n >= 5; i += 2) {
+        long power;
+
+        repeated = repeated || (qdot_expr_to_int(pool, qdot_expr_arg(pool, product, i + 1), &power) && power > 1 &&
+                                qdot_expr_contains(pool, qdot_expr_arg(pool, product, i), x));
+    }
+    return repeated ? product : sum;
+}
+
+/* Roots of sums with x to be taken apart, and what that asks. */
+typedef struct {
+    qdot_expr x;
+    qdot_written *written;
+    qdot_status status;
+} sums;
+
+/* A product with roots of products in the place of roots of sums with factors that stand in them more than once. */
+static qdot_expr
+take_sums_apart(qdot_pool *pool, qdot_expr product, void *user)
+{
+    sums *s = user;
+    qdot_expr result = qdot_expr_arg(pool, product, 0);
+
+    for (uint32_t i = 1; i < qdot_expr_count(pool, product); i += 2) {
+        qdot_expr base = qdot_expr_arg(pool, product, i), exponent = qdot_expr_arg(pool, product, i + 1), by = base;
+
+        if (is_root_exponent(qdot_expr_rational(pool, exponent)) && qdot_expr_kind(pool, base) == QDOT_SUM &&
+            qdot_expr_contains(pool, base, s->x))
+            by = square_factors(pool, base, s->x);
+        if (by != base && s->status == QDOT_OK) {
+            qdot_written of_sum = {QDOT_NIL, QDOT_NIL};
+            qdot_expr asked = QDOT_NIL;
+
+            s->status = qdot_written_add(pool, by, exponent, &of_sum, &asked);
+            of_sum.apart = qdot_conditions_less(pool, of_sum.apart, s->written->domain);
+            s->written->apart = qdot_conditions_all(pool, s->written->apart, of_sum.apart);
+        }
+        result = qdot_mul(pool, result, qdot_pow(pool, by, exponent));
+    }
+    return result;
+}
+
+qdot_status
+qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written *w)
+{
+    sums s = {x, w, QDOT_OK};
+
+    *f = qdot_walk_replace(pool, *f, QDOT_PROD, take_sums_apart, &s);
+    return s.status == QDOT_OK ? qdot_pool_check(pool) : s.status;
 }
 
 /* The symbol that stands for g in the k-th condition 0 <= g of `apart`. */

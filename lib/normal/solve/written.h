@@ -21,6 +21,10 @@ typedef struct {
 QDOT_MUST_CHECK qdot_status qdot_written_add(qdot_pool *pool, qdot_expr base, qdot_expr exponent, qdot_written *w,
                                              qdot_expr *asked);
 
+/* Take roots of sums in *f apart, too, where a factor that holds x stands in the sum more than once: sqrt(a x^2 - x^4)
+ * becomes |x| sqrt(a - x^2), and `apart` gets what that asks and `domain` does not. */
+QDOT_MUST_CHECK qdot_status qdot_written_take_apart(qdot_pool *pool, qdot_expr *f, qdot_expr x, qdot_written *w);
+
 /* The set without those relations that are in `some`. */
 qdot_expr qdot_conditions_less(qdot_pool *pool, qdot_expr set, qdot_expr some);
 

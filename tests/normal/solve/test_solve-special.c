@@ -99,6 +99,36 @@ roots_are_asked_as_written(void **state)
     }
 }
 
+/* Roots of sums are taken apart where a factor with the unknown stands in them twice, and ask for what was not asked. */
+static void
+roots_of_sums_are_taken_apart(void **state)
+{
+    static const struct {
+        const char *f, *domain, *taken, *apart;
+    } cases[] = {
+        {"sqrt(p*x^2 - x^4)", NULL, "abs(x)*sqrt(p - x^2)", "[p - x^2 >= 0]"},
+        {"sqrt(p*x^2 + k*x^2)", NULL, "sqrt(p + k)*abs(x)", "[p + k >= 0]"},
+        {"sqrt(p*x^2 + k*x^2)", "p + k", "sqrt(p + k)*abs(x)", NULL}, /* asked for anyway */
+        {"sqrt(p*x^2 + k)", NULL, "sqrt(p*x^2 + k)", NULL},
+        {"sqrt(p^2*k + p^2*x)", NULL, "sqrt(p^2*k + p^2*x)", NULL}, /* no factor with x stands twice */
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        qdot_written w = {QDOT_NIL, QDOT_NIL};
+        qdot_expr f = text_read(pool, cases[i].f);
+
+        if (cases[i].domain != NULL)
+            w.domain = qdot_conditions_and(
+                pool, QDOT_NIL, qdot_condition(pool, text_read(pool, cases[i].domain), false, &exact));
+        assert_int_equal(qdot_written_take_apart(pool, &f, text_read(pool, "x"), &w), QDOT_OK);
+        assert_int_equal(f, text_read(pool, cases[i].taken));
+        assert_int_equal(w.apart == QDOT_NIL, cases[i].apart == NULL);
+        if (cases[i].apart != NULL)
+            assert_string_equal(shown(w.apart), cases[i].apart);
+    }
+}
+
 /* A divisor whose zeros no formula gives is told. */
 static void
 open_values_are_told(void **state)
@@ -147,6 +177,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(roots_and_sets_at_special_values, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(roots_are_asked_as_written, open_pool, close_pool),
+        cmocka_unit_test_setup_teardown(roots_of_sums_are_taken_apart, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(open_values_are_told, open_pool, close_pool),
         cmocka_unit_test_setup_teardown(sets_are_reduced, open_pool, close_pool),
     };
