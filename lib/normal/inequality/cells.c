@@ -10,6 +10,7 @@
 #include "expr/calculus.h"
 #include "normal/field/factor.h"
 #include "normal/field/prepare.h"
+#include "normal/inequality/cells-closure.h"
 #include "normal/inequality/real-zeros.h"
 #include "normal/refute/ball.h"
 #include "normal/refute/constant.h"
@@ -31,6 +32,8 @@ typedef struct {
     qdot_field f;
     qdot_expr *all; /* [1 + n_conditions + n_bases]: e, gaps, bases of even roots */
     size_t n_conditions, n_bases;
+    qdot_expr unused[MOST_CONDITIONS]; /* gaps of weak conditions that are asked of counterexamples alone */
+    size_t n_unused;
     bool weak[MOST_CONDITIONS];
     slong symbol[MOST_SYMBOLS]; /* variables of the field, the last is projected first */
     slong n;
@@ -43,6 +46,7 @@ typedef struct {
     qdot_ball ball;
     int64_t *work; /* what is left of the budget */
     bool too_much, any, inside, touches;
+    bool denied; /* e < 0 was found where a condition that is not used does not hold, or may not */
     qdot_expr point;
 } cells;
 
@@ -62,10 +66,8 @@ static bool
 charge_resultant(cells *c, const fmpz_mpoly_t p, const fmpz_mpoly_t q, slong v)
 {
     const int64_t least = 1000;
-    slong degree =
-        fmpz_mpoly_total_degree_si(p, c->f.ctx) * fmpz_mpoly_total_degree_si(q, c->f.ctx);
-    slong sides =
-        fmpz_mpoly_degree_si(p, v, c->f.ctx) + fmpz_mpoly_degree_si(q, v, c->f.ctx);
+    slong degree = fmpz_mpoly_total_degree_si(p, c->f.ctx) * fmpz_mpoly_total_degree_si(q, c->f.ctx);
+    slong sides = fmpz_mpoly_degree_si(p, v, c->f.ctx) + fmpz_mpoly_degree_si(q, v, c->f.ctx);
     int64_t terms = 1;
 
     for (slong k = 1; k < c->n && terms < *c->work; k++)
@@ -246,9 +248,9 @@ cells_value_of(void *user, qdot_expr atom, arb_t value, slong prec)
     return false;
 }
 
-/* e with the point put in is zero, exactly. */
-static bool
-cells_vanishes(cells *c, qdot_expr e)
+/* The sign of e with the point put in, exactly. */
+static qdot_constant_sign
+sign_at_point(cells *c, qdot_expr e)
 {
     qdot_constant_sign sign = QDOT_CONSTANT_UNKNOWN;
 
@@ -257,11 +259,29 @@ cells_vanishes(cells *c, qdot_expr e)
 
         e = qdot_subs(c->pool, e, 1, &x, &v);
     }
-    if (e == QDOT_NIL || qdot_constant_decide(c->pool, e, &sign) != QDOT_OK) {
+    if (e == QDOT_NIL || qdot_constant_decide(c->pool, e, &sign) != QDOT_OK)
         c->too_much = true;
-        return false;
+    return c->too_much ? QDOT_CONSTANT_UNKNOWN : sign;
+}
+
+static bool
+cells_vanishes(cells *c, qdot_expr e)
+{
+    return sign_at_point(c, e) == QDOT_CONSTANT_ZERO;
+}
+
+/* Whether the weak conditions that are not used hold at the point. */
+static bool
+unused_hold(cells *c)
+{
+    bool hold = true;
+
+    for (size_t i = 0; i < c->n_unused && hold; i++) {
+        const qdot_constant_sign sign = sign_at_point(c, c->unused[i]);
+
+        hold = sign == QDOT_CONSTANT_POSITIVE || sign == QDOT_CONSTANT_ZERO;
     }
-    return sign == QDOT_CONSTANT_ZERO;
+    return hold;
 }
 
 /* The sign of one of the expressions where the ball was evaluated; 2: not known. */
@@ -328,9 +348,14 @@ look_here(cells *c)
         return false;
     }
     c->any = true;
-    if (s < 0)
-        keep_point(c);
-    return s >= 0;
+    if (s >= 0)
+        return true;
+    if (!unused_hold(c)) { /* no counterexample; another point may be one */
+        c->denied = true;
+        return true;
+    }
+    keep_point(c);
+    return false;
 }
 
 /* --- the points of a level ---------------------------------------------------------------- */
@@ -554,21 +579,6 @@ order_symbols(cells *c)
     }
 }
 
-/* What several linear bounds leave open is the closure of what is inside. */
-static bool
-is_linear_here(cells *c, qdot_expr g)
-{
-    const qdot_ratio *r = qdot_field_value(&c->f, g);
-
-    if (r == NULL || !fmpz_mpoly_is_fmpz(r->d, c->f.ctx))
-        return false;
-    for (slong v = 0; v < c->f.n; v++)
-        if (fmpz_mpoly_degree_si(r->n, v, c->f.ctx) > 0 &&
-            c->f.gen[v].kind != QDOT_GEN_PLAIN)
-            return false;
-    return fmpz_mpoly_total_degree_si(r->n, c->f.ctx) <= 1;
-}
-
 /* The bases of roots, which are not negative, after the conditions. */
 static bool
 gather_bases(cells *c)
@@ -581,8 +591,7 @@ gather_bases(cells *c)
 
         if (f->gen[v].kind != QDOT_GEN_ROOT || qdot_is_constant(c->pool, of))
             continue;
-        if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) &&
-            !is_linear_here(c, of))
+        if (c->n > 1 && !(qdot_expr_node(c->pool, of)->sign & QDOT_GE0) && !qdot_gap_is_linear(&c->f, of))
             return false; /* where it is 0 there may be none beside it where it is not */
         more = qdot_realloc(c->all, (n + 1) * sizeof *more);
         if (more == NULL)
@@ -594,35 +603,39 @@ gather_bases(cells *c)
     return true;
 }
 
-static bool
-only_roots(const cells *c)
+/* Leave out the weak conditions whose points are not all limits of points inside. */
+static void
+choose_conditions(cells *c)
 {
-    for (slong v = 0; v < c->f.n; v++)
-        if (c->f.gen[v].kind == QDOT_GEN_SIN || c->f.gen[v].kind == QDOT_GEN_COS ||
-            c->f.gen[v].kind == QDOT_GEN_SINH || c->f.gen[v].kind == QDOT_GEN_COSH ||
-            c->f.gen[v].kind == QDOT_GEN_EXP)
-            return false;
-    return true;
+    qdot_expr weak[MOST_CONDITIONS];
+    size_t kept = 0, n = 0;
+
+    for (size_t i = 0; i < c->n_conditions; i++)
+        if (c->weak[i])
+            weak[n++] = c->all[1 + i];
+    for (size_t i = 0; i < c->n_conditions; i++) {
+        const qdot_expr gap = c->all[1 + i];
+
+        if (c->n > 1 && c->weak[i] && !qdot_gap_is_linear(&c->f, gap) && !qdot_gap_grows_alone(&c->f, gap, n, weak)) {
+            c->unused[c->n_unused++] = gap;
+            continue;
+        }
+        c->weak[kept] = c->weak[i];
+        c->all[1 + kept++] = gap;
+    }
+    c->n_conditions = kept;
 }
 
 static void
 cells_search(cells *c, qdot_cells *result)
 {
-    size_t kept = 0;
     bool through;
 
-    if (!qdot_field_goes(&c->f) || !only_roots(c) || !choose_symbols(c))
+    if (!qdot_field_goes(&c->f) || !qdot_field_is_algebraic(&c->f) || !choose_symbols(c))
         return;
-    for (size_t i = 0; i < c->n_conditions; i++) {
-        if (c->n > 1 && c->weak[i] && !is_linear_here(c, c->all[1 + i]))
-            continue;
-        c->weak[kept] = c->weak[i];
-        c->all[1 + kept++] = c->all[1 + i];
-    }
-    c->n_conditions = kept;
+    choose_conditions(c);
     if (!gather_bases(c) ||
-        qdot_ball_begin(&c->ball, c->pool, 1 + c->n_conditions + c->n_bases, c->all) !=
-            QDOT_OK)
+        qdot_ball_begin(&c->ball, c->pool, 1 + c->n_conditions + c->n_bases, c->all) != QDOT_OK)
         return;
     order_symbols(c);
     for (size_t i = 0; i < 1 + c->n_conditions + c->n_bases; i++)
@@ -632,7 +645,7 @@ cells_search(cells *c, qdot_cells *result)
     through = !c->too_much && lift(c, 0);
     if (!c->too_much && !through && c->point != QDOT_NIL)
         *result = QDOT_CELLS_NEGATIVE;
-    else if (through && !c->too_much)
+    else if (through && !c->too_much && !c->denied)
         *result = c->any ? QDOT_CELLS_NOT_NEGATIVE : QDOT_CELLS_EMPTY;
     if (*result == QDOT_CELLS_NOT_NEGATIVE && c->n == 1) {
         look_at_zeros(c);

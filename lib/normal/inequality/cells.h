@@ -8,11 +8,11 @@
  * meet every open cell. In each one point decides: balls, and where these hold zero the norm form.
  *
  * So e >= 0 is known on a dense part of the open set g > 0, and by continuity on its closure,
- * which is the whole set of the conditions g >= 0 if these are linear. With several symbols a
- * weak condition that is not linear is not used, and there is no decision if the base of a root
- * is neither linear nor known not to be negative (x^2*(x - 1) has a root at 0 too, an isolated
- * point). With one symbol such points and the zeros of e are tested one by one, so e > 0 is
- * decided too.
+ * which is the whole set of the conditions g >= 0 if these are linear, or grow with a symbol of their own.
+ * With several symbols other weak conditions are not used, but a point is a counterexample only where these
+ * hold too; and there is no decision if the base of a root is neither linear nor known not to be negative
+ * (x^2*(x - 1) has a root at 0 too, an isolated point). With one symbol such points and the zeros of e are
+ * tested one by one, so e > 0 is decided too.
  *
  * Source  A. Strzebonski, "Solving systems of strict polynomial inequalities", J. Symbolic Computation
  *         29 (2000) 471; S. McCallum, "Solving polynomial strict inequalities using cylindrical

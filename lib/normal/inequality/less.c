@@ -9,151 +9,19 @@
 #include "expr/calculus.h"
 #include "expr/elementary.h"
 #include "expr/walk.h"
-#include "normal/field/factor.h"
 #include "normal/field/flint.h"
 #include "normal/field/prepare.h"
 #include "normal/form/shortest.h"
+#include "normal/inequality/factor-signs.h"
 #include "normal/inequality/inequality.h"
 #include "normal/refute/sample.h"
 
-enum { WORK = 4000000, MOST_ENDS = 5, MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
-
-static uint8_t
-bounds_of_product(uint8_t a, uint8_t b)
-{
-    const uint8_t either = QDOT_GE0 | QDOT_LE0;
-    uint8_t known = 0;
-
-    if (((a & QDOT_GE0) && (b & QDOT_GE0)) || ((a & QDOT_LE0) && (b & QDOT_LE0)))
-        known = QDOT_GE0;
-    else if ((a & either) && (b & either))
-        known = QDOT_LE0;
-    return (uint8_t)(known | (a & b & QDOT_NE0));
-}
+enum { MOST_BOXES = 3000, MOST_SIDES = 3, TRIES = 200 };
 
 static uint8_t
 node_sign(const qdot_pool *pool, qdot_expr e)
 {
     return e == QDOT_NIL ? 0 : qdot_expr_node(pool, e)->sign;
-}
-
-/* --- ends of ranges ---------------------------------------------------------------- */
-
-/* The sign that holds at both ends, so between them, for what is linear there. */
-static uint8_t
-both(uint8_t a, uint8_t b)
-{
-    return a & b & (QDOT_GE0 | QDOT_LE0) ? (uint8_t)(a & b) : 0;
-}
-
-static uint8_t poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth);
-
-/* p = A x + B with x in [-1, 1] or [1, oo): from the ends. depth bounds the recursion. */
-static uint8_t
-by_ends(qdot_field *f, const fmpz_mpoly_t p, slong v, int depth)
-{
-    fmpz_mpoly_t at_one, at_other;
-    uint8_t sign;
-    fmpz_t end;
-
-    fmpz_init_set_si(end, 1);
-    fmpz_mpoly_init(at_one, f->ctx);
-    fmpz_mpoly_init(at_other, f->ctx);
-    fmpz_mpoly_evaluate_one_fmpz(at_one, p, v, end, f->ctx);
-    if (f->gen[v].kind == QDOT_GEN_COSH) {
-        fmpz_mpoly_derivative(at_other, p, v,
-                              f->ctx); /* A itself: its sign, at least as >= */
-        sign =
-            both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth) | QDOT_NE0);
-    } else {
-        fmpz_set_si(end, -1);
-        fmpz_mpoly_evaluate_one_fmpz(at_other, p, v, end, f->ctx);
-        sign = both(poly_sign(f, at_one, depth), poly_sign(f, at_other, depth));
-    }
-    fmpz_clear(end);
-    fmpz_mpoly_clear(at_one, f->ctx);
-    fmpz_mpoly_clear(at_other, f->ctx);
-    return sign;
-}
-
-static bool
-is_free_cosine(const qdot_field *f, const fmpz_mpoly_t p, slong v)
-{
-    qdot_gen_kind kind = f->gen[v].kind;
-
-    return (kind == QDOT_GEN_COS || kind == QDOT_GEN_SIN || kind == QDOT_GEN_COSH) &&
-           fmpz_mpoly_degree_si(p, v, f->ctx) == 1 &&
-           fmpz_mpoly_degree_si(p, (slong)f->gen[v].pair, f->ctx) == 0;
-}
-
-static uint8_t
-poly_sign(qdot_field *f, const fmpz_mpoly_t p, int depth)
-{
-    uint8_t sign;
-
-    if (fmpz_mpoly_is_zero(p, f->ctx))
-        return QDOT_GE0 | QDOT_LE0;
-    sign = node_sign(f->pool, qdot_field_expr(f, p));
-    if ((sign & (QDOT_GE0 | QDOT_LE0)) && (sign & QDOT_NE0))
-        return sign;
-    for (slong v = 0; v < f->n && depth > 0; v++)
-        if (is_free_cosine(f, p, v)) {
-            uint8_t here = by_ends(f, p, v, depth - 1);
-
-            if (here != 0)
-                return here | sign;
-        }
-    return sign;
-}
-
-static uint8_t
-product_sign(qdot_field *f, const fmpz_mpoly_t p)
-{
-    qdot_factors factors;
-    uint8_t sign = 0;
-
-    if (fmpz_mpoly_is_zero(p, f->ctx))
-        return QDOT_GE0 | QDOT_LE0;
-    if (qdot_factor(f, &factors, p) == QDOT_OK) {
-        sign = fmpz_sgn(factors.content) > 0 ? QDOT_POS : QDOT_NEG;
-        for (slong i = 0; i < factors.n; i++) {
-            uint8_t one = poly_sign(f, factors.poly + i, MOST_ENDS);
-
-            if (factors.exp[i] % 2 == 0)
-                one = (uint8_t)(QDOT_GE0 | (one & QDOT_NE0));
-            sign = bounds_of_product(sign, one);
-        }
-    }
-    qdot_factor_clear(f, &factors);
-    return sign;
-}
-
-static uint8_t
-sign_by_factors(qdot_pool *pool, qdot_expr e)
-{
-    uint8_t sign = 0;
-    const qdot_ratio *r;
-    qdot_field f;
-
-    e = qdot_prepare(pool, e);
-    qdot_field_begin(&f, pool, 1, &e, WORK);
-    r = qdot_field_value(&f, e);
-    if (r != NULL) {
-        qdot_ratio x;
-
-        qdot_ratio_init(&f, &x);
-        qdot_ratio_set(&f, &x, r);
-        qdot_ratio_cancel(&f, &x);
-        if (qdot_field_goes(&f))
-            sign = bounds_of_product(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
-        for (slong v = 0; v < f.n && sign == 0 && qdot_field_goes(&f); v++)
-            if (f.gen[v].kind == QDOT_GEN_COS &&
-                qdot_factor_flip(&f, x.n, x.n, v) == QDOT_OK)
-                sign = bounds_of_product(product_sign(&f, x.n), product_sign(&f, x.d) | QDOT_NE0);
-        qdot_ratio_clear(&f, &x);
-    }
-    qdot_field_end(&f);
-    return sign;
 }
 
 /* --- domains moved to zero, boxes -------------------------------------------------- */
@@ -318,11 +186,11 @@ proved(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts *facts)
     s = qdot_shortest(pool, qdot_known_signs(pool, d, facts), facts);
     if (s == QDOT_NIL)
         return false;
-    if (enough(node_sign(pool, s), strict) || enough(sign_by_factors(pool, s), strict))
+    if (enough(node_sign(pool, s), strict) || enough(qdot_sign_by_factors(pool, s), strict))
         return true;
     d = moved(pool, s);
     if (d != s &&
-        (enough(node_sign(pool, d), strict) || enough(sign_by_factors(pool, d), strict)))
+        (enough(node_sign(pool, d), strict) || enough(qdot_sign_by_factors(pool, d), strict)))
         return true;
     return positive_on_box(pool, s);
 }
@@ -337,6 +205,25 @@ is_of_nonzero(qdot_pool *pool, qdot_expr d, qdot_expr gap, const qdot_facts *fac
         return true;
     ratio = qdot_shortest(pool, qdot_div(pool, d, qdot_expr_arg(pool, gap, 0)), facts);
     return ratio == QDOT_NIL || qdot_expr_rational(pool, ratio) != NULL;
+}
+
+/* Whether e divides by nothing that may be 0 and holds no function with a pole. */
+static bool
+divides_by_nonzero(qdot_pool *pool, qdot_expr e)
+{
+    static const qdot_fun_id with_pole[] = {QDOT_TAN, QDOT_SEC, QDOT_CSC, QDOT_COT, QDOT_LOG, QDOT_ATANH};
+    bool good = e != QDOT_NIL &&
+                qdot_expr_find_function(pool, e, sizeof with_pole / sizeof *with_pole, with_pole, QDOT_NIL) == QDOT_NIL;
+    qdot_walk w;
+
+    if (!good || qdot_walk_begin(pool, e, &w) != QDOT_OK)
+        return false;
+    for (size_t i = 0; i < w.n && good; i++)
+        for (uint32_t k = 1; qdot_expr_kind(pool, w.at[i]) == QDOT_PROD && k < qdot_expr_count(pool, w.at[i]); k += 2)
+            good = good && ((node_sign(pool, qdot_expr_arg(pool, w.at[i], k + 1)) & QDOT_POS) == QDOT_POS ||
+                            (node_sign(pool, qdot_expr_arg(pool, w.at[i], k)) & QDOT_NE0) != 0);
+    qdot_walk_end(&w);
+    return good;
 }
 
 /* From a condition u < v: d is a positive multiple of v - u, or not less than it. */
@@ -358,7 +245,12 @@ proved_by_condition(qdot_pool *pool, qdot_expr d, bool strict, const qdot_facts 
         rest = qdot_sub(pool, d, gap);
         if (qdot_is_zero(pool, rest, facts) || proved(pool, rest, false, facts))
             return true;
-        if (gap != QDOT_ZERO && proved(pool, qdot_div(pool, d, gap), strict, facts))
+        if (gap == QDOT_ZERO)
+            continue;
+        rest = qdot_div(pool, d, gap);
+        if (!sharp) /* where the gap is 0, d is if the ratio has a value there */
+            rest = qdot_shortest(pool, rest, facts);
+        if ((sharp || divides_by_nonzero(pool, rest)) && proved(pool, rest, strict, facts))
             return true;
     }
     return false;
@@ -499,8 +391,7 @@ less_decide(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
         QDOT_TRY(has_both_signs(pool, gap, facts, &given_up));
     if (d->verdict != QDOT_UNDECIDED || given_up)
         return QDOT_OK;
-    QDOT_TRY(
-        qdot_inequality(pool, qdot_sub(pool, right, left), strict, facts, &holds, &at));
+    QDOT_TRY(qdot_inequality(pool, qdot_without_signed_factors(pool, gap), strict, facts, &holds, &at));
     if (holds)
         d->verdict = QDOT_PROVED;
     else if (at != QDOT_NIL)

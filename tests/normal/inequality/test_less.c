@@ -196,6 +196,114 @@ random_inequalities_are_never_wrong(void **state)
     assert_true(proved > wanted / 10 && refuted > wanted / 5 && open < wanted / 5);
 }
 
+/* --- conditions ------------------------------------------------------------------------------------ */
+
+enum { SYMBOLS = 3 };
+
+/* A polynomial of few small terms in x [SYMBOLS]. */
+static qdot_expr
+small_polynomial(pairs *g, const qdot_expr *x)
+{
+    qdot_expr sum = num(g, (long)pairs_random(g, 3) - 1, 1);
+
+    for (unsigned terms = 1 + pairs_random(g, 3); terms > 0; terms--) {
+        qdot_expr term = num(g, pairs_random(g, 2) == 0 ? 1 : -1 - (long)pairs_random(g, 2), 1);
+
+        for (unsigned k = 0; k < SYMBOLS; k++)
+            term = mul(g, term, power(g, x[k], pairs_random(g, 4) == 0 ? 2 : pairs_random(g, 2)));
+        sum = add(g, sum, term);
+    }
+    return sum;
+}
+
+/* The sign of a polynomial where the symbols x have values v. */
+static int
+sign_at(pairs *g, qdot_expr e, const qdot_expr *x, const qdot_expr *v)
+{
+    const fmpq *q = qdot_expr_rational(g->pool, qdot_subs(g->pool, e, SYMBOLS, x, v));
+
+    assert_non_null(q);
+    return fmpq_sgn(q);
+}
+
+/* Whether 0 < e, or 0 <= e, is false at one of many points at which 0 < c, or 0 <= c. */
+static bool
+is_false_somewhere(pairs *g, qdot_expr e, bool strict, qdot_expr c, bool weak, const qdot_expr *x)
+{
+    static const long halves[] = {-4, -3, -2, -1, 0, 1, 2, 3, 4};
+    const size_t n = sizeof halves / sizeof *halves;
+    bool found = false;
+
+    for (size_t i = 0; i < n * n * 4 && !found; i++) { /* the last symbol is positive */
+        qdot_expr v[SYMBOLS] = {num(g, halves[i % n], 2), num(g, halves[i / n % n], 2), num(g, 1 + (long)(i / n / n), 2)};
+
+        if (sign_at(g, c, x, v) >= (weak ? 0 : 1))
+            found = sign_at(g, e, x, v) < (strict ? 1 : 0);
+    }
+    return found;
+}
+
+/* Whether the point, a list of equations, has values for all symbols, fulfils the condition and refutes. */
+static bool
+is_counterexample(pairs *g, qdot_expr e, bool strict, qdot_expr c, bool weak, const qdot_expr *x, qdot_expr at)
+{
+    qdot_expr v[SYMBOLS];
+
+    for (unsigned k = 0; k < SYMBOLS; k++) {
+        v[k] = k == SYMBOLS - 1 ? QDOT_ONE : QDOT_ZERO; /* of a symbol that does not matter */
+        for (uint32_t i = 0; i < qdot_expr_count(g->pool, at); i++)
+            if (qdot_expr_arg(g->pool, qdot_expr_arg(g->pool, at, i), 0) == x[k])
+                v[k] = qdot_expr_arg(g->pool, qdot_expr_arg(g->pool, at, i), 1);
+    }
+    return sign_at(g, c, x, v) >= (weak ? 0 : 1) && sign_at(g, e, x, v) < (strict ? 1 : 0);
+}
+
+/* Polynomials under one polynomial condition that is not linear, weak ones too: proofs hold at many points, and points that
+ * refute fulfil the condition. */
+static void
+conditions_are_kept(void **state)
+{
+    const long wanted = setting("QDOT_TEST_PAIRS", 1000), from = setting("QDOT_TEST_SEED", 1);
+    long proved = 0, refuted = 0, wrong = 0;
+
+    (void)state;
+    for (long i = 0; i < wanted; i++) {
+        qdot_facts facts = {0};
+        bool strict, weak;
+        qdot_expr e, c, condition;
+        qdot_decision d;
+        pairs g;
+
+        assert_true(pairs_begin(&g, (uint64_t)(from + i)));
+        {
+            const qdot_expr x[SYMBOLS] = {g.any[4], g.any[5], g.positive[1]};
+
+            strict = pairs_random(&g, 2) == 0;
+            weak = pairs_random(&g, 3) > 0;
+            c = small_polynomial(&g, x);
+            e = pairs_random(&g, 3) == 0 ? mul(&g, x[2], add(&g, c, power(&g, x[0], 2))) : small_polynomial(&g, x);
+            condition = qdot_rel(g.pool, weak ? QDOT_LE : QDOT_LT, QDOT_ZERO, c);
+            facts.n_conditions = qdot_expr_kind(g.pool, condition) == QDOT_REL;
+            facts.conditions = &condition;
+            if (facts.n_conditions == 1) {
+                assert_int_equal(qdot_decide_less(g.pool, QDOT_ZERO, e, strict, &facts, &d), QDOT_OK);
+                proved += d.verdict == QDOT_PROVED;
+                refuted += d.verdict == QDOT_REFUTED;
+                if ((d.verdict == QDOT_PROVED && is_false_somewhere(&g, e, strict, c, weak, x)) ||
+                    (d.verdict == QDOT_REFUTED && !is_counterexample(&g, e, strict, c, weak, x, d.at))) {
+                    wrong++;
+                    tell(g.pool, d.verdict == QDOT_PROVED ? "proved, though false" : "no such point", from + i, e, strict);
+                    tell(g.pool, "when", from + i, c, !weak);
+                }
+            }
+        }
+        qdot_pool_free(g.pool);
+    }
+    fprintf(stderr, "# %ld under a condition: proved %ld, refuted %ld; %ld wrong\n", wanted, proved, refuted, wrong);
+    assert_int_equal(wrong, 0);
+    assert_true(proved > wanted / 10 && refuted > wanted / 5);
+}
+
 /* A polynomial without double zeros: random coefficients, or factors c x - d with zeros that are close or equal to 0. */
 static void
 random_polynomial(fmpz_poly_t p, flint_rand_t random)
@@ -270,7 +378,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(real_zeros_are_all),
-        cmocka_unit_test(random_inequalities_are_never_wrong)};
+        cmocka_unit_test(random_inequalities_are_never_wrong),
+        cmocka_unit_test(conditions_are_kept)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,17 @@
+/* factor-signs.h -- the sign of an expression as that of a product: of its factors, of those that are linear in a sine or
+ * cosine at both ends of its range. Within qdot_flint_run (normal/field/flint.h).
+ *
+ * Tests  tests/normal/test_less.c
+ */
+#ifndef QDOT_NORMAL_FACTOR_SIGNS_H
+#define QDOT_NORMAL_FACTOR_SIGNS_H
+
+#include "expr/expr.h"
+
+/* The bits QDOT_GE0, QDOT_LE0, QDOT_NE0 that are known of e; 0: none. */
+uint8_t qdot_sign_by_factors(qdot_pool *pool, qdot_expr e);
+
+/* An expression whose sign is that of e wherever e is defined, without the factors of known sign; e if there are none. */
+qdot_expr qdot_without_signed_factors(qdot_pool *pool, qdot_expr e);
+
+#endif
