@@ -58,6 +58,18 @@ are_zero(const end *e, qdot_expr list)
     return all;
 }
 
+/* Whether every part of a LIST has a value at these values and that of the parameter: also of a*log(x) at a = 0. */
+static bool
+has_value(const end *e, qdot_expr list, qdot_expr values)
+{
+    qdot_pool *pool = e->r->pool;
+    qdot_expr set = qdot_conditions_all(pool, qdot_conditions_of_domain(pool, list, QDOT_NIL),
+                                        qdot_conditions_of_divisors(pool, list, QDOT_NIL));
+    bool all = set == QDOT_NIL || (set != QDOT_FALSE && qdot_conditions_at(pool, qdot_simultaneous_put(pool, at_end(e, set), values), 0, NULL, NULL, &e->facts) == QDOT_NIL);
+
+    return !is_undefined(pool) && all;
+}
+
 /* Whether the values lie in the declared domains. */
 static bool
 are_inside(const end *e, qdot_expr values)
@@ -136,6 +148,9 @@ judge_end(qdot_rest *r, size_t k, uint32_t i, qdot_expr p, const qdot_root *root
         return IS_NONE;
     (void)qdot_simultaneous_put(pool, at_end(&e, r->system.defined), values);
     if (is_undefined(pool))
+        return IS_NONE;
+    there = qdot_list_appended(pool, r->system.equations, 1, &r->system.defined);
+    if (!has_value(&e, there, values))
         return IS_NONE;
     return is_listed(&e, values) ? IS_LISTED : IS_NEW;
 }

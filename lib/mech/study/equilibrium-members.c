@@ -5,9 +5,10 @@
 #include "mech/study/equilibrium-search.h"
 #include "mech/study/linear-motion.h"
 #include "normal/simplify/positive.h"
+#include "normal/solve/condition-forms.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_PLACES = 1024 };
+enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 }; /* places; operations of a condition with roots */
 
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike. */
 bool
@@ -117,6 +118,27 @@ narrow(qdot_rest *r, qdot_expr *values, qdot_expr *conditions)
     return qdot_pool_check(pool);
 }
 
+/* The set without the conditions with roots that hold where the others do: these say where the roots are defined. */
+static qdot_expr
+without_implied_roots(const qdot_rest *r, qdot_expr set)
+{
+    qdot_pool *pool = r->pool;
+
+    for (uint32_t i = set == QDOT_NIL || qdot_expr_count(pool, set) < 2 ? 0 : qdot_expr_count(pool, set); i-- > 0;) {
+        const qdot_expr one = qdot_expr_arg(pool, set, i),
+                        others = qdot_conditions_less(pool, set, qdot_list(pool, 1, &one));
+        qdot_expr room[QDOT_CONDITIONS_MOST];
+        qdot_facts facts;
+
+        if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_size(pool, one) > LARGEST_ROOTS || !qdot_holds_root(pool, one))
+            continue;
+        facts = qdot_facts_and(pool, &r->facts, others, room);
+        if (qdot_condition(pool, qdot_positive_of(pool, one), qdot_expr_node(pool, one)->op == QDOT_LT, &facts) == QDOT_TRUE)
+            set = others;
+    }
+    return set;
+}
+
 static qdot_status
 append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
 {
@@ -126,7 +148,7 @@ append_place(qdot_rest *r, qdot_expr values, qdot_expr conditions)
     QDOT_TRY(narrow(r, &values, &conditions));
     if (conditions == QDOT_FALSE)
         return QDOT_OK;
-    e.exists = qdot_conditions_generic(pool, conditions);
+    e.exists = without_implied_roots(r, qdot_conditions_generic(pool, conditions));
     for (uint32_t i = 0; i < qdot_expr_count(pool, values); i++) {
         qdot_expr one = qdot_expr_arg(pool, values, i);
 

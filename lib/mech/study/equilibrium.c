@@ -313,9 +313,9 @@ judge_member(qdot_rest *r, qdot_judge *judge, qdot_equilibrium *e)
     return QDOT_OK;
 }
 
-/* Stability; `first`: up to the first that is not unstable. */
+/* Stability, wherever what is in the LIST `special` is not 0; `first`: up to the first that is not unstable. */
 static qdot_status
-rest_judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
+rest_judge(qdot_rest *r, qdot_expr special, bool first, qdot_binder bind, void *user)
 {
     qdot_judge *judge;
     qdot_status status = qdot_judge_new(r->s, r->system.equations, bind, user, &judge);
@@ -324,6 +324,7 @@ rest_judge(qdot_rest *r, bool first, qdot_binder bind, void *user)
         judge->forces = r->forces;
         judge->friction = r->friction;
         judge->slips = r->slips;
+        judge->nonzero = special;
         status = qdot_rest_by_signs(r, r->forces, &judge->by_signs);
     }
     for (size_t i = 0; i < r->found.n && status == QDOT_OK; i++) {
@@ -451,9 +452,9 @@ equilibria_find(qdot_scene *s, bool first_only, qdot_binder bind, void *user, qd
     if (status == QDOT_OK && first_only) /* the first one must be where coordinates are assumed to be */
         status = keep_assumed(&r);
     if (status == QDOT_OK)
-        status = rest_judge(&r, first_only, bind, user);
-    if (status == QDOT_OK && !first_only)
         status = qdot_rest_special(&r, &out->special);
+    if (status == QDOT_OK)
+        status = rest_judge(&r, out->special, first_only, bind, user);
     if (status == QDOT_OK && !first_only)
         status = qdot_rest_ends(&r);
     if (status == QDOT_OK && !first_only) /* behind the ends: these are not ends of what is assumed */

@@ -2,9 +2,11 @@
 #include "mech/scene/access.h"
 #include "mech/study/stability-parts.h"
 #include "normal/inequality/half-plane.h"
+#include "normal/inequality/less.h"
 #include "normal/prove/decide.h"
 #include "normal/refute/constant.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/solve.h"
 
 /* Coordinates y coupled by M, Gamma or H, [n * n] each. */
 typedef struct {
@@ -53,14 +55,38 @@ hurwitz(qdot_judgement *j, const block *b, qdot_definite *how)
     return qdot_judgement_all_positive(j, 6, a, how);
 }
 
+/* Whether e != 0 is proved, factor by factor: what the places divide by is not 0. */
+static qdot_status
+is_nonzero(qdot_judgement *j, qdot_expr e, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_expr factors, nonzero = j->judge->nonzero;
+
+    *yes = e != QDOT_NIL && !qdot_is_zero(pool, e, &j->facts);
+    factors = *yes ? qdot_solve_factors(pool, e) : QDOT_NIL;
+    QDOT_TRY(qdot_pool_check(pool));
+    for (uint32_t i = 0; *yes && i < qdot_expr_count(pool, factors); i++) {
+        qdot_expr one = qdot_expr_arg(pool, factors, i);
+        bool known = false;
+
+        for (uint32_t k = 0; nonzero != QDOT_NIL && k < qdot_expr_count(pool, nonzero) && !known; k++)
+            known = qdot_expr_arg(pool, nonzero, k) == one;
+        if (!known)
+            QDOT_TRY(qdot_judgement_is_sure(j, one, false, yes));
+    }
+    return QDOT_OK;
+}
+
 /* Gamma antisymmetric, n = 2: det = a W^2 + b W + c of W = s^2, if nothing goes with s. All W negative
- * and different: bounded; else a root with a positive real part. */
+ * and different: bounded; else a root with a positive real part: so if b <= 0 and c != 0. */
 static qdot_status
 undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
     const qdot_expr *M = x->M, *G = x->Gamma, *H = x->H;
     qdot_expr odd, a, b, c;
+    qdot_decision d;
+    bool nonzero;
 
     *how = QDOT_DEFINITE_UNKNOWN;
     odd = qdot_add(pool, det2(pool, G[0], G[1], H[2], H[3]), det2(pool, H[0], H[1], G[2], G[3]));
@@ -72,6 +98,14 @@ undamped_pair(qdot_judgement *j, const block *x, qdot_definite *how)
                                det2(pool, H[0], H[1], M[2], M[3]),
                                det2(pool, G[0], G[1], G[2], G[3])});
     c = det2(pool, H[0], H[1], H[2], H[3]);
+    QDOT_TRY(qdot_pool_check(pool));
+    QDOT_TRY(qdot_decide_less(pool, b, QDOT_ZERO, false, &j->facts, &d));
+    if (d.verdict == QDOT_PROVED) {
+        QDOT_TRY(is_nonzero(j, c, &nonzero));
+        *how = QDOT_NEGATIVE_SOMEWHERE;
+        if (nonzero)
+            return QDOT_OK;
+    }
     return qdot_judgement_all_positive(
         j, 3,
         (qdot_expr[]){c, b,

@@ -7,6 +7,7 @@
 #include "normal/prove/decide.h"
 #include "normal/simplify/positive.h"
 #include "normal/simplify/simplify.h"
+#include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
 enum { MOST_ASKED = 150 }; /* operations of conditions of which some may follow of others */
@@ -75,13 +76,33 @@ minor_of(qdot_judgement *j, size_t n, const qdot_expr *A, size_t k)
     return qdot_simplify(pool, e, &j->facts);
 }
 
-/* Positive definite? A negative minor behind positive ones, or a negative diagonal entry: negative
+/* Whether the minor e is proved below 0 wherever those before it are not, a set of conditions: then no parameters make
+ * the matrix definite. */
+static qdot_status
+is_never_definite(qdot_judgement *j, qdot_expr before, qdot_expr e, bool *yes)
+{
+    qdot_pool *pool = j->s->pool;
+    qdot_expr room[QDOT_CONDITIONS_MOST];
+    qdot_facts facts = qdot_facts_and(pool, &j->facts, before, room);
+    qdot_decision d;
+
+    *yes = false;
+    if ((qdot_mech_holds(j->s, e) & QDOT_HAS_COORD) != 0 || qdot_solve_integers(pool, e) > 0 ||
+        qdot_expr_size(pool, e) > MOST_ASKED)
+        return QDOT_OK;
+    QDOT_TRY(qdot_decide_less(pool, e, QDOT_ZERO, true, &facts, &d));
+    *yes = d.verdict == QDOT_PROVED;
+    return QDOT_OK;
+}
+
+/* Positive definite? A negative diagonal entry, or a minor that is negative wherever those before it are not: negative
  * somewhere. Conditions are noted. */
 qdot_status
 qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdot_definite *how)
 {
     qdot_pool *pool = j->s->pool;
-    size_t before = j->when.n;
+    const qdot_judgement_point before = qdot_judgement_mark(j);
+    qdot_expr not_negative = QDOT_NIL; /* the minors before one, as conditions 0 <= minor */
 
     *how = QDOT_DEFINITE_UNKNOWN;
     for (size_t i = 0; i < n; i++) {
@@ -96,19 +117,28 @@ qdot_judgement_definiteness(qdot_judgement *j, size_t n, const qdot_expr *A, qdo
     }
     for (size_t k = 1; k <= n; k++) {
         qdot_expr e = minor_of(j, n, A, k), answer;
-        bool zero;
+        const bool first = j->when.n == before.when;
+        bool zero, never = false;
 
         QDOT_TRY(qdot_pool_check(pool));
         zero = qdot_is_zero(pool, e, &j->facts);
         QDOT_TRY(qdot_judgement_ask(j, e, &answer));
+        if (!zero && j->when.n > before.when)
+            QDOT_TRY(is_never_definite(j, not_negative, first ? qdot_positive_of(pool, answer) : e, &never));
+        if (never) {
+            qdot_judgement_back_to(j, before);
+            *how = QDOT_NEGATIVE_SOMEWHERE;
+            return QDOT_OK;
+        }
         if (answer == QDOT_FALSE) {
-            if (zero || j->when.n > before)
+            if (zero || j->when.n > before.when)
                 return QDOT_OK;
             *how = QDOT_NEGATIVE_SOMEWHERE;
             return claim(j, qdot_neg(pool, e));
         }
+        not_negative = qdot_conditions_and(pool, not_negative, qdot_rel(pool, QDOT_LE, QDOT_ZERO, e));
     }
-    *how = j->when.n > before ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
+    *how = j->when.n > before.when ? QDOT_DEFINITE_CONDITIONAL : QDOT_DEFINITE_POSITIVE;
     return QDOT_OK;
 }
 

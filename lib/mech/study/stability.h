@@ -19,6 +19,7 @@ typedef struct {
     /* Of dry friction, as qdot_rest has them; nil: none. */
     qdot_expr forces, friction, slips;
     qdot_expr by_signs; /* the forces with their jumps as signs; nil: they are not known */
+    qdot_expr nonzero; /* a LIST of what the places divide by; nil: nothing */
     qdot_stability_numbers *numbers; /* for places in numbers, made when first needed */
     qdot_expr parameter; /* one that bind leaves free, with a value at each place; nil: none */
 } qdot_judge;
