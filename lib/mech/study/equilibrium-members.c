@@ -8,7 +8,7 @@
 #include "normal/solve/condition-forms.h"
 #include "normal/solve/solve.h"
 
-enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 }; /* places; operations of a condition with roots */
+enum { MOST_PLACES = 1024, LARGEST_ROOTS = 60 }; /* places; operations of a set of conditions with roots */
 
 /* Whether the equations of motion too are the same after that shift of u: then all members of a family are alike. */
 bool
@@ -124,13 +124,15 @@ without_implied_roots(const qdot_rest *r, qdot_expr set)
 {
     qdot_pool *pool = r->pool;
 
-    for (uint32_t i = set == QDOT_NIL || qdot_expr_count(pool, set) < 2 ? 0 : qdot_expr_count(pool, set); i-- > 0;) {
+    if (set == QDOT_NIL || qdot_expr_count(pool, set) < 2 || qdot_expr_size(pool, set) > LARGEST_ROOTS)
+        return set;
+    for (uint32_t i = qdot_expr_count(pool, set); i-- > 0 && qdot_expr_count(pool, set) > 1;) {
         const qdot_expr one = qdot_expr_arg(pool, set, i),
                         others = qdot_conditions_less(pool, set, qdot_list(pool, 1, &one));
         qdot_expr room[QDOT_CONDITIONS_MOST];
         qdot_facts facts;
 
-        if (qdot_expr_kind(pool, one) != QDOT_REL || qdot_expr_size(pool, one) > LARGEST_ROOTS || !qdot_holds_root(pool, one))
+        if (qdot_expr_kind(pool, one) != QDOT_REL || !qdot_holds_root(pool, one))
             continue;
         facts = qdot_facts_and(pool, &r->facts, others, room);
         if (qdot_condition(pool, qdot_positive_of(pool, one), qdot_expr_node(pool, one)->op == QDOT_LT, &facts) == QDOT_TRUE)

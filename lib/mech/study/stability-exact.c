@@ -12,6 +12,8 @@
 #include "normal/solve/conditions.h"
 #include "normal/solve/solutions.h"
 
+enum { LONGEST_SLOPE = 200 }; /* operations */
+
 /* --- one degree of freedom, either side ------------------------------------------------- */
 
 /* *leading: the derivative of lowest order of e by eps that is not 0 at eps = 0; nil if none is found. *sign: 1 or -1
@@ -321,6 +323,17 @@ take_blocks(qdot_judgement *j)
     return QDOT_OK;
 }
 
+/* Whether a slope of a force at the place is so long that signs of what is made of such slopes are not asked. */
+static bool
+is_too_long(const qdot_judgement *j)
+{
+    bool yes = false;
+
+    for (size_t i = 0; i < j->n * j->n && !yes; i++)
+        yes = qdot_expr_size(j->s->pool, j->H[i]) > LONGEST_SLOPE;
+    return yes;
+}
+
 static qdot_status
 by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
 {
@@ -339,6 +352,8 @@ by_linear_motion(qdot_judgement *j, qdot_equilibrium *e)
             e->stability = QDOT_STABLE;
         return QDOT_OK;
     }
+    if (is_too_long(j))
+        return QDOT_OK;
     QDOT_TRY(by_energy(j, e));
     if (j->judge->velocity_kink || j->judge->timed || !j->m.damped)
         return QDOT_OK;

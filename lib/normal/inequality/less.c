@@ -429,17 +429,19 @@ qdot_decide_less(qdot_pool *pool, qdot_expr left, qdot_expr right, bool strict,
 
 /* --- |u|, sign u and if where conditions decide them --------------------------------- */
 
-/* The facts without the conditions that contain `node`: asked about what such a condition says, they would ask
- * about the node again, without end. Conditions are copied to `left` [facts->n_conditions]. */
+/* The facts without the conditions that hold |u|, sign u or an if: asked about what such a condition says, they would ask
+ * about these nodes again, without end or once for every order of them. Conditions are copied to `left`
+ * [facts->n_conditions]. */
 static qdot_facts
-facts_without(const qdot_pool *pool, const qdot_facts *facts, qdot_expr node, qdot_expr *left)
+facts_without_choices(qdot_pool *pool, const qdot_facts *facts, qdot_expr *left)
 {
+    static const qdot_fun_id choices[] = {QDOT_ABS, QDOT_SIGN, QDOT_IF};
     qdot_facts rest = *facts;
 
     rest.n_conditions = 0;
     rest.conditions = left;
     for (size_t i = 0; i < facts->n_conditions; i++)
-        if (!qdot_expr_contains(pool, facts->conditions[i], node))
+        if (qdot_expr_find_function(pool, facts->conditions[i], 3, choices, QDOT_NIL) == QDOT_NIL)
             left[rest.n_conditions++] = facts->conditions[i];
     return rest;
 }
@@ -516,7 +518,7 @@ known_node(qdot_pool *pool, qdot_expr node, void *user)
     left = qdot_malloc(facts->n_conditions * sizeof *left);
     if (left == NULL)
         return qdot_pool_fail(pool);
-    rest = facts_without(pool, facts, node, left);
+    rest = facts_without_choices(pool, facts, left);
     if (op == QDOT_IF) {
         const int is = known_condition(pool, qdot_expr_arg(pool, node, 0), &rest);
 
