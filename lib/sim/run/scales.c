@@ -77,7 +77,7 @@ find_coordinates(const qdot_run *run, const qdot_run_request *request, size_t n,
             found[i] = largest;
 }
 
-/* Those of the velocities of coordinates that have one. */
+/* Those of the velocities of coordinates that have one; of a motion so slow that no velocity is larger, all. */
 static void
 find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
                 double *found)
@@ -85,12 +85,13 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
     const qdot_trajectory *tr = &run->course.tr;
     const size_t N = tr->n / 2;
     const double most = largest_of(tr, N, n);
+    const bool slow = most < small;
     double largest = 0, least_asked = INFINITY;
 
     for (size_t i = 0; i < n; i++) {
         const double A = size_along(tr, N + i);
 
-        found[n + i] = found[i] > 0 && is_resolved(run, N + i, A, most) ? decade(A) : 0;
+        found[n + i] = (found[i] > 0 || slow) && is_resolved(run, N + i, A, most) ? decade(A) : 0;
         if (request->scales && request->scales[n + i] > 0) {
             found[n + i] = request->scales[n + i];
             least_asked = fmin(least_asked, found[n + i]);
@@ -101,7 +102,7 @@ find_velocities(const qdot_run *run, const qdot_run_request *request, size_t n,
     if (largest == 0 && least_asked < INFINITY) /* it says little of others, such as slopes beside the motion */
         largest = fmin(least_asked, 1);
     for (size_t i = 0; i < n; i++)
-        if (found[i] > 0 && found[n + i] == 0)
+        if ((found[i] > 0 || slow) && found[n + i] == 0)
             found[n + i] = largest;
 }
 

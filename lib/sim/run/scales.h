@@ -4,7 +4,8 @@
  * else 1, but of a coordinate whose largest size A along the run is below 1e-3 it is the power of
  * ten at or below A, provided that all coordinates are that small or it does not start at 0, and
  * that A is no rounding: above 1e-12 of the largest coordinate, its error below A/10. Its velocity
- * has the power of ten at or below its own largest size. If all coordinates are that small, the
+ * has the power of ten at or below its own largest size; so have all velocities if none comes to 1e-3: x = cos(t/T) of
+ * a long T goes by velocities of 1/T, and 2^-53 of 1 in those, after a time T, would be 2^-53 T in x. If all coordinates are that small, the
  * others (0, or rounding) have the largest scale among those found. A coordinate that grows beyond
  * 1 needs no scale: errors are relative to its value.
  *
